@@ -1,0 +1,1 @@
+"""Human shape, pose, light and reflectance from one image (Guan et al., ICCV 2009)."""

@@ -1,0 +1,49 @@
+"""Every error the fitter raises.
+
+::
+
+    FitterError
+    ├── InvalidInputError       what the caller sent cannot be used; names the field and the remedy
+    ├── ModelFileError          a trained body model is missing, damaged or of another format
+    └── NumericalError          a non-finite number where none may be: a fault of ours, never hidden
+
+Not converging is no error: it is an :class:`~fitter.result.Outcome` with its best body.
+"""
+
+
+class FitterError(Exception):
+    """Base of all errors raised by the fitter."""
+
+
+class InvalidInputError(FitterError):
+    """Input that cannot be used.
+
+    Parameters
+    ----------
+    code
+        A stable kebab-case name, e.g. ``image-truncated``.
+    field
+        The request field at fault, e.g. ``image`` or ``points.left_knee``.
+    reason
+        What is wrong, in a sentence.
+    remedy
+        What the caller can do about it, in a sentence.
+    """
+
+    def __init__(self, *, code: str, field: str, reason: str, remedy: str) -> None:
+        super().__init__(code, field, reason, remedy)
+        self.code = code
+        self.field = field
+        self.reason = reason
+        self.remedy = remedy
+
+    def __str__(self) -> str:
+        return f"{self.field}: {self.reason} {self.remedy}"
+
+
+class ModelFileError(FitterError):
+    """A body model file that cannot be loaded; the message names the field and what to do."""
+
+
+class NumericalError(FitterError):
+    """A computation produced a value that is not finite."""

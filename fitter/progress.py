@@ -1,0 +1,37 @@
+"""How a running fit tells what it is doing."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+
+class Stage(StrEnum):
+    """The stages of a fit, in order."""
+
+    OBSERVATION = "observation"
+    INITIAL_POSE = "initial_pose"
+    SEGMENTATION = "segmentation"
+    SILHOUETTE_AND_EDGES = "silhouette_and_edges"
+    SHADING = "shading"
+    MEASUREMENT = "measurement"
+    EXPORT = "export"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Progress:
+    """One report.
+
+    ``fraction`` is the share of the whole fit done so far, in [0, 1], never decreasing;
+    ``energies`` are the named terms at this moment, empty where none exist yet.
+    """
+
+    stage: Stage
+    fraction: float
+    energies: Mapping[str, float] = field(default_factory=dict[str, float])
+
+
+Observer = Callable[[Progress], None]
+
+
+def ignore_progress(_: Progress) -> None:
+    """Observe nothing."""
