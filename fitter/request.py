@@ -1,0 +1,91 @@
+"""What a fit is asked to do: the caller's picture, points, person and choices."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from fitter.parameters import LightKind
+
+
+class Gender(StrEnum):
+    """The two shape spaces the paper learns."""
+
+    FEMALE = "female"
+    MALE = "male"
+
+
+class Cues(StrEnum):
+    """Section 6: silhouettes and edges (E1), or these and shading (E2)."""
+
+    SE = "SE"
+    SES = "SES"
+
+
+class OptimizerKind(StrEnum):
+    """How the energy is minimised."""
+
+    GAUSS_NEWTON = "gauss_newton"
+    SIMPLEX = "simplex"
+
+
+class Facing(StrEnum):
+    """Whether the far end of a limb is nearer to the camera than its near end, or farther."""
+
+    TOWARD = "toward"
+    AWAY = "away"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Click:
+    """A clicked point, continuous pixels of the picture as a browser shows it."""
+
+    x: float
+    y: float
+    occluded: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LightGuess:
+    """The caller's coarse first light (section 5); the angles are those of ``Light``, radians."""
+
+    kind: LightKind = LightKind.POINT
+    azimuth: float | None = None
+    elevation: float | None = None
+    distance: float | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class FitRequest:
+    """One job.
+
+    Attributes
+    ----------
+    image
+        The encoded picture (JPEG, PNG or WebP).
+    clicks
+        By canonical name: COCO-17 (``left_shoulder`` ...), ``neck``, ``head_top``, ``chin``,
+        ``left_toe``, ``left_heel`` ...; left and right are the person's own.
+    height_m
+        Stature in metres; None means the mean of the gender, which is then reported as assumed.
+    focal_length_px, focal_length_35mm
+        At most one; pixels of the upright picture, or the 35 mm equivalent.
+    limb_facing
+        The caller's word by limb name (``left_forearm`` ...).
+    mask
+        An encoded grey picture of the same size; above half is foreground. Replaces GrabCut.
+    max_pixels
+        Largest picture accepted, checked before decoding.
+    """
+
+    image: bytes
+    clicks: Mapping[str, Click]
+    gender: Gender
+    height_m: float | None
+    focal_length_px: float | None = None
+    focal_length_35mm: float | None = None
+    cues: Cues = Cues.SES
+    optimizer: OptimizerKind = OptimizerKind.GAUSS_NEWTON
+    light: LightGuess = field(default_factory=LightGuess)
+    limb_facing: Mapping[str, Facing] = field(default_factory=dict[str, Facing])
+    mask: bytes | None = None
+    max_pixels: int = 50_000_000

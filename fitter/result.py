@@ -1,0 +1,143 @@
+"""What a fit gives back."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+
+from fitter.arrays import Image, Mask, Vertices
+from fitter.camera import Camera, FocalLengthSource
+from fitter.parameters import BodyParameters, Light, Reflectance
+from fitter.request import Cues, Facing, Gender, OptimizerKind
+
+
+class Outcome(StrEnum):
+    """How the optimisation ended; each value explains itself in the result."""
+
+    CONVERGED = "converged"
+    EVALUATION_LIMIT = "evaluation_limit"
+    POOR_FIT = "poor_fit"
+
+
+OUTCOME_EXPLANATIONS: Mapping[Outcome, str] = {
+    Outcome.CONVERGED: "The energy stopped decreasing.",
+    Outcome.EVALUATION_LIMIT: (
+        "The limit of evaluations was reached before the energy stopped decreasing; the best body "
+        "found is returned."
+    ),
+    Outcome.POOR_FIT: (
+        "The body found does not cover the person's silhouette well; the points, the gender or the "
+        "segmentation may be wrong. The best body found is returned."
+    ),
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Assumption:
+    """A physical quantity the caller did not give."""
+
+    quantity: str
+    value: float | str
+    reason: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FitWarning:
+    """Something the caller should look at; ``code`` is stable kebab-case."""
+
+    code: str
+    message: str
+
+
+class FacingSource(StrEnum):
+    """Who decided which way a limb faces."""
+
+    CALLER = "caller"
+    ENERGY = "energy"
+    PRIOR = "prior"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LimbFacing:
+    """How a limb's depth ambiguity was resolved (section 3.1).
+
+    ``alternative_energy`` is the best energy found with the limb facing the other way, None where
+    no such hypothesis was tried; ``ambiguous`` says that the two are close.
+    """
+
+    limb: str
+    facing: Facing
+    source: FacingSource
+    ambiguous: bool
+    alternative_energy: float | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Measurement:
+    """One anthropometric measurement in its unit.
+
+    ``standard_error`` is the Laplace approximation's standard deviation at the final body, None
+    where it was not computed; ``definition`` says how it is taken, ``source`` by whom so defined.
+    """
+
+    name: str
+    value: float
+    unit: str
+    standard_error: float | None
+    definition: str
+    source: str
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class StageBody:
+    """The body at the end of a stage: ``initial``, ``SE`` or ``SES``."""
+
+    name: str
+    body: BodyParameters
+    energies: Mapping[str, float]
+    silhouette_overlap: float
+    measurements: tuple[Measurement, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Pictures:
+    """Arrays the picture artifacts are drawn from, on the working picture (h, w)."""
+
+    image: Image
+    trimap: Image | None
+    segmentation: Mask
+    shading: Image | None
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class FitResult:
+    """The whole result; vertices in the camera frame (posed) and body frame (canonical), metres.
+
+    ``light`` and ``reflectance`` are None for SE, which does not estimate them. ``camera`` refers
+    to the working picture, ``image_camera`` to the upright original. ``stage_seconds`` is wall
+    time by stage name.
+    """
+
+    gender: Gender
+    height_m: float
+    cues: Cues
+    optimizer: OptimizerKind
+    outcome: Outcome
+    camera: Camera
+    image_camera: Camera
+    focal_length_source: FocalLengthSource
+    body: BodyParameters
+    posed_vertices: Vertices
+    canonical_vertices: Vertices
+    light: Light | None
+    reflectance: Reflectance | None
+    albedo_rgb: Vertices | None
+    energies: Mapping[str, float]
+    evaluations: int
+    silhouette_overlap: float
+    stages: tuple[StageBody, ...]
+    measurements: tuple[Measurement, ...]
+    limb_facing: tuple[LimbFacing, ...]
+    assumptions: tuple[Assumption, ...]
+    warnings: tuple[FitWarning, ...]
+    stage_seconds: Mapping[str, float]
+    pictures: Pictures
