@@ -5,6 +5,7 @@
     FitterError
     ├── InvalidInputError       what the caller sent cannot be used; names the field and the remedy
     ├── ModelFileError          a trained body model is missing, damaged or of another format
+    ├── DefinitionError         a measurement is defined by something the body model lacks
     └── NumericalError          a non-finite number where none may be: a fault of ours, never hidden
 
 Not converging is no error: it is an :class:`~fitter.result.Outcome` with its best body.
@@ -43,6 +44,10 @@ class InvalidInputError(FitterError):
 
 class ModelFileError(FitterError):
     """A body model file that cannot be loaded; the message names the field and what to do."""
+
+
+class DefinitionError(FitterError):
+    """A measurement definition that cannot be read or does not fit the body model."""
 
 
 class NumericalError(FitterError):

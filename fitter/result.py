@@ -6,6 +6,7 @@ from enum import StrEnum
 
 from fitter.arrays import Image, Mask, Vertices
 from fitter.camera import Camera, FocalLengthSource
+from fitter.measurement.quantity import Measurement
 from fitter.parameters import BodyParameters, Light, Reflectance
 from fitter.request import Cues, Facing, Gender, OptimizerKind
 
@@ -69,22 +70,6 @@ class LimbFacing:
     source: FacingSource
     ambiguous: bool
     alternative_energy: float | None
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Measurement:
-    """One anthropometric measurement in its unit.
-
-    ``standard_error`` is the Laplace approximation's standard deviation at the final body, None
-    where it was not computed; ``definition`` says how it is taken, ``source`` by whom so defined.
-    """
-
-    name: str
-    value: float
-    unit: str
-    standard_error: float | None
-    definition: str
-    source: str
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
