@@ -1,0 +1,135 @@
+"""Numba kernels of the SCAPE evaluation; see :mod:`fitter.body.scape` for what they compute."""
+
+from typing import no_type_check
+
+import numpy as np
+from numba import njit
+
+
+@no_type_check
+@njit(cache=True, fastmath=True)
+def assemble_right_hand_side(
+    shape_terms,
+    shape,
+    pose_terms,
+    features,
+    pointers,
+    vertices,
+    rotations,
+    result,
+):
+    """Sum over parts of R_p (S_i [1, β] + P_i φ_p), scattered to the vertices."""
+    result[:] = 0.0
+    parts = len(pointers) - 1
+    n = len(shape)
+    width = features.shape[1]
+    local = np.empty(3)
+    for part in range(parts):
+        rotation = rotations[part]
+        for incidence in range(pointers[part], pointers[part + 1]):
+            for c in range(3):
+                terms = shape_terms[incidence, c]
+                value = float(terms[0])
+                for k in range(n):
+                    value += terms[k + 1] * shape[k]
+                pose = pose_terms[incidence, c]
+                for k in range(width):
+                    value += pose[k] * features[part, k]
+                local[c] = value
+            vertex = vertices[incidence]
+            for r in range(3):
+                result[vertex, r] += (
+                    rotation[r, 0] * local[0]
+                    + rotation[r, 1] * local[1]
+                    + rotation[r, 2] * local[2]
+                )
+
+
+@no_type_check
+@njit(cache=True, fastmath=True)
+def gather_gradient(
+    shape_terms,
+    shape,
+    pose_terms,
+    features,
+    pointers,
+    vertices,
+    rotations,
+    adjoint,
+    shape_gradient,
+    feature_gradient,
+    rotation_gradient,
+):
+    """Reverse of :func:`assemble_right_hand_side` for a given adjoint of the right-hand side."""
+    shape_gradient[:] = 0.0
+    feature_gradient[:] = 0.0
+    rotation_gradient[:] = 0.0
+    parts = len(pointers) - 1
+    n = len(shape)
+    width = features.shape[1]
+    local = np.empty(3)
+    turned = np.empty(3)
+    for part in range(parts):
+        rotation = rotations[part]
+        for incidence in range(pointers[part], pointers[part + 1]):
+            vertex = vertices[incidence]
+            for c in range(3):
+                turned[c] = (
+                    rotation[0, c] * adjoint[vertex, 0]
+                    + rotation[1, c] * adjoint[vertex, 1]
+                    + rotation[2, c] * adjoint[vertex, 2]
+                )
+            for c in range(3):
+                terms = shape_terms[incidence, c]
+                value = float(terms[0])
+                weight = turned[c]
+                for k in range(n):
+                    value += terms[k + 1] * shape[k]
+                    shape_gradient[k] += terms[k + 1] * weight
+                pose = pose_terms[incidence, c]
+                for k in range(width):
+                    value += pose[k] * features[part, k]
+                    feature_gradient[part, k] += pose[k] * weight
+                local[c] = value
+            for r in range(3):
+                for c in range(3):
+                    rotation_gradient[part, r, c] += adjoint[vertex, r] * local[c]
+
+
+@no_type_check
+@njit(cache=True, fastmath=True)
+def solve_factored(pointers, rows, values, inverse_diagonal, permutation, right, work):
+    """Solve L D Lᵀ x = b for three columns at once; ``right`` is overwritten by the solution.
+
+    The factor is stored by columns, unit diagonal left out. The row order follows the columns'
+    elimination order, so that the forward pass scatters and the backward pass gathers.
+    """
+    count = len(permutation)
+    for i in range(count):
+        p = permutation[i]
+        work[i, 0] = right[p, 0]
+        work[i, 1] = right[p, 1]
+        work[i, 2] = right[p, 2]
+    for j in range(count):
+        x, y, z = work[j, 0], work[j, 1], work[j, 2]
+        for k in range(pointers[j], pointers[j + 1]):
+            r = rows[k]
+            v = values[k]
+            work[r, 0] -= v * x
+            work[r, 1] -= v * y
+            work[r, 2] -= v * z
+    for j in range(count - 1, -1, -1):
+        d = inverse_diagonal[j]
+        x, y, z = work[j, 0] * d, work[j, 1] * d, work[j, 2] * d
+        for k in range(pointers[j], pointers[j + 1]):
+            r = rows[k]
+            v = values[k]
+            x -= v * work[r, 0]
+            y -= v * work[r, 1]
+            z -= v * work[r, 2]
+        work[j, 0], work[j, 1], work[j, 2] = x, y, z
+    for i in range(count):
+        p = permutation[i]
+        right[p, 0] = work[i, 0]
+        right[p, 1] = work[i, 1]
+        right[p, 2] = work[i, 2]

@@ -1,0 +1,238 @@
+"""SCAPE at run time: shape and pose to vertices, and its exact reverse (section 3).
+
+Every triangle t of part p asks its deformation gradient to be R_p [D_t(β) + E_t(θ)], and the mesh
+is the least-squares answer, min over Y of Σ_t w_t ‖R_p(t) [D_t + E_t] - grad_t(Y)‖². Its normal
+equations have one fixed matrix, L = Gᵀ W G, and a right-hand side that is a sum over parts of
+R_p times something linear in β and in the pose features: L is factored once, and an evaluation is
+an assembly and two triangular solves. The derivative of any scalar with respect to all parameters
+costs one more solve, because L is symmetric.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import qdldl
+from jaxtyping import Float
+from scipy import sparse
+
+from fitter.arrays import Pose, Rotations, Shape, Vector3, Vertices
+from fitter.body._scape_kernels import (
+    assemble_right_hand_side,
+    gather_gradient,
+    solve_factored,
+)
+from fitter.body.model import BodyModel, SparseRows
+from fitter.body.skeleton import descendants, global_rotations
+from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
+from fitter.numerics.rotations import compose, rotation_matrices
+from fitter.parameters import BodyParameters
+
+CAMERA_AXES = np.array([1.0, -1.0, -1.0])
+"""Body-frame axes in the camera frame: x stays, y and z turn round."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class BodyDerivative:
+    """Derivative of a scalar with respect to the body.
+
+    Attributes
+    ----------
+    pose
+        (p, 3) with respect to increments δ applied as exp(δ) exp(pose), radians: local
+        coordinates that have no pole.
+    translation
+        (3,) per metre.
+    shape
+        (n,) per standard deviation.
+    """
+
+    pose: Pose
+    translation: Vector3
+    shape: Shape
+
+
+def increment(
+    parameters: BodyParameters, *, pose: Pose, translation: Vector3, shape: Shape
+) -> BodyParameters:
+    """Parameters moved by the local increments that :class:`BodyDerivative` refers to."""
+    return BodyParameters(
+        pose=compose(pose, parameters.pose),
+        translation=parameters.translation + translation,
+        shape=parameters.shape + shape,
+    )
+
+
+class ScapeEvaluator:
+    """A body model with its factored least squares; safe to share between fits of one thread."""
+
+    def __init__(self, model: BodyModel) -> None:
+        self.model = model
+        gradient = gradient_operator(model.mean_vertices, model.triangles)
+        laplacians = part_laplacians(
+            gradient, model.triangle_weights, model.part_of_triangle, len(model.part_names)
+        )
+        self._shape_terms = _shape_terms(model, laplacians)
+        self._pose_terms = np.ascontiguousarray(model.pose_right_hand_sides, dtype=np.float32)
+        self._root_weights = _root_weights(model)
+        self._moves = descendants(model.part_parent)
+        self._factor_pointers, self._factor_rows, self._factor_values, *rest = _factor(laplacians)
+        self._inverse_diagonal, self._permutation = rest
+        self._work = np.empty_like(model.mean_vertices)
+
+    def vertices(self, parameters: BodyParameters) -> Vertices:
+        """Posed vertices, camera frame, metres."""
+        return self.body_frame_vertices(parameters) * CAMERA_AXES + parameters.translation
+
+    def body_frame_vertices(self, parameters: BodyParameters) -> Vertices:
+        """Posed vertices in the body frame's axes, metres, root joint at the origin."""
+        rotations = global_rotations(parameters.pose, self.model.part_parent)
+        features = self._features(parameters.pose)
+        vertices = np.empty_like(self.model.mean_vertices)
+        assemble_right_hand_side(
+            self._shape_terms,
+            parameters.shape,
+            self._pose_terms,
+            features,
+            self.model.incidence_pointers,
+            self.model.incidence_vertices,
+            rotations,
+            vertices,
+        )
+        self._solve(vertices)
+        return vertices - self._root_weights @ vertices
+
+    def derivative(self, parameters: BodyParameters, vertex_derivative: Vertices) -> BodyDerivative:
+        """Pull the derivative of a scalar with respect to camera-frame vertices back to the body.
+
+        Parameters
+        ----------
+        parameters
+            Where the scalar was evaluated.
+        vertex_derivative
+            (m, 3) derivative with respect to :meth:`vertices`.
+        """
+        adjoint = vertex_derivative * CAMERA_AXES
+        translation = vertex_derivative.sum(axis=0)
+        adjoint = adjoint - self._root_weights[:, None] * adjoint.sum(axis=0)
+        self._solve(adjoint)
+        rotations = global_rotations(parameters.pose, self.model.part_parent)
+        features = self._features(parameters.pose)
+        shape = np.empty(len(parameters.shape))
+        feature_derivative = np.empty(features.shape)
+        rotation_derivative = np.empty_like(rotations)
+        gather_gradient(
+            self._shape_terms,
+            parameters.shape,
+            self._pose_terms,
+            features,
+            self.model.incidence_pointers,
+            self.model.incidence_vertices,
+            rotations,
+            adjoint,
+            shape,
+            feature_derivative,
+            rotation_derivative,
+        )
+        return BodyDerivative(
+            pose=self._pose_derivative(
+                parameters.pose, rotations, rotation_derivative, feature_derivative
+            ),
+            translation=translation,
+            shape=shape,
+        )
+
+    def _pose_derivative(
+        self,
+        pose: Pose,
+        rotations: Rotations,
+        rotation_derivative: Rotations,
+        feature_derivative: Float[np.ndarray, "p nine_q"],
+    ) -> Pose:
+        torques = _axial(np.matmul(rotation_derivative, rotations.transpose(0, 2, 1)))
+        gathered = self._moves @ torques
+        parents = self.model.part_parent
+        parent_rotations = np.where((parents < 0)[:, None, None], np.eye(3), rotations[parents])
+        chain = np.einsum("pij,pi->pj", parent_rotations, gathered)
+        local = rotation_matrices(pose)
+        joints = self.model.pose_feature_joints
+        by_joint = np.zeros_like(local)
+        blocks = feature_derivative.reshape(*joints.shape, 3, 3)
+        used = joints >= 0
+        np.add.at(by_joint, joints[used], blocks[used])
+        return chain + _axial(np.matmul(by_joint, local.transpose(0, 2, 1)))
+
+    def _features(self, pose: Pose) -> Float[np.ndarray, "p nine_q"]:
+        """Features (R_joint - I) per part, flattened joint by joint, zero where unused."""
+        difference = rotation_matrices(pose) - np.eye(3)
+        joints = self.model.pose_feature_joints
+        features = np.where((joints >= 0)[:, :, None, None], difference[joints], 0.0)
+        return features.reshape(len(joints), -1)
+
+    def _solve(self, right: Vertices) -> None:
+        solve_factored(
+            self._factor_pointers,
+            self._factor_rows,
+            self._factor_values,
+            self._inverse_diagonal,
+            self._permutation,
+            right,
+            self._work,
+        )
+
+
+def _shape_terms(
+    model: BodyModel, laplacians: list[sparse.csr_array]
+) -> Float[np.ndarray, "i 3 n1"]:
+    """L_p [μ, U] at the incidences of each part; formed in double, stored in single precision."""
+    n = len(model.shape_basis)
+    stacked = np.concatenate([model.mean_vertices[None], model.shape_basis])
+    columns = stacked.transpose(1, 2, 0).reshape(len(model.mean_vertices), 3 * (n + 1))
+    blocks: list[np.ndarray] = []
+    for part, laplacian in enumerate(laplacians):
+        start, stop = model.incidence_pointers[part], model.incidence_pointers[part + 1]
+        rows = laplacian[model.incidence_vertices[start:stop]]
+        blocks.append(rows @ columns)
+    terms = np.concatenate(blocks).reshape(-1, 3, n + 1)
+    return np.ascontiguousarray(terms, dtype=np.float32)
+
+
+def _root_weights(model: BodyModel) -> Float[np.ndarray, " m"]:
+    rows: SparseRows = model.joint_regressor
+    weights = np.zeros(len(model.mean_vertices))
+    np.add.at(weights, rows.indices[: rows.pointers[1]], rows.weights[: rows.pointers[1]])
+    return weights / weights.sum()
+
+
+def _factor(
+    laplacians: list[sparse.csr_array],
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """LDLᵀ of the whole Laplacian with vertex 0 held.
+
+    The matrix leaves translation free. A weight on one vertex removes that without changing the
+    answer, because the right-hand sides sum to zero: the held vertex simply lands at the origin.
+    """
+    matrix = sparse.lil_array(sum(laplacians[1:], start=laplacians[0]))
+    matrix[0, 0] += matrix.diagonal().mean()
+    solver = qdldl.Solver(sparse.csc_matrix(matrix))
+    factor, diagonal, permutation = solver.factors()
+    factor = sparse.csc_matrix(factor)
+    factor.sort_indices()
+    return (
+        factor.indptr.astype(np.int32),
+        factor.indices.astype(np.int32),
+        factor.data.astype(np.float64),
+        1.0 / np.asarray(diagonal),
+        np.asarray(permutation, dtype=np.int32),
+    )
+
+
+def _axial(matrices: Rotations) -> Float[np.ndarray, "p 3"]:
+    """Axial vectors w of matrices A: <A, [v]×> = w · v for every v."""
+    return np.stack(
+        [
+            matrices[:, 2, 1] - matrices[:, 1, 2],
+            matrices[:, 0, 2] - matrices[:, 2, 0],
+            matrices[:, 1, 0] - matrices[:, 0, 1],
+        ],
+        axis=1,
+    )
