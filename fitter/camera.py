@@ -37,6 +37,19 @@ class Camera:
             axis=-1,
         )
 
+    def pull_back(
+        self, points: Float[np.ndarray, "... 3"], directions: Float[np.ndarray, "... 2"]
+    ) -> Float[np.ndarray, "... 3"]:
+        """Derivative by camera-frame points of their projections' components along directions.
+
+        For image derivatives g (per pixel) at the projections of ``points`` this is gᵀ ∂u/∂X, per
+        metre.
+        """
+        scale = self.focal_length_px / points[..., 2]
+        sideways = directions * scale[..., None]
+        depth = -(sideways[..., 0] * points[..., 0] + sideways[..., 1] * points[..., 1])
+        return np.concatenate([sideways, (depth / points[..., 2])[..., None]], axis=-1)
+
     def rays(self, pixels: Float[np.ndarray, "... 2"]) -> Float[np.ndarray, "... 3"]:
         """Rays through continuous pixels, scaled so that z = 1."""
         x = (pixels[..., 0] - self.centre_x) / self.focal_length_px

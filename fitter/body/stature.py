@@ -1,44 +1,26 @@
-"""Stature, and the shape that has a given one (sections 3.1 and 4)."""
+"""How tall a body is: the one definition that training, height constraint and report share."""
 
-import numpy as np
-
-from fitter.arrays import Shape
-from fitter.body.scape import ScapeEvaluator
-from fitter.errors import NumericalError
-from fitter.parameters import BodyParameters
-
-_TOLERANCE_M = 1e-6
+from fitter.arrays import Vertices
+from fitter.body.model import SparseRows
+from fitter.body.skeleton import regress
 
 
-def stature_m(evaluator: ScapeEvaluator, shape: Shape) -> float:
-    """H(β): vertical extent of the mesh in the standing pose, metres."""
-    standing = BodyParameters(
-        pose=evaluator.model.standing_pose, translation=np.zeros(3), shape=shape
-    )
-    heights = evaluator.body_frame_vertices(standing)[:, 1]
-    return float(heights.max() - heights.min())
+def stature_m(standing_vertices: Vertices, landmarks: SparseRows) -> float:
+    """Crown above the soles, metres.
 
+    Section 4 measures height on a mesh in a predefined standing pose. Landmarks are fixed weighted
+    sums of vertices, so this is linear in the shape where the highest and lowest vertex would not
+    be, and one axis of the shape space can carry it exactly.
 
-def shape_for_height(evaluator: ScapeEvaluator, height_m: float) -> Shape:
-    """The mean person of this gender and height: only the height coefficient is not zero."""
-    return shape_with_height(evaluator, np.zeros(len(evaluator.model.shape_basis)), height_m)
-
-
-def shape_with_height(evaluator: ScapeEvaluator, shape: Shape, height_m: float) -> Shape:
-    """The same shape with its height coefficient set so that the stature is ``height_m``.
-
-    Stature is almost linear along the height axis; a few secant steps reach a micrometre.
+    Parameters
+    ----------
+    standing_vertices
+        (m, 3) the body in the model's ``standing_pose``, body frame (y up), metres.
+    landmarks
+        The model's landmark rows, with ``crown``, ``sole_left`` and ``sole_right``.
     """
-    adjusted = shape.copy()
-    previous = adjusted[0]
-    previous_error = stature_m(evaluator, adjusted) - height_m
-    adjusted[0] += 1.0
-    for _ in range(20):
-        error = stature_m(evaluator, adjusted) - height_m
-        if abs(error) < _TOLERANCE_M:
-            return adjusted
-        slope = (error - previous_error) / (adjusted[0] - previous)
-        previous, previous_error = adjusted[0], error
-        adjusted[0] -= error / slope
-    message = f"The height axis of the {evaluator.model.gender} model cannot reach {height_m} m."
-    raise NumericalError(message)
+    heights = regress(landmarks, standing_vertices)[:, 1]
+    crown, left, right = (
+        float(heights[landmarks.names.index(name)]) for name in ("crown", "sole_left", "sole_right")
+    )
+    return crown - 0.5 * (left + right)

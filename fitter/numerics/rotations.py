@@ -73,18 +73,3 @@ def compose(
 ) -> Float[np.ndarray, "k 3"]:
     """Rotation vectors of exp(first) exp(second)."""
     return rotation_vectors(np.matmul(rotation_matrices(first), rotation_matrices(second)))
-
-
-def left_jacobian_inverses(vectors: Float[np.ndarray, "k 3"]) -> Float[np.ndarray, "k 3 3"]:
-    """Derivative of log(exp(δ) exp(v)) by δ at zero.
-
-    J⁻¹ = I - K/2 + (1/t² - (1 + cos t) / (2 t sin t)) K², with K the cross-product matrix of v.
-    """
-    vectors = np.asarray(vectors, dtype=np.float64)
-    angle = np.linalg.norm(vectors, axis=1)
-    small = angle < 1e-4
-    safe = np.where(small, 1.0, angle)
-    half = 0.5 * safe
-    factor = np.where(small, 1.0 / 12.0, (1.0 - half / np.tan(half)) / (safe * safe))
-    cross = cross_product_matrices(vectors)
-    return np.eye(3) - 0.5 * cross + factor[:, None, None] * np.matmul(cross, cross)

@@ -5,9 +5,8 @@ import pytest
 from scipy.sparse.linalg import spsolve
 
 from fitter.body.scape import CAMERA_AXES, ScapeEvaluator, increment
-from fitter.body.shape_space import rest_vertices
+from fitter.body.shape_space import height_of_shape, rest_vertices, shape_for_height
 from fitter.body.skeleton import global_rotations
-from fitter.body.stature import shape_for_height, stature_m
 from fitter.numerics.gradient_operators import gradient_operator
 from fitter.numerics.rotations import rotation_matrices
 from fitter.parameters import BodyParameters
@@ -131,5 +130,5 @@ def test_the_reverse_mode_agrees_with_finite_differences(evaluator):
 
 def test_a_stature_asked_for_is_a_stature_got(evaluator):
     shape = shape_for_height(evaluator, 1.37)
-    assert stature_m(evaluator, shape) == pytest.approx(1.37, abs=1e-6)
+    assert height_of_shape(evaluator, shape) == pytest.approx(1.37, abs=1e-6)
     assert shape[1] == 0.0

@@ -8,7 +8,6 @@ from scipy.spatial.transform import Rotation
 
 from fitter.numerics.rotations import (
     compose,
-    left_jacobian_inverses,
     rotation_matrices,
     rotation_vectors,
 )
@@ -43,14 +42,3 @@ def test_composition_multiplies_matrices(a, b):
     np.testing.assert_allclose(
         rotation_matrices(compose(a, b)), rotation_matrices(a) @ rotation_matrices(b), atol=1e-9
     )
-
-
-def test_the_inverse_left_jacobian_agrees_with_finite_differences():
-    v = np.array([[0.3, -0.5, 1.1], [1e-6, 0.0, 0.0], [2.0, 1.0, -1.0]])
-    exact = left_jacobian_inverses(v)
-    step = 1e-6
-    for axis in range(3):
-        delta = np.zeros_like(v)
-        delta[:, axis] = step
-        numeric = (compose(delta, v) - compose(-delta, v)) / (2 * step)
-        np.testing.assert_allclose(exact[:, :, axis], numeric, atol=1e-8)
