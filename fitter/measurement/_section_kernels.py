@@ -1,0 +1,154 @@
+"""Compiled plane cuts and convex hulls; :mod:`fitter.measurement.plane_cut` carries the shapes."""
+
+from typing import no_type_check
+
+import numpy as np
+from numba import njit
+
+
+@no_type_check
+@njit(cache=True)
+def _distance(vertices, vertex, point, normal):
+    return (
+        (vertices[vertex, 0] - point[0]) * normal[0]
+        + (vertices[vertex, 1] - point[1]) * normal[1]
+        + (vertices[vertex, 2] - point[2]) * normal[2]
+    )
+
+
+@no_type_check
+@njit(cache=True)
+def _is_crossed(vertices, triangle, corner, point, normal):
+    """A vertex in the plane counts as above it, so every triangle has two crossed edges or none."""
+    start = _distance(vertices, triangle[corner], point, normal) >= 0.0
+    end = _distance(vertices, triangle[(corner + 1) % 3], point, normal) >= 0.0
+    return start != end
+
+
+@no_type_check
+@njit(cache=True)
+def _crossing(vertices, triangle, corner, point, normal, out):
+    low = min(triangle[corner], triangle[(corner + 1) % 3])
+    high = max(triangle[corner], triangle[(corner + 1) % 3])
+    below = _distance(vertices, low, point, normal)
+    above = _distance(vertices, high, point, normal)
+    along = below / (below - above)
+    for axis in range(3):
+        out[axis] = vertices[low, axis] + along * (vertices[high, axis] - vertices[low, axis])
+
+
+@no_type_check
+@njit(cache=True)
+def _other_crossed_edge(vertices, triangle, entry, point, normal):
+    for step in range(1, 3):
+        corner = (entry + step) % 3
+        if _is_crossed(vertices, triangle, corner, point, normal):
+            return corner
+    return -1
+
+
+@no_type_check
+@njit(cache=True)
+def _walk(
+    vertices, triangles, neighbours, allowed, visited, start, entry, point, normal, out, count
+):
+    """Follow the cut from triangle ``start``, in through edge ``entry``; True if it closes."""
+    current = start
+    while True:
+        visited[current] = True
+        leave = _other_crossed_edge(vertices, triangles[current], entry, point, normal)
+        _crossing(vertices, triangles[current], leave, point, normal, out[count])
+        count += 1
+        following = neighbours[current, leave]
+        if following == start:
+            return True, count
+        if following < 0 or not allowed[following] or visited[following]:
+            return False, count
+        a = triangles[current, leave]
+        b = triangles[current, (leave + 1) % 3]
+        for corner in range(3):
+            c = triangles[following, corner]
+            d = triangles[following, (corner + 1) % 3]
+            if (c == b and d == a) or (c == a and d == b):
+                entry = corner
+        current = following
+
+
+@no_type_check
+@njit(cache=True)
+def trace_section(vertices, triangles, neighbours, allowed, candidates, point, normal):
+    """Polylines of a plane cut, one after the other.
+
+    Returns the points, where each polyline starts, and whether it closes.
+    """
+    points = np.empty((2 * candidates.size + 2, 3))
+    behind = np.empty((candidates.size + 1, 3))
+    starts = np.empty(candidates.size + 1, dtype=np.int64)
+    closed = np.empty(candidates.size + 1, dtype=np.bool_)
+    visited = np.zeros(triangles.shape[0], dtype=np.bool_)
+    total = 0
+    lines = 0
+    for index in range(candidates.size):
+        t = candidates[index]
+        if visited[t]:
+            continue
+        entry = -1
+        for corner in range(3):
+            if _is_crossed(vertices, triangles[t], corner, point, normal):
+                entry = corner
+                break
+        if entry < 0:
+            continue
+        starts[lines] = total
+        closes, count = _walk(
+            vertices, triangles, neighbours, allowed, visited, t, entry, point, normal,
+            points[total:], 0,
+        )  # fmt: skip
+        if not closes:
+            back = 0
+            leave = _other_crossed_edge(vertices, triangles[t], entry, point, normal)
+            _, back = _walk(
+                vertices, triangles, neighbours, allowed, visited, t, leave, point, normal,
+                behind, 0,
+            )  # fmt: skip
+            for k in range(count - 1, -1, -1):
+                points[total + back + k] = points[total + k]
+            for k in range(back):
+                points[total + k] = behind[back - 1 - k]
+            count += back
+        closed[lines] = closes
+        total += count
+        lines += 1
+    starts[lines] = total
+    return points[:total].copy(), starts[: lines + 1].copy(), closed[:lines].copy()
+
+
+@no_type_check
+@njit(cache=True)
+def _turns_left(points, a, b, c):
+    return (points[b, 0] - points[a, 0]) * (points[c, 1] - points[a, 1]) - (
+        points[b, 1] - points[a, 1]
+    ) * (points[c, 0] - points[a, 0]) > 0.0
+
+
+@no_type_check
+@njit(cache=True)
+def convex_hull(points):
+    """Indices of the convex hull, counter-clockwise (Andrew's monotone chain)."""
+    count = points.shape[0]
+    by_y = np.argsort(points[:, 1], kind="mergesort")
+    order = by_y[np.argsort(points[by_y, 0], kind="mergesort")]
+    hull = np.empty(2 * count + 1, dtype=np.int64)
+    size = 0
+    for k in range(count):
+        while size >= 2 and not _turns_left(points, hull[size - 2], hull[size - 1], order[k]):
+            size -= 1
+        hull[size] = order[k]
+        size += 1
+    lower = size + 1
+    for k in range(count - 2, -1, -1):
+        while size >= lower and not _turns_left(points, hull[size - 2], hull[size - 1], order[k]):
+            size -= 1
+        hull[size] = order[k]
+        size += 1
+    return hull[: max(size - 1, 1)].copy()

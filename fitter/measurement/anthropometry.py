@@ -1,0 +1,309 @@
+"""Measure a body: canonical pose, plane cut, convex hull, volume (section 6).
+
+In one pose SCAPE's vertices are affine in the shape, so a body is measured without evaluating the
+model again, and how measurements change with shape costs tape measures only.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from fitter.arrays import Pose, Shape, Triangles, Vector3, Vertices
+from fitter.body.model import BodyModel
+from fitter.body.scape import ScapeEvaluator
+from fitter.body.skeleton import regress
+from fitter.errors import NumericalError
+from fitter.measurement.definitions import (
+    JOINT_PREFIX,
+    BackContour,
+    Girth,
+    Height,
+    Length,
+    Mass,
+    MeasurementDefinition,
+    PointNames,
+    check_against_model,
+    load_definitions,
+)
+from fitter.measurement.plane_cut import Region, restricted, whole_mesh
+from fitter.measurement.quantity import Measurement
+from fitter.measurement.tape import back_contour_m, girth_at_m, girth_placement, path_length_m
+from fitter.numerics.meshes import enclosed_volume
+from fitter.parameters import BodyParameters
+
+CENTIMETRES_PER_METRE = 100.0
+
+DIFFERENCE_STEP = 1e-3
+"""Standard deviations. Girths are smooth but for corners joining or leaving the hull, whose effect
+is of second order; a change of 1e-3 moves a girth by about 0.05 mm, far above rounding."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class AffineBody:
+    """A body in one fixed pose as a function of its shape, body frame, metres.
+
+    ``derivative`` has one (m, 3) displacement per coefficient.
+    """
+
+    mean: Vertices
+    derivative: Float[np.ndarray, "n m 3"]
+
+    def at(self, shape: Shape) -> Vertices:
+        """Vertices of the body of this shape."""
+        return self.mean + np.tensordot(shape, self.derivative, axes=1)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class MeasuringBody:
+    """A body model made ready for measuring; one per model, shared by all fits.
+
+    Attributes
+    ----------
+    definitions
+        What is measured.
+    triangles
+        (f, 3) of the mesh.
+    regions
+        The triangles each measurement with parts may use, by its name.
+    canonical
+        The body in the canonical pose.
+    point_names
+        Landmarks, then joints with their prefix.
+    canonical_points, standing_points
+        Those points in the canonical and in the standing pose.
+    """
+
+    definitions: tuple[MeasurementDefinition, ...]
+    triangles: Triangles
+    regions: Mapping[str, Region]
+    canonical: AffineBody
+    point_names: tuple[str, ...]
+    canonical_points: AffineBody
+    standing_points: AffineBody
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class _Taken:
+    """One shape's vertices and points, ready for the tape."""
+
+    vertices: Vertices
+    canonical: Mapping[str, Vector3]
+    standing: Mapping[str, Vector3]
+
+
+def measuring_body(
+    model: BodyModel,
+    evaluator: ScapeEvaluator,
+    definitions: Sequence[MeasurementDefinition] | None = None,
+) -> MeasuringBody:
+    """Prepare a model for measuring: some forty evaluations, once.
+
+    Raises
+    ------
+    DefinitionError
+        If a definition names something the model lacks.
+    """
+    definitions = load_definitions() if definitions is None else tuple(definitions)
+    check_against_model(definitions, model)
+    canonical = affine_body(evaluator, model.canonical_pose)
+    standing = affine_body(evaluator, model.standing_pose)
+    everything = whole_mesh(model.triangles)
+    regions = {
+        definition.about.name: restricted(
+            everything,
+            np.isin(model.part_of_triangle, [model.part_names.index(p) for p in definition.parts]),
+        )
+        for definition in definitions
+        if isinstance(definition, Girth | BackContour)
+    }
+    return MeasuringBody(
+        definitions=definitions,
+        triangles=model.triangles,
+        regions=regions,
+        canonical=canonical,
+        point_names=(
+            *model.landmarks.names,
+            *(JOINT_PREFIX + part for part in model.part_names),
+        ),
+        canonical_points=_points(model, canonical),
+        standing_points=_points(model, standing),
+    )
+
+
+def affine_body(evaluator: ScapeEvaluator, pose: Pose) -> AffineBody:
+    """The body in a fixed pose as an affine function of shape, root joint at the origin.
+
+    Exact: the SCAPE normal equations have a fixed matrix and, the pose being fixed, a right-hand
+    side that is affine in the shape.
+    """
+    n = len(evaluator.model.shape_basis)
+
+    def evaluate(shape: Shape) -> Vertices:
+        return evaluator.body_frame_vertices(
+            BodyParameters(pose=pose, translation=np.zeros(3), shape=shape)
+        )
+
+    mean = evaluate(np.zeros(n))
+    return AffineBody(mean=mean, derivative=np.stack([evaluate(e) - mean for e in np.eye(n)]))
+
+
+def measure(
+    body: MeasuringBody,
+    shape: Shape,
+    *,
+    shape_covariance: Float[np.ndarray, "n n"] | None = None,
+) -> tuple[Measurement, ...]:
+    """All measurements of the body of this shape.
+
+    Parameters
+    ----------
+    body
+        From :func:`measuring_body`.
+    shape
+        (n,) coefficients, standard deviations.
+    shape_covariance
+        Covariance of ``shape`` at the final body; gives every measurement J Σ Jᵀ as its variance.
+
+    Raises
+    ------
+    NumericalError
+        If a measurement is not finite.
+    """
+    taken = _take(body, shape)
+    placements = _placements(body, taken)
+    values = _values(body, taken, placements)
+    if not np.isfinite(values).all():
+        names = [d.about.name for d, v in zip(body.definitions, values, strict=True) if v != v]
+        message = f"Not finite: {', '.join(names)} at shape {shape}."
+        raise NumericalError(message)
+    errors: Sequence[float | None] = [None] * len(values)
+    if shape_covariance is not None:
+        jacobian = _jacobian(body, shape, placements)
+        variances = np.einsum("kn,nj,kj->k", jacobian, shape_covariance, jacobian)
+        errors = [float(e) for e in np.sqrt(np.maximum(variances, 0.0))]
+    return tuple(
+        Measurement(
+            name=definition.about.name,
+            value=float(value),
+            unit=definition.about.unit,
+            standard_error=error,
+            definition=definition.about.definition,
+            source=definition.about.source,
+        )
+        for definition, value, error in zip(body.definitions, values, errors, strict=True)
+    )
+
+
+def measurement_values(body: MeasuringBody, shape: Shape) -> Float[np.ndarray, " k"]:
+    """The measurements' values alone, in the order of ``body.definitions`` and in their units."""
+    taken = _take(body, shape)
+    return _values(body, taken, _placements(body, taken))
+
+
+def measurement_jacobian(body: MeasuringBody, shape: Shape) -> Float[np.ndarray, "k n"]:
+    """Derivative of every measurement (rows, their units) by every shape coefficient.
+
+    Central differences with each tape held at the place along the body where it was laid: where a
+    girth is the largest or smallest of many, moving the tape changes it in second order only.
+    """
+    return _jacobian(body, shape, _placements(body, _take(body, shape)))
+
+
+def _jacobian(
+    body: MeasuringBody, shape: Shape, placements: Mapping[str, float]
+) -> Float[np.ndarray, "k n"]:
+    at_shape = body.canonical.at(shape)
+    columns: list[np.ndarray] = []
+    for index, displacement in enumerate(body.canonical.derivative):
+        sides: list[np.ndarray] = []
+        for step in (DIFFERENCE_STEP, -DIFFERENCE_STEP):
+            moved = shape.copy()
+            moved[index] += step
+            taken = _take(body, moved, vertices=at_shape + step * displacement)
+            sides.append(_values(body, taken, placements))
+        columns.append((sides[0] - sides[1]) / (2.0 * DIFFERENCE_STEP))
+    return np.stack(columns, axis=1)
+
+
+def _points(model: BodyModel, posed: AffineBody) -> AffineBody:
+    def all_points(vertices: Vertices) -> np.ndarray:
+        return np.concatenate(
+            [regress(model.landmarks, vertices), regress(model.joint_regressor, vertices)]
+        )
+
+    return AffineBody(
+        mean=all_points(posed.mean),
+        derivative=np.stack([all_points(column) for column in posed.derivative]),
+    )
+
+
+def _take(body: MeasuringBody, shape: Shape, vertices: Vertices | None = None) -> _Taken:
+    names = body.point_names
+    return _Taken(
+        vertices=body.canonical.at(shape) if vertices is None else vertices,
+        canonical=dict(zip(names, body.canonical_points.at(shape), strict=True)),
+        standing=dict(zip(names, body.standing_points.at(shape), strict=True)),
+    )
+
+
+def _placements(body: MeasuringBody, taken: _Taken) -> Mapping[str, float]:
+    """The fraction along its axis at which each girth is taken, by name."""
+    return {
+        definition.about.name: girth_placement(
+            definition,
+            body.regions[definition.about.name],
+            taken.vertices,
+            _point(definition.start, taken.canonical),
+            _point(definition.end, taken.canonical),
+        )
+        for definition in body.definitions
+        if isinstance(definition, Girth)
+    }
+
+
+def _values(
+    body: MeasuringBody, taken: _Taken, placements: Mapping[str, float]
+) -> Float[np.ndarray, " k"]:
+    return np.array([_value(body, d, taken, placements) for d in body.definitions])
+
+
+def _value(
+    body: MeasuringBody,
+    definition: MeasurementDefinition,
+    taken: _Taken,
+    placements: Mapping[str, float],
+) -> float:
+    points = taken.canonical
+    name = definition.about.name
+    match definition:
+        case Mass():
+            volume = enclosed_volume(taken.vertices, body.triangles)
+            return volume * definition.density_kg_per_m3
+        case Girth():
+            metres = girth_at_m(
+                definition,
+                body.regions[name],
+                taken.vertices,
+                _point(definition.start, points),
+                _point(definition.end, points),
+                placements[name],
+            )
+        case Length():
+            metres = path_length_m([_point(names, points) for names in definition.path])
+        case Height():
+            soles = _point(("sole_left", "sole_right"), taken.standing)
+            metres = float(_point(definition.point, taken.standing)[1] - soles[1])
+        case BackContour():
+            metres = back_contour_m(
+                body.regions[name],
+                taken.vertices,
+                _point(definition.top, points),
+                _point(definition.bottom, points),
+            )
+    return metres * CENTIMETRES_PER_METRE
+
+
+def _point(names: PointNames, points: Mapping[str, Vector3]) -> Vector3:
+    return np.mean([points[name] for name in names], axis=0)

@@ -1,0 +1,29 @@
+"""Closed triangle meshes: adjacency and volume."""
+
+import numpy as np
+from jaxtyping import Integer
+
+from fitter.arrays import Triangles, Vertices
+from fitter.numerics._mesh_kernels import sum_of_tetrahedra
+
+
+def triangle_neighbours(triangles: Triangles) -> Integer[np.ndarray, "f 3"]:
+    """The triangle across each edge, -1 at a border; edge k runs from corner k to corner k + 1."""
+    starts = triangles.ravel()
+    ends = np.roll(triangles, -1, axis=1).ravel()
+    low, high = np.minimum(starts, ends), np.maximum(starts, ends)
+    order = np.lexsort((high, low))
+    same = (np.diff(low[order]) == 0) & (np.diff(high[order]) == 0)
+    first, second = order[:-1][same], order[1:][same]
+    neighbours = np.full(triangles.size, -1, dtype=np.int32)
+    neighbours[first] = second // 3
+    neighbours[second] = first // 3
+    return neighbours.reshape(-1, 3)
+
+
+def enclosed_volume(vertices: Vertices, triangles: Triangles) -> float:
+    """Volume inside a closed mesh, cubic metres, by signed tetrahedra (divergence theorem).
+
+    Positive where triangles run counter-clockwise seen from outside.
+    """
+    return float(sum_of_tetrahedra(np.ascontiguousarray(vertices, dtype=np.float64), triangles))

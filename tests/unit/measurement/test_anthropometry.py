@@ -1,0 +1,129 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fitter.body.scape import ScapeEvaluator
+from fitter.errors import NumericalError
+from fitter.measurement.anthropometry import (
+    affine_body,
+    measure,
+    measurement_jacobian,
+    measurement_values,
+    measuring_body,
+)
+from fitter.measurement.definitions import (
+    About,
+    Girth,
+    Height,
+    Length,
+    Mass,
+    Orientation,
+    Selection,
+    Unit,
+)
+from fitter.numerics.meshes import enclosed_volume
+from fitter.parameters import BodyParameters
+from tests.unit.body.synthetic_model import bar_model
+
+
+def about(name, unit=Unit.CENTIMETRES):
+    return About(name=name, unit=unit, definition="A.", source="B.", survey_field=None)
+
+
+def bar_girth(name, *, fractions, selection=Selection.LARGEST):
+    return Girth(
+        about=about(name),
+        start=("joint:bottom",),
+        end=("crown",),
+        fractions=fractions,
+        selection=selection,
+        orientation=Orientation.LEVEL,
+        parts=("bottom", "middle", "top"),
+        around_axis=True,
+    )
+
+
+DEFINITIONS = (
+    Height(about=about("stature"), point=("crown",)),
+    Mass(about=about("weight", Unit.KILOGRAMS), density_kg_per_m3=1000.0),
+    Length(about=about("length"), path=(("joint:bottom",), ("joint:middle",), ("joint:top",))),
+    bar_girth("girth", fractions=(0.37, 0.37)),
+    bar_girth("largest", fractions=(0.1, 0.9)),
+)
+SHAPE = np.array([0.7, -0.4])
+
+
+@pytest.fixture(scope="module")
+def bar():
+    model = bar_model()
+    # Bent, so that the largest girth of a level cut lies somewhere within the range.
+    pose = np.array([[0.0, 0.0, 0.0], [0.5, 0.1, 0.2], [-0.3, 0.0, 0.1]])
+    return replace(model, canonical_pose=pose)
+
+
+@pytest.fixture(scope="module")
+def evaluator(bar):
+    return ScapeEvaluator(bar)
+
+
+@pytest.fixture(scope="module")
+def body(bar, evaluator):
+    return measuring_body(bar, evaluator, DEFINITIONS)
+
+
+def test_a_body_in_one_pose_is_affine_in_its_shape(bar, evaluator):
+    affine = affine_body(evaluator, bar.canonical_pose)
+    direct = evaluator.body_frame_vertices(
+        BodyParameters(pose=bar.canonical_pose, translation=np.zeros(3), shape=3 * SHAPE)
+    )
+    np.testing.assert_allclose(affine.at(3 * SHAPE), direct, atol=1e-9)
+
+
+def test_weight_is_the_volume_in_litres(bar, body):
+    weight = measure(body, SHAPE)[1]
+    assert (weight.name, weight.unit) == ("weight", "kg")
+    volume = enclosed_volume(body.canonical.at(SHAPE), bar.triangles)
+    assert weight.value == pytest.approx(1000.0 * volume, rel=1e-12)
+
+
+def test_stature_is_taken_in_the_standing_pose_not_in_the_bent_one(bar, evaluator, body):
+    standing = affine_body(evaluator, bar.standing_pose).at(SHAPE)
+    assert measure(body, SHAPE)[0].value == pytest.approx(100 * np.ptp(standing[:, 1]), abs=1e-6)
+    assert 100 * np.ptp(body.canonical.at(SHAPE)[:, 1]) < measure(body, SHAPE)[0].value - 5.0
+
+
+def test_values_come_in_the_order_of_the_definitions(body):
+    measured = measure(body, SHAPE)
+    assert [m.name for m in measured] == [d.about.name for d in DEFINITIONS]
+    np.testing.assert_allclose([m.value for m in measured], measurement_values(body, SHAPE))
+
+
+def test_the_jacobian_agrees_with_measuring_changed_bodies_afresh(body):
+    jacobian = measurement_jacobian(body, SHAPE)
+    step = 0.02
+    for index in range(len(SHAPE)):
+        change = step * np.eye(len(SHAPE))[index]
+        ahead, behind = (measurement_values(body, SHAPE + s * change) for s in (1.0, -1.0))
+        fresh = (ahead - behind) / (2 * step)
+        np.testing.assert_allclose(jacobian[:-1, index], fresh[:-1], rtol=1e-5, atol=1e-4)
+        # The largest girth of a bar of flat facets jumps from edge to edge: 0.1 mm a unit.
+        np.testing.assert_allclose(jacobian[-1, index], fresh[-1], rtol=1e-3, atol=1e-2)
+
+
+def test_the_standard_error_is_that_of_the_shape_carried_through_the_jacobian(body):
+    spread = np.array([[0.09, 0.01], [0.01, 0.04]])
+    jacobian = measurement_jacobian(body, SHAPE)
+    errors = [m.standard_error for m in measure(body, SHAPE, shape_covariance=spread)]
+    for row, error in zip(jacobian, errors, strict=True):
+        assert error == pytest.approx(np.sqrt(row @ spread @ row), rel=1e-9)
+
+
+def test_without_a_covariance_no_standard_error_is_claimed(body):
+    assert all(m.standard_error is None for m in measure(body, SHAPE))
+
+
+def test_a_tape_that_misses_the_body_is_an_error_that_names_it(bar, evaluator):
+    missing = (*DEFINITIONS, bar_girth("beyond", fractions=(1.5, 1.5)))
+    with pytest.raises(NumericalError, match="Not finite: beyond"):
+        measure(measuring_body(bar, evaluator, missing), SHAPE)
