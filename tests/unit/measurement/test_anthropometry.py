@@ -107,8 +107,9 @@ def test_the_jacobian_agrees_with_measuring_changed_bodies_afresh(body):
         ahead, behind = (measurement_values(body, SHAPE + s * change) for s in (1.0, -1.0))
         fresh = (ahead - behind) / (2 * step)
         np.testing.assert_allclose(jacobian[:-1, index], fresh[:-1], rtol=1e-5, atol=1e-4)
-        # The largest girth of a bar of flat facets jumps from edge to edge: 0.1 mm a unit.
-        np.testing.assert_allclose(jacobian[-1, index], fresh[-1], rtol=1e-3, atol=1e-2)
+        # Measured afresh, the largest girth also finds another place: second order in the step,
+        # and this bar has flat facets.
+        np.testing.assert_allclose(jacobian[-1, index], fresh[-1], rtol=5e-3, atol=1e-2)
 
 
 def test_the_standard_error_is_that_of_the_shape_carried_through_the_jacobian(body):
