@@ -1,0 +1,47 @@
+# Two commands: `make demo` shows a whole fit over HTTP, `make test` passes the tests.
+# Everything is installed into .venv from requirements.lock; a second run installs nothing.
+
+PYTHON ?= python3
+VENV := .venv
+STAMP := $(VENV)/.installed
+SINGLE_THREADED := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
+
+.PHONY: demo test lint serve train report openapi lock clean
+
+demo: $(STAMP)
+	$(VENV)/bin/maquette demo
+
+test: $(STAMP)
+	$(SINGLE_THREADED) $(VENV)/bin/python -m pytest
+
+lint: $(STAMP)
+	$(VENV)/bin/ruff check .
+	$(VENV)/bin/ruff format --check .
+	$(VENV)/bin/pyright
+	$(VENV)/bin/lint-imports
+
+serve: $(STAMP)
+	$(VENV)/bin/maquette serve
+
+train: $(STAMP)
+	$(VENV)/bin/python -m fitter.training build
+
+report: $(STAMP)
+	$(VENV)/bin/python -m fitter.training report
+
+lock:
+	$(VENV)/bin/pip install -q pip-tools
+	$(VENV)/bin/pip-compile -q --no-emit-index-url --no-emit-trusted-host --no-emit-find-links \
+		--strip-extras --extra dev -o requirements.lock pyproject.toml
+
+$(STAMP): pyproject.toml requirements.lock
+	$(PYTHON) -c "import sys; sys.exit(sys.version_info < (3, 11) and 'Maquette needs Python 3.11 or newer; set PYTHON=...')"
+	test -x $(VENV)/bin/python || $(PYTHON) -m venv $(VENV)
+	$(VENV)/bin/python -m pip install -q --disable-pip-version-check -r requirements.lock
+	$(VENV)/bin/python -m pip install -q --disable-pip-version-check --no-deps -r requirements-training.txt
+	$(VENV)/bin/python -m pip install -q --disable-pip-version-check --no-deps -e .
+	$(VENV)/bin/maquette warm-up
+	touch $(STAMP)
+
+clean:
+	rm -rf $(VENV) maquette-data demo-output

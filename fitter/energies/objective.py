@@ -1,0 +1,117 @@
+"""The energies E1 and E2 of one picture, as functions of the body (section 6).
+
+E1 = E_Si + E_Eg + E_Pn and E2 = E1 + E_Sh, to which clicks and priors on shape and pose are added:
+the paper's simplex starts near and stays near; a fit from arbitrary clicks must be told what is
+plausible.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+
+from fitter.arrays import Points3D, Vertices
+from fitter.body.pose_prior import prior_energy
+from fitter.body.skeleton import regress
+from fitter.camera import Camera
+from fitter.energies.clicks import ClickEvidence, click_energy
+from fitter.energies.edges import edge_energy
+from fitter.energies.instruments import BodyInstruments
+from fitter.energies.penetration import penetration_energy, sphere_positions
+from fitter.energies.priors import shape_prior_energy
+from fitter.energies.scales import EnergyScales
+from fitter.energies.shading import ShadingEvidence, shading_energy
+from fitter.energies.silhouette import silhouette_energy, silhouette_overlap
+from fitter.errors import NumericalError
+from fitter.evidence.edge_cost import EdgeCostMap
+from fitter.evidence.silhouette_evidence import SilhouetteEvidence
+from fitter.parameters import BodyParameters
+from fitter.render.contours import ModelEdges, model_edges
+from fitter.render.rasterizer import Rendering, render
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class PictureEvidence:
+    """What the picture says; ``shading`` is None for E1."""
+
+    camera: Camera
+    clicks: ClickEvidence
+    silhouette: SilhouetteEvidence
+    edges: EdgeCostMap
+    shading: ShadingEvidence | None
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Candidate:
+    """One body with everything its energies were computed from."""
+
+    parameters: BodyParameters
+    vertices: Vertices
+    rendering: Rendering
+    edges: ModelEdges
+    landmarks: Points3D
+    spheres: Points3D
+    radii: Float[np.ndarray, " s"]
+    energies: Mapping[str, float]
+
+    @property
+    def total(self) -> float:
+        """The sum of all terms, nats."""
+        return sum(self.energies.values())
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Objective:
+    """An energy over bodies: instruments, evidence and scales, all fixed."""
+
+    instruments: BodyInstruments
+    evidence: PictureEvidence
+    scales: EnergyScales
+
+    def evaluate(self, parameters: BodyParameters) -> Candidate:
+        """The true energy of a body.
+
+        Raises
+        ------
+        NumericalError
+            If a term is not finite.
+        """
+        instruments, evidence, scales = self.instruments, self.evidence, self.scales
+        vertices = instruments.evaluator.vertices(parameters)
+        rendering = render(vertices, instruments.model.triangles, evidence.camera)
+        edges = model_edges(rendering, instruments.topology)
+        landmarks = regress(evidence.clicks.landmarks, vertices)
+        spheres, radii = sphere_positions(instruments.penetration.centres, vertices)
+        energies = {
+            "silhouette": silhouette_energy(rendering, evidence.silhouette, scales),
+            "edges": edge_energy(edges, evidence.edges, scales),
+            "penetration": penetration_energy(spheres, radii, instruments.penetration, scales),
+            "clicks": click_energy(landmarks, evidence.clicks, evidence.camera, scales),
+            "shape_prior": shape_prior_energy(parameters.shape),
+            "pose_prior": float(prior_energy(instruments.pose_prior, parameters.pose).sum()),
+        }
+        if evidence.shading is not None:
+            energies["shading"] = shading_energy(rendering, evidence.shading, scales)
+        for name, value in energies.items():
+            if not np.isfinite(value):
+                message = f"The {name} energy is {value}."
+                raise NumericalError(message)
+        return Candidate(
+            parameters=parameters,
+            vertices=vertices,
+            rendering=rendering,
+            edges=edges,
+            landmarks=landmarks,
+            spheres=spheres,
+            radii=radii,
+            energies=energies,
+        )
+
+    def overlap(self, candidate: Candidate) -> float:
+        """Intersection over union of the body's silhouette and the observed one."""
+        return silhouette_overlap(candidate.rendering, self.evidence.silhouette)
+
+    def with_shading(self, shading: ShadingEvidence) -> "Objective":
+        """The same objective with another shading term."""
+        return replace(self, evidence=replace(self.evidence, shading=shading))

@@ -1,0 +1,136 @@
+"""Silhouette energy E_Si: pixelwise distances between the model's region and the observed one.
+
+Every unmatched pixel costs its truncated distance to the other region (as in [5] and [22]). A
+sliver of width δ along the outline then costs ∫ min(t, τ) dt = Huber_τ(δ) for each pixel of
+outline, so that the sum is a robust squared boundary error, and contour points with Huber weights
+are its exact linearisation. Divided by σ² and by the length over which neighbouring errors repeat
+themselves it is a negative log-likelihood.
+"""
+
+import cv2
+import numpy as np
+from scipy.spatial import cKDTree
+
+from fitter.energies._silhouette_kernels import truncated_mismatch
+from fitter.energies.rows import PositionRows
+from fitter.energies.scales import EnergyScales
+from fitter.evidence.silhouette_evidence import SilhouetteEvidence
+from fitter.numerics.robust import huber_weights
+from fitter.render.contours import ModelEdges
+from fitter.render.rasterizer import Rendering
+
+# A boundary point of the image matches a contour point that faces the same way within 60 degrees.
+_LEAST_NORMAL_AGREEMENT = 0.5
+# Half of the rows look from the model to the image, half from the image to the model.
+_SHARE = 0.5
+_MARGIN_PX = 2
+
+
+def silhouette_energy(
+    rendering: Rendering, evidence: SilhouetteEvidence, scales: EnergyScales
+) -> float:
+    """E_Si in nats; pixels outside the picture count for nothing."""
+    model = rendering.silhouette
+    top, bottom, left, right = _common_box(model, evidence)
+    model = np.ascontiguousarray(model[top:bottom, left:right])
+    outside = cv2.distanceTransform((~model).view(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
+    total = truncated_mismatch(
+        model,
+        evidence.mask[top:bottom, left:right],
+        evidence.signed_distance[top:bottom, left:right],
+        outside,
+        scales.silhouette_truncation,
+    )
+    return float(total) / (scales.silhouette_sigma**2 * scales.correlation_length)
+
+
+def silhouette_rows(
+    rendering: Rendering,
+    edges: ModelEdges,
+    evidence: SilhouetteEvidence,
+    scales: EnergyScales,
+) -> tuple[PositionRows, PositionRows]:
+    """Rows from the model's outline to the image, and from the image's outline to the model.
+
+    The second kind sees what the first cannot: observed limbs that no part of the outline is near.
+    """
+    camera = rendering.camera
+    middles = edges.endpoints.mean(axis=1)
+    outer = (
+        edges.visible
+        & edges.is_outer_silhouette
+        & (middles > 1.0).all(axis=1)
+        & (middles[:, 0] < camera.width - 1)
+        & (middles[:, 1] < camera.height - 1)
+    )
+    pairs = edges.edges[outer]
+    middles = middles[outer]
+    normals = edges.outward[outer]
+    lengths = np.linalg.norm(edges.endpoints[outer, 1] - edges.endpoints[outer, 0], axis=1)
+    points = rendering.vertices[pairs]  # (k, 2, 3)
+    nats = _SHARE / (scales.silhouette_sigma**2 * scales.correlation_length)
+
+    distances = evidence.distance_at(middles)
+    forward = PositionRows(
+        residuals=distances,
+        weights=nats * lengths * huber_weights(distances, scales.silhouette_truncation),
+        points=pairs,
+        derivatives=0.5 * camera.pull_back(points, np.repeat(normals[:, None], 2, axis=1)),
+    )
+    if not len(middles):
+        return forward, forward
+    nearest = _nearest_facing_alike(middles, normals, evidence, scales)
+    matched = nearest >= 0
+    nearest = nearest[matched]
+    observed, facing = evidence.boundary_points[matched], evidence.boundary_normals[matched]
+    residuals = np.einsum("ki,ki->k", middles[nearest] - observed, facing)
+    backward = PositionRows(
+        residuals=residuals,
+        weights=nats
+        * evidence.boundary_spacing
+        * huber_weights(residuals, scales.silhouette_truncation),
+        points=pairs[nearest],
+        derivatives=0.5 * camera.pull_back(points[nearest], np.repeat(facing[:, None], 2, axis=1)),
+    )
+    return forward, backward
+
+
+def silhouette_overlap(rendering: Rendering, evidence: SilhouetteEvidence) -> float:
+    """Intersection over union of the model's region and the observed one."""
+    model = rendering.silhouette
+    union = np.count_nonzero(model | evidence.mask)
+    return np.count_nonzero(model & evidence.mask) / union if union else 0.0
+
+
+def _nearest_facing_alike(
+    middles: np.ndarray, normals: np.ndarray, evidence: SilhouetteEvidence, scales: EnergyScales
+) -> np.ndarray:
+    """Contour index for each observed boundary point, -1 where none is near and faces alike.
+
+    Position and normal together are the key of the tree: a normal turned by 60 degrees counts like
+    the truncation distance, so the far side of a thin limb is never the nearest.
+    """
+    scale = 2.0 * scales.silhouette_truncation
+    tree = cKDTree(np.hstack([middles, scale * normals]))
+    distance, index = tree.query(
+        np.hstack([evidence.boundary_points, scale * evidence.boundary_normals]),
+        distance_upper_bound=1.5 * scale,
+    )
+    found = np.isfinite(distance)
+    index = np.where(found, index, -1)
+    agreement = np.einsum("ki,ki->k", normals[index], evidence.boundary_normals)
+    return np.where(found & (agreement > _LEAST_NORMAL_AGREEMENT), index, -1)
+
+
+def _common_box(model: np.ndarray, evidence: SilhouetteEvidence) -> tuple[int, int, int, int]:
+    """Rows and columns that hold both regions, with a margin."""
+    rows = np.flatnonzero(model.any(axis=1) | evidence.occupied_rows)
+    columns = np.flatnonzero(model.any(axis=0) | evidence.occupied_columns)
+    if not len(rows):
+        return 0, 1, 0, 1
+    return (
+        max(int(rows[0]) - _MARGIN_PX, 0),
+        int(rows[-1]) + 1 + _MARGIN_PX,
+        max(int(columns[0]) - _MARGIN_PX, 0),
+        int(columns[-1]) + 1 + _MARGIN_PX,
+    )

@@ -1,0 +1,83 @@
+"""The default optimiser: damped Gauss-Newton on E1 or E2, accepted on the true energy.
+
+Rows from the contour, the edges, the clicks, the spheres and the shading give a 74 x 74 normal
+matrix; its gradient is exact, by the reverse mode of the body. A step counts only if the energy
+itself went down, never the surrogate.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from fitter.energies.objective import Candidate, Objective
+from fitter.optimizer.normal_equations import normal_equations
+from fitter.optimizer.parameter_vector import free_columns, limited, moved
+from fitter.parameters import BodyParameters
+
+_FIRST_DAMPING = 1e-2
+_DAMPING_DOWN, _DAMPING_UP = 0.3, 5.0
+_LARGEST_DAMPING = 1e4
+# Relative decrease under which a step has settled nothing; two in a row end the search.
+_SETTLED = 5e-4
+
+EnergyObserver = Callable[[Mapping[str, float]], None]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Minimum:
+    """Where a search ended.
+
+    ``converged`` is False when the limit of evaluations ended it; ``evaluations`` counts true
+    energies; ``damping`` lets a later search go on from this one's trust.
+    """
+
+    candidate: Candidate
+    converged: bool
+    evaluations: int
+    damping: float
+
+
+def minimize_gauss_newton(
+    objective: Objective,
+    start: BodyParameters,
+    *,
+    max_evaluations: int,
+    on_energies: EnergyObserver,
+    damping: float = _FIRST_DAMPING,
+) -> Minimum:
+    """Minimise from ``start`` until steps settle nothing or no damping helps."""
+    now = objective.evaluate(start)
+    free = free_columns(start)
+    evaluations, settled = 1, 0
+    on_energies(now.energies)
+    while evaluations < max_evaluations:
+        matrix, gradient = normal_equations(objective, now)
+        inner, pull = matrix[np.ix_(free, free)], gradient[free]
+        diagonal = inner.diagonal()
+        accepted: Candidate | None = None
+        while evaluations < max_evaluations and damping < _LARGEST_DAMPING:
+            step = np.zeros(len(free))
+            damped = inner + np.diag(damping * diagonal + 1e-9)
+            step[free] = np.linalg.solve(damped, -pull)
+            candidate = objective.evaluate(moved(now.parameters, limited(now.parameters, step)))
+            evaluations += 1
+            if candidate.total < now.total:
+                accepted = candidate
+                damping = max(damping * _DAMPING_DOWN, 1e-6)
+                break
+            damping *= _DAMPING_UP
+        if accepted is None:
+            return Minimum(
+                candidate=now,
+                converged=damping >= _LARGEST_DAMPING,
+                evaluations=evaluations,
+                damping=_FIRST_DAMPING,
+            )
+        small = now.total - accepted.total < _SETTLED * abs(now.total)
+        settled = settled + 1 if small else 0
+        now = accepted
+        on_energies(now.energies)
+        if settled == 2:
+            return Minimum(candidate=now, converged=True, evaluations=evaluations, damping=damping)
+    return Minimum(candidate=now, converged=False, evaluations=evaluations, damping=damping)

@@ -1,0 +1,188 @@
+"""Second step of the alternation (section 5): reflectance with body and light held.
+
+Minimises, over albedo a, specularity s and ambient b,
+
+    Σ_i w_i ρ_η1(b + a_i D_i + s_i S_i - r_i)
+      + λ₁ Σ_i Σ_{j∈N(i)} ρ_η2(a_j - a_i)/d_ji + λ₂ Σ_i Σ_{j∈N(i)} ρ_η3(s_j - s_i)/d_ji
+
+which is Eq. 2 with D_i and S_i the diffuse and specular factors of Eq. 1. The paper descends the
+gradient; iteratively reweighted least squares with a sparse factorisation reaches a lower energy
+in a hundredth of the time, because only the values of one fixed pattern change.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import qdldl
+from jaxtyping import Float, Integer
+from scipy import sparse
+
+from fitter.arrays import PerVertex
+from fitter.numerics.robust import geman_mcclure, geman_mcclure_weights
+
+# Ties what nobody sees and nothing neighbours to the starting value; too weak to be felt elsewhere.
+_RIDGE = 1e-4
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class ReflectanceProblem:
+    """Eq. 2 with body and light held.
+
+    Attributes
+    ----------
+    diffuse, specular
+        (m,) D_i and S_i.
+    intensity
+        (m,) r_i, linear luminance; anything where the weight is zero.
+    weights
+        (m,) of the data term, zero for vertices not seen; mean one over those seen.
+    edges, edge_lengths
+        (e, 2) and (e,) the mesh's edges and their lengths over the mean length.
+    albedo_smoothness, specularity_smoothness
+        λ₁ and λ₂.
+    data_eta, albedo_eta, specularity_eta
+        η₁, η₂, η₃.
+    """
+
+    diffuse: PerVertex
+    specular: PerVertex
+    intensity: PerVertex
+    weights: PerVertex
+    edges: Integer[np.ndarray, "e 2"]
+    edge_lengths: Float[np.ndarray, " e"]
+    albedo_smoothness: float
+    specularity_smoothness: float
+    data_eta: float
+    albedo_eta: float
+    specularity_eta: float
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class ReflectanceFields:
+    """Albedo and specularity per vertex, and ambient light."""
+
+    albedo: PerVertex
+    specularity: PerVertex
+    ambient: float
+
+
+def reflectance_energy(problem: ReflectanceProblem, fields: ReflectanceFields) -> float:
+    """The energy above."""
+    residual = (
+        fields.ambient
+        + fields.albedo * problem.diffuse
+        + fields.specularity * problem.specular
+        - problem.intensity
+    )
+    data = float((problem.weights * geman_mcclure(residual, problem.data_eta)).sum())
+    first, second = problem.edges.T
+    # Each edge is met from both of its ends.
+    albedo = geman_mcclure(fields.albedo[first] - fields.albedo[second], problem.albedo_eta)
+    specularity = geman_mcclure(
+        fields.specularity[first] - fields.specularity[second], problem.specularity_eta
+    )
+    return (
+        data
+        + 2.0 * problem.albedo_smoothness * float((albedo / problem.edge_lengths).sum())
+        + 2.0 * problem.specularity_smoothness * float((specularity / problem.edge_lengths).sum())
+    )
+
+
+class ReflectanceSolver:
+    """Solves reflectance problems on one mesh; keeps the symbolic factorisation between solves."""
+
+    def __init__(self, edges: Integer[np.ndarray, "e 2"], vertex_count: int) -> None:
+        self._m = vertex_count
+        m = vertex_count
+        every = np.arange(m)
+        first, second = edges.T
+        rows = np.concatenate([every, first, every, first + m, every + m])
+        columns = np.concatenate([every, second, every + m, second + m, every + m])
+        # Upper triangle in the order: albedo diagonal, albedo edges, coupling, specularity.
+        low, high = np.minimum(rows, columns), np.maximum(rows, columns)
+        pattern = sparse.coo_matrix(
+            (np.arange(1, len(low) + 1, dtype=float), (low, high)), shape=(2 * m, 2 * m)
+        ).tocsc()
+        self._order = pattern.data.astype(np.int64) - 1
+        self._indices, self._pointers = pattern.indices, pattern.indptr
+        self._solver: qdldl.Solver | None = None
+
+    def solve(
+        self, problem: ReflectanceProblem, start: ReflectanceFields, *, iterations: int
+    ) -> ReflectanceFields:
+        """Minimise from ``start``; the energy never rises."""
+        best, best_energy = start, reflectance_energy(problem, start)
+        for _ in range(iterations):
+            candidate = self._reweighted_step(problem, best, start)
+            energy = reflectance_energy(problem, candidate)
+            if not energy < best_energy:
+                break
+            settled = best_energy - energy < 1e-4 * best_energy
+            best, best_energy = candidate, energy
+            if settled:
+                break
+        return best
+
+    def _reweighted_step(
+        self, problem: ReflectanceProblem, now: ReflectanceFields, start: ReflectanceFields
+    ) -> ReflectanceFields:
+        m = self._m
+        first, second = problem.edges.T
+        residual = (
+            now.ambient
+            + now.albedo * problem.diffuse
+            + now.specularity * problem.specular
+            - problem.intensity
+        )
+        weight = problem.weights * geman_mcclure_weights(residual, problem.data_eta)
+
+        def smoothing(values: PerVertex, eta: float, smoothness: float) -> np.ndarray:
+            difference = values[first] - values[second]
+            robust = geman_mcclure_weights(difference, eta)
+            return 2.0 * smoothness * robust / problem.edge_lengths
+
+        albedo_edges = smoothing(now.albedo, problem.albedo_eta, problem.albedo_smoothness)
+        specular_edges = smoothing(
+            now.specularity, problem.specularity_eta, problem.specularity_smoothness
+        )
+
+        def degrees(values: np.ndarray) -> np.ndarray:
+            return np.bincount(first, values, m) + np.bincount(second, values, m)
+
+        d, s = problem.diffuse, problem.specular
+        entries = np.concatenate(
+            [
+                weight * d * d + degrees(albedo_edges) + _RIDGE,
+                -albedo_edges,
+                weight * d * s,
+                -specular_edges,
+                weight * s * s + degrees(specular_edges) + _RIDGE,
+            ]
+        )
+        matrix = sparse.csc_matrix(
+            (entries[self._order], self._indices, self._pointers), shape=(2 * m, 2 * m)
+        )
+        if self._solver is None:
+            self._solver = qdldl.Solver(matrix, upper=True)
+        else:
+            self._solver.update(matrix, upper=True)
+        pull = np.concatenate(
+            [
+                weight * d * problem.intensity + _RIDGE * start.albedo,
+                weight * s * problem.intensity + _RIDGE * start.specularity,
+            ]
+        )
+        coupling = np.concatenate([weight * d, weight * s])
+        # Ambient light couples to everything: eliminated by the Schur complement.
+        free = self._solver.solve(pull)
+        by_ambient = self._solver.solve(coupling)
+        ambient = (float(weight @ problem.intensity) - float(coupling @ free)) / max(
+            float(weight.sum()) - float(coupling @ by_ambient), 1e-12
+        )
+        ambient = max(ambient, 0.0)
+        fields = free - ambient * by_ambient
+        return ReflectanceFields(
+            albedo=np.maximum(fields[:m], 0.0),
+            specularity=np.maximum(fields[m:], 0.0),
+            ambient=ambient,
+        )
