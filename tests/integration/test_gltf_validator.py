@@ -1,0 +1,72 @@
+"""Khronos' own validator reads every GLB we write without an error or a warning."""
+
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fitter.export.gltf import body_canonical_glb, body_posed_glb
+from tests.unit.body.synthetic_model import bar_model
+from tests.unit.export.results import SUN, reflectance_of, result_of
+
+TOOL = Path(__file__).parent.parent / "gltf_validator"
+
+
+@pytest.fixture(scope="module")
+def validator():
+    node, npm = shutil.which("node"), shutil.which("npm")
+    if node is None or npm is None:
+        pytest.skip("node and npm are not installed")
+    if not (TOOL / "node_modules" / "gltf-validator").exists():
+        done = subprocess.run([npm, "ci"], cwd=TOOL, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            if os.environ.get("CI"):
+                pytest.fail(done.stderr)
+            pytest.skip(f"npm cannot install the validator here: {done.stderr.strip()[-200:]}")
+
+    def validate(content: bytes) -> dict:
+        done = subprocess.run(
+            [node, "validate.js"], input=content, cwd=TOOL, capture_output=True, check=True
+        )
+        return json.loads(done.stdout)
+
+    return validate
+
+
+def complaints(report):
+    """Messages that are errors (0) or warnings (1)."""
+    return [m for m in report["issues"]["messages"] if m["severity"] <= 1]
+
+
+def results(model):
+    m = len(model.mean_vertices)
+    colours = np.random.default_rng(0).uniform(0.0, 1.4, size=(m, 3))
+    return {
+        "point light": result_of(model),
+        "directional light": result_of(model, light=SUN),
+        "bright and coloured": result_of(
+            model, reflectance=reflectance_of(model, brightest=2.0), albedo_rgb=colours
+        ),
+        "without shading": result_of(model, light=None),
+    }
+
+
+@pytest.mark.parametrize("write", [body_posed_glb, body_canonical_glb])
+@pytest.mark.parametrize("kind", results(bar_model()))
+def test_khronos_validator_has_no_complaint(validator, write, kind):
+    model = bar_model()
+    report = validator(write(results(model)[kind], model))
+    assert complaints(report) == []
+    assert report["info"]["totalVertexCount"] == len(model.mean_vertices)
+    assert report["info"]["totalTriangleCount"] == len(model.triangles)
+
+
+def test_the_validator_is_awake(validator):
+    """A damaged file must be complained of, or the test above would mean nothing."""
+    model = bar_model()
+    content = body_posed_glb(result_of(model), model).replace(b'"VEC3"', b'"VEC2"', 1)
+    assert complaints(validator(content))

@@ -1,0 +1,74 @@
+"""Whole results of a small body, without fitting."""
+
+import numpy as np
+
+from fitter.body.model import BodyModel
+from fitter.camera import Camera, FocalLengthSource
+from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
+from fitter.request import Cues, Gender, OptimizerKind
+from fitter.result import FitResult, Outcome, Pictures
+
+CAMERA = Camera(focal_length_px=700.0, centre_x=250.0, centre_y=200.0, width=480, height=400)
+POINT_LIGHT = Light(kind=LightKind.POINT, azimuth=0.5, elevation=0.3, distance=2.5)
+SUN = Light(kind=LightKind.DIRECTIONAL, azimuth=-0.8, elevation=0.6, distance=np.inf)
+
+
+def reflectance_of(model: BodyModel, *, brightest: float = 0.8) -> Reflectance:
+    m = len(model.mean_vertices)
+    return Reflectance(
+        albedo=np.linspace(0.2, brightest, m),
+        specularity=np.linspace(0.0, 0.3, m),
+        ambient=0.07,
+        specular_exponent=14.0,
+    )
+
+
+def result_of(
+    model: BodyModel,
+    *,
+    light: Light | None = POINT_LIGHT,
+    reflectance: Reflectance | None = None,
+    albedo_rgb: np.ndarray | None = None,
+) -> FitResult:
+    """A body before the camera; SE when ``light`` is None."""
+    translation = np.array([0.1, 0.5, 3.0])
+    posed = model.mean_vertices * [1.0, -1.0, -1.0] + translation
+    working = CAMERA.scaled(0.5, width=240, height=200)
+    height, width = working.height, working.width
+    segmentation = np.zeros((height, width), dtype=bool)
+    segmentation[40:160, 90:150] = True
+    trimap = np.where(segmentation, 1.0, 0.0)
+    trimap[30:50, 80:160] = 0.5
+    if reflectance is None and light is not None:
+        reflectance = reflectance_of(model)
+    return FitResult(
+        gender=Gender.FEMALE,
+        height_m=1.3,
+        cues=Cues.SE if light is None else Cues.SES,
+        optimizer=OptimizerKind.GAUSS_NEWTON,
+        outcome=Outcome.CONVERGED,
+        camera=working,
+        image_camera=CAMERA,
+        focal_length_source=FocalLengthSource.CALLER,
+        body=BodyParameters(pose=np.zeros((3, 3)), translation=translation, shape=np.zeros(2)),
+        posed_vertices=posed,
+        canonical_vertices=model.mean_vertices,
+        light=light,
+        reflectance=None if light is None else reflectance,
+        albedo_rgb=albedo_rgb,
+        energies={},
+        evaluations=1,
+        silhouette_overlap=0.9,
+        stages=(),
+        measurements=(),
+        limb_facing=(),
+        assumptions=(),
+        warnings=(),
+        stage_seconds={},
+        pictures=Pictures(
+            image=np.zeros((height, width, 3)),
+            trimap=trimap,
+            segmentation=segmentation,
+            shading=None,
+        ),
+    )
