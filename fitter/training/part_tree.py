@@ -34,10 +34,15 @@ def part_index(name: str) -> int:
     return PART_NAMES.index(name)
 
 
+def side_and_limb(name: str) -> tuple[str, str]:
+    """A part's side, ``left``, ``right`` or empty, and its name without it."""
+    for side in ("left", "right"):
+        if name.startswith(f"{side}_"):
+            return side, name.removeprefix(f"{side}_")
+    return "", name
+
+
 def mirrored_part(name: str) -> str:
     """Name of the part on the other side of the body; itself for the parts in the middle."""
-    if name.startswith("left_"):
-        return "right_" + name.removeprefix("left_")
-    if name.startswith("right_"):
-        return "left_" + name.removeprefix("right_")
-    return name
+    side, limb = side_and_limb(name)
+    return f"{'right' if side == 'left' else 'left'}_{limb}" if side else name

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Integer
 
-from fitter.training.part_tree import part_index
+from fitter.training.part_tree import part_index, side_and_limb
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -113,8 +113,8 @@ def bone_drives(bone_names: tuple[str, ...]) -> BoneDrives:
 
 def rest_axis(part: str) -> Float[np.ndarray, "3"]:
     """Unit direction of a part's bone at rest, body frame, away from the trunk."""
-    side = {"left": "L", "right": "R"}.get(part.split("_")[0], "")
-    return _axis(part.removeprefix("left_").removeprefix("right_"), side)
+    side, limb = side_and_limb(part)
+    return _axis(limb, side[:1].upper())
 
 
 def _drive(stem: str) -> tuple[str, float, float, str, float, float]:

@@ -1,0 +1,137 @@
+import numpy as np
+import trimesh
+
+from fitter.body.model import BodyModel, SparseRows
+from fitter.body.scape import ScapeEvaluator
+from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
+from fitter.parameters import BodyParameters
+from fitter.training.part_tree import PART_NAMES, PART_PARENT, part_index
+from fitter.training.parts import Parts, cut_into_parts
+from fitter.training.pose_term import PoseExample, features, pose_feature_joints, train_pose_term
+from fitter.training.surface import triangle_areas
+
+FOOT, SHIN = part_index("left_foot"), part_index("left_shin")
+SPHERE = trimesh.creation.icosphere(subdivisions=3)
+TRIANGLES = np.asarray(SPHERE.faces)
+REST = np.asarray(SPHERE.vertices)
+JOINTS = pose_feature_joints()
+
+
+def slices_of_a_sphere() -> Parts:
+    """Seventeen slices from bottom to top, so that the left foot touches only its neighbours."""
+    order = np.argsort(REST[:, 2])
+    weights = np.zeros((len(REST), len(PART_NAMES)))
+    sequence = [FOOT, SHIN, *(p for p in range(len(PART_NAMES)) if p not in (FOOT, SHIN))]
+    for part, vertices in zip(sequence, np.array_split(order, len(PART_NAMES)), strict=True):
+        weights[vertices, part] = 1.0
+    return cut_into_parts(TRIANGLES, weights)
+
+
+def laplacians_of(parts: Parts):
+    return part_laplacians(
+        gradient_operator(REST, TRIANGLES),
+        triangle_areas(REST, TRIANGLES),
+        parts.part_of_triangle,
+        len(PART_NAMES),
+    )
+
+
+def planted_examples(parts: Parts, count: int):
+    """Turning the foot moves the rest of the body by D (R_foot - I), and the foot not at all."""
+    rng = np.random.default_rng(7)
+    planted = rng.normal(scale=0.05, size=(*REST.shape, 9))
+    start, stop = parts.incidence_pointers[FOOT : FOOT + 2]
+    planted[parts.incidence_vertices[start:stop]] = 0.0
+    column = list(JOINTS[SHIN]).index(FOOT)
+    examples = []
+    for _ in range(count):
+        pose = np.zeros((len(PART_NAMES), 3))
+        pose[FOOT] = rng.normal(size=3)
+        phi = features(pose, JOINTS)[SHIN].reshape(-1, 9)[column]
+        examples.append(PoseExample(rest=REST, posed=REST + planted @ phi, pose=pose))
+    return planted, examples
+
+
+def test_regression_recovers_a_planted_linear_term():
+    parts = slices_of_a_sphere()
+    laplacians = laplacians_of(parts)
+    planted, examples = planted_examples(parts, 40)
+    term = train_pose_term(examples, laplacians, parts, JOINTS, ridge=1e-13)
+    start, stop = parts.incidence_pointers[SHIN : SHIN + 2]
+    vertices = parts.incidence_vertices[start:stop]
+    expected = np.tensordot(laplacians[SHIN].toarray(), planted, axes=1)[vertices]
+    column = 9 * list(JOINTS[SHIN]).index(FOOT)
+    np.testing.assert_allclose(term[start:stop, :, column : column + 9], expected, atol=1e-6)
+
+
+def test_the_trained_term_reproduces_its_examples_at_run_time():
+    parts = slices_of_a_sphere()
+    adjacent = {SHIN, FOOT}
+    planted, examples = planted_examples(parts, 40)
+    # Parts further off have no feature of the foot, and cannot learn to move with it.
+    for part in set(range(len(PART_NAMES))) - adjacent:
+        start, stop = parts.incidence_pointers[part : part + 2]
+        planted[parts.incidence_vertices[start:stop]] = 0.0
+    column = list(JOINTS[SHIN]).index(FOOT)
+    examples = [
+        PoseExample(
+            rest=REST,
+            posed=REST + planted @ features(e.pose, JOINTS)[SHIN].reshape(-1, 9)[column],
+            pose=e.pose,
+        )
+        for e in examples
+    ]
+    term = train_pose_term(examples, laplacians_of(parts), parts, JOINTS, ridge=1e-13)
+    evaluator = ScapeEvaluator(sphere_model(parts, term))
+    for example in examples[:5]:
+        parameters = BodyParameters(pose=example.pose, translation=np.zeros(3), shape=np.zeros(1))
+        found = evaluator.body_frame_vertices(parameters)
+        np.testing.assert_allclose(
+            found - found.mean(axis=0), example.posed - example.posed.mean(axis=0), atol=2e-5
+        )
+
+
+def test_a_body_at_rest_has_no_features():
+    assert not features(np.zeros((len(PART_NAMES), 3)), JOINTS).any()
+
+
+def test_limbs_feel_the_joints_of_their_own_side():
+    for part, name in enumerate(PART_NAMES):
+        if "_" not in name:
+            continue
+        side = name.split("_")[0]
+        assert all(PART_NAMES[j].startswith(side) for j in JOINTS[part] if j >= 0)
+
+
+def sphere_model(parts: Parts, term: np.ndarray) -> BodyModel:
+    m, p = len(REST), len(PART_NAMES)
+    rows = SparseRows(
+        names=PART_NAMES,
+        pointers=np.arange(p + 1),
+        indices=np.arange(p),
+        weights=np.ones(p),
+    )
+    return BodyModel(
+        gender="female",
+        header={},
+        triangles=TRIANGLES,
+        mean_vertices=REST,
+        shape_basis=np.zeros((1, m, 3)),
+        part_names=PART_NAMES,
+        part_parent=PART_PARENT,
+        part_of_triangle=parts.part_of_triangle,
+        triangle_weights=triangle_areas(REST, TRIANGLES),
+        joint_regressor=rows,
+        skinning_parts=parts.skinning_parts,
+        skinning_weights=parts.skinning_weights,
+        pose_feature_joints=JOINTS,
+        incidence_pointers=parts.incidence_pointers,
+        incidence_vertices=parts.incidence_vertices,
+        pose_right_hand_sides=term.astype(np.float32),
+        landmarks=rows,
+        uv=np.zeros((1, 2)),
+        uv_triangles=np.zeros_like(TRIANGLES),
+        mirror=np.arange(m),
+        canonical_pose=np.zeros((p, 3)),
+        standing_pose=np.zeros((p, 3)),
+    )
