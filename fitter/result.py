@@ -8,6 +8,7 @@ from fitter.arrays import Image, Mask, Vertices
 from fitter.camera import Camera, FocalLengthSource
 from fitter.measurement.quantity import Measurement
 from fitter.parameters import BodyParameters, Light, Reflectance
+from fitter.remarks import Assumption, FitWarning
 from fitter.request import Cues, Facing, Gender, OptimizerKind
 
 
@@ -30,23 +31,6 @@ OUTCOME_EXPLANATIONS: Mapping[Outcome, str] = {
         "segmentation may be wrong. The best body found is returned."
     ),
 }
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Assumption:
-    """A physical quantity the caller did not give."""
-
-    quantity: str
-    value: float | str
-    reason: str
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FitWarning:
-    """Something the caller should look at; ``code`` is stable kebab-case."""
-
-    code: str
-    message: str
 
 
 class FacingSource(StrEnum):
