@@ -1,0 +1,129 @@
+"""Shading energy E_Sh: predicted against observed intensity at the visible vertices (Eq. 2).
+
+This is the first term of Eq. 2; the smoothness of albedo and specularity does not depend on the
+body but through distances between neighbours, which are held while the body moves, and lives in
+:mod:`fitter.optimizer.reflectance_solve`. Vertices weigh by area. The weighted mean and not the
+sum over visible vertices is taken: a body must not gain by hiding.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Bool
+
+from fitter.arrays import PerVertex, Vector3
+from fitter.energies.rows import ShadingRows
+from fitter.energies.scales import EnergyScales
+from fitter.evidence.intensity import IntensityMap
+from fitter.numerics.robust import geman_mcclure, geman_mcclure_weights
+from fitter.parameters import Light, Reflectance
+from fitter.render.rasterizer import Rendering
+from fitter.render.reflectance import shade, shade_with_derivatives
+
+# Nearer to the rim than this cosine a vertex's pixel mixes body and background.
+_LEAST_FACING = 0.25
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class ShadingEvidence:
+    """Intensities with the light and reflectance that are to explain them.
+
+    Attributes
+    ----------
+    intensity
+        The picture's linear luminance and where it can be trusted.
+    light, body_centre
+        The light stands still while the body moves: ``body_centre`` is where its coordinates
+        were fixed, camera frame.
+    reflectance
+        Per-vertex albedo and specularity, ambient and exponent.
+    vertex_areas
+        (m,) shares of the body's area.
+    eta
+        η₁ in units of luminance.
+    """
+
+    intensity: IntensityMap
+    light: Light
+    body_centre: Vector3
+    reflectance: Reflectance
+    vertex_areas: PerVertex
+    eta: float
+
+
+def usable_vertices(rendering: Rendering, intensity: IntensityMap) -> Bool[np.ndarray, " m"]:
+    """Visible vertices, not near the rim, whose pixel is neither clipped nor off the person."""
+    rays = rendering.vertices / np.linalg.norm(rendering.vertices, axis=1, keepdims=True)
+    facing = -np.einsum("mi,mi->m", rays, rendering.vertex_normals)
+    usable = rendering.vertex_visible & (facing > _LEAST_FACING)
+    usable[usable] = intensity.trusted_at(rendering.projected[usable])
+    return usable
+
+
+def shading_energy(rendering: Rendering, evidence: ShadingEvidence, scales: EnergyScales) -> float:
+    """Data term of E_Sh in nats."""
+    chosen = np.flatnonzero(usable_vertices(rendering, evidence.intensity))
+    weights = evidence.vertex_areas[chosen]
+    if not weights.sum() > 0.0:
+        return scales.shading_weight
+    predicted = shade(
+        rendering.vertices[chosen],
+        rendering.vertex_normals[chosen],
+        light=evidence.light,
+        body_centre=evidence.body_centre,
+        reflectance=_of_vertices(evidence.reflectance, chosen),
+    )
+    observed = evidence.intensity.at(rendering.projected[chosen])
+    loss = geman_mcclure(predicted - observed, evidence.eta)
+    return scales.shading_weight * float(weights @ loss) / float(weights.sum())
+
+
+def shading_rows(
+    rendering: Rendering, evidence: ShadingEvidence, scales: EnergyScales
+) -> ShadingRows:
+    """One row for each usable vertex."""
+    chosen = np.flatnonzero(usable_vertices(rendering, evidence.intensity))
+    positions = rendering.vertices[chosen]
+    derivatives = shade_with_derivatives(
+        positions,
+        rendering.vertex_normals[chosen],
+        light=evidence.light,
+        body_centre=evidence.body_centre,
+        reflectance=_of_vertices(evidence.reflectance, chosen),
+    )
+    observed, slopes = evidence.intensity.with_gradient_at(rendering.projected[chosen])
+    residuals = derivatives.shading - observed
+    areas = evidence.vertex_areas[chosen]
+    share = scales.shading_weight * areas / max(float(areas.sum()), 1e-12)
+    return ShadingRows(
+        residuals=residuals,
+        weights=share * geman_mcclure_weights(residuals, evidence.eta),
+        vertices=chosen,
+        position_derivatives=derivatives.by_position
+        - rendering.camera.pull_back(positions, slopes),
+        normal_derivatives=derivatives.by_normal,
+    )
+
+
+def thinned_shading(rows: ShadingRows, limit: int) -> ShadingRows:
+    """The heaviest rows by systematic sampling, reweighted to stand for all."""
+    total = float(rows.weights.sum())
+    if len(rows.residuals) <= limit or not total > 0.0:
+        return rows
+    marks = (np.arange(limit) + 0.5) / limit
+    chosen = np.searchsorted(np.cumsum(rows.weights) / total, marks)
+    return ShadingRows(
+        residuals=rows.residuals[chosen],
+        weights=np.full(limit, total / limit),
+        vertices=rows.vertices[chosen],
+        position_derivatives=rows.position_derivatives[chosen],
+        normal_derivatives=rows.normal_derivatives[chosen],
+    )
+
+
+def _of_vertices(reflectance: Reflectance, chosen: np.ndarray) -> Reflectance:
+    return replace(
+        reflectance,
+        albedo=reflectance.albedo[chosen],
+        specularity=reflectance.specularity[chosen],
+    )

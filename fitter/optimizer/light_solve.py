@@ -1,0 +1,203 @@
+"""First step of the alternation (section 5): the light with body and reflectance held.
+
+Azimuth, elevation and distance, and with them the ambient light and one scale each for albedo and
+specularity, which keep the light from being judged by a reflectance fitted to another light.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+
+from fitter.arrays import Vector3
+from fitter.numerics.robust import geman_mcclure, geman_mcclure_weights
+from fitter.parameters import Light, LightKind, Reflectance
+from fitter.render.reflectance import shade, shade_with_derivatives
+
+# A light's distance is told by attenuation across the body alone: a weak prior about 3 m, spread
+# over a factor of e, keeps it out of the body and out of infinity.
+_USUAL_DISTANCE_M = 3.0
+_DISTANCE_SPREAD = 1.0
+_DISTANCE_RANGE_M = (0.7, 30.0)
+_ELEVATION_RANGE = (-1.45, 1.45)
+_DISTANCE_PRIOR_WEIGHT = 1e-3
+_DAMPING_DOWN, _DAMPING_UP = 0.3, 5.0
+_LARGEST_DAMPING = 1e6
+
+# First guesses when the caller gave none: frontal and from both sides, level and from above.
+GUESSED_AZIMUTHS = (-0.9, 0.0, 0.9)
+GUESSED_ELEVATIONS = (0.0, 0.7)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class LitSurface:
+    """Surface points with what was observed there; camera frame, metres.
+
+    ``weights`` sum to one; ``albedo`` and ``specularity`` are held but for a common scale each.
+    """
+
+    positions: Float[np.ndarray, "k 3"]
+    normals: Float[np.ndarray, "k 3"]
+    observed: Float[np.ndarray, " k"]
+    weights: Float[np.ndarray, " k"]
+    albedo: Float[np.ndarray, " k"]
+    specularity: Float[np.ndarray, " k"]
+    body_centre: Vector3
+    specular_exponent: float
+    eta: float
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class LightEstimate:
+    """A light and the scales of reflectance that go with it; ``energy`` is robust, in [0, 1]."""
+
+    light: Light
+    ambient: float
+    albedo_scale: float
+    specularity_scale: float
+    energy: float
+
+
+def estimate_light(surface: LitSurface, start: LightEstimate, *, iterations: int) -> LightEstimate:
+    """Descend from one light by damped, reweighted Gauss-Newton; the energy never rises."""
+    now = replace(start, energy=_energy(surface, start))
+    damping = 1e-2
+    for _ in range(iterations):
+        jacobian, residuals = _linearise(surface, now)
+        weights = surface.weights * geman_mcclure_weights(residuals, surface.eta)
+        matrix = jacobian.T @ (weights[:, None] * jacobian)
+        gradient = jacobian.T @ (weights * residuals)
+        if now.light.kind is LightKind.POINT:
+            away = np.log(now.light.distance / _USUAL_DISTANCE_M) / _DISTANCE_SPREAD**2
+            matrix[2, 2] += 2.0 * _DISTANCE_PRIOR_WEIGHT / _DISTANCE_SPREAD**2
+            gradient[2] += 2.0 * _DISTANCE_PRIOR_WEIGHT * away
+        else:
+            matrix[2, :] = matrix[:, 2] = 0.0
+            matrix[2, 2], gradient[2] = 1.0, 0.0
+        before = now.energy
+        while damping < _LARGEST_DAMPING:
+            step = np.linalg.solve(matrix + damping * np.diag(matrix.diagonal() + 1e-12), -gradient)
+            candidate = _stepped(now, step)
+            candidate = replace(candidate, energy=_energy(surface, candidate))
+            if candidate.energy < now.energy:
+                now, damping = candidate, max(damping * _DAMPING_DOWN, 1e-8)
+                break
+            damping *= _DAMPING_UP
+        if before - now.energy < 1e-5 * before:
+            break
+    return now
+
+
+def first_light(surface: LitSurface, guesses: tuple[Light, ...]) -> LightEstimate:
+    """The best of several first lights, each with its own linear fit of ambient and scales."""
+    found = [
+        estimate_light(surface, _with_linear_scales(surface, light), iterations=6)
+        for light in guesses
+    ]
+    return min(found, key=lambda estimate: estimate.energy)
+
+
+def guessed_lights(kind: LightKind) -> tuple[Light, ...]:
+    """Where to begin when nobody says where the light is."""
+    distance = _USUAL_DISTANCE_M if kind is LightKind.POINT else float("inf")
+    return tuple(
+        Light(kind=kind, azimuth=azimuth, elevation=elevation, distance=distance)
+        for elevation in GUESSED_ELEVATIONS
+        for azimuth in GUESSED_AZIMUTHS
+    )
+
+
+def _with_linear_scales(surface: LitSurface, light: Light) -> LightEstimate:
+    """Eq. 1 is linear in ambient and scales: reweighted linear least squares, clipped at zero."""
+    estimate = LightEstimate(
+        light=light, ambient=0.0, albedo_scale=1.0, specularity_scale=1.0, energy=1.0
+    )
+    jacobian, _ = _linearise(surface, estimate)
+    columns = jacobian[:, 3:]
+    weights = surface.weights.copy()
+    solution = np.zeros(3)
+    for _ in range(8):
+        matrix = columns.T @ (weights[:, None] * columns) + 1e-9 * np.eye(3)
+        solution = np.maximum(
+            np.linalg.solve(matrix, columns.T @ (weights * surface.observed)), 0.0
+        )
+        residuals = columns @ solution - surface.observed
+        weights = surface.weights * geman_mcclure_weights(residuals, surface.eta)
+    return replace(
+        estimate,
+        ambient=float(solution[0]),
+        albedo_scale=float(solution[1]),
+        specularity_scale=float(solution[2]),
+    )
+
+
+def _reflectance(surface: LitSurface, estimate: LightEstimate) -> Reflectance:
+    return Reflectance(
+        albedo=estimate.albedo_scale * surface.albedo,
+        specularity=estimate.specularity_scale * surface.specularity,
+        ambient=estimate.ambient,
+        specular_exponent=surface.specular_exponent,
+    )
+
+
+def _energy(surface: LitSurface, estimate: LightEstimate) -> float:
+    predicted = shade(
+        surface.positions,
+        surface.normals,
+        light=estimate.light,
+        body_centre=surface.body_centre,
+        reflectance=_reflectance(surface, estimate),
+    )
+    data = float(surface.weights @ geman_mcclure(predicted - surface.observed, surface.eta))
+    if estimate.light.kind is LightKind.DIRECTIONAL:
+        return data
+    away = np.log(estimate.light.distance / _USUAL_DISTANCE_M) / _DISTANCE_SPREAD
+    return data + _DISTANCE_PRIOR_WEIGHT * float(away * away)
+
+
+def _linearise(
+    surface: LitSurface, estimate: LightEstimate
+) -> tuple[Float[np.ndarray, "k 6"], Float[np.ndarray, " k"]]:
+    """Columns: azimuth, elevation, log distance, ambient, albedo scale, specularity scale."""
+    derivatives = shade_with_derivatives(
+        surface.positions,
+        surface.normals,
+        light=estimate.light,
+        body_centre=surface.body_centre,
+        reflectance=_reflectance(surface, estimate),
+    )
+    point = estimate.light.kind is LightKind.POINT
+    by_log_distance = derivatives.by_light[:, 2] * estimate.light.distance if point else 0.0
+    jacobian = np.stack(
+        [
+            derivatives.by_light[:, 0],
+            derivatives.by_light[:, 1],
+            np.broadcast_to(by_log_distance, len(surface.observed)),
+            np.ones(len(surface.observed)),
+            surface.albedo * derivatives.by_albedo,
+            surface.specularity * derivatives.by_specularity,
+        ],
+        axis=1,
+    )
+    return jacobian, derivatives.shading - surface.observed
+
+
+def _stepped(now: LightEstimate, step: Float[np.ndarray, "6"]) -> LightEstimate:
+    light = now.light
+    turn = np.clip(step[:2], -0.5, 0.5)
+    azimuth = (light.azimuth + turn[0] + np.pi) % (2.0 * np.pi) - np.pi
+    elevation = np.clip(light.elevation + turn[1], *_ELEVATION_RANGE)
+    distance = light.distance
+    if light.kind is LightKind.POINT:
+        distance = float(
+            np.clip(light.distance * np.exp(np.clip(step[2], -0.7, 0.7)), *_DISTANCE_RANGE_M)
+        )
+    return LightEstimate(
+        light=Light(
+            kind=light.kind, azimuth=float(azimuth), elevation=float(elevation), distance=distance
+        ),
+        ambient=max(now.ambient + float(step[3]), 0.0),
+        albedo_scale=max(now.albedo_scale + float(step[4]), 0.0),
+        specularity_scale=max(now.specularity_scale + float(step[5]), 0.0),
+        energy=now.energy,
+    )
