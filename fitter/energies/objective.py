@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Points3D, Vertices
-from fitter.body.pose_prior import prior_energy
+from fitter.body.pose_prior import prior_terms
 from fitter.body.skeleton import regress
 from fitter.camera import Camera
 from fitter.energies.clicks import ClickEvidence, click_energy
@@ -89,7 +89,8 @@ class Objective:
             "penetration": penetration_energy(spheres, radii, instruments.penetration, scales),
             "clicks": click_energy(landmarks, evidence.clicks, evidence.camera, scales),
             "shape_prior": shape_prior_energy(parameters.shape),
-            "pose_prior": float(prior_energy(instruments.pose_prior, parameters.pose).sum()),
+            "pose_prior": 0.5
+            * float((prior_terms(instruments.pose_prior, parameters.pose).residuals ** 2).sum()),
         }
         if evidence.shading is not None:
             energies["shading"] = shading_energy(rendering, evidence.shading, scales)

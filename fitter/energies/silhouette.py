@@ -9,7 +9,7 @@ themselves it is a negative log-likelihood.
 
 import cv2
 import numpy as np
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 from fitter.energies._silhouette_kernels import truncated_mismatch
 from fitter.energies.rows import PositionRows
@@ -111,7 +111,7 @@ def _nearest_facing_alike(
     the truncation distance, so the far side of a thin limb is never the nearest.
     """
     scale = 2.0 * scales.silhouette_truncation
-    tree = cKDTree(np.hstack([middles, scale * normals]))
+    tree = KDTree(np.hstack([middles, scale * normals]))
     distance, index = tree.query(
         np.hstack([evidence.boundary_points, scale * evidence.boundary_normals]),
         distance_upper_bound=1.5 * scale,

@@ -58,8 +58,8 @@ def silhouette_evidence(mask: Mask) -> SilhouetteEvidence:
         boundary_points=points,
         boundary_normals=normals,
         boundary_spacing=_SPACING_PX,
-        occupied_rows=mask.any(axis=1),
-        occupied_columns=mask.any(axis=0),
+        occupied_rows=np.asarray(mask.any(axis=1)),
+        occupied_columns=np.asarray(mask.any(axis=0)),
     )
 
 

@@ -162,10 +162,7 @@ class ReflectanceSolver:
         matrix = sparse.csc_matrix(
             (entries[self._order], self._indices, self._pointers), shape=(2 * m, 2 * m)
         )
-        if self._solver is None:
-            self._solver = qdldl.Solver(matrix, upper=True)
-        else:
-            self._solver.update(matrix, upper=True)
+        solver = self._refactored(matrix)
         pull = np.concatenate(
             [
                 weight * d * problem.intensity + _RIDGE * start.albedo,
@@ -174,8 +171,8 @@ class ReflectanceSolver:
         )
         coupling = np.concatenate([weight * d, weight * s])
         # Ambient light couples to everything: eliminated by the Schur complement.
-        free = self._solver.solve(pull)
-        by_ambient = self._solver.solve(coupling)
+        free = solver.solve(pull)
+        by_ambient = solver.solve(coupling)
         ambient = (float(weight @ problem.intensity) - float(coupling @ free)) / max(
             float(weight.sum()) - float(coupling @ by_ambient), 1e-12
         )
@@ -186,3 +183,11 @@ class ReflectanceSolver:
             specularity=np.maximum(fields[m:], 0.0),
             ambient=ambient,
         )
+
+    def _refactored(self, matrix: sparse.csc_matrix) -> qdldl.Solver:
+        """The factor of a matrix of the one pattern; only the first call orders it."""
+        if self._solver is None:
+            self._solver = qdldl.Solver(matrix, upper=True)
+        else:
+            self._solver.update(matrix, upper=True)
+        return self._solver

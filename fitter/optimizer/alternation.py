@@ -1,0 +1,250 @@
+"""Body shape from shading (section 5): light, reflectance and body in turn.
+
+The smoothness of albedo and specularity starts large and is lowered round by round, so that at
+first it is the shape that must change to make the predicted brightness match.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from fitter.energies.objective import Candidate, Objective
+from fitter.energies.shading import ShadingEvidence, usable_vertices
+from fitter.evidence.intensity import IntensityMap
+from fitter.optimizer.gauss_newton import Minimum
+from fitter.optimizer.light_solve import (
+    LightEstimate,
+    LitSurface,
+    estimate_light,
+    first_light,
+)
+from fitter.optimizer.reflectance_solve import (
+    ReflectanceFields,
+    ReflectanceProblem,
+    ReflectanceSolver,
+)
+from fitter.parameters import BodyParameters, Light, Reflectance
+from fitter.render.light import light_about
+from fitter.render.reflectance import shading_terms
+
+SMOOTHNESS_SCHEDULE = (10.0, 3.0, 1.0, 0.3)
+"""λ₁ = λ₂ of each round, against data weights of mean one a vertex. At 10 a step of albedo between
+two neighbours costs as much as ten vertices left wholly unexplained, at 0.3 it is cheap."""
+
+SPECULAR_EXPONENTS = (6.0, 12.0, 24.0, 48.0)
+"""α is chosen from these once, with the first light: skin's broad gloss to a moist shine."""
+
+# η₂ and η₃ relative to the median albedo: steps larger than this are edges of cloth or hair.
+_RELATIVE_ALBEDO_ETA = 0.1
+_RELATIVE_SPECULARITY_ETA = 0.1
+_LIGHT_ITERATIONS = 8
+_REFLECTANCE_ITERATIONS = 6
+_LEAST_USABLE = 200
+
+BodySearch = Callable[[Objective, BodyParameters], Minimum]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class ShadedFit:
+    """What the alternation found; the light's coordinates refer to the final body's centre."""
+
+    minimum: Minimum
+    light: Light
+    reflectance: Reflectance
+    evaluations: int
+
+
+def fit_shading(
+    objective: Objective,
+    start: Candidate,
+    intensity: IntensityMap,
+    lights: tuple[Light, ...],
+    *,
+    search: BodySearch,
+) -> ShadedFit | None:
+    """Minimise E2 from the minimum of E1.
+
+    Parameters
+    ----------
+    objective
+        E1, without shading.
+    start
+        Its minimum.
+    intensity
+        The person's luminance.
+    lights
+        First guesses: one from the caller, or several.
+    search
+        Minimises an objective over the body from given parameters: the third step.
+
+    Returns
+    -------
+    None where too few vertices are visible and trusted for shading to say anything.
+    """
+    instruments = objective.instruments
+    if np.count_nonzero(usable_vertices(start.rendering, intensity)) < _LEAST_USABLE:
+        return None
+    centre = start.parameters.translation
+    solver = ReflectanceSolver(instruments.topology.edges, len(start.vertices))
+    state = _first_state(objective, start, intensity, lights, centre)
+    minimum: Minimum | None = None
+    evaluations = 0
+    now = start
+    for round_index, smoothness in enumerate(SMOOTHNESS_SCHEDULE):
+        if round_index > 0:
+            state = _with_new_light(objective, now, state)
+        state = _with_new_reflectance(objective, now, state, solver, smoothness)
+        minimum = search(objective.with_shading(state), now.parameters)
+        evaluations += minimum.evaluations
+        now = minimum.candidate
+    assert minimum is not None
+    # The reflectance of the final body: what is drawn must be what was found.
+    state = _with_new_reflectance(objective, now, state, solver, SMOOTHNESS_SCHEDULE[-1])
+    final = objective.with_shading(state).evaluate(now.parameters)
+    return ShadedFit(
+        minimum=replace(minimum, candidate=final),
+        light=light_about(state.light, old_centre=centre, new_centre=now.parameters.translation),
+        reflectance=state.reflectance,
+        evaluations=evaluations,
+    )
+
+
+def _first_state(
+    objective: Objective,
+    candidate: Candidate,
+    intensity: IntensityMap,
+    lights: tuple[Light, ...],
+    centre: np.ndarray,
+) -> ShadingEvidence:
+    """The first light, with uniform albedo and specularity (section 5)."""
+    m = len(candidate.vertices)
+    chosen = usable_vertices(candidate.rendering, intensity)
+    observed = intensity.at(candidate.rendering.projected[chosen])
+    eta = objective.scales.shading_eta * max(float(np.median(observed)), 1e-3)
+    state = ShadingEvidence(
+        intensity=intensity,
+        light=lights[0],
+        body_centre=centre,
+        reflectance=Reflectance(
+            albedo=np.ones(m), specularity=np.ones(m), ambient=0.0, specular_exponent=1.0
+        ),
+        vertex_areas=objective.instruments.vertex_areas,
+        eta=eta,
+    )
+    best: tuple[LightEstimate, float] | None = None
+    for exponent in SPECULAR_EXPONENTS:
+        surface = _lit_surface(candidate, state, exponent)
+        found = first_light(surface, lights if best is None else (best[0].light,))
+        if best is None or found.energy < best[0].energy:
+            best = found, exponent
+    assert best is not None
+    estimate, exponent = best
+    return replace(
+        state,
+        light=estimate.light,
+        reflectance=Reflectance(
+            albedo=np.full(m, estimate.albedo_scale),
+            specularity=np.full(m, estimate.specularity_scale),
+            ambient=estimate.ambient,
+            specular_exponent=exponent,
+        ),
+    )
+
+
+def _with_new_light(
+    objective: Objective, candidate: Candidate, state: ShadingEvidence
+) -> ShadingEvidence:
+    surface = _lit_surface(candidate, state, state.reflectance.specular_exponent)
+    found = estimate_light(
+        surface,
+        LightEstimate(
+            light=state.light,
+            ambient=state.reflectance.ambient,
+            albedo_scale=1.0,
+            specularity_scale=1.0,
+            energy=1.0,
+        ),
+        iterations=_LIGHT_ITERATIONS,
+    )
+    return replace(
+        state,
+        light=found.light,
+        reflectance=replace(
+            state.reflectance,
+            albedo=found.albedo_scale * state.reflectance.albedo,
+            specularity=found.specularity_scale * state.reflectance.specularity,
+            ambient=found.ambient,
+        ),
+    )
+
+
+def _with_new_reflectance(
+    objective: Objective,
+    candidate: Candidate,
+    state: ShadingEvidence,
+    solver: ReflectanceSolver,
+    smoothness: float,
+) -> ShadingEvidence:
+    rendering, topology = candidate.rendering, objective.instruments.topology
+    usable = usable_vertices(rendering, state.intensity)
+    intensity = np.zeros(len(usable))
+    intensity[usable] = state.intensity.at(rendering.projected[usable])
+    weights = np.where(usable, state.vertex_areas, 0.0)
+    weights *= np.count_nonzero(usable) / weights.sum()
+    terms = shading_terms(
+        rendering.vertices,
+        rendering.vertex_normals,
+        light=state.light,
+        body_centre=state.body_centre,
+        specular_exponent=state.reflectance.specular_exponent,
+    )
+    first, second = topology.edges.T
+    lengths = np.linalg.norm(rendering.vertices[first] - rendering.vertices[second], axis=1)
+    albedo_level = max(float(np.median(state.reflectance.albedo)), 1e-3)
+    found = solver.solve(
+        ReflectanceProblem(
+            diffuse=terms.diffuse,
+            specular=terms.specular,
+            intensity=intensity,
+            weights=weights,
+            edges=topology.edges,
+            edge_lengths=np.maximum(lengths / lengths.mean(), 0.05),
+            albedo_smoothness=smoothness,
+            specularity_smoothness=smoothness,
+            data_eta=state.eta,
+            albedo_eta=_RELATIVE_ALBEDO_ETA * albedo_level,
+            specularity_eta=_RELATIVE_SPECULARITY_ETA * albedo_level,
+        ),
+        ReflectanceFields(
+            albedo=state.reflectance.albedo,
+            specularity=state.reflectance.specularity,
+            ambient=state.reflectance.ambient,
+        ),
+        iterations=_REFLECTANCE_ITERATIONS,
+    )
+    return replace(
+        state,
+        reflectance=replace(
+            state.reflectance,
+            albedo=found.albedo,
+            specularity=found.specularity,
+            ambient=found.ambient,
+        ),
+    )
+
+
+def _lit_surface(candidate: Candidate, state: ShadingEvidence, exponent: float) -> LitSurface:
+    chosen = np.flatnonzero(usable_vertices(candidate.rendering, state.intensity))
+    weights = state.vertex_areas[chosen]
+    return LitSurface(
+        positions=candidate.rendering.vertices[chosen],
+        normals=candidate.rendering.vertex_normals[chosen],
+        observed=state.intensity.at(candidate.rendering.projected[chosen]),
+        weights=weights / weights.sum(),
+        albedo=state.reflectance.albedo[chosen],
+        specularity=state.reflectance.specularity[chosen],
+        body_centre=state.body_centre,
+        specular_exponent=exponent,
+        eta=state.eta,
+    )
