@@ -1,0 +1,107 @@
+"""Landmarks on a skeleton."""
+
+import numpy as np
+import pytest
+
+from fitter.body.scape import CAMERA_AXES
+from fitter.body.skeleton import regress
+from fitter.numerics.rotations import compose
+from fitter.pose_init.landmark_rig import landmark_jacobian, landmark_rig, pose_landmarks
+from fitter.pose_init.limbs import limb_lengths_m, point_at_rest
+from tests.unit.body.synthetic_model import bar_model
+from tests.unit.pose_init.stick_figure import mirrored_pose, stick_figure
+
+RIG = stick_figure()
+
+
+def blended_rig():
+    """The stick figure with landmarks that follow two parts at once."""
+    rng = np.random.default_rng(5)
+    weights = RIG.weights * 0.7
+    for row, part in enumerate(np.argmax(RIG.weights, axis=1)):
+        weights[row, max(RIG.part_parent[part], 0)] += 0.3
+    arms = weights[..., None] * (RIG.rest_landmarks[:, None] - RIG.rest_joints)
+    arms += 0.01 * (weights > 0)[..., None] * rng.standard_normal(arms.shape)
+    return type(RIG)(
+        part_names=RIG.part_names,
+        part_parent=RIG.part_parent,
+        rest_joints=RIG.rest_joints,
+        landmark_names=RIG.landmark_names,
+        rest_landmarks=RIG.rest_landmarks,
+        weights=weights,
+        arms=arms,
+    )
+
+
+def test_at_rest_landmarks_stand_where_the_rest_body_has_them():
+    place = np.array([0.1, -0.2, 3.0])
+    posed = pose_landmarks(RIG, np.zeros((17, 3)), place)
+    expected = (RIG.rest_landmarks - RIG.rest_joints[0]) * CAMERA_AXES + place
+    np.testing.assert_allclose(posed.points, expected, atol=1e-12)
+
+
+def test_bones_keep_their_length_in_every_pose():
+    rng = np.random.default_rng(6)
+    joints = pose_landmarks(RIG, 0.8 * rng.standard_normal((20, 17, 3)), np.zeros((20, 3))).joints
+    for part, parent in enumerate(RIG.part_parent[1:], start=1):
+        length = np.linalg.norm(RIG.rest_joints[part] - RIG.rest_joints[parent])
+        measured = np.linalg.norm(joints[:, part] - joints[:, parent], axis=1)
+        np.testing.assert_allclose(measured, length, atol=1e-12)
+
+
+def test_jacobian_agrees_with_finite_differences():
+    rig = blended_rig()
+    rng = np.random.default_rng(7)
+    pose = 0.6 * rng.standard_normal((2, 17, 3))
+    place = rng.standard_normal((2, 3))
+    turning = rng.random(17) < 0.7
+    turning[0] = True
+    jacobian = landmark_jacobian(rig, pose_landmarks(rig, pose, place), turning)
+    step = 1e-6
+    for column, joint in enumerate(np.flatnonzero(turning)):
+        for axis in range(3):
+            ahead = np.zeros((34, 3))
+            ahead[[joint, 17 + joint], axis] = step
+            moved = [
+                pose_landmarks(
+                    rig, compose(sign * ahead, pose.reshape(-1, 3)).reshape(2, 17, 3), place
+                ).points
+                for sign in (1.0, -1.0)
+            ]
+            slope = (moved[0] - moved[1]) / (2 * step)
+            np.testing.assert_allclose(jacobian[..., 3 * column + axis], slope, atol=1e-8)
+
+
+def test_the_mirror_image_of_a_pose_has_the_mirrored_landmarks():
+    rng = np.random.default_rng(8)
+    pose = 0.6 * rng.standard_normal((17, 3))
+    points = pose_landmarks(RIG, pose, np.zeros(3)).points
+    mirrored = pose_landmarks(RIG, mirrored_pose(pose), np.zeros(3)).points
+    for name in RIG.landmark_names:
+        partner = name.replace("left_", "#").replace("right_", "left_").replace("#", "right_")
+        np.testing.assert_allclose(
+            mirrored[RIG.landmark_names.index(partner)],
+            points[RIG.landmark_names.index(name)] * [-1.0, 1.0, 1.0],
+            atol=1e-12,
+        )
+
+
+def test_a_model_gives_landmarks_regressed_from_its_vertices():
+    model = bar_model()
+    shape = np.array([0.5, -1.0])
+    rig = landmark_rig(model, shape)
+    vertices = model.mean_vertices + np.tensordot(shape, model.shape_basis, axes=1)
+    expected = regress(model.landmarks, vertices)
+    np.testing.assert_allclose(rig.rest_landmarks, expected)
+    np.testing.assert_allclose(rig.weights.sum(axis=1), 1.0)
+    root = regress(model.joint_regressor, vertices)[0]
+    resting = pose_landmarks(rig, np.zeros((3, 3)), np.zeros(3)).points
+    np.testing.assert_allclose(resting, (expected - root) * CAMERA_AXES, atol=1e-12)
+
+
+def test_limb_lengths_follow_the_landmarks():
+    lengths = limb_lengths_m(RIG)
+    knee, ankle = RIG.landmark("left_knee"), RIG.landmark("left_ankle")
+    assert lengths["left_shin"] == pytest.approx(np.linalg.norm(knee - ankle))
+    assert lengths["left_shin"] == pytest.approx(lengths["right_shin"])
+    assert point_at_rest(RIG, "pelvis_middle")[0] == pytest.approx(0.0)
