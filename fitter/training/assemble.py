@@ -1,0 +1,219 @@
+"""From registered bodies to a body model."""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+
+from fitter.arrays import Pose, Shape, Vertices
+from fitter.body.model import BodyModel, SparseRows
+from fitter.body.scape import ScapeEvaluator
+from fitter.body.stature import stature_m
+from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
+from fitter.parameters import BodyParameters
+from fitter.training.attribute_axes import Attribute, attribute_preserving_axes
+from fitter.training.joints import fit_joint_regressor, regressed_joints, rest_joints_of
+from fitter.training.makehuman import BaseMesh
+from fitter.training.named_poses import canonical_pose, standing_pose
+from fitter.training.part_tree import PART_NAMES, PART_PARENT, mirrored_part, part_index
+from fitter.training.parts import cut_into_parts
+from fitter.training.pose_term import PoseExample, pose_feature_joints, train_pose_term
+from fitter.training.principal_shapes import PrincipalShapes, principal_shapes
+from fitter.training.random_poses import random_pose
+from fitter.training.surface import triangle_areas, vertex_areas
+
+SHAPE_COUNT = 20
+"""n in the paper's experiments."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class RegisteredBodies:
+    """Bodies on one mesh, at rest in one pose, body frame, metres.
+
+    Attributes
+    ----------
+    rest
+        (s, m, 3).
+    joints
+        (s, p, 3) true centres about which the parts turn.
+    posed
+        Body of an index in a pose: a rig's answer here, registered scans for those who have them.
+    """
+
+    rest: Float[np.ndarray, "s m 3"]
+    joints: Float[np.ndarray, "s p 3"]
+    posed: Callable[[int, Pose], Vertices]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class TrainedModel:
+    """A body model with the training subjects' coefficients in its shape space."""
+
+    model: BodyModel
+    coefficients: Float[np.ndarray, "s n"]
+
+
+def assemble_body_model(
+    bodies: RegisteredBodies,
+    surface: BaseMesh,
+    part_weights: Float[np.ndarray, "m p"],
+    landmarks: SparseRows,
+    *,
+    header: Mapping[str, object],
+    example_count: int,
+    rng: np.random.Generator,
+) -> TrainedModel:
+    """Learn shape space, articulation and pose-dependent term.
+
+    Parameters
+    ----------
+    bodies
+        The training subjects.
+    surface
+        The mesh they share.
+    part_weights
+        Skinning weights summed over each part.
+    landmarks
+        Rows by name; height needs ``crown``, ``sole_left`` and ``sole_right``.
+    header
+        Provenance, with the gender.
+    example_count
+        Posed bodies the pose-dependent term learns from; none leaves it zero.
+    rng
+        Draws their poses.
+    """
+    triangles = surface.triangles
+    masses = vertex_areas(bodies.rest.mean(axis=0, dtype=np.float64), triangles)
+    shapes = principal_shapes(bodies.rest, masses, SHAPE_COUNT)
+    mirror_joint = np.array([part_index(mirrored_part(name)) for name in PART_NAMES])
+    regressor = fit_joint_regressor(bodies.rest, bodies.joints, surface.mirror, mirror_joint)
+    mean = _as_stored(_rooted(shapes.mean[None], regressor)[0])
+    areas = _as_stored(triangle_areas(mean, triangles))
+    parts = cut_into_parts(triangles, part_weights)
+    laplacians = part_laplacians(
+        gradient_operator(mean, triangles), areas, parts.part_of_triangle, len(PART_NAMES)
+    )
+    feature_joints = pose_feature_joints()
+    joints = rest_joints_of(regressor, mean)
+    model = BodyModel(
+        gender=str(header["gender"]),
+        header=header,
+        triangles=triangles,
+        mean_vertices=mean,
+        shape_basis=_rooted(shapes.axes, regressor),
+        part_names=PART_NAMES,
+        part_parent=PART_PARENT,
+        part_of_triangle=parts.part_of_triangle,
+        triangle_weights=areas,
+        joint_regressor=regressor,
+        skinning_parts=parts.skinning_parts,
+        skinning_weights=parts.skinning_weights,
+        pose_feature_joints=feature_joints,
+        incidence_pointers=parts.incidence_pointers,
+        incidence_vertices=parts.incidence_vertices,
+        pose_right_hand_sides=_as_stored(
+            train_pose_term(
+                pose_examples(bodies, example_count, rng), laplacians, parts, feature_joints
+            )
+        ),
+        landmarks=landmarks,
+        uv=surface.uv,
+        uv_triangles=surface.uv_triangles,
+        mirror=surface.mirror,
+        canonical_pose=canonical_pose(joints),
+        standing_pose=standing_pose(joints),
+    )
+    return with_height_axis(model, shapes, masses)
+
+
+def with_height_axis(
+    model: BodyModel, shapes: PrincipalShapes, masses: Float[np.ndarray, " m"]
+) -> TrainedModel:
+    """The model in the basis whose first axis alone carries height (section 4)."""
+    height = height_attribute(model)
+    sizes = np.sqrt(np.einsum("nmc,m,nmc->n", shapes.axes, masses, shapes.axes, optimize=True))
+    found = attribute_preserving_axes(
+        height,
+        shapes.coefficients,
+        np.array([height(shape) for shape in shapes.coefficients]),
+        sizes,
+    )
+    basis = np.tensordot(found.rotation.T, model.shape_basis, axes=1)
+    return TrainedModel(
+        model=replace(model, shape_basis=basis),
+        coefficients=shapes.coefficients @ found.rotation,
+    )
+
+
+def height_attribute(model: BodyModel) -> Attribute:
+    """H(β): stature of the body reconstructed in the standing pose, metres."""
+    evaluator = ScapeEvaluator(model)
+
+    def height(shape: Shape) -> float:
+        parameters = BodyParameters(
+            pose=model.standing_pose, translation=np.zeros(3), shape=np.asarray(shape)
+        )
+        return stature_m(evaluator.body_frame_vertices(parameters), model.landmarks)
+
+    return height
+
+
+def pose_examples(
+    bodies: RegisteredBodies, count: int, rng: np.random.Generator
+) -> Iterator[PoseExample]:
+    """Posed bodies, subjects taken in turn, poses at random."""
+    for k in range(count):
+        subject = k % len(bodies.rest)
+        pose = random_pose(rng)
+        yield PoseExample(
+            rest=bodies.rest[subject].astype(np.float64),
+            posed=bodies.posed(subject, pose),
+            pose=pose,
+        )
+
+
+def model_arrays(model: BodyModel) -> dict[str, np.ndarray]:
+    """The fields of a model file (see :mod:`fitter.body.storage`), in single precision."""
+    integers = {
+        "triangles": model.triangles,
+        "part_parent": model.part_parent,
+        "part_of_triangle": model.part_of_triangle,
+        "joint_pointers": model.joint_regressor.pointers,
+        "joint_indices": model.joint_regressor.indices,
+        "skinning_parts": model.skinning_parts,
+        "pose_feature_joints": model.pose_feature_joints,
+        "incidence_pointers": model.incidence_pointers,
+        "incidence_vertices": model.incidence_vertices,
+        "landmark_pointers": model.landmarks.pointers,
+        "landmark_indices": model.landmarks.indices,
+        "uv_triangles": model.uv_triangles,
+        "mirror": model.mirror,
+    }
+    floats = {
+        "mean_vertices": model.mean_vertices,
+        "shape_basis": model.shape_basis,
+        "triangle_weights": model.triangle_weights,
+        "joint_weights": model.joint_regressor.weights,
+        "skinning_weights": model.skinning_weights,
+        "pose_right_hand_sides": model.pose_right_hand_sides,
+        "landmark_weights": model.landmarks.weights,
+        "uv": model.uv,
+        "canonical_pose": model.canonical_pose,
+        "standing_pose": model.standing_pose,
+    }
+    return {name: np.asarray(array, dtype=np.int32) for name, array in integers.items()} | {
+        name: np.asarray(array, dtype=np.float32) for name, array in floats.items()
+    }
+
+
+def _rooted(
+    meshes: Float[np.ndarray, "k m 3"], regressor: SparseRows
+) -> Float[np.ndarray, "k m 3"]:
+    """Meshes, or displacements, moved so that the root joint lies at the origin."""
+    return meshes - regressed_joints(regressor, meshes)[:, :1]
+
+
+def _as_stored(array: np.ndarray) -> np.ndarray:
+    """Rounded to what the file keeps, so that training sees what the fit will."""
+    return array.astype(np.float32).astype(np.float64)
