@@ -3,6 +3,7 @@
 import hashlib
 import json
 import zipfile
+import zlib
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -41,6 +42,9 @@ FIELDS: Mapping[str, tuple[str, tuple[str | int, ...]]] = {
     "canonical_pose": ("f", ("p", 3)),
     "standing_pose": ("f", ("p", 3)),
 }
+
+# What numpy raises on a missing header, a cut, emptied, damaged or pickled file, or a bare .npy.
+_UNREADABLE = (OSError, EOFError, ValueError, KeyError, TypeError, zipfile.BadZipFile, zlib.error)
 
 HEADER_KEYS = (
     "format_version",
@@ -105,10 +109,11 @@ def load_body_model(path: Path) -> BodyModel:
         message = f"No body model at {path.name}. {REBUILD}"
         raise ModelFileError(message)
     try:
-        with np.load(path, allow_pickle=False) as archive:
+        # numpy leaves the file open when it finds no archive in it, so it is opened here.
+        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as archive:
             members = {name: archive[name] for name in archive.files}
         header = json.loads(members["header"].tobytes())
-    except (OSError, ValueError, KeyError, zipfile.BadZipFile) as error:
+    except _UNREADABLE as error:
         message = f"{path.name} is not a readable body model ({error}). {REBUILD}"
         raise ModelFileError(message) from error
     _check_fields(path.name, header, members)
