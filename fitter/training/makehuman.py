@@ -39,6 +39,8 @@ class BaseMesh:
     triangles
         (f, 3) over the m body vertices: closed, manifold, genus 0, counter-clockwise seen from
         outside. Mouth and eye sockets are cut away and their openings capped.
+    cap_triangles
+        Ids of the triangles that close mouth and eyes.
     uv, uv_triangles
         Texture layout of the body.
     mirror
@@ -49,6 +51,7 @@ class BaseMesh:
     groups: Mapping[str, Integer[np.ndarray, " g"]]
     body_vertex_ids: Integer[np.ndarray, " m"]
     triangles: Triangles
+    cap_triangles: Integer[np.ndarray, " c"]
     uv: Float[np.ndarray, "u 2"]
     uv_triangles: Triangles
     mirror: Integer[np.ndarray, " m"]
@@ -88,6 +91,7 @@ def load_base_mesh(folder: Path) -> BaseMesh:
         groups=_read_groups(folder / "mesh_metadata" / "basemesh_vertex_groups.json"),
         body_vertex_ids=used,
         triangles=np.searchsorted(used, surface.triangles).astype(np.int32),
+        cap_triangles=surface.cap_triangles,
         uv=uv[used_uv],
         uv_triangles=np.searchsorted(used_uv, surface.uv_triangles).astype(np.int32),
         mirror=np.searchsorted(used, mirror[used]).astype(np.int32),
@@ -112,14 +116,6 @@ def load_targets(folder: Path, names: Sequence[str], count: int) -> Float[np.nda
         rows = _read_target(folder / "targets" / f"{name}.target.gz")
         target[rows[:, 0].astype(int)] = METRES_PER_UNIT * rows[:, 1:]
     return displacements
-
-
-def posed_sources(
-    base: Vertices, targets: Float[np.ndarray, "k v 3"], coefficients: Float[np.ndarray, " k"]
-) -> Vertices:
-    """Source vertices of a subject at rest: linear in the coefficients of its targets."""
-    active = np.flatnonzero(coefficients)
-    return base + np.tensordot(coefficients[active], targets[active], axes=1)
 
 
 def _read_obj(

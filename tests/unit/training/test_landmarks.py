@@ -1,0 +1,69 @@
+import numpy as np
+import pytest
+
+from fitter.body.model import SparseRows
+from fitter.body.skeleton import regress
+from fitter.training.body_space import average_traits, source_vertices
+from fitter.training.landmarks import INNER_JOINTS, body_landmarks
+from fitter.training.makehuman import makehuman_folder
+from tests.unit.training.makehuman_data import base_mesh, body_space, needs_makehuman
+
+pytestmark = needs_makehuman
+
+
+@pytest.fixture(scope="module")
+def landmarks() -> SparseRows:
+    spaces = [body_space("female"), body_space("male")]
+    return body_landmarks(makehuman_folder(), base_mesh(), spaces)
+
+
+def points(landmarks: SparseRows, gender: str) -> dict[str, np.ndarray]:
+    space = body_space(gender)
+    vertices = source_vertices(space, average_traits(), space.neutral)
+    found = regress(landmarks, base_mesh().body(vertices))
+    return dict(zip(landmarks.names, found, strict=True))
+
+
+def test_every_row_sums_to_one(landmarks: SparseRows):
+    sums = np.add.reduceat(landmarks.weights, landmarks.pointers[:-1])
+    np.testing.assert_allclose(sums, 1.0, atol=1e-9)
+
+
+def test_landmarks_do_not_depend_on_where_the_body_stands(landmarks: SparseRows):
+    body = base_mesh().body(base_mesh().source_vertices)
+    moved = regress(landmarks, body + [1.0, 2.0, 3.0]) - regress(landmarks, body)
+    np.testing.assert_allclose(moved, np.broadcast_to([1.0, 2.0, 3.0], moved.shape), atol=1e-9)
+
+
+@pytest.mark.parametrize("gender", ["female", "male"])
+def test_left_and_right_mirror_each_other(landmarks: SparseRows, gender: str):
+    found = points(landmarks, gender)
+    for name, point in found.items():
+        swap = {"left": "right", "right": "left"}
+        other = "_".join(swap.get(word, word) for word in name.split("_"))
+        np.testing.assert_allclose(found[other] * [-1, 1, 1], point, atol=2e-3)
+        if "left" in name:
+            assert point[0] > 0.02
+
+
+@pytest.mark.parametrize("gender", ["female", "male"])
+def test_landmarks_stack_as_a_body_does(landmarks: SparseRows, gender: str):
+    found = points(landmarks, gender)
+    downwards = ["crown", "left_eye", "nose", "chin", "cervicale", "neck", "left_nipple", "navel"]
+    downwards += ["left_hip", "crotch", "left_knee", "left_ankle", "left_heel", "sole_left"]
+    heights = np.array([found[name][1] for name in downwards])
+    assert (np.diff(heights) < 0.0).all()
+    frontwards = ["seat", "left_hip", "navel"]
+    assert (np.diff([found[name][2] for name in frontwards]) > 0.0).all()
+    assert found["left_toe"][2] > found["left_ankle"][2] > found["left_heel"][2]
+    assert 0.25 < found["left_acromion"][0] * 2 < 0.45
+
+
+@pytest.mark.parametrize("gender", ["female", "male"])
+def test_inner_points_lie_at_the_joints_of_the_average_body(landmarks: SparseRows, gender: str):
+    space = body_space(gender)
+    vertices = source_vertices(space, average_traits(), space.neutral)
+    found = points(landmarks, gender)
+    for name, group in INNER_JOINTS.items():
+        joint = vertices[space.base.groups[group]].mean(axis=0)
+        assert np.linalg.norm(found[f"left_{name}"] - joint) < 0.012, name
