@@ -1,0 +1,53 @@
+"""The working picture: the original averaged down to a size the fit is quick and precise at."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, UInt8
+
+from fitter.observation import _kernels
+from fitter.observation.colour import linear_from_display
+
+WORKING_PIXELS = 400_000
+"""Largest working picture. At 640x480 a pixel is about 4 mm on a standing person, and the contour
+is found to a fraction of one; more pixels cost time in every stage and bring detail the body
+model does not have."""
+
+_LINEAR_OF_BYTE = linear_from_display(np.arange(256) / 255.0)
+_SHARE_OF_BYTE = np.arange(256) / 255.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WorkingSize:
+    """``scale`` times the original, in both directions alike, so that pixels stay square.
+
+    Up to one working pixel at the right and lower border is left out, because a whole number of
+    pixels at one scale rarely fits; stretching them to fit would shift every point instead.
+    """
+
+    width: int
+    height: int
+    scale: float
+
+
+def working_size(*, width: int, height: int) -> WorkingSize:
+    """The size to work at; a picture is never enlarged."""
+    scale = min(1.0, (WORKING_PIXELS / (width * height)) ** 0.5)
+    return WorkingSize(width=int(width * scale), height=int(height * scale), scale=scale)
+
+
+def linear_working_picture(
+    pixels: UInt8[np.ndarray, "h w 3"], size: WorkingSize
+) -> Float[np.ndarray, "h2 w2 3"]:
+    """Linear light at the working size, float32: light averages, display values do not."""
+    return _kernels.area_average(pixels, _LINEAR_OF_BYTE, 1.0 / size.scale, size.width, size.height)
+
+
+def working_coverage(
+    coverage: UInt8[np.ndarray, "h w"], size: WorkingSize
+) -> Float[np.ndarray, "h2 w2"]:
+    """Share of each working pixel that is foreground, in [0, 1]."""
+    shares = _kernels.area_average(
+        coverage[:, :, None], _SHARE_OF_BYTE, 1.0 / size.scale, size.width, size.height
+    )
+    return shares[:, :, 0]

@@ -1,0 +1,47 @@
+"""What the caller says of the person and the light, checked."""
+
+import math
+
+from fitter.errors import InvalidInputError
+from fitter.request import FitRequest
+
+PLAUSIBLE_HEIGHT_M = (1.2, 2.3)
+"""The adults the shape spaces were learned from, with room; outside, shapes are extrapolations."""
+
+
+def check_subject(request: FitRequest) -> None:
+    """Refuse a height or a first light that cannot be.
+
+    Raises
+    ------
+    InvalidInputError
+        ``height-out-of-range`` or ``light-invalid``.
+    """
+    low, high = PLAUSIBLE_HEIGHT_M
+    if request.height_m is not None and not low <= request.height_m <= high:
+        raise InvalidInputError(
+            code="height-out-of-range",
+            field="height_m",
+            reason=f"A height of {request.height_m:g} m is outside {low:g} to {high:g} m.",
+            remedy="Give the standing height in metres, or leave it out for the mean.",
+        )
+    guess = request.light
+    for name, value in (
+        ("azimuth", guess.azimuth),
+        ("elevation", guess.elevation),
+        ("distance", guess.distance),
+    ):
+        if value is not None and not math.isfinite(value):
+            raise InvalidInputError(
+                code="light-invalid",
+                field=f"light.{name}",
+                reason="The value is not a finite number.",
+                remedy="Leave it out to have it estimated.",
+            )
+    if guess.distance is not None and guess.distance <= 0.0:
+        raise InvalidInputError(
+            code="light-invalid",
+            field="light.distance",
+            reason="A light's distance is positive.",
+            remedy="Give metres from the person, or leave it out.",
+        )

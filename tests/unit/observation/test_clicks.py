@@ -1,0 +1,147 @@
+import math
+from dataclasses import replace
+
+import pytest
+
+from fitter.errors import InvalidInputError
+from fitter.observation.clicks import POINT_NAMES, check_clicks, side_warnings
+from fitter.request import Click
+from tests.unit.observation.pictures import HEIGHT, WIDTH, standing_clicks
+
+
+def problem_of(clicks: dict[str, Click]) -> InvalidInputError:
+    with pytest.raises(InvalidInputError) as caught:
+        check_clicks(clicks, width=WIDTH, height=HEIGHT)
+    return caught.value
+
+
+def only(*names: str) -> dict[str, Click]:
+    return {name: standing_clicks()[name] for name in names}
+
+
+def swapped(clicks: dict[str, Click], *pairs: str) -> dict[str, Click]:
+    result = dict(clicks)
+    for pair in pairs:
+        left, right = f"left_{pair}", f"right_{pair}"
+        result[left], result[right] = clicks[right], clicks[left]
+    return result
+
+
+def turned(clicks: dict[str, Click], degrees: float) -> dict[str, Click]:
+    cosine, sine = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    return {
+        name: replace(
+            click, x=cosine * click.x - sine * click.y, y=sine * click.x + cosine * click.y
+        )
+        for name, click in clicks.items()
+    }
+
+
+def warning_codes(clicks: dict[str, Click]) -> list[str]:
+    return [warning.code for warning in side_warnings(clicks)]
+
+
+BODY_PAIRS = ("shoulder", "elbow", "wrist", "hip", "knee", "ankle")
+
+
+def test_a_standing_person_is_accepted_without_warnings():
+    check_clicks(standing_clicks(), width=WIDTH, height=HEIGHT)
+    assert side_warnings(standing_clicks()) == ()
+
+
+def test_coco_and_further_points_are_known_once_each():
+    assert len(POINT_NAMES) == len(set(POINT_NAMES)) == 24
+
+
+def test_a_half_figure_without_hips_is_enough():
+    check_clicks(
+        only("left_shoulder", "right_shoulder", "left_elbow", "right_elbow", "left_wrist",
+             "right_wrist"),
+        width=WIDTH, height=HEIGHT,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        (),
+        ("left_shoulder", "right_shoulder", "left_elbow", "right_elbow", "left_wrist"),
+        ("left_knee", "right_knee", "left_elbow", "right_elbow", "left_wrist", "right_wrist"),
+        ("left_shoulder", "left_knee", "right_knee", "left_elbow", "right_elbow", "left_wrist",
+         "nose", "left_eye"),
+    ],
+)  # fmt: skip
+def test_too_few_points_are_refused_and_the_least_set_is_named(names: tuple[str, ...]):
+    problem = problem_of(only(*names))
+    assert problem.code == "points-too-few"
+    assert "6" in problem.remedy
+    assert "shoulders or hips" in problem.remedy
+
+
+@pytest.mark.parametrize("place", [(-0.1, 5), (5, -0.1), (WIDTH + 0.1, 5), (5, HEIGHT + 0.1)])
+def test_a_point_outside_the_picture_is_refused_by_name(place: tuple[float, float]):
+    problem = problem_of(standing_clicks() | {"left_knee": Click(x=place[0], y=place[1])})
+    assert (problem.code, problem.field) == ("point-outside-picture", "points.left_knee")
+
+
+def test_points_on_the_border_are_inside():
+    clicks = standing_clicks() | {"left_knee": Click(x=WIDTH, y=HEIGHT), "nose": Click(x=0, y=0)}
+    check_clicks(clicks, width=WIDTH, height=HEIGHT)
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_a_coordinate_that_is_no_number_is_refused_by_name(value: float):
+    problem = problem_of(standing_clicks() | {"right_hip": Click(x=value, y=5)})
+    assert (problem.code, problem.field) == ("point-not-finite", "points.right_hip")
+
+
+def test_an_unknown_point_is_refused():
+    problem = problem_of(standing_clicks() | {"left_antenna": Click(x=5, y=5)})
+    assert (problem.code, problem.field) == ("point-unknown", "points.left_antenna")
+
+
+def test_points_as_shares_of_the_picture_are_refused():
+    shares = {
+        name: Click(x=click.x / WIDTH, y=click.y / HEIGHT)
+        for name, click in standing_clicks().items()
+    }
+    assert problem_of(shares).code == "points-too-close"
+
+
+def test_a_person_seen_from_behind_gives_no_warning():
+    clicks = swapped(standing_clicks(), *BODY_PAIRS)
+    without_face = {
+        name: click for name, click in clicks.items() if "eye" not in name and name != "nose"
+    }
+    assert side_warnings(without_face) == ()
+    hidden_face = without_face | {
+        name: replace(standing_clicks()[name], occluded=True) for name in ("left_eye", "right_eye")
+    }
+    assert side_warnings(hidden_face) == ()
+
+
+def test_swapped_hips_are_warned_of():
+    assert warning_codes(swapped(standing_clicks(), "hip")) == ["shoulders-and-hips-disagree"]
+
+
+@pytest.mark.parametrize("pairs", [BODY_PAIRS, (*BODY_PAIRS, "eye"), ("eye",)])
+def test_left_and_right_swapped_under_a_visible_face_are_warned_of(pairs: tuple[str, ...]):
+    clicks = swapped(standing_clicks(), *pairs)
+    assert warning_codes(clicks) == ["left-and-right-may-be-swapped"]
+
+
+@pytest.mark.parametrize("degrees", [0, 90, 180, 250])
+def test_lying_down_or_standing_on_the_head_changes_no_verdict(degrees: float):
+    assert warning_codes(turned(standing_clicks(), degrees)) == []
+    swapped_hips = turned(swapped(standing_clicks(), "hip"), degrees)
+    assert warning_codes(swapped_hips) == ["shoulders-and-hips-disagree"]
+
+
+def test_crossed_legs_give_no_warning():
+    assert warning_codes(swapped(standing_clicks(), "knee", "ankle")) == []
+
+
+def test_a_profile_decides_nothing_by_a_few_pixels():
+    clicks = standing_clicks()
+    clicks["left_hip"], clicks["right_hip"] = Click(x=59, y=82), Click(x=61, y=82)
+    assert warning_codes(clicks) == []

@@ -1,0 +1,95 @@
+import io
+
+import numpy as np
+import pytest
+from PIL import Image as PillowImage
+from PIL.TiffImagePlugin import IFDRational
+
+from fitter.observation.decoding import decode_picture
+from fitter.observation.exif import ExifTags, read_exif
+from tests.unit.observation.pictures import HEIGHT, WIDTH, encode, smooth
+
+UPRIGHT = smooth()
+
+# How a camera that stores with each orientation must have turned the upright picture.
+STORED_AS = {
+    1: UPRIGHT,
+    2: UPRIGHT[:, ::-1],
+    3: UPRIGHT[::-1, ::-1],
+    4: UPRIGHT[::-1],
+    5: UPRIGHT.transpose(1, 0, 2),
+    6: np.rot90(UPRIGHT),
+    7: np.rot90(UPRIGHT[::-1, ::-1].transpose(1, 0, 2), 0),
+    8: np.rot90(UPRIGHT, -1),
+}
+
+
+def with_exif(directory: dict[int, object], *, orientation: object = None) -> bytes:
+    exif = PillowImage.Exif()
+    if orientation is not None:
+        exif[0x0112] = orientation
+    exif.get_ifd(0x8769).update(directory)
+    return encode(PillowImage.new("RGB", (WIDTH, HEIGHT)), "JPEG", exif=exif)
+
+
+def tags(data: bytes) -> ExifTags:
+    return read_exif(PillowImage.open(io.BytesIO(data)))
+
+
+@pytest.mark.parametrize("kind", ["PNG", "WEBP"])
+@pytest.mark.parametrize("orientation", range(1, 9))
+def test_every_exif_orientation_comes_out_upright(orientation: int, kind: str):
+    exif = PillowImage.Exif()
+    exif[0x0112] = orientation
+    stored = PillowImage.fromarray(np.ascontiguousarray(STORED_AS[orientation]))
+    options = {"lossless": True} if kind == "WEBP" else {}
+    picture = decode_picture(
+        encode(stored, kind, exif=exif, **options), field="image", max_pixels=1_000_000
+    )
+    np.testing.assert_array_equal(picture.pixels, UPRIGHT)
+    assert picture.stored_width == stored.width
+
+
+@pytest.mark.parametrize("orientation", [0, 9, 77])
+def test_an_orientation_out_of_range_counts_as_upright(orientation: int):
+    assert tags(with_exif({}, orientation=orientation)).orientation == 1
+
+
+def test_focal_length_fields_are_read():
+    found = tags(
+        with_exif(
+            {0xA405: 28, 0x920A: IFDRational(4200, 1000), 0xA20E: IFDRational(10160), 0xA002: 4000}
+        )
+    )
+    assert found.focal_length_35mm == 28
+    assert found.focal_length_mm == pytest.approx(4.2)
+    assert found.sensor_pixels_per_mm == pytest.approx(400.0)
+    assert found.pixel_x_dimension == 4000
+
+
+@pytest.mark.parametrize(("unit", "millimetres"), [(2, 25.4), (3, 10), (4, 1), (5, 0.001)])
+def test_sensor_resolution_is_in_its_unit(unit: int, millimetres: float):
+    found = tags(with_exif({0xA20E: IFDRational(5080), 0xA210: unit}))
+    assert found.sensor_pixels_per_mm == pytest.approx(5080 / millimetres)
+
+
+def test_an_unknown_resolution_unit_gives_no_sensor_size():
+    assert tags(with_exif({0xA20E: IFDRational(5080), 0xA210: 1})).sensor_pixels_per_mm is None
+
+
+@pytest.mark.parametrize("value", [0, IFDRational(0, 0), IFDRational(-5, 1)])
+def test_values_that_mean_unknown_are_none(value: object):
+    found = tags(with_exif({0xA405: 0, 0x920A: value, 0xA20E: value}))
+    assert found == ExifTags()
+
+
+def test_a_picture_without_exif_has_none():
+    assert tags(encode(PillowImage.new("RGB", (8, 8)), "JPEG")) == ExifTags()
+
+
+def test_a_broken_exif_block_counts_as_none():
+    data = encode(
+        PillowImage.new("RGB", (WIDTH, HEIGHT)), "JPEG", exif=b"Exif\x00\x00II*\x00\xff\xff\xff\x7f"
+    )
+    picture = decode_picture(data, field="image", max_pixels=1_000_000)
+    assert picture.exif == ExifTags()
