@@ -8,56 +8,41 @@ from numba import njit
 
 @no_type_check
 @njit(cache=True)
-def _distance(vertices, vertex, point, normal):
-    return (
-        (vertices[vertex, 0] - point[0]) * normal[0]
-        + (vertices[vertex, 1] - point[1]) * normal[1]
-        + (vertices[vertex, 2] - point[2]) * normal[2]
-    )
-
-
-@no_type_check
-@njit(cache=True)
-def _is_crossed(vertices, triangle, corner, point, normal):
+def _is_crossed(heights, triangle, corner):
     """A vertex in the plane counts as above it, so every triangle has two crossed edges or none."""
-    start = _distance(vertices, triangle[corner], point, normal) >= 0.0
-    end = _distance(vertices, triangle[(corner + 1) % 3], point, normal) >= 0.0
-    return start != end
+    return (heights[triangle[corner]] >= 0.0) != (heights[triangle[(corner + 1) % 3]] >= 0.0)
 
 
 @no_type_check
 @njit(cache=True)
-def _crossing(vertices, triangle, corner, point, normal, out):
+def _crossing(vertices, heights, triangle, corner, out):
+    # From the lower vertex id to the higher, so that both triangles of an edge find one point.
     low = min(triangle[corner], triangle[(corner + 1) % 3])
     high = max(triangle[corner], triangle[(corner + 1) % 3])
-    below = _distance(vertices, low, point, normal)
-    above = _distance(vertices, high, point, normal)
-    along = below / (below - above)
+    along = heights[low] / (heights[low] - heights[high])
     for axis in range(3):
         out[axis] = vertices[low, axis] + along * (vertices[high, axis] - vertices[low, axis])
 
 
 @no_type_check
 @njit(cache=True)
-def _other_crossed_edge(vertices, triangle, entry, point, normal):
+def _other_crossed_edge(heights, triangle, entry):
     for step in range(1, 3):
         corner = (entry + step) % 3
-        if _is_crossed(vertices, triangle, corner, point, normal):
+        if _is_crossed(heights, triangle, corner):
             return corner
     return -1
 
 
 @no_type_check
 @njit(cache=True)
-def _walk(
-    vertices, triangles, neighbours, allowed, visited, start, entry, point, normal, out, count
-):
+def _walk(vertices, heights, triangles, neighbours, allowed, visited, start, entry, out, count):
     """Follow the cut from triangle ``start``, in through edge ``entry``; True if it closes."""
     current = start
     while True:
         visited[current] = True
-        leave = _other_crossed_edge(vertices, triangles[current], entry, point, normal)
-        _crossing(vertices, triangles[current], leave, point, normal, out[count])
+        leave = _other_crossed_edge(heights, triangles[current], entry)
+        _crossing(vertices, heights, triangles[current], leave, out[count])
         count += 1
         following = neighbours[current, leave]
         if following == start:
@@ -76,7 +61,9 @@ def _walk(
 
 @no_type_check
 @njit(cache=True)
-def trace_section(vertices, triangles, neighbours, allowed, candidates, point, normal):
+def trace_section(
+    vertices, triangles, neighbours, allowed, candidates, candidate_vertices, point, normal
+):
     """Polylines of a plane cut, one after the other.
 
     Returns the points, where each polyline starts, and whether it closes.
@@ -86,6 +73,13 @@ def trace_section(vertices, triangles, neighbours, allowed, candidates, point, n
     starts = np.empty(candidates.size + 1, dtype=np.int64)
     closed = np.empty(candidates.size + 1, dtype=np.bool_)
     visited = np.zeros(triangles.shape[0], dtype=np.bool_)
+    heights = np.empty(vertices.shape[0])
+    for v in candidate_vertices:
+        heights[v] = (
+            (vertices[v, 0] - point[0]) * normal[0]
+            + (vertices[v, 1] - point[1]) * normal[1]
+            + (vertices[v, 2] - point[2]) * normal[2]
+        )
     total = 0
     lines = 0
     for index in range(candidates.size):
@@ -94,21 +88,21 @@ def trace_section(vertices, triangles, neighbours, allowed, candidates, point, n
             continue
         entry = -1
         for corner in range(3):
-            if _is_crossed(vertices, triangles[t], corner, point, normal):
+            if _is_crossed(heights, triangles[t], corner):
                 entry = corner
                 break
         if entry < 0:
             continue
         starts[lines] = total
         closes, count = _walk(
-            vertices, triangles, neighbours, allowed, visited, t, entry, point, normal,
+            vertices, heights, triangles, neighbours, allowed, visited, t, entry,
             points[total:], 0,
         )  # fmt: skip
         if not closes:
             back = 0
-            leave = _other_crossed_edge(vertices, triangles[t], entry, point, normal)
+            leave = _other_crossed_edge(heights, triangles[t], entry)
             _, back = _walk(
-                vertices, triangles, neighbours, allowed, visited, t, leave, point, normal,
+                vertices, heights, triangles, neighbours, allowed, visited, t, leave,
                 behind, 0,
             )  # fmt: skip
             for k in range(count - 1, -1, -1):
@@ -152,3 +146,34 @@ def convex_hull(points):
         hull[size] = order[k]
         size += 1
     return hull[: max(size - 1, 1)].copy()
+
+
+@no_type_check
+@njit(cache=True)
+def flatten(points, origin, normal):
+    """Coordinates along two orthonormal directions of the plane through ``origin``."""
+    axis = np.argmin(np.abs(normal))
+    helper = np.zeros(3)
+    helper[axis] = 1.0
+    first = np.cross(normal, helper)
+    first /= np.sqrt(first @ first)
+    second = np.cross(normal, first)
+    flat = np.empty((points.shape[0], 2))
+    for k in range(points.shape[0]):
+        offset = points[k] - origin
+        flat[k, 0] = offset @ first
+        flat[k, 1] = offset @ second
+    return flat
+
+
+@no_type_check
+@njit(cache=True)
+def polygon_length(points):
+    """Length of the closed polygon through the points."""
+    total = 0.0
+    for k in range(points.shape[0]):
+        squared = 0.0
+        for axis in range(points.shape[1]):
+            squared += (points[k, axis] - points[k - 1, axis]) ** 2
+        total += np.sqrt(squared)
+    return total

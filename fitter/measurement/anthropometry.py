@@ -255,8 +255,7 @@ def _placements(body: MeasuringBody, taken: _Taken) -> Mapping[str, float]:
             definition,
             body.regions[definition.about.name],
             taken.vertices,
-            _point(definition.start, taken.canonical),
-            _point(definition.end, taken.canonical),
+            *_axis(definition, taken.canonical),
         )
         for definition in body.definitions
         if isinstance(definition, Girth)
@@ -286,12 +285,11 @@ def _value(
                 definition,
                 body.regions[name],
                 taken.vertices,
-                _point(definition.start, points),
-                _point(definition.end, points),
+                *_axis(definition, points),
                 placements[name],
             )
         case Length():
-            metres = path_length_m([_point(names, points) for names in definition.path])
+            metres = path_length_m([_point(names, taken.standing) for names in definition.path])
         case Height():
             soles = _point(("sole_left", "sole_right"), taken.standing)
             metres = float(_point(definition.point, taken.standing)[1] - soles[1])
@@ -305,5 +303,15 @@ def _value(
     return metres * CENTIMETRES_PER_METRE
 
 
+def _axis(girth: Girth, points: Mapping[str, Vector3]) -> tuple[Vector3, Vector3]:
+    """Where the girth's fractions 0 and 1 lie."""
+    start, end = _point(girth.start, points), _point(girth.end, points)
+    if girth.origin is None:
+        return start, end
+    axis = end - start
+    shift = axis * float((_point(girth.origin, points) - start) @ axis / (axis @ axis))
+    return start + shift, end + shift
+
+
 def _point(names: PointNames, points: Mapping[str, Vector3]) -> Vector3:
-    return np.mean([points[name] for name in names], axis=0)
+    return sum((points[name] for name in names[1:]), start=points[names[0]]) / len(names)

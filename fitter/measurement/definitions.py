@@ -65,13 +65,15 @@ class Girth:
     """Length of the convex hull of a plane cut, canonical pose.
 
     The plane stands on the axis from ``start`` to ``end`` at a fraction within ``fractions``
-    (0 is ``start``; the range may reach beyond both ends). ``parts`` are the body parts the cut
-    may run over; with ``around_axis`` only the line that surrounds the axis counts.
+    of its length. Zero is ``start``, or the point of the axis beside ``origin`` where one is
+    given; the range may reach beyond both ends. ``parts`` are the body parts the cut may run over;
+    with ``around_axis`` only the line that surrounds the axis counts.
     """
 
     about: About
     start: PointNames
     end: PointNames
+    origin: PointNames | None
     fractions: tuple[float, float]
     selection: Selection
     orientation: Orientation
@@ -81,7 +83,7 @@ class Girth:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Length:
-    """Sum of the straight distances along a path of points, canonical pose."""
+    """Sum of the straight distances along a path of points, standing pose with the arms hanging."""
 
     about: About
     path: tuple[PointNames, ...]
@@ -175,7 +177,7 @@ def points_of(definition: MeasurementDefinition) -> tuple[str, ...]:
     """Every point name a definition refers to."""
     match definition:
         case Girth():
-            return definition.start + definition.end
+            return definition.start + definition.end + (definition.origin or ())
         case Length():
             return tuple(name for names in definition.path for name in names)
         case Height():
@@ -269,6 +271,7 @@ def _read_girth(entry: _Entry, about: About) -> Girth:
         about=about,
         start=entry.names("start"),
         end=entry.names("end"),
+        origin=entry.names("origin") if "origin" in entry.fields else None,
         fractions=(low, high),
         selection=entry.choice("selection", Selection),
         orientation=entry.choice("orientation", Orientation),

@@ -10,7 +10,12 @@ import numpy as np
 from jaxtyping import Bool, Float, Integer
 
 from fitter.arrays import Points2D, Points3D, Triangles, Vector3, Vertices
-from fitter.measurement._section_kernels import convex_hull, trace_section
+from fitter.measurement._section_kernels import (
+    convex_hull,
+    flatten,
+    polygon_length,
+    trace_section,
+)
 from fitter.numerics.meshes import triangle_neighbours
 
 
@@ -32,14 +37,15 @@ class Region:
         (f, 3) of the whole mesh.
     allowed
         (f,) which triangles belong to the region.
-    members
-        Ids of those triangles, ascending.
+    members, vertices
+        Ids of those triangles and of their corners, ascending.
     """
 
     triangles: Triangles
     neighbours: Integer[np.ndarray, "f 3"]
     allowed: Bool[np.ndarray, " f"]
     members: Integer[np.ndarray, " r"]
+    vertices: Integer[np.ndarray, " c"]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -53,22 +59,24 @@ class Polyline:
 def whole_mesh(triangles: Triangles) -> Region:
     """The region of all triangles."""
     triangles = np.ascontiguousarray(triangles, dtype=np.int32)
-    return Region(
-        triangles=triangles,
-        neighbours=triangle_neighbours(triangles),
-        allowed=np.ones(len(triangles), dtype=np.bool_),
-        members=np.arange(len(triangles)),
-    )
+    everything = np.ones(len(triangles), dtype=np.bool_)
+    return _region(triangles, triangle_neighbours(triangles), everything)
 
 
 def restricted(region: Region, allowed: Bool[np.ndarray, " f"]) -> Region:
     """The region's triangles that are also ``allowed``."""
-    both = region.allowed & allowed
+    return _region(region.triangles, region.neighbours, region.allowed & allowed)
+
+
+def _region(
+    triangles: Triangles, neighbours: Integer[np.ndarray, "f 3"], allowed: Bool[np.ndarray, " f"]
+) -> Region:
     return Region(
-        triangles=region.triangles,
-        neighbours=region.neighbours,
-        allowed=both,
-        members=np.flatnonzero(both),
+        triangles=triangles,
+        neighbours=neighbours,
+        allowed=allowed,
+        members=np.flatnonzero(allowed),
+        vertices=np.unique(triangles[allowed]),
     )
 
 
@@ -80,6 +88,7 @@ def plane_section(vertices: Vertices, region: Region, plane: Plane) -> tuple[Pol
         region.neighbours,
         region.allowed,
         region.members,
+        region.vertices,
         plane.point,
         plane.normal,
     )
@@ -91,11 +100,7 @@ def plane_section(vertices: Vertices, region: Region, plane: Plane) -> tuple[Pol
 
 def in_plane(points: Points3D, plane: Plane) -> Points2D:
     """Coordinates of points along two orthonormal directions of the plane."""
-    smallest = int(np.argmin(np.abs(plane.normal)))
-    first = np.cross(plane.normal, np.eye(3)[smallest])
-    first /= np.linalg.norm(first)
-    second = np.cross(plane.normal, first)
-    return np.stack([(points - plane.point) @ first, (points - plane.point) @ second], axis=1)
+    return flatten(np.ascontiguousarray(points), plane.point, plane.normal)
 
 
 def hull_of(points: Points2D) -> Points2D:
@@ -105,7 +110,7 @@ def hull_of(points: Points2D) -> Points2D:
 
 def closed_length(points: Float[np.ndarray, "k d"]) -> float:
     """Length of the closed polygon through the points."""
-    return float(np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=1).sum())
+    return float(polygon_length(np.ascontiguousarray(points)))
 
 
 def surrounds(hull: Points2D, point: Float[np.ndarray, "2"]) -> bool:

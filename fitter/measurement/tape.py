@@ -36,7 +36,7 @@ def girth_at_m(
         return float("nan")
     if girth.around_axis and len(lines) > 1:
         lines = (_line_around(lines, plane),)
-    points = np.concatenate([line.points for line in lines])
+    points = lines[0].points if len(lines) == 1 else np.concatenate([e.points for e in lines])
     return closed_length(hull_of(in_plane(points, plane)))
 
 

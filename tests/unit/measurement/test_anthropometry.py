@@ -36,6 +36,7 @@ def bar_girth(name, *, fractions, selection=Selection.LARGEST):
         about=about(name),
         start=("joint:bottom",),
         end=("crown",),
+        origin=None,
         fractions=fractions,
         selection=selection,
         orientation=Orientation.LEVEL,

@@ -20,6 +20,7 @@ def girth(*, fractions=(0.0, 1.0), selection=Selection.LARGEST, around_axis=Fals
         ),
         start=("a",),
         end=("b",),
+        origin=None,
         fractions=fractions,
         selection=selection,
         orientation=Orientation.ACROSS_AXIS if across else Orientation.LEVEL,
