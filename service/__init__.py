@@ -1,0 +1,1 @@
+"""The HTTP service around the fitter: API, job engine, workers and command line."""

@@ -1,0 +1,29 @@
+"""What all wire types have in common."""
+
+from typing import LiteralString, cast
+
+from pydantic import BaseModel, ConfigDict
+from pydantic_core import PydanticCustomError
+
+
+class WireModel(BaseModel):
+    """Immutable, closed and strict: unknown fields, NaN and silent conversions are refused.
+
+    Strict validation follows JSON's own types only through ``model_validate_json``; always parse
+    the text, never an already decoded object.
+    """
+
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", allow_inf_nan=False, strict=True, ser_json_inf_nan="strings"
+    )
+
+
+def refusal(
+    code: str, reason: str, *, remedy: str, field: str | None = None
+) -> PydanticCustomError:
+    """Build a validation error that carries its remedy, and its field where it is not the place.
+
+    ``code`` is kebab-case, as it appears in a problem.
+    """
+    context = {"reason": reason, "remedy": remedy} | ({"field": field} if field else {})
+    return PydanticCustomError(cast("LiteralString", code), "{reason}", context)

@@ -1,0 +1,72 @@
+"""A job as a caller sees it: where it stands, what it reports, where its results are."""
+
+from datetime import datetime
+from enum import StrEnum
+from uuid import UUID
+
+from pydantic import Field
+
+from api_schemas.base import WireModel
+from api_schemas.problems import Problem
+
+
+class JobState(StrEnum):
+    """Where a job stands; the last four are final."""
+
+    QUEUED = "queued"
+    RUNNING = "running"
+    SUCCEEDED = "succeeded"
+    FAILED = "failed"
+    CANCELED = "canceled"
+    TIMED_OUT = "timed_out"
+
+
+class JobLinks(WireModel):
+    """Paths of a job's resources below this service's root; absent ones do not exist (yet)."""
+
+    self: str
+    events: str
+    cancel: str | None = None
+    result: str | None = None
+    artifacts: dict[str, str] = Field(default_factory=dict[str, str])
+
+
+class Job(WireModel):
+    """One accepted fit."""
+
+    id: UUID
+    state: JobState
+    stage: str | None = Field(description="The stage of the fit last reported.")
+    progress: float = Field(ge=0.0, le=1.0, description="The share of the fit that is done.")
+    attempt: int = Field(ge=0, description="How many times the fit was started.")
+    cancel_requested: bool
+    created_at: datetime
+    started_at: datetime | None
+    finished_at: datetime | None
+    problem: Problem | None = Field(description="Why the job has no result; null unless it failed.")
+    links: JobLinks
+
+
+class JobPage(WireModel):
+    """Jobs, newest first; ``next`` is the path of the following page."""
+
+    jobs: tuple[Job, ...]
+    next: str | None
+
+
+class EventKind(StrEnum):
+    """The ``event`` field of the event stream."""
+
+    STATE = "state"
+    PROGRESS = "progress"
+    END = "end"
+
+
+class EventData(WireModel):
+    """The ``data`` field of every event; ``energies`` are the fit's named terms at that moment."""
+
+    state: JobState
+    stage: str | None
+    progress: float = Field(ge=0.0, le=1.0)
+    energies: dict[str, float] = Field(default_factory=dict[str, float])
+    at: datetime

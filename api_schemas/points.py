@@ -1,0 +1,257 @@
+"""Clicked points, under our names or as a detector prints them.
+
+Coordinates are continuous pixels of the picture as a browser shows it (EXIF orientation applied):
+the origin is the top-left corner, the centre of the top-left pixel is (0.5, 0.5). Left and right
+are the person's own.
+"""
+
+from collections.abc import Mapping, Sequence
+from enum import StrEnum
+from typing import Annotated, Final, Literal, get_args
+
+from pydantic import BeforeValidator, Discriminator, Field, Tag, WithJsonSchema
+
+from api_schemas.base import WireModel, refusal
+
+CocoPointName = Literal[
+    "nose",
+    "left_eye",
+    "right_eye",
+    "left_ear",
+    "right_ear",
+    "left_shoulder",
+    "right_shoulder",
+    "left_elbow",
+    "right_elbow",
+    "left_wrist",
+    "right_wrist",
+    "left_hip",
+    "right_hip",
+    "left_knee",
+    "right_knee",
+    "left_ankle",
+    "right_ankle",
+]
+ExtraPointName = Literal[
+    "neck", "head_top", "chin", "left_toe", "right_toe", "left_heel", "right_heel"
+]
+PointName = CocoPointName | ExtraPointName
+
+COCO_POINT_NAMES: Final[tuple[CocoPointName, ...]] = get_args(CocoPointName)
+POINT_NAMES: Final[tuple[PointName, ...]] = COCO_POINT_NAMES + get_args(ExtraPointName)
+
+OPENPOSE_BODY25_INDEX: Final[Mapping[PointName, int]] = {
+    **dict(
+        zip(
+            COCO_POINT_NAMES,
+            (0, 16, 15, 18, 17, 5, 2, 6, 3, 7, 4, 12, 9, 13, 10, 14, 11),
+            strict=True,
+        )
+    ),
+    "left_toe": 19,
+    "left_heel": 21,
+    "right_toe": 22,
+    "right_heel": 24,
+}
+"""Where BODY_25 keeps each of our points. Its neck is the middle of the shoulders, not the throat,
+so it is left out."""
+
+BLAZEPOSE33_INDEX: Final[Mapping[PointName, int]] = {
+    **dict(
+        zip(
+            COCO_POINT_NAMES,
+            (0, 2, 5, 7, 8, 11, 12, 13, 14, 15, 16, 23, 24, 25, 26, 27, 28),
+            strict=True,
+        )
+    ),
+    "left_heel": 29,
+    "right_heel": 30,
+    "left_toe": 31,
+    "right_toe": 32,
+}
+
+BLAZEPOSE_SURE: Final = 0.5
+"""BlazePose points less visible than this are guesses: passed on as occluded."""
+
+
+class PointsFormat(StrEnum):
+    """How ``points`` is laid out."""
+
+    NAMED = "named"
+    COCO17 = "coco17"
+    OPENPOSE_BODY25 = "openpose_body25"
+    BLAZEPOSE33 = "blazepose33"
+
+
+POINT_COUNTS: Final[Mapping[PointsFormat, int]] = {
+    PointsFormat.COCO17: 17,
+    PointsFormat.OPENPOSE_BODY25: 25,
+    PointsFormat.BLAZEPOSE33: 33,
+}
+
+
+def _coco_visibility(value: object) -> int:
+    # bool is an int in Python and 2.0 is an integer in JSON Schema: take JSON's side in both.
+    if isinstance(value, int | float) and not isinstance(value, bool) and value in (0, 1, 2):
+        return int(value)
+    raise refusal(
+        code="unknown-visibility",
+        reason="Visibility is 0 (not in the picture), 1 (hidden, guessed) or 2 (seen).",
+        remedy="Send 0, 1 or 2 as COCO defines them, or leave it out for 2.",
+    )
+
+
+Visibility = Annotated[
+    int,
+    BeforeValidator(_coco_visibility),
+    WithJsonSchema({"type": "integer", "enum": [0, 1, 2], "title": "Visibility"}),
+]
+
+
+class Point(WireModel):
+    """A clicked point, continuous pixels, with COCO's visibility: 0 absent, 1 hidden, 2 seen."""
+
+    x: float
+    y: float
+    visibility: Visibility = 2
+
+
+class DetectorPoint(WireModel):
+    """A landmark as BlazePose prints it: x and y as shares of the picture's width and height."""
+
+    x: float
+    y: float
+    z: float | None = None
+    visibility: float | None = Field(default=None, ge=0.0, le=1.0)
+    presence: float | None = Field(default=None, ge=0.0, le=1.0)
+
+
+Pair = tuple[float, float]
+MarkedPair = tuple[float, float, Visibility]
+Row = tuple[float, float, float]
+
+
+def _point_kind(value: object) -> str:
+    if isinstance(value, Point | Mapping):
+        return "[object]"
+    if isinstance(value, Sequence) and len(value) == 3:  # pyright: ignore[reportUnknownArgumentType]
+        return "[triple]"
+    return "[pair]"
+
+
+def _points_kind(value: object) -> str:
+    if not isinstance(value, list | tuple):
+        return "[named]"
+    first: object = value[0] if value else None  # pyright: ignore[reportUnknownVariableType]
+    if isinstance(first, Mapping | DetectorPoint):
+        return "[landmarks]"
+    if isinstance(first, list | tuple):
+        return "[rows]"
+    return "[numbers]"
+
+
+NamedPoint = Annotated[
+    Annotated[Point, Tag("[object]")]
+    | Annotated[Pair, Tag("[pair]")]
+    | Annotated[MarkedPair, Tag("[triple]")],
+    Discriminator(_point_kind),
+]
+"""``[x, y]``, ``[x, y, visibility]`` or ``{"x": .., "y": .., "visibility": ..}``."""
+
+Points = Annotated[
+    Annotated[dict[PointName, NamedPoint], Tag("[named]")]
+    | Annotated[list[float], Field(min_length=1), Tag("[numbers]")]
+    | Annotated[list[Row], Field(min_length=1), Tag("[rows]")]
+    | Annotated[list[DetectorPoint], Field(min_length=1), Tag("[landmarks]")],
+    Discriminator(_points_kind),
+]
+"""Named points, or a detector's: a flat list of numbers, rows of three, or BlazePose's objects."""
+
+
+def named_points(
+    points: Points, layout: PointsFormat, *, width: int, height: int
+) -> dict[PointName, Point]:
+    """Translate any accepted layout to named points in pixels; absent points are left out.
+
+    Parameters
+    ----------
+    points, layout
+        As the caller sent them; their agreement is checked here.
+    width, height
+        Size of the upright picture in pixels; BlazePose counts in shares of it.
+    """
+    if layout is PointsFormat.NAMED:
+        return points_by_name(points)
+    rows = _detector_rows(points, layout)
+    if layout is PointsFormat.COCO17:
+        return _present(
+            {
+                name: Point(x=x, y=y, visibility=_coco_visibility(visibility))
+                for name, (x, y, visibility) in zip(COCO_POINT_NAMES, rows, strict=True)
+            }
+        )
+    if layout is PointsFormat.OPENPOSE_BODY25:
+        # A confidence of zero is how OpenPose says that it saw nothing.
+        return {
+            name: Point(x=rows[index][0], y=rows[index][1])
+            for name, index in OPENPOSE_BODY25_INDEX.items()
+            if rows[index][2] > 0.0
+        }
+    # BlazePose always prints all its points, also those beyond the picture's edge.
+    return {
+        name: Point(
+            x=rows[index][0] * width,
+            y=rows[index][1] * height,
+            visibility=2 if rows[index][2] >= BLAZEPOSE_SURE else 1,
+        )
+        for name, index in BLAZEPOSE33_INDEX.items()
+        if 0.0 <= rows[index][0] <= 1.0 and 0.0 <= rows[index][1] <= 1.0
+    }
+
+
+def _present(points: Mapping[PointName, Point]) -> dict[PointName, Point]:
+    return {name: point for name, point in points.items() if point.visibility > 0}
+
+
+def points_by_name(points: Points) -> dict[PointName, Point]:
+    """Return named points in their full form; absent ones are left out."""
+    if not isinstance(points, dict):
+        raise refusal(
+            code="points-not-named",
+            reason="The points are a list, but the format is 'named'.",
+            field="points",
+            remedy="Send an object of points by name, or say in 'format' whose list it is.",
+        )
+    return _present({name: _as_point(point) for name, point in points.items()})
+
+
+def _as_point(point: Point | Pair | MarkedPair) -> Point:
+    if isinstance(point, Point):
+        return point
+    if len(point) == 2:
+        return Point(x=point[0], y=point[1])
+    return Point(x=point[0], y=point[1], visibility=point[2])
+
+
+def _detector_rows(points: Points, layout: PointsFormat) -> list[Row]:
+    count = POINT_COUNTS[layout]
+    rows: list[Row] = []
+    numbers: list[float] = []
+    # A dict has no rows: it falls through to the count below.
+    for entry in points if isinstance(points, list) else []:
+        if isinstance(entry, DetectorPoint):
+            rows.append((entry.x, entry.y, 1.0 if entry.visibility is None else entry.visibility))
+        elif isinstance(entry, tuple):
+            rows.append(entry)
+        else:
+            numbers.append(entry)
+    if len(numbers) == 3 * count:
+        rows = [(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]) for i in range(count)]
+    if len(rows) != count:
+        raise refusal(
+            code="wrong-point-count",
+            reason=f"The format '{layout}' has {count} points of three numbers each.",
+            field="points",
+            remedy=f"Send {count} rows [x, y, v], or {3 * count} numbers in one list.",
+        )
+    return rows

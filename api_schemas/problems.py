@@ -1,0 +1,184 @@
+"""Errors as RFC 9457 problem details, and the list of all types there are."""
+
+from collections.abc import Mapping
+from typing import Final
+
+from pydantic import Field
+
+from api_schemas.base import WireModel
+
+PROBLEM_MEDIA_TYPE: Final = "application/problem+json"
+
+
+class FieldProblem(WireModel):
+    """What is wrong with one field, why, and what to do."""
+
+    field: str
+    code: str
+    reason: str
+    remedy: str
+
+
+class Problem(WireModel):
+    """An error. ``type`` is a relative reference to its description below this service's root.
+
+    ``field``, ``code`` and ``remedy`` repeat the first of ``errors``, or speak of the request as a
+    whole when no single field is at fault.
+    """
+
+    type: str = Field(examples=["/problems/invalid-request"])
+    title: str
+    status: int = Field(ge=400, le=599)
+    detail: str
+    code: str = Field(description="Stable, kebab-case.", examples=["out-of-range"])
+    remedy: str
+    field: str | None = Field(default=None, examples=["height_m"])
+    instance: str | None = None
+    errors: tuple[FieldProblem, ...] = ()
+
+
+class ProblemType(WireModel):
+    """A kind of problem, as ``GET /problems/{slug}`` describes it."""
+
+    slug: str
+    title: str
+    status: int
+    description: str
+
+
+_TYPES: Final = (
+    ProblemType(
+        slug="malformed-request",
+        title="The request cannot be read",
+        status=400,
+        description="The body is not well-formed multipart data, or its JSON part is not JSON.",
+    ),
+    ProblemType(
+        slug="not-found",
+        title="There is nothing here",
+        status=404,
+        description="No such path, job, artifact or problem type; erased jobs are not found.",
+    ),
+    ProblemType(
+        slug="method-not-allowed",
+        title="This method is not offered here",
+        status=405,
+        description="The path exists but takes other methods; the Allow header lists them.",
+    ),
+    ProblemType(
+        slug="no-result",
+        title="The job has no result",
+        status=409,
+        description="The job has not ended yet, or ended without a result; its status says which.",
+    ),
+    ProblemType(
+        slug="payload-too-large",
+        title="The upload is too large",
+        status=413,
+        description="The body exceeds the size this service accepts.",
+    ),
+    ProblemType(
+        slug="unsupported-media-type",
+        title="This kind of content is not accepted",
+        status=415,
+        description="The body is not multipart/form-data, or a picture is not JPEG, PNG or WebP.",
+    ),
+    ProblemType(
+        slug="range-not-satisfiable",
+        title="The requested range lies outside the artifact",
+        status=416,
+        description="The Range header asks for bytes the artifact does not have.",
+    ),
+    ProblemType(
+        slug="invalid-request",
+        title="The request is not valid",
+        status=422,
+        description="A field is missing, unknown, of the wrong kind or out of range; see errors.",
+    ),
+    ProblemType(
+        slug="unusable-input",
+        title="The picture, mask or points cannot be used",
+        status=422,
+        description="What was sent is well-formed, but no fit can be made from it.",
+    ),
+    ProblemType(
+        slug="idempotency-key-reused",
+        title="The idempotency key belongs to another request",
+        status=422,
+        description="The same Idempotency-Key came earlier with another picture or other options.",
+    ),
+    ProblemType(
+        slug="fit-failed",
+        title="The fit failed",
+        status=500,
+        description="A fault of this service, not of the input; it has been logged.",
+    ),
+    ProblemType(
+        slug="fit-crashed",
+        title="The fit crashed repeatedly",
+        status=500,
+        description="The process fitting this picture died at every attempt; it was given up.",
+    ),
+    ProblemType(
+        slug="internal-error",
+        title="The service failed",
+        status=500,
+        description="An unexpected fault while answering; it has been logged.",
+    ),
+    ProblemType(
+        slug="queue-full",
+        title="The queue is full",
+        status=503,
+        description="Too many jobs are waiting; try again after the time in Retry-After.",
+    ),
+    ProblemType(
+        slug="not-ready",
+        title="The service is not ready",
+        status=503,
+        description="The database, the disk or the workers are not available at the moment.",
+    ),
+    ProblemType(
+        slug="time-limit-exceeded",
+        title="The fit took too long",
+        status=504,
+        description="The fit was stopped at this service's time limit.",
+    ),
+)
+
+PROBLEM_TYPES: Final[Mapping[str, ProblemType]] = {kind.slug: kind for kind in _TYPES}
+
+
+def problem(
+    slug: str,
+    *,
+    detail: str,
+    remedy: str,
+    code: str | None = None,
+    field: str | None = None,
+    errors: tuple[FieldProblem, ...] = (),
+) -> Problem:
+    """Build a problem of a listed type; ``code`` is the type's own name unless given."""
+    kind = PROBLEM_TYPES[slug]
+    return Problem(
+        type=f"/problems/{slug}",
+        title=kind.title,
+        status=kind.status,
+        detail=detail,
+        code=code or slug,
+        remedy=remedy,
+        field=field,
+        errors=errors,
+    )
+
+
+def field_problem(slug: str, *errors: FieldProblem) -> Problem:
+    """Build a problem about one or more fields, led by the first."""
+    first = errors[0]
+    return problem(
+        slug,
+        detail=" ".join(f"{error.field}: {error.reason}" for error in errors),
+        remedy=first.remedy,
+        code=first.code,
+        field=first.field,
+        errors=errors,
+    )

@@ -1,0 +1,111 @@
+"""What a caller asks for: the JSON part ``request`` of ``POST /v1/fits``."""
+
+from enum import StrEnum
+from typing import Final, Self
+
+from pydantic import Field, model_validator
+
+from api_schemas.base import WireModel, refusal
+from api_schemas.points import Points, PointsFormat
+
+MIN_HEIGHT_M: Final = 1.2
+MAX_HEIGHT_M: Final = 2.3
+
+
+class Gender(StrEnum):
+    """Which of the two trained bodies to fit."""
+
+    FEMALE = "female"
+    MALE = "male"
+
+
+class Cues(StrEnum):
+    """Image evidence: silhouette and edges, or these and shading."""
+
+    SE = "SE"
+    SES = "SES"
+
+
+class OptimizerKind(StrEnum):
+    """How the energy is minimised: fast, or as the paper does."""
+
+    GAUSS_NEWTON = "gauss_newton"
+    SIMPLEX = "simplex"
+
+
+class LightKind(StrEnum):
+    """A near point light (indoors) or a distant directional one (outdoors)."""
+
+    POINT = "point"
+    DIRECTIONAL = "directional"
+
+
+class Facing(StrEnum):
+    """Whether the far end of a limb is nearer to the camera than its near end, or farther."""
+
+    TOWARD = "toward"
+    AWAY = "away"
+
+
+class Limb(StrEnum):
+    """Limbs whose facing a caller may state."""
+
+    TORSO = "torso"
+    LEFT_UPPER_ARM = "left_upper_arm"
+    LEFT_FOREARM = "left_forearm"
+    RIGHT_UPPER_ARM = "right_upper_arm"
+    RIGHT_FOREARM = "right_forearm"
+    LEFT_THIGH = "left_thigh"
+    LEFT_SHIN = "left_shin"
+    RIGHT_THIGH = "right_thigh"
+    RIGHT_SHIN = "right_shin"
+
+
+class LightGuess(WireModel):
+    """A coarse first guess of the light, refined by the fit.
+
+    Azimuth 0 and elevation 0 is a light at the camera's side of the body; positive azimuth comes
+    from the right of the picture, positive elevation from above.
+    """
+
+    kind: LightKind = LightKind.POINT
+    azimuth_deg: float | None = Field(default=None, ge=-180.0, le=180.0)
+    elevation_deg: float | None = Field(default=None, ge=-90.0, le=90.0)
+    distance_m: float | None = Field(default=None, gt=0.0, le=100.0)
+
+
+class FitOptions(WireModel):
+    """One fit: who is in the picture, where the joints are, and what to do.
+
+    ``height_m`` left out means the mean of the gender, which the result then lists as assumed.
+    At most one focal length; without one the picture's EXIF data are asked.
+    """
+
+    gender: Gender
+    height_m: float | None = Field(
+        default=None, ge=MIN_HEIGHT_M, le=MAX_HEIGHT_M, description="Stature in metres."
+    )
+    points: Points = Field(
+        description="Clicked points, pixels of the picture as a browser shows it.",
+        examples=[{"left_shoulder": [401.5, 212.0], "nose": {"x": 380, "y": 120, "visibility": 2}}],
+    )
+    format: PointsFormat = PointsFormat.NAMED
+    focal_length_px: float | None = Field(default=None, gt=0.0, le=1_000_000.0)
+    focal_length_35mm: float | None = Field(
+        default=None, ge=5.0, le=5_000.0, description="Focal length in 35 mm equivalent."
+    )
+    cues: Cues = Cues.SES
+    optimizer: OptimizerKind = OptimizerKind.GAUSS_NEWTON
+    light: LightGuess = LightGuess()
+    limb_facing: dict[Limb, Facing] = Field(default_factory=dict[Limb, Facing])
+
+    @model_validator(mode="after")
+    def _one_focal_length(self) -> Self:
+        if self.focal_length_px is not None and self.focal_length_35mm is not None:
+            raise refusal(
+                code="two-focal-lengths",
+                reason="Both focal_length_px and focal_length_35mm are given.",
+                field="focal_length_35mm",
+                remedy="Send one of the two.",
+            )
+        return self

@@ -1,0 +1,168 @@
+"""What a fit gives back: ``result.json``."""
+
+from enum import StrEnum
+
+from pydantic import Field
+
+from api_schemas.base import WireModel
+from api_schemas.requests import Cues, Facing, Gender, LightKind, OptimizerKind
+
+Vector = tuple[float, float, float]
+
+
+class Outcome(StrEnum):
+    """How the optimisation ended."""
+
+    CONVERGED = "converged"
+    EVALUATION_LIMIT = "evaluation_limit"
+    POOR_FIT = "poor_fit"
+
+
+class FocalLengthSource(StrEnum):
+    """Where the focal length came from, best first."""
+
+    CALLER = "caller"
+    EXIF_35MM = "exif_35mm_equivalent"
+    EXIF_SENSOR = "exif_focal_length_and_sensor"
+    ASSUMED = "assumed"
+
+
+class FacingSource(StrEnum):
+    """Who decided which way a limb faces."""
+
+    CALLER = "caller"
+    ENERGY = "energy"
+    PRIOR = "prior"
+
+
+class CameraResult(WireModel):
+    """A pinhole camera on a picture of ``width`` x ``height`` continuous pixels."""
+
+    focal_length_px: float
+    centre_x: float
+    centre_y: float
+    width: int
+    height: int
+
+
+class PartRotation(WireModel):
+    """The turn of one body part relative to its parent: axis times angle, radians, body frame."""
+
+    part: str
+    rotation: Vector
+
+
+class BodyResult(WireModel):
+    """Pose, position and shape of the body.
+
+    ``translation_m`` is the pelvis joint in the camera frame (metres, x right, y down, z along the
+    view); ``shape`` are coefficients in standard deviations, the first of them the height.
+    """
+
+    pose: tuple[PartRotation, ...]
+    translation_m: Vector
+    shape: tuple[float, ...]
+
+
+class LightResult(WireModel):
+    """The light found; angles as in the request, distance from the body's centre."""
+
+    kind: LightKind
+    azimuth_deg: float
+    elevation_deg: float
+    distance_m: float | None = Field(description="Null for a directional light.")
+
+
+class ReflectanceResult(WireModel):
+    """The skin's reflectance in linear light; the per-vertex values are in ``body_posed.glb``."""
+
+    ambient: float
+    specular_exponent: float
+    mean_albedo: float
+    mean_specularity: float
+
+
+class Measurement(WireModel):
+    """One anthropometric measurement in its unit; ``standard_error`` is null where unknown."""
+
+    name: str
+    value: float
+    unit: str
+    standard_error: float | None
+    definition: str
+    source: str
+
+
+class Stage(WireModel):
+    """The body at the end of a stage of the fit."""
+
+    name: str
+    energies: dict[str, float]
+    silhouette_overlap: float
+    body: BodyResult
+    measurements: tuple[Measurement, ...]
+
+
+class LimbFacing(WireModel):
+    """How a limb's depth ambiguity was resolved; ``ambiguous`` says the other way fits as well."""
+
+    limb: str
+    facing: Facing
+    source: FacingSource
+    ambiguous: bool
+    alternative_energy: float | None
+
+
+class Assumption(WireModel):
+    """A physical quantity the caller did not give."""
+
+    quantity: str
+    value: float | str
+    reason: str
+
+
+class FitWarning(WireModel):
+    """Something to look at."""
+
+    code: str
+    message: str
+
+
+class Artifact(WireModel):
+    """A file of the result."""
+
+    name: str
+    media_type: str
+    size: int
+    sha256: str
+
+
+class FitResult(WireModel):
+    """The whole result of a fit.
+
+    ``camera`` belongs to the working picture the fit was made on, ``image_camera`` to the upright
+    original. ``light`` and ``reflectance`` are null for SE, which does not estimate them.
+    """
+
+    gender: Gender
+    height_m: float
+    cues: Cues
+    optimizer: OptimizerKind
+    outcome: Outcome
+    outcome_explanation: str
+    camera: CameraResult
+    image_camera: CameraResult
+    focal_length_source: FocalLengthSource
+    body: BodyResult
+    light: LightResult | None
+    reflectance: ReflectanceResult | None
+    energies: dict[str, float]
+    evaluations: int
+    silhouette_overlap: float = Field(description="Intersection over union of body and silhouette.")
+    measurements: tuple[Measurement, ...]
+    stages: tuple[Stage, ...]
+    limb_facing: tuple[LimbFacing, ...]
+    assumptions: tuple[Assumption, ...]
+    warnings: tuple[FitWarning, ...]
+    stage_seconds: dict[str, float]
+    artifacts: tuple[Artifact, ...]

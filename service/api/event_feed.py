@@ -1,0 +1,63 @@
+"""Wakes those who wait for a job's next event: one query for all of them, however many."""
+
+import asyncio
+import logging
+from collections import Counter
+from typing import Final
+
+from starlette.concurrency import run_in_threadpool
+
+from service.engine.port import JobEngine
+
+LOG: Final = logging.getLogger(__name__)
+
+POLL_S: Final = 0.1
+PAUSE_AFTER_FAILURE_S: Final = 1.0
+
+
+class EventFeed:
+    """Follows the last event number of every job that someone is waiting for."""
+
+    def __init__(self, engine: JobEngine) -> None:
+        self._engine = engine
+        self._waiting: Counter[str] = Counter()
+        self._last: dict[str, int] = {}
+        self._changed = asyncio.Condition()
+
+    async def wait_beyond(self, job_id: str, number: int, *, timeout_s: float) -> None:
+        """Return when the job has an event numbered above ``number``, is gone, or time is up."""
+        self._waiting[job_id] += 1
+        try:
+            async with asyncio.timeout(timeout_s), self._changed:
+                await self._changed.wait_for(lambda: self._last.get(job_id, number) != number)
+        except TimeoutError:
+            return
+        finally:
+            self._waiting[job_id] -= 1
+            if self._waiting[job_id] <= 0:
+                del self._waiting[job_id]
+                self._last.pop(job_id, None)
+
+    async def run(self) -> None:
+        """Poll until canceled; idle while nobody waits."""
+        while True:
+            await asyncio.sleep(POLL_S)
+            waiting = list(self._waiting)
+            if not waiting:
+                continue
+            try:
+                numbers = await run_in_threadpool(self._engine.last_events, waiting)
+            except Exception:
+                # Those who wait run into their timeouts and ask the database themselves.
+                LOG.exception("The event feed could not reach the database.")
+                await asyncio.sleep(PAUSE_AFTER_FAILURE_S)
+                continue
+            latest = {job_id: numbers.get(job_id, GONE) for job_id in waiting}
+            if latest.items() - self._last.items():
+                self._last |= latest
+                async with self._changed:
+                    self._changed.notify_all()
+
+
+GONE: Final = -1
+"""Stands for the last event of a job that does not exist any more."""

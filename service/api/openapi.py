@@ -1,0 +1,37 @@
+"""Complete the generated OpenAPI document: what FastAPI cannot know of our types."""
+
+from typing import Any
+
+from pydantic.json_schema import models_json_schema
+
+from api_schemas.jobs import EventData
+from api_schemas.problems import Problem
+from api_schemas.requests import FitOptions
+
+
+def complete_openapi(document: dict[str, Any]) -> dict[str, Any]:
+    """Add the types that are only referred to, and drop FastAPI's own error format."""
+    schemas: dict[str, Any] = document.setdefault("components", {}).setdefault("schemas", {})
+    for mode in ("validation", "serialization"):
+        _, extra = models_json_schema(
+            [(model, mode) for model in _models(mode)],
+            ref_template="#/components/schemas/{model}",
+        )
+        for name, schema in extra.get("$defs", {}).items():
+            schemas.setdefault(name, schema)
+    for path in document["paths"].values():
+        for operation in path.values():
+            operation["responses"].pop("422", None) if _is_fastapi_error(operation) else None
+    for name in ("HTTPValidationError", "ValidationError"):
+        schemas.pop(name, None)
+    document["components"]["schemas"] = dict(sorted(schemas.items()))
+    return document
+
+
+def _models(mode: str) -> tuple[type[FitOptions] | type[Problem] | type[EventData], ...]:
+    return (FitOptions,) if mode == "validation" else (Problem, EventData)
+
+
+def _is_fastapi_error(operation: dict[str, Any]) -> bool:
+    content = operation["responses"].get("422", {}).get("content", {})
+    return "application/problem+json" not in content

@@ -1,0 +1,23 @@
+"""What the ``type`` of a problem refers to."""
+
+from typing import Final
+
+from fastapi import APIRouter
+
+from api_schemas.problems import PROBLEM_TYPES, ProblemType
+from service.api.problems import documented, not_found
+
+ROUTER: Final = APIRouter(prefix="/problems", tags=["problems"])
+
+
+@ROUTER.get(
+    "/{slug}",
+    response_model=ProblemType,
+    summary="What a problem type means",
+    responses=documented("not-found"),
+)
+def problem_type(slug: str) -> ProblemType:
+    """Describe a problem type."""
+    if slug not in PROBLEM_TYPES:
+        raise not_found(what="such problem type")
+    return PROBLEM_TYPES[slug]

@@ -1,0 +1,142 @@
+"""Every error leaves the service here, as problem+json."""
+
+import logging
+import re
+from collections.abc import Mapping
+from typing import Any, Final
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import Response
+from starlette.exceptions import HTTPException
+
+from api_schemas.problems import PROBLEM_MEDIA_TYPE, PROBLEM_TYPES, Problem, field_problem, problem
+from service.submission import RefusedError
+from service.validation import field_problems
+
+LOG: Final = logging.getLogger(__name__)
+
+RETRY_AFTER_S: Final = 5
+
+
+class ProblemError(Exception):
+    """Raised by a resource to answer with a problem."""
+
+    def __init__(self, reason: Problem, *, headers: Mapping[str, str] | None = None) -> None:
+        super().__init__(reason.detail)
+        self.problem = reason
+        self.headers = dict(headers or {})
+
+
+def not_found(*, what: str) -> ProblemError:
+    """Say that something does not exist."""
+    return ProblemError(
+        problem(
+            "not-found",
+            detail=f"There is no {what}.",
+            remedy="Check the address; erased jobs are not found any more.",
+        )
+    )
+
+
+def documented(*slugs: str) -> dict[int | str, dict[str, Any]]:
+    """Describe the problems an operation may answer, for the OpenAPI document."""
+    by_status: dict[int | str, dict[str, Any]] = {}
+    for slug in slugs:
+        kind = PROBLEM_TYPES[slug]
+        example = problem(
+            slug, detail=kind.description, remedy="What to do about it.", code=slug
+        ).model_dump(mode="json")
+        entry = by_status.setdefault(
+            kind.status,
+            {
+                "description": kind.title,
+                "content": {
+                    PROBLEM_MEDIA_TYPE: {
+                        "schema": {"$ref": "#/components/schemas/Problem"},
+                        "examples": {},
+                    }
+                },
+            },
+        )
+        entry["content"][PROBLEM_MEDIA_TYPE]["examples"][slug] = {"value": example}
+    return by_status
+
+
+def problem_response(
+    request: Request, reason: Problem, headers: Mapping[str, str] | None = None
+) -> Response:
+    """Answer with a problem."""
+    located = reason.model_copy(update={"instance": request.url.path})
+    retry = {"Retry-After": str(RETRY_AFTER_S)} if reason.status == 503 else {}
+    return Response(
+        located.model_dump_json(),
+        status_code=reason.status,
+        media_type=PROBLEM_MEDIA_TYPE,
+        headers=retry | dict(headers or {}),
+    )
+
+
+def install_problem_handlers(app: FastAPI) -> None:
+    """Make every exception a problem."""
+    app.add_exception_handler(ProblemError, _on_problem)
+    app.add_exception_handler(RefusedError, _on_refusal)
+    app.add_exception_handler(RequestValidationError, _on_validation)
+    app.add_exception_handler(HTTPException, _on_http)
+    app.add_exception_handler(Exception, _on_fault)
+
+
+def _on_problem(request: Request, error: Exception) -> Response:
+    assert isinstance(error, ProblemError)
+    return problem_response(request, error.problem, error.headers)
+
+
+def _on_refusal(request: Request, error: Exception) -> Response:
+    assert isinstance(error, RefusedError)
+    return problem_response(request, error.problem)
+
+
+def _on_validation(request: Request, error: Exception) -> Response:
+    assert isinstance(error, RequestValidationError)
+    return problem_response(
+        request, field_problem("invalid-request", *field_problems(error.errors()))
+    )
+
+
+def _on_http(request: Request, error: Exception) -> Response:
+    assert isinstance(error, HTTPException)
+    if error.status_code == 404:
+        return problem_response(request, not_found(what="such path").problem)
+    if error.status_code == 405:
+        allowed = ", ".join(_allowed_methods(request))
+        reason = problem(
+            "method-not-allowed",
+            detail=f"{request.method} is not offered here.",
+            remedy=f"Use one of: {allowed}.",
+        )
+        return problem_response(request, reason, {"Allow": allowed})
+    slug = "malformed-request" if error.status_code < 500 else "internal-error"
+    reason = problem(
+        slug, detail=str(error.detail), remedy="Send what /openapi.json describes for this path."
+    )
+    return problem_response(request, reason, error.headers)
+
+
+def _on_fault(request: Request, error: Exception) -> Response:
+    LOG.error("%s %s failed.", request.method, request.url.path, exc_info=error)
+    reason = problem(
+        "internal-error",
+        detail="An unexpected fault; it has been logged.",
+        remedy="Try again later.",
+    )
+    return problem_response(request, reason)
+
+
+def _allowed_methods(request: Request) -> list[str]:
+    # Starlette names the methods of the first route of a path only; the document knows them all.
+    allowed: set[str] = set()
+    for template, operations in request.app.openapi()["paths"].items():
+        pattern = re.sub(r"\\\{\w+\\\}", "[^/]+", re.escape(template))
+        if re.fullmatch(pattern, request.url.path):
+            allowed |= {method.upper() for method in operations}
+    return sorted(allowed) or ["GET"]

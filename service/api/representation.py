@@ -1,0 +1,44 @@
+"""Job records as callers see them."""
+
+from datetime import UTC, datetime
+from uuid import UUID
+
+from api_schemas.jobs import Job, JobLinks, JobState
+from service.engine.port import JobRecord
+from service.jobs import ACTIVE
+
+
+def job_path(job_id: str) -> str:
+    """Path of a job below the service's root."""
+    return f"/v1/fits/{job_id}"
+
+
+def represent(record: JobRecord) -> Job:
+    """Translate a record."""
+    path = job_path(record.id)
+    active = record.state in ACTIVE
+    return Job(
+        id=UUID(record.id),
+        state=record.state,
+        stage=record.stage,
+        progress=record.progress,
+        attempt=record.attempt,
+        cancel_requested=record.cancel_requested,
+        created_at=_moment(record.created_at),
+        started_at=None if record.started_at is None else _moment(record.started_at),
+        finished_at=None if record.finished_at is None else _moment(record.finished_at),
+        problem=record.problem,
+        links=JobLinks(
+            self=path,
+            events=f"{path}/events",
+            cancel=f"{path}/cancel" if active else None,
+            result=f"{path}/result" if record.state is JobState.SUCCEEDED else None,
+            artifacts={
+                artifact.name: f"{path}/artifacts/{artifact.name}" for artifact in record.artifacts
+            },
+        ),
+    )
+
+
+def _moment(seconds: float) -> datetime:
+    return datetime.fromtimestamp(seconds, UTC)

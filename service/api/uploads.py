@@ -1,0 +1,110 @@
+"""Read the multipart body of a submission."""
+
+from dataclasses import dataclass
+from typing import Final
+
+from fastapi import Request
+from fastapi.datastructures import FormData
+from starlette.datastructures import UploadFile
+from starlette.exceptions import HTTPException
+
+from api_schemas.problems import FieldProblem, field_problem, problem
+from service.api.problems import ProblemError
+
+PARTS: Final = frozenset({"image", "request", "mask"})
+MAX_REQUEST_PART_BYTES: Final = 1_000_000
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Upload:
+    """The parts of a submission; ``request`` is JSON text."""
+
+    request: bytes
+    image: bytes
+    mask: bytes | None
+
+
+async def read_upload(request: Request) -> Upload:
+    """Read the parts; ``request`` may come as a string or as a file.
+
+    Raises
+    ------
+    ProblemError
+        If the body is no multipart form, or a part is missing, unknown or doubled.
+    """
+    content_type = request.headers.get("content-type", "").partition(";")[0].strip().lower()
+    if content_type != "multipart/form-data":
+        raise ProblemError(
+            problem(
+                "unsupported-media-type",
+                detail=f"The body is {content_type or 'of no declared kind'}.",
+                remedy="Send multipart/form-data with the parts 'image' and 'request'.",
+            ),
+            headers={"Accept-Post": "multipart/form-data"},
+        )
+    form = await _form(request)
+    try:
+        _check_parts(form)
+        mask = form.get("mask")
+        return Upload(
+            request=await _content(form["request"]),
+            image=await _content(form["image"]),
+            mask=None if mask is None else await _content(mask),
+        )
+    finally:
+        await form.close()
+
+
+async def _form(request: Request) -> FormData:
+    try:
+        return await request.form(
+            max_files=len(PARTS), max_fields=len(PARTS), max_part_size=MAX_REQUEST_PART_BYTES
+        )
+    except HTTPException as error:
+        raise ProblemError(
+            problem(
+                "malformed-request",
+                detail=f"The multipart body cannot be read: {error.detail}",
+                remedy="Send the parts 'image' (a file), 'request' (JSON) and at most a 'mask'.",
+            )
+        ) from error
+
+
+def _check_parts(form: FormData) -> None:
+    names = [name for name, _ in form.multi_items()]
+    errors = [
+        FieldProblem(
+            field=name,
+            code="missing",
+            reason=f"The part '{name}' is missing.",
+            remedy=f"Send a multipart part named '{name}'.",
+        )
+        for name in ("image", "request")
+        if name not in names
+    ]
+    errors += [
+        FieldProblem(
+            field=name,
+            code="unknown-field",
+            reason=f"There is no part called '{name}'.",
+            remedy="Send the parts 'image', 'request' and, if you have one, 'mask'.",
+        )
+        for name in dict.fromkeys(names)
+        if name not in PARTS
+    ]
+    errors += [
+        FieldProblem(
+            field=name,
+            code="repeated-field",
+            reason=f"The part '{name}' comes more than once.",
+            remedy="Send it once.",
+        )
+        for name in dict.fromkeys(names)
+        if name in PARTS and names.count(name) > 1
+    ]
+    if errors:
+        raise ProblemError(field_problem("invalid-request", *errors))
+
+
+async def _content(part: UploadFile | str) -> bytes:
+    return part.encode() if isinstance(part, str) else await part.read()

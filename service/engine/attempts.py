@@ -1,0 +1,205 @@
+"""The worker's hand on a job's record: begin an attempt, report, end it.
+
+Every write names the attempt it belongs to. A worker that was taken for dead and wakes up again
+finds that its attempt is no longer the current one, and all its writes fall on nothing.
+"""
+
+import json
+from typing import Final
+
+import sqlalchemy as sa
+
+from api_schemas.jobs import EventKind, JobState
+from api_schemas.problems import Problem, problem
+from service.engine.patience import patiently
+from service.engine.port import AttemptResult, Directive, Ending, JobRecord, Report
+from service.engine.records import ARTIFACTS, append_event, change_job, find_job, job_record
+from service.engine.tables import JOBS
+
+FINAL_STATES: Final = {
+    Ending.SUCCEEDED: JobState.SUCCEEDED,
+    Ending.FAILED: JobState.FAILED,
+    Ending.CANCELED: JobState.CANCELED,
+    Ending.TIMED_OUT: JobState.TIMED_OUT,
+}
+
+
+def given_up(reason: str) -> Problem:
+    """Say that a job was given up because it kills what runs it."""
+    return problem(
+        "fit-crashed",
+        detail=reason,
+        remedy="Save the picture anew as PNG and try again; if that fails too, report it.",
+    )
+
+
+class RecordedAttempt:
+    """The attempt a worker is at; see :class:`service.engine.port.Attempt`."""
+
+    def __init__(self, database: sa.Engine, job: JobRecord) -> None:
+        self._database = database
+        self._job = job
+
+    @property
+    def job(self) -> JobRecord:
+        """The job as it was when the attempt began."""
+        return self._job
+
+    @patiently
+    def report(self, report: Report) -> None:
+        """Store progress and its event; never let the share go down."""
+        with self._database.begin() as connection:
+            row = (
+                connection.execute(
+                    sa.update(JOBS)
+                    .where(*_current(self._job))
+                    .values(
+                        stage=report.stage,
+                        progress=sa.case(
+                            (JOBS.c.progress > report.progress, JOBS.c.progress),
+                            else_=report.progress,
+                        ),
+                        last_event=JOBS.c.last_event + 1,
+                    )
+                    .returning(JOBS)
+                )
+                .mappings()
+                .one_or_none()
+            )
+            if row is not None:
+                append_event(connection, job_record(row), EventKind.PROGRESS, report.energies)
+
+    @patiently
+    def directive(self) -> Directive:
+        """Ask whether the attempt is still wanted."""
+        query = sa.select(JOBS.c.cancel_requested).where(*_current(self._job))
+        with self._database.connect() as connection:
+            cancel_requested = connection.execute(query).scalar_one_or_none()
+        if cancel_requested is None:
+            return Directive.SUPERSEDED
+        return Directive.CANCELED if cancel_requested else Directive.CONTINUE
+
+
+def _current(job: JobRecord) -> tuple[sa.ColumnElement[bool], ...]:
+    return (
+        JOBS.c.id == job.id,
+        JOBS.c.state == JobState.RUNNING.value,
+        JOBS.c.attempt == job.attempt,
+    )
+
+
+class AttemptLog:
+    """Begin and end attempts on behalf of one worker."""
+
+    def __init__(self, database: sa.Engine, *, executor_id: str, max_crashes: int) -> None:
+        self._database = database
+        self._executor_id = executor_id
+        self._max_crashes = max_crashes
+
+    @patiently
+    def begin(self, job_id: str) -> RecordedAttempt | None:
+        """Claim the next attempt; None when there is nothing (more) to do for this job."""
+        with self._database.begin() as connection:
+            canceled = change_job(
+                connection, job_id, JOBS.c.cancel_requested.is_(True), state=JobState.CANCELED
+            )
+            if canceled is not None:
+                return None
+            hopeless = change_job(
+                connection,
+                job_id,
+                JOBS.c.crashes >= self._max_crashes,
+                state=JobState.FAILED,
+                values={
+                    "problem": given_up(
+                        f"The process fitting this picture died {self._max_crashes} times."
+                    ).model_dump_json()
+                },
+            )
+            if hopeless is not None:
+                return None
+            job = change_job(
+                connection,
+                job_id,
+                state=JobState.RUNNING,
+                values={
+                    "attempt": JOBS.c.attempt + 1,
+                    "claimed_by": self._executor_id,
+                    "stage": None,
+                    "progress": 0.0,
+                },
+            )
+        return None if job is None else RecordedAttempt(self._database, job)
+
+    @patiently
+    def count_crash(self, attempt: RecordedAttempt) -> None:
+        """Note that the process of this attempt died of itself."""
+        with self._database.begin() as connection:
+            connection.execute(
+                sa.update(JOBS).where(*_current(attempt.job)).values(crashes=JOBS.c.crashes + 1)
+            )
+
+    @patiently
+    def end(self, job_id: str, attempt: int, result: AttemptResult) -> JobRecord | None:
+        """Publish the result; None if the attempt was superseded or the job erased."""
+        state = FINAL_STATES[result.ending]
+        with self._database.begin() as connection:
+            return change_job(
+                connection,
+                job_id,
+                JOBS.c.attempt == attempt,
+                state=state,
+                values={
+                    "artifacts": ARTIFACTS.dump_json(result.artifacts).decode(),
+                    "problem": result.problem.model_dump_json() if result.problem else None,
+                }
+                | ({"progress": 1.0} if state is JobState.SUCCEEDED else {}),
+            )
+
+    @patiently
+    def exists(self, job_id: str) -> bool:
+        """Say whether the job has not been erased."""
+        with self._database.connect() as connection:
+            return find_job(connection, job_id) is not None
+
+    @patiently
+    def hand_back(self) -> None:
+        """Return this worker's running jobs to the queue, as if they had not been begun."""
+        with self._database.begin() as connection:
+            ids = connection.execute(
+                sa.select(JOBS.c.id).where(
+                    JOBS.c.claimed_by == self._executor_id, JOBS.c.state == JobState.RUNNING.value
+                )
+            ).scalars()
+            for job_id in list(ids):
+                change_job(
+                    connection,
+                    job_id,
+                    JOBS.c.claimed_by == self._executor_id,
+                    state=JobState.QUEUED,
+                    values={"claimed_by": None, "stage": None, "progress": 0.0},
+                )
+
+
+def result_to_json(attempt: int, result: AttemptResult) -> str:
+    """Write a result as the checkpoint keeps it."""
+    return json.dumps(
+        {
+            "attempt": attempt,
+            "ending": result.ending.value,
+            "artifacts": ARTIFACTS.dump_python(result.artifacts, mode="json"),
+            "problem": result.problem.model_dump(mode="json") if result.problem else None,
+        }
+    )
+
+
+def result_from_json(text: str) -> tuple[int, AttemptResult]:
+    """Read a checkpoint: the attempt's number and its result."""
+    values = json.loads(text)
+    return values["attempt"], AttemptResult(
+        ending=Ending(values["ending"]),
+        artifacts=ARTIFACTS.validate_json(json.dumps(values["artifacts"])),
+        problem=None
+        if values["problem"] is None
+        else Problem.model_validate_json(json.dumps(values["problem"])),
+    )

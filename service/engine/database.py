@@ -1,0 +1,92 @@
+"""Open and prepare the database: SQLite in WAL mode, or Postgres."""
+
+import sqlite3
+import sys
+from pathlib import Path
+from typing import Any, Final
+
+import sqlalchemy as sa
+from dbos import DBOS
+from sqlalchemy import event
+
+from service.engine.tables import METADATA
+
+BUSY_TIMEOUT_MS: Final = 30_000
+MIGRATION_LOCK: Final = 0x6D617175
+"""Key of the Postgres advisory lock held while tables are created."""
+
+
+class DatabaseUnusableError(Exception):
+    """The database cannot be used as it is; the message says what to do."""
+
+
+def open_database(url: str) -> sa.Engine:
+    """Open a connection pool; creates the folder of an SQLite file, nothing else."""
+    parsed = sa.make_url(url)
+    if parsed.get_backend_name() == "sqlite":
+        _check_sqlite_version()
+        Path(parsed.database or "").parent.mkdir(parents=True, exist_ok=True)
+        engine = sa.create_engine(parsed, pool_size=10, max_overflow=10, pool_timeout=30)
+        event.listen(engine, "connect", _configure_sqlite)
+        return engine
+    return sa.create_engine(
+        parsed.set(drivername="postgresql+psycopg"),
+        pool_size=10,
+        max_overflow=10,
+        pool_timeout=30,
+        pool_pre_ping=True,
+    )
+
+
+def prepare_database(url: str) -> None:
+    """Create or migrate all tables; safe to run in several processes at once."""
+    engine = open_database(url)
+    try:
+        if engine.dialect.name == "sqlite":
+            _prepare_sqlite_file(engine)
+        DBOS.migrate(url)
+        with engine.begin() as connection:
+            if engine.dialect.name == "postgresql":
+                connection.execute(sa.select(sa.func.pg_advisory_xact_lock(MIGRATION_LOCK)))
+            else:
+                connection.execute(sa.text("BEGIN IMMEDIATE"))
+            METADATA.create_all(connection)
+    finally:
+        engine.dispose()
+
+
+def _check_sqlite_version() -> None:
+    # From Python 3.12 on DBOS reads the clock by unixepoch('subsec'), NULL in an older SQLite.
+    if sys.version_info >= (3, 12) and sqlite3.sqlite_version_info < (3, 42):
+        message = (
+            f"SQLite {sqlite3.sqlite_version} is too old. Use a Python built with SQLite 3.42 or "
+            "newer, or set MAQUETTE_DATABASE_URL to a Postgres database."
+        )
+        raise DatabaseUnusableError(message)
+
+
+def _configure_sqlite(connection: Any, _: object) -> None:
+    # IMMEDIATE: a transaction that reads and then writes would otherwise fail instead of waiting.
+    connection.isolation_level = "IMMEDIATE"
+    for pragma in (
+        f"busy_timeout={BUSY_TIMEOUT_MS}",
+        "foreign_keys=ON",
+        "synchronous=FULL",
+        # Erased rows are overwritten, not only unlinked.
+        "secure_delete=ON",
+    ):
+        connection.execute(f"PRAGMA {pragma}")
+
+
+def _prepare_sqlite_file(engine: sa.Engine) -> None:
+    # auto_vacuum takes effect only before the first table; DBOS sets neither of the two.
+    connection = engine.raw_connection()
+    try:
+        connection.driver_connection.isolation_level = None  # pyright: ignore
+        cursor = connection.cursor()
+        cursor.execute("PRAGMA auto_vacuum=INCREMENTAL")
+        cursor.execute("PRAGMA journal_mode=WAL")
+        cursor.close()
+    finally:
+        connection.invalidate()
+        connection.close()

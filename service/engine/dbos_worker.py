@@ -1,0 +1,179 @@
+"""The worker's side of the engine on DBOS: claim, run, publish, survive."""
+
+import logging
+import os
+import threading
+import time
+import uuid
+from typing import Final
+
+import sqlalchemy as sa
+from dbos import DBOS, DBOSClient, DBOSPortableJSONSerializer
+
+from api_schemas.body_models import BodyModels
+from service.blobs import BlobStore
+from service.engine.attempts import AttemptLog, result_from_json, result_to_json
+from service.engine.dbos_jobs import (
+    APPLICATION,
+    BODY_MODELS_FACT,
+    EXECUTION_VERSION,
+    QUEUE,
+    WORKFLOW,
+)
+from service.engine.heartbeat import Heartbeat
+from service.engine.port import AttemptHandler, Ending
+from service.engine.tables import FACTS
+
+LOG: Final = logging.getLogger(__name__)
+
+MAX_RECOVERIES: Final = 10
+"""How many workers may die over one job. Larger than the limit on crashes of the fit's own process,
+because a worker dies for reasons that are not the picture's: restarts, machines, chaos tests."""
+
+
+class DbosWorkerEngine:
+    """Runs jobs in this process; see :class:`service.engine.port.WorkerEngine`."""
+
+    def __init__(
+        self,
+        database: sa.Engine,
+        blobs: BlobStore,
+        *,
+        processes: int,
+        max_crashes: int,
+        heartbeat_s: float,
+        dead_after_s: float,
+        queue_poll_s: float,
+    ) -> None:
+        # Never reused: two live workers under one name would run each other's jobs again.
+        self.executor_id = f"{os.uname().nodename[:20]}-{uuid.uuid4().hex}"
+        self._database = database
+        self._blobs = blobs
+        self._processes = processes
+        self._queue_poll_s = queue_poll_s
+        self._attempts = AttemptLog(database, executor_id=self.executor_id, max_crashes=max_crashes)
+        self._heartbeat = Heartbeat(
+            database,
+            executor_id=self.executor_id,
+            interval_s=heartbeat_s,
+            dead_after_s=dead_after_s,
+            # Private, but the public resume_workflow forgets how often a job was recovered.
+            recover=lambda dead: DBOS._recover_pending_workflows(dead),  # noqa: SLF001
+        )
+        self._running = 0
+        self._idle = threading.Condition()
+        self._handing_back = threading.Event()
+        self._dbos: DBOS | None = None
+
+    def start(self, handler: AttemptHandler, *, body_models: BodyModels) -> None:
+        """Begin to claim jobs and run each attempt through ``handler``, in threads of its own."""
+        self._dbos = DBOS(
+            config={
+                "name": APPLICATION,
+                "system_database_engine": self._database,
+                "serializer": DBOSPortableJSONSerializer(),
+                "executor_id": self.executor_id,
+                "application_version": EXECUTION_VERSION,
+                "run_migrations": False,
+                "log_level": "WARNING",
+            }
+        )
+        self._register(handler)
+        self._declare_queue()
+        self._store_body_models(body_models)
+        self._heartbeat.start()
+        DBOS.launch()
+
+    def stop(self, *, drain_s: float) -> None:
+        """Claim no more, wait for running attempts, hand the rest back to other workers.
+
+        Threads of attempts that were handed back are parked, not ended: DBOS would take their
+        return for the end of the job. The caller ends the process at once.
+        """
+        if self._dbos is None:
+            return
+        for stop in self._dbos.background_thread_stop_events:
+            stop.set()
+        with self._idle:
+            drained = self._idle.wait_for(lambda: self._running == 0, timeout=drain_s)
+        if not drained:
+            self._handing_back.set()
+            self._attempts.hand_back()
+        self._heartbeat.stop()
+        if drained:
+            DBOS.destroy()
+
+    def _register(self, handler: AttemptHandler) -> None:
+        @DBOS.step(name="run")
+        def run(job_id: str) -> str | None:
+            return self._run(job_id, handler)
+
+        @DBOS.step(name="publish")
+        def publish(job_id: str, result: str) -> None:
+            self._publish(job_id, result)
+
+        @DBOS.workflow(name=WORKFLOW, max_recovery_attempts=MAX_RECOVERIES)
+        def fit(job_id: str) -> None:
+            with self._idle:
+                self._running += 1
+            try:
+                result = run(job_id)
+                if result is not None:
+                    publish(job_id, result)
+            finally:
+                with self._idle:
+                    self._running -= 1
+                    self._idle.notify_all()
+
+        self._workflow = fit
+
+    def _run(self, job_id: str, handler: AttemptHandler) -> str | None:
+        while (attempt := self._attempts.begin(job_id)) is not None:
+            started = time.monotonic()
+            result = handler(attempt)
+            LOG.info(
+                "job=%s attempt=%d ending=%s seconds=%.2f",
+                job_id,
+                attempt.job.attempt,
+                result.ending,
+                time.monotonic() - started,
+            )
+            if self._handing_back.is_set():
+                threading.Event().wait()
+            if result.ending is Ending.SUPERSEDED:
+                break
+            if result.ending is not Ending.CRASHED:
+                return result_to_json(attempt.job.attempt, result)
+            self._attempts.count_crash(attempt)
+        self._erase_if_forgotten(job_id)
+        return None
+
+    def _publish(self, job_id: str, text: str) -> None:
+        number, result = result_from_json(text)
+        self._attempts.end(job_id, number, result)
+        self._erase_if_forgotten(job_id)
+
+    def _erase_if_forgotten(self, job_id: str) -> None:
+        # The job may have been erased while its attempt was still writing results.
+        if not self._attempts.exists(job_id):
+            self._blobs.erase(job_id)
+
+    def _declare_queue(self) -> None:
+        # Before the launch: DBOS looks for new queues only once a second afterwards.
+        client = DBOSClient(
+            system_database_engine=self._database,
+            serializer=DBOSPortableJSONSerializer(),
+            application_name=APPLICATION,
+        )
+        client.register_queue(
+            QUEUE,
+            worker_concurrency=self._processes,
+            polling_interval_sec=self._queue_poll_s,
+        )
+
+    def _store_body_models(self, body_models: BodyModels) -> None:
+        with self._database.begin() as connection:
+            connection.execute(sa.delete(FACTS).where(FACTS.c.name == BODY_MODELS_FACT))
+            connection.execute(
+                sa.insert(FACTS).values(name=BODY_MODELS_FACT, value=body_models.model_dump_json())
+            )

@@ -1,0 +1,167 @@
+"""A worker's heartbeat, and the taking over of fits whose worker died.
+
+Open-source DBOS recovers a process's own jobs when it starts again under the same name. Our workers
+never reuse a name, so each of them also looks after the others: whoever holds running jobs and is
+not alive has them put back into the queue.
+"""
+
+import logging
+import threading
+import time
+from collections.abc import Callable
+from typing import Final
+
+import sqlalchemy as sa
+from sqlalchemy.exc import SQLAlchemyError
+
+from api_schemas.jobs import JobState
+from api_schemas.problems import problem
+from service.engine.attempts import given_up
+from service.engine.liveness import WorkerWatch, this_process
+from service.engine.records import change_job
+from service.engine.tables import JOBS, WORKERS
+from service.jobs import ACTIVE
+
+LOG: Final = logging.getLogger(__name__)
+
+DBOS_TERMINAL: Final = ("SUCCESS", "ERROR", "CANCELLED", "MAX_RECOVERY_ATTEMPTS_EXCEEDED")
+RECONCILE_AFTER_S: Final = 5.0
+"""How long a job may stand as active although its execution has ended: the time between the last
+checkpoint and DBOS's own note of it, many times over."""
+
+
+class Heartbeat:
+    """A thread that beats, and looks after the fits of the dead."""
+
+    def __init__(
+        self,
+        database: sa.Engine,
+        *,
+        executor_id: str,
+        interval_s: float,
+        dead_after_s: float,
+        recover: Callable[[list[str]], object],
+    ) -> None:
+        self._database = database
+        self._executor_id = executor_id
+        self._interval_s = interval_s
+        self._recover = recover
+        self._watch = WorkerWatch(dead_after_s=dead_after_s)
+        self._process = this_process()
+        self._stopped = threading.Event()
+        self._ended_since: dict[str, float] = {}
+        self._thread = threading.Thread(target=self._run, name="heartbeat", daemon=True)
+
+    def start(self) -> None:
+        """Register this worker and begin to beat."""
+        self._beat()
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Stop beating and sign off, so that nobody waits for this worker."""
+        self._stopped.set()
+        self._thread.join()
+        with self._database.begin() as connection:
+            connection.execute(sa.delete(WORKERS).where(WORKERS.c.executor_id == self._executor_id))
+
+    def _run(self) -> None:
+        while True:
+            try:
+                self._beat()
+                self._take_over()
+                self._reconcile()
+            except SQLAlchemyError:
+                # The database is away; it may come back, and so do we.
+                LOG.exception("The heartbeat could not reach the database.")
+            if self._stopped.wait(self._interval_s):
+                return
+
+    def _beat(self) -> None:
+        with self._database.begin() as connection:
+            beaten = connection.execute(
+                sa.update(WORKERS)
+                .where(WORKERS.c.executor_id == self._executor_id)
+                .values(beat=WORKERS.c.beat + 1)
+            )
+            if beaten.rowcount == 0:
+                # The first beat, or the others took this worker for dead and struck it off.
+                connection.execute(
+                    sa.insert(WORKERS).values(
+                        executor_id=self._executor_id,
+                        machine=self._process.machine,
+                        pid=self._process.pid,
+                        pid_started=self._process.pid_started,
+                        beat=0,
+                        started_at=time.time(),
+                    )
+                )
+
+    def _take_over(self) -> None:
+        executions = executions_table(self._database)
+        with self._database.connect() as connection:
+            workers = connection.execute(sa.select(WORKERS)).all()
+            holders = set(
+                connection.execute(
+                    sa.select(executions.c.executor_id)
+                    .where(executions.c.status == "PENDING")
+                    .distinct()
+                ).scalars()
+            )
+        alive = self._watch.alive(workers) | {self._executor_id}
+        dead = sorted(holder for holder in holders - alive if holder is not None)
+        if dead:
+            LOG.warning("Taking over the fits of %s.", ", ".join(dead))
+            self._recover(dead)
+        gone = [row.executor_id for row in workers if row.executor_id not in alive]
+        if gone:
+            with self._database.begin() as connection:
+                connection.execute(sa.delete(WORKERS).where(WORKERS.c.executor_id.in_(gone)))
+
+    def _reconcile(self) -> None:
+        """End the records of jobs whose execution DBOS has given up, so that none waits forever."""
+        executions = executions_table(self._database)
+        query = (
+            sa.select(JOBS.c.id, executions.c.status)
+            .join(executions, executions.c.workflow_uuid == JOBS.c.id)
+            .where(
+                JOBS.c.state.in_([state.value for state in ACTIVE]),
+                executions.c.status.in_(DBOS_TERMINAL),
+            )
+        )
+        with self._database.connect() as connection:
+            ended = {row.id: row.status for row in connection.execute(query)}
+        now = time.monotonic()
+        self._ended_since = {job_id: self._ended_since.get(job_id, now) for job_id in ended}
+        for job_id, since in self._ended_since.items():
+            if now - since >= RECONCILE_AFTER_S:
+                self._give_up(job_id, ended[job_id])
+
+    def _give_up(self, job_id: str, status: str) -> None:
+        LOG.error("Job %s was left %s by its execution; it is ended here.", job_id, status)
+        reason = (
+            given_up("Every worker that took this job died over it.")
+            if status == "MAX_RECOVERY_ATTEMPTS_EXCEEDED"
+            else problem(
+                "fit-failed",
+                detail="The fit's execution ended without a result.",
+                remedy="Post the picture again.",
+            )
+        )
+        with self._database.begin() as connection:
+            change_job(
+                connection,
+                job_id,
+                state=JobState.FAILED,
+                values={"problem": reason.model_dump_json()},
+            )
+
+
+def executions_table(database: sa.Engine) -> sa.TableClause:
+    """DBOS's table of executions: the few columns its public functions cannot select by."""
+    return sa.table(
+        "workflow_status",
+        sa.column("workflow_uuid", sa.Text),
+        sa.column("status", sa.Text),
+        sa.column("executor_id", sa.Text),
+        schema="dbos" if database.dialect.name == "postgresql" else None,
+    )

@@ -1,0 +1,205 @@
+"""What the API and the worker ask of a job engine, whatever stands behind it."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import Protocol
+
+from api_schemas.body_models import BodyModels
+from api_schemas.jobs import EventData, EventKind, JobState
+from api_schemas.problems import Problem
+from api_schemas.results import Artifact
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StoredBlob:
+    """A blob in the job's scope."""
+
+    digest: str
+    media_type: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Idempotency:
+    """A caller's key, hashed, and a fingerprint of the request it came with."""
+
+    key: str
+    fingerprint: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NewJob:
+    """A job to accept; its blobs are stored already. ``options`` is the request as JSON."""
+
+    id: str
+    options: str
+    image: StoredBlob
+    mask: StoredBlob | None = None
+    idempotency: Idempotency | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JobRecord:
+    """A job as stored; times are seconds since the epoch."""
+
+    id: str
+    state: JobState
+    stage: str | None
+    progress: float
+    attempt: int
+    cancel_requested: bool
+    created_at: float
+    started_at: float | None
+    finished_at: float | None
+    problem: Problem | None
+    options: str
+    image: StoredBlob
+    mask: StoredBlob | None
+    artifacts: tuple[Artifact, ...]
+    fingerprint: str | None
+    last_event: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JobEvent:
+    """One entry of a job's event stream; ``number`` counts from 1 without gaps."""
+
+    number: int
+    kind: EventKind
+    data: EventData
+
+
+class SubmitOutcome(StrEnum):
+    """How a submission ended."""
+
+    ACCEPTED = "accepted"
+    REPEATED = "repeated"
+    KEY_REUSED = "key_reused"
+    QUEUE_FULL = "queue_full"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Submission:
+    """The outcome, and the job: the new one, or the earlier one of the same idempotency key."""
+
+    outcome: SubmitOutcome
+    job: JobRecord | None
+
+
+class JobEngine(Protocol):
+    """The caller's side: accept, look up, stop and erase jobs."""
+
+    def submit(self, job: NewJob) -> Submission:
+        """Accept a job durably, or say why not."""
+        ...
+
+    def job(self, job_id: str) -> JobRecord | None:
+        """Return the job, or None if there is none."""
+        ...
+
+    def jobs(
+        self, *, limit: int, before: tuple[float, str] | None, state: JobState | None
+    ) -> Sequence[JobRecord]:
+        """Return jobs newest first; ``before`` is the (created_at, id) of the last one seen."""
+        ...
+
+    def cancel(self, job_id: str) -> JobRecord | None:
+        """Stop a job: at once if queued, within moments if running; no effect if terminal."""
+        ...
+
+    def erase(self, job_id: str) -> bool:
+        """Stop a job and forget it, with its events; say whether there was one."""
+        ...
+
+    def events(self, job_id: str, *, after: int) -> Sequence[JobEvent]:
+        """Return the events numbered above ``after``."""
+        ...
+
+    def last_events(self, job_ids: Sequence[str]) -> dict[str, int]:
+        """Return the number of the last event of each job that exists."""
+        ...
+
+    def queued(self) -> int:
+        """Count the waiting jobs."""
+        ...
+
+    def live_workers(self) -> int:
+        """Count the workers that are alive."""
+        ...
+
+    def body_models(self) -> BodyModels | None:
+        """Return what the worker that last started can fit; None before any did."""
+        ...
+
+    def check_writable(self) -> None:
+        """Raise if the database cannot be written."""
+        ...
+
+
+class Directive(StrEnum):
+    """What a running attempt is to do."""
+
+    CONTINUE = "continue"
+    CANCELED = "canceled"
+    SUPERSEDED = "superseded"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Report:
+    """Progress to store."""
+
+    stage: str
+    progress: float
+    energies: dict[str, float] = field(default_factory=dict[str, float])
+
+
+class Ending(StrEnum):
+    """How an attempt ended. ``CRASHED`` attempts are repeated up to a limit."""
+
+    SUCCEEDED = "succeeded"
+    FAILED = "failed"
+    CANCELED = "canceled"
+    TIMED_OUT = "timed_out"
+    CRASHED = "crashed"
+    SUPERSEDED = "superseded"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AttemptResult:
+    """What an attempt leaves behind: references to blobs, never the blobs."""
+
+    ending: Ending
+    artifacts: tuple[Artifact, ...] = ()
+    problem: Problem | None = None
+
+
+class Attempt(Protocol):
+    """One execution of a job, as its handler sees it."""
+
+    @property
+    def job(self) -> JobRecord:
+        """The job as it was when the attempt began."""
+        ...
+
+    def report(self, report: Report) -> None:
+        """Store progress; reports of a superseded attempt are dropped."""
+        ...
+
+    def directive(self) -> Directive:
+        """Ask whether to go on."""
+        ...
+
+
+AttemptHandler = Callable[[Attempt], AttemptResult]
+
+
+class WorkerEngine(Protocol):
+    """The worker's side: run jobs until told to stop."""
+
+    def start(self, handler: AttemptHandler, *, body_models: BodyModels) -> None:
+        """Begin to claim jobs and run each attempt through ``handler``, in threads of its own."""
+        ...
+
+    def stop(self, *, drain_s: float) -> None:
+        """Claim no more, wait for running attempts, hand the rest back to other workers."""
+        ...

@@ -1,0 +1,40 @@
+"""The files of a result: their media types, and the result document that lists them."""
+
+import hashlib
+from collections.abc import Mapping
+from pathlib import PurePath
+from typing import Final
+
+from api_schemas.results import Artifact, FitResult
+
+RESULT_NAME: Final = "result.json"
+
+MEDIA_TYPES: Final[Mapping[str, str]] = {
+    ".glb": "model/gltf-binary",
+    ".png": "image/png",
+    ".jpg": "image/jpeg",
+    ".json": "application/json",
+}
+
+
+def describe_artifact(name: str, content: bytes) -> Artifact:
+    """Describe a file by name, kind, size and content."""
+    return Artifact(
+        name=name,
+        media_type=MEDIA_TYPES[PurePath(name).suffix],
+        size=len(content),
+        sha256=hashlib.sha256(content).hexdigest(),
+    )
+
+
+def with_result_document(result: FitResult, artifacts: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Add ``result.json``, which lists all the other files."""
+    listed = result.model_copy(
+        update={
+            "artifacts": tuple(
+                describe_artifact(name, content) for name, content in sorted(artifacts.items())
+            )
+        }
+    )
+    document = listed.model_dump_json(indent=1).encode()
+    return dict(artifacts) | {RESULT_NAME: document}

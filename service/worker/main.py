@@ -1,0 +1,55 @@
+"""The worker's composition root: settings in, a process that works until it is told to stop."""
+
+import logging
+import os
+import signal
+import sys
+import threading
+from typing import Final
+
+from service.blobs import BlobStore
+from service.engine.database import open_database, prepare_database
+from service.engine.dbos_worker import DbosWorkerEngine
+from service.settings import Settings
+from service.worker.child_process import ChildRunner
+
+LOG: Final = logging.getLogger(__name__)
+
+PIPELINE: Final = "service.worker.pipeline"
+PRELOAD: Final = "service.worker.preload"
+
+
+def run_worker(
+    settings: Settings, *, follow_stdin: bool, pipeline: str = PIPELINE, preload: str = PRELOAD
+) -> None:
+    """Work until SIGTERM or SIGINT, or until standard input ends if that is to be followed."""
+    stop = threading.Event()
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, lambda _number, _frame: stop.set())
+    if follow_stdin:
+        # The pipe of whoever started this worker: its end is the end of the starter.
+        threading.Thread(target=_wait_for_end_of_input, args=(stop,), daemon=True).start()
+    runner = ChildRunner(settings, pipeline=pipeline, preload=preload)
+    prepare_database(settings.system_database_url)
+    engine = DbosWorkerEngine(
+        open_database(settings.system_database_url),
+        BlobStore(settings.blob_dir),
+        processes=settings.worker_processes,
+        max_crashes=settings.max_crashes,
+        heartbeat_s=settings.heartbeat_s,
+        dead_after_s=settings.dead_after_s,
+        queue_poll_s=settings.queue_poll_s,
+    )
+    engine.start(runner.run, body_models=runner.describe())
+    LOG.info("Worker %s is ready.", engine.executor_id)
+    stop.wait()
+    LOG.info("Worker %s is stopping.", engine.executor_id)
+    engine.stop(drain_s=settings.drain_s)
+    logging.shutdown()
+    # Not a return: threads of fits that were handed back may still be there.
+    os._exit(0)
+
+
+def _wait_for_end_of_input(stop: threading.Event) -> None:
+    sys.stdin.buffer.read()
+    stop.set()

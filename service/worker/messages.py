@@ -1,0 +1,47 @@
+"""What a child process tells its worker, as JSON over a pipe."""
+
+from typing import Annotated, Final, Literal
+
+from pydantic import Field, TypeAdapter
+
+from api_schemas.base import WireModel
+from api_schemas.body_models import BodyModels
+from api_schemas.problems import Problem
+from api_schemas.results import Artifact
+
+
+class ProgressMessage(WireModel):
+    """The fit goes on."""
+
+    kind: Literal["progress"] = "progress"
+    stage: str
+    progress: float
+    energies: dict[str, float]
+
+
+class DoneMessage(WireModel):
+    """The fit is done; its files are stored."""
+
+    kind: Literal["done"] = "done"
+    artifacts: tuple[Artifact, ...]
+
+
+class ProblemMessage(WireModel):
+    """The fit ended without a result."""
+
+    kind: Literal["problem"] = "problem"
+    problem: Problem
+
+
+class DescriptionMessage(WireModel):
+    """The body models there are."""
+
+    kind: Literal["description"] = "description"
+    body_models: BodyModels
+
+
+Message = Annotated[
+    ProgressMessage | DoneMessage | ProblemMessage | DescriptionMessage,
+    Field(discriminator="kind"),
+]
+MESSAGES: Final[TypeAdapter[Message]] = TypeAdapter(Message)

@@ -1,0 +1,65 @@
+"""What a child process runs: a pipeline from a request to a result and its files.
+
+The real one is :mod:`service.worker.pipeline`. It is handed around by its dotted name, because it
+is imported in the child process only: the worker itself loads no numerics.
+"""
+
+import importlib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Protocol, cast
+
+from api_schemas.body_models import BodyModels
+from api_schemas.problems import FieldProblem
+from api_schemas.requests import FitOptions
+from api_schemas.results import FitResult
+from service.engine.port import Report
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PipelineInput:
+    """A request as it reaches the pipeline: options with named points, encoded pictures."""
+
+    options: FitOptions
+    image: bytes
+    mask: bytes | None
+    max_pixels: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PipelineOutput:
+    """The result, whose list of artifacts is still empty, and the artifacts by file name."""
+
+    result: FitResult
+    artifacts: Mapping[str, bytes]
+
+
+class UnusableInputError(Exception):
+    """The pipeline cannot use what the caller sent."""
+
+    def __init__(self, error: FieldProblem) -> None:
+        super().__init__(error.field, error.code)
+        self.error = error
+
+
+class Pipeline(Protocol):
+    """A module with these two functions."""
+
+    def run(self, job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput:
+        """Fit.
+
+        Raises
+        ------
+        UnusableInputError
+            If the input is at fault.
+        """
+        ...
+
+    def describe(self) -> BodyModels:
+        """Return the body models there are."""
+        ...
+
+
+def load_pipeline(module: str) -> Pipeline:
+    """Import the pipeline of that dotted name."""
+    return cast("Pipeline", importlib.import_module(module))

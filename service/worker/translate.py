@@ -1,0 +1,181 @@
+"""Between the wire types and the fitter's: pure, both ways, nothing else."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from api_schemas import requests as wire_request
+from api_schemas import results as wire
+from api_schemas.points import points_by_name
+from api_schemas.problems import FieldProblem
+from fitter.camera import Camera
+from fitter.errors import InvalidInputError
+from fitter.measurement.quantity import Measurement
+from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
+from fitter.progress import Progress
+from fitter.request import Click, Cues, Facing, FitRequest, Gender, LightGuess, OptimizerKind
+from fitter.result import OUTCOME_EXPLANATIONS, FitResult, LimbFacing, StageBody
+from service.engine.port import Report
+
+SEEN = 2
+
+
+def fit_request(
+    options: wire_request.FitOptions,
+    *,
+    image: bytes,
+    mask: bytes | None,
+    max_pixels: int,
+) -> FitRequest:
+    """Translate a request whose points are named."""
+    return FitRequest(
+        image=image,
+        mask=mask,
+        clicks={
+            name: Click(x=point.x, y=point.y, occluded=point.visibility < SEEN)
+            for name, point in points_by_name(options.points).items()
+        },
+        gender=Gender(options.gender),
+        height_m=options.height_m,
+        focal_length_px=options.focal_length_px,
+        focal_length_35mm=options.focal_length_35mm,
+        cues=Cues(options.cues),
+        optimizer=OptimizerKind(options.optimizer),
+        light=LightGuess(
+            kind=LightKind(options.light.kind),
+            azimuth=_radians(options.light.azimuth_deg),
+            elevation=_radians(options.light.elevation_deg),
+            distance=options.light.distance_m,
+        ),
+        limb_facing={limb.value: Facing(facing) for limb, facing in options.limb_facing.items()},
+        max_pixels=max_pixels,
+    )
+
+
+def report(progress: Progress) -> Report:
+    """Translate a progress report."""
+    return Report(
+        stage=progress.stage.value,
+        progress=progress.fraction,
+        energies=dict(progress.energies),
+    )
+
+
+def field_problem(error: InvalidInputError) -> FieldProblem:
+    """Translate the fitter's complaint about its input."""
+    return FieldProblem(
+        field=error.field, code=error.code, reason=error.reason, remedy=error.remedy
+    )
+
+
+def fit_result(result: FitResult, *, part_names: Sequence[str]) -> wire.FitResult:
+    """Translate a result; its files are listed later, when they exist."""
+    return wire.FitResult(
+        gender=wire_request.Gender(result.gender.value),
+        height_m=result.height_m,
+        cues=wire_request.Cues(result.cues.value),
+        optimizer=wire_request.OptimizerKind(result.optimizer.value),
+        outcome=wire.Outcome(result.outcome.value),
+        outcome_explanation=OUTCOME_EXPLANATIONS[result.outcome],
+        camera=_camera(result.camera),
+        image_camera=_camera(result.image_camera),
+        focal_length_source=wire.FocalLengthSource(result.focal_length_source.value),
+        body=_body(result.body, part_names),
+        light=None if result.light is None else _light(result.light),
+        reflectance=None if result.reflectance is None else _reflectance(result.reflectance),
+        energies=dict(result.energies),
+        evaluations=result.evaluations,
+        silhouette_overlap=result.silhouette_overlap,
+        measurements=tuple(_measurement(measurement) for measurement in result.measurements),
+        stages=tuple(_stage(stage, part_names) for stage in result.stages),
+        limb_facing=tuple(_limb_facing(facing) for facing in result.limb_facing),
+        assumptions=tuple(
+            wire.Assumption(quantity=each.quantity, value=each.value, reason=each.reason)
+            for each in result.assumptions
+        ),
+        warnings=tuple(
+            wire.FitWarning(code=each.code, message=each.message) for each in result.warnings
+        ),
+        stage_seconds=dict(result.stage_seconds),
+        artifacts=(),
+    )
+
+
+def _radians(degrees: float | None) -> float | None:
+    return None if degrees is None else math.radians(degrees)
+
+
+def _camera(camera: Camera) -> wire.CameraResult:
+    return wire.CameraResult(
+        focal_length_px=float(camera.focal_length_px),
+        centre_x=float(camera.centre_x),
+        centre_y=float(camera.centre_y),
+        width=camera.width,
+        height=camera.height,
+    )
+
+
+def _vector(values: np.ndarray) -> wire.Vector:
+    x, y, z = (float(value) for value in values)
+    return (x, y, z)
+
+
+def _body(body: BodyParameters, part_names: Sequence[str]) -> wire.BodyResult:
+    return wire.BodyResult(
+        pose=tuple(
+            wire.PartRotation(part=part, rotation=_vector(rotation))
+            for part, rotation in zip(part_names, body.pose, strict=True)
+        ),
+        translation_m=_vector(body.translation),
+        shape=tuple(float(coefficient) for coefficient in body.shape),
+    )
+
+
+def _light(light: Light) -> wire.LightResult:
+    return wire.LightResult(
+        kind=wire_request.LightKind(light.kind.value),
+        azimuth_deg=math.degrees(light.azimuth),
+        elevation_deg=math.degrees(light.elevation),
+        distance_m=None if light.kind is LightKind.DIRECTIONAL else light.distance,
+    )
+
+
+def _reflectance(reflectance: Reflectance) -> wire.ReflectanceResult:
+    return wire.ReflectanceResult(
+        ambient=float(reflectance.ambient),
+        specular_exponent=float(reflectance.specular_exponent),
+        mean_albedo=float(reflectance.albedo.mean()),
+        mean_specularity=float(reflectance.specularity.mean()),
+    )
+
+
+def _measurement(measurement: Measurement) -> wire.Measurement:
+    return wire.Measurement(
+        name=measurement.name,
+        value=measurement.value,
+        unit=measurement.unit,
+        standard_error=measurement.standard_error,
+        definition=measurement.definition,
+        source=measurement.source,
+    )
+
+
+def _stage(stage: StageBody, part_names: Sequence[str]) -> wire.Stage:
+    return wire.Stage(
+        name=stage.name,
+        energies=dict(stage.energies),
+        silhouette_overlap=stage.silhouette_overlap,
+        body=_body(stage.body, part_names),
+        measurements=tuple(_measurement(measurement) for measurement in stage.measurements),
+    )
+
+
+def _limb_facing(facing: LimbFacing) -> wire.LimbFacing:
+    return wire.LimbFacing(
+        limb=facing.limb,
+        facing=wire_request.Facing(facing.facing.value),
+        source=wire.FacingSource(facing.source.value),
+        ambiguous=facing.ambiguous,
+        alternative_energy=facing.alternative_energy,
+    )

@@ -1,0 +1,139 @@
+"""A pipeline that does what the picture tells it: the script is JSON behind a PNG header."""
+
+import ctypes
+import json
+import os
+import struct
+import time
+import zlib
+from collections.abc import Callable
+from pathlib import Path
+
+from api_schemas.body_models import BodyModelInfo, BodyModels
+from api_schemas.problems import FieldProblem
+from api_schemas.requests import Gender
+from api_schemas.results import (
+    Assumption,
+    BodyResult,
+    CameraResult,
+    FitResult,
+    FocalLengthSource,
+    Measurement,
+    Outcome,
+    PartRotation,
+)
+from service.engine.port import Report
+from service.worker.pipeline_port import PipelineInput, PipelineOutput, UnusableInputError
+
+STAGES = ("observation", "initial_pose", "segmentation", "silhouette_and_edges", "measurement")
+SCRIPT_MARK = b"#script:"
+
+
+def scripted_image(
+    script: dict[str, object] | None = None, *, width: int = 640, height: int = 480
+) -> bytes:
+    """A PNG as far as its header goes, followed by what the pipeline is to do."""
+    header = b"IHDR" + struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    chunk = struct.pack(">I", 13) + header + struct.pack(">I", zlib.crc32(header))
+    return b"\x89PNG\r\n\x1a\n" + chunk + SCRIPT_MARK + json.dumps(script or {}).encode()
+
+
+def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput:
+    script = json.loads(job.image.partition(SCRIPT_MARK)[2])
+    if "note_pid" in script:
+        with Path(script["note_pid"]).open("a") as stream:
+            stream.write(f"{os.getpid()}\n")
+    for step, stage in enumerate(STAGES):
+        observe(Report(stage=stage, progress=step / len(STAGES), energies={"total": 10.0 - step}))
+        _work(script.get("seconds", 0.0) / len(STAGES), burn=script.get("burn", False))
+    if script.get("unusable"):
+        raise UnusableInputError(
+            FieldProblem(
+                field="image",
+                code="image-truncated",
+                reason="The picture ends too early.",
+                remedy="Send the whole file.",
+            )
+        )
+    if script.get("fault"):
+        message = "a fault in the fake"
+        raise RuntimeError(message)
+    if script.get("exhaust_memory"):
+        raise MemoryError
+    if script.get("segfault"):
+        ctypes.string_at(0)
+    return PipelineOutput(
+        result=_result(job),
+        artifacts={"body_posed.glb": b"glTF" + bytes(range(256)), "overlay.png": job.image},
+    )
+
+
+def describe() -> BodyModels:
+    return BodyModels(
+        models=tuple(
+            BodyModelInfo(
+                gender=gender,
+                mean_height_m=1.7,
+                vertices=3,
+                triangles=1,
+                shape_coefficients=2,
+                parts=("pelvis",),
+                landmarks=("nose",),
+                format_version=1,
+                checksum="0" * 64,
+                sources=("none",),
+                licences=("none",),
+            )
+            for gender in Gender
+        )
+    )
+
+
+def _work(seconds: float, *, burn: bool) -> None:
+    end = time.monotonic() + seconds
+    while (remaining := end - time.monotonic()) > 0.0:
+        if not burn:
+            time.sleep(remaining)
+
+
+def _result(job: PipelineInput) -> FitResult:
+    camera = CameraResult(
+        focal_length_px=700.0, centre_x=320.0, centre_y=240.0, width=640, height=480
+    )
+    return FitResult(
+        gender=job.options.gender,
+        height_m=job.options.height_m or 1.7,
+        cues=job.options.cues,
+        optimizer=job.options.optimizer,
+        outcome=Outcome.CONVERGED,
+        outcome_explanation="The energy stopped decreasing.",
+        camera=camera,
+        image_camera=camera,
+        focal_length_source=FocalLengthSource.ASSUMED,
+        body=BodyResult(
+            pose=(PartRotation(part="pelvis", rotation=(0.0, 0.0, 0.0)),),
+            translation_m=(0.0, 0.0, 3.0),
+            shape=(0.0, 0.0),
+        ),
+        light=None,
+        reflectance=None,
+        energies={"total": 1.0},
+        evaluations=3,
+        silhouette_overlap=0.9,
+        measurements=(
+            Measurement(
+                name="waist_girth",
+                value=80.0 + len(job.options.points),
+                unit="cm",
+                standard_error=1.0,
+                definition="At the navel.",
+                source="ISO 8559-1",
+            ),
+        ),
+        stages=(),
+        limb_facing=(),
+        assumptions=(Assumption(quantity="focal_length_px", value=700.0, reason="Unknown."),),
+        warnings=(),
+        stage_seconds={"observation": 0.1},
+        artifacts=(),
+    )

@@ -1,0 +1,135 @@
+import json
+
+import pytest
+
+from api_schemas.points import Point
+from service.submission import CheckedSubmission, RefusedError, check_submission
+from tests.integration.service.fake_pipeline import scripted_image
+
+POINTS = {
+    "left_shoulder": [200, 100],
+    "right_shoulder": [100, 100],
+    "left_hip": [180, 250],
+    "right_hip": [120, 250],
+}
+
+
+def check(
+    request: dict[str, object] | bytes | None = None,
+    *,
+    image: bytes | None = None,
+    mask: bytes | None = None,
+    **changes: object,
+) -> CheckedSubmission:
+    whole = {"gender": "male", "height_m": 1.8, "points": POINTS} | changes
+    return check_submission(
+        request=request if isinstance(request, bytes) else json.dumps(request or whole).encode(),
+        image=scripted_image() if image is None else image,
+        mask=mask,
+        max_pixels=1_000_000,
+    )
+
+
+def refusal(*args, **kwargs) -> tuple[int, str | None, str]:
+    with pytest.raises(RefusedError) as caught:
+        check(*args, **kwargs)
+    reason = caught.value.problem
+    assert reason.remedy
+    assert reason.detail
+    return reason.status, reason.field, reason.code
+
+
+def test_points_come_out_named_and_in_full():
+    points = check().options.points
+    assert isinstance(points, dict)
+    assert points["left_shoulder"] == Point(x=200.0, y=100.0, visibility=2)
+
+
+def test_checking_twice_changes_nothing():
+    once = check().options
+    again = check(once.model_dump_json().encode()).options
+    assert again == once
+
+
+@pytest.mark.parametrize(
+    ("changes", "field", "code"),
+    [
+        ({"height_m": 1.19}, "height_m", "out-of-range"),
+        ({"height_m": 2.31}, "height_m", "out-of-range"),
+        ({"height_m": "1.8"}, "height_m", "wrong-kind"),
+        ({"height_m": float("nan")}, "height_m", "not-finite"),
+        ({"gender": "unknown"}, "gender", "unknown-value"),
+        ({"gender": None}, "gender", "unknown-value"),
+        ({"weight": 80}, "weight", "unknown-field"),
+        ({"points": {}}, "points", "too-few-points"),
+        ({"points": dict(list(POINTS.items())[:3])}, "points", "too-few-points"),
+        ({"points": POINTS | {"nose": [float("nan"), 1]}}, "points.nose", "not-finite"),
+        ({"points": POINTS | {"nose": [1, float("inf")]}}, "points.nose", "not-finite"),
+        ({"points": POINTS | {"nose": [641, 100]}}, "points.nose", "point-outside-image"),
+        ({"points": POINTS | {"nose": [100, -1]}}, "points.nose", "point-outside-image"),
+        ({"points": POINTS | {"left_tail": [1, 1]}}, "points.left_tail", "unknown-value"),
+        ({"points": POINTS | {"nose": [1]}}, "points.nose", "missing"),
+        ({"points": POINTS | {"nose": [1, 1, 2, 3]}}, "points.nose", "wrong-length"),
+        ({"points": POINTS | {"nose": [1, 1, 3]}}, "points.nose", "unknown-visibility"),
+        ({"points": [1.0, 2.0, 3.0]}, "points", "points-not-named"),
+        ({"format": "coco17"}, "points", "wrong-point-count"),
+        ({"focal_length_px": 0}, "focal_length_px", "out-of-range"),
+        (
+            {"focal_length_px": 900, "focal_length_35mm": 50},
+            "focal_length_35mm",
+            "two-focal-lengths",
+        ),
+        ({"cues": "S"}, "cues", "unknown-value"),
+        ({"limb_facing": {"left_forearm": "up"}}, "limb_facing.left_forearm", "unknown-value"),
+        ({"limb_facing": {"tail": "away"}}, "limb_facing.tail", "unknown-value"),
+    ],
+)
+def test_a_bad_option_is_refused_naming_field_and_code(changes, field, code):
+    status, named, named_code = refusal(**changes)
+    assert status == 422
+    assert named is not None
+    assert named.startswith(field)
+    assert named_code == code
+
+
+def test_all_faults_are_told_at_once():
+    with pytest.raises(RefusedError) as caught:
+        check(height_m=3.0, gender="unknown")
+    assert {error.field for error in caught.value.problem.errors} == {"height_m", "gender"}
+
+
+def test_an_absent_point_does_not_count():
+    points = POINTS | {"left_hip": {"x": 180, "y": 250, "visibility": 0}}
+    assert refusal(points=points) == (422, "points", "too-few-points")
+
+
+def test_a_point_on_the_very_edge_is_inside():
+    points = check(points=POINTS | {"nose": [640, 480]}).options.points
+    assert "nose" in points
+
+
+def test_text_that_is_not_json_is_malformed():
+    assert refusal(b"gender=male") == (400, "request", "invalid-json")
+
+
+@pytest.mark.parametrize("field", ["image", "mask"])
+@pytest.mark.parametrize(
+    ("content", "status", "code"),
+    [
+        (b"", 422, "empty-upload"),
+        (b"plain text", 415, "not-an-image"),
+        (b"\x89PNG\r\n\x1a\n", 422, "image-damaged"),
+        (scripted_image(width=20_000, height=20_000), 422, "image-too-large"),
+    ],
+)
+def test_a_bad_picture_is_refused(field, content, status, code):
+    assert refusal(**{field: content}) == (status, field, code)
+
+
+def test_a_mask_of_another_size_is_refused():
+    mask = scripted_image(width=639)
+    assert refusal(mask=mask) == (422, "mask", "mask-size-mismatch")
+
+
+def test_a_mask_of_the_same_size_is_accepted():
+    assert check(mask=scripted_image()).mask_media_type == "image/png"
