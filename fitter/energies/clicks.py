@@ -1,5 +1,6 @@
 """Click energy: clicked points against the model's own landmarks, in the image."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +12,7 @@ from fitter.camera import Camera
 from fitter.energies.rows import PositionRows
 from fitter.energies.scales import EnergyScales
 from fitter.numerics.robust import huber, huber_weights
+from fitter.request import Click
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -30,6 +32,32 @@ class ClickEvidence:
     landmarks: SparseRows
     clicks: Points2D
     confidence: Float[np.ndarray, " k"]
+
+
+# What is hidden is guessed, and hair hides where the head ends.
+_OCCLUDED_CONFIDENCE = 1.0 / 9.0
+_HEAD_TOP_CONFIDENCE = 0.25
+
+
+def click_evidence(landmarks: SparseRows, clicks: Mapping[str, Click]) -> ClickEvidence:
+    """Pair clicks (working pixels) with the model's landmark rows by name."""
+    order = [landmarks.names.index(name) for name in clicks]
+    spans = [slice(landmarks.pointers[i], landmarks.pointers[i + 1]) for i in order]
+    confidence = [
+        (_OCCLUDED_CONFIDENCE if click.occluded else 1.0)
+        * (_HEAD_TOP_CONFIDENCE if name == "head_top" else 1.0)
+        for name, click in clicks.items()
+    ]
+    return ClickEvidence(
+        landmarks=SparseRows(
+            names=tuple(clicks),
+            pointers=np.concatenate([[0], np.cumsum([s.stop - s.start for s in spans])]),
+            indices=np.concatenate([landmarks.indices[s] for s in spans]),
+            weights=np.concatenate([landmarks.weights[s] for s in spans]),
+        ),
+        clicks=np.array([[click.x, click.y] for click in clicks.values()]),
+        confidence=np.array(confidence),
+    )
 
 
 def click_energy(

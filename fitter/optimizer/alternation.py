@@ -47,11 +47,24 @@ BodySearch = Callable[[Objective, BodyParameters], Minimum]
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class ShadedFit:
-    """What the alternation found; the light's coordinates refer to the final body's centre."""
+    """What the alternation found.
+
+    Attributes
+    ----------
+    minimum
+        The body, its energies with the final reflectance.
+    light
+        In coordinates about the final body's centre.
+    evidence
+        The shading term at the end, with light and reflectance; its light still refers to the
+        centre where the alternation began.
+    evaluations
+        True energies computed.
+    """
 
     minimum: Minimum
     light: Light
-    reflectance: Reflectance
+    evidence: ShadingEvidence
     evaluations: int
 
 
@@ -105,7 +118,7 @@ def fit_shading(
     return ShadedFit(
         minimum=replace(minimum, candidate=final),
         light=light_about(state.light, old_centre=centre, new_centre=now.parameters.translation),
-        reflectance=state.reflectance,
+        evidence=state,
         evaluations=evaluations,
     )
 

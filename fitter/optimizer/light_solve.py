@@ -13,6 +13,7 @@ from fitter.arrays import Vector3
 from fitter.numerics.robust import geman_mcclure, geman_mcclure_weights
 from fitter.parameters import Light, LightKind, Reflectance
 from fitter.render.reflectance import shade, shade_with_derivatives
+from fitter.request import LightGuess
 
 # A light's distance is told by attenuation across the body alone: a weak prior about 3 m, spread
 # over a factor of e, keeps it out of the body and out of infinity.
@@ -25,8 +26,8 @@ _DAMPING_DOWN, _DAMPING_UP = 0.3, 5.0
 _LARGEST_DAMPING = 1e6
 
 # First guesses when the caller gave none: frontal and from both sides, level and from above.
-GUESSED_AZIMUTHS = (-0.9, 0.0, 0.9)
-GUESSED_ELEVATIONS = (0.0, 0.7)
+_GUESSED_AZIMUTHS = (-0.9, 0.0, 0.9)
+_GUESSED_ELEVATIONS = (0.0, 0.7)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -97,13 +98,17 @@ def first_light(surface: LitSurface, guesses: tuple[Light, ...]) -> LightEstimat
     return min(found, key=lambda estimate: estimate.energy)
 
 
-def guessed_lights(kind: LightKind) -> tuple[Light, ...]:
-    """Where to begin when nobody says where the light is."""
-    distance = _USUAL_DISTANCE_M if kind is LightKind.POINT else float("inf")
+def guessed_lights(guess: LightGuess) -> tuple[Light, ...]:
+    """Where to begin: the caller's coarse word (section 5), and all round where there is none."""
+    distance = float("inf")
+    if guess.kind is LightKind.POINT:
+        distance = guess.distance or _USUAL_DISTANCE_M
+    azimuths = _GUESSED_AZIMUTHS if guess.azimuth is None else (guess.azimuth,)
+    elevations = _GUESSED_ELEVATIONS if guess.elevation is None else (guess.elevation,)
     return tuple(
-        Light(kind=kind, azimuth=azimuth, elevation=elevation, distance=distance)
-        for elevation in GUESSED_ELEVATIONS
-        for azimuth in GUESSED_AZIMUTHS
+        Light(kind=guess.kind, azimuth=azimuth, elevation=elevation, distance=distance)
+        for elevation in elevations
+        for azimuth in azimuths
     )
 
 

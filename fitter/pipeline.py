@@ -1,0 +1,219 @@
+"""The paper on one page: from a picture and clicks to a measured, posed and lit body."""
+
+from collections.abc import Mapping
+
+from fitter.body.shape_space import shape_for_height
+from fitter.energies.clicks import click_evidence
+from fitter.energies.objective import Candidate, Objective, PictureEvidence
+from fitter.energies.scales import scales_at
+from fitter.evidence.edge_cost import edge_cost_map
+from fitter.evidence.intensity import intensity_map
+from fitter.evidence.silhouette_evidence import silhouette_evidence
+from fitter.fittable import FittableBody, packaged_body
+from fitter.measurement.anthropometry import measure
+from fitter.observation.observation import Observation, observe
+from fitter.optimizer.albedo_colour import albedo_rgb
+from fitter.optimizer.alternation import ShadedFit, fit_shading
+from fitter.optimizer.hypotheses import try_hypotheses
+from fitter.optimizer.light_solve import guessed_lights
+from fitter.optimizer.search import body_search, limits_of
+from fitter.optimizer.uncertainty import shape_covariance
+from fitter.parameters import BodyParameters
+from fitter.pose_init.initial_pose import InitialPose, initialize_pose
+from fitter.pose_init.points import clicked_points
+from fitter.progress import Observer, Stage, ignore_progress
+from fitter.remarks import Assumption, FitWarning
+from fitter.render.rasterizer import render
+from fitter.reporting import fit_warnings, limb_facings, outcome_of
+from fitter.request import Cues, FitRequest, Gender
+from fitter.result import FitResult, Pictures, StageBody
+from fitter.segmentation.bones import clicked_bones
+from fitter.segmentation.grabcut import Segmentation, border_warnings, segment
+from fitter.segmentation.trimap import Trimap, trimap
+from fitter.stage_clock import StageClock
+
+MEAN_HEIGHT_M: Mapping[Gender, float] = {Gender.FEMALE: 1.65, Gender.MALE: 1.82}
+"""Section 4: the heights taken for people, as in paintings, whose height nobody knows."""
+
+_EDGE_THRESHOLD_M = 0.03
+"""How far from a model edge an image edge may lie and still attract it."""
+
+
+def fit(request: FitRequest, *, observer: Observer = ignore_progress) -> FitResult:
+    """Fit a body to one picture.
+
+    Raises
+    ------
+    InvalidInputError
+        If the request cannot be used; the message names the field and the remedy.
+    ModelFileError
+        If the body model is missing or damaged.
+    """
+    clock = StageClock(observer)
+    with clock.stage(Stage.OBSERVATION):
+        observation = observe(request)
+        body = packaged_body(request.gender)
+        height_m, height_assumed = _height(request)
+    with clock.stage(Stage.INITIAL_POSE):
+        initial = initialize_pose(
+            body.instruments.evaluator,
+            camera=observation.camera,
+            clicks=clicked_points(observation.clicks),
+            shape=shape_for_height(body.instruments.evaluator, height_m),
+            limb_facing=request.limb_facing,
+        )
+    with clock.stage(Stage.SEGMENTATION):
+        labels, segmentation = _segmented(observation, body, initial.parameters)
+        objective = _silhouette_and_edges(observation, body, initial, segmentation)
+    limits = limits_of(request.optimizer)
+    with clock.stage(Stage.SILHOUETTE_AND_EDGES) as report:
+        hypotheses = initial.hypotheses[: limits.hypotheses]
+        tried = try_hypotheses(
+            objective,
+            [hypothesis.parameters for hypothesis in hypotheses],
+            search=body_search(request.optimizer, limits.trial, report),
+        )
+        se = body_search(request.optimizer, limits.silhouette_and_edges, report)(
+            objective, tried.ends[tried.best].candidate.parameters
+        )
+    intensity = intensity_map(observation.luminance, observation.display, segmentation.mask)
+    shaded: ShadedFit | None = None
+    with clock.stage(Stage.SHADING) as report:
+        if request.cues is Cues.SES:
+            shaded = fit_shading(
+                objective,
+                se.candidate,
+                intensity,
+                guessed_lights(request.light),
+                search=body_search(request.optimizer, limits.shading_round, report),
+            )
+    final = se if shaded is None else shaded.minimum
+    with clock.stage(Stage.MEASUREMENT):
+        overlap = objective.overlap(final.candidate)
+        covariance = shape_covariance(
+            objective if shaded is None else objective.with_shading(shaded.evidence),
+            final.candidate,
+        )
+        measurements = measure(
+            body.measuring, final.candidate.parameters.shape, shape_covariance=covariance
+        )
+        first = objective.evaluate(hypotheses[0].parameters)
+        stages = [_stage(body, objective, "initial", first)]
+        stages.append(_stage(body, objective, "SE", se.candidate))
+        if shaded is not None:
+            stages.append(_stage(body, objective, "SES", shaded.minimum.candidate))
+    facings = limb_facings(hypotheses, tried, request.limb_facing)
+    shading_missing = request.cues is Cues.SES and shaded is None
+    return FitResult(
+        gender=request.gender,
+        height_m=height_m,
+        cues=request.cues,
+        optimizer=request.optimizer,
+        outcome=outcome_of(converged=final.converged, overlap=overlap),
+        camera=observation.camera,
+        image_camera=observation.image_camera,
+        focal_length_source=observation.focal_length_source,
+        body=final.candidate.parameters,
+        posed_vertices=final.candidate.vertices,
+        canonical_vertices=body.measuring.canonical.at(final.candidate.parameters.shape),
+        light=None if shaded is None else shaded.light,
+        reflectance=None if shaded is None else shaded.evidence.reflectance,
+        albedo_rgb=None
+        if shaded is None
+        else albedo_rgb(
+            final.candidate,
+            shaded.evidence.reflectance.albedo,
+            observation.linear_rgb,
+            intensity,
+            body.instruments.topology,
+        ),
+        energies=final.candidate.energies,
+        evaluations=tried.evaluations
+        + se.evaluations
+        + (0 if shaded is None else shaded.evaluations),
+        silhouette_overlap=overlap,
+        stages=tuple(stages),
+        measurements=measurements,
+        limb_facing=facings,
+        assumptions=observation.assumptions + height_assumed,
+        warnings=observation.warnings
+        + segmentation.warnings
+        + fit_warnings(overlap, facings)
+        + (_SHADING_MISSING if shading_missing else ()),
+        stage_seconds=clock.seconds,
+        pictures=Pictures(
+            image=observation.display,
+            trimap=labels,
+            segmentation=segmentation.mask,
+            shading=None,
+        ),
+    )
+
+
+_SHADING_MISSING = (
+    FitWarning(
+        code="shading-not-used",
+        message=(
+            "Too little of the body is visible, unclipped and away from its outline for shading to "
+            "say anything; the result is that of silhouette and edges."
+        ),
+    ),
+)
+
+
+def _height(request: FitRequest) -> tuple[float, tuple[Assumption, ...]]:
+    if request.height_m is not None:
+        return request.height_m, ()
+    mean = MEAN_HEIGHT_M[request.gender]
+    assumed = Assumption(
+        quantity="height_m",
+        value=mean,
+        reason=f"No height was given; the mean of the gender ({request.gender.value}) was taken.",
+    )
+    return mean, (assumed,)
+
+
+def _segmented(
+    observation: Observation, body: FittableBody, initial: BodyParameters
+) -> tuple[Trimap | None, Segmentation]:
+    """The caller's mask, or GrabCut from the tri-map of the initial body (section 3.2)."""
+    if observation.mask is not None:
+        return None, Segmentation(mask=observation.mask, warnings=border_warnings(observation.mask))
+    vertices = body.instruments.evaluator.vertices(initial)
+    rendering = render(vertices, body.instruments.model.triangles, observation.camera)
+    labels = trimap(rendering.silhouette, clicked_bones(observation.clicks))
+    return labels, segment(observation.display, labels)
+
+
+def _silhouette_and_edges(
+    observation: Observation,
+    body: FittableBody,
+    initial: InitialPose,
+    segmentation: Segmentation,
+) -> Objective:
+    """E1 of this picture."""
+    depth = initial.root_depth_m
+    pixels_per_metre = observation.camera.focal_length_px / depth
+    return Objective(
+        instruments=body.instruments,
+        evidence=PictureEvidence(
+            camera=observation.camera,
+            clicks=click_evidence(body.instruments.model.landmarks, observation.clicks),
+            silhouette=silhouette_evidence(segmentation.mask),
+            edges=edge_cost_map(
+                observation.display, threshold_px=_EDGE_THRESHOLD_M * pixels_per_metre
+            ),
+            shading=None,
+        ),
+        scales=scales_at(observation.camera, depth),
+    )
+
+
+def _stage(body: FittableBody, objective: Objective, name: str, candidate: Candidate) -> StageBody:
+    return StageBody(
+        name=name,
+        body=candidate.parameters,
+        energies=candidate.energies,
+        silhouette_overlap=objective.overlap(candidate),
+        measurements=measure(body.measuring, candidate.parameters.shape),
+    )

@@ -1,0 +1,78 @@
+"""What a fit says about itself: how it ended, which way limbs face, what to look at."""
+
+from collections.abc import Mapping, Sequence
+
+from fitter.optimizer.hypotheses import TriedHypotheses
+from fitter.pose_init.initial_pose import PoseHypothesis
+from fitter.remarks import FitWarning
+from fitter.request import Facing
+from fitter.result import FacingSource, LimbFacing, Outcome
+
+LEAST_OVERLAP = 0.85
+"""Below this share of intersection over union a fit is called poor: half of an arm is about 4 %."""
+
+_AMBIGUOUS_NATS = 6.0
+
+
+def outcome_of(*, converged: bool, overlap: float) -> Outcome:
+    """How the search ended."""
+    if overlap < LEAST_OVERLAP:
+        return Outcome.POOR_FIT
+    return Outcome.CONVERGED if converged else Outcome.EVALUATION_LIMIT
+
+
+def limb_facings(
+    hypotheses: Sequence[PoseHypothesis],
+    tried: TriedHypotheses,
+    said: Mapping[str, Facing],
+) -> tuple[LimbFacing, ...]:
+    """How each limb's depth ambiguity was resolved (section 3.1)."""
+    chosen = hypotheses[tried.best]
+    energy = tried.ends[tried.best].candidate.total
+    facings: list[LimbFacing] = []
+    for limb, facing in chosen.facing.items():
+        others = [
+            end.candidate.total
+            for hypothesis, end in zip(hypotheses, tried.ends, strict=True)
+            if hypothesis.facing.get(limb) not in (None, facing)
+        ]
+        source = FacingSource.ENERGY if others else FacingSource.PRIOR
+        if limb in said:
+            source = FacingSource.CALLER
+        facings.append(
+            LimbFacing(
+                limb=limb,
+                facing=facing,
+                source=source,
+                ambiguous=bool(others) and min(others) - energy < _AMBIGUOUS_NATS,
+                alternative_energy=min(others) if others else None,
+            )
+        )
+    return tuple(facings)
+
+
+def fit_warnings(overlap: float, facings: Sequence[LimbFacing]) -> tuple[FitWarning, ...]:
+    """What the caller should look at."""
+    warnings: list[FitWarning] = []
+    if overlap < LEAST_OVERLAP:
+        warnings.append(
+            FitWarning(
+                code="low-silhouette-overlap",
+                message=(
+                    f"The body covers the segmented person with an overlap of {overlap:.2f} only. "
+                    "Check the points and left and right, or send a mask."
+                ),
+            )
+        )
+    unsure = [facing.limb for facing in facings if facing.ambiguous]
+    if unsure:
+        warnings.append(
+            FitWarning(
+                code="ambiguous-limb-facing",
+                message=(
+                    f"{', '.join(unsure)}: the picture fits about as well facing the other way. "
+                    "Say which in limb_facing."
+                ),
+            )
+        )
+    return tuple(warnings)
