@@ -9,6 +9,7 @@ from jaxtyping import Float
 from fitter.arrays import PerVertex
 from fitter.body.model import BodyModel
 from fitter.body.scape import ScapeEvaluator
+from fitter.body.stature import stature_m
 from fitter.parameters import BodyParameters
 from fitter.training.assemble import RegisteredBodies, height_attribute
 from fitter.training.attribute_axes import attribute_changes
@@ -72,7 +73,7 @@ def height_axes(model: BodyModel, bodies: RegisteredBodies) -> HeightAxes:
     coefficients, _ = project(bodies.rest, _areas(model), model.mean_vertices, model.shape_basis)
     statures = np.array(
         [
-            np.ptp(bodies.posed(subject, model.standing_pose)[:, 1])
+            stature_m(bodies.posed(subject, model.standing_pose), model.landmarks)
             for subject in range(len(bodies.rest))
         ]
     )

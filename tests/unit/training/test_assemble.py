@@ -1,0 +1,133 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fitter.body.scape import ScapeEvaluator
+from fitter.body.shape_space import rest_vertices
+from fitter.body.skeleton import regress
+from fitter.body.storage import load_body_model, save_body_model
+from fitter.parameters import BodyParameters
+from fitter.training.assemble import assemble_body_model, height_attribute, model_arrays
+from fitter.training.evaluation import height_axes, posed_error, shape_error
+from tests.unit.training.synthetic_population import landmarks, part_weights, population, surface
+
+HEADER = {
+    "gender": "male",
+    "units": "metres",
+    "sources": ["ellipsoids"],
+    "licences": ["CC0-1.0"],
+    "seed": 1,
+}
+
+
+def train(example_count: int = 0):
+    return assemble_body_model(
+        population(80, 1),
+        surface(),
+        part_weights(),
+        landmarks(),
+        header=HEADER,
+        example_count=example_count,
+        rng=np.random.default_rng(2),
+    )
+
+
+@pytest.fixture(scope="module")
+def trained():
+    return train()
+
+
+def test_bodies_of_the_planted_space_are_rebuilt(trained):
+    error = shape_error(trained.model, population(30, 9).rest)
+    assert error.by_vertex < 0.01
+    assert error.by_area < 0.01
+
+
+def test_what_the_space_lacks_is_counted_in_millimetres(trained):
+    bodies = population(30, 9).rest
+    bump = np.zeros_like(bodies)
+    bump[:, ::2, 2] = 0.004
+    bump[:, 1::2, 2] = -0.004
+    assert 3.0 < shape_error(trained.model, bodies + bump).by_vertex < 4.5
+
+
+def test_only_the_first_axis_changes_height(trained):
+    height = height_attribute(trained.model)
+    still = height(np.zeros(20))
+    assert height(np.eye(20)[0]) > still + 0.01
+    for axis in np.eye(20)[1:]:
+        assert abs(height(3.0 * axis) - still) < 1e-6
+
+
+def test_height_follows_its_axis_on_people_not_trained_on(trained):
+    bodies = population(30, 9)
+    exact = ScapeEvaluator(
+        replace(trained.model, shape_basis=bodies.rest - trained.model.mean_vertices)
+    )
+
+    def posed(subject, pose):
+        return exact.body_frame_vertices(
+            BodyParameters(pose=pose, translation=np.zeros(3), shape=np.eye(30)[subject])
+        )
+
+    figures = height_axes(trained.model, replace(bodies, posed=posed))
+    assert figures.correlation > 0.99
+    assert figures.changes_mm.max() < 1e-3
+
+
+def test_training_coefficients_are_whitened_after_the_rotation(trained):
+    np.testing.assert_allclose(np.cov(trained.coefficients.T), np.eye(20), atol=1e-9)
+    rebuilt = rest_vertices(trained.model, trained.coefficients[5])
+    wanted = population(80, 1).rest[5]
+    np.testing.assert_allclose(
+        rebuilt - rebuilt.mean(axis=0), wanted - wanted.mean(axis=0), atol=1e-6
+    )
+
+
+def test_the_root_joint_lies_at_the_origin_for_every_shape(trained):
+    shape = np.random.default_rng(0).normal(size=20)
+    body = rest_vertices(trained.model, shape)
+    np.testing.assert_allclose(regress(trained.model.joint_regressor, body)[0], 0.0, atol=1e-7)
+
+
+def test_a_whole_turn_moves_the_model_rigidly(trained):
+    model = trained.model
+    pose = np.zeros((17, 3))
+    pose[0] = [0.0, np.pi / 2, 0.0]
+    turned = ScapeEvaluator(model).body_frame_vertices(
+        BodyParameters(pose=pose, translation=np.zeros(3), shape=np.zeros(20))
+    )
+    expected = model.mean_vertices @ np.array([[0, 0, -1.0], [0, 1, 0], [1.0, 0, 0]])
+    np.testing.assert_allclose(turned, expected, atol=1e-6)
+
+
+def test_learning_from_posed_bodies_lowers_the_posed_error(trained):
+    # The posed bodies of this population do not move at all: rigid parts are wrong about them,
+    # and the pose-dependent term can partly undo the turn.
+    bodies = population(10, 9)
+    learned = train(example_count=120).model
+    before, after = (
+        posed_error(model, bodies, 20, np.random.default_rng(4)).by_vertex
+        for model in (trained.model, learned)
+    )
+    assert after < 0.85 * before
+
+
+def test_the_model_survives_its_file(trained, tmp_path):
+    model = trained.model
+    header = HEADER | {
+        "part_names": list(model.part_names),
+        "landmark_names": list(model.landmarks.names),
+    }
+    path = tmp_path / "male.npz"
+    save_body_model(path, header=header, arrays=model_arrays(model))
+    loaded = load_body_model(path)
+    np.testing.assert_allclose(loaded.shape_basis, model.shape_basis, atol=1e-7)
+    np.testing.assert_array_equal(loaded.mean_vertices, model.mean_vertices)
+
+
+def test_the_same_seed_trains_the_same_model():
+    first, second = (model_arrays(train(example_count=20).model) for _ in range(2))
+    for name, array in first.items():
+        np.testing.assert_array_equal(array, second[name], err_msg=name)
