@@ -100,7 +100,7 @@ JOINT_RANGES: Mapping[str, JointRange] = {
     ),
     "thigh": JointRange(
         flexion=_motion(-30, 120, 8, 25),
-        abduction=_motion(-30, 45, 5, 12),
+        abduction=_motion(-30, 45, 2, 10),
         twist=_motion(-45, 45, 5, 15),
         source=(
             "AAOS, hip: flexion 120, extension 30, abduction 45, adduction 30, rotation 45 each way"

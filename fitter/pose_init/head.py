@@ -11,7 +11,8 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.body.pose_prior import mean_pose
-from fitter.pose_init.click_fit import ClickProblem, fit_clicks
+from fitter.pose_init.click_fit import fit_clicks
+from fitter.pose_init.click_problem import ClickProblem
 
 FACE_POINTS = (
     "nose",
@@ -31,7 +32,7 @@ def turn_head(
     pose: Float[np.ndarray, "b p 3"],
     translation: Float[np.ndarray, "b 3"],
     *,
-    iterations: int = 6,
+    iterations: int = 4,
 ) -> Float[np.ndarray, "b p 3"]:
     """Poses with neck and head turned toward the face points, everything else kept.
 
@@ -43,7 +44,8 @@ def turn_head(
         A batch of poses.
     """
     rig = problem.rig
-    face = np.array([rig.landmark_names[i] in FACE_POINTS for i in problem.clicked], dtype=bool)
+    names = tuple(rig.landmark_names[i] for i in problem.clicked)
+    face = np.array([name in FACE_POINTS for name in names], dtype=bool)
     parts = [rig.part("neck"), rig.part("head")]
     start = pose.copy()
     start[:, parts] = mean_pose(problem.prior)[parts]
@@ -53,10 +55,11 @@ def turn_head(
     turning[parts] = True
     face_problem = dataclasses.replace(
         problem,
-        clicked=problem.clicked[face],
+        rig=rig.only(tuple(name for name in names if name in FACE_POINTS)),
+        clicked=np.arange(int(face.sum())),
         pixels=problem.pixels[face],
         precision=problem.precision[face],
-        slants=problem.slants[:0],
+        slants=np.zeros((0, int(face.sum()))),
         turning=turning,
         moving=False,
     )

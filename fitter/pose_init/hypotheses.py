@@ -1,128 +1,83 @@
-"""The few most plausible readings of all limbs together.
-
-Given the trunk's reading the arms and legs are independent, so the plausibility of a whole body is
-a sum: at most sixteen trunks, each with four chains of four readings, are ranked exactly by
-adding energies. No reading is tried that the caller's word excludes.
-"""
+"""From closed-form starts to a few distinct, refined hypotheses."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
 
-from fitter.body.pose_prior import PosePrior, joint_energy, mean_pose
-from fitter.body.scape import CAMERA_AXES
-from fitter.numerics.rotations import rotation_vectors
-from fitter.pose_init.chains import OVERREACH_SPREAD_M, ChainReadings, chain_readings
-from fitter.pose_init.click_fit import TRUNK_LEAN_SPREAD, TRUNK_YAW_SPREAD
-from fitter.pose_init.landmark_rig import LandmarkRig
-from fitter.pose_init.lifting import FAR, NEAR, Lifting
-from fitter.pose_init.limbs import CHAINS, PELVIS_MIDDLE, TORSO, Limb, limb_named, point_at_rest
-from fitter.pose_init.trunk import Pixels, TrunkReadings, trunk_readings
+from fitter.pose_init.click_fit import FittedPoses, fit_clicks
+from fitter.pose_init.click_problem import ClickProblem
+from fitter.pose_init.head import turn_head
+from fitter.pose_init.landmark_rig import LandmarkRig, pose_landmarks
+from fitter.pose_init.lifting import Lifting
+from fitter.pose_init.limbs import LIMBS, limb_slant
+from fitter.pose_init.reference_limb import ReferenceLimb
+from fitter.pose_init.start_poses import start_poses
 from fitter.request import Facing
 
+STARTS = 16
+"""Closed-form readings that are refined at all."""
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class StartPoses:
-    """Closed-form poses, best first.
+MOST_HYPOTHESES = 8
+"""Hypotheses refined to the end and returned at most."""
 
-    Attributes
-    ----------
-    pose
-        (b, p, 3) radians.
-    translation
-        (b, 3) root joint in the camera frame, metres.
-    energy
-        (b,) half a sum of squares of priors and of what limbs appear too long.
-    """
+_ROUGH_ITERATIONS, _FINE_ITERATIONS = 5, 20
 
-    pose: Float[np.ndarray, "b p 3"]
-    translation: Float[np.ndarray, "b 3"]
-    energy: Float[np.ndarray, " b"]
+_SAME_BASIN = np.radians(12.0)
+"""Roughly refined poses whose joints all agree this closely will end in the same place."""
+
+_SAME_POSE = np.radians(6.0)
+"""Refined poses whose joints all agree this closely are one hypothesis."""
 
 
-def start_poses(
-    rig: LandmarkRig,
-    prior: PosePrior,
+def refined_hypotheses(
+    problem: ClickProblem,
     lifting: Lifting,
-    pixels: Pixels,
-    lengths_m: Mapping[str, float],
-    reference: Limb,
     *,
+    pixels: Mapping[str, Float[np.ndarray, "2"]],
+    lengths_m: Mapping[str, float],
+    reference: ReferenceLimb,
     limb_facing: Mapping[str, Facing],
-    count: int,
-) -> StartPoses:
-    """Lift the clicks in every way they allow and keep the ``count`` most plausible.
-
-    Parameters
-    ----------
-    pixels
-        Limb ends by point name; the trunk's corners and middles must be there.
-    reference
-        The limb taken as parallel to the image.
-    """
-    trunks = trunk_readings(rig, lifting, pixels, lengths_m, reference)
-    spine, chest = rig.part("spine"), rig.part("chest")
-    bend = 0.5 * rotation_vectors(np.matmul(trunks.pelvis.transpose(0, 2, 1), trunks.chest))
-    energy = _trunk_energy(trunks, limb_facing.get(TORSO))
-    energy = energy + joint_energy(prior, spine, bend) + joint_energy(prior, chest, bend)
-    chains = [
-        chain_readings(
-            rig,
-            prior,
-            lifting,
-            pixels,
-            lengths_m,
-            chain=chain,
-            root=trunks.points[limb_named(chain[0]).proximal],
-            parent_rotation=trunks.chest if chain[0].endswith("arm") else trunks.pelvis,
-            limb_facing=limb_facing,
-        )
-        for chain in CHAINS
-    ]
-    trunk, picks = _best(energy, chains, count)
-    pose = np.tile(mean_pose(prior), (len(trunk), 1, 1))
-    pose[:, 0] = rotation_vectors(trunks.pelvis[trunk])
-    pose[:, spine] = pose[:, chest] = bend[trunk]
-    total = energy[trunk]
-    for (upper, lower), chain, pick in zip(CHAINS, chains, picks, strict=True):
-        at = (trunk, pick // 2, pick % 2)
-        pose[:, rig.part(upper)] = chain.upper[at]
-        pose[:, rig.part(lower)] = chain.lower[at]
-        total = total + chain.energy[at]
-    arm = point_at_rest(rig, PELVIS_MIDDLE) - rig.rest_joints[0]
-    return StartPoses(
-        pose=pose,
-        translation=trunks.points[PELVIS_MIDDLE][trunk]
-        - (trunks.pelvis[trunk] @ arm) * CAMERA_AXES,
-        energy=total,
+) -> FittedPoses:
+    """Closed form, head, and refinement on blended landmarks; best first."""
+    starts = start_poses(
+        problem.rig,
+        problem.prior,
+        lifting,
+        pixels,
+        lengths_m,
+        reference.limb,
+        limb_facing=limb_facing,
+        count=STARTS,
     )
+    pose = turn_head(problem, starts.pose, starts.translation)
+    rough = fit_clicks(problem, pose, starts.translation, iterations=_ROUGH_ITERATIONS).ranked()
+    kept = _distinct(rough, _SAME_BASIN, most=MOST_HYPOTHESES)
+    fine = fit_clicks(problem, kept.pose, kept.translation, iterations=_FINE_ITERATIONS)
+    return distinct_hypotheses(fine)
 
 
-def _trunk_energy(trunks: TrunkReadings, facing: Facing | None) -> Float[np.ndarray, " g"]:
-    lean = trunks.pelvis[:, 2, 1] / TRUNK_LEAN_SPREAD
-    yaw = trunks.pelvis[:, 2, 0] / TRUNK_YAW_SPREAD
-    excess = trunks.overreach_m / OVERREACH_SPREAD_M
-    energy = 0.5 * (lean**2 + yaw**2 + excess**2)
-    if facing is None:
-        return energy
-    wanted = NEAR if facing is Facing.TOWARD else FAR
-    return np.where(trunks.facings.torso == wanted, energy, np.inf)
+def distinct_hypotheses(fitted: FittedPoses) -> FittedPoses:
+    """Best first, without poses that came out the same as a better one."""
+    return _distinct(fitted.ranked(), _SAME_POSE, most=len(fitted.pose))
 
 
-def _best(
-    trunk_energy: Float[np.ndarray, " g"], chains: list[ChainReadings], count: int
-) -> tuple[np.ndarray, list[np.ndarray]]:
-    """Trunk and reading of each chain in the ``count`` smallest sums, ascending."""
-    total = trunk_energy
-    for chain in chains:
-        total = total[..., None] + chain.energy.reshape(
-            len(trunk_energy), *[1] * (total.ndim - 1), 4
-        )
-    flat = total.ravel()
-    count = min(count, int(np.isfinite(flat).sum()))
-    smallest = np.argpartition(flat, count - 1)[:count]
-    smallest = smallest[np.argsort(flat[smallest], kind="stable")]
-    trunk, *picks = np.unravel_index(smallest, total.shape)
-    return trunk, list(picks)
+def limb_facings(rig: LandmarkRig, fitted: FittedPoses) -> list[dict[str, Facing]]:
+    """Which way every limb of every pose faces."""
+    points = pose_landmarks(rig, fitted.pose, fitted.translation).points
+    result: list[dict[str, Facing]] = [{} for _ in points]
+    for limb in LIMBS:
+        slants = points[..., 2] @ limb_slant(limb, rig.landmark_names)
+        for facing, slant in zip(result, slants, strict=True):
+            facing[limb.name] = Facing.TOWARD if slant < 0.0 else Facing.AWAY
+    return result
+
+
+def _distinct(fitted: FittedPoses, angle: float, *, most: int) -> FittedPoses:
+    kept: list[int] = []
+    for row, pose in enumerate(fitted.pose):
+        if len(kept) == most:
+            break
+        if all(np.abs(pose - fitted.pose[other]).max() > angle for other in kept):
+            kept.append(row)
+    return fitted.chosen(np.array(kept))

@@ -20,34 +20,27 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Shape
-from fitter.body.pose_prior import PosePrior, pose_prior
+from fitter.body.pose_prior import pose_prior
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.skeleton import regress
 from fitter.camera import Camera
 from fitter.parameters import BodyParameters
-from fitter.pose_init.click_fit import ClickProblem, FittedPoses, fit_clicks, moved_joints
-from fitter.pose_init.head import turn_head
-from fitter.pose_init.hypotheses import start_poses
+from fitter.pose_init.click_fit import FittedPoses, fit_clicks
+from fitter.pose_init.click_problem import ClickProblem, click_problem
+from fitter.pose_init.hypotheses import (
+    distinct_hypotheses,
+    limb_facings,
+    refined_hypotheses,
+)
 from fitter.pose_init.landmark_rig import LandmarkRig, landmark_rig, pose_landmarks
-from fitter.pose_init.lifting import Lifting
-from fitter.pose_init.limbs import LIMBS, MIDDLES, limb_lengths_m
+from fitter.pose_init.limbs import LIMBS, TORSO, landmarks_of, limb_lengths_m
 from fitter.pose_init.perspective import PerspectiveLifting
 from fitter.pose_init.points import ClickedPoints
-from fitter.pose_init.reference_limb import CLICK_SPREAD_M, ReferenceLimb, reference_limb
+from fitter.pose_init.reference_limb import ReferenceLimb, reference_limb
 from fitter.pose_init.trunk_points import TrunkPoints, trunk_points
 from fitter.request import Facing
 
-STARTS = 16
-"""Closed-form readings that are refined at all."""
-
-MOST_HYPOTHESES = 8
-"""Hypotheses refined to the end and returned at most."""
-
-OCCLUDED_SPREAD = 3.0
-"""How much less a hidden point's click is believed."""
-
-_SAME_ANGLE = np.radians(6.0)
-"""Refined poses whose joints all agree this closely are one hypothesis."""
+_SETTLING_ITERATIONS = 3
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -82,7 +75,7 @@ class InitialPose:
     parameters
         The best hypothesis' body.
     hypotheses
-        All, best first, at most :data:`MOST_HYPOTHESES`.
+        All, best first, at most :data:`~fitter.pose_init.hypotheses.MOST_HYPOTHESES`.
     reference_limb
         The limb taken as most parallel to the image.
     root_depth_m
@@ -118,7 +111,7 @@ def initialize_pose(
         Clicked landmarks; names the model does not know are an error of the caller of this
         function and raise ``ValueError``.
     shape
-        The mean person of the height (:func:`fitter.body.stature.shape_for_height`).
+        The mean person of the height (:func:`fitter.body.shape_space.shape_for_height`).
     limb_facing
         The caller's word, by limb name; obeyed.
 
@@ -145,7 +138,6 @@ def initialize_pose(
         limb_facing=limb_facing,
     )
     fitted = _on_the_surface(evaluator, problem, shape, fitted)
-    fitted = _distinct(fitted)
     hypotheses = _described(problem.rig, shape, fitted)
     best = hypotheses[0].parameters
     seen = camera.project(_surface_landmarks(evaluator, best, clicks.names))
@@ -159,68 +151,6 @@ def initialize_pose(
     )
 
 
-def click_problem(
-    rig: LandmarkRig,
-    prior: PosePrior,
-    camera: Camera,
-    clicks: ClickedPoints,
-    *,
-    scale: float,
-    limb_facing: Mapping[str, Facing],
-) -> ClickProblem:
-    """The clicks as a least-squares problem; ``scale`` is the picture's pixels a metre."""
-    ends = [name for limb in LIMBS for name in (limb.proximal, limb.distal) if name not in MIDDLES]
-    corners = [name for pair in MIDDLES.values() for name in pair]
-    names = tuple(dict.fromkeys((*clicks.names, *ends, *corners)))
-    rig = rig.only(names)
-    clicked = np.arange(len(clicks.names))
-    spread = CLICK_SPREAD_M * scale * np.where(clicks.occluded, OCCLUDED_SPREAD, 1.0)
-    slants = [
-        (1.0 if limb_facing[limb.name] is Facing.TOWARD else -1.0)
-        * (_end_row(names, limb.distal) - _end_row(names, limb.proximal))
-        for limb in LIMBS
-        if limb.name in limb_facing
-    ]
-    return ClickProblem(
-        rig=rig,
-        prior=prior,
-        camera=camera,
-        clicked=clicked,
-        pixels=clicks.pixels,
-        precision=1.0 / spread,
-        slants=np.array(slants).reshape(-1, len(names)),
-        turning=moved_joints(rig, clicked),
-        moving=True,
-    )
-
-
-def refined_hypotheses(
-    problem: ClickProblem,
-    lifting: Lifting,
-    *,
-    pixels: Mapping[str, Float[np.ndarray, "2"]],
-    lengths_m: Mapping[str, float],
-    reference: ReferenceLimb,
-    limb_facing: Mapping[str, Facing],
-) -> FittedPoses:
-    """Closed form, head, and refinement on blended landmarks; best first."""
-    starts = start_poses(
-        problem.rig,
-        problem.prior,
-        lifting,
-        pixels,
-        lengths_m,
-        reference.limb,
-        limb_facing=limb_facing,
-        count=STARTS,
-    )
-    pose = turn_head(problem, starts.pose, starts.translation)
-    rough = fit_clicks(problem, pose, starts.translation, iterations=5)
-    kept = rough.chosen(np.argsort(rough.energy, kind="stable")[:MOST_HYPOTHESES])
-    fitted = fit_clicks(problem, kept.pose, kept.translation, iterations=20)
-    return fitted.chosen(np.argsort(fitted.energy, kind="stable"))
-
-
 def reference_of(
     clicks: ClickedPoints, trunk: TrunkPoints, lengths_m: Mapping[str, float]
 ) -> ReferenceLimb:
@@ -231,18 +161,9 @@ def reference_of(
         for limb in LIMBS
         if limb.proximal in pixels
         and limb.distal in pixels
-        and not trunk.guessed & {*_corners(limb.proximal), *_corners(limb.distal)}
+        and not trunk.guessed & {*landmarks_of(limb.proximal), *landmarks_of(limb.distal)}
     ]
-    return reference_limb(pixels, lengths_m, candidates=seen or ["torso"])
-
-
-def _corners(point: str) -> tuple[str, ...]:
-    return MIDDLES.get(point, (point,))
-
-
-def _end_row(names: tuple[str, ...], point: str) -> Float[np.ndarray, " k"]:
-    corners = _corners(point)
-    return np.array([1.0 / len(corners) if name in corners else 0.0 for name in names])
+    return reference_limb(pixels, lengths_m, candidates=seen or [TORSO])
 
 
 def _surface_landmarks(
@@ -257,31 +178,21 @@ def _on_the_surface(
 ) -> FittedPoses:
     """Shift each click by how far blended and true landmarks lie apart, and settle."""
     names = tuple(problem.rig.landmark_names[i] for i in problem.clicked)
-    settled: list[FittedPoses] = []
-    for pose, translation in zip(fitted.pose, fitted.translation, strict=True):
-        parameters = BodyParameters(pose=pose, translation=translation, shape=shape)
-        true = problem.camera.project(_surface_landmarks(evaluator, parameters, names))
-        blended = problem.camera.project(
-            pose_landmarks(problem.rig, pose, translation).points[problem.clicked]
-        )
-        shifted = dataclasses.replace(problem, pixels=problem.pixels - true + blended)
-        settled.append(fit_clicks(shifted, pose[None], translation[None], iterations=3))
-    energy = np.concatenate([one.energy for one in settled])
-    order = np.argsort(energy, kind="stable")
-    return FittedPoses(
-        pose=np.concatenate([one.pose for one in settled]),
-        translation=np.concatenate([one.translation for one in settled]),
-        energy=energy,
-    ).chosen(order)
-
-
-def _distinct(fitted: FittedPoses) -> FittedPoses:
-    """Drop poses that came out the same as a better one."""
-    kept: list[int] = []
-    for row, pose in enumerate(fitted.pose):
-        if all(np.abs(pose - fitted.pose[other]).max() > _SAME_ANGLE for other in kept):
-            kept.append(row)
-    return fitted.chosen(np.array(kept))
+    surface = np.stack(
+        [
+            _surface_landmarks(
+                evaluator,
+                BodyParameters(pose=pose, translation=translation, shape=shape),
+                names,
+            )
+            for pose, translation in zip(fitted.pose, fitted.translation, strict=True)
+        ]
+    )
+    blended = pose_landmarks(problem.rig, fitted.pose, fitted.translation).points
+    shift = problem.camera.project(blended[:, problem.clicked]) - problem.camera.project(surface)
+    shifted = dataclasses.replace(problem, pixels=problem.pixels + shift)
+    settled = fit_clicks(shifted, fitted.pose, fitted.translation, iterations=_SETTLING_ITERATIONS)
+    return distinct_hypotheses(settled)
 
 
 def _described(rig: LandmarkRig, shape: Shape, fitted: FittedPoses) -> tuple[PoseHypothesis, ...]:
@@ -297,16 +208,3 @@ def _described(rig: LandmarkRig, shape: Shape, fitted: FittedPoses) -> tuple[Pos
             fitted.pose, fitted.translation, fitted.energy, facings, strict=True
         )
     )
-
-
-def limb_facings(rig: LandmarkRig, fitted: FittedPoses) -> list[dict[str, Facing]]:
-    """Which way every limb of every pose faces."""
-    points = pose_landmarks(rig, fitted.pose, fitted.translation).points
-    result: list[dict[str, Facing]] = [{} for _ in points]
-    for limb in LIMBS:
-        row = _end_row(rig.landmark_names, limb.distal) - _end_row(
-            rig.landmark_names, limb.proximal
-        )
-        for facing, slant in zip(result, points[..., 2] @ row, strict=True):
-            facing[limb.name] = Facing.TOWARD if slant < 0.0 else Facing.AWAY
-    return result

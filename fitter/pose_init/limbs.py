@@ -85,10 +85,7 @@ def limb_named(name: str) -> Limb:
 
 def point_at_rest(rig: LandmarkRig, name: str) -> Float[np.ndarray, "3"]:
     """A limb's end at rest: a landmark, or the middle of two."""
-    if name in MIDDLES:
-        right, left = MIDDLES[name]
-        return 0.5 * (rig.landmark(right) + rig.landmark(left))
-    return rig.landmark(name)
+    return end_row(name, rig.landmark_names) @ rig.rest_landmarks
 
 
 def limb_direction_at_rest(rig: LandmarkRig, limb: Limb) -> Float[np.ndarray, "3"]:
@@ -106,6 +103,17 @@ def limb_lengths_m(rig: LandmarkRig) -> dict[str, float]:
     return lengths
 
 
-def landmark_name_of(point: str) -> tuple[str, ...]:
+def end_row(point: str, names: tuple[str, ...]) -> Float[np.ndarray, " k"]:
+    """A limb's end as a combination of landmarks in this order."""
+    corners = landmarks_of(point)
+    return np.array([1.0 / len(corners) if name in corners else 0.0 for name in names])
+
+
+def limb_slant(limb: Limb, names: tuple[str, ...]) -> Float[np.ndarray, " k"]:
+    """Far end minus near end as a combination of landmarks in this order."""
+    return end_row(limb.distal, names) - end_row(limb.proximal, names)
+
+
+def landmarks_of(point: str) -> tuple[str, ...]:
     """The landmarks a limb's end is made of."""
     return MIDDLES.get(point, (point,))

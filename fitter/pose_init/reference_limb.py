@@ -17,14 +17,11 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from fitter.pose_init.click_spread import DEFAULT_SPREAD_M
 from fitter.pose_init.limbs import LIMBS, Limb
 
 LIMB_LENGTH_SPREAD = 0.04
 """Relative standard deviation of a limb's length among people of one gender and height."""
-
-CLICK_SPREAD_M = 0.015
-"""Standard deviation of a click as a length on the body, in each direction: 2.5 pixels where a
-person fills most of a 640 x 480 picture, with the uncertainty of what exactly was clicked."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -59,7 +56,7 @@ def reference_limb(
             continue
         length = lengths_m[limb.name]
         scale = float(np.linalg.norm(ends[limb.distal] - ends[limb.proximal])) / length
-        spread = np.hypot(LIMB_LENGTH_SPREAD, np.sqrt(2.0) * CLICK_SPREAD_M / length)
+        spread = np.hypot(LIMB_LENGTH_SPREAD, np.sqrt(2.0) * DEFAULT_SPREAD_M / length)
         bound = scale * (1.0 - spread)
         if bound > best_bound:
             best, best_bound = ReferenceLimb(limb=limb, scale=scale), bound

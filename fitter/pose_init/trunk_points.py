@@ -44,7 +44,9 @@ def trunk_points(clicks: ClickedPoints, lengths_m: Mapping[str, float]) -> Trunk
     shoulders_to_hips = lengths_m["hips"] / lengths_m["shoulders"]
     _complete_pair(pixels, HIPS, SHOULDERS, shoulders_to_hips)
     _complete_pair(pixels, SHOULDERS, HIPS, 1.0 / shoulders_to_hips)
-    if not any(name in pixels for name in SHOULDERS) or not any(name in pixels for name in HIPS):
+    if any(name in pixels for name in SHOULDERS) and any(name in pixels for name in HIPS):
+        _fold_onto_seen_side(pixels)
+    else:
         _add_missing_line(pixels, clicks, lengths_m)
     for name, (right, left) in MIDDLES.items():
         pixels[name] = 0.5 * (pixels[right] + pixels[left])
@@ -67,6 +69,15 @@ def _complete_pair(
         pixels[left] = pixels[right] + across
     else:
         pixels[right] = pixels[left] - across
+
+
+def _fold_onto_seen_side(pixels: dict[str, Float[np.ndarray, "2"]]) -> None:
+    """A pair with one end left is seen from the side: the hidden end lies behind the other."""
+    for right, left in (SHOULDERS, HIPS):
+        if left not in pixels:
+            pixels[left] = pixels[right]
+        elif right not in pixels:
+            pixels[right] = pixels[left]
 
 
 def _add_missing_line(

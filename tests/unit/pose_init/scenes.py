@@ -5,12 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitter.camera import Camera
-from fitter.pose_init.click_fit import ClickProblem, FittedPoses
-from fitter.pose_init.initial_pose import (
-    click_problem,
-    reference_of,
-    refined_hypotheses,
-)
+from fitter.pose_init.click_fit import FittedPoses
+from fitter.pose_init.click_problem import ClickProblem, click_problem
+from fitter.pose_init.hypotheses import refined_hypotheses
+from fitter.pose_init.initial_pose import reference_of
 from fitter.pose_init.landmark_rig import pose_landmarks
 from fitter.pose_init.limbs import LIMBS, MIDDLES, limb_lengths_m
 from fitter.pose_init.perspective import PerspectiveLifting

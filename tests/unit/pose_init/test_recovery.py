@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 
 from fitter.numerics.rotations import compose
-from fitter.pose_init.click_fit import click_energy, normal_equations
-from fitter.pose_init.hypotheses import start_poses
-from fitter.pose_init.initial_pose import limb_facings, reference_of
+from fitter.pose_init.click_problem import click_energy, normal_equations
+from fitter.pose_init.hypotheses import limb_facings
+from fitter.pose_init.initial_pose import reference_of
 from fitter.pose_init.landmark_rig import pose_landmarks
 from fitter.pose_init.orthographic import OrthographicLifting
 from fitter.pose_init.perspective import PerspectiveLifting
 from fitter.pose_init.points import ClickedPoints
+from fitter.pose_init.start_poses import start_poses
 from fitter.pose_init.trunk_points import trunk_points
 from fitter.request import Facing
 from tests.unit.pose_init.scenes import (
@@ -207,7 +208,8 @@ def test_gradient_agrees_with_finite_differences_of_the_energy():
     def energy(pose: np.ndarray, place: np.ndarray) -> float:
         return click_energy(problem, pose, pose_landmarks(problem.rig, pose, place))[0]
 
-    _, gradient = normal_equations(problem, pose, pose_landmarks(problem.rig, pose, place))
+    posed = pose_landmarks(problem.rig, pose, place)
+    gradient = normal_equations(problem, pose, posed).gradient
     joints = np.flatnonzero(problem.turning)
     step = 1e-6
     for column in range(gradient.shape[1]):
