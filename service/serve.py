@@ -1,11 +1,12 @@
 """``maquette serve``: the API in this process, a worker beside it, restarted when it dies."""
 
 import logging
+import os
 import socket
 import subprocess
 import sys
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Final
 
 import uvicorn
@@ -31,8 +32,11 @@ class SupervisedWorker:
     killed, the pipe ends and the worker stops by itself.
     """
 
-    def __init__(self, command: Sequence[str], *, stop_timeout_s: float) -> None:
+    def __init__(
+        self, command: Sequence[str], *, environment: Mapping[str, str], stop_timeout_s: float
+    ) -> None:
         self._command = list(command)
+        self._environment = dict(environment)
         self._stop_timeout_s = stop_timeout_s
         self._stopping = threading.Event()
         self._lock = threading.Lock()
@@ -56,7 +60,9 @@ class SupervisedWorker:
 
     def _spawn(self) -> subprocess.Popen[bytes]:
         # A session of its own: an interrupt from the terminal is for us, we pass it on in order.
-        return subprocess.Popen(self._command, stdin=subprocess.PIPE, start_new_session=True)
+        return subprocess.Popen(
+            self._command, stdin=subprocess.PIPE, env=self._environment, start_new_session=True
+        )
 
     def _watch(self) -> None:
         while True:
@@ -94,7 +100,11 @@ def serve(
     prepare_database(settings.system_database_url)
     worker = None
     if worker_command is not None:
-        worker = SupervisedWorker(worker_command, stop_timeout_s=settings.drain_s + STOP_MARGIN_S)
+        worker = SupervisedWorker(
+            worker_command,
+            environment=os.environ | settings.environment(),
+            stop_timeout_s=settings.drain_s + STOP_MARGIN_S,
+        )
     engine = DbosJobEngine(
         open_database(settings.system_database_url),
         max_queued=settings.max_queued,

@@ -2,15 +2,18 @@
 
 import os
 from pathlib import Path
+from typing import Final
 
 from pydantic import Field
 from pydantic_settings import BaseSettings, SettingsConfigDict
+
+PREFIX: Final = "MAQUETTE_"
 
 
 class Settings(BaseSettings):
     """Read from environment variables named ``MAQUETTE_`` and the field's name in capitals."""
 
-    model_config = SettingsConfigDict(env_prefix="MAQUETTE_", frozen=True, extra="forbid")
+    model_config = SettingsConfigDict(env_prefix=PREFIX, frozen=True, extra="forbid")
 
     host: str = Field(default="127.0.0.1", description="Address the API listens on.")
     port: int = Field(default=8000, ge=0, le=65535, description="Port the API listens on.")
@@ -79,3 +82,8 @@ class Settings(BaseSettings):
     def blob_dir(self) -> Path:
         """The folder of pictures and results."""
         return self.data_dir.resolve() / "blobs"
+
+    def environment(self) -> dict[str, str]:
+        """Write these settings as the environment of another process that is to share them."""
+        values = self.model_dump(mode="json", exclude_none=True)
+        return {f"{PREFIX}{name.upper()}": str(value) for name, value in values.items()}

@@ -1,8 +1,9 @@
 """The application: resources, problems, limits."""
 
 import asyncio
-from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager, suppress
+import json
+from collections.abc import AsyncIterator, Callable
+from contextlib import AbstractAsyncContextManager, asynccontextmanager, suppress
 from typing import Any, Final
 
 from fastapi import FastAPI
@@ -35,6 +36,18 @@ def create_app(*, settings: Settings, engine: JobEngine, blobs: BlobStore) -> Fa
         with suppress(asyncio.CancelledError):
             await following
 
+    app = _resources(lifespan)
+    app.state.context = ApiContext(settings=settings, engine=engine, blobs=blobs, feed=feed)
+    app.add_middleware(BodyLimit, max_bytes=settings.max_upload_bytes + MULTIPART_OVERHEAD_BYTES)
+    return app
+
+
+def openapi_text() -> str:
+    """Return the OpenAPI document as it is exported beside the wire types."""
+    return json.dumps(_resources(None).openapi(), indent=1, ensure_ascii=False) + "\n"
+
+
+def _resources(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]] | None) -> FastAPI:
     app = FastAPI(
         title="Maquette",
         version=API_VERSION,
@@ -43,17 +56,11 @@ def create_app(*, settings: Settings, engine: JobEngine, blobs: BlobStore) -> Fa
         redoc_url=None,
         # Paths are exact: a redirect would be an answer that no schema describes.
         redirect_slashes=False,
+        generate_unique_id_function=lambda route: route.name,
     )
-    app.state.context = ApiContext(settings=settings, engine=engine, blobs=blobs, feed=feed)
-    app.add_middleware(BodyLimit, max_bytes=settings.max_upload_bytes + MULTIPART_OVERHEAD_BYTES)
     install_problem_handlers(app)
     for resource in (fits, events, results, body_models, health, problem_types):
         app.include_router(resource.ROUTER)
-    _install_openapi(app)
-    return app
-
-
-def _install_openapi(app: FastAPI) -> None:
     generate = app.openapi
 
     def openapi() -> dict[str, Any]:
@@ -62,3 +69,4 @@ def _install_openapi(app: FastAPI) -> None:
         return app.openapi_schema
 
     app.openapi = openapi
+    return app

@@ -5,8 +5,13 @@ from typing import Any
 from pydantic.json_schema import models_json_schema
 
 from api_schemas.jobs import EventData
-from api_schemas.problems import Problem
+from api_schemas.problems import PROBLEM_MEDIA_TYPE, Problem
 from api_schemas.requests import FitOptions
+from service.api.problems import documented
+
+_ANSWERED_EVERYWHERE = {
+    str(status): answer for status, answer in documented("method-not-allowed").items()
+}
 
 
 def complete_openapi(document: dict[str, Any]) -> dict[str, Any]:
@@ -21,7 +26,9 @@ def complete_openapi(document: dict[str, Any]) -> dict[str, Any]:
             schemas.setdefault(name, schema)
     for path in document["paths"].values():
         for operation in path.values():
-            operation["responses"].pop("422", None) if _is_fastapi_error(operation) else None
+            if _is_fastapi_error(operation):
+                del operation["responses"]["422"]
+            operation["responses"] |= _ANSWERED_EVERYWHERE
     for name in ("HTTPValidationError", "ValidationError"):
         schemas.pop(name, None)
     document["components"]["schemas"] = dict(sorted(schemas.items()))
@@ -34,4 +41,4 @@ def _models(mode: str) -> tuple[type[FitOptions] | type[Problem] | type[EventDat
 
 def _is_fastapi_error(operation: dict[str, Any]) -> bool:
     content = operation["responses"].get("422", {}).get("content", {})
-    return "application/problem+json" not in content
+    return "422" in operation["responses"] and PROBLEM_MEDIA_TYPE not in content

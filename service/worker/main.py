@@ -18,6 +18,15 @@ LOG: Final = logging.getLogger(__name__)
 PIPELINE: Final = "service.worker.pipeline"
 PRELOAD: Final = "service.worker.preload"
 
+THREAD_LIMITS: Final = (
+    "OMP_NUM_THREADS",
+    "OPENBLAS_NUM_THREADS",
+    "MKL_NUM_THREADS",
+    "NUMBA_NUM_THREADS",
+    "OPENCV_FOR_THREADS_NUM",
+)
+"""One thread a fit, fits side by side: threads within a fit cost more than they bring."""
+
 
 def run_worker(
     settings: Settings, *, follow_stdin: bool, pipeline: str = PIPELINE, preload: str = PRELOAD
@@ -29,6 +38,8 @@ def run_worker(
     if follow_stdin:
         # The pipe of whoever started this worker: its end is the end of the starter.
         threading.Thread(target=_wait_for_end_of_input, args=(stop,), daemon=True).start()
+    for variable in THREAD_LIMITS:
+        os.environ.setdefault(variable, "1")
     runner = ChildRunner(settings, pipeline=pipeline, preload=preload)
     prepare_database(settings.system_database_url)
     engine = DbosWorkerEngine(

@@ -1,0 +1,162 @@
+"""``maquette serve | worker | fit | demo | warm-up | openapi``.
+
+Every command imports what it needs itself: ``maquette --help`` and the processes forked by a worker
+load this module and nothing heavy with it.
+"""
+
+import argparse
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run a command and exit with its status."""
+    parsed = _parser().parse_args(arguments)
+    command: Callable[[argparse.Namespace], int] = parsed.command
+    sys.exit(command(parsed))
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="maquette",
+        description="A measured 3D body from a single picture. "
+        "The service is configured by environment variables named MAQUETTE_...; see the README.",
+    )
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+
+    serve = commands.add_parser("serve", help="serve the API, with a worker beside it")
+    serve.add_argument("--host", help="address to listen on (default: the setting, 127.0.0.1)")
+    serve.add_argument("--port", type=int, help="port, 0 for a free one (default: 8000)")
+    serve.add_argument("--data-dir", type=Path, help="folder of database, pictures and results")
+    serve.add_argument("--no-worker", action="store_true", help="the workers run elsewhere")
+    serve.set_defaults(command=_serve)
+
+    worker = commands.add_parser("worker", help="run fits for the API of the same database")
+    worker.set_defaults(command=_worker)
+
+    fit = commands.add_parser("fit", help="fit one picture here and now, without a service")
+    fit.add_argument("image", type=Path, metavar="IMAGE", help="JPEG, PNG or WebP")
+    fit.add_argument(
+        "--points",
+        type=Path,
+        required=True,
+        metavar="FILE",
+        help='JSON: a whole request, or {"points": {...}}',
+    )
+    fit.add_argument("--gender", choices=("female", "male"))
+    fit.add_argument("--height-m", type=float, metavar="METRES")
+    fit.add_argument("--focal-length-px", type=float, metavar="PIXELS")
+    fit.add_argument("--focal-length-35mm", type=float, metavar="MM")
+    fit.add_argument("--cues", choices=("SE", "SES"))
+    fit.add_argument("--optimizer", choices=("gauss_newton", "simplex"))
+    fit.add_argument("--mask", type=Path, metavar="IMAGE", help="replaces the segmentation")
+    fit.add_argument(
+        "--output",
+        type=Path,
+        default=Path("maquette-fit"),
+        metavar="DIR",
+        help="default: %(default)s",
+    )
+    fit.set_defaults(command=_fit)
+
+    demo = commands.add_parser("demo", help="start a service, fit the sample picture, show it all")
+    demo.add_argument(
+        "--output",
+        type=Path,
+        default=Path("demo-output"),
+        metavar="DIR",
+        help="default: %(default)s",
+    )
+    demo.set_defaults(command=_demo)
+
+    warm_up = commands.add_parser("warm-up", help="compile what is compiled at first use")
+    warm_up.set_defaults(command=_warm_up)
+
+    openapi = commands.add_parser("openapi", help="print the OpenAPI document")
+    openapi.add_argument("--output", type=Path, metavar="FILE", help="write it there instead")
+    openapi.set_defaults(command=_openapi)
+    return parser
+
+
+def _serve(parsed: argparse.Namespace) -> int:
+    from service.logs import configure_logging
+    from service.serve import WORKER_COMMAND, listen, serve
+    from service.settings import Settings
+
+    given = {
+        name: value
+        for name in ("host", "port", "data_dir")
+        if (value := getattr(parsed, name)) is not None
+    }
+    settings = Settings(**given)
+    configure_logging(settings.log_level)
+    serve(
+        settings,
+        listen(settings),
+        worker_command=None if parsed.no_worker else WORKER_COMMAND,
+        announce=lambda text: print(text, flush=True),
+    )
+    return 0
+
+
+def _worker(_: argparse.Namespace) -> int:
+    from service.logs import configure_logging
+    from service.settings import Settings
+    from service.worker.main import run_worker
+
+    settings = Settings()
+    configure_logging(settings.log_level)
+    run_worker(settings, follow_stdin=False)
+    return 0
+
+
+def _fit(parsed: argparse.Namespace) -> int:
+    from service.local_fit import FitArguments, fit_locally
+
+    return fit_locally(
+        FitArguments(
+            image=parsed.image,
+            points=parsed.points,
+            mask=parsed.mask,
+            output=parsed.output,
+            overrides={
+                name: value
+                for name in (
+                    "gender",
+                    "height_m",
+                    "focal_length_px",
+                    "focal_length_35mm",
+                    "cues",
+                    "optimizer",
+                )
+                if (value := getattr(parsed, name)) is not None
+            },
+        )
+    )
+
+
+def _demo(parsed: argparse.Namespace) -> int:
+    from service.demo import run_demo
+
+    return run_demo(parsed.output)
+
+
+def _warm_up(_: argparse.Namespace) -> int:
+    from service.local_fit import warm_up
+
+    return warm_up()
+
+
+def _openapi(parsed: argparse.Namespace) -> int:
+    from service.api.app import openapi_text
+
+    if parsed.output is None:
+        print(openapi_text(), end="")
+    else:
+        parsed.output.write_text(openapi_text())
+    return 0
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,28 @@
+"""The sample picture shipped with the package, its clicks, and the truth it was rendered from."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+FOLDER: Final = Path(__file__).parent / "demo_data"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sample:
+    """A picture, its request as JSON text, and its true measurements by name."""
+
+    image: bytes
+    request: bytes
+    truth: Mapping[str, float]
+
+
+def load_sample(folder: Path = FOLDER) -> Sample:
+    """Read ``sample.jpg`` and ``sample.json``: ``{"request": ..., "truth": {name: value}}``."""
+    values = json.loads((folder / "sample.json").read_text())
+    return Sample(
+        image=(folder / "sample.jpg").read_bytes(),
+        request=json.dumps(values["request"]).encode(),
+        truth={name: float(value) for name, value in values["truth"].items()},
+    )

@@ -1,0 +1,62 @@
+"""The pipeline of the service: the fitter between two translations."""
+
+from collections.abc import Callable, Mapping
+
+from api_schemas.body_models import BodyModelInfo, BodyModels
+from api_schemas.requests import Gender
+from fitter import request as fitter_request
+from fitter.errors import InvalidInputError
+from fitter.export import artifacts
+from fitter.fittable import packaged_body
+from fitter.pipeline import MEAN_HEIGHT_M, fit
+from service.engine.port import Report
+from service.worker import translate
+from service.worker.pipeline_port import PipelineInput, PipelineOutput, UnusableInputError
+
+
+def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput:
+    """Fit one picture; see :class:`service.worker.pipeline_port.Pipeline`."""
+    request = translate.fit_request(
+        job.options, image=job.image, mask=job.mask, max_pixels=job.max_pixels
+    )
+    try:
+        result = fit(request, observer=lambda progress: observe(translate.report(progress)))
+        model = packaged_body(result.gender).instruments.model
+        files = artifacts(result, model=model, image=job.image)
+    except InvalidInputError as error:
+        raise UnusableInputError(translate.field_problem(error)) from error
+    return PipelineOutput(
+        result=translate.fit_result(result, part_names=model.part_names), artifacts=files
+    )
+
+
+def describe() -> BodyModels:
+    """Return the body models shipped with the package."""
+    return BodyModels(models=tuple(_model_info(gender) for gender in Gender))
+
+
+def _model_info(gender: Gender) -> BodyModelInfo:
+    fitted = fitter_request.Gender(gender.value)
+    model = packaged_body(fitted).instruments.model
+    header = model.header
+    return BodyModelInfo(
+        gender=gender,
+        mean_height_m=MEAN_HEIGHT_M[fitted],
+        vertices=len(model.mean_vertices),
+        triangles=len(model.triangles),
+        shape_coefficients=len(model.shape_basis),
+        parts=model.part_names,
+        landmarks=model.landmarks.names,
+        format_version=int(str(header["format_version"])),
+        checksum=str(header["checksum"]),
+        sources=_texts(header["sources"]),
+        licences=_texts(header["licences"]),
+    )
+
+
+def _texts(value: object) -> tuple[str, ...]:
+    if isinstance(value, str):
+        return (value,)
+    if isinstance(value, Mapping):
+        return tuple(f"{name}: {text}" for name, text in value.items())
+    return tuple(str(text) for text in value)  # pyright: ignore[reportGeneralTypeIssues]
