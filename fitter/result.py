@@ -10,6 +10,7 @@ from fitter.measurement.quantity import Measurement
 from fitter.parameters import BodyParameters, Light, Reflectance
 from fitter.remarks import Assumption, FitWarning
 from fitter.request import Cues, Facing, Gender, OptimizerKind
+from fitter.segmentation.trimap import Trimap
 
 
 class Outcome(StrEnum):
@@ -69,10 +70,14 @@ class StageBody:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Pictures:
-    """Arrays the picture artifacts are drawn from, on the working picture (h, w)."""
+    """Arrays the picture artifacts are drawn from, on the working picture (h, w).
+
+    ``trimap`` holds :class:`~fitter.segmentation.trimap.TrimapLabel`; None where the caller sent a
+    mask.
+    """
 
     image: Image
-    trimap: Image | None
+    trimap: Trimap | None
     segmentation: Mask
     shading: Image | None
 

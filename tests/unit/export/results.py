@@ -7,6 +7,7 @@ from fitter.camera import Camera, FocalLengthSource
 from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
 from fitter.request import Cues, Gender, OptimizerKind
 from fitter.result import FitResult, Outcome, Pictures
+from fitter.segmentation.trimap import TrimapLabel
 
 CAMERA = Camera(focal_length_px=700.0, centre_x=250.0, centre_y=200.0, width=480, height=400)
 POINT_LIGHT = Light(kind=LightKind.POINT, azimuth=0.5, elevation=0.3, distance=2.5)
@@ -37,8 +38,8 @@ def result_of(
     height, width = working.height, working.width
     segmentation = np.zeros((height, width), dtype=bool)
     segmentation[40:160, 90:150] = True
-    trimap = np.where(segmentation, 1.0, 0.0)
-    trimap[30:50, 80:160] = 0.5
+    trimap = np.where(segmentation, TrimapLabel.FOREGROUND, TrimapLabel.BACKGROUND)
+    trimap[30:50, 80:160] = TrimapLabel.UNCERTAIN
     if reflectance is None and light is not None:
         reflectance = reflectance_of(model)
     return FitResult(
@@ -67,7 +68,7 @@ def result_of(
         stage_seconds={},
         pictures=Pictures(
             image=np.zeros((height, width, 3)),
-            trimap=trimap,
+            trimap=trimap.astype(np.uint8),
             segmentation=segmentation,
             shading=None,
         ),

@@ -1,0 +1,91 @@
+"""Every file a fit gives back but the result itself."""
+
+from fitter.body.model import BodyModel
+from fitter.export.display import png
+from fitter.export.gltf import body_canonical_glb, body_posed_glb
+from fitter.export.pictures import (
+    drawing_camera,
+    drawing_picture,
+    mask_levels,
+    overlay_picture,
+    trimap_levels,
+    vertex_value_picture,
+)
+from fitter.export.views import views_picture
+from fitter.observation.decoding import decode_picture
+from fitter.parameters import Reflectance
+from fitter.render.rasterizer import render
+from fitter.render.reflectance import shading_terms
+from fitter.result import FitResult
+
+
+def artifacts(result: FitResult, *, model: BodyModel, image: bytes) -> dict[str, bytes]:
+    """Files by name.
+
+    Always ``body_posed.glb``, ``body_canonical.glb``, ``segmentation.png``, ``overlay.png`` and
+    ``views.png``; ``trimap.png`` where the caller sent no mask; ``albedo.png``, ``shading.png``
+    and ``shading_lambertian.png`` where shading was used (Fig. 7).
+
+    Parameters
+    ----------
+    result
+        Of the fit.
+    model
+        The body model it was fitted with.
+    image
+        The caller's encoded picture.
+    """
+    triangles = model.triangles
+    image_camera = result.image_camera
+    camera = drawing_camera(image_camera)
+    picture = decode_picture(
+        image, field="image", max_pixels=image_camera.width * image_camera.height
+    )
+    drawn = drawing_picture(picture.pixels, image_camera, camera)
+    files = {
+        "body_posed.glb": body_posed_glb(result, model),
+        "body_canonical.glb": body_canonical_glb(result, model),
+        "segmentation.png": png(mask_levels(result.pictures.segmentation, result.camera, camera)),
+        "overlay.png": png(overlay_picture(drawn, result.posed_vertices, triangles, camera)),
+        "views.png": png(
+            views_picture(
+                posed_vertices=result.posed_vertices,
+                root=result.body.translation,
+                canonical_vertices=result.canonical_vertices,
+                triangles=triangles,
+            )
+        ),
+    }
+    if result.pictures.trimap is not None:
+        files["trimap.png"] = png(trimap_levels(result.pictures.trimap, result.camera, camera))
+    if result.reflectance is not None:
+        files |= _reflectance_pictures(result, result.reflectance, model)
+    return files
+
+
+def _reflectance_pictures(
+    result: FitResult, reflectance: Reflectance, model: BodyModel
+) -> dict[str, bytes]:
+    """Fig. 7: albedo, the Lambertian part of Eq. 1, and all of it, as the camera sees them."""
+    if result.light is None:
+        return {}
+    camera = drawing_camera(result.image_camera)
+    normals = render(result.posed_vertices, model.triangles, camera).vertex_normals
+    terms = shading_terms(
+        result.posed_vertices,
+        normals,
+        light=result.light,
+        body_centre=result.body.translation,
+        specular_exponent=reflectance.specular_exponent,
+    )
+    lambertian = reflectance.ambient + reflectance.albedo * terms.diffuse
+    albedo = reflectance.albedo if result.albedo_rgb is None else result.albedo_rgb
+    values = {
+        "albedo.png": albedo,
+        "shading_lambertian.png": lambertian,
+        "shading.png": lambertian + reflectance.specularity * terms.specular,
+    }
+    return {
+        name: png(vertex_value_picture(value, result.posed_vertices, model.triangles, camera))
+        for name, value in values.items()
+    }

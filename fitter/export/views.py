@@ -1,0 +1,117 @@
+"""The body as plain clay from several sides, for people looking at results.
+
+A silhouette can be right and the body wrong (the paper's Fig. 5): the side view shows it.
+"""
+
+import cv2
+import numpy as np
+from jaxtyping import UInt8
+
+from fitter.arrays import Triangles, Vector3, Vertices
+from fitter.body.scape import CAMERA_AXES
+from fitter.camera import Camera
+from fitter.export.display import block_means, finer, to_levels
+from fitter.observation.colour import display_from_linear
+from fitter.render.interpolation import shade_image
+from fitter.render.rasterizer import render
+
+PANEL_HEIGHT_PX = 720
+PANEL_WIDTH_PX = 520
+MARGIN_SHARE = 0.06
+SUPERSAMPLING = 2
+
+CANONICAL_DISTANCE_M = 6.0
+"""From where the canonical body is seen: far enough that near parts do not swell."""
+
+TO_LIGHT = np.array([-0.45, -0.60, -0.66])
+"""Unit direction toward the light, camera frame: over the onlooker's left shoulder."""
+
+CLAY = np.array([0.62, 0.53, 0.47])
+"""Linear albedo."""
+
+FILL_LIGHT = 0.18
+PAPER = 1.0
+
+LABEL_COLOUR = (70, 70, 70)
+
+
+def views_picture(
+    *,
+    posed_vertices: Vertices,
+    root: Vector3,
+    canonical_vertices: Vertices,
+    triangles: Triangles,
+) -> UInt8[np.ndarray, "h w 3"]:
+    """Four panels: posed from the camera and from the side, canonical from the front and the side.
+
+    Parameters
+    ----------
+    posed_vertices
+        (m, 3) camera frame, metres; seen in the fit's own perspective.
+    root
+        Position of the root joint in the camera frame: the side view turns about its vertical.
+    canonical_vertices
+        (m, 3) body frame, metres.
+    """
+    middle = 0.5 * (canonical_vertices.max(axis=0) + canonical_vertices.min(axis=0))
+    there = np.array([0.0, 0.0, CANONICAL_DISTANCE_M])
+    canonical = (canonical_vertices - middle) * CAMERA_AXES + there
+    panels = {
+        "from the camera": posed_vertices,
+        "from the right of the picture": turned_about_vertical(posed_vertices, root, 90.0),
+        "canonical, front": canonical,
+        "canonical, side": turned_about_vertical(canonical, there, 90.0),
+    }
+    return np.concatenate(
+        [_panel(vertices, triangles, label) for label, vertices in panels.items()], axis=1
+    )
+
+
+def turned_about_vertical(vertices: Vertices, centre: Vector3, degrees: float) -> Vertices:
+    """Camera-frame vertices as an onlooker sees them who walked to the right round ``centre``.
+
+    Positive degrees bring what was at the right of the picture to the front.
+    """
+    angle = np.radians(degrees)
+    rotation = np.array(
+        [
+            [np.cos(angle), 0.0, np.sin(angle)],
+            [0.0, 1.0, 0.0],
+            [-np.sin(angle), 0.0, np.cos(angle)],
+        ]
+    )
+    return (vertices - centre) @ rotation.T + centre
+
+
+def framing_camera(vertices: Vertices, *, width: int, height: int) -> Camera:
+    """A camera at the origin whose picture the vertices fill but for a margin.
+
+    Changing only focal length and principal point crops and magnifies; the perspective stays.
+    """
+    flat = vertices[:, :2] / vertices[:, 2:]
+    low, high = flat.min(axis=0), flat.max(axis=0)
+    inner = (1.0 - 2.0 * MARGIN_SHARE) * np.array([width, height])
+    focal = float((inner / (high - low)).min())
+    centre = 0.5 * np.array([width, height]) - focal * 0.5 * (low + high)
+    return Camera(
+        focal_length_px=focal,
+        centre_x=float(centre[0]),
+        centre_y=float(centre[1]),
+        width=width,
+        height=height,
+    )
+
+
+def _panel(vertices: Vertices, triangles: Triangles, label: str) -> UInt8[np.ndarray, "h w 3"]:
+    camera = framing_camera(vertices, width=PANEL_WIDTH_PX, height=PANEL_HEIGHT_PX)
+    rendering = render(vertices, triangles, finer(camera, SUPERSAMPLING))
+    lit = np.clip(rendering.vertex_normals @ TO_LIGHT, 0.0, 1.0)
+    # Nothing lies outside the body, so both means are weighted by the pixel's coverage.
+    grey = block_means(shade_image(rendering, FILL_LIGHT + (1.0 - FILL_LIGHT) * lit), SUPERSAMPLING)
+    coverage = block_means(rendering.silhouette.astype(np.float32), SUPERSAMPLING)
+    linear = grey[..., None] * CLAY + PAPER * (1.0 - coverage[..., None])
+    levels = to_levels(display_from_linear(linear))
+    cv2.putText(
+        levels, label, (12, 24), cv2.FONT_HERSHEY_SIMPLEX, 0.55, LABEL_COLOUR, 1, cv2.LINE_AA
+    )
+    return levels

@@ -1,0 +1,68 @@
+import cv2
+import numpy as np
+import pytest
+
+from fitter.export import artifacts
+from fitter.export.display import png
+from tests.unit.body.synthetic_model import bar_model
+from tests.unit.export.glb_reader import read_glb
+from tests.unit.export.results import CAMERA, result_of
+
+ALWAYS = {
+    "body_posed.glb",
+    "body_canonical.glb",
+    "segmentation.png",
+    "trimap.png",
+    "overlay.png",
+    "views.png",
+}
+WITH_SHADING = {"albedo.png", "shading.png", "shading_lambertian.png"}
+ON_THE_PICTURE = {"segmentation.png", "trimap.png", "overlay.png"} | WITH_SHADING
+
+
+@pytest.fixture(scope="module")
+def model():
+    return bar_model()
+
+
+@pytest.fixture(scope="module")
+def image():
+    return png(np.full((CAMERA.height, CAMERA.width, 3), 60, dtype=np.uint8))
+
+
+@pytest.fixture(scope="module")
+def files(model, image):
+    return artifacts(result_of(model), model=model, image=image)
+
+
+def levels(content):
+    return cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_UNCHANGED)
+
+
+def test_a_fit_with_shading_gives_every_file(files):
+    assert set(files) == ALWAYS | WITH_SHADING
+
+
+def test_a_fit_without_shading_gives_no_reflectance_pictures(model, image):
+    assert set(artifacts(result_of(model, light=None), model=model, image=image)) == ALWAYS
+
+
+def test_pictures_lie_on_the_originals_pixels(files):
+    for name in ON_THE_PICTURE:
+        assert levels(files[name]).shape[:2] == (CAMERA.height, CAMERA.width), name
+
+
+def test_models_are_binary_gltf(files, model):
+    for name in ("body_posed.glb", "body_canonical.glb"):
+        assert len(read_glb(files[name]).attribute("POSITION")) == len(model.mean_vertices)
+
+
+def test_the_highlight_is_what_distinguishes_blinn_phong_from_lambert(files):
+    lambert = levels(files["shading_lambertian.png"]).astype(int)
+    complete = levels(files["shading.png"]).astype(int)
+    assert (complete - lambert).min() >= 0
+    assert (complete - lambert).max() > 5
+
+
+def test_the_same_result_gives_the_same_bytes(files, model, image):
+    assert artifacts(result_of(model), model=model, image=image) == files

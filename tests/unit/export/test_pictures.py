@@ -1,0 +1,154 @@
+from dataclasses import replace
+
+import cv2
+import numpy as np
+import pytest
+
+from fitter.export.display import block_means, finer, png
+from fitter.export.pictures import (
+    INNER_COLOUR,
+    OUTER_COLOUR,
+    drawing_camera,
+    drawing_picture,
+    mask_levels,
+    overlay_picture,
+    trimap_levels,
+    vertex_value_picture,
+)
+from fitter.render.rasterizer import render
+from fitter.segmentation.trimap import TrimapLabel
+from tests.unit.body.synthetic_model import bar_model
+from tests.unit.export.results import CAMERA, result_of
+from tests.unit.measurement.solids import sphere
+
+
+@pytest.fixture(scope="module")
+def ball():
+    vertices, triangles = sphere(radius=0.3, rings=40, sides=80)
+    return vertices + [0.05, -0.1, 2.0], triangles
+
+
+def decoded(content):
+    return cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_UNCHANGED)
+
+
+def hue_of(levels, colour):
+    """Where a picture, anti-aliased lines on grey, has a line of this colour."""
+    offset = levels.astype(float) - levels.mean(axis=2, keepdims=True)
+    wanted = np.array(colour) - np.mean(colour)
+    length = np.linalg.norm(offset, axis=2)
+    along = offset @ wanted / np.linalg.norm(wanted)
+    return (length > 30.0) & (along > 0.97 * length)
+
+
+def test_a_large_picture_is_drawn_at_sixteen_hundred_pixels_and_a_small_one_as_it_is():
+    large = replace(CAMERA, width=4000, height=3000, centre_x=2000.0, centre_y=1500.0)
+    assert (drawing_camera(large).width, drawing_camera(large).height) == (1600, 1200)
+    assert drawing_camera(large).focal_length_px == pytest.approx(0.4 * CAMERA.focal_length_px)
+    assert (drawing_camera(CAMERA).width, drawing_camera(CAMERA).height) == (480, 400)
+
+
+def test_a_picture_is_made_smaller_in_linear_light():
+    stripes = np.zeros((40, 3200, 3), dtype=np.uint8)
+    stripes[:, ::2] = 255
+    camera = replace(CAMERA, width=3200, height=40)
+    drawn = drawing_picture(stripes, camera, drawing_camera(camera))
+    # Half the light is sRGB level 188, not 128.
+    assert drawn.shape == (20, 1600, 3)
+    assert set(np.unique(drawn)) == {188}
+
+
+def test_a_mask_lands_on_the_pixels_it_was_taken_from():
+    working = CAMERA.scaled(0.37, width=177, height=148)
+    y, x = np.mgrid[: working.height, : working.width]
+    centre = np.array([100.3, 61.7])
+    mask = np.hypot(x + 0.5 - centre[0], y + 0.5 - centre[1]) < 30.0
+    levels = mask_levels(mask, working, CAMERA)
+    assert levels.shape == (400, 480)
+    assert set(np.unique(levels)) == {0, 255}
+    rows, columns = np.nonzero(levels)
+    middle = np.array([columns.mean() + 0.5, rows.mean() + 0.5])
+    np.testing.assert_allclose(middle * 0.37, centre, atol=0.2)
+
+
+def test_the_trimap_has_three_levels():
+    labels = np.array([[TrimapLabel.BACKGROUND, TrimapLabel.UNCERTAIN, TrimapLabel.FOREGROUND]])
+    camera = replace(CAMERA, width=3, height=1)
+    assert trimap_levels(labels.astype(np.uint8), camera, camera).tolist() == [[0, 128, 255]]
+
+
+def test_the_outline_is_drawn_where_the_body_ends(ball):
+    vertices, triangles = ball
+    grey = np.full((CAMERA.height, CAMERA.width, 3), 90, dtype=np.uint8)
+    drawn = overlay_picture(grey, vertices, triangles, CAMERA)
+    green = np.argwhere(hue_of(drawn, OUTER_COLOUR))[:, ::-1] + 0.5
+    silhouette = render(vertices, triangles, CAMERA).silhouette.astype(np.uint8)
+    ((outline,), _) = cv2.findContours(silhouette, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
+    outline = outline[:, 0] + 0.5
+    distance = np.linalg.norm(green[:, None] - outline[None], axis=2)
+    assert distance.min(axis=1).max() < 2.3, "nothing is drawn off the outline"
+    assert distance.min(axis=0).max() < 2.3, "no part of the outline is left out"
+    middle = 0.5 * (green.min(axis=0) + green.max(axis=0))
+    np.testing.assert_allclose(middle, 0.5 * (outline.min(axis=0) + outline.max(axis=0)), atol=0.6)
+    assert (grey == 90).all(), "the picture given is left as it was"
+
+
+def test_a_ball_before_a_ball_has_an_inner_edge_of_another_colour(ball):
+    vertices, triangles = ball
+    front = (vertices - [0.05, -0.1, 2.0]) * 0.4 + [0.05, -0.1, 1.5]
+    both = np.concatenate([vertices, front])
+    together = np.concatenate([triangles, triangles + len(vertices)])
+    grey = np.full((CAMERA.height, CAMERA.width, 3), 90, dtype=np.uint8)
+    one = hue_of(overlay_picture(grey, vertices, triangles, CAMERA), INNER_COLOUR)
+    two = hue_of(overlay_picture(grey, both, together, CAMERA), INNER_COLOUR)
+    assert one.sum() == 0
+    assert two.sum() > 100
+
+
+def test_a_value_on_vertices_is_shown_in_display_levels_on_white(ball):
+    vertices, triangles = ball
+    half = np.full(len(vertices), 0.5)
+    picture = vertex_value_picture(half, vertices, triangles, CAMERA)
+    x, y = CAMERA.project(vertices.mean(axis=0)).astype(int)
+    assert picture[y, x].tolist() == [188, 188, 188]
+    assert picture[5, 5].tolist() == [255, 255, 255]
+    colours = np.tile([0.5, 0.0, 2.0], (len(vertices), 1))
+    assert vertex_value_picture(colours, vertices, triangles, CAMERA)[y, x].tolist() == [
+        188,
+        0,
+        255,
+    ]
+
+
+def test_rims_are_anti_aliased(ball):
+    vertices, triangles = ball
+    picture = vertex_value_picture(np.zeros(len(vertices)), vertices, triangles, CAMERA)
+    between = (picture[..., 0] > 0) & (picture[..., 0] < 255)
+    assert between.sum() > 200
+
+
+def test_png_keeps_levels_and_colour_order():
+    levels = np.random.default_rng(0).integers(0, 256, size=(20, 30, 3), dtype=np.uint8)
+    np.testing.assert_array_equal(decoded(png(levels))[:, :, ::-1], levels)
+    np.testing.assert_array_equal(decoded(png(levels[..., 0])), levels[..., 0])
+    assert png(levels) == png(levels)
+
+
+def test_block_means_are_means():
+    picture = np.arange(24.0).reshape(4, 6)
+    expected = picture.reshape(2, 2, 3, 2).mean(axis=(1, 3))
+    np.testing.assert_allclose(block_means(picture, 2), expected)
+
+
+def test_a_finer_camera_sees_the_same_with_more_pixels(ball):
+    vertices, _ = ball
+    np.testing.assert_allclose(
+        finer(CAMERA, 3).project(vertices), 3 * CAMERA.project(vertices), rtol=1e-12
+    )
+
+
+def test_the_fixture_result_lies_in_the_picture():
+    result = result_of(bar_model())
+    pixels = CAMERA.project(result.posed_vertices)
+    assert (pixels > 0).all()
+    assert (pixels < [CAMERA.width, CAMERA.height]).all()

@@ -1,0 +1,52 @@
+import numpy as np
+import pytest
+
+from fitter.export.views import (
+    PANEL_HEIGHT_PX,
+    PANEL_WIDTH_PX,
+    framing_camera,
+    turned_about_vertical,
+    views_picture,
+)
+from tests.unit.measurement.solids import sphere
+
+ROOT = np.array([0.2, -0.1, 3.0])
+
+
+@pytest.fixture(scope="module")
+def slab():
+    """Wide, tall and thin: 0.6 x 0.9 x 0.12 m, in the body frame."""
+    vertices, triangles = sphere(radius=0.3, rings=40, sides=80)
+    return vertices * [1.0, 1.5, 0.2], triangles
+
+
+def test_walking_to_the_right_brings_the_right_to_the_front():
+    right = ROOT + [0.5, 0.2, 0.0]
+    near = ROOT + [0.0, 0.2, -0.5]
+    turned = turned_about_vertical(np.stack([right, near]), ROOT, 90.0)
+    np.testing.assert_allclose(turned[0], ROOT + [0.0, 0.2, -0.5], atol=1e-12)
+    np.testing.assert_allclose(turned[1], ROOT + [-0.5, 0.2, 0.0], atol=1e-12)
+
+
+def test_the_framed_body_touches_the_margins_and_keeps_its_perspective(slab):
+    vertices = slab[0] * [1, -1, -1] + ROOT
+    camera = framing_camera(vertices, width=520, height=720)
+    pixels = camera.project(vertices)
+    np.testing.assert_allclose(pixels.min(axis=0)[1], 0.06 * 720, atol=0.5)
+    np.testing.assert_allclose(pixels.max(axis=0)[1], 0.94 * 720, atol=0.5)
+    assert pixels[:, 0].mean() == pytest.approx(260, abs=3.0)
+
+
+def test_four_panels_show_a_thin_body_wide_from_the_front_and_thin_from_the_side(slab):
+    vertices, triangles = slab
+    picture = views_picture(
+        posed_vertices=vertices * [1, -1, -1] + ROOT,
+        root=ROOT,
+        canonical_vertices=vertices,
+        triangles=triangles,
+    )
+    assert picture.shape == (PANEL_HEIGHT_PX, 4 * PANEL_WIDTH_PX, 3)
+    below_labels = picture[60:, :, 2] < 230
+    widths = [int(panel.any(axis=0).sum()) for panel in np.split(below_labels, 4, axis=1)]
+    assert widths[0] > 4 * widths[1]
+    assert widths[2] > 4 * widths[3]
