@@ -13,6 +13,7 @@ def assemble_right_hand_side(
     shape,
     pose_terms,
     features,
+    widths,
     pointers,
     vertices,
     rotations,
@@ -22,10 +23,10 @@ def assemble_right_hand_side(
     result[:] = 0.0
     parts = len(pointers) - 1
     n = len(shape)
-    width = features.shape[1]
     local = np.empty(3)
     for part in range(parts):
         rotation = rotations[part]
+        width = widths[part]
         for incidence in range(pointers[part], pointers[part + 1]):
             for c in range(3):
                 terms = shape_terms[incidence, c]
@@ -52,6 +53,7 @@ def gather_gradient(
     shape,
     pose_terms,
     features,
+    widths,
     pointers,
     vertices,
     rotations,
@@ -66,11 +68,11 @@ def gather_gradient(
     rotation_gradient[:] = 0.0
     parts = len(pointers) - 1
     n = len(shape)
-    width = features.shape[1]
     local = np.empty(3)
     turned = np.empty(3)
     for part in range(parts):
         rotation = rotations[part]
+        width = widths[part]
         for incidence in range(pointers[part], pointers[part + 1]):
             vertex = vertices[incidence]
             for c in range(3):

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import qdldl
-from jaxtyping import Float
+from jaxtyping import Float, Integer
 from scipy import sparse
 
 from fitter.arrays import Pose, Rotations, Shape, Vector3, Vertices
@@ -73,6 +73,7 @@ class ScapeEvaluator:
         )
         self._shape_terms = _shape_terms(model, laplacians)
         self._pose_terms = np.ascontiguousarray(model.pose_right_hand_sides, dtype=np.float32)
+        self._feature_widths = _feature_widths(model)
         self._root_weights = _root_weights(model)
         self._moves = descendants(model.part_parent)
         self._factor_pointers, self._factor_rows, self._factor_values, *rest = _factor(laplacians)
@@ -93,6 +94,7 @@ class ScapeEvaluator:
             parameters.shape,
             self._pose_terms,
             features,
+            self._feature_widths,
             self.model.incidence_pointers,
             self.model.incidence_vertices,
             rotations,
@@ -125,6 +127,7 @@ class ScapeEvaluator:
             parameters.shape,
             self._pose_terms,
             features,
+            self._feature_widths,
             self.model.incidence_pointers,
             self.model.incidence_vertices,
             rotations,
@@ -194,6 +197,12 @@ def _shape_terms(
         blocks.append(rows @ columns)
     terms = np.concatenate(blocks).reshape(-1, 3, n + 1)
     return np.ascontiguousarray(terms, dtype=np.float32)
+
+
+def _feature_widths(model: BodyModel) -> Integer[np.ndarray, " p"]:
+    """Leading features each part uses: most parts have fewer joints beside them than the chest."""
+    used = model.pose_feature_joints >= 0
+    return 9 * np.max(np.where(used, np.arange(used.shape[1]) + 1, 0), axis=1)
 
 
 def _root_weights(model: BodyModel) -> Float[np.ndarray, " m"]:

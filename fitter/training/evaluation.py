@@ -114,13 +114,16 @@ def without_pose_term(model: BodyModel) -> BodyModel:
 def evaluation_milliseconds(model: BodyModel, repeats: int, rng: np.random.Generator) -> float:
     """Median time of one evaluation, after warming up."""
     evaluator = ScapeEvaluator(model)
-    times = []
-    for _ in range(repeats):
-        parameters = BodyParameters(
+    drawn = [
+        BodyParameters(
             pose=random_pose(rng),
             translation=np.zeros(3),
             shape=rng.normal(size=len(model.shape_basis)),
         )
+        for _ in range(repeats)
+    ]
+    times = []
+    for parameters in drawn:
         start = time.perf_counter()
         evaluator.vertices(parameters)
         times.append(time.perf_counter() - start)
