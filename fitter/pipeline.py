@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from fitter.body.shape_space import shape_for_height
 from fitter.energies.clicks import click_evidence
 from fitter.energies.objective import Candidate, Objective, PictureEvidence
-from fitter.energies.scales import scales_at
+from fitter.energies.scales import FAR_BOUNDARY_ETA_M, NEAR_BOUNDARY_ETA_M, scales_at
 from fitter.evidence.edge_cost import edge_cost_map
 from fitter.evidence.intensity import intensity_map
 from fitter.evidence.silhouette_evidence import silhouette_evidence
@@ -29,11 +29,16 @@ from fitter.request import Cues, FitRequest, Gender
 from fitter.result import FitResult, Pictures, StageBody
 from fitter.segmentation.bones import clicked_bones
 from fitter.segmentation.grabcut import Segmentation, border_warnings, segment
-from fitter.segmentation.trimap import Trimap, trimap
+from fitter.segmentation.trimap import Trimap, first_band, trimap
 from fitter.stage_clock import StageClock
 
 MEAN_HEIGHT_M: Mapping[Gender, float] = {Gender.FEMALE: 1.65, Gender.MALE: 1.82}
 """Section 4: the heights taken for people, as in paintings, whose height nobody knows."""
+
+RESEGMENTED_BAND = 0.5
+"""Share of the first band's width in which the picture is cut again round the body found from the
+first cut (section 7 names this as future work): what the first cut took for the person far from
+any body, such as ground of the skin's colour, can no longer be taken."""
 
 _EDGE_THRESHOLD_M = 0.03
 """How far from a model edge an image edge may lie and still attract it."""
@@ -63,8 +68,10 @@ def fit(request: FitRequest, *, observer: Observer = ignore_progress) -> FitResu
             limb_facing=request.limb_facing,
         )
     with clock.stage(Stage.SEGMENTATION):
-        labels, segmentation = _segmented(observation, body, initial.parameters)
-        objective = _silhouette_and_edges(observation, body, initial, segmentation)
+        labels, segmentation = _segmented(observation, body, initial.parameters, 1.0)
+        objective = _silhouette_and_edges(
+            observation, body, initial, segmentation, FAR_BOUNDARY_ETA_M
+        )
     limits = limits_of(request.optimizer)
     with clock.stage(Stage.SILHOUETTE_AND_EDGES) as report:
         hypotheses = initial.hypotheses[: limits.hypotheses]
@@ -73,9 +80,12 @@ def fit(request: FitRequest, *, observer: Observer = ignore_progress) -> FitResu
             [hypothesis.parameters for hypothesis in hypotheses],
             search=body_search(request.optimizer, limits.trial, report),
         )
-        se = body_search(request.optimizer, limits.silhouette_and_edges, report)(
-            objective, tried.ends[tried.best].candidate.parameters
+        found = tried.ends[tried.best].candidate.parameters
+        labels, segmentation = _segmented(observation, body, found, RESEGMENTED_BAND)
+        objective = _silhouette_and_edges(
+            observation, body, initial, segmentation, NEAR_BOUNDARY_ETA_M
         )
+        se = body_search(request.optimizer, limits.silhouette_and_edges, report)(objective, found)
     intensity = intensity_map(observation.luminance, observation.display, segmentation.mask)
     shaded: ShadedFit | None = None
     with clock.stage(Stage.SHADING) as report:
@@ -174,15 +184,16 @@ def _height(request: FitRequest) -> tuple[float, tuple[Assumption, ...]]:
 
 
 def _segmented(
-    observation: Observation, body: FittableBody, initial: BodyParameters
+    observation: Observation, body: FittableBody, parameters: BodyParameters, narrowing: float
 ) -> tuple[Trimap | None, Segmentation]:
-    """The caller's mask, or GrabCut from the tri-map of the initial body (section 3.2)."""
+    """The caller's mask, or GrabCut from the tri-map round a body (section 3.2)."""
     if observation.mask is not None:
         return None, Segmentation(mask=observation.mask, warnings=border_warnings(observation.mask))
-    vertices = body.instruments.evaluator.vertices(initial)
-    rendering = render(vertices, body.instruments.model.triangles, observation.camera)
-    labels = trimap(rendering.silhouette, clicked_bones(observation.clicks))
-    return labels, segment(observation.display, labels)
+    vertices = body.instruments.evaluator.vertices(parameters)
+    silhouette = render(vertices, body.instruments.model.triangles, observation.camera).silhouette
+    bones = clicked_bones(observation.clicks)
+    labels = trimap(silhouette, bones, band=narrowing * first_band(silhouette, bones))
+    return labels, segment(observation.display, labels, silhouette=silhouette)
 
 
 def _silhouette_and_edges(
@@ -190,6 +201,7 @@ def _silhouette_and_edges(
     body: FittableBody,
     initial: InitialPose,
     segmentation: Segmentation,
+    boundary_eta_m: float,
 ) -> Objective:
     """E1 of this picture."""
     depth = initial.root_depth_m
@@ -205,7 +217,7 @@ def _silhouette_and_edges(
             ),
             shading=None,
         ),
-        scales=scales_at(observation.camera, depth),
+        scales=scales_at(observation.camera, depth, boundary_eta_m=boundary_eta_m),
     )
 
 

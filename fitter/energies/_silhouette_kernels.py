@@ -7,15 +7,21 @@ from numba import njit
 
 @no_type_check
 @njit(cache=True, fastmath=True)
-def truncated_mismatch(model, image, to_image, to_model, truncation):
-    """Sum over unmatched pixels of their truncated distance to the other region."""
+def robust_mismatch(model, image, to_image, to_model, scale):
+    """Sum over unmatched pixels of ρ'(d), d their distance to the other region."""
     total = 0.0
+    inverse = 1.0 / (scale * scale)
     height, width = model.shape
     for i in range(height):
         for j in range(width):
             if model[i, j]:
-                if not image[i, j]:
-                    total += min(to_image[i, j], truncation)
+                if image[i, j]:
+                    continue
+                d = to_image[i, j]
             elif image[i, j]:
-                total += min(to_model[i, j], truncation)
+                d = to_model[i, j]
+            else:
+                continue
+            damping = 1.0 + d * d * inverse
+            total += d / (damping * damping)
     return total

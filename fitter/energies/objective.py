@@ -19,7 +19,7 @@ from fitter.energies.clicks import ClickEvidence, click_energy
 from fitter.energies.edges import edge_energy
 from fitter.energies.instruments import BodyInstruments
 from fitter.energies.penetration import penetration_energy, sphere_positions
-from fitter.energies.priors import shape_prior_energy
+from fitter.energies.priors import lean_residual, shape_prior_energy
 from fitter.energies.scales import EnergyScales
 from fitter.energies.shading import ShadingEvidence, shading_energy
 from fitter.energies.silhouette import silhouette_energy, silhouette_overlap
@@ -92,6 +92,8 @@ class Objective:
             "pose_prior": 0.5
             * float((prior_terms(instruments.pose_prior, parameters.pose).residuals ** 2).sum()),
         }
+        lean, _ = lean_residual(parameters.pose)
+        energies["pose_prior"] += 0.5 * lean * lean
         if evidence.shading is not None:
             energies["shading"] = shading_energy(rendering, evidence.shading, scales)
         for name, value in energies.items():

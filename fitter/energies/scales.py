@@ -20,8 +20,8 @@ class EnergyScales:
     ----------
     silhouette_sigma
         Standard deviation of the segmented boundary about the model's contour.
-    silhouette_truncation
-        Distance at which a wrong boundary stops pulling harder.
+    silhouette_eta
+        Distance about which a boundary comes to be taken for a wrong one.
     correlation_length
         Neighbouring boundary pixels are not independent; one count per this many.
     edge_weight
@@ -37,7 +37,7 @@ class EnergyScales:
     """
 
     silhouette_sigma: float
-    silhouette_truncation: float
+    silhouette_eta: float
     correlation_length: float
     edge_weight: float
     click_sigma: float
@@ -47,24 +47,33 @@ class EnergyScales:
     shading_eta: float
 
 
+FAR_BOUNDARY_ETA_M = 0.06
+"""From clicks, limbs are off by centimetres: what lies a hand's breadth away must still pull."""
+
+NEAR_BOUNDARY_ETA_M = 0.02
+"""From a fitted body, a boundary two centimetres off is hair, cloth, ground or a missing foot."""
+
 # A segmented boundary is a pixel uncertain and the model's own posed error is about 5 mm.
 _BOUNDARY_PIXELS = 1.0
 _BOUNDARY_METRES = 0.005
-_TRUNCATION_METRES = 0.06
 _CORRELATION_METRES = 0.05
 # Clicks: 2.5 pixels of hand, and people differ by two centimetres in where a joint is.
 _CLICK_PIXELS = 2.5
 _CLICK_METRES = 0.02
 
 
-def scales_at(camera: Camera, depth_m: float) -> EnergyScales:
-    """Scales for a body at ``depth_m`` in front of ``camera``."""
+def scales_at(camera: Camera, depth_m: float, *, boundary_eta_m: float) -> EnergyScales:
+    """Scales for a body at ``depth_m`` in front of ``camera``.
+
+    ``boundary_eta_m`` is :data:`FAR_BOUNDARY_ETA_M` while the pose is coarse and
+    :data:`NEAR_BOUNDARY_ETA_M` once the body is near.
+    """
     pixels_per_metre = camera.focal_length_px / depth_m
     boundary = (_BOUNDARY_PIXELS**2 + (_BOUNDARY_METRES * pixels_per_metre) ** 2) ** 0.5
     click = (_CLICK_PIXELS**2 + (_CLICK_METRES * pixels_per_metre) ** 2) ** 0.5
     return EnergyScales(
         silhouette_sigma=boundary,
-        silhouette_truncation=_TRUNCATION_METRES * pixels_per_metre,
+        silhouette_eta=boundary_eta_m * pixels_per_metre,
         correlation_length=_CORRELATION_METRES * pixels_per_metre,
         edge_weight=40.0,
         click_sigma=click,

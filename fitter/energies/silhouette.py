@@ -1,21 +1,22 @@
 """Silhouette energy E_Si: pixelwise distances between the model's region and the observed one.
 
-Every unmatched pixel costs its truncated distance to the other region (as in [5] and [22]). A
-sliver of width δ along the outline then costs ∫ min(t, τ) dt = Huber_τ(δ) for each pixel of
-outline, so that the sum is a robust squared boundary error, and contour points with Huber weights
-are its exact linearisation. Divided by σ² and by the length over which neighbouring errors repeat
-themselves it is a negative log-likelihood.
+Every unmatched pixel costs a function of its distance d to the other region (as in [5] and [22]),
+here ρ'(d) = d / (1 + d²/η²)². A sliver of width δ along the outline then costs ∫ ρ' = ρ(δ) =
+½ δ² / (1 + δ²/η²) for each pixel of outline: the sum is a Geman-McClure boundary error, and contour
+points with its weights are its exact linearisation. Wrong ground, walls and hair lie far from the
+body and cost next to nothing there. Divided by σ² and by the length over which neighbouring errors
+repeat themselves it is a negative log-likelihood.
 """
 
 import cv2
 import numpy as np
 from scipy.spatial import KDTree
 
-from fitter.energies._silhouette_kernels import truncated_mismatch
+from fitter.energies._silhouette_kernels import robust_mismatch
 from fitter.energies.rows import PositionRows
 from fitter.energies.scales import EnergyScales
 from fitter.evidence.silhouette_evidence import SilhouetteEvidence
-from fitter.numerics.robust import huber_weights
+from fitter.numerics.robust import boundary_weights
 from fitter.render.contours import ModelEdges
 from fitter.render.rasterizer import Rendering
 
@@ -34,12 +35,12 @@ def silhouette_energy(
     top, bottom, left, right = _common_box(model, evidence)
     model = np.ascontiguousarray(model[top:bottom, left:right])
     outside = cv2.distanceTransform((~model).view(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
-    total = truncated_mismatch(
+    total = robust_mismatch(
         model,
         evidence.mask[top:bottom, left:right],
         evidence.signed_distance[top:bottom, left:right],
         outside,
-        scales.silhouette_truncation,
+        scales.silhouette_eta,
     )
     return float(total) / (scales.silhouette_sigma**2 * scales.correlation_length)
 
@@ -73,7 +74,7 @@ def silhouette_rows(
     distances = evidence.distance_at(middles)
     forward = PositionRows(
         residuals=distances,
-        weights=nats * lengths * huber_weights(distances, scales.silhouette_truncation),
+        weights=nats * lengths * boundary_weights(distances, scales.silhouette_eta),
         points=pairs,
         derivatives=0.5 * camera.pull_back(points, np.repeat(normals[:, None], 2, axis=1)),
     )
@@ -88,7 +89,7 @@ def silhouette_rows(
         residuals=residuals,
         weights=nats
         * evidence.boundary_spacing
-        * huber_weights(residuals, scales.silhouette_truncation),
+        * boundary_weights(residuals, scales.silhouette_eta),
         points=pairs[nearest],
         derivatives=0.5 * camera.pull_back(points[nearest], np.repeat(facing[:, None], 2, axis=1)),
     )
@@ -108,9 +109,9 @@ def _nearest_facing_alike(
     """Contour index for each observed boundary point, -1 where none is near and faces alike.
 
     Position and normal together are the key of the tree: a normal turned by 60 degrees counts like
-    the truncation distance, so the far side of a thin limb is never the nearest.
+    twice the robust scale, so the far side of a thin limb is never the nearest.
     """
-    scale = 2.0 * scales.silhouette_truncation
+    scale = 2.0 * scales.silhouette_eta
     tree = KDTree(np.hstack([middles, scale * normals]))
     distance, index = tree.query(
         np.hstack([evidence.boundary_points, scale * evidence.boundary_normals]),

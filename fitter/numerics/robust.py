@@ -29,3 +29,9 @@ def huber(residuals: Float[np.ndarray, "..."], threshold: float) -> Float[np.nda
     """Huber's function: x²/2 within the threshold, linear beyond."""
     size = np.abs(residuals)
     return np.where(size <= threshold, 0.5 * size * size, threshold * (size - 0.5 * threshold))
+
+
+def boundary_weights(residuals: Float[np.ndarray, "..."], scale: float) -> Float[np.ndarray, "..."]:
+    """Weights of ½ x² / (1 + x²/η²): Geman and McClure's function with unit curvature at zero."""
+    damping = 1.0 + (residuals / scale) ** 2
+    return 1.0 / (damping * damping)

@@ -24,7 +24,7 @@ from fitter.energies.clicks import click_rows
 from fitter.energies.edges import edge_rows
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.penetration import penetration_rows
-from fitter.energies.priors import shape_prior_precision
+from fitter.energies.priors import lean_residual, shape_prior_precision
 from fitter.energies.rows import PositionRows, ShadingRows, thinned
 from fitter.energies.shading import shading_rows, thinned_shading
 from fitter.energies.silhouette import silhouette_rows
@@ -104,6 +104,9 @@ def _add_priors(
         span = slice(3 * part, 3 * part + 3)
         matrix[span, span] += block
     gradient[:pose_size] += np.einsum("pra,pr->pa", terms.jacobian, terms.residuals).ravel()
+    lean, by_root = lean_residual(parameters.pose)
+    matrix[:3, :3] += np.outer(by_root, by_root)
+    gradient[:3] += lean * by_root
     precision = shape_prior_precision(len(parameters.shape))
     shape = slice(pose_size + 3, None)
     matrix[shape, shape] += np.diag(precision)
