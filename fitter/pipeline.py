@@ -193,7 +193,7 @@ def _segmented(
     silhouette = render(vertices, body.instruments.model.triangles, observation.camera).silhouette
     bones = clicked_bones(observation.clicks)
     labels = trimap(silhouette, bones, band=narrowing * first_band(silhouette, bones))
-    return labels, segment(observation.display, labels, silhouette=silhouette)
+    return labels, segment(observation.display, labels)
 
 
 def _silhouette_and_edges(

@@ -1,0 +1,35 @@
+"""Clicked bones: lines that certainly run inside the person."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from jaxtyping import Float
+
+from fitter.request import Click
+
+BONES = (
+    ("left_shoulder", "left_elbow"), ("left_elbow", "left_wrist"),
+    ("right_shoulder", "right_elbow"), ("right_elbow", "right_wrist"),
+    ("left_hip", "left_knee"), ("left_knee", "left_ankle"),
+    ("right_hip", "right_knee"), ("right_knee", "right_ankle"),
+    ("left_shoulder", "left_hip"), ("right_shoulder", "right_hip"),
+    ("left_shoulder", "right_shoulder"), ("left_hip", "right_hip"),
+    ("left_shoulder", "right_hip"), ("right_shoulder", "left_hip"),
+    ("neck", "left_shoulder"), ("neck", "right_shoulder"), ("neck", "head_top"),
+    ("left_eye", "right_eye"), ("left_eye", "nose"), ("right_eye", "nose"),
+    ("left_eye", "left_ear"), ("right_eye", "right_ear"), ("left_ear", "right_ear"),
+    ("left_ankle", "left_toe"), ("left_ankle", "left_heel"), ("left_heel", "left_toe"),
+    ("right_ankle", "right_toe"), ("right_ankle", "right_heel"), ("right_heel", "right_toe"),
+)  # fmt: skip
+"""Straight lines between clicks that stay inside the body in any pose. From the nose to the neck is
+none: in profile it leaves the chin."""
+
+
+def clicked_bones(clicks: Mapping[str, Click]) -> Float[np.ndarray, "b 2 2"]:
+    """Both ends of every bone whose two points are clicked and not occluded, in pixels.
+
+    What hides a point may be no part of the person, so occluded points mark nothing.
+    """
+    seen = {name: (click.x, click.y) for name, click in clicks.items() if not click.occluded}
+    ends = [(seen[start], seen[end]) for start, end in BONES if start in seen and end in seen]
+    return np.array(ends, dtype=np.float64).reshape(-1, 2, 2)

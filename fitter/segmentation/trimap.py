@@ -1,0 +1,111 @@
+"""The tri-map (section 3.2): sure foreground, sure background and the band between."""
+
+from enum import IntEnum
+
+import cv2
+import numpy as np
+from jaxtyping import Float, UInt8
+
+from fitter.arrays import Image, Mask
+
+BAND_SHARE_OF_WIDTH = 0.05
+"""The paper's: erode and dilate by 5 % of the picture's width."""
+
+LEAST_BAND_SHARE_OF_BODY = 0.04
+LARGEST_BAND_SHARE_OF_BODY = 0.08
+"""The paper's pictures are filled by the person. In a tall narrow picture 5 % of the width is less
+than the first pose is off, in a wide empty one more than the body is broad; so the band is also
+kept between these shares of the silhouette's longer side: 7 and 14 cm on a standing adult."""
+
+BONE_SHARE_OF_BODY = 0.012
+"""Width of the sure foreground along a clicked bone: 2 cm on a standing adult, less than any limb.
+The band erodes all limbs away, and what GrabCut has no sample of it gives to the background."""
+
+LEANING_SHARE = 0.5
+"""How far inside the silhouette, as a share of the band, a pixel must lie to be foreground at the
+start. What the first body covers wrongly lies along its border; taught to GrabCut as the person's
+colours it comes back, as the dark gap between the legs of a figure before a dark ground did."""
+
+
+class TrimapLabel(IntEnum):
+    """What a pixel is known to be; the numbers are OpenCV's.
+
+    The paper's tri-map has one uncertain label. Here the band leans to one side, where GrabCut
+    starts from; both sides of it are open.
+    """
+
+    BACKGROUND = cv2.GC_BGD
+    FOREGROUND = cv2.GC_FGD
+    LIKELY_BACKGROUND = cv2.GC_PR_BGD
+    LIKELY_FOREGROUND = cv2.GC_PR_FGD
+
+
+Trimap = UInt8[np.ndarray, "h w"]
+
+
+def trimap(silhouette: Mask, bones: Float[np.ndarray, "b 2 2"], *, band: float) -> Trimap:
+    """Labels by :class:`TrimapLabel` from a body's silhouette.
+
+    Erosion and dilation by a disc are thresholds of the distance to the silhouette's border; the
+    body may go on beyond the picture, whose border therefore erodes nothing.
+
+    Parameters
+    ----------
+    silhouette
+        (h, w) of the initial body, or of a later one with a narrower band.
+    bones
+        (b, 2, 2) both ends of clicked limbs, continuous pixels: sure foreground wherever they run,
+        because the person was clicked there, while the silhouette is only a first guess. The band
+        reaches round them too.
+    band
+        How far to erode and to dilate, pixels.
+    """
+    skeleton = np.zeros(silhouette.shape, dtype=np.uint8)
+    thickness = max(1, round(BONE_SHARE_OF_BODY * body_size(silhouette, bones)))
+    for start, end in np.rint(bones - 0.5).astype(int):  # OpenCV counts from pixel centres.
+        cv2.line(skeleton, start.tolist(), end.tolist(), 1, thickness=thickness)
+    region = silhouette.astype(np.uint8)
+    depth = _distance_to(1 - region)
+    labels = np.full(silhouette.shape, TrimapLabel.LIKELY_BACKGROUND, dtype=np.uint8)
+    labels[_distance_to(region | skeleton) > band] = TrimapLabel.BACKGROUND
+    labels[depth > LEANING_SHARE * band] = TrimapLabel.LIKELY_FOREGROUND
+    labels[(depth > band) | (skeleton > 0)] = TrimapLabel.FOREGROUND
+    return labels
+
+
+def first_band(silhouette: Mask, bones: Float[np.ndarray, "b 2 2"]) -> float:
+    """Width of the band around the initial body, pixels."""
+    size = body_size(silhouette, bones)
+    return float(
+        np.clip(
+            BAND_SHARE_OF_WIDTH * silhouette.shape[1],
+            LEAST_BAND_SHARE_OF_BODY * size,
+            LARGEST_BAND_SHARE_OF_BODY * size,
+        )
+    )
+
+
+def body_size(silhouette: Mask, bones: Float[np.ndarray, "b 2 2"]) -> float:
+    """The longer side of what silhouette and bones cover, pixels."""
+    rows, columns = np.flatnonzero(silhouette.any(axis=1)), np.flatnonzero(silhouette.any(axis=0))
+    x = np.concatenate([columns, bones[:, :, 0].reshape(-1)])
+    y = np.concatenate([rows, bones[:, :, 1].reshape(-1)])
+    return float(max(np.ptp(x), np.ptp(y)) + 1.0) if x.size else 1.0
+
+
+def is_uncertain(labels: Trimap) -> Mask:
+    """(h, w) the band."""
+    return labels >= TrimapLabel.LIKELY_BACKGROUND
+
+
+def trimap_picture(labels: Trimap) -> Image:
+    """(h, w, 3) float picture as in the paper's Fig. 3b: white inside, grey band, black outside."""
+    greys = np.array([0.0, 1.0, 0.5, 0.5], dtype=np.float32)[labels]
+    return np.repeat(greys[:, :, None], 3, axis=2)
+
+
+def _distance_to(region: UInt8[np.ndarray, "h w"]) -> Float[np.ndarray, "h w"]:
+    """Distance of each pixel to the nearest of the region, pixels; infinite if there is none."""
+    if not region.any():
+        return np.full(region.shape, np.inf, dtype=np.float32)
+    return cv2.distanceTransform(1 - region, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
