@@ -289,7 +289,7 @@ def _value(
                 placements[name],
             )
         case Length():
-            metres = path_length_m([_point(names, taken.standing) for names in definition.path])
+            metres = path_length_m([_point(names, points) for names in definition.path])
         case Height():
             soles = _point(("sole_left", "sole_right"), taken.standing)
             metres = float(_point(definition.point, taken.standing)[1] - soles[1])

@@ -83,7 +83,7 @@ class Girth:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Length:
-    """Sum of the straight distances along a path of points, standing pose with the arms hanging."""
+    """Sum of the straight distances along a path of points, canonical pose."""
 
     about: About
     path: tuple[PointNames, ...]
