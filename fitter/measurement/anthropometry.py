@@ -10,11 +10,12 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from fitter.arrays import Pose, Shape, Triangles, Vector3, Vertices
+from fitter.arrays import Shape, Triangles, Vector3, Vertices
 from fitter.body.model import BodyModel
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.skeleton import regress
 from fitter.errors import NumericalError
+from fitter.measurement.affine_body import AffineBody, affine_body
 from fitter.measurement.definitions import (
     JOINT_PREFIX,
     BackContour,
@@ -31,28 +32,12 @@ from fitter.measurement.plane_cut import Region, restricted, whole_mesh
 from fitter.measurement.quantity import Measurement
 from fitter.measurement.tape import back_contour_m, girth_at_m, girth_placement, path_length_m
 from fitter.numerics.meshes import enclosed_volume
-from fitter.parameters import BodyParameters
 
 CENTIMETRES_PER_METRE = 100.0
 
 DIFFERENCE_STEP = 1e-3
 """Standard deviations. Girths are smooth but for corners joining or leaving the hull, whose effect
 is of second order; a change of 1e-3 moves a girth by about 0.05 mm, far above rounding."""
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class AffineBody:
-    """A body in one fixed pose as a function of its shape, body frame, metres.
-
-    ``derivative`` has one (m, 3) displacement per coefficient.
-    """
-
-    mean: Vertices
-    derivative: Float[np.ndarray, "n m 3"]
-
-    def at(self, shape: Shape) -> Vertices:
-        """Vertices of the body of this shape."""
-        return self.mean + np.tensordot(shape, self.derivative, axes=1)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -130,23 +115,6 @@ def measuring_body(
         canonical_points=_points(model, canonical),
         standing_points=_points(model, standing),
     )
-
-
-def affine_body(evaluator: ScapeEvaluator, pose: Pose) -> AffineBody:
-    """The body in a fixed pose as an affine function of shape, root joint at the origin.
-
-    Exact: the SCAPE normal equations have a fixed matrix and, the pose being fixed, a right-hand
-    side that is affine in the shape.
-    """
-    n = len(evaluator.model.shape_basis)
-
-    def evaluate(shape: Shape) -> Vertices:
-        return evaluator.body_frame_vertices(
-            BodyParameters(pose=pose, translation=np.zeros(3), shape=shape)
-        )
-
-    mean = evaluate(np.zeros(n))
-    return AffineBody(mean=mean, derivative=np.stack([evaluate(e) - mean for e in np.eye(n)]))
 
 
 def measure(

@@ -5,8 +5,8 @@ import pytest
 
 from fitter.body.scape import ScapeEvaluator
 from fitter.errors import NumericalError
+from fitter.measurement.affine_body import affine_body
 from fitter.measurement.anthropometry import (
-    affine_body,
     measure,
     measurement_jacobian,
     measurement_values,
