@@ -63,9 +63,11 @@ def fit_clicks(
         diagonal = np.einsum("bii->bi", matrix)
         diagonal += damping[:, None] * diagonal + _TRACE
         step = -np.linalg.solve(matrix, equations.gradient[..., None])[..., 0]
-        turned = np.zeros_like(pose)
-        turned[:, joints] = step[:, : 3 * len(joints)].reshape(len(pose), -1, 3)
-        new_pose = compose(turned.reshape(-1, 3), pose.reshape(-1, 3)).reshape(pose.shape)
+        turns = step[:, : 3 * len(joints)].reshape(-1, 3)
+        new_pose = pose.copy()
+        new_pose[:, joints] = compose(turns, pose[:, joints].reshape(-1, 3)).reshape(
+            len(pose), -1, 3
+        )
         new_translation = (
             translation + step[:, 3 * len(joints) :] if problem.moving else translation
         )

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Integer
 
 from fitter.body.pose_prior import PosePrior, joint_energy, mean_pose
 from fitter.body.scape import CAMERA_AXES
@@ -81,7 +81,7 @@ def start_poses(
         )
         for chain in CHAINS
     ]
-    trunk, picks = _best(energy, chains, count)
+    trunk, picks = _best(trunks, energy, chains, count)
     pose = np.tile(mean_pose(prior), (len(trunk), 1, 1))
     pose[:, 0] = rotation_vectors(trunks.pelvis[trunk])
     pose[:, spine] = pose[:, chest] = bend[trunk]
@@ -112,17 +112,38 @@ def _trunk_energy(trunks: TrunkReadings, facing: Facing | None) -> Float[np.ndar
 
 
 def _best(
-    trunk_energy: Float[np.ndarray, " g"], chains: list[ChainReadings], count: int
+    trunks: TrunkReadings,
+    trunk_energy: Float[np.ndarray, " g"],
+    chains: list[ChainReadings],
+    count: int,
 ) -> tuple[np.ndarray, list[np.ndarray]]:
-    """Trunk and reading of each chain in the ``count`` smallest sums, ascending."""
+    """Trunk and reading of each chain in the combinations to keep, ascending in energy.
+
+    First the best, then for the torso and each limb the best with that one facing the other way,
+    so that every ambiguity is represented, then the next best.
+    """
     total = trunk_energy
     for chain in chains:
         total = total[..., None] + chain.energy.reshape(
             len(trunk_energy), *[1] * (total.ndim - 1), 4
         )
+    facings = _facing_bits(trunks.facings.torso)
     flat = total.ravel()
-    count = min(count, int(np.isfinite(flat).sum()))
-    smallest = np.argpartition(flat, count - 1)[:count]
-    smallest = smallest[np.argsort(flat[smallest], kind="stable")]
-    trunk, *picks = np.unravel_index(smallest, total.shape)
+    order = np.argsort(flat, kind="stable")[: int(np.isfinite(flat).sum())]
+    best = order[0]
+    opposed = facings != facings[:, best : best + 1]
+    chosen = [best, *(order[row[order]][0] for row in opposed if row[order].any())]
+    chosen = list(dict.fromkeys([*chosen, *order[:count]]))[:count]
+    chosen.sort(key=lambda index: flat[index])
+    trunk, *picks = np.unravel_index(chosen, total.shape)
     return trunk, list(picks)
+
+
+def _facing_bits(torso: Integer[np.ndarray, " g"]) -> Integer[np.ndarray, "nine combinations"]:
+    """NEAR or FAR of the torso and of both limbs of each chain, by combination."""
+    shape = (len(torso), *[4] * len(CHAINS))
+    index = np.indices(shape).reshape(len(shape), -1)
+    bits = [torso[index[0]]]
+    for pick in index[1:]:
+        bits += [pick // 2, pick % 2]
+    return np.stack(bits)
