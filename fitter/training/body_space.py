@@ -1,8 +1,9 @@
 """The space of bodies a subject is searched in: parameters and traits to source vertices.
 
 A subject at rest is the base mesh plus targets, linear in their coefficients. *Parameters* are what
-measurements decide: macro parameters in [0, 1] and local changes in [-1, 1]. *Traits* are what they
-do not: age, ancestry, face; they are drawn, and held while the parameters are solved for.
+measurements decide: macro parameters from 0 to 1, or somewhat more, and local changes from -1 to 1.
+*Traits* are what they do not: age, ancestry, face; they are drawn, and held while the parameters
+are solved for.
 """
 
 from dataclasses import dataclass
@@ -15,6 +16,7 @@ from fitter.arrays import Vertices
 from fitter.training.local_changes import FACE_CHANGES, LocalChange, local_changes
 from fitter.training.makehuman import BaseMesh, load_targets
 from fitter.training.phenotypes import (
+    UPPER_BOUNDS,
     YOUNG_AGE,
     MacroTargets,
     free_axes,
@@ -65,7 +67,7 @@ class BodySpace:
     @property
     def upper(self) -> Float[np.ndarray, " q"]:
         """Upper bounds of the parameters."""
-        return np.ones(len(self.parameter_names))
+        return np.array([UPPER_BOUNDS.get(name, 1.0) for name in self.parameter_names])
 
     @property
     def neutral(self) -> Float[np.ndarray, " q"]:

@@ -31,7 +31,8 @@ INNER_VERTICES = 150
 """Vertices that carry an inner point: the rings of a limb within a few centimetres."""
 
 RIDGE = 1e-3
-"""Square metres; keeps the weights even, so that no vertex drags a point when the body bends. Over widely drawn shapes the points then keep within 1 mm (wrist) to 20 mm (knee, whose joint the leg
+"""Square metres; keeps the weights even, so that no vertex drags a point when the body bends. Over
+widely drawn shapes the points then keep within 1 mm (wrist) to 20 mm (knee, whose joint the leg
 targets move along the thigh) of their joints."""
 
 SAMPLES = 40

@@ -36,6 +36,10 @@ ANCHORS: Mapping[str, tuple[float, ...]] = {
     },
 }
 
+UPPER_BOUNDS: Mapping[str, float] = {"weight": 1.35}
+"""Where a macro parameter may pass the last anchor. MakeHuman's heaviest body is short of a body
+mass index of 32 or so in subjects of little muscle; beyond it the same change goes on."""
+
 FREE_AXES = ("muscle", "weight", "height", "proportions", "cupsize", "firmness")
 """Macro parameters that a subject's measurements decide; age and ancestry are traits."""
 
@@ -90,18 +94,25 @@ def free_axes(gender: str) -> tuple[str, ...]:
 
 
 def hat_weights(value: float, anchors: Sequence[float]) -> Float[np.ndarray, " n"]:
-    """Weights of the anchors at a value between them: linear, summing to one."""
-    return np.array([np.interp(value, anchors, row) for row in np.eye(len(anchors))])
+    """Weights of the anchors at a value: linear between them and beyond them, summing to one."""
+    segment = _segment(value, anchors)
+    share = (value - anchors[segment]) / (anchors[segment + 1] - anchors[segment])
+    weights = np.zeros(len(anchors))
+    weights[[segment, segment + 1]] = 1.0 - share, share
+    return weights
 
 
 def hat_slopes(value: float, anchors: Sequence[float]) -> Float[np.ndarray, " n"]:
     """Derivative of :func:`hat_weights`; at an anchor, that of the segment above it."""
-    segment = int(np.clip(np.searchsorted(anchors, value, side="right") - 1, 0, len(anchors) - 2))
+    segment = _segment(value, anchors)
+    rise = 1.0 / (anchors[segment + 1] - anchors[segment])
     slopes = np.zeros(len(anchors))
-    slopes[[segment, segment + 1]] = np.array([-1.0, 1.0]) / (
-        anchors[segment + 1] - anchors[segment]
-    )
+    slopes[[segment, segment + 1]] = -rise, rise
     return slopes
+
+
+def _segment(value: float, anchors: Sequence[float]) -> int:
+    return int(np.clip(np.searchsorted(anchors, value, side="right") - 1, 0, len(anchors) - 2))
 
 
 def macro_coefficients(

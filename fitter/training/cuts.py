@@ -1,0 +1,84 @@
+"""Girths of a body at rest as fixed edge crossings of a plane cut's convex hull.
+
+A tape spans hollows (section 6), so a girth is the length of the convex hull of a cut. Holding the
+hull's corners to their places on mesh edges makes the girth a smooth function of the vertices; the
+corners are found anew when the body has changed much.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Integer
+from scipy import sparse
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import ConvexHull
+
+from fitter.arrays import Triangles, Vector3, Vertices
+from fitter.errors import NumericalError
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class HullCut:
+    """Corners of the hull of one cut, in order around it.
+
+    Corner k lies at ``(1 - share[k]) vertices[edges[k, 0]] + share[k] vertices[edges[k, 1]]``.
+    """
+
+    edges: Integer[np.ndarray, "c 2"]
+    share: Float[np.ndarray, " c"]
+
+    def corners(self, vertices: Vertices) -> Float[np.ndarray, "c 3"]:
+        """Positions of the corners."""
+        first, second = vertices[self.edges[:, 0]], vertices[self.edges[:, 1]]
+        return first + self.share[:, None] * (second - first)
+
+    def girth(self, vertices: Vertices) -> float:
+        """Length of the closed polygon through the corners."""
+        corners = self.corners(vertices)
+        return float(np.linalg.norm(corners - np.roll(corners, -1, axis=0), axis=1).sum())
+
+
+def hull_cut(vertices: Vertices, triangles: Triangles, point: Vector3, normal: Vector3) -> HullCut:
+    """Cut a closed mesh and take the hull of the loop around ``point``, or else nearest to it.
+
+    Raises
+    ------
+    NumericalError
+        If the plane misses the mesh.
+    """
+    side = (vertices - point) @ normal
+    # A vertex on the plane would make degenerate edges; it counts as above.
+    above = side >= 0.0
+    first, second, third = above[triangles.T]
+    crossed = triangles[(first != second) | (second != third)]
+    if not len(crossed):
+        message = "a girth's plane misses the body"
+        raise NumericalError(message)
+    pairs = np.stack([crossed, np.roll(crossed, -1, axis=1)], axis=2)
+    cut = above[pairs[..., 0]] != above[pairs[..., 1]]
+    # Every crossed triangle has two crossed edges, and they connect in the loop.
+    edges, position = np.unique(np.sort(pairs[cut], axis=1), axis=0, return_inverse=True)
+    links = position.reshape(-1, 2)
+    graph = sparse.coo_array((np.ones(len(links)), (links[:, 0], links[:, 1])), (len(edges),) * 2)
+    count, loop_of = connected_components(graph, directed=False)
+    distance = np.abs(side[edges])
+    share = distance[:, 0] / distance.sum(axis=1)
+    positions = vertices[edges[:, 0]] + share[:, None] * np.diff(vertices[edges], axis=1)[:, 0]
+    planar = (positions - point) @ _plane_axes(normal)
+    chosen = min(range(count), key=lambda loop: _remoteness(planar[loop_of == loop]))
+    members = np.flatnonzero(loop_of == chosen)
+    corners = members[ConvexHull(planar[members]).vertices]
+    return HullCut(edges=edges[corners], share=share[corners])
+
+
+def _remoteness(loop: Float[np.ndarray, "k 2"]) -> tuple[bool, float]:
+    """Whether the origin lies outside the loop's bounding box, and how far its middle is."""
+    low, high = loop.min(axis=0), loop.max(axis=0)
+    return bool((low > 0.0).any() or (high < 0.0).any()), float(np.linalg.norm(low + high))
+
+
+def _plane_axes(normal: Vector3) -> Float[np.ndarray, "3 2"]:
+    smallest = int(np.argmin(np.abs(normal)))
+    first = np.cross(normal, np.eye(3)[smallest])
+    first /= np.linalg.norm(first)
+    return np.stack([first, np.cross(normal, first)], axis=1)

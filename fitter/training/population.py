@@ -1,0 +1,211 @@
+"""A population of registered bodies at rest: subjects drawn from a survey, solved for one by one.
+
+Every subject has a random stream of its own, made from the seed and its number, so a longer
+population begins with the shorter one of the same seed.
+"""
+
+from dataclasses import dataclass, fields
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+
+from fitter.body.model import SparseRows
+from fitter.training.body_space import BodySpace, Traits, source_vertices
+from fitter.training.local_changes import FACE_CHANGES
+from fitter.training.phenotypes import YOUNG_AGE
+from fitter.training.subject_fit import Placed, Wanted, fit_subject, measured, place
+from fitter.training.survey import (
+    SurveyStatistics,
+    draw_subjects,
+    load_statistics,
+    on_the_model,
+    packaged_statistics_path,
+)
+from fitter.training.survey_measurements import MEASUREMENTS, Row, named_rows, place_measurements
+
+PLACEMENTS = 3
+"""How often the cuts are placed anew on the subject; the third moves no girth by more than 1 mm."""
+
+TIGHT = 0.1
+"""Tolerance of a measurement in the survey's standard deviations."""
+
+LOOSE = {
+    **dict.fromkeys(("hipbreadth", "buttockdepth", "waistbreadth", "waistdepth"), 0.3),
+    **dict.fromkeys(("chestdepth", "headbreadth", "headlength"), 0.3),
+    **dict.fromkeys(("acromialheight", "cervicaleheight", "suprasternaleheight"), 0.3),
+}
+"""The same where the model's definition is not quite the survey's."""
+
+MACRO_SPREAD = 0.3
+MUSCLE_SPREAD = 0.25
+LOCAL_SPREAD = 0.4
+"""Standard deviations of the prior on parameters, in their own units."""
+
+CENTRE_SHARE = 0.5
+"""The prior's centre is drawn with this share of its spread."""
+
+OLDEST = YOUNG_AGE + 0.2
+"""Ages are drawn evenly up to here: about seventy years. Beyond, the targets are of frail age."""
+
+FACE_SPREAD = 0.3
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Population:
+    """Bodies of one gender at rest.
+
+    Attributes
+    ----------
+    source_vertices
+        (s, v, 3) float32, all source vertices of each subject, body frame, metres.
+    parameters
+        (s, p) solved, by ``parameter_names``; ``lower`` and ``upper`` are their bounds.
+    wanted, reached
+        (s, q) measurements drawn and those of the body, metres and kilograms, by
+        ``measurement_names``.
+    deviation
+        (q,) standard deviations in the survey.
+    """
+
+    source_vertices: Float[np.ndarray, "s v 3"]
+    parameters: Float[np.ndarray, "s p"]
+    parameter_names: tuple[str, ...]
+    lower: Float[np.ndarray, " p"]
+    upper: Float[np.ndarray, " p"]
+    wanted: Float[np.ndarray, "s q"]
+    reached: Float[np.ndarray, "s q"]
+    measurement_names: tuple[str, ...]
+    deviation: Float[np.ndarray, " q"]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Workshop:
+    """What all subjects of a gender share."""
+
+    space: BodySpace
+    body_targets: Float[np.ndarray, "k m 3"]
+    rows: dict[str, Row]
+    statistics: SurveyStatistics
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class _Subject:
+    source_vertices: Float[np.ndarray, "v 3"]
+    parameters: Float[np.ndarray, " p"]
+    wanted: Float[np.ndarray, " q"]
+    reached: Float[np.ndarray, " q"]
+
+
+def prepare(space: BodySpace, landmarks: SparseRows) -> Workshop:
+    """Ready a gender for solving subjects; ``landmarks`` are those of the body model."""
+    return Workshop(
+        space=space,
+        body_targets=np.ascontiguousarray(space.base.body(space.targets)),
+        rows=named_rows(space.base, landmarks),
+        statistics=load_statistics(packaged_statistics_path(), space.gender),
+    )
+
+
+def solve_population(workshop: Workshop, count: int, seed: int) -> Population:
+    """Draw and solve ``count`` subjects: about a second each."""
+    streams = np.random.SeedSequence(seed).spawn(count)
+    subjects = [_solve(workshop, stream) for stream in streams]
+    space = workshop.space
+    return Population(
+        source_vertices=np.stack([subject.source_vertices for subject in subjects]),
+        parameters=np.stack([subject.parameters for subject in subjects]),
+        parameter_names=space.parameter_names,
+        lower=space.lower,
+        upper=space.upper,
+        wanted=np.stack([subject.wanted for subject in subjects]),
+        reached=np.stack([subject.reached for subject in subjects]),
+        measurement_names=MEASUREMENTS,
+        deviation=workshop.statistics.deviation,
+    )
+
+
+def draw_traits(generator: np.random.Generator) -> Traits:
+    """Age, ancestry and face of a subject."""
+    face = FACE_SPREAD * generator.normal(size=len(FACE_CHANGES))
+    return Traits(
+        age=generator.uniform(YOUNG_AGE, OLDEST),
+        ancestry=generator.dirichlet(np.ones(3)),
+        face=np.clip(face, -1.0, 1.0),
+    )
+
+
+def save_population(path: Path, population: Population) -> None:
+    """Write a population to an ``.npz``."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    content = {field.name: getattr(population, field.name) for field in fields(Population)}
+    np.savez(path, **content)
+
+
+def load_population(path: Path) -> Population:
+    """Read what :func:`save_population` wrote."""
+    with np.load(path, allow_pickle=False) as archive:
+        content = {name: archive[name] for name in archive.files}
+    for name in ("parameter_names", "measurement_names"):
+        content[name] = tuple(content[name].tolist())
+    return Population(**content)
+
+
+def residual_table(population: Population) -> str:
+    """Bias and mean absolute error of every measurement, and the parameters most at bounds."""
+    errors = population.reached - population.wanted
+    lines = [f"{'measurement':32s}{'bias':>9s}{'mean abs':>10s}{'survey SD':>11s}"]
+    for column, name in enumerate(population.measurement_names):
+        unit, scale = ("kg", 1.0) if name == "weightkg" else ("mm", 1000.0)
+        bias, absolute = errors[:, column].mean(), np.abs(errors[:, column]).mean()
+        lines.append(
+            f"{name:32s}{scale * bias:9.1f}{scale * absolute:10.1f}"
+            f"{scale * population.deviation[column]:11.1f} {unit}"
+        )
+    at_bound = (population.parameters <= population.lower) | (
+        population.parameters >= population.upper
+    )
+    share = at_bound.mean(axis=0)
+    lines.append("parameters at a bound:")
+    lines += [
+        f"  {population.parameter_names[k]:30s}{100.0 * share[k]:5.1f} %"
+        for k in np.argsort(-share)[:8]
+        if share[k] > 0.0
+    ]
+    return "\n".join(lines)
+
+
+def _solve(workshop: Workshop, stream: np.random.SeedSequence) -> _Subject:
+    generator = np.random.default_rng(stream)
+    space, statistics = workshop.space, workshop.statistics
+    drawn = draw_subjects(statistics, space.gender, 1, generator)[0]
+    traits = draw_traits(generator)
+    spread = np.where(space.neutral == 0.0, LOCAL_SPREAD, MACRO_SPREAD)
+    spread[space.parameter_names.index("muscle")] = MUSCLE_SPREAD
+    centre = space.neutral + CENTRE_SHARE * spread * generator.normal(size=len(spread))
+    tolerance = [LOOSE.get(name, TIGHT) for name in MEASUREMENTS]
+    wanted = Wanted(
+        measurements=on_the_model(MEASUREMENTS, space.gender, drawn),
+        tolerance=np.array(tolerance) * statistics.deviation,
+        centre=np.clip(centre, space.lower, space.upper),
+        spread=spread,
+    )
+    parameters = space.neutral
+    for _ in range(PLACEMENTS):
+        placed = _placed(workshop, traits, parameters)
+        parameters = fit_subject(placed, wanted, parameters)
+    reached, _ = measured(_placed(workshop, traits, parameters), parameters)
+    return _Subject(
+        source_vertices=source_vertices(space, traits, parameters).astype(np.float32),
+        parameters=parameters,
+        wanted=wanted.measurements,
+        reached=reached,
+    )
+
+
+def _placed(workshop: Workshop, traits: Traits, parameters: Float[np.ndarray, " p"]) -> Placed:
+    """The cuts placed on the body of these parameters."""
+    space = workshop.space
+    body = source_vertices(space, traits, parameters)
+    forms = place_measurements(space.base, workshop.rows, body)
+    return place(space, traits, forms, workshop.body_targets)

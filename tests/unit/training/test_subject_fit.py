@@ -1,0 +1,114 @@
+import numpy as np
+import pytest
+
+from fitter.numerics.meshes import enclosed_volume
+from fitter.training.body_space import average_traits, source_vertices
+from fitter.training.landmarks import body_landmarks
+from fitter.training.makehuman import makehuman_folder
+from fitter.training.population import Workshop, prepare, solve_population
+from fitter.training.subject_fit import (
+    Placed,
+    Wanted,
+    fit_subject,
+    measured,
+    place,
+    volume_and_gradient,
+)
+from fitter.training.survey_measurements import (
+    MEASUREMENTS,
+    measured_lengths,
+    place_measurements,
+)
+from tests.unit.measurement.solids import sphere
+from tests.unit.training.makehuman_data import base_mesh, body_space, needs_makehuman
+
+
+@pytest.fixture(scope="module")
+def workshop() -> Workshop:
+    spaces = [body_space("female"), body_space("male")]
+    return prepare(spaces[0], body_landmarks(makehuman_folder(), base_mesh(), spaces))
+
+
+def placed_on(workshop: Workshop, parameters: np.ndarray) -> Placed:
+    space = workshop.space
+    body = source_vertices(space, average_traits(), parameters)
+    forms = place_measurements(space.base, workshop.rows, body)
+    return place(space, average_traits(), forms, workshop.body_targets)
+
+
+def some_parameters(workshop: Workshop, seed: int) -> np.ndarray:
+    space = workshop.space
+    draw = np.random.default_rng(seed).uniform(-0.4, 0.4, len(space.neutral))
+    return space.neutral + draw * np.where(space.neutral == 0.0, 1.0, 0.5)
+
+
+def test_volume_has_the_derivative_that_finite_differences_give():
+    vertices, triangles = sphere(radius=0.5, rings=8, sides=12)
+    volume, gradient = volume_and_gradient(vertices, triangles)
+    assert volume == pytest.approx(enclosed_volume(vertices, triangles))
+    direction = np.random.default_rng(0).normal(size=vertices.shape)
+    step = 1e-5
+    above, _ = volume_and_gradient(vertices + step * direction, triangles)
+    below, _ = volume_and_gradient(vertices - step * direction, triangles)
+    assert (gradient * direction).sum() == pytest.approx((above - below) / (2 * step), rel=1e-6)
+
+
+@needs_makehuman
+def test_measurements_by_target_are_those_of_the_body_itself(workshop: Workshop):
+    parameters = some_parameters(workshop, 3)
+    placed = placed_on(workshop, workshop.space.neutral)
+    values, _ = measured(placed, parameters)
+    body = source_vertices(workshop.space, average_traits(), parameters)
+    np.testing.assert_allclose(values[:-1], measured_lengths(placed.forms, body), atol=1e-6)
+    base = workshop.space.base
+    volume = enclosed_volume(base.body(body), base.triangles)
+    assert values[-1] == pytest.approx(1000.0 * volume, rel=1e-5)
+
+
+@needs_makehuman
+def test_measurements_have_the_derivatives_that_finite_differences_give(workshop: Workshop):
+    parameters = some_parameters(workshop, 4)
+    placed = placed_on(workshop, parameters)
+    _, derivative = measured(placed, parameters)
+    step = 1e-5
+    for parameter in range(len(parameters)):
+        nudge = step * np.eye(len(parameters))[parameter]
+        above, _ = measured(placed, parameters + nudge)
+        below, _ = measured(placed, parameters - nudge)
+        np.testing.assert_allclose(
+            derivative[:, parameter],
+            (above - below) / (2 * step),
+            rtol=1e-4,
+            atol=1e-4,
+            err_msg=workshop.space.parameter_names[parameter],
+        )
+
+
+@needs_makehuman
+def test_a_bodys_own_measurements_are_found_again(workshop: Workshop):
+    truth = some_parameters(workshop, 5)
+    placed = placed_on(workshop, truth)
+    measurements, _ = measured(placed, truth)
+    deviation = workshop.statistics.deviation
+    wanted = Wanted(
+        measurements=measurements,
+        tolerance=0.01 * deviation,
+        centre=workshop.space.neutral,
+        spread=np.full(len(truth), 0.4),
+    )
+    found = fit_subject(placed, wanted, workshop.space.neutral)
+    reached, _ = measured(placed, found)
+    assert np.abs((reached - measurements) / deviation).max() < 0.05
+    assert (found >= workshop.space.lower).all()
+    assert (found <= workshop.space.upper).all()
+
+
+@needs_makehuman
+def test_a_population_begins_with_the_shorter_one_and_meets_its_measurements(workshop: Workshop):
+    one = solve_population(workshop, 1, seed=11)
+    two = solve_population(workshop, 2, seed=11)
+    assert np.array_equal(one.source_vertices[0], two.source_vertices[0])
+    assert not np.array_equal(two.source_vertices[0], two.source_vertices[1])
+    stature = MEASUREMENTS.index("stature")
+    assert np.abs(two.reached - two.wanted)[:, stature].max() < 0.015
+    assert np.median(np.abs(two.reached - two.wanted) / two.deviation) < 0.05
