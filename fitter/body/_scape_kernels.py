@@ -68,34 +68,36 @@ def gather_gradient(
     rotation_gradient[:] = 0.0
     parts = len(pointers) - 1
     n = len(shape)
-    local = np.empty(3)
-    turned = np.empty(3)
+    # Local sums: the compiler cannot know that the results do not overlap the terms.
+    by_shape = np.zeros(n + 1)
+    by_feature = np.zeros(features.shape[1])
     for part in range(parts):
         rotation = rotations[part]
         width = widths[part]
+        by_feature[:] = 0.0
         for incidence in range(pointers[part], pointers[part + 1]):
             vertex = vertices[incidence]
             for c in range(3):
-                turned[c] = (
+                weight = (
                     rotation[0, c] * adjoint[vertex, 0]
                     + rotation[1, c] * adjoint[vertex, 1]
                     + rotation[2, c] * adjoint[vertex, 2]
                 )
-            for c in range(3):
                 terms = shape_terms[incidence, c]
+                pose = pose_terms[incidence, c]
                 value = float(terms[0])
-                weight = turned[c]
                 for k in range(n):
                     value += terms[k + 1] * shape[k]
-                    shape_gradient[k] += terms[k + 1] * weight
-                pose = pose_terms[incidence, c]
                 for k in range(width):
                     value += pose[k] * features[part, k]
-                    feature_gradient[part, k] += pose[k] * weight
-                local[c] = value
-            for r in range(3):
-                for c in range(3):
-                    rotation_gradient[part, r, c] += adjoint[vertex, r] * local[c]
+                for k in range(n + 1):
+                    by_shape[k] += terms[k] * weight
+                for k in range(width):
+                    by_feature[k] += pose[k] * weight
+                for r in range(3):
+                    rotation_gradient[part, r, c] += adjoint[vertex, r] * value
+        feature_gradient[part, :width] = by_feature[:width]
+    shape_gradient[:] = by_shape[1:]
 
 
 @no_type_check

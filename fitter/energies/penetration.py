@@ -11,7 +11,7 @@ from jaxtyping import Float, Integer
 
 from fitter.arrays import Points3D, Vertices
 from fitter.body.model import BodyModel, SparseRows
-from fitter.body.skeleton import regress
+from fitter.energies._sphere_kernels import pair_overlaps, ring_spheres
 from fitter.energies.rows import PositionRows
 from fitter.energies.scales import EnergyScales
 
@@ -72,11 +72,12 @@ def sphere_positions(
     centres: SparseRows, vertices: Vertices
 ) -> tuple[Points3D, Float[np.ndarray, " s"]]:
     """Centres (frame of the vertices) and radii in metres, from the rings' present vertices."""
-    positions = regress(centres, vertices)
-    spread = vertices[centres.indices] - np.repeat(positions, np.diff(centres.pointers), axis=0)
-    distance = np.linalg.norm(spread, axis=1)
-    mean = np.add.reduceat(distance * centres.weights, centres.pointers[:-1])
-    return positions, _FILLING * mean
+    count = len(centres.pointers) - 1
+    positions, radii = np.empty((count, 3)), np.empty(count)
+    ring_spheres(
+        vertices, centres.pointers, centres.indices, centres.weights, _FILLING, positions, radii
+    )
+    return positions, radii
 
 
 def penetration_energy(
@@ -113,9 +114,9 @@ def penetration_rows(
 def _overlaps(
     spheres: Points3D, radii: Float[np.ndarray, " s"], pairs: Integer[np.ndarray, "q 2"]
 ) -> Float[np.ndarray, " q"]:
-    first, second = pairs[:, 0], pairs[:, 1]
-    distance = np.linalg.norm(spheres[first] - spheres[second], axis=1)
-    return radii[first] + radii[second] - distance
+    result = np.empty(len(pairs))
+    pair_overlaps(spheres, radii, pairs, result)
+    return result
 
 
 def _rings_of_part(vertices: Vertices, members: Integer[np.ndarray, " k"]) -> list[np.ndarray]:

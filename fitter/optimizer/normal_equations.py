@@ -32,7 +32,7 @@ from fitter.numerics.normals import normal_change, normal_derivative_to_vertices
 from fitter.optimizer.parameter_vector import as_vector
 
 # Rows of each kind that enter the matrix; the gradient uses all of them.
-_MATRIX_ROWS = 300
+_MATRIX_ROWS = 600
 _MATRIX_SHADING_ROWS = 500
 
 Matrix = Float[np.ndarray, "columns columns"]

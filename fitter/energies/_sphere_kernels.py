@@ -1,0 +1,41 @@
+"""Numba kernels of the penetration proxy."""
+
+from math import sqrt
+from typing import no_type_check
+
+from numba import njit
+
+
+@no_type_check
+@njit(cache=True, fastmath=True)
+def ring_spheres(vertices, pointers, indices, weights, filling, centres, radii):
+    """Weighted mean of each ring, and the ring's mean distance from it times ``filling``."""
+    for s in range(len(pointers) - 1):
+        x = y = z = 0.0
+        for k in range(pointers[s], pointers[s + 1]):
+            v = indices[k]
+            x += weights[k] * vertices[v, 0]
+            y += weights[k] * vertices[v, 1]
+            z += weights[k] * vertices[v, 2]
+        centres[s, 0], centres[s, 1], centres[s, 2] = x, y, z
+        mean = 0.0
+        for k in range(pointers[s], pointers[s + 1]):
+            v = indices[k]
+            dx = vertices[v, 0] - x
+            dy = vertices[v, 1] - y
+            dz = vertices[v, 2] - z
+            mean += weights[k] * sqrt(dx * dx + dy * dy + dz * dz)
+        radii[s] = filling * mean
+
+
+@no_type_check
+@njit(cache=True, fastmath=True)
+def pair_overlaps(centres, radii, pairs, result):
+    """Sum of radii less distance for each pair."""
+    for q in range(len(pairs)):
+        a = pairs[q, 0]
+        b = pairs[q, 1]
+        dx = centres[a, 0] - centres[b, 0]
+        dy = centres[a, 1] - centres[b, 1]
+        dz = centres[a, 2] - centres[b, 2]
+        result[q] = radii[a] + radii[b] - sqrt(dx * dx + dy * dy + dz * dz)

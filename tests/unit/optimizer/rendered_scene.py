@@ -1,0 +1,119 @@
+"""A picture of a known body under a known light, made with the model that will read it.
+
+Good for testing optimisers, which must come back to what they are given; it says nothing of
+accuracy on people, for which tests/evaluation has other bodies and another renderer.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fitter.body.pose_prior import mean_pose
+from fitter.body.scape import increment
+from fitter.body.skeleton import regress
+from fitter.camera import Camera
+from fitter.energies.clicks import click_evidence
+from fitter.energies.instruments import BodyInstruments
+from fitter.energies.objective import Objective, PictureEvidence
+from fitter.energies.scales import NEAR_BOUNDARY_ETA_M, scales_at
+from fitter.evidence.edge_cost import edge_cost_map
+from fitter.evidence.intensity import IntensityMap, intensity_map
+from fitter.evidence.silhouette_evidence import silhouette_evidence
+from fitter.fittable import packaged_body
+from fitter.observation.colour import display_from_linear
+from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
+from fitter.render.interpolation import shade_image
+from fitter.render.rasterizer import render
+from fitter.render.reflectance import shade
+from fitter.request import Click, Gender
+
+CAMERA = Camera(focal_length_px=700.0, centre_x=180.0, centre_y=240.0, width=360, height=480)
+LIGHT = Light(kind=LightKind.POINT, azimuth=0.7, elevation=0.5, distance=2.5)
+CLICKED = tuple(
+    f"{side}_{joint}"
+    for joint in ("shoulder", "elbow", "wrist", "hip", "knee", "ankle")
+    for side in ("left", "right")
+)
+DEPTH_M = 2.9
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class RenderedScene:
+    """The truth, a start near it, and what the fit sees."""
+
+    truth: BodyParameters
+    start: BodyParameters
+    instruments: BodyInstruments
+    objective: Objective
+    intensity: IntensityMap
+
+    def posed_error_mm(self, parameters: BodyParameters) -> float:
+        """Mean distance of vertices from the truth, with the depth of the whole body left out."""
+        evaluator = self.instruments.evaluator
+        difference = evaluator.vertices(parameters) - evaluator.vertices(self.truth)
+        return 1000 * float(np.linalg.norm(difference - difference.mean(axis=0), axis=1).mean())
+
+    def shape_error_mm(self, parameters: BodyParameters) -> float:
+        """Mean distance of vertices at rest."""
+        basis = self.instruments.model.shape_basis
+        difference = np.tensordot(parameters.shape - self.truth.shape, basis, axes=1)
+        return 1000 * float(np.linalg.norm(difference - difference.mean(axis=0), axis=1).mean())
+
+
+def rendered_scene(seed: int) -> RenderedScene:
+    """A standing man of random shape near the mean pose."""
+    rng = np.random.default_rng(seed)
+    instruments = packaged_body(Gender.MALE).instruments
+    model, evaluator = instruments.model, instruments.evaluator
+    p, n = len(model.part_names), len(model.shape_basis)
+    pose = mean_pose(instruments.pose_prior) + 0.06 * rng.standard_normal((p, 3))
+    shape = np.concatenate([[0.0], rng.standard_normal(n - 1)])
+    truth = BodyParameters(pose=pose, translation=np.array([0.0, 0.0, DEPTH_M]), shape=shape)
+    start = increment(
+        BodyParameters(pose=pose, translation=truth.translation, shape=np.zeros(n)),
+        pose=0.05 * rng.standard_normal((p, 3)),
+        translation=np.array([0.01, 0.01, 0.04]) * rng.standard_normal(3),
+        shape=np.zeros(n),
+    )
+    vertices = evaluator.vertices(truth)
+    rendering = render(vertices, model.triangles, CAMERA)
+    values = shade(
+        vertices,
+        rendering.vertex_normals,
+        light=LIGHT,
+        body_centre=truth.translation,
+        reflectance=Reflectance(
+            albedo=np.full(len(vertices), 0.5),
+            specularity=np.full(len(vertices), 0.08),
+            ambient=0.06,
+            specular_exponent=12.0,
+        ),
+    )
+    mask = rendering.silhouette
+    luminance = np.where(mask, np.nan_to_num(shade_image(rendering, values)), 0.0)
+    luminance = np.clip(luminance + 0.004 * rng.standard_normal(mask.shape), 0.0, 1.0)
+    display = np.repeat(display_from_linear(luminance)[..., None], 3, axis=2).astype(np.float32)
+    landmarks = CAMERA.project(regress(model.landmarks, vertices))
+    clicks = {
+        name: Click(x=float(x), y=float(y))
+        for name in CLICKED
+        for x, y in [landmarks[model.landmarks.names.index(name)] + 2.0 * rng.standard_normal(2)]
+    }
+    objective = Objective(
+        instruments=instruments,
+        evidence=PictureEvidence(
+            camera=CAMERA,
+            clicks=click_evidence(model.landmarks, clicks),
+            silhouette=silhouette_evidence(mask),
+            edges=edge_cost_map(display, threshold_px=8.0),
+            shading=None,
+        ),
+        scales=scales_at(CAMERA, DEPTH_M, boundary_eta_m=2 * NEAR_BOUNDARY_ETA_M),
+    )
+    return RenderedScene(
+        truth=truth,
+        start=start,
+        instruments=instruments,
+        objective=objective,
+        intensity=intensity_map(luminance.astype(np.float32), display, mask),
+    )

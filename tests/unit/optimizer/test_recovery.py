@@ -1,0 +1,118 @@
+"""Known bodies rendered, perturbed and fitted back."""
+
+import numpy as np
+import pytest
+
+from fitter.optimizer.alternation import fit_shading
+from fitter.optimizer.gauss_newton import Minimum, minimize_gauss_newton
+from fitter.optimizer.light_solve import guessed_lights
+from fitter.optimizer.normal_equations import normal_equations
+from fitter.optimizer.parameter_vector import free_columns, moved
+from fitter.optimizer.simplex import minimize_simplex
+from fitter.optimizer.uncertainty import shape_covariance
+from fitter.render.light import direction_to_light
+from fitter.request import LightGuess
+from tests.unit.optimizer.rendered_scene import LIGHT, RenderedScene, rendered_scene
+
+
+@pytest.fixture(scope="module")
+def scene() -> RenderedScene:
+    return rendered_scene(0)
+
+
+@pytest.fixture(scope="module")
+def silhouette_fit(scene) -> Minimum:
+    return minimize_gauss_newton(
+        scene.objective, scene.start, max_evaluations=100, on_energies=ignore
+    )
+
+
+def ignore(_):
+    return None
+
+
+def test_the_truth_has_no_silhouette_energy(scene):
+    at_truth = scene.objective.evaluate(scene.truth)
+    assert at_truth.energies["silhouette"] == 0.0
+    assert scene.objective.overlap(at_truth) == 1.0
+
+
+def test_gauss_newton_finds_the_way_back_from_a_perturbed_body(scene, silhouette_fit):
+    found = silhouette_fit.candidate
+    assert scene.posed_error_mm(found.parameters) < 0.5 * scene.posed_error_mm(scene.start)
+    assert scene.shape_error_mm(found.parameters) < 0.8 * scene.shape_error_mm(scene.start)
+    assert scene.objective.overlap(found) > 0.97
+    assert found.total < 1.3 * scene.objective.evaluate(scene.truth).total + 5.0
+
+
+def test_the_energy_never_rises_from_step_to_step(scene):
+    totals: list[float] = []
+    minimize_gauss_newton(
+        scene.objective,
+        scene.start,
+        max_evaluations=25,
+        on_energies=lambda energies: totals.append(sum(energies.values())),
+    )
+    assert len(totals) > 5
+    assert all(np.diff(totals) < 0)
+
+
+def test_the_gradient_points_the_way_the_true_energy_falls(scene):
+    # The true energy counts pixels: its slope is taken over a few of them.
+    candidate = scene.objective.evaluate(scene.start)
+    _, gradient = normal_equations(scene.objective, candidate)
+    pose_size = scene.start.pose.size
+    for column, step in ((pose_size, 0.004), (pose_size + 1, 0.004), (2, 0.006)):
+        delta = np.zeros(len(gradient))
+        delta[column] = step
+        plus = scene.objective.evaluate(moved(scene.start, delta)).total
+        minus = scene.objective.evaluate(moved(scene.start, -delta)).total
+        numeric = (plus - minus) / (2 * step)
+        assert gradient[column] == pytest.approx(numeric, rel=0.5)
+
+
+def test_the_height_coefficient_is_never_moved(scene, silhouette_fit):
+    assert silhouette_fit.candidate.parameters.shape[0] == scene.start.shape[0]
+
+
+def test_the_simplex_lowers_the_same_energy_but_slower(scene):
+    newton = minimize_gauss_newton(
+        scene.objective, scene.start, max_evaluations=40, on_energies=ignore
+    )
+    simplex = minimize_simplex(
+        scene.objective, scene.start, max_evaluations=400, on_energies=ignore
+    )
+    assert simplex.candidate.total < scene.objective.evaluate(scene.start).total
+    assert not simplex.converged
+    assert newton.candidate.total < simplex.candidate.total
+
+
+def test_shading_finds_the_light_and_betters_the_body(scene, silhouette_fit):
+    shaded = fit_shading(
+        scene.objective,
+        silhouette_fit.candidate,
+        scene.intensity,
+        guessed_lights(LightGuess()),
+        search=lambda objective, parameters: minimize_gauss_newton(
+            objective, parameters, max_evaluations=20, on_energies=ignore
+        ),
+    )
+    assert shaded is not None
+    cosine = direction_to_light(shaded.light) @ direction_to_light(LIGHT)
+    assert np.degrees(np.arccos(cosine)) < 5
+    before = scene.shape_error_mm(silhouette_fit.candidate.parameters)
+    after = scene.shape_error_mm(shaded.minimum.candidate.parameters)
+    assert after < before
+
+
+def test_the_shape_is_known_better_than_before_the_picture(scene, silhouette_fit):
+    covariance = shape_covariance(scene.objective, silhouette_fit.candidate)
+    variances = np.diag(covariance)
+    assert variances[0] == 0.0
+    assert (variances[1:] > 0.0).all()
+    assert (variances[1:] < 1.0).all()
+    assert np.linalg.eigvalsh(covariance[1:, 1:]).min() > 0.0
+
+
+def test_only_the_height_is_held(scene):
+    assert np.count_nonzero(~free_columns(scene.start)) == 1
