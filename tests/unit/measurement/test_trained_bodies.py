@@ -1,5 +1,8 @@
 """Measurements of the body models that are shipped."""
 
+import json
+from pathlib import Path
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -16,6 +19,7 @@ from fitter.measurement.anthropometry import (
 )
 from fitter.measurement.plane_cut import Plane, closed_length, hull_of, in_plane, plane_section
 
+SURVEY = json.loads(Path(__file__).with_name("survey_means.json").read_text(encoding="utf-8"))
 GENDERS = ("female", "male")
 
 
@@ -33,6 +37,21 @@ def mean_shape(trained):
 
 def by_name(body, values):
     return dict(zip((d.about.name for d in body.definitions), values, strict=True))
+
+
+def test_the_mean_body_measures_as_people_do(trained, mean_shape):
+    """Within one standard deviation: the survey has soldiers, the training civilians too."""
+    gender, _, body = trained
+    far = {}
+    for definition, value in zip(
+        body.definitions, measurement_values(body, mean_shape), strict=True
+    ):
+        field = definition.about.survey_field
+        if field is not None:
+            mean, deviation = SURVEY[gender][field]
+            if abs(value - mean) > deviation:
+                far[definition.about.name] = (round(value, 1), mean, deviation)
+    assert not far
 
 
 def test_stature_is_the_one_the_height_constraint_holds(trained, mean_shape):
