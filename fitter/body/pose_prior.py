@@ -100,7 +100,7 @@ def joint_angles(
     prior: PosePrior, pose: Float[np.ndarray, "... p 3"]
 ) -> Float[np.ndarray, "... p 3"]:
     """Flexion, abduction and twist of every joint, radians relative to the rest pose."""
-    return np.einsum("pai,...pi->...pa", prior.axes, pose)
+    return np.matmul(prior.axes, pose[..., None])[..., 0]
 
 
 def mean_pose(prior: PosePrior) -> Pose:
@@ -108,15 +108,22 @@ def mean_pose(prior: PosePrior) -> Pose:
     return np.einsum("pai,pa->pi", prior.axes, prior.mean)
 
 
-def prior_terms(prior: PosePrior, pose: Float[np.ndarray, "... p 3"]) -> PriorTerms:
-    """Residuals and Jacobian of the prior, for one pose or a batch of them."""
+def prior_residuals(
+    prior: PosePrior, pose: Float[np.ndarray, "... p 3"]
+) -> Float[np.ndarray, "... p 6"]:
+    """The residuals of :class:`PriorTerms` alone."""
     angles = joint_angles(prior, pose)
     departures = prior.precision * (angles - prior.mean)
-    beyond = _beyond(angles, prior.lower, prior.upper)
-    slope = np.where(beyond != 0.0, 1.0 / np.radians(LIMIT_SOFTNESS_DEG), 0.0)
+    return np.concatenate([departures, _beyond(angles, prior.lower, prior.upper)], axis=-1)
+
+
+def prior_terms(prior: PosePrior, pose: Float[np.ndarray, "... p 3"]) -> PriorTerms:
+    """Residuals and Jacobian of the prior, for one pose or a batch of them."""
+    residuals = prior_residuals(prior, pose)
+    slope = np.where(residuals[..., 3:] != 0.0, 1.0 / np.radians(LIMIT_SOFTNESS_DEG), 0.0)
     turned = np.matmul(prior.axes, inverse_left_jacobians(pose))
     return PriorTerms(
-        residuals=np.concatenate([departures, beyond], axis=-1),
+        residuals=residuals,
         jacobian=np.concatenate(
             [prior.precision[..., None] * turned, slope[..., None] * turned], axis=-2
         ),

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float, Integer
 
-from fitter.body.pose_prior import PosePrior, prior_terms
+from fitter.body.pose_prior import PosePrior, prior_residuals, prior_terms
 from fitter.body.skeleton import descendants
 from fitter.camera import Camera
 from fitter.pose_init.click_spread import click_spreads_m
@@ -126,7 +126,7 @@ def click_energy(
 ) -> Float[np.ndarray, " b"]:
     """Half the sum of squares; infinite where a clicked landmark lies behind the camera."""
     clicks = click_residuals(problem, posed)
-    prior = prior_terms(problem.prior, pose).residuals
+    prior = prior_residuals(problem.prior, pose)
     energy = 0.5 * (
         (clicks**2).sum(axis=(-2, -1))
         + (prior**2).sum(axis=(-2, -1))

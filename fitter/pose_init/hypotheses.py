@@ -23,8 +23,15 @@ MOST_HYPOTHESES = 8
 
 _ROUGH_ITERATIONS, _FINE_ITERATIONS = 5, 20
 
+HOPELESS_ENERGY = 25.0
+"""Hypotheses this much above the best are dropped: e to the -25 is no alternative, and a limb
+folded through its own limits only costs the picture's evidence time to refuse."""
+
 _SAME_BASIN = np.radians(12.0)
 """Roughly refined poses whose joints all agree this closely will end in the same place."""
+
+_CLEAR_SLANT = 0.15
+"""Difference of two slants, as a share of the limb's length (about 9 degrees), that counts."""
 
 _SAME_POSE = np.radians(6.0)
 """Refined poses whose joints all agree this closely are one hypothesis."""
@@ -58,17 +65,25 @@ def refined_hypotheses(
 
 
 def distinct_hypotheses(fitted: FittedPoses) -> FittedPoses:
-    """Best first, without poses that came out the same as a better one."""
+    """Best first, without poses that came out the same as a better one, or hopelessly worse."""
     return _distinct(fitted.ranked(), _SAME_POSE, most=len(fitted.pose))
 
 
 def limb_facings(rig: LandmarkRig, fitted: FittedPoses) -> list[dict[str, Facing]]:
-    """Which way every limb of every pose faces."""
+    """Which way every limb of every pose faces.
+
+    A limb nearly parallel to the image may come out a degree to either side in two poses that are
+    really one reading of it. So a pose says otherwise than the first only of limbs whose slant
+    clearly differs.
+    """
     points = pose_landmarks(rig, fitted.pose, fitted.translation).points
     result: list[dict[str, Facing]] = [{} for _ in points]
     for limb in LIMBS:
-        slants = points[..., 2] @ limb_slant(limb, rig.landmark_names)
-        for facing, slant in zip(result, slants, strict=True):
+        row = limb_slant(limb, rig.landmark_names)
+        length = float(np.linalg.norm(row @ rig.rest_landmarks))
+        slants = points[..., 2] @ row
+        clear = np.abs(slants - slants[0]) > _CLEAR_SLANT * length
+        for facing, slant in zip(result, np.where(clear, slants, slants[0]), strict=True):
             facing[limb.name] = Facing.TOWARD if slant < 0.0 else Facing.AWAY
     return result
 
@@ -76,7 +91,7 @@ def limb_facings(rig: LandmarkRig, fitted: FittedPoses) -> list[dict[str, Facing
 def _distinct(fitted: FittedPoses, angle: float, *, most: int) -> FittedPoses:
     kept: list[int] = []
     for row, pose in enumerate(fitted.pose):
-        if len(kept) == most:
+        if len(kept) == most or fitted.energy[row] > fitted.energy[0] + HOPELESS_ENERGY:
             break
         if all(np.abs(pose - fitted.pose[other]).max() > angle for other in kept):
             kept.append(row)

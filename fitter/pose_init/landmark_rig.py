@@ -154,14 +154,24 @@ def landmark_jacobian(
     """
     joints = np.flatnonzero(turning)
     follows = descendants(rig.part_parent)[joints].astype(np.float64)
-    beyond = np.einsum("jq,...kqi->...kji", follows, posed.shares, optimize=True)
+    beyond = np.matmul(follows, posed.shares)
     share = rig.weights @ follows.T
-    beyond = beyond - share[:, :, None] * posed.joints[..., None, joints, :]
+    beyond -= share[:, :, None] * posed.joints[..., None, joints, :]
     parents = rig.part_parent[joints]
     axes = posed.rotations[..., np.maximum(parents, 0), :, :].copy()
     axes[..., parents < 0, :, :] = np.eye(3)
-    # Columns of `axes` are the parent's axes: d = axis × beyond, as (..., k, j, axis, 3).
-    columns = np.swapaxes(axes, -1, -2)[..., None, :, :, :]
-    moved = np.cross(columns, beyond[..., None, :]) * CAMERA_AXES
-    flat = moved.reshape(*moved.shape[:-3], 3 * len(joints), 3)
-    return np.swapaxes(flat, -1, -2)
+    # d = axis × beyond = -[beyond]× axis, all three axes of a joint at once.
+    moved = np.matmul(_minus_cross_matrices(beyond), axes[..., None, :, :, :])
+    moved *= CAMERA_AXES[:, None]
+    ordered = np.swapaxes(moved, -3, -2)
+    return ordered.reshape(*ordered.shape[:-2], 3 * len(joints))
+
+
+def _minus_cross_matrices(vectors: Float[np.ndarray, "... 3"]) -> Float[np.ndarray, "... 3 3"]:
+    """Matrices M with M a = a × v."""
+    matrices = np.zeros((*vectors.shape, 3))
+    x, y, z = vectors[..., 0], vectors[..., 1], vectors[..., 2]
+    matrices[..., 0, 1], matrices[..., 0, 2] = z, -y
+    matrices[..., 1, 0], matrices[..., 1, 2] = -z, x
+    matrices[..., 2, 0], matrices[..., 2, 1] = y, -x
+    return matrices
