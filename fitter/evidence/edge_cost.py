@@ -44,7 +44,6 @@ def edge_cost_map(display: Image, *, threshold_px: float) -> EdgeCostMap:
     smooth = cv2.GaussianBlur(grey, (0, 0), _SMOOTHING_PX)
     levels = np.round(smooth * 255.0).clip(0, 255).astype(np.uint8)
     edges = cv2.Canny(levels, _CANNY_LOW, _CANNY_HIGH, L2gradient=True)
-    distance = cv2.distanceTransform(
-        (edges == 0).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE
-    )
+    # The 5 x 5 mask errs by 2 % and takes a quarter of the time; beyond the threshold all is one.
+    distance = cv2.distanceTransform((edges == 0).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     return EdgeCostMap(cost=(np.minimum(distance, threshold_px) / threshold_px).astype(np.float32))

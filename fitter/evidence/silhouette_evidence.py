@@ -5,15 +5,22 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 from jaxtyping import Bool, Float
+from scipy.special import ndtri
 
 from fitter.arrays import GreyImage, Mask, Points2D
 from fitter.evidence.sampling import sample
 
 # Outline points are taken this far apart: denser ones repeat each other.
 _SPACING_PX = 3.0
-# A point's normal is that of the chord to its neighbours this many spacings away.
-_CHORD = 2
 _SHORTEST_OUTLINE = 8
+# The mask is smoothed by this much and the outline taken where it is half: between pixels, without
+# the staircase. Of a disc the points then err by 0.1 px (0.27 px on the staircase) and the normals
+# by 3 degrees; a finger 5 px thick loses 0.4 px of its radius, an arm 0.03 px.
+_SMOOTHING_PX = 1.5
+# Where the smoothed mask is all but flat, the step to its half is not to be trusted.
+_FLATTEST = 0.02
+# A thread of 2 px is nowhere half when smoothed: its outline is left out rather than guessed.
+_FARTHEST_FROM_HALF = 0.2
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -27,8 +34,8 @@ class SilhouetteEvidence:
     signed_distance
         (h, w) pixels to the outline at each pixel's centre, positive outside.
     boundary_points, boundary_normals
-        (b, 2) points of the outline in continuous pixels with outward unit normals; the picture's
-        own border is no outline.
+        (b, 2) points of the outline in continuous pixels, between the pixels' centres, with
+        outward unit normals; the picture's own border is no outline.
     boundary_spacing
         Pixels of outline each point stands for.
     occupied_rows, occupied_columns
@@ -76,33 +83,42 @@ def signed_distance(mask: Mask) -> GreyImage:
 
 def _outline(mask: Mask) -> tuple[Points2D, Points2D]:
     height, width = mask.shape
-    contours, _ = cv2.findContours(
-        np.ascontiguousarray(mask).view(np.uint8), cv2.RETR_CCOMP, cv2.CHAIN_APPROX_NONE
-    )
-    points: list[np.ndarray] = []
-    normals: list[np.ndarray] = []
+    region = np.ascontiguousarray(mask).view(np.uint8)
+    contours, _ = cv2.findContours(region, cv2.RETR_CCOMP, cv2.CHAIN_APPROX_NONE)
+    picked: list[np.ndarray] = []
     for contour in contours:
         chain = contour[:, 0].astype(np.float64) + 0.5
-        if len(chain) < _SHORTEST_OUTLINE:
-            continue
-        count = max(round(len(chain) / _SPACING_PX), _SHORTEST_OUTLINE)
-        marks = (np.arange(count) * len(chain) / count).astype(int)
-        picked = chain[marks]
-        chord = np.roll(picked, -_CHORD, axis=0) - np.roll(picked, _CHORD, axis=0)
-        # OpenCV runs outer outlines with the region on the right hand in a y-down picture, and
-        # holes the other way round: the outward normal is the same turn of the chord for both.
-        normal = np.stack([-chord[:, 1], chord[:, 0]], axis=1)
-        length = np.linalg.norm(normal, axis=1)
-        inner = (
-            (length > 0)
-            & (picked > 1.5).all(axis=1)
-            & (picked[:, 0] < width - 1.5)
-            & (picked[:, 1] < height - 1.5)
-        )
-        normal = normal[inner] / length[inner, None]
-        # The chain runs through the centres of the region's last pixels, half a pixel inside.
-        points.append(picked[inner] + 0.5 * normal)
-        normals.append(normal)
-    if not points:
+        if len(chain) >= _SHORTEST_OUTLINE:
+            count = max(round(len(chain) / _SPACING_PX), _SHORTEST_OUTLINE)
+            picked.append(chain[(np.arange(count) * len(chain) / count).astype(int)])
+    if not picked:
         return np.empty((0, 2)), np.empty((0, 2))
-    return np.concatenate(points), np.concatenate(normals)
+    points = np.concatenate(picked)
+    inside = (points > 1.5).all(axis=1) & (points < [width - 1.5, height - 1.5]).all(axis=1)
+    return _onto_the_level_set(mask, points[inside])
+
+
+def _onto_the_level_set(mask: Mask, points: Points2D) -> tuple[Points2D, Points2D]:
+    """Move points to where the smoothed mask is half, along its slope; and its outward normals.
+
+    Across a straight outline the smoothed mask is the normal distribution of the distance, whose
+    inverse gives the distance at once; the second step corrects for curvature.
+    """
+    smooth = cv2.GaussianBlur(
+        mask.astype(np.float32), (0, 0), _SMOOTHING_PX, borderType=cv2.BORDER_REPLICATE
+    )
+    for _ in range(2):
+        coverage, normals = _coverage_and_normals(smooth, points)
+        inward = _SMOOTHING_PX * ndtri(np.clip(coverage, _FLATTEST, 1.0 - _FLATTEST))
+        points = points + inward[:, None] * normals
+    coverage, normals = _coverage_and_normals(smooth, points)
+    found = np.abs(coverage - 0.5) < _FARTHEST_FROM_HALF
+    return points[found], normals[found]
+
+
+def _coverage_and_normals(
+    smooth: GreyImage, points: Points2D
+) -> tuple[Float[np.ndarray, " k"], Points2D]:
+    coverage, slopes = sample(smooth, points)
+    steepness = np.linalg.norm(slopes, axis=1, keepdims=True)
+    return coverage, -slopes / np.maximum(steepness, np.finfo(np.float64).tiny)
