@@ -51,11 +51,11 @@ which keeps the section's proportion and lets the circumference hold. Fitted as 
 would meet half way, with a constant 17 mm missing at waist and hips."""
 
 REST_POSE_RISE_M: Mapping[str, Mapping[str, float]] = {
-    "female": {"acromialheight": 0.008, "cervicaleheight": -0.005},
-    "male": {"acromialheight": 0.025, "cervicaleheight": -0.012},
+    "female": {"acromialheight": 0.010},
+    "male": {"acromialheight": 0.034, "suprasternaleheight": -0.004},
 }
-"""The model's rest pose raises the arms, and the shoulders with them; its nape is a vertex somewhat
-below the seventh vertebra. Mean residuals of a fit that left both loose."""
+"""The model's rest pose raises the arms, and the tips of the shoulders with them. Mean residuals of a
+fit that left these heights loose."""
 
 CIVILIAN_BMI = {"female": (18.0, 38.0), "male": (18.5, 38.0)}
 """kg/m²: the central 95 % of the body mass index of drawn subjects, log-normal. The survey's own

@@ -62,7 +62,7 @@ def test_definitions_that_agree_are_left_as_surveyed():
     on_model = on_the_model(MEASUREMENTS, "female", surveyed)
     assert on_model[MEASUREMENTS.index("waistcircumference")] == 1.0
     assert on_model[MEASUREMENTS.index("hipbreadth")] == pytest.approx(1.058)
-    assert on_model[MEASUREMENTS.index("acromialheight")] == pytest.approx(1.008)
+    assert on_model[MEASUREMENTS.index("acromialheight")] == pytest.approx(1.010)
 
 
 def test_statistics_of_a_survey_file_survive_saving(tmp_path: Path):
