@@ -1,0 +1,120 @@
+"""From MakeHuman's data and a survey's statistics to the model file of one gender."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from fitter.body.model import BodyModel, SparseRows
+from fitter.body.storage import load_body_model, save_body_model
+from fitter.training.assemble import RegisteredBodies, assemble_body_model, model_arrays
+from fitter.training.body_space import BodySpace, load_body_space
+from fitter.training.landmarks import body_landmarks
+from fitter.training.makehuman import load_base_mesh
+from fitter.training.plan import Plan
+from fitter.training.population import (
+    Population,
+    load_population,
+    prepare,
+    save_population,
+    solve_population,
+)
+from fitter.training.provenance import model_statistics, provenance
+from fitter.training.report import header_entry, held_out_errors
+from fitter.training.rig import load_rig
+from fitter.training.rigged_bodies import RiggedMesh, rigged_bodies, rigged_mesh
+
+GENDERS = ("female", "male")
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Materials:
+    """What both genders share."""
+
+    mesh: RiggedMesh
+    spaces: Mapping[str, BodySpace]
+    landmarks: SparseRows
+
+
+def read_materials(folder: Path) -> Materials:
+    """Read mesh, rig and targets from MakeHuman's data folder."""
+    base = load_base_mesh(folder)
+    spaces = {gender: load_body_space(folder, base, gender) for gender in GENDERS}
+    return Materials(
+        mesh=rigged_mesh(base, load_rig(folder, base.groups, len(base.source_vertices))),
+        spaces=spaces,
+        landmarks=body_landmarks(folder, base, tuple(spaces.values())),
+    )
+
+
+def solved_population(
+    materials: Materials, gender: str, *, count: int, seed: int, cache: Path | None
+) -> Population:
+    """The first ``count`` subjects of a seed: from the cache if it holds as many, else solved."""
+    path = None if cache is None else cache / f"population_{gender}_{seed}.npz"
+    if path is not None and path.exists():
+        cached = load_population(path)
+        if len(cached.source_vertices) >= count:
+            return subjects(cached, slice(0, count))
+    workshop = prepare(materials.spaces[gender], materials.landmarks)
+    population = solve_population(workshop, count, seed)
+    if path is not None:
+        save_population(path, population)
+    return population
+
+
+def train_model(materials: Materials, gender: str, population: Population, plan: Plan) -> BodyModel:
+    """Train on the subjects of a population that are not held out; the header says how."""
+    held_out = subjects(population, slice(0, plan.held_out))
+    training = subjects(population, slice(plan.held_out, plan.held_out + plan.subjects))
+    trained = assemble_body_model(
+        rigged_bodies(materials.mesh, training.source_vertices),
+        materials.mesh.surface,
+        materials.mesh.part_weights,
+        materials.landmarks,
+        header=provenance(gender, training, plan),
+        example_count=plan.examples,
+        rng=np.random.default_rng([plan.seed, GENDERS.index(gender)]),
+    )
+    errors = held_out_errors(trained.model, rigged_bodies(materials.mesh, held_out.source_vertices))
+    header = (
+        dict(trained.model.header)
+        | model_statistics(trained)
+        | {"held_out_errors": header_entry(errors)}
+    )
+    return replace(trained.model, header=header)
+
+
+def write_model(path: Path, model: BodyModel) -> BodyModel:
+    """Write a model file at once or not at all, and read it back."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    unfinished = path.with_suffix(".unfinished")
+    save_body_model(unfinished, header=model.header, arrays=model_arrays(model))
+    unfinished.replace(path)
+    return load_body_model(path)
+
+
+def held_out_bodies(
+    materials: Materials, model: BodyModel, *, cache: Path | None
+) -> RegisteredBodies:
+    """The subjects that a model file says were held out, solved again from its seed."""
+    population = solved_population(
+        materials,
+        model.gender,
+        count=int(str(model.header["held_out_subjects"])),
+        seed=int(str(model.header["seed"])),
+        cache=cache,
+    )
+    return rigged_bodies(materials.mesh, population.source_vertices)
+
+
+def subjects(population: Population, chosen: slice) -> Population:
+    """Some of a population."""
+    return replace(
+        population,
+        source_vertices=population.source_vertices[chosen],
+        parameters=population.parameters[chosen],
+        wanted=population.wanted[chosen],
+        reached=population.reached[chosen],
+    )

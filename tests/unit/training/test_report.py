@@ -1,0 +1,119 @@
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fitter.body.storage import load_body_model
+from fitter.training.assemble import assemble_body_model, height_attribute
+from fitter.training.build import subjects, write_model
+from fitter.training.evaluation import VertexError
+from fitter.training.plan import Plan
+from fitter.training.population import Population
+from fitter.training.provenance import model_statistics, provenance, residuals
+from fitter.training.report import HeldOutErrors, goals, header_entry, report_lines
+from tests.unit.training.synthetic_population import landmarks, part_weights, population, surface
+
+PLAN = Plan(subjects=4, held_out=2, examples=0, seed=7)
+
+
+def surveyed(count: int) -> Population:
+    wanted = np.tile([1.70, 65.0], (count, 1)) + np.arange(count)[:, None] * [0.05, 5.0]
+    return Population(
+        source_vertices=np.arange(count * 6, dtype=np.float32).reshape(count, 2, 3),
+        parameters=np.zeros((count, 1)),
+        parameter_names=("height",),
+        lower=np.zeros(1),
+        upper=np.ones(1),
+        wanted=wanted,
+        reached=wanted + [0.002, -1.5],
+        measurement_names=("stature", "weightkg"),
+        deviation=np.ones(2),
+    )
+
+
+def errors(shape_mm: float) -> HeldOutErrors:
+    small = VertexError(by_vertex=1.0, by_area=1.0)
+    return HeldOutErrors(
+        subjects=2,
+        shape=VertexError(by_vertex=shape_mm, by_area=2.0),
+        height_change_at_3_deviations=0.1,
+        extent_change_at_3_deviations=0.2,
+        height_per_deviation=60.0,
+        height_correlation=0.999,
+        posed=small,
+        posed_rigid_parts_only=small,
+        shaped_and_posed=small,
+    )
+
+
+@pytest.fixture(scope="module")
+def trained():
+    return assemble_body_model(
+        population(80, 1),
+        surface(),
+        part_weights(),
+        landmarks(),
+        header=provenance("female", surveyed(4), PLAN),
+        example_count=0,
+        rng=np.random.default_rng(0),
+    )
+
+
+@pytest.mark.parametrize(("shape_mm", "verdict"), [(3.4, "ok"), (3.6, "MISSED")])
+def test_the_report_says_which_goals_are_missed(trained, shape_mm, verdict):
+    lines = report_lines(trained.model, errors(shape_mm), file_bytes=6_000_000)
+    line = next(line for line in lines if "mean vertex error" in line)
+    assert re.search(rf"{shape_mm:.3f} mm .*{verdict}$", line)
+
+
+def test_every_goal_of_the_model_is_judged(trained):
+    names = " ".join(goal.name for goal in goals(trained.model, errors(3.0)))
+    for word in ("vertex error", "height change", "posed error", "one evaluation"):
+        assert word in names
+
+
+def test_the_header_names_sources_counts_and_ranges():
+    header = provenance("female", surveyed(5), PLAN)
+    assert header["seed"] == 7
+    assert (header["training_subjects"], header["held_out_subjects"]) == (4, 2)
+    assert header["stature_m"] == {
+        "lowest": 1.7,
+        "median": 1.8,
+        "highest": 1.9,
+        "mean": 1.8,
+        "sd": 0.071,
+    }
+    assert any("MakeHuman" in str(source) for source in header["sources"])
+
+
+def test_residuals_are_mean_absolute_distances_in_their_units():
+    assert residuals(surveyed(3)) == {"stature": "2.0 mm", "weightkg": "1.50 kg"}
+
+
+def test_the_header_gives_height_in_the_models_own_definition(trained):
+    height = height_attribute(trained.model)
+    found = model_statistics(trained)["height_m"]
+    np.testing.assert_allclose(found["mean"], height(np.zeros(20)))
+    np.testing.assert_allclose(
+        height(np.eye(20)[0] * 2.0), found["mean"] + 2.0 * found["sd"], rtol=1e-6
+    )
+
+
+def test_held_out_and_training_subjects_are_told_apart_by_number():
+    whole = surveyed(6)
+    held_out, training = subjects(whole, slice(0, 2)), subjects(whole, slice(2, 6))
+    assert len(held_out.wanted) == 2
+    assert not set(held_out.wanted[:, 0]) & set(training.wanted[:, 0])
+    np.testing.assert_array_equal(training.source_vertices, whole.source_vertices[2:])
+
+
+def test_a_written_model_leaves_no_unfinished_file(trained, tmp_path):
+    model = trained.model
+    header = dict(model.header) | model_statistics(trained)
+    header["held_out_errors"] = header_entry(errors(3.0))
+    loaded = write_model(tmp_path / "data" / "female.npz", replace(model, header=header))
+    assert [path.name for path in (tmp_path / "data").iterdir()] == ["female.npz"]
+    again = load_body_model(tmp_path / "data" / "female.npz")
+    assert again.header == loaded.header
+    assert again.header["held_out_errors"]["shape_mm"] == 3.0
