@@ -39,7 +39,7 @@ def result_of(
     segmentation = np.zeros((height, width), dtype=bool)
     segmentation[40:160, 90:150] = True
     trimap = np.where(segmentation, TrimapLabel.FOREGROUND, TrimapLabel.BACKGROUND)
-    trimap[30:50, 80:160] = TrimapLabel.UNCERTAIN
+    trimap[30:50, 80:160] = TrimapLabel.LIKELY_BACKGROUND
     if reflectance is None and light is not None:
         reflectance = reflectance_of(model)
     return FitResult(

@@ -72,9 +72,11 @@ def test_a_mask_lands_on_the_pixels_it_was_taken_from():
 
 
 def test_the_trimap_has_three_levels():
-    labels = np.array([[TrimapLabel.BACKGROUND, TrimapLabel.UNCERTAIN, TrimapLabel.FOREGROUND]])
-    camera = replace(CAMERA, width=3, height=1)
-    assert trimap_levels(labels.astype(np.uint8), camera, camera).tolist() == [[0, 128, 255]]
+    known = [TrimapLabel.BACKGROUND, TrimapLabel.FOREGROUND]
+    unknown = [TrimapLabel.LIKELY_BACKGROUND, TrimapLabel.LIKELY_FOREGROUND]
+    labels = np.array([known + unknown], dtype=np.uint8)
+    camera = replace(CAMERA, width=4, height=1)
+    assert trimap_levels(labels, camera, camera).tolist() == [[0, 255, 128, 128]]
 
 
 def test_the_outline_is_drawn_where_the_body_ends(ball):
