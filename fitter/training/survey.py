@@ -2,8 +2,9 @@
 
 ANSUR II is the anthropometric survey of the US Army of 2012 (public release; Gordon et al. 2014):
 4,082 men and 1,986 women. Means and covariances of the logarithms of its measurements are kept in
-``data/survey_statistics.json``, so that training needs no other file; logarithms keep draws
-positive and give girths and weight the long upper tail they have.
+``data/survey_statistics.json`` (:mod:`fitter.training.survey_files` makes it), so that training
+needs no other file; logarithms keep draws positive and give girths and weight the long upper tail
+they have.
 
 Soldiers are young and fit, users are not only soldiers. Drawn subjects therefore take their body
 mass index from a wider distribution than the survey's, independent of stature as it is there; all
@@ -11,7 +12,6 @@ other measurements follow stature and weight as they do among the surveyed: by t
 regression, with its residual covariance.
 """
 
-import csv
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -19,17 +19,6 @@ from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
-
-MILLIMETRES_PER_METRE = 1000.0
-WEIGHT_UNITS_PER_KG = 10.0
-
-SOURCE_NAMES = {"bicepscircumference": "bicepscircumferenceflexed"} | {
-    "forearmcircumference": "forearmcircumferenceflexed"
-}
-"""Our names of fields that the survey names otherwise."""
-
-RELAXED_SHARE = {"bicepscircumference": 0.93, "forearmcircumference": 0.96}
-"""Girth of the relaxed over that of the flexed arm, which the survey measures: an assumption."""
 
 TAPE_OVER_CALIPER: Mapping[str, Mapping[str, float]] = {
     "female": {
@@ -54,8 +43,8 @@ REST_POSE_RISE_M: Mapping[str, Mapping[str, float]] = {
     "female": {"acromialheight": 0.010},
     "male": {"acromialheight": 0.034, "suprasternaleheight": -0.004},
 }
-"""The model's rest pose raises the arms, and the tips of the shoulders with them. Mean residuals of a
-fit that left these heights loose."""
+"""The model's rest pose raises the arms, and the tips of the shoulders with them. Mean residuals of
+a fit that left these heights loose."""
 
 CIVILIAN_BMI = {"female": (18.0, 38.0), "male": (18.5, 38.0)}
 """kg/m²: the central 95 % of the body mass index of drawn subjects, log-normal. The survey's own
@@ -87,25 +76,6 @@ class SurveyStatistics:
         return self.median * np.sqrt(np.diagonal(self.log_covariance))
 
 
-def statistics_from_survey(path: Path, names: Sequence[str]) -> SurveyStatistics:
-    """Statistics of one gender's file of the public release (CSV, latin-1)."""
-    with path.open(encoding="latin-1", newline="") as stream:
-        subjects = list(csv.DictReader(stream))
-    columns = []
-    for name in names:
-        unit = WEIGHT_UNITS_PER_KG if name == "weightkg" else MILLIMETRES_PER_METRE
-        field = SOURCE_NAMES.get(name, name)
-        column = np.array([float(subject[field]) for subject in subjects]) / unit
-        columns.append(np.log(column * RELAXED_SHARE.get(name, 1.0)))
-    logarithms = np.stack(columns)
-    return SurveyStatistics(
-        names=tuple(names),
-        count=len(subjects),
-        log_mean=logarithms.mean(axis=1),
-        log_covariance=np.cov(logarithms),
-    )
-
-
 def packaged_statistics_path() -> Path:
     """The committed statistics."""
     return Path(__file__).parent / "data" / "survey_statistics.json"
@@ -118,25 +88,6 @@ def on_the_model(
     scale = np.array([TAPE_OVER_CALIPER[gender].get(name, 1.0) for name in names])
     rise = np.array([REST_POSE_RISE_M[gender].get(name, 0.0) for name in names])
     return surveyed * scale + rise
-
-
-def save_statistics(path: Path, genders: dict[str, SurveyStatistics]) -> None:
-    """Write the statistics of both genders, six digits after the point."""
-    content = {
-        "source": "ANSUR II, US Army Anthropometric Survey 2012, public release",
-        "definition": "mean and covariance of natural logarithms; metres, kilograms; flexed arm "
-        "girths reduced to relaxed ones",
-        "relaxed_share": RELAXED_SHARE,
-    } | {
-        gender: {
-            "names": list(statistics.names),
-            "count": statistics.count,
-            "log_mean": np.round(statistics.log_mean, 6).tolist(),
-            "log_covariance": np.round(statistics.log_covariance, 8).tolist(),
-        }
-        for gender, statistics in genders.items()
-    }
-    path.write_text(json.dumps(content) + "\n")
 
 
 def load_statistics(path: Path, gender: str) -> SurveyStatistics:

@@ -9,9 +9,8 @@ from fitter.training.survey import (
     load_statistics,
     on_the_model,
     packaged_statistics_path,
-    save_statistics,
-    statistics_from_survey,
 )
+from fitter.training.survey_files import save_statistics, statistics_from_survey
 from fitter.training.survey_measurements import MEASUREMENTS
 
 GENDERS = ("female", "male")
