@@ -2,7 +2,10 @@
 
 from collections.abc import Mapping
 
+import numpy as np
+
 from fitter.body.shape_space import shape_for_height
+from fitter.body.skeleton import regress
 from fitter.energies.clicks import click_evidence
 from fitter.energies.objective import Candidate, Objective, PictureEvidence
 from fitter.energies.scales import FAR_BOUNDARY_ETA_M, NEAR_BOUNDARY_ETA_M, scales_at
@@ -27,7 +30,7 @@ from fitter.render.rasterizer import render
 from fitter.reporting import fit_warnings, limb_facings, outcome_of
 from fitter.request import Cues, FitRequest, Gender
 from fitter.result import FitResult, Pictures, StageBody
-from fitter.segmentation.bones import clicked_bones
+from fitter.segmentation.bones import clicked_bones, foot_bones
 from fitter.segmentation.grabcut import Segmentation, border_warnings, segment
 from fitter.segmentation.trimap import Trimap, first_band, trimap
 from fitter.stage_clock import StageClock
@@ -127,12 +130,12 @@ def fit(request: FitRequest, *, observer: Observer = ignore_progress) -> FitResu
         posed_vertices=final.candidate.vertices,
         canonical_vertices=body.measuring.canonical.at(final.candidate.parameters.shape),
         light=None if shaded is None else shaded.light,
-        reflectance=None if shaded is None else shaded.evidence.reflectance,
+        reflectance=None if shaded is None else shaded.reflectance,
         albedo_rgb=None
         if shaded is None
         else albedo_rgb(
             final.candidate,
-            shaded.evidence.reflectance.albedo,
+            shaded.reflectance.albedo,
             observation.linear_rgb,
             intensity,
             body.instruments.topology,
@@ -155,7 +158,6 @@ def fit(request: FitRequest, *, observer: Observer = ignore_progress) -> FitResu
             image=observation.display,
             trimap=labels,
             segmentation=segmentation.mask,
-            shading=None,
         ),
     )
 
@@ -191,7 +193,12 @@ def _segmented(
         return None, Segmentation(mask=observation.mask, warnings=border_warnings(observation.mask))
     vertices = body.instruments.evaluator.vertices(parameters)
     silhouette = render(vertices, body.instruments.model.triangles, observation.camera).silhouette
-    bones = clicked_bones(observation.clicks)
+    landmarks = body.instruments.model.landmarks
+    points = observation.camera.project(regress(landmarks, vertices))
+    seen = dict(zip(landmarks.names, points, strict=True))
+    bones = np.concatenate(
+        [clicked_bones(observation.clicks), foot_bones(observation.clicks, seen)]
+    )
     labels = trimap(silhouette, bones, band=narrowing * first_band(silhouette, bones))
     return labels, segment(observation.display, labels)
 

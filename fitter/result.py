@@ -79,7 +79,6 @@ class Pictures:
     image: Image
     trimap: Trimap | None
     segmentation: Mask
-    shading: Image | None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

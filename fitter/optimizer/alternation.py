@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
+from jaxtyping import Float
 
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.shading import ShadingEvidence, usable_vertices
@@ -24,7 +25,7 @@ from fitter.optimizer.reflectance_solve import (
     ReflectanceProblem,
     ReflectanceSolver,
 )
-from fitter.parameters import BodyParameters, Light, Reflectance
+from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
 from fitter.render.light import light_about
 from fitter.render.reflectance import shading_terms
 
@@ -41,6 +42,8 @@ _RELATIVE_SPECULARITY_ETA = 0.1
 _LIGHT_ITERATIONS = 8
 _REFLECTANCE_ITERATIONS = 6
 _LEAST_USABLE = 200
+# A few vertices lie on hair, cloth or in a fold; this percentile is the darkest skin.
+_DARKEST_PERCENTILE = 3.0
 
 BodySearch = Callable[[Objective, BodyParameters], Minimum]
 
@@ -53,17 +56,18 @@ class ShadedFit:
     ----------
     minimum
         The body, its energies with the final reflectance.
-    light
-        In coordinates about the final body's centre.
+    light, reflectance
+        In coordinates about the final body's centre, where the light's intensity is 1.
     evidence
-        The shading term at the end, with light and reflectance; its light still refers to the
-        centre where the alternation began.
+        The shading term at the end; its light and reflectance still refer to the centre where the
+        alternation began.
     evaluations
         True energies computed.
     """
 
     minimum: Minimum
     light: Light
+    reflectance: Reflectance
     evidence: ShadingEvidence
     evaluations: int
 
@@ -115,9 +119,11 @@ def fit_shading(
     # The reflectance of the final body: what is drawn must be what was found.
     state = _with_new_reflectance(objective, now, state, solver, SMOOTHNESS_SCHEDULE[-1])
     final = objective.with_shading(state).evaluate(now.parameters)
+    light = light_about(state.light, old_centre=centre, new_centre=now.parameters.translation)
     return ShadedFit(
         minimum=replace(minimum, candidate=final),
-        light=light_about(state.light, old_centre=centre, new_centre=now.parameters.translation),
+        light=light,
+        reflectance=_at_distance(state.reflectance, state.light, light),
         evidence=state,
         evaluations=evaluations,
     )
@@ -222,6 +228,7 @@ def _with_new_reflectance(
             intensity=intensity,
             weights=weights,
             edges=topology.edges,
+            ambient_limit=_darkest(intensity[usable]),
             edge_lengths=np.maximum(lengths / lengths.mean(), 0.05),
             albedo_smoothness=smoothness,
             specularity_smoothness=smoothness,
@@ -250,10 +257,12 @@ def _with_new_reflectance(
 def _lit_surface(candidate: Candidate, state: ShadingEvidence, exponent: float) -> LitSurface:
     chosen = np.flatnonzero(usable_vertices(candidate.rendering, state.intensity))
     weights = state.vertex_areas[chosen]
+    observed = state.intensity.at(candidate.rendering.projected[chosen])
     return LitSurface(
         positions=candidate.rendering.vertices[chosen],
         normals=candidate.rendering.vertex_normals[chosen],
-        observed=state.intensity.at(candidate.rendering.projected[chosen]),
+        observed=observed,
+        ambient_limit=_darkest(observed),
         weights=weights / weights.sum(),
         albedo=state.reflectance.albedo[chosen],
         specularity=state.reflectance.specularity[chosen],
@@ -261,3 +270,19 @@ def _lit_surface(candidate: Candidate, state: ShadingEvidence, exponent: float) 
         specular_exponent=exponent,
         eta=state.eta,
     )
+
+
+def _at_distance(reflectance: Reflectance, old: Light, new: Light) -> Reflectance:
+    """The same shading when intensity 1 is said of another distance z: a l = a' l'."""
+    if old.kind is LightKind.DIRECTIONAL:
+        return reflectance
+    factor = (old.distance / new.distance) ** 2
+    return replace(
+        reflectance,
+        albedo=factor * reflectance.albedo,
+        specularity=factor * reflectance.specularity,
+    )
+
+
+def _darkest(observed: Float[np.ndarray, " k"]) -> float:
+    return float(np.percentile(observed, _DARKEST_PERCENTILE))

@@ -16,12 +16,12 @@ from fitter.render.reflectance import shade, shade_with_derivatives
 from fitter.request import LightGuess
 
 # A light's distance is told by attenuation across the body alone: a weak prior about 3 m, spread
-# over a factor of e, keeps it out of the body and out of infinity.
+# over a factor of two, keeps it out of the body and out of infinity.
 _USUAL_DISTANCE_M = 3.0
-_DISTANCE_SPREAD = 1.0
-_DISTANCE_RANGE_M = (0.7, 30.0)
+_DISTANCE_SPREAD = 0.6
+_DISTANCE_RANGE_M = (1.0, 30.0)
 _ELEVATION_RANGE = (-1.45, 1.45)
-_DISTANCE_PRIOR_WEIGHT = 1e-3
+_DISTANCE_PRIOR_WEIGHT = 2e-3
 _DAMPING_DOWN, _DAMPING_UP = 0.3, 5.0
 _LARGEST_DAMPING = 1e6
 
@@ -34,7 +34,8 @@ _GUESSED_ELEVATIONS = (0.0, 0.7)
 class LitSurface:
     """Surface points with what was observed there; camera frame, metres.
 
-    ``weights`` sum to one; ``albedo`` and ``specularity`` are held but for a common scale each.
+    ``weights`` sum to one; ``albedo`` and ``specularity`` are held but for a common scale each;
+    ``ambient_limit`` is as in :class:`fitter.optimizer.reflectance_solve.ReflectanceProblem`.
     """
 
     positions: Float[np.ndarray, "k 3"]
@@ -43,6 +44,7 @@ class LitSurface:
     weights: Float[np.ndarray, " k"]
     albedo: Float[np.ndarray, " k"]
     specularity: Float[np.ndarray, " k"]
+    ambient_limit: float
     body_centre: Vector3
     specular_exponent: float
     eta: float
@@ -78,7 +80,7 @@ def estimate_light(surface: LitSurface, start: LightEstimate, *, iterations: int
         before = now.energy
         while damping < _LARGEST_DAMPING:
             step = np.linalg.solve(matrix + damping * np.diag(matrix.diagonal() + 1e-12), -gradient)
-            candidate = _stepped(now, step)
+            candidate = _stepped(now, step, surface.ambient_limit)
             candidate = replace(candidate, energy=_energy(surface, candidate))
             if candidate.energy < now.energy:
                 now, damping = candidate, max(damping * _DAMPING_DOWN, 1e-8)
@@ -130,7 +132,7 @@ def _with_linear_scales(surface: LitSurface, light: Light) -> LightEstimate:
         weights = surface.weights * geman_mcclure_weights(residuals, surface.eta)
     return replace(
         estimate,
-        ambient=float(solution[0]),
+        ambient=min(float(solution[0]), surface.ambient_limit),
         albedo_scale=float(solution[1]),
         specularity_scale=float(solution[2]),
     )
@@ -187,7 +189,9 @@ def _linearise(
     return jacobian, derivatives.shading - surface.observed
 
 
-def _stepped(now: LightEstimate, step: Float[np.ndarray, "6"]) -> LightEstimate:
+def _stepped(
+    now: LightEstimate, step: Float[np.ndarray, "6"], ambient_limit: float
+) -> LightEstimate:
     light = now.light
     turn = np.clip(step[:2], -0.5, 0.5)
     azimuth = (light.azimuth + turn[0] + np.pi) % (2.0 * np.pi) - np.pi
@@ -201,7 +205,7 @@ def _stepped(now: LightEstimate, step: Float[np.ndarray, "6"]) -> LightEstimate:
         light=Light(
             kind=light.kind, azimuth=float(azimuth), elevation=float(elevation), distance=distance
         ),
-        ambient=max(now.ambient + float(step[3]), 0.0),
+        ambient=min(max(now.ambient + float(step[3]), 0.0), ambient_limit),
         albedo_scale=max(now.albedo_scale + float(step[4]), 0.0),
         specularity_scale=max(now.specularity_scale + float(step[5]), 0.0),
         energy=now.energy,

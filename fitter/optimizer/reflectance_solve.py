@@ -38,6 +38,9 @@ class ReflectanceProblem:
         (m,) of the data term, zero for vertices not seen; mean one over those seen.
     edges, edge_lengths
         (e, 2) and (e,) the mesh's edges and their lengths over the mean length.
+    ambient_limit
+        Largest b: every point shows at least the ambient light, so b cannot exceed the darkest
+        of what is seen.
     albedo_smoothness, specularity_smoothness
         λ₁ and λ₂.
     data_eta, albedo_eta, specularity_eta
@@ -50,6 +53,7 @@ class ReflectanceProblem:
     weights: PerVertex
     edges: Integer[np.ndarray, "e 2"]
     edge_lengths: Float[np.ndarray, " e"]
+    ambient_limit: float
     albedo_smoothness: float
     specularity_smoothness: float
     data_eta: float
@@ -176,7 +180,7 @@ class ReflectanceSolver:
         ambient = (float(weight @ problem.intensity) - float(coupling @ free)) / max(
             float(weight.sum()) - float(coupling @ by_ambient), 1e-12
         )
-        ambient = max(ambient, 0.0)
+        ambient = min(max(ambient, 0.0), problem.ambient_limit)
         fields = free - ambient * by_ambient
         return ReflectanceFields(
             albedo=np.maximum(fields[:m], 0.0),

@@ -70,6 +70,5 @@ def result_of(
             image=np.zeros((height, width, 3)),
             trimap=trimap.astype(np.uint8),
             segmentation=segmentation,
-            shading=None,
         ),
     )

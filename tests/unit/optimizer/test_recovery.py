@@ -11,6 +11,7 @@ from fitter.optimizer.parameter_vector import free_columns, moved
 from fitter.optimizer.simplex import minimize_simplex
 from fitter.optimizer.uncertainty import shape_covariance
 from fitter.render.light import direction_to_light
+from fitter.render.reflectance import shade
 from fitter.request import LightGuess
 from tests.unit.optimizer.rendered_scene import LIGHT, RenderedScene, rendered_scene
 
@@ -103,6 +104,23 @@ def test_shading_finds_the_light_and_betters_the_body(scene, silhouette_fit):
     before = scene.shape_error_mm(silhouette_fit.candidate.parameters)
     after = scene.shape_error_mm(shaded.minimum.candidate.parameters)
     assert after < before
+    # What is returned says the same of the picture as what was fitted.
+    final = shaded.minimum.candidate
+    reported = shade(
+        final.vertices,
+        final.rendering.vertex_normals,
+        light=shaded.light,
+        body_centre=final.parameters.translation,
+        reflectance=shaded.reflectance,
+    )
+    fitted = shade(
+        final.vertices,
+        final.rendering.vertex_normals,
+        light=shaded.evidence.light,
+        body_centre=shaded.evidence.body_centre,
+        reflectance=shaded.evidence.reflectance,
+    )
+    np.testing.assert_allclose(reported, fitted, atol=1e-9)
 
 
 def test_the_shape_is_known_better_than_before_the_picture(scene, silhouette_fit):

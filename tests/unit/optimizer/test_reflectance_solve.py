@@ -40,6 +40,7 @@ def scene() -> tuple[ReflectanceProblem, ReflectanceFields, ReflectanceFields]:
         weights=visible,
         edges=topology.edges,
         edge_lengths=np.ones(len(topology.edges)),
+        ambient_limit=1.0,
         albedo_smoothness=1e-3,
         specularity_smoothness=1e-2,
         data_eta=0.1,
@@ -93,3 +94,10 @@ def test_a_negative_reflectance_is_never_returned(scene):
     assert found.albedo.min() >= 0.0
     assert found.specularity.min() >= 0.0
     assert found.ambient >= 0.0
+
+
+def test_ambient_light_never_exceeds_its_limit(scene):
+    problem, _, start = scene
+    solver = ReflectanceSolver(problem.edges, len(problem.diffuse))
+    found = solver.solve(replace(problem, ambient_limit=0.02), start, iterations=20)
+    assert found.ambient <= 0.02
