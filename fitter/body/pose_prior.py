@@ -18,10 +18,10 @@ from jaxtyping import Float, Integer
 from fitter.arrays import Pose
 from fitter.body.joint_limits import LIMIT_SOFTNESS_DEG, range_of, side_of
 from fitter.numerics.rotation_jacobians import inverse_left_jacobians
+from fitter.numerics.vectors import cross_products, unit_vectors
 
 _FORWARD = np.array([0.0, 0.0, 1.0])
 _UP = np.array([0.0, 1.0, 0.0])
-_LEFT = np.array([1.0, 0.0, 0.0])
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -78,15 +78,14 @@ def pose_prior(
         (p, 3) rest positions of the joints, body frame, metres.
     """
     p = len(part_names)
-    axes = np.tile(np.eye(3), (p, 1, 1))
     mean, precision = np.zeros((p, 3)), np.zeros((p, 3))
     lower, upper = np.full((p, 3), -np.inf), np.full((p, 3), np.inf)
     bones = _bone_directions(part_names, part_parent, rest_joints)
+    axes = _anatomical_axes(part_names, bones)
     for part, name in enumerate(part_names):
         joint = range_of(name)
         if joint is None:
             continue
-        axes[part] = _anatomical_axes(name, bones[part])
         at_rest = _angles_at_rest(name, axes[part], bones[part], bones[part_parent[part]])
         motions = (joint.flexion, joint.abduction, joint.twist)
         mean[part] = np.radians([m.mean for m in motions]) - at_rest
@@ -178,22 +177,20 @@ def _bone_directions(
     return bones
 
 
-def _anatomical_axes(name: str, bone: Float[np.ndarray, "3"]) -> Float[np.ndarray, "3 3"]:
+def _anatomical_axes(
+    part_names: tuple[str, ...], bones: Float[np.ndarray, "p 3"]
+) -> Float[np.ndarray, "p 3 3"]:
     """Flexion, abduction and twist axes; right axes mirror left ones."""
-    side = side_of(name)
-    toward = _FORWARD
-    if name.endswith("shin"):
-        toward = -_FORWARD
-    elif name.endswith("foot"):
-        toward = _UP
-    flexion = np.cross(bone, toward)
-    flexion /= np.linalg.norm(flexion)
-    abduction = np.cross(flexion, bone)
-    outward = _LEFT if side >= 0 else -_LEFT
-    if np.cross(abduction, bone) @ outward < 0.0:
-        abduction = -abduction
-    twist = bone if side == 0 else -side * bone
-    return np.stack([flexion, abduction, twist])
+    side = np.array([side_of(name) for name in part_names])[:, None]
+    toward = np.tile(_FORWARD, (len(part_names), 1))
+    toward[[name.endswith("shin") for name in part_names]] = -_FORWARD
+    toward[[name.endswith("foot") for name in part_names]] = _UP
+    flexion = unit_vectors(cross_products(bones, toward))
+    abduction = cross_products(flexion, bones)
+    outward = cross_products(abduction, bones)[:, :1] * np.where(side < 0, -1.0, 1.0)
+    abduction = np.where(outward < 0.0, -abduction, abduction)
+    twist = np.where(side == 0, bones, -side * bones)
+    return np.stack([flexion, abduction, twist], axis=1)
 
 
 def _angles_at_rest(
@@ -211,7 +208,7 @@ def _angles_at_rest(
         abduction = np.arctan2(side_of(name) * bone[0], -bone[1])
         return np.array([flexion, abduction, 0.0])
     if name.endswith(("forearm", "shin")):
-        turn = np.cross(parent_bone, bone)
+        turn = cross_products(parent_bone, bone)
         sine = turn @ axes[0]
         return np.array([np.arctan2(sine, bone @ parent_bone), 0.0, 0.0])
     return np.zeros(3)

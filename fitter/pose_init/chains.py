@@ -15,7 +15,8 @@ from jaxtyping import Bool, Float
 from fitter.body.pose_prior import PosePrior, joint_energy, mean_pose
 from fitter.body.scape import CAMERA_AXES
 from fitter.numerics.rotations import rotation_matrices, rotation_vectors
-from fitter.pose_init.directions import normalized, swings, turns
+from fitter.numerics.vectors import cross_products, unit_vectors
+from fitter.pose_init.directions import swings, turns
 from fitter.pose_init.landmark_rig import LandmarkRig
 from fitter.pose_init.lifting import FAR, NEAR, Lifting, LimbEnds
 from fitter.pose_init.limbs import limb_direction_at_rest, limb_named
@@ -103,8 +104,8 @@ def chain_readings(
     else:
         allowed = allowed & np.array([True, False])
         onward = None
-    rest_along = normalized(limb_direction_at_rest(rig, upper))
-    rest_onward = normalized(limb_direction_at_rest(rig, lower))
+    rest_along = unit_vectors(limb_direction_at_rest(rig, upper))
+    rest_onward = unit_vectors(limb_direction_at_rest(rig, lower))
     means = rotation_matrices(mean[[upper_part, lower_part]])
     plain = np.matmul(swings(means[0] @ rest_along, along), means[0])
     if onward is None:
@@ -143,11 +144,11 @@ def _twisted_into_bend(
     hinge: Float[np.ndarray, "3"],
 ) -> Float[np.ndarray, "g 2 2 3 3"]:
     """Turn the upper limb about its bone until its hinge is perpendicular to the bend's plane."""
-    wanted = np.cross(along, onward)
+    wanted = cross_products(along, onward)
     sine = np.linalg.norm(wanted, axis=-1)
     carried = rotation @ hinge
     angle = np.arctan2(
-        (along * np.cross(carried, wanted)).sum(axis=-1), (carried * wanted).sum(axis=-1)
+        (along * cross_products(carried, wanted)).sum(axis=-1), (carried * wanted).sum(axis=-1)
     )
     belief = np.clip((sine - _STRAIGHT) / (_BENT - _STRAIGHT), 0.0, 1.0)
     return np.matmul(turns(np.broadcast_to(along, onward.shape), belief * angle), rotation)
@@ -168,7 +169,9 @@ def _in_parent(
     parent_rotation: Float[np.ndarray, "g 3 3"], camera_vectors: Float[np.ndarray, "g ... 3"]
 ) -> Float[np.ndarray, "g ... 3"]:
     """Unit directions in the parent part's frame from camera-frame vectors."""
-    return np.einsum("gji,g...j->g...i", parent_rotation, normalized(camera_vectors * CAMERA_AXES))
+    return np.einsum(
+        "gji,g...j->g...i", parent_rotation, unit_vectors(camera_vectors * CAMERA_AXES)
+    )
 
 
 def _vectors(matrices: Float[np.ndarray, "... 3 3"]) -> Float[np.ndarray, "... 3"]:

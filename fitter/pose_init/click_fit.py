@@ -1,17 +1,25 @@
-"""Gauss-Newton on clicks: a batch of poses at once.
+"""Gauss-Newton on clicks, from each of a batch of poses.
 
-Steps are damped and accepted on the energy, each pose of the batch by itself. Turns are applied as
-exp(δ) exp(pose), which has no pole.
+Minimises the energy of :mod:`fitter.pose_init.click_problem`. Steps are damped and accepted on the
+energy. Turns are applied as exp(δ) exp(pose), which has no pole.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Bool, Float, Integer
+from jaxtyping import Float, Integer
 
-from fitter.numerics.rotations import compose
-from fitter.pose_init.click_problem import ClickProblem, click_energy, normal_equations
-from fitter.pose_init.landmark_rig import PosedLandmarks, pose_landmarks
+from fitter.arrays import Points2D
+from fitter.body.joint_limits import LIMIT_SOFTNESS_DEG
+from fitter.body.skeleton import descendants
+from fitter.pose_init._click_kernels import descend
+from fitter.pose_init.click_problem import (
+    FACING_MARGIN_M,
+    FACING_SPREAD_M,
+    TRUNK_LEAN_SPREAD,
+    TRUNK_YAW_SPREAD,
+    ClickProblem,
+)
 
 _FIRST_DAMPING = 1e-2
 _MOST_DAMPING = 1.0
@@ -19,6 +27,8 @@ _MOST_DAMPING = 1.0
 
 _TRACE = 1e-6
 """The root has no prior: keeps the matrix regular where clicks leave it undetermined."""
+
+KernelArguments = tuple[tuple, tuple, tuple, tuple, Integer[np.ndarray, " j"]]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -48,52 +58,63 @@ def fit_clicks(
     iterations: int,
     tolerance: float = 1e-3,
 ) -> FittedPoses:
-    """Refine a batch of poses by damped Gauss-Newton steps.
+    """Refine each pose of a batch by damped Gauss-Newton steps.
 
-    Stops when no pose of the batch gained more than ``tolerance`` (in units of energy, half a
-    squared standard deviation) in its last step.
+    A pose stops when a step gained less than ``tolerance`` (in units of energy, half a squared
+    standard deviation), or none can be found.
     """
-    posed = pose_landmarks(problem.rig, pose, translation)
-    energy = click_energy(problem, pose, posed)
-    damping = np.full(len(pose), _FIRST_DAMPING)
-    joints = np.flatnonzero(problem.turning)
-    for _ in range(iterations):
-        equations = normal_equations(problem, pose, posed)
-        matrix = equations.matrix
-        diagonal = np.einsum("bii->bi", matrix)
-        diagonal += damping[:, None] * diagonal + _TRACE
-        step = -np.linalg.solve(matrix, equations.gradient[..., None])[..., 0]
-        turns = step[:, : 3 * len(joints)].reshape(-1, 3)
-        new_pose = pose.copy()
-        new_pose[:, joints] = compose(turns, pose[:, joints].reshape(-1, 3)).reshape(
-            len(pose), -1, 3
+    pose = np.array(pose, dtype=np.float64, order="C")
+    translation = np.array(translation, dtype=np.float64, order="C")
+    pixels = np.broadcast_to(problem.pixels, (len(pose), problem.clicked, 2))
+    energy = np.empty(len(pose))
+    rules = (float(iterations), tolerance, _FIRST_DAMPING, _MOST_DAMPING, _TRACE)
+    for row in range(len(pose)):
+        rig, prior, clicks, soft, turning = kernel_arguments(problem, pixels[row])
+        columns = 3 * len(turning) + (3 if problem.moving else 0)
+        energy[row] = descend(
+            rig, prior, clicks, soft, turning, columns, pose[row], translation[row], rules
         )
-        new_translation = (
-            translation + step[:, 3 * len(joints) :] if problem.moving else translation
-        )
-        new_posed = pose_landmarks(problem.rig, new_pose, new_translation)
-        new_energy = click_energy(problem, new_pose, new_posed)
-        better = new_energy < energy
-        arrived = np.where(better, energy - new_energy < tolerance, damping >= _MOST_DAMPING)
-        pose = np.where(better[:, None, None], new_pose, pose)
-        translation = np.where(better[:, None], new_translation, translation)
-        posed = _chosen(better, new_posed, posed)
-        energy = np.where(better, new_energy, energy)
-        damping = np.where(better, 0.2 * damping, 10.0 * damping)
-        if arrived.all():
-            break
     return FittedPoses(pose=pose, translation=translation, energy=energy)
 
 
-def _chosen(
-    better: Bool[np.ndarray, " b"], new: PosedLandmarks, old: PosedLandmarks
-) -> PosedLandmarks:
-    def choose(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        return np.where(better.reshape(-1, *[1] * (a.ndim - 1)), a, b)
-
-    return PosedLandmarks(
-        points=choose(new.points, old.points),
-        shares=choose(new.shares, old.shares),
-        rotations=choose(new.rotations, old.rotations),
-        joints=choose(new.joints, old.joints),
+def kernel_arguments(problem: ClickProblem, pixels: Points2D) -> KernelArguments:
+    """A problem as the kernels take it: plain arrays of fixed types, compiled once."""
+    rig, prior, camera = problem.rig, problem.prior, problem.camera
+    return (
+        (
+            _integers(rig.part_parent),
+            _floats(rig.rest_joints),
+            _floats(rig.weights),
+            _floats(rig.arms),
+            descendants(rig.part_parent),
+        ),
+        (
+            _floats(prior.axes),
+            _floats(prior.mean),
+            _floats(prior.precision),
+            _floats(prior.lower),
+            _floats(prior.upper),
+            float(np.radians(LIMIT_SOFTNESS_DEG)),
+        ),
+        (
+            _floats(pixels),
+            _floats(problem.precision),
+            (float(camera.focal_length_px), float(camera.centre_x), float(camera.centre_y)),
+        ),
+        (
+            _floats(problem.slants),
+            FACING_MARGIN_M,
+            FACING_SPREAD_M,
+            TRUNK_LEAN_SPREAD,
+            TRUNK_YAW_SPREAD,
+        ),
+        _integers(np.flatnonzero(problem.turning)),
     )
+
+
+def _floats(array: np.ndarray) -> np.ndarray:
+    return np.array(array, dtype=np.float64, order="C")
+
+
+def _integers(array: np.ndarray) -> np.ndarray:
+    return np.array(array, dtype=np.int64, order="C")

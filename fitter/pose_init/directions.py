@@ -4,20 +4,16 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.numerics.rotations import rotation_matrices
-
-
-def normalized(vectors: Float[np.ndarray, "... 3"]) -> Float[np.ndarray, "... 3"]:
-    """Unit vectors; a zero vector stays zero."""
-    return vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-300)
+from fitter.numerics.vectors import cross_products, unit_vectors
 
 
 def frames(
     across: Float[np.ndarray, "... 3"], along: Float[np.ndarray, "... 3"]
 ) -> Float[np.ndarray, "... 3 3"]:
     """Orthonormal frames (columns) with the second axis along, the first nearest to across."""
-    second = normalized(along)
-    first = normalized(across - (across * second).sum(axis=-1, keepdims=True) * second)
-    return np.stack([first, second, np.cross(first, second)], axis=-1)
+    second = unit_vectors(along)
+    first = unit_vectors(across - (across * second).sum(axis=-1, keepdims=True) * second)
+    return np.stack([first, second, cross_products(first, second)], axis=-1)
 
 
 def turns(
@@ -36,9 +32,9 @@ def swings(
     Between opposite directions every perpendicular axis serves; one is chosen.
     """
     start, end = np.broadcast_arrays(start, end)
-    axis = np.cross(start, end)
-    sine = np.linalg.norm(axis, axis=-1)
+    axis = cross_products(start, end)
+    sine = np.sqrt((axis * axis).sum(axis=-1))
     cosine = (start * end).sum(axis=-1)
     helper = np.eye(3)[np.argmin(np.abs(start), axis=-1)]
-    axis = np.where((sine > 1e-12)[..., None], axis, np.cross(start, helper))
-    return turns(normalized(axis), np.arctan2(sine, cosine))
+    axis = np.where((sine > 1e-12)[..., None], axis, cross_products(start, helper))
+    return turns(unit_vectors(axis), np.arctan2(sine, cosine))

@@ -44,7 +44,7 @@ def turn_head(
         A batch of poses.
     """
     rig = problem.rig
-    names = tuple(rig.landmark_names[i] for i in problem.clicked)
+    names = rig.landmark_names[: problem.clicked]
     face = np.array([name in FACE_POINTS for name in names], dtype=bool)
     parts = [rig.part("neck"), rig.part("head")]
     start = pose.copy()
@@ -56,7 +56,7 @@ def turn_head(
     face_problem = dataclasses.replace(
         problem,
         rig=rig.only(tuple(name for name in names if name in FACE_POINTS)),
-        clicked=np.arange(int(face.sum())),
+        clicked=int(face.sum()),
         pixels=problem.pixels[face],
         precision=problem.precision[face],
         slants=np.zeros((0, int(face.sum()))),

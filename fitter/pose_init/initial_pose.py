@@ -177,7 +177,7 @@ def _on_the_surface(
     evaluator: ScapeEvaluator, problem: ClickProblem, shape: Shape, fitted: FittedPoses
 ) -> FittedPoses:
     """Shift each click by how far blended and true landmarks lie apart, and settle."""
-    names = tuple(problem.rig.landmark_names[i] for i in problem.clicked)
+    names = problem.rig.landmark_names[: problem.clicked]
     surface = np.stack(
         [
             _surface_landmarks(
@@ -189,7 +189,7 @@ def _on_the_surface(
         ]
     )
     blended = pose_landmarks(problem.rig, fitted.pose, fitted.translation).points
-    shift = problem.camera.project(blended[:, problem.clicked]) - problem.camera.project(surface)
+    shift = problem.camera.project(blended[:, : problem.clicked]) - problem.camera.project(surface)
     shifted = dataclasses.replace(problem, pixels=problem.pixels + shift)
     settled = fit_clicks(shifted, fitted.pose, fitted.translation, iterations=_SETTLING_ITERATIONS)
     return distinct_hypotheses(settled)

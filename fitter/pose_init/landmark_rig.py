@@ -9,13 +9,11 @@ All functions take a batch of poses in leading axes, because pose hypotheses are
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Bool, Float, Integer
+from jaxtyping import Float, Integer
 
 from fitter.arrays import Shape
-from fitter.body.model import BodyModel
+from fitter.body.model import BodyModel, SparseRows
 from fitter.body.scape import CAMERA_AXES
-from fitter.body.shape_space import rest_vertices
-from fitter.body.skeleton import descendants, regress
 from fitter.numerics.rotations import rotation_matrices
 
 
@@ -92,16 +90,18 @@ class PosedLandmarks:
 
 def landmark_rig(model: BodyModel, shape: Shape) -> LandmarkRig:
     """The rig of a model's person with this shape."""
-    vertices = rest_vertices(model, shape)
-    rest_joints = regress(model.joint_regressor, vertices)
     rows = model.landmarks
+    used = np.concatenate([model.joint_regressor.indices, rows.indices])
+    places = model.mean_vertices[used] + np.tensordot(shape, model.shape_basis[:, used], axes=1)
+    split = len(model.joint_regressor.indices)
+    rest_joints = _weighted_sums(model.joint_regressor, places[:split])
     landmark = np.repeat(np.arange(len(rows.names)), np.diff(rows.pointers))
     parts = model.skinning_parts[rows.indices]
     shares = rows.weights[:, None] * model.skinning_weights[rows.indices]
     shares /= model.skinning_weights[rows.indices].sum(axis=1, keepdims=True)
     weights = np.zeros((len(rows.names), len(model.part_names)))
     arms = np.zeros((*weights.shape, 3))
-    offsets = vertices[rows.indices][:, None] - rest_joints[parts]
+    offsets = places[split:, None] - rest_joints[parts]
     np.add.at(weights, (landmark[:, None], parts), shares)
     np.add.at(arms, (landmark[:, None], parts), shares[..., None] * offsets)
     return LandmarkRig(
@@ -109,10 +109,15 @@ def landmark_rig(model: BodyModel, shape: Shape) -> LandmarkRig:
         part_parent=model.part_parent,
         rest_joints=rest_joints,
         landmark_names=rows.names,
-        rest_landmarks=regress(rows, vertices),
+        rest_landmarks=_weighted_sums(rows, places[split:]),
         weights=weights,
         arms=arms,
     )
+
+
+def _weighted_sums(rows: SparseRows, places: Float[np.ndarray, "z 3"]) -> Float[np.ndarray, "r 3"]:
+    """Row by row, from the places of the vertices the rows name."""
+    return np.add.reduceat(rows.weights[:, None] * places, rows.pointers[:-1], axis=0)
 
 
 def pose_landmarks(
@@ -142,36 +147,3 @@ def pose_landmarks(
         rotations=rotations,
         joints=joints,
     )
-
-
-def landmark_jacobian(
-    rig: LandmarkRig, posed: PosedLandmarks, turning: Bool[np.ndarray, " p"]
-) -> Float[np.ndarray, "... k 3 columns"]:
-    """Derivative of camera-frame landmarks by increments of the turning joints.
-
-    Three columns a turning joint, for increments δ applied as exp(δ) exp(pose): the axes are those
-    of the parent part, and a turn moves a landmark by axis × (its share beyond the joint).
-    """
-    joints = np.flatnonzero(turning)
-    follows = descendants(rig.part_parent)[joints].astype(np.float64)
-    beyond = np.matmul(follows, posed.shares)
-    share = rig.weights @ follows.T
-    beyond -= share[:, :, None] * posed.joints[..., None, joints, :]
-    parents = rig.part_parent[joints]
-    axes = posed.rotations[..., np.maximum(parents, 0), :, :].copy()
-    axes[..., parents < 0, :, :] = np.eye(3)
-    # d = axis × beyond = -[beyond]× axis, all three axes of a joint at once.
-    moved = np.matmul(_minus_cross_matrices(beyond), axes[..., None, :, :, :])
-    moved *= CAMERA_AXES[:, None]
-    ordered = np.swapaxes(moved, -3, -2)
-    return ordered.reshape(*ordered.shape[:-2], 3 * len(joints))
-
-
-def _minus_cross_matrices(vectors: Float[np.ndarray, "... 3"]) -> Float[np.ndarray, "... 3 3"]:
-    """Matrices M with M a = a × v."""
-    matrices = np.zeros((*vectors.shape, 3))
-    x, y, z = vectors[..., 0], vectors[..., 1], vectors[..., 2]
-    matrices[..., 0, 1], matrices[..., 0, 2] = z, -y
-    matrices[..., 1, 0], matrices[..., 1, 2] = -z, x
-    matrices[..., 2, 0], matrices[..., 2, 1] = y, -x
-    return matrices

@@ -5,32 +5,12 @@ import pytest
 
 from fitter.body.scape import CAMERA_AXES
 from fitter.body.skeleton import regress
-from fitter.numerics.rotations import compose
-from fitter.pose_init.landmark_rig import landmark_jacobian, landmark_rig, pose_landmarks
+from fitter.pose_init.landmark_rig import landmark_rig, pose_landmarks
 from fitter.pose_init.limbs import limb_lengths_m, point_at_rest
 from tests.unit.body.synthetic_model import bar_model
 from tests.unit.pose_init.stick_figure import mirrored_pose, stick_figure
 
 RIG = stick_figure()
-
-
-def blended_rig():
-    """The stick figure with landmarks that follow two parts at once."""
-    rng = np.random.default_rng(5)
-    weights = RIG.weights * 0.7
-    for row, part in enumerate(np.argmax(RIG.weights, axis=1)):
-        weights[row, max(RIG.part_parent[part], 0)] += 0.3
-    arms = weights[..., None] * (RIG.rest_landmarks[:, None] - RIG.rest_joints)
-    arms += 0.01 * (weights > 0)[..., None] * rng.standard_normal(arms.shape)
-    return type(RIG)(
-        part_names=RIG.part_names,
-        part_parent=RIG.part_parent,
-        rest_joints=RIG.rest_joints,
-        landmark_names=RIG.landmark_names,
-        rest_landmarks=RIG.rest_landmarks,
-        weights=weights,
-        arms=arms,
-    )
 
 
 def test_at_rest_landmarks_stand_where_the_rest_body_has_them():
@@ -47,29 +27,6 @@ def test_bones_keep_their_length_in_every_pose():
         length = np.linalg.norm(RIG.rest_joints[part] - RIG.rest_joints[parent])
         measured = np.linalg.norm(joints[:, part] - joints[:, parent], axis=1)
         np.testing.assert_allclose(measured, length, atol=1e-12)
-
-
-def test_jacobian_agrees_with_finite_differences():
-    rig = blended_rig()
-    rng = np.random.default_rng(7)
-    pose = 0.6 * rng.standard_normal((2, 17, 3))
-    place = rng.standard_normal((2, 3))
-    turning = rng.random(17) < 0.7
-    turning[0] = True
-    jacobian = landmark_jacobian(rig, pose_landmarks(rig, pose, place), turning)
-    step = 1e-6
-    for column, joint in enumerate(np.flatnonzero(turning)):
-        for axis in range(3):
-            ahead = np.zeros((34, 3))
-            ahead[[joint, 17 + joint], axis] = step
-            moved = [
-                pose_landmarks(
-                    rig, compose(sign * ahead, pose.reshape(-1, 3)).reshape(2, 17, 3), place
-                ).points
-                for sign in (1.0, -1.0)
-            ]
-            slope = (moved[0] - moved[1]) / (2 * step)
-            np.testing.assert_allclose(jacobian[..., 3 * column + axis], slope, atol=1e-8)
 
 
 def test_the_mirror_image_of_a_pose_has_the_mirrored_landmarks():

@@ -5,8 +5,6 @@ import dataclasses
 import numpy as np
 import pytest
 
-from fitter.numerics.rotations import compose
-from fitter.pose_init.click_problem import click_energy, normal_equations
 from fitter.pose_init.hypotheses import limb_facings
 from fitter.pose_init.initial_pose import reference_of
 from fitter.pose_init.landmark_rig import pose_landmarks
@@ -16,6 +14,7 @@ from fitter.pose_init.points import ClickedPoints
 from fitter.pose_init.start_poses import start_poses
 from fitter.pose_init.trunk_points import trunk_points
 from fitter.request import Facing
+from tests.unit.pose_init.plain_clicks import click_energy
 from tests.unit.pose_init.scenes import (
     HIPS,
     LENGTHS,
@@ -195,34 +194,6 @@ def test_upper_body_alone_is_placed():
     wanted = truth.camera.project(truth.points[shoulders])
     assert np.linalg.norm(seen - wanted, axis=1).max() < 12.0
     assert points[shoulders, 2].mean() == pytest.approx(truth.points[shoulders, 2].mean(), rel=0.12)
-
-
-def test_gradient_agrees_with_finite_differences_of_the_energy():
-    truth = scene(12, noise_px=2.5)
-    facing = {"left_forearm": Facing.TOWARD, "right_shin": Facing.AWAY, "torso": Facing.TOWARD}
-    problem, _ = solve(truth.camera, truth.clicks, facing)
-    rng = np.random.default_rng(12)
-    pose = truth.pose[None] + 0.2 * rng.standard_normal((1, 17, 3))
-    place = truth.translation[None] + 0.05 * rng.standard_normal((1, 3))
-
-    def energy(pose: np.ndarray, place: np.ndarray) -> float:
-        return click_energy(problem, pose, pose_landmarks(problem.rig, pose, place))[0]
-
-    posed = pose_landmarks(problem.rig, pose, place)
-    gradient = normal_equations(problem, pose, posed).gradient
-    joints = np.flatnonzero(problem.turning)
-    step = 1e-6
-    for column in range(gradient.shape[1]):
-        moved = []
-        for sign in (step, -step):
-            turned, shifted = np.zeros((17, 3)), np.zeros(3)
-            if column < 3 * len(joints):
-                turned[joints[column // 3], column % 3] = sign
-            else:
-                shifted[column - 3 * len(joints)] = sign
-            moved.append(energy(compose(turned, pose[0])[None], place + shifted))
-        slope = (moved[0] - moved[1]) / (2 * step)
-        assert gradient[0, column] == pytest.approx(slope, rel=1e-4, abs=2e-3)
 
 
 def test_refinement_ends_below_the_energy_of_the_truth():
