@@ -6,6 +6,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
+from fitter.body.model import BodyModel
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.training.build import (
     GENDERS,
@@ -18,7 +19,7 @@ from fitter.training.build import (
 )
 from fitter.training.makehuman import makehuman_folder
 from fitter.training.plan import Plan
-from fitter.training.report import held_out_errors, report_lines
+from fitter.training.report import HeldOutErrors, held_out_errors, report_lines
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -29,12 +30,18 @@ def main(arguments: Sequence[str]) -> int:
     for gender in genders:
         path = options.output / f"{gender}.npz"
         if options.command == "build":
-            _build(materials, gender, path, options)
-        _report(materials, path, options.cache)
+            model, errors = _build(materials, gender, path, options)
+        else:
+            model = load_body_model(path)
+            errors = held_out_errors(model, held_out_bodies(materials, model, cache=options.cache))
+        for line in report_lines(model, errors, file_bytes=path.stat().st_size):
+            print(line, flush=True)
     return 0
 
 
-def _build(materials: Materials, gender: str, path: Path, options: argparse.Namespace) -> None:
+def _build(
+    materials: Materials, gender: str, path: Path, options: argparse.Namespace
+) -> tuple[BodyModel, HeldOutErrors]:
     plan = Plan(
         subjects=options.subjects,
         held_out=options.held_out,
@@ -48,15 +55,10 @@ def _build(materials: Materials, gender: str, path: Path, options: argparse.Name
         materials, gender, count=count, seed=plan.seed, cache=options.cache
     )
     print(f"{gender}: training on {plan.subjects} of them", flush=True)
-    write_model(path, train_model(materials, gender, population, plan))
+    model, errors = train_model(materials, gender, population, plan)
+    written = write_model(path, model)
     print(f"{gender}: written after {time.perf_counter() - start:.0f} s", flush=True)
-
-
-def _report(materials: Materials, path: Path, cache: Path | None) -> None:
-    model = load_body_model(path)
-    errors = held_out_errors(model, held_out_bodies(materials, model, cache=cache))
-    for line in report_lines(model, errors, file_bytes=path.stat().st_size):
-        print(line, flush=True)
+    return written, errors
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -21,7 +21,7 @@ from fitter.training.population import (
     solve_population,
 )
 from fitter.training.provenance import model_statistics, provenance
-from fitter.training.report import header_entry, held_out_errors
+from fitter.training.report import HeldOutErrors, header_entry, held_out_errors
 from fitter.training.rig import load_rig
 from fitter.training.rigged_bodies import RiggedMesh, rigged_bodies, rigged_mesh
 
@@ -64,8 +64,10 @@ def solved_population(
     return population
 
 
-def train_model(materials: Materials, gender: str, population: Population, plan: Plan) -> BodyModel:
-    """Train on the subjects of a population that are not held out; the header says how."""
+def train_model(
+    materials: Materials, gender: str, population: Population, plan: Plan
+) -> tuple[BodyModel, HeldOutErrors]:
+    """Train on the subjects that are not held out and test on those; the header says how."""
     held_out = subjects(population, slice(0, plan.held_out))
     training = subjects(population, slice(plan.held_out, plan.held_out + plan.subjects))
     trained = assemble_body_model(
@@ -83,7 +85,7 @@ def train_model(materials: Materials, gender: str, population: Population, plan:
         | model_statistics(trained)
         | {"held_out_errors": header_entry(errors)}
     )
-    return replace(trained.model, header=header)
+    return replace(trained.model, header=header), errors
 
 
 def write_model(path: Path, model: BodyModel) -> BodyModel:
