@@ -11,6 +11,7 @@ from fitter.body.model import BodyModel, SparseRows
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.stature import stature_m
 from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
+from fitter.numerics.meshes import enclosed_volume
 from fitter.parameters import BodyParameters
 from fitter.training.attribute_axes import Attribute, attribute_preserving_axes
 from fitter.training.joints import fit_joint_regressor, regressed_joints, rest_joints_of
@@ -130,7 +131,10 @@ def assemble_body_model(
 def with_height_axis(
     model: BodyModel, shapes: PrincipalShapes, masses: Float[np.ndarray, " m"]
 ) -> TrainedModel:
-    """The model in the basis whose first axis alone carries height (section 4)."""
+    """The model in the basis whose first axis alone carries height (section 4).
+
+    More of the first axis is taller; more of every other is fuller.
+    """
     height = height_attribute(model)
     sizes = np.sqrt(np.einsum("nmc,m,nmc->n", shapes.axes, masses, shapes.axes, optimize=True))
     found = attribute_preserving_axes(
@@ -140,9 +144,10 @@ def with_height_axis(
         sizes,
     )
     basis = np.tensordot(found.rotation.T, model.shape_basis, axes=1)
+    signs = np.array([1.0, *(_larger_side(model, axis) for axis in basis[1:])])
     return TrainedModel(
-        model=replace(model, shape_basis=basis),
-        coefficients=shapes.coefficients @ found.rotation,
+        model=replace(model, shape_basis=basis * signs[:, None, None]),
+        coefficients=shapes.coefficients @ found.rotation * signs,
     )
 
 
@@ -205,6 +210,14 @@ def model_arrays(model: BodyModel) -> dict[str, np.ndarray]:
     return {name: np.asarray(array, dtype=np.int32) for name, array in integers.items()} | {
         name: np.asarray(array, dtype=np.float32) for name, array in floats.items()
     }
+
+
+def _larger_side(model: BodyModel, axis: Vertices) -> float:
+    """Sign of the direction in which a body gains volume: the axes have none of their own."""
+    fuller, thinner = (
+        enclosed_volume(model.mean_vertices + sign * axis, model.triangles) for sign in (1.0, -1.0)
+    )
+    return 1.0 if fuller >= thinner else -1.0
 
 
 def _rooted(

@@ -7,6 +7,7 @@ from fitter.body.scape import ScapeEvaluator
 from fitter.body.shape_space import rest_vertices
 from fitter.body.skeleton import regress
 from fitter.body.storage import load_body_model, save_body_model
+from fitter.numerics.meshes import enclosed_volume
 from fitter.parameters import BodyParameters
 from fitter.training.assemble import assemble_body_model, height_attribute, model_arrays
 from fitter.training.evaluation import height_axes, posed_error, shape_error
@@ -74,6 +75,16 @@ def test_height_follows_its_axis_on_people_not_trained_on(trained):
     figures = height_axes(trained.model, replace(bodies, posed=posed))
     assert figures.correlation > 0.99
     assert figures.changes_mm.max() < 1e-3
+
+
+def test_more_of_any_other_axis_is_a_fuller_body(trained):
+    model = trained.model
+    for axis in model.shape_basis[1:]:
+        fuller, thinner = (
+            enclosed_volume(model.mean_vertices + sign * axis, model.triangles)
+            for sign in (1.0, -1.0)
+        )
+        assert fuller >= thinner
 
 
 def test_training_coefficients_are_whitened_after_the_rotation(trained):
