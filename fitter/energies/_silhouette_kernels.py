@@ -7,8 +7,11 @@ from numba import njit
 
 @no_type_check
 @njit(cache=True, fastmath=True)
-def robust_mismatch(model, image, to_image, to_model, scale):
-    """Sum over unmatched pixels of ρ'(d), d their distance to the other region."""
+def robust_mismatch(model, image, to_image, to_model, scale, floor):
+    """Sum over unmatched pixels of ρ'(d), d their distance to the other region.
+
+    Beyond ``scale`` a pixel costs at least ``floor``.
+    """
     total = 0.0
     inverse = 1.0 / (scale * scale)
     height, width = model.shape
@@ -23,5 +26,8 @@ def robust_mismatch(model, image, to_image, to_model, scale):
             else:
                 continue
             damping = 1.0 + d * d * inverse
-            total += d / (damping * damping)
+            cost = d / (damping * damping)
+            if d > scale and cost < floor:
+                cost = floor
+            total += cost
     return total

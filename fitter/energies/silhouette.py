@@ -4,7 +4,7 @@ Every unmatched pixel costs a function of its distance d to the other region (as
 here ρ'(d) = d / (1 + d²/η²)². A sliver of width δ along the outline then costs ∫ ρ' = ρ(δ) =
 ½ δ² / (1 + δ²/η²) for each pixel of outline: the sum is a Geman-McClure boundary error, and contour
 points with its weights are its exact linearisation. Wrong ground, walls and hair lie far from the
-body and cost next to nothing there. Divided by σ² and by the length over which neighbouring errors
+body, and pull at nothing there. Divided by σ² and by the length over which neighbouring errors
 repeat themselves it is a negative log-likelihood.
 """
 
@@ -24,6 +24,9 @@ from fitter.render.rasterizer import Rendering
 _LEAST_NORMAL_AGREEMENT = 0.5
 # Half of the rows look from the model to the image, half from the image to the model.
 _SHARE = 0.5
+# What a pixel far from everything costs, in robust scales: without it a body that has left the
+# person altogether would cost nothing. Constant, so it pulls at nothing.
+_FAR_COST = 0.1
 _MARGIN_PX = 2
 
 
@@ -41,6 +44,7 @@ def silhouette_energy(
         evidence.signed_distance[top:bottom, left:right],
         outside,
         scales.silhouette_eta,
+        _FAR_COST * scales.silhouette_eta,
     )
     return float(total) / (scales.silhouette_sigma**2 * scales.correlation_length)
 

@@ -1,0 +1,312 @@
+"""Each energy term against a closed form, and its rows against finite differences."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fitter.body.model import SparseRows
+from fitter.body.scape import increment
+from fitter.body.skeleton import regress
+from fitter.camera import Camera
+from fitter.energies.clicks import ClickEvidence, click_energy, click_evidence, click_rows
+from fitter.energies.edges import edge_energy, edge_rows
+from fitter.energies.penetration import (
+    PenetrationProxy,
+    penetration_energy,
+    penetration_rows,
+    sphere_positions,
+)
+from fitter.energies.priors import lean_residual
+from fitter.energies.scales import scales_at
+from fitter.energies.shading import ShadingEvidence, shading_energy, shading_rows
+from fitter.energies.silhouette import silhouette_energy, silhouette_overlap, silhouette_rows
+from fitter.evidence.edge_cost import EdgeCostMap
+from fitter.evidence.intensity import IntensityMap
+from fitter.evidence.silhouette_evidence import silhouette_evidence
+from fitter.fittable import packaged_body
+from fitter.numerics.mesh_topology import mesh_topology
+from fitter.numerics.normals import normal_derivative_to_vertices
+from fitter.numerics.rotations import compose
+from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
+from fitter.render.contours import model_edges
+from fitter.render.rasterizer import render
+from fitter.request import Click, Gender
+
+CAMERA = Camera(focal_length_px=300.0, centre_x=100.0, centre_y=100.0, width=200, height=200)
+SCALES = scales_at(CAMERA, 3.0, boundary_eta_m=0.06)
+
+
+def box(width: float, height: float, shift: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+    """A box 3 m away, facing the camera; width and height in pixels, shifted by pixels."""
+    x, y, z = np.array([width, height, 20.0]) / 100.0 / 2.0
+    corners = np.array(
+        [[sx * x, sy * y, sz * z] for sx in (-1, 1) for sy in (-1, 1) for sz in (-1, 1)]
+    )
+    quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    triangles = np.array(
+        [t for a, b, c, d in quads for t in ([a, b, c], [a, c, d])], dtype=np.int32
+    )
+    return corners + [shift / 100.0, 0.0, 3.0 + z], triangles
+
+
+def rendered(width: float, height: float, shift: float = 0.0):
+    vertices, triangles = box(width, height, shift)
+    rendering = render(vertices, triangles, CAMERA)
+    return rendering, model_edges(rendering, mesh_topology(triangles, vertex_count=8))
+
+
+class TestSilhouette:
+    def test_a_perfect_match_costs_nothing(self):
+        rendering, _ = rendered(60, 120)
+        evidence = silhouette_evidence(rendering.silhouette)
+        assert silhouette_energy(rendering, evidence, SCALES) == 0.0
+        assert silhouette_overlap(rendering, evidence) == 1.0
+
+    @pytest.mark.parametrize("shift", [2.0, 4.0])
+    def test_a_shifted_outline_costs_the_robust_square_of_the_shift(self, shift):
+        truth, _ = rendered(60, 120)
+        evidence = silhouette_evidence(truth.silhouette)
+        moved, _ = rendered(60, 120, shift)
+        robust = 0.5 * shift**2 / (1 + (shift / SCALES.silhouette_eta) ** 2)
+        expected = 2 * 120 * robust / (SCALES.silhouette_sigma**2 * SCALES.correlation_length)
+        assert silhouette_energy(moved, evidence, SCALES) == pytest.approx(expected, rel=0.25)
+
+    def test_wrong_ground_far_from_the_body_costs_little_more(self):
+        rendering, _ = rendered(60, 80)
+        mask = rendering.silhouette.copy()
+        near = mask.copy()
+        near[140:146, 70:130] = True
+        far = mask.copy()
+        far[140:190, 70:130] = True
+        cost_near = silhouette_energy(rendering, silhouette_evidence(near), SCALES)
+        cost_far = silhouette_energy(rendering, silhouette_evidence(far), SCALES)
+        assert cost_near > 0.0
+        # Eight times the area; a truncated square would grow at least as much.
+        assert cost_far < 6.0 * cost_near
+
+    def test_rows_pull_a_shifted_body_back(self):
+        truth, _ = rendered(60, 120)
+        evidence = silhouette_evidence(truth.silhouette)
+        moved, edges = rendered(60, 120, 3.0)
+        for rows in silhouette_rows(moved, edges, evidence, SCALES):
+            push = (rows.weights * rows.residuals)[:, None, None] * rows.derivatives
+            assert push[..., 0].sum() > 0.0
+            assert abs(push[..., 1].sum()) < 0.1 * push[..., 0].sum()
+
+    def test_an_empty_rendering_is_a_cost_and_no_error(self):
+        truth, _ = rendered(60, 120)
+        away, edges = rendered(60, 120, 5000.0)
+        evidence = silhouette_evidence(truth.silhouette)
+        assert silhouette_energy(away, evidence, SCALES) > 0.0
+        assert silhouette_overlap(away, evidence) == 0.0
+        assert all(len(r.residuals) == 0 for r in silhouette_rows(away, edges, evidence, SCALES))
+
+
+class TestEdges:
+    def test_the_energy_is_the_mean_cost_along_visible_edges(self):
+        _, edges = rendered(60, 120)
+        constant = EdgeCostMap(cost=np.full((200, 200), 0.3, dtype=np.float32))
+        assert edge_energy(edges, constant, SCALES) == pytest.approx(0.3 * SCALES.edge_weight)
+
+    def test_rows_are_the_slope_of_the_energy(self):
+        ramp = np.tile(np.linspace(0.1, 0.9, 200, dtype=np.float32), (200, 1))
+        cost = EdgeCostMap(cost=ramp)
+        rendering, edges = rendered(60, 120)
+        rows = edge_rows(rendering, edges, cost, SCALES)
+        slope = ((rows.weights * rows.residuals)[:, None, None] * rows.derivatives)[..., 0].sum()
+        step = 0.5
+        plus = edge_energy(rendered(60, 120, step)[1], cost, SCALES)
+        minus = edge_energy(rendered(60, 120, -step)[1], cost, SCALES)
+        assert slope == pytest.approx((plus - minus) / (2 * step / 100.0), rel=0.02)
+
+
+class TestClicks:
+    ROWS = SparseRows(
+        names=("nose", "head_top"),
+        pointers=np.array([0, 1, 2]),
+        indices=np.array([0, 1]),
+        weights=np.ones(2),
+    )
+
+    def test_rows_are_the_slope_of_the_energy(self):
+        evidence = click_evidence(
+            self.ROWS, {"head_top": Click(x=103, y=98), "nose": Click(x=90, y=120)}
+        )
+        points = np.array([[0.02, -0.01, 3.0], [0.05, 0.2, 2.8]])
+        rows = click_rows(points, evidence, CAMERA, SCALES)
+        slope = np.zeros_like(points)
+        np.add.at(
+            slope,
+            rows.points[:, 0],
+            (rows.weights * rows.residuals)[:, None] * rows.derivatives[:, 0],
+        )
+        for index in np.ndindex(points.shape):
+            delta = np.zeros_like(points)
+            delta[index] = 1e-6
+            plus = click_energy(points + delta, evidence, CAMERA, SCALES)
+            minus = click_energy(points - delta, evidence, CAMERA, SCALES)
+            assert slope[index] == pytest.approx((plus - minus) / 2e-6, rel=1e-4, abs=1e-6)
+
+    def test_clicks_are_paired_with_landmarks_by_name(self):
+        evidence = click_evidence(self.ROWS, {"head_top": Click(x=1, y=2)})
+        vertices = np.array([[1.0, 0, 0], [2.0, 0, 0]])
+        np.testing.assert_array_equal(regress(evidence.landmarks, vertices), [[2.0, 0, 0]])
+
+    def test_a_hidden_point_counts_less(self):
+        seen = click_evidence(self.ROWS, {"nose": Click(x=1, y=2)})
+        hidden = click_evidence(self.ROWS, {"nose": Click(x=1, y=2, occluded=True)})
+        point = np.array([[0.0, 0.0, 3.0]])
+        assert click_energy(point, hidden, CAMERA, SCALES) < 0.2 * click_energy(
+            point, seen, CAMERA, SCALES
+        )
+
+    def test_a_wild_click_pulls_no_harder_than_the_truncation(self):
+        rows = self.ROWS
+        pulls = []
+        for x in (150.0, 1500.0):
+            evidence = ClickEvidence(
+                landmarks=rows, clicks=np.array([[x, 100.0]]), confidence=np.ones(1)
+            )
+            found = click_rows(np.array([[0.0, 0.0, 3.0]]), evidence, CAMERA, SCALES)
+            pulls.append(abs(found.weights[0] * found.residuals[0]))
+        assert pulls[1] == pytest.approx(pulls[0], rel=1e-6)
+
+
+class TestPenetration:
+    PROXY = PenetrationProxy(
+        centres=SparseRows(
+            names=("a", "b"),
+            pointers=np.array([0, 2, 4]),
+            indices=np.arange(4),
+            weights=np.full(4, 0.5),
+        ),
+        pairs=np.array([[0, 1]]),
+    )
+
+    def vertices(self, gap: float) -> np.ndarray:
+        """Two rings of radius 0.1 whose centres are ``gap`` apart."""
+        ring = np.array([[0, 0.1, 0], [0, -0.1, 0]])
+        return np.concatenate([ring, ring + [gap, 0, 0]])
+
+    def test_the_energy_is_half_the_squared_overlap_over_its_spread(self):
+        centres, radii = sphere_positions(self.PROXY.centres, self.vertices(0.15))
+        overlap = radii.sum() - 0.15
+        assert overlap > 0
+        assert penetration_energy(centres, radii, self.PROXY, SCALES) == pytest.approx(
+            0.5 * (overlap / SCALES.penetration_sigma_m) ** 2
+        )
+
+    def test_parts_that_do_not_touch_cost_nothing_and_give_no_rows(self):
+        centres, radii = sphere_positions(self.PROXY.centres, self.vertices(0.3))
+        assert penetration_energy(centres, radii, self.PROXY, SCALES) == 0.0
+        assert len(penetration_rows(centres, radii, self.PROXY, SCALES).residuals) == 0
+
+    def test_rows_are_the_slope_of_the_energy(self):
+        centres, radii = sphere_positions(self.PROXY.centres, self.vertices(0.15))
+        rows = penetration_rows(centres, radii, self.PROXY, SCALES)
+        slope = rows.weights[0] * rows.residuals[0] * rows.derivatives[0]
+        for index in np.ndindex(centres.shape):
+            delta = np.zeros_like(centres)
+            delta[index] = 1e-7
+            plus = penetration_energy(centres + delta, radii, self.PROXY, SCALES)
+            minus = penetration_energy(centres - delta, radii, self.PROXY, SCALES)
+            assert slope[index] == pytest.approx((plus - minus) / 2e-7, rel=1e-4, abs=1e-3)
+
+    def test_an_arm_pushed_into_the_trunk_is_penalised(self):
+        instruments = packaged_body(Gender.FEMALE).instruments
+        model = instruments.model
+        body = BodyParameters(
+            pose=model.canonical_pose,
+            translation=np.zeros(3),
+            shape=np.zeros(len(model.shape_basis)),
+        )
+        turn = np.zeros_like(body.pose)
+        turn[model.part_names.index("left_upper_arm")] = [0.0, 0.0, -1.2]
+        pushed = increment(body, pose=turn, translation=np.zeros(3), shape=0.0 * body.shape)
+
+        def energy(parameters: BodyParameters) -> float:
+            vertices = instruments.evaluator.vertices(parameters)
+            spheres, radii = sphere_positions(instruments.penetration.centres, vertices)
+            return penetration_energy(spheres, radii, instruments.penetration, SCALES)
+
+        assert energy(body) == 0.0
+        assert energy(pushed) > 10.0
+
+
+@pytest.fixture(scope="module")
+def lit():
+    """A packaged body whose picture is a plane of intensity, so that slopes are exact."""
+    instruments = packaged_body(Gender.MALE).instruments
+    model = instruments.model
+    camera = Camera(focal_length_px=300.0, centre_x=100.0, centre_y=150.0, width=200, height=300)
+    body = BodyParameters(
+        pose=model.canonical_pose,
+        translation=np.array([0.0, 0.0, 2.8]),
+        shape=np.zeros(len(model.shape_basis)),
+    )
+    rendering = render(instruments.evaluator.vertices(body), model.triangles, camera)
+    y, x = np.mgrid[:300, :200]
+    evidence = ShadingEvidence(
+        intensity=IntensityMap(
+            luminance=(0.2 + 0.001 * x + 0.0005 * y).astype(np.float32),
+            trusted=np.ones((300, 200), dtype=bool),
+        ),
+        light=Light(kind=LightKind.POINT, azimuth=0.4, elevation=0.3, distance=2.0),
+        body_centre=body.translation,
+        reflectance=Reflectance(
+            albedo=np.full(len(rendering.vertices), 0.4),
+            specularity=np.full(len(rendering.vertices), 0.1),
+            ambient=0.05,
+            specular_exponent=10.0,
+        ),
+        vertex_areas=instruments.vertex_areas,
+        eta=0.1,
+    )
+    return instruments, rendering, evidence
+
+
+class TestShading:
+    def test_unexplained_shading_costs_at_most_its_weight(self, lit):
+        _, rendering, evidence = lit
+        assert 0.0 < shading_energy(rendering, evidence, SCALES) < SCALES.shading_weight
+        dark = replace(evidence.reflectance, albedo=50.0 * evidence.reflectance.albedo)
+        hopeless = shading_energy(rendering, replace(evidence, reflectance=dark), SCALES)
+        assert hopeless == pytest.approx(SCALES.shading_weight, rel=0.05)
+
+    def test_rows_are_the_slope_of_the_energy(self, lit):
+        instruments, rendering, evidence = lit
+        rows = shading_rows(rendering, evidence, SCALES)
+        force = (rows.weights * rows.residuals)[:, None]
+        pull = np.zeros_like(rendering.vertices)
+        pull[rows.vertices] = force * rows.position_derivatives
+        by_normal = np.zeros_like(pull)
+        by_normal[rows.vertices] = force * rows.normal_derivatives
+        triangles = instruments.model.triangles
+        pull += normal_derivative_to_vertices(rendering.vertices, triangles, by_normal)
+        # A direction that leaves visibility as it is: a slight swelling of the body.
+        direction = rendering.vertex_normals * (1 + rendering.vertices[:, 1:2])
+        step = 2e-6
+
+        def energy(sign: float) -> float:
+            vertices = rendering.vertices + sign * step * direction
+            moved = render(vertices, triangles, rendering.camera)
+            same = replace(moved, vertex_visible=rendering.vertex_visible)
+            return shading_energy(same, evidence, SCALES)
+
+        numeric = (energy(1) - energy(-1)) / (2 * step)
+        assert (pull * direction).sum() == pytest.approx(numeric, rel=0.02)
+
+
+def test_the_lean_of_an_upright_body_is_none_and_its_slope_is_exact():
+    pose = np.zeros((3, 3))
+    assert lean_residual(pose)[0] == 0.0
+    rng = np.random.default_rng(0)
+    pose = rng.standard_normal((3, 3))
+    _, slope = lean_residual(pose)
+    for axis in range(3):
+        delta = np.zeros((3, 3))
+        delta[0, axis] = 1e-6
+        plus, _ = lean_residual(compose(delta, pose))
+        minus, _ = lean_residual(compose(-delta, pose))
+        assert slope[axis] == pytest.approx((plus - minus) / 2e-6, abs=1e-6)
