@@ -8,14 +8,16 @@ the opaque part is the person is not ours to do, the caller can post it as the m
 
 import io
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import UInt8
 from PIL import Image as PillowImage
-from PIL import ImageCms, ImageOps
 
 from fitter.errors import InvalidInputError
+from fitter.observation.conversion import as_grey, as_srgb, is_translucent
 from fitter.observation.exif import ExifTags, read_exif
 from fitter.remarks import FitWarning
 
@@ -75,12 +77,12 @@ def decode_picture(data: bytes, *, field: str, max_pixels: int) -> DecodedPictur
         ``image-too-small``, ``image-too-narrow`` or ``image-animated`` (``mask-...`` in place of
         ``image-...`` where the field is the mask).
     """
-    picture, exif = _load(data, field=field, max_pixels=max_pixels)
-    stored_width = picture.width
+    with _damage_named(field):
+        picture, exif = _load(data, field=field, max_pixels=max_pixels)
+        translucent = is_translucent(picture)
+        pixels = np.asarray(as_srgb(_upright(picture, exif)))
     remarks: list[FitWarning] = []
-    if exif.orientation != 1:
-        picture = ImageOps.exif_transpose(picture)
-    if _is_translucent(picture):
+    if translucent:
         remarks.append(
             FitWarning(
                 code="transparency-over-white",
@@ -91,10 +93,7 @@ def decode_picture(data: bytes, *, field: str, max_pixels: int) -> DecodedPictur
             )
         )
     return DecodedPicture(
-        pixels=np.asarray(_as_srgb(picture)),
-        stored_width=stored_width,
-        exif=exif,
-        warnings=tuple(remarks),
+        pixels=pixels, stored_width=picture.width, exif=exif, warnings=tuple(remarks)
     )
 
 
@@ -106,46 +105,67 @@ def decode_coverage(data: bytes, *, field: str, max_pixels: int) -> UInt8[np.nda
     InvalidInputError
         As :func:`decode_picture`.
     """
-    picture, exif = _load(data, field=field, max_pixels=max_pixels)
-    if exif.orientation != 1:
-        picture = ImageOps.exif_transpose(picture)
-    if picture.mode.startswith("I"):
-        return _reduced_to_8_bits(picture)
-    if picture.has_transparency_data:
-        layered = picture.convert("RGBA")
-        black = PillowImage.new("RGBA", layered.size, "black")
-        picture = PillowImage.alpha_composite(black, layered)
-    return np.asarray(picture.convert("L"))
+    with _damage_named(field):
+        picture, exif = _load(data, field=field, max_pixels=max_pixels)
+        return np.asarray(as_grey(_upright(picture, exif)))
+
+
+@contextmanager
+def _damage_named(field: str) -> Iterator[None]:
+    """Turn whatever a decoder makes of hostile bytes into one clear problem.
+
+    They raise nearly anything, hence the broad clause; and Pillow's warnings say nothing that the
+    checks here do not, its pixel limit being above or beside ours.
+    """
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            yield
+        except InvalidInputError:
+            raise
+        except PillowImage.DecompressionBombError as error:
+            raise _too_large(field, "more pixels than any picture of a person") from error
+        except Exception as error:
+            raise InvalidInputError(
+                code=f"{field}-damaged",
+                field=field,
+                reason="The file is truncated or damaged.",
+                remedy="Send the whole file again, or save it anew from another program.",
+            ) from error
 
 
 def _load(data: bytes, *, field: str, max_pixels: int) -> tuple[PillowImage.Image, ExifTags]:
-    kind = _kind(data, field=field)
-    too_large = InvalidInputError(
+    picture = PillowImage.open(io.BytesIO(data), formats=(_kind(data, field=field),))
+    if picture.width * picture.height > max_pixels:
+        raise _too_large(field, f"more than {max_pixels / 1e6:g} million pixels")
+    _check_form(picture, field=field)
+    picture.load()
+    return picture, read_exif(picture)
+
+
+_TURNS = {
+    2: PillowImage.Transpose.FLIP_LEFT_RIGHT,
+    3: PillowImage.Transpose.ROTATE_180,
+    4: PillowImage.Transpose.FLIP_TOP_BOTTOM,
+    5: PillowImage.Transpose.TRANSPOSE,
+    6: PillowImage.Transpose.ROTATE_270,
+    7: PillowImage.Transpose.TRANSVERSE,
+    8: PillowImage.Transpose.ROTATE_90,
+}
+
+
+def _upright(picture: PillowImage.Image, exif: ExifTags) -> PillowImage.Image:
+    # ImageOps.exif_transpose would also write the EXIF block anew, and fail on a damaged one.
+    return picture.transpose(_TURNS[exif.orientation]) if exif.orientation in _TURNS else picture
+
+
+def _too_large(field: str, size: str) -> InvalidInputError:
+    return InvalidInputError(
         code=f"{field}-too-large",
         field=field,
-        reason=f"The picture has more than {max_pixels / 1e6:g} million pixels.",
+        reason=f"The picture has {size}.",
         remedy="Send a smaller version; two million pixels are plenty.",
     )
-    try:
-        with warnings.catch_warnings():
-            # Our own limit is below or beside Pillow's; its warning would say nothing more.
-            warnings.simplefilter("ignore")
-            picture = PillowImage.open(io.BytesIO(data), formats=(kind,))
-    except PillowImage.DecompressionBombError as error:
-        raise too_large from error
-    except Exception as error:  # Hostile bytes make decoders raise nearly anything.
-        raise _damaged(field, kind) from error
-    if picture.width * picture.height > max_pixels:
-        raise too_large
-    _check_form(picture, field=field)
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            picture.load()
-            exif = read_exif(picture)
-    except Exception as error:  # As above.
-        raise _damaged(field, kind) from error
-    return picture, exif
 
 
 def _kind(data: bytes, *, field: str) -> str:
@@ -161,16 +181,6 @@ def _kind(data: bytes, *, field: str) -> str:
         field=field,
         reason="The file is no JPEG, PNG or WebP picture.",
         remedy=_ACCEPTED,
-    )
-
-
-def _damaged(field: str, kind: str) -> InvalidInputError:
-    name = "WebP" if kind == "WEBP" else kind
-    return InvalidInputError(
-        code=f"{field}-damaged",
-        field=field,
-        reason=f"The {name} file is truncated or damaged.",
-        remedy="Send the whole file again, or save the picture anew from another program.",
     )
 
 
@@ -199,45 +209,3 @@ def _check_form(picture: PillowImage.Image, *, field: str) -> None:
             reason=f"The picture measures {picture.width} x {picture.height} pixels.",
             remedy=f"Crop it to less than {LARGEST_ASPECT_RATIO:g} times as long as wide.",
         )
-
-
-def _is_translucent(picture: PillowImage.Image) -> bool:
-    if not picture.has_transparency_data:
-        return False
-    lowest, _ = picture.convert("RGBA").getchannel("A").getextrema()
-    return int(lowest) < 255  # pyright: ignore[reportArgumentType]
-
-
-def _as_srgb(picture: PillowImage.Image) -> PillowImage.Image:
-    if picture.mode.startswith("I"):
-        return PillowImage.fromarray(_reduced_to_8_bits(picture)).convert("RGB")
-    profile = picture.info.get("icc_profile")
-    if _is_translucent(picture):
-        layered = picture.convert("RGBA")
-        white = PillowImage.new("RGBA", layered.size, "white")
-        picture = PillowImage.alpha_composite(white, layered).convert("RGB")
-    elif picture.mode != "CMYK":
-        picture = picture.convert("RGB")
-    converted = _converted_by_profile(picture, profile) if profile else None
-    return converted or picture.convert("RGB")
-
-
-def _converted_by_profile(
-    picture: PillowImage.Image, profile_data: bytes
-) -> PillowImage.Image | None:
-    """The picture in sRGB, None where it is sRGB already or the profile cannot be used."""
-    try:
-        profile = ImageCms.ImageCmsProfile(io.BytesIO(profile_data))
-        if "sRGB" in ImageCms.getProfileDescription(profile):
-            return None
-        return ImageCms.profileToProfile(
-            picture, profile, ImageCms.createProfile("sRGB"), outputMode="RGB"
-        )
-    except (ImageCms.PyCMSError, OSError, ValueError):
-        # A grey profile on a picture stored as RGB, or a broken one: browsers ignore these too.
-        return None
-
-
-def _reduced_to_8_bits(picture: PillowImage.Image) -> UInt8[np.ndarray, "h w"]:
-    values = np.asarray(picture).astype(np.int64)
-    return (np.clip(values, 0, 65535) // 257).astype(np.uint8)

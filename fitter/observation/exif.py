@@ -51,12 +51,17 @@ class ExifTags:
 
 def read_exif(picture: PillowImage.Image) -> ExifTags:
     """Read the tags; a damaged EXIF block counts as none, as it does in browsers."""
+    # The block is the caller's bytes: parsers raise nearly anything on them. The orientation may be
+    # whole where the rest is not.
     try:
         exif = picture.getexif()
         orientation = exif.get(_Tag.ORIENTATION, 1)
-        directory = exif.get_ifd(_Tag.EXIF_DIRECTORY)
-    except Exception:  # The block is the caller's bytes: parsers raise nearly anything on them.
+    except Exception:
         return ExifTags()
+    try:
+        directory = exif.get_ifd(_Tag.EXIF_DIRECTORY)
+    except Exception:
+        directory = {}
     unit = directory.get(_Tag.FOCAL_PLANE_RESOLUTION_UNIT, DEFAULT_RESOLUTION_UNIT)
     resolution = _positive(directory.get(_Tag.FOCAL_PLANE_X_RESOLUTION))
     millimetres = MILLIMETRES_PER_UNIT.get(unit) if isinstance(unit, int) else None

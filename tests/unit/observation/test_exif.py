@@ -1,4 +1,5 @@
 import io
+import struct
 
 import numpy as np
 import pytest
@@ -93,3 +94,13 @@ def test_a_broken_exif_block_counts_as_none():
     )
     picture = decode_picture(data, field="image", max_pixels=1_000_000)
     assert picture.exif == ExifTags()
+
+
+def test_an_orientation_beside_a_damaged_directory_still_turns_the_picture():
+    entries = struct.pack("<HHIHH", 0x0112, 3, 1, 6, 0) + struct.pack("<HHII", 0x8769, 4, 1, 38)
+    # The EXIF directory claims nine entries and ends at once.
+    block = b"II*\x00" + struct.pack("<IH", 8, 2) + entries + bytes(4) + struct.pack("<H", 9)
+    stored = PillowImage.fromarray(np.ascontiguousarray(STORED_AS[6]))
+    data = encode(stored, "JPEG", quality=95, exif=b"Exif\x00\x00" + block)
+    picture = decode_picture(data, field="image", max_pixels=1_000_000)
+    assert np.abs(picture.pixels.astype(int) - UPRIGHT).mean() < 3
