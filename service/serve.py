@@ -2,6 +2,7 @@
 
 import logging
 import os
+import signal
 import socket
 import subprocess
 import sys
@@ -97,6 +98,10 @@ def serve(
 
     Uvicorn is told to stop by SIGINT or SIGTERM and lets open requests end first.
     """
+    # Uvicorn takes the signals while it runs and raises them again when it is done: with the
+    # handlers Python begins with, that would end the process before the worker is stopped.
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, _stop_before_serving)
     prepare_database(settings.system_database_url)
     worker = None
     if worker_command is not None:
@@ -122,6 +127,8 @@ def serve(
             server_header=False,
         )
     )
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, signal.SIG_IGN)
     host, port = listener.getsockname()[:2]
     announce(f"Maquette listens on http://{host}:{port}, documented at /docs.")
     try:
@@ -130,3 +137,7 @@ def serve(
         if worker is not None:
             worker.stop()
         engine.close()
+
+
+def _stop_before_serving(_number: int, _frame: object) -> None:
+    sys.exit(0)

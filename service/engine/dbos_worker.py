@@ -20,7 +20,7 @@ from service.engine.dbos_jobs import (
     QUEUE,
     WORKFLOW,
 )
-from service.engine.heartbeat import Heartbeat
+from service.engine.heartbeat import Heartbeat, executions_table
 from service.engine.port import AttemptHandler, Ending
 from service.engine.tables import FACTS
 
@@ -29,6 +29,9 @@ LOG: Final = logging.getLogger(__name__)
 MAX_RECOVERIES: Final = 10
 """How many workers may die over one job. Larger than the limit on crashes of the fit's own process,
 because a worker dies for reasons that are not the picture's: restarts, machines, chaos tests."""
+
+OUTCOME_WAIT_S: Final = 2.0
+OUTCOME_POLL_S: Final = 0.02
 
 
 class DbosWorkerEngine:
@@ -81,8 +84,9 @@ class DbosWorkerEngine:
         self._register(handler)
         self._declare_queue()
         self._store_body_models(body_models)
-        self._heartbeat.start()
+        self._heartbeat.register()
         DBOS.launch()
+        self._heartbeat.start()
 
     def stop(self, *, drain_s: float) -> None:
         """Claim no more, wait for running attempts, hand the rest back to other workers.
@@ -99,9 +103,23 @@ class DbosWorkerEngine:
         if not drained:
             self._handing_back.set()
             self._attempts.hand_back()
+        else:
+            self._wait_for_outcomes()
         self._heartbeat.stop()
-        if drained:
-            DBOS.destroy()
+
+    def _wait_for_outcomes(self) -> None:
+        # DBOS notes the end of a workflow after the workflow has returned. Were the process to end
+        # in between, another worker would replay the workflow from its checkpoints, in vain.
+        executions = executions_table(self._database)
+        query = sa.select(sa.func.count()).where(
+            executions.c.executor_id == self.executor_id, executions.c.status == "PENDING"
+        )
+        deadline = time.monotonic() + OUTCOME_WAIT_S
+        while time.monotonic() < deadline:
+            with self._database.connect() as connection:
+                if connection.execute(query).scalar_one() == 0:
+                    return
+            time.sleep(OUTCOME_POLL_S)
 
     def _register(self, handler: AttemptHandler) -> None:
         @DBOS.step(name="run")

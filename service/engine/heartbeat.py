@@ -12,7 +12,6 @@ from collections.abc import Callable
 from typing import Final
 
 import sqlalchemy as sa
-from sqlalchemy.exc import SQLAlchemyError
 
 from api_schemas.jobs import JobState
 from api_schemas.problems import problem
@@ -52,9 +51,12 @@ class Heartbeat:
         self._ended_since: dict[str, float] = {}
         self._thread = threading.Thread(target=self._run, name="heartbeat", daemon=True)
 
-    def start(self) -> None:
-        """Register this worker and begin to beat."""
+    def register(self) -> None:
+        """Make this worker known, before it claims anything."""
         self._beat()
+
+    def start(self) -> None:
+        """Begin to beat, and to look after others: DBOS must be running by now."""
         self._thread.start()
 
     def stop(self) -> None:
@@ -70,9 +72,9 @@ class Heartbeat:
                 self._beat()
                 self._take_over()
                 self._reconcile()
-            except SQLAlchemyError:
-                # The database is away; it may come back, and so do we.
-                LOG.exception("The heartbeat could not reach the database.")
+            except Exception:
+                # The database may be away and come back; a heart that stops is never the answer.
+                LOG.exception("A heartbeat failed.")
             if self._stopped.wait(self._interval_s):
                 return
 

@@ -1,0 +1,45 @@
+from collections.abc import Iterator
+from pathlib import Path
+
+import psycopg
+import pytest
+from psycopg import sql
+
+from tests.integration.service.harness import Machine, Service, new_name, running_service
+
+POSTGRES = "postgresql://postgres@127.0.0.1:5432"
+
+
+def _fresh_postgres() -> Iterator[str]:
+    name = new_name("maquette_test")
+    try:
+        connection = psycopg.connect(f"{POSTGRES}/postgres", autocommit=True, connect_timeout=3)
+    except psycopg.OperationalError as error:
+        pytest.skip(f"no Postgres answers at 127.0.0.1:5432 ({error})")
+    with connection:
+        connection.execute(sql.SQL("CREATE DATABASE {}").format(sql.Identifier(name)))
+        yield f"{POSTGRES}/{name}"
+        connection.execute(sql.SQL("DROP DATABASE {} WITH (FORCE)").format(sql.Identifier(name)))
+
+
+@pytest.fixture(params=["sqlite", "postgres"])
+def machine(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Machine]:
+    """A fresh machine, once with the embedded database and once with Postgres."""
+    if request.param == "sqlite":
+        yield Machine(tmp_path)
+    else:
+        for url in _fresh_postgres():
+            yield Machine(tmp_path, database_url=url)
+
+
+@pytest.fixture
+def embedded(tmp_path: Path) -> Machine:
+    """A fresh machine with the embedded database."""
+    return Machine(tmp_path)
+
+
+@pytest.fixture(scope="module")
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    """One service for all the tests of a module that leave it as it was."""
+    with running_service(Machine(tmp_path_factory.mktemp("service"))) as running:
+        yield running

@@ -1,0 +1,197 @@
+"""Real processes, real HTTP, real databases: the service with the fake pipeline."""
+
+import contextlib
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+import uuid
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import httpx
+
+from tests.integration.service.fake_pipeline import scripted_image
+
+REPOSITORY = Path(__file__).parents[3]
+POINTS = {
+    "nose": [320.0, 60.0],
+    "left_shoulder": [380.0, 120.0],
+    "right_shoulder": [260.0, 120.0],
+    "left_hip": [360.0, 260.0],
+    "right_hip": [280.0, 260.0],
+}
+REQUEST: dict[str, object] = {"gender": "male", "height_m": 1.8, "points": POINTS}
+
+QUICK: Mapping[str, object] = {
+    "heartbeat_s": 0.2,
+    "dead_after_s": 2.0,
+    "queue_poll_s": 0.05,
+    "cancel_poll_s": 0.05,
+    "progress_interval_s": 0.05,
+    "worker_processes": 2,
+    "drain_s": 5.0,
+    "log_level": "INFO",
+}
+
+
+def eventually(condition: Callable[[], Any], *, within_s: float = 15.0, what: str = "") -> Any:
+    """Wait for a condition and return its value; fail when time is up."""
+    deadline = time.monotonic() + within_s
+    while True:
+        value = condition()
+        if value:
+            return value
+        assert time.monotonic() < deadline, f"not within {within_s} s: {what or condition}"
+        time.sleep(0.02)
+
+
+def is_running(pid: int) -> bool:
+    """Say whether a process exists and is no zombie."""
+    try:
+        fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    except OSError:
+        return False
+    return fields[0] != "Z"
+
+
+def pids_noted(note: Path) -> list[int]:
+    """Read the process ids the fake pipeline left behind."""
+    return [int(line) for line in note.read_text().split()] if note.exists() else []
+
+
+@dataclass
+class Machine:
+    """A data folder and the settings of all processes that share it."""
+
+    data_dir: Path
+    database_url: str | None = None
+    settings: Mapping[str, object] = field(default_factory=dict)
+
+    def environment(self) -> dict[str, str]:
+        values = {"data_dir": self.data_dir, "port": 0, **QUICK, **self.settings}
+        if self.database_url is not None:
+            values["database_url"] = self.database_url
+        variables = {f"MAQUETTE_{name.upper()}": str(value) for name, value in values.items()}
+        inherited = {
+            name: value for name, value in os.environ.items() if not name.startswith("MAQUETTE_")
+        }
+        return inherited | variables
+
+    def start(self, module: str, *arguments: str, **options: Any) -> subprocess.Popen[str]:
+        return subprocess.Popen(
+            [sys.executable, "-m", f"tests.integration.service.{module}", *arguments],
+            cwd=REPOSITORY,
+            env=self.environment(),
+            text=True,
+            **options,
+        )
+
+
+@contextlib.contextmanager
+def running_worker(machine: Machine) -> Iterator[subprocess.Popen[str]]:
+    """Run a worker of its own; it is killed at the end if it still runs."""
+    process = machine.start("fake_worker", stdin=subprocess.PIPE)
+    try:
+        yield process
+    finally:
+        if process.poll() is None:
+            process.kill()
+        process.wait()
+        if process.stdin is not None:
+            process.stdin.close()
+
+
+@dataclass
+class Service:
+    """A running service and a client of it."""
+
+    process: subprocess.Popen[str]
+    client: httpx.Client
+
+    def post(
+        self,
+        script: dict[str, object] | None = None,
+        *,
+        headers: dict[str, str] | None = None,
+        request: dict[str, object] | None = None,
+    ) -> httpx.Response:
+        return self.client.post(
+            "/v1/fits",
+            files={"image": ("picture.png", scripted_image(script), "image/png")},
+            data={"request": json.dumps(request or REQUEST)},
+            headers=headers or {},
+        )
+
+    def submit(self, script: dict[str, object] | None = None) -> str:
+        """Post and return the job's path."""
+        response = self.post(script)
+        assert response.status_code == 202, response.text
+        return response.headers["Location"]
+
+    def job(self, path: str) -> dict[str, Any]:
+        return self.client.get(path).raise_for_status().json()
+
+    def state(self, path: str) -> str:
+        return self.job(path)["state"]
+
+    def ended(self, path: str, *, within_s: float = 15.0) -> dict[str, Any]:
+        """Wait until the job has ended and return it."""
+        active = {"queued", "running"}
+        eventually(lambda: self.state(path) not in active, within_s=within_s, what=f"{path} ended")
+        return self.job(path)
+
+    def events(self, path: str, *, after: int | None = None) -> list[dict[str, Any]]:
+        """Follow the job to its end and return its events."""
+        headers = {} if after is None else {"Last-Event-ID": str(after)}
+        events: list[dict[str, Any]] = []
+        entry: dict[str, Any] = {}
+        with self.client.stream("GET", f"{path}/events", headers=headers) as response:
+            assert response.headers["content-type"].startswith("text/event-stream")
+            for line in response.iter_lines():
+                if line:
+                    name, _, value = line.partition(": ")
+                    entry[name] = json.loads(value) if name == "data" else value
+                elif entry:
+                    events += [entry] if "data" in entry else []
+                    entry = {}
+        return events
+
+
+@contextlib.contextmanager
+def running_service(machine: Machine, *, api_only: bool = False) -> Iterator[Service]:
+    """Start the service and, unless ``api_only``, wait until its worker is alive."""
+    process = machine.start(
+        "fake_serve", *(["api-only"] if api_only else []), stdout=subprocess.PIPE
+    )
+    try:
+        assert process.stdout is not None
+        found = next(
+            found for line in process.stdout if (found := re.search(r"http://\S+:\d+", line))
+        )
+        with httpx.Client(base_url=found[0], timeout=20.0) as client:
+            probe = "/healthz/live" if api_only else "/healthz/ready"
+            eventually(lambda: _answers(client, probe), what=probe)
+            yield Service(process, client)
+    finally:
+        if process.poll() is None:
+            process.send_signal(signal.SIGTERM)
+        process.wait()
+        process.stdout.close() if process.stdout else None
+
+
+def _answers(client: httpx.Client, path: str) -> bool:
+    try:
+        return client.get(path).status_code == 200
+    except httpx.TransportError:
+        return False
+
+
+def new_name(prefix: str) -> str:
+    """A name nothing else has."""
+    return f"{prefix}_{uuid.uuid4().hex[:12]}"

@@ -1,0 +1,175 @@
+"""Every error is problem+json that names the field, the reason and what to do."""
+
+import json
+
+import httpx
+import pytest
+
+from api_schemas.problems import PROBLEM_MEDIA_TYPE, PROBLEM_TYPES, Problem
+from tests.integration.service.fake_pipeline import scripted_image
+from tests.integration.service.harness import POINTS, REQUEST, Machine, Service, running_service
+
+UNKNOWN = "/v1/fits/00000000-0000-0000-0000-000000000000"
+
+
+def checked(response: httpx.Response, status: int) -> Problem:
+    """Check what holds for every problem, and return it."""
+    assert response.status_code == status, response.text
+    assert response.headers["content-type"] == PROBLEM_MEDIA_TYPE
+    problem = Problem.model_validate_json(response.content)
+    assert problem.status == status
+    assert problem.instance == response.request.url.path
+    assert problem.detail
+    assert problem.remedy
+    slug = problem.type.removeprefix("/problems/")
+    assert PROBLEM_TYPES[slug].status == status
+    return problem
+
+
+def post(service: Service, *, image: bytes | None = None, **parts: bytes) -> httpx.Response:
+    files = {
+        "image": ("p.png", scripted_image() if image is None else image, "image/png"),
+        "request": ("r.json", json.dumps(REQUEST).encode(), "application/json"),
+    } | {name: (name, content, "application/octet-stream") for name, content in parts.items()}
+    return service.client.post("/v1/fits", files=files)
+
+
+@pytest.mark.parametrize(
+    ("image", "status", "code"),
+    [
+        (b"not an image", 415, "not-an-image"),
+        (b"", 422, "empty-upload"),
+        (scripted_image()[:20], 422, "image-damaged"),
+        (scripted_image(width=10_000, height=10_000), 422, "image-too-large"),
+        (scripted_image(width=2**31 - 1, height=2**31 - 1), 422, "image-too-large"),
+    ],
+)
+def test_a_bad_picture_is_refused_at_once(service: Service, image, status, code):
+    problem = checked(post(service, image=image), status)
+    assert problem.field == "image"
+    assert problem.code == code
+
+
+@pytest.mark.parametrize(
+    ("changes", "field", "code"),
+    [
+        ({"height_m": 1.1}, "height_m", "out-of-range"),
+        ({"height_m": 2.4}, "height_m", "out-of-range"),
+        ({"gender": "other"}, "gender", "unknown-value"),
+        ({"points": POINTS | {"nose": [700, 10]}}, "points.nose", "point-outside-image"),
+        ({"points": {"nose": [1, 1]}}, "points", "too-few-points"),
+        ({"points": POINTS | {"nose": [float("nan"), 1]}}, "points.nose.0", "not-finite"),
+        ({"colour": "red"}, "colour", "unknown-field"),
+    ],
+)
+def test_a_bad_option_is_refused_at_once(service: Service, changes, field, code):
+    problem = checked(post(service, request=json.dumps(REQUEST | changes).encode()), 422)
+    assert problem.field == field
+    assert problem.code == code
+    assert problem.errors[0].field == field
+
+
+def test_a_mask_of_another_size_is_refused_at_once(service: Service):
+    problem = checked(post(service, mask=scripted_image(width=10)), 422)
+    assert problem.field == "mask"
+    assert problem.code == "mask-size-mismatch"
+
+
+def test_missing_unknown_and_doubled_parts_are_named(service: Service):
+    picture = ("p.png", scripted_image(), "image/png")
+    response = service.client.post(
+        "/v1/fits", files=[("image", picture), ("image", picture), ("photo", picture)]
+    )
+    problem = checked(response, 422)
+    assert {(error.field, error.code) for error in problem.errors} == {
+        ("request", "missing"),
+        ("photo", "unknown-field"),
+        ("image", "repeated-field"),
+    }
+
+
+def test_a_request_part_that_is_not_json_is_malformed(service: Service):
+    problem = checked(post(service, request=b"{gender: male}"), 400)
+    assert problem.field == "request"
+    assert problem.code == "invalid-json"
+
+
+@pytest.mark.parametrize(
+    ("content", "content_type"),
+    [
+        (b"nonsense", "multipart/form-data; boundary=x"),
+        (b"--x\r\nContent-Disposition: form-data\r\n\r\n1\r\n--x--", "multipart/form-data"),
+        (b"--x\r\n\r\n\r\n\r\n--x--", "multipart/form-data; boundary=x"),
+    ],
+)
+def test_a_broken_multipart_body_is_malformed(service: Service, content, content_type):
+    headers = {"Content-Type": content_type}
+    checked(service.client.post("/v1/fits", content=content, headers=headers), 400)
+
+
+def test_a_body_cut_off_before_its_parts_end_lacks_them(service: Service):
+    headers = {"Content-Type": "multipart/form-data; boundary=x"}
+    content = b'--x\r\nContent-Disposition: form-data; name="image"\r\n\r\ncut'
+    problem = checked(service.client.post("/v1/fits", content=content, headers=headers), 422)
+    assert {error.code for error in problem.errors} == {"missing"}
+
+
+@pytest.mark.parametrize("content_type", [None, "application/json", "text/plain"])
+def test_another_kind_of_body_is_refused(service: Service, content_type):
+    headers = {} if content_type is None else {"Content-Type": content_type}
+    checked(service.client.post("/v1/fits", content=b"{}", headers=headers), 415)
+
+
+def test_nothing_bad_was_kept(service: Service):
+    assert all(job["state"] == "succeeded" for job in service.client.get("/v1/fits").json()["jobs"])
+
+
+@pytest.mark.parametrize(
+    ("method", "path", "status"),
+    [
+        ("GET", "/", 404),
+        ("GET", "/v1/nothing", 404),
+        ("GET", UNKNOWN, 404),
+        ("GET", f"{UNKNOWN}/events", 404),
+        ("GET", f"{UNKNOWN}/result", 404),
+        ("GET", f"{UNKNOWN}/artifacts/overlay.png", 404),
+        ("POST", f"{UNKNOWN}/cancel", 404),
+        ("DELETE", UNKNOWN, 404),
+        ("GET", "/problems/unheard-of", 404),
+        ("GET", "/v1/fits/not-a-uuid", 422),
+        ("GET", "/v1/fits?limit=0", 422),
+        ("GET", "/v1/fits?limit=many", 422),
+        ("GET", "/v1/fits?state=asleep", 422),
+        ("GET", "/v1/fits?cursor=nonsense", 422),
+        ("PUT", "/v1/fits", 405),
+        ("PATCH", UNKNOWN, 405),
+        ("GET", f"{UNKNOWN}/cancel", 405),
+        ("POST", "/healthz/live", 405),
+        ("DELETE", "/openapi.json", 405),
+    ],
+)
+def test_every_other_error_is_a_problem_too(service: Service, method, path, status):
+    checked(service.client.request(method, path), status)
+
+
+@pytest.mark.parametrize(("path", "allowed"), [("/v1/fits", "GET, POST"), (UNKNOWN, "DELETE, GET")])
+def test_a_wrong_method_is_told_all_the_right_ones(service: Service, path, allowed):
+    assert service.client.put(path).headers["Allow"] == allowed
+
+
+def test_an_upload_above_the_limit_is_refused_declared_or_not(tmp_path):
+    machine = Machine(tmp_path, settings={"max_upload_bytes": 1000})
+    with running_service(machine, api_only=True) as service:
+        assert checked(post(service, image=bytes(3_000_000)), 413).type.endswith("too-large")
+        head = b'--x\r\nContent-Disposition: form-data; name="image"; filename="p"\r\n\r\n'
+        chunks = (part for part in [head, *[bytes(100_000)] * 30])
+        headers = {"Content-Type": "multipart/form-data; boundary=x"}
+        response = service.client.post("/v1/fits", content=chunks, headers=headers)
+        checked(response, 413)
+
+
+def test_every_problem_type_is_described_where_it_points(service: Service):
+    for slug, kind in PROBLEM_TYPES.items():
+        answer = service.client.get(f"/problems/{slug}").json()
+        assert answer["title"] == kind.title
+        assert answer["description"]

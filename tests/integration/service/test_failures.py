@@ -1,0 +1,182 @@
+"""What goes wrong in a fit, in a worker, in the service: nothing is lost, everything is told."""
+
+import os
+import signal
+from pathlib import Path
+
+import pytest
+
+from tests.integration.service.harness import (
+    Machine,
+    Service,
+    eventually,
+    is_running,
+    pids_noted,
+    running_service,
+    running_worker,
+)
+
+
+def problem_of(service: Service, script: dict[str, object]) -> dict[str, object]:
+    job = service.ended(service.submit(script))
+    assert job["state"] == "failed"
+    assert service.client.get(f"{job['links']['self']}/result").status_code == 409
+    return job["problem"]
+
+
+def test_a_picture_the_decoder_refuses_ends_with_field_code_and_remedy(service: Service):
+    problem = problem_of(service, {"unusable": True})
+    assert problem["type"] == "/problems/unusable-input"
+    assert problem["field"] == "image"
+    assert problem["code"] == "image-truncated"
+    assert problem["detail"] == "image: The picture ends too early."
+    assert problem["remedy"] == "Send the whole file."
+
+
+def test_a_fault_of_ours_is_told_without_its_trace(service: Service):
+    problem = problem_of(service, {"fault": True})
+    assert problem["type"] == "/problems/fit-failed"
+    assert "a fault in the fake" not in str(problem)
+
+
+def test_running_out_of_memory_is_told(service: Service):
+    assert problem_of(service, {"exhaust_memory": True})["code"] == "out-of-memory"
+
+
+def test_a_picture_that_kills_its_process_is_given_up_after_three_times(
+    service: Service, tmp_path: Path
+):
+    note = tmp_path / "pids"
+    other = service.submit({"seconds": 0.1})
+    problem = problem_of(service, {"segfault": True, "note_pid": str(note)})
+    assert problem["type"] == "/problems/fit-crashed"
+    assert len(pids_noted(note)) == 3
+    assert service.ended(other)["state"] == "succeeded"
+
+
+def test_a_fit_past_its_time_limit_is_stopped(tmp_path: Path):
+    note = tmp_path / "pids"
+    machine = Machine(tmp_path / "data", settings={"job_time_limit_s": 0.5})
+    with running_service(machine) as service:
+        script = {"seconds": 60, "burn": True, "note_pid": str(note)}
+        job = service.ended(service.submit(script), within_s=5.0)
+        assert job["state"] == "timed_out"
+        assert job["problem"]["type"] == "/problems/time-limit-exceeded"
+        assert not any(is_running(pid) for pid in pids_noted(note))
+
+
+def test_a_killed_workers_fit_is_run_again_by_another(machine: Machine, tmp_path: Path):
+    note = tmp_path / "pids"
+    with running_service(machine, api_only=True) as service:
+        with running_worker(machine) as first:
+            path = service.submit({"seconds": 1.0, "burn": True, "note_pid": str(note)})
+            (pid,) = eventually(lambda: pids_noted(note), what="the fit runs")
+            first.kill()
+            first.wait()
+        eventually(lambda: not is_running(pid), within_s=1.0, what="the fit dies with its worker")
+        with running_worker(machine):
+            job = service.ended(path)
+            assert job["state"] == "succeeded"
+            assert job["attempt"] == 2
+            assert len(pids_noted(note)) == 2
+            ends = [event for event in service.events(path) if event["event"] == "end"]
+            assert len(ends) == 1
+
+
+def test_a_worker_restarted_by_its_supervisor_goes_on(embedded: Machine, tmp_path: Path):
+    note = tmp_path / "pids"
+    with running_service(embedded) as service:
+        path = service.submit({"seconds": 1.0, "note_pid": str(note)})
+        eventually(lambda: pids_noted(note), what="the fit runs")
+        worker = _child_of(service.process.pid)
+        os.kill(worker, signal.SIGKILL)
+        job = service.ended(path)
+        assert job["state"] == "succeeded"
+        assert job["attempt"] == 2
+
+
+def test_killing_the_service_ends_its_worker_and_the_fit(embedded: Machine, tmp_path: Path):
+    note = tmp_path / "pids"
+    machine = Machine(embedded.data_dir, settings={"drain_s": 0.0})
+    with running_service(machine) as service:
+        path = service.submit({"seconds": 60, "note_pid": str(note)})
+        (pid,) = eventually(lambda: pids_noted(note), what="the fit runs")
+        worker = _child_of(service.process.pid)
+        service.process.kill()
+        service.process.wait()
+        eventually(lambda: not is_running(worker), within_s=5.0, what="the worker ends")
+        eventually(lambda: not is_running(pid), within_s=1.0, what="the fit ends")
+    with running_service(machine) as service:
+        eventually(lambda: len(pids_noted(note)) == 2, what="the fit runs again")
+        assert service.client.post(f"{path}/cancel").status_code == 202
+        assert service.ended(path)["state"] == "canceled"
+
+
+def test_accepted_jobs_survive_the_death_of_the_service(machine: Machine):
+    with running_service(machine, api_only=True) as service:
+        paths = [service.submit() for _ in range(5)]
+        service.process.kill()
+        service.process.wait()
+    with running_service(machine) as service:
+        assert [service.ended(path)["state"] for path in paths] == ["succeeded"] * 5
+
+
+def test_a_stopping_worker_finishes_what_it_began(embedded: Machine, tmp_path: Path):
+    note = tmp_path / "pids"
+    with running_service(embedded, api_only=True) as service:
+        with running_worker(embedded) as worker:
+            path = service.submit({"seconds": 1.0, "note_pid": str(note)})
+            eventually(lambda: pids_noted(note), what="the fit runs")
+            waiting = service.submit({"seconds": 0.0})
+            worker.send_signal(signal.SIGTERM)
+            assert worker.wait(timeout=10.0) == 0
+        job = service.job(path)
+        assert job["state"] == "succeeded"
+        assert job["attempt"] == 1
+        assert service.state(waiting) in ("queued", "succeeded")
+
+
+def test_a_stopping_worker_hands_back_what_it_cannot_finish(embedded: Machine, tmp_path: Path):
+    note = tmp_path / "pids"
+    impatient = Machine(embedded.data_dir, settings={"drain_s": 0.1})
+    with running_service(embedded, api_only=True) as service:
+        with running_worker(impatient) as worker:
+            path = service.submit({"seconds": 2.0, "note_pid": str(note)})
+            (pid,) = eventually(lambda: pids_noted(note), what="the fit runs")
+            worker.send_signal(signal.SIGTERM)
+            assert worker.wait(timeout=5.0) == 0
+        assert service.state(path) == "queued"
+        eventually(lambda: not is_running(pid), within_s=1.0, what="the fit ends")
+        with running_worker(embedded):
+            assert service.ended(path)["state"] == "succeeded"
+
+
+def test_a_job_canceled_while_its_worker_is_dead_is_not_run_again(
+    embedded: Machine, tmp_path: Path
+):
+    note = tmp_path / "pids"
+    with running_service(embedded, api_only=True) as service:
+        with running_worker(embedded) as worker:
+            path = service.submit({"seconds": 60, "note_pid": str(note)})
+            eventually(lambda: pids_noted(note), what="the fit runs")
+            worker.kill()
+            worker.wait()
+        assert service.client.post(f"{path}/cancel").status_code == 202
+        with running_worker(embedded):
+            assert service.ended(path)["state"] == "canceled"
+        assert len(pids_noted(note)) == 1
+
+
+@pytest.mark.parametrize("signal_number", [signal.SIGTERM, signal.SIGINT])
+def test_the_service_stops_cleanly_when_told_to(embedded: Machine, signal_number: signal.Signals):
+    with running_service(embedded) as service:
+        worker = _child_of(service.process.pid)
+        service.process.send_signal(signal_number)
+        service.process.wait(timeout=10.0)
+        assert not is_running(worker)
+
+
+def _child_of(pid: int) -> int:
+    children = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+    assert len(children) == 1
+    return int(children[0])

@@ -1,0 +1,260 @@
+"""A fit over HTTP, from the picture to the files, and everything a caller may do to it."""
+
+import hashlib
+import json
+import threading
+from pathlib import Path
+
+from api_schemas.body_models import BodyModels
+from api_schemas.jobs import EventData, Job
+from api_schemas.results import FitResult
+from tests.integration.service.fake_pipeline import STAGES, scripted_image
+from tests.integration.service.harness import (
+    REQUEST,
+    Machine,
+    Service,
+    eventually,
+    is_running,
+    pids_noted,
+    running_service,
+)
+
+
+def test_a_picture_goes_in_and_a_result_with_its_files_comes_out(machine: Machine):
+    with running_service(machine) as service:
+        response = service.post({"seconds": 0.2})
+        assert response.status_code == 202
+        path = response.headers["Location"]
+        assert int(response.headers["Retry-After"]) > 0
+        assert Job.model_validate_json(response.content).links.self == path
+
+        job = service.ended(path)
+        assert job["state"] == "succeeded"
+        assert job["progress"] == 1.0
+        assert job["attempt"] == 1
+        assert job["problem"] is None
+
+        document = service.client.get(job["links"]["result"])
+        result = FitResult.model_validate_json(document.content)
+        assert result.height_m == REQUEST["height_m"]
+        assert {artifact.name for artifact in result.artifacts} == {"body_posed.glb", "overlay.png"}
+        for artifact in result.artifacts:
+            file = service.client.get(job["links"]["artifacts"][artifact.name])
+            assert file.headers["content-type"] == artifact.media_type
+            assert len(file.content) == artifact.size
+            assert hashlib.sha256(file.content).hexdigest() == artifact.sha256
+
+
+def test_the_request_part_may_be_a_file(service: Service):
+    response = service.client.post(
+        "/v1/fits",
+        files={
+            "image": ("picture.png", scripted_image(), "image/png"),
+            "request": ("request.json", json.dumps(REQUEST), "application/json"),
+        },
+    )
+    assert response.status_code == 202
+    assert service.ended(response.headers["Location"])["state"] == "succeeded"
+
+
+def test_events_tell_every_stage_in_order_and_end(service: Service):
+    events = service.events(service.submit({"seconds": 0.5}))
+    assert [int(event["id"]) for event in events] == list(range(1, len(events) + 1))
+    assert events[0]["event"] == "state"
+    assert events[0]["data"]["state"] == "queued"
+    assert events[-1]["event"] == "end"
+    assert events[-1]["data"]["state"] == "succeeded"
+    reports = [event["data"] for event in events if event["event"] == "progress"]
+    assert list(dict.fromkeys(report["stage"] for report in reports)) == list(STAGES)
+    shares = [report["progress"] for report in reports]
+    assert shares == sorted(shares)
+    assert all(report["energies"]["total"] > 0.0 for report in reports)
+    for event in events:
+        EventData.model_validate_json(json.dumps(event["data"]))
+
+
+def test_a_listener_resumes_where_it_left_off(service: Service):
+    path = service.submit({"seconds": 0.2})
+    everything = service.events(path)
+    assert service.events(path, after=3) == everything[3:]
+
+
+def test_two_listeners_hear_the_same(service: Service):
+    path = service.submit({"seconds": 0.5})
+    heard: list[list[dict[str, object]]] = []
+    listeners = [
+        threading.Thread(target=lambda: heard.append(service.events(path))) for _ in range(2)
+    ]
+    for listener in listeners:
+        listener.start()
+    for listener in listeners:
+        listener.join()
+    assert heard[0] == heard[1]
+
+
+def test_a_job_is_not_sent_again_while_it_is_unchanged(service: Service):
+    path = service.submit()
+    service.ended(path)
+    tag = service.client.get(path).headers["ETag"]
+    assert service.client.get(path, headers={"If-None-Match": tag}).status_code == 304
+    assert service.client.get(path, headers={"If-None-Match": '"other"'}).status_code == 200
+
+
+def test_artifacts_have_strong_tags_and_ranges(service: Service):
+    path = service.submit()
+    url = service.ended(path)["links"]["artifacts"]["body_posed.glb"]
+    whole = service.client.get(url)
+    assert whole.headers["ETag"] == f'"{hashlib.sha256(whole.content).hexdigest()}"'
+    assert "immutable" in whole.headers["Cache-Control"]
+    tag = {"If-None-Match": whole.headers["ETag"]}
+    assert service.client.get(url, headers=tag).status_code == 304
+
+    part = service.client.get(url, headers={"Range": "bytes=4-9"})
+    assert part.status_code == 206
+    assert part.content == whole.content[4:10]
+    assert part.headers["Content-Range"] == f"bytes 4-9/{len(whole.content)}"
+    tail = service.client.get(url, headers={"Range": "bytes=-5"})
+    assert tail.content == whole.content[-5:]
+    beyond = service.client.get(url, headers={"Range": f"bytes={len(whole.content)}-"})
+    assert beyond.status_code == 416
+    assert beyond.headers["Content-Range"] == f"bytes */{len(whole.content)}"
+
+
+def test_jobs_are_listed_newest_first_in_pages(embedded: Machine):
+    with running_service(embedded) as service:
+        paths = [service.submit() for _ in range(5)]
+        for path in paths:
+            service.ended(path)
+        listed: list[str] = []
+        following = "/v1/fits?limit=2"
+        while following:
+            page = service.client.get(following)
+            listed += [job["links"]["self"] for job in page.json()["jobs"]]
+            following = page.json()["next"]
+            assert ("Link" in page.headers) == (following is not None)
+        assert listed == paths[::-1]
+        assert service.client.get("/v1/fits?state=failed").json()["jobs"] == []
+        assert len(service.client.get("/v1/fits?state=succeeded").json()["jobs"]) == 5
+
+
+def test_canceling_a_running_fit_kills_its_process(service: Service, tmp_path: Path):
+    note = tmp_path / "pids"
+    path = service.submit({"seconds": 60, "burn": True, "note_pid": str(note)})
+    (pid,) = eventually(lambda: pids_noted(note), what="the fit runs")
+    response = service.client.post(f"{path}/cancel")
+    assert response.status_code == 202
+    eventually(lambda: not is_running(pid), within_s=0.5, what="the process is gone")
+    job = service.ended(path, within_s=2.0)
+    assert job["state"] == "canceled"
+    assert service.client.post(f"{path}/cancel").status_code == 200
+    assert service.client.get(f"{path}/result").status_code == 409
+
+
+def test_canceling_a_waiting_job_ends_it_at_once(embedded: Machine):
+    with running_service(embedded, api_only=True) as service:
+        path = service.submit()
+        response = service.client.post(f"{path}/cancel")
+        assert response.status_code == 200
+        assert response.json()["state"] == "canceled"
+        assert [event["event"] for event in service.events(path)] == ["state", "end"]
+
+
+def test_erasing_leaves_nothing_of_a_job_on_the_disk(embedded: Machine):
+    secret = "spoor-7c1e"
+    with running_service(embedded) as service:
+        response = service.post(
+            {"secret": secret}, request=REQUEST | {"focal_length_px": 713.28459}
+        )
+        path = response.headers["Location"]
+        service.ended(path)
+        assert _files_with(embedded.data_dir, secret)
+        assert _files_with(embedded.data_dir, "713.28459")
+        assert service.client.delete(path).status_code == 204
+        for gone in (path, f"{path}/result", f"{path}/events", f"{path}/artifacts/overlay.png"):
+            assert service.client.get(gone).status_code == 404
+        assert service.client.delete(path).status_code == 404
+        assert _files_with(embedded.data_dir, secret) == []
+        assert _files_with(embedded.data_dir, "713.28459") == []
+
+
+def _files_with(folder: Path, text: str) -> list[Path]:
+    return [
+        path for path in folder.rglob("*") if path.is_file() and text.encode() in path.read_bytes()
+    ]
+
+
+def test_erasing_a_running_fit_kills_its_process_and_keeps_no_files(
+    embedded: Machine, tmp_path: Path
+):
+    note = tmp_path / "pids"
+    with running_service(embedded) as service:
+        path = service.submit({"seconds": 60, "burn": True, "note_pid": str(note)})
+        (pid,) = eventually(lambda: pids_noted(note), what="the fit runs")
+        assert service.client.delete(path).status_code == 204
+        eventually(lambda: not is_running(pid), within_s=0.5, what="the process is gone")
+        assert service.ended(service.submit())["state"] == "succeeded"
+        assert not list((embedded.data_dir / "blobs").rglob(Path(path).name))
+
+
+def test_the_same_idempotency_key_gives_the_same_job(service: Service):
+    headers = {"Idempotency-Key": "key-1"}
+    first = service.post({"n": 1}, headers=headers)
+    again = service.post({"n": 1}, headers=headers)
+    assert again.headers["Location"] == first.headers["Location"]
+    other = service.post({"n": 2}, headers=headers)
+    assert other.status_code == 422
+    assert other.json()["type"] == "/problems/idempotency-key-reused"
+    assert service.post({"n": 1}).headers["Location"] != first.headers["Location"]
+
+
+def test_twenty_requests_with_one_new_key_make_one_job(service: Service):
+    locations: list[str] = []
+
+    def post() -> None:
+        headers = {"Idempotency-Key": "key-race"}
+        locations.append(service.post({}, headers=headers).headers["Location"])
+
+    threads = [threading.Thread(target=post) for _ in range(20)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(locations) == 20
+    assert len(set(locations)) == 1
+
+
+def test_a_caller_may_wait_for_the_end(service: Service):
+    done = service.post({"seconds": 0.3}, headers={"Prefer": "wait=20"})
+    assert done.status_code == 200
+    assert done.json()["state"] == "succeeded"
+    assert done.headers["Preference-Applied"] == "wait=20"
+    pending = service.post({"seconds": 5}, headers={"Prefer": "respond-async, wait=1"})
+    assert pending.status_code == 202
+    assert pending.json()["state"] == "running"
+    service.client.delete(pending.headers["Location"])
+
+
+def test_a_full_queue_refuses_new_jobs(tmp_path: Path):
+    with running_service(Machine(tmp_path, settings={"max_queued": 2}), api_only=True) as service:
+        service.submit()
+        service.submit()
+        refused = service.post()
+        assert refused.status_code == 503
+        assert refused.json()["type"] == "/problems/queue-full"
+        assert int(refused.headers["Retry-After"]) > 0
+        assert len(list((tmp_path / "blobs").glob("*/*"))) == 2
+
+
+def test_the_bodies_there_are_can_be_asked_for(service: Service):
+    answer = service.client.get("/v1/body-models")
+    models = BodyModels.model_validate_json(answer.content)
+    assert [model.gender for model in models.models] == ["female", "male"]
+
+
+def test_health_tells_whether_a_worker_is_alive(embedded: Machine):
+    with running_service(embedded, api_only=True) as service:
+        assert service.client.get("/healthz/live").status_code == 200
+        ready = service.client.get("/healthz/ready")
+        assert ready.status_code == 503
+        assert ready.json()["code"] == "no-worker"
+        assert service.client.get("/v1/body-models").status_code == 503
