@@ -1,0 +1,45 @@
+import pytest
+from sqlalchemy.exc import OperationalError
+
+from service.engine import patience
+
+
+STATEMENT = "UPDATE"
+
+
+class Database:
+    def __init__(self, failures: int) -> None:
+        self.failures = failures
+
+    def write(self, value: int) -> int:
+        if self.failures:
+            self.failures -= 1
+            raise OperationalError(STATEMENT, {}, Exception("database is locked"))
+        return value
+
+
+@pytest.fixture(autouse=True)
+def _no_pauses(monkeypatch):
+    monkeypatch.setattr(patience.time, "sleep", lambda _: None)
+
+
+def test_an_operation_is_repeated_until_the_database_is_back():
+    assert patience.patiently(Database(5).write)(7) == 7
+
+
+def test_patience_ends(monkeypatch):
+    monkeypatch.setattr(patience, "PATIENCE_S", 0.0)
+    with pytest.raises(OperationalError):
+        patience.patiently(Database(1).write)(7)
+
+
+def test_other_errors_are_not_repeated():
+    calls = []
+
+    def broken() -> None:
+        calls.append(1)
+        raise KeyError
+
+    with pytest.raises(KeyError):
+        patience.patiently(broken)()
+    assert len(calls) == 1
