@@ -4,7 +4,7 @@ The energy of a pose is half the sum of squares of
 
 - click residuals, pixels over their standard deviation,
 - the pose prior and the joint limits (:mod:`fitter.body.pose_prior`),
-- the trunk's slant to the image plane, very softly: pictures of people are mostly taken level,
+- the trunk's slant to the image plane, softly: pictures of people are mostly taken level,
 - a limb's slant against the caller's word, where there is one.
 """
 
@@ -23,8 +23,9 @@ from fitter.pose_init.limbs import LIMBS, MIDDLES, limb_slant
 from fitter.pose_init.points import ClickedPoints
 from fitter.request import Facing
 
-TRUNK_LEAN_SPREAD = 0.35
-"""Standard deviation of the trunk's long axis along the view, as a sine (about 20 degrees)."""
+TRUNK_LEAN_SPREAD = 0.2
+"""Standard deviation of the trunk's long axis along the view, as a sine (about 12 degrees): the
+foreshortening of a lean is of second order, so a few per cent of a limb's length would buy one."""
 
 TRUNK_YAW_SPREAD = 1.0
 """The same for the axis across the hips: only enough to break ties toward front and back views."""
