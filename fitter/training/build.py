@@ -10,6 +10,7 @@ from fitter.body.model import BodyModel, SparseRows
 from fitter.body.storage import load_body_model, save_body_model
 from fitter.training.assemble import RegisteredBodies, assemble_body_model, model_arrays
 from fitter.training.body_space import BodySpace, load_body_space
+from fitter.training.comparison_figures import comparison_figures
 from fitter.training.landmarks import body_landmarks
 from fitter.training.makehuman import load_base_mesh
 from fitter.training.plan import Plan
@@ -79,11 +80,15 @@ def train_model(
         example_count=plan.examples,
         rng=np.random.default_rng([plan.seed, GENDERS.index(gender)]),
     )
-    errors = held_out_errors(trained.model, rigged_bodies(materials.mesh, held_out.source_vertices))
+    tested = rigged_bodies(materials.mesh, held_out.source_vertices)
+    errors = held_out_errors(trained.model, tested)
     header = (
         dict(trained.model.header)
         | model_statistics(trained)
-        | {"held_out_errors": header_entry(errors)}
+        | {
+            "held_out_errors": header_entry(errors),
+            "height_in_earlier_methods": comparison_figures(trained, tested.rest),
+        }
     )
     return replace(trained.model, header=header), errors
 

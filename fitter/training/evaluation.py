@@ -53,11 +53,31 @@ class HeightAxes:
     correlation: float
 
 
+def vertex_error(residuals: Float[np.ndarray, "k m 3"], areas: PerVertex) -> VertexError:
+    """Mean length of residuals (metres) after the best translation, counted both ways."""
+    equal = np.ones_like(areas)
+    by_vertex, by_area = (
+        1000.0
+        * np.average(
+            np.linalg.norm(centred(residuals, weights), axis=2).mean(axis=0), weights=weights
+        )
+        for weights in (equal, areas)
+    )
+    return VertexError(by_vertex=float(by_vertex), by_area=float(by_area))
+
+
+def shape_coefficients(
+    model: BodyModel, rest: Float[np.ndarray, "s m 3"]
+) -> Float[np.ndarray, "s n"]:
+    """Best coefficients of bodies at rest."""
+    return project(rest, _areas(model), model.mean_vertices, model.shape_basis)[0]
+
+
 def shape_error(model: BodyModel, rest: Float[np.ndarray, "s m 3"]) -> VertexError:
     """Error of bodies rebuilt from their n coefficients."""
     areas = _areas(model)
     _, residuals = project(rest, areas, model.mean_vertices, model.shape_basis)
-    return _vertex_error(residuals, areas)
+    return vertex_error(residuals, areas)
 
 
 def height_axes(model: BodyModel, bodies: RegisteredBodies) -> HeightAxes:
@@ -70,7 +90,7 @@ def height_axes(model: BodyModel, bodies: RegisteredBodies) -> HeightAxes:
         return float(np.ptp(evaluator.body_frame_vertices(parameters)[:, 1]))
 
     axes = np.eye(len(model.shape_basis))
-    coefficients, _ = project(bodies.rest, _areas(model), model.mean_vertices, model.shape_basis)
+    coefficients = shape_coefficients(model, bodies.rest)
     statures = np.array(
         [
             stature_m(bodies.posed(subject, model.standing_pose), model.landmarks)
@@ -102,7 +122,7 @@ def shaped_and_posed_error(
     model: BodyModel, bodies: RegisteredBodies, count: int, rng: np.random.Generator
 ) -> VertexError:
     """The same with each body rebuilt from its n coefficients: shape and pose errors together."""
-    coefficients, _ = project(bodies.rest, _areas(model), model.mean_vertices, model.shape_basis)
+    coefficients = shape_coefficients(model, bodies.rest)
     return _posed_error(model, coefficients, bodies, count, rng)
 
 
@@ -147,19 +167,7 @@ def _posed_error(
             BodyParameters(pose=pose, translation=np.zeros(3), shape=shapes[subject])
         )
         residuals[k] = found - bodies.posed(subject, pose)
-    return _vertex_error(residuals, areas)
-
-
-def _vertex_error(residuals: Float[np.ndarray, "k m 3"], areas: PerVertex) -> VertexError:
-    equal = np.ones_like(areas)
-    by_vertex, by_area = (
-        1000.0
-        * np.average(
-            np.linalg.norm(centred(residuals, weights), axis=2).mean(axis=0), weights=weights
-        )
-        for weights in (equal, areas)
-    )
-    return VertexError(by_vertex=float(by_vertex), by_area=float(by_area))
+    return vertex_error(residuals, areas)
 
 
 def _areas(model: BodyModel) -> PerVertex:

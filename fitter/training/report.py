@@ -143,6 +143,10 @@ def report_lines(model: BodyModel, errors: HeldOutErrors, *, file_bytes: int) ->
         "correlation of height with its axis": f"{errors.height_correlation:11.5f}",
     }
     lines.extend(f"  {name:<38}{value}" for name, value in plain.items())
+    earlier = header.get("height_in_earlier_methods")
+    if isinstance(earlier, Mapping):
+        lines.append("  earlier methods on the same bodies (section 4)")
+        lines.extend(f"    {name:<36}{float(value):9.3f}" for name, value in earlier.items())
     residuals = header.get("population_residuals")
     if isinstance(residuals, Mapping):
         lines.append("  population: mean absolute distance of a subject from its measurements")

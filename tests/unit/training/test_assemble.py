@@ -10,6 +10,7 @@ from fitter.body.storage import load_body_model, save_body_model
 from fitter.numerics.meshes import enclosed_volume
 from fitter.parameters import BodyParameters
 from fitter.training.assemble import assemble_body_model, height_attribute, model_arrays
+from fitter.training.comparison_figures import comparison_figures
 from fitter.training.evaluation import height_axes, posed_error, shape_error
 from tests.unit.training.synthetic_population import landmarks, part_weights, population, surface
 
@@ -123,6 +124,12 @@ def test_learning_from_posed_bodies_lowers_the_posed_error(trained):
         for model in (trained.model, learned)
     )
     assert after < 0.85 * before
+
+
+def test_earlier_methods_leak_height_or_lose_shape(trained):
+    figures = comparison_figures(trained, population(30, 9).rest)
+    assert figures["blanz_vetter_height_change_mm"] > 1.0
+    assert figures["allen_shape_mm"] > 1.0
 
 
 def test_the_model_survives_its_file(trained, tmp_path):
