@@ -2,7 +2,7 @@
 
 import logging
 import time
-from multiprocessing import get_context
+from multiprocessing import forkserver, get_context
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerContext, ForkServerProcess
 from typing import Final
@@ -42,8 +42,12 @@ class ChildRunner:
         self._context: ForkServerContext = get_context("forkserver")
         self._context.set_forkserver_preload([preload])
 
+    def begin_preloading(self) -> None:
+        """Start the fork server, which loads the numerics by itself."""
+        forkserver.ensure_running()
+
     def describe(self) -> BodyModels:
-        """Ask a child which body models there are; this also starts the fork server."""
+        """Ask a child which body models there are."""
         connection, process = self._start_describing()
         try:
             message = MESSAGES.validate_json(connection.recv_bytes())

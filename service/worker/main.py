@@ -8,8 +8,6 @@ import threading
 from typing import Final
 
 from service.blobs import BlobStore
-from service.engine.database import open_database, prepare_database
-from service.engine.dbos_worker import DbosWorkerEngine
 from service.settings import Settings
 from service.worker.child_process import ChildRunner
 
@@ -41,6 +39,11 @@ def run_worker(
     for variable in THREAD_LIMITS:
         os.environ.setdefault(variable, "1")
     runner = ChildRunner(settings, pipeline=pipeline, preload=preload)
+    runner.begin_preloading()
+    # Imported while the fork server loads the numerics: each takes a good part of a second.
+    from service.engine.database import open_database, prepare_database
+    from service.engine.dbos_worker import DbosWorkerEngine
+
     prepare_database(settings.system_database_url)
     engine = DbosWorkerEngine(
         open_database(settings.system_database_url),

@@ -3,7 +3,6 @@ from sqlalchemy.exc import OperationalError
 
 from service.engine import patience
 
-
 STATEMENT = "UPDATE"
 
 
