@@ -11,13 +11,11 @@ from fitter.fittable import packaged_body
 from fitter.pipeline import MEAN_HEIGHT_M, fit
 from service.engine.port import Report
 from service.worker import translate
-from service.worker.heap import keep_freed_memory
 from service.worker.pipeline_port import PipelineInput, PipelineOutput, UnusableInputError
 
 
 def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput:
     """Fit one picture; see :class:`service.worker.pipeline_port.Pipeline`."""
-    keep_freed_memory()
     request = translate.fit_request(
         job.options, image=job.image, mask=job.mask, max_pixels=job.max_pixels
     )
