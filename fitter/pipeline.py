@@ -70,25 +70,29 @@ def fit(request: FitRequest, *, observer: Observer = ignore_progress) -> FitResu
             shape=shape_for_height(body.instruments.evaluator, height_m),
             limb_facing=request.limb_facing,
         )
-    with clock.stage(Stage.SEGMENTATION):
-        labels, segmentation = _segmented(observation, body, initial.parameters, 1.0)
-        objective = _silhouette_and_edges(
-            observation, body, initial, segmentation, FAR_BOUNDARY_ETA_M
-        )
     limits = limits_of(request.optimizer)
+    with clock.stage(Stage.SEGMENTATION) as report:
+        labels, segmentation = _segmented(observation, body, initial.parameters, 1.0)
+        coarse = _silhouette_and_edges(observation, body, initial, segmentation, FAR_BOUNDARY_ETA_M)
+        nearer = body_search(request.optimizer, limits.trial, report)(coarse, initial.parameters)
+        labels, segmentation = _segmented(
+            observation, body, nearer.candidate.parameters, RESEGMENTED_BAND
+        )
     with clock.stage(Stage.SILHOUETTE_AND_EDGES) as report:
         hypotheses = initial.hypotheses[: limits.hypotheses]
+        far, objective = (
+            _silhouette_and_edges(observation, body, initial, segmentation, eta)
+            for eta in (FAR_BOUNDARY_ETA_M, NEAR_BOUNDARY_ETA_M)
+        )
         tried = try_hypotheses(
+            far,
             objective,
             [hypothesis.parameters for hypothesis in hypotheses],
             search=body_search(request.optimizer, limits.trial, report),
         )
-        found = tried.ends[tried.best].candidate.parameters
-        labels, segmentation = _segmented(observation, body, found, RESEGMENTED_BAND)
-        objective = _silhouette_and_edges(
-            observation, body, initial, segmentation, NEAR_BOUNDARY_ETA_M
+        se = body_search(request.optimizer, limits.silhouette_and_edges, report)(
+            objective, tried.ends[tried.best].parameters
         )
-        se = body_search(request.optimizer, limits.silhouette_and_edges, report)(objective, found)
     intensity = intensity_map(observation.luminance, observation.display, segmentation.mask)
     shaded: ShadedFit | None = None
     with clock.stage(Stage.SHADING) as report:
@@ -141,7 +145,8 @@ def fit(request: FitRequest, *, observer: Observer = ignore_progress) -> FitResu
             body.instruments.topology,
         ),
         energies=final.candidate.energies,
-        evaluations=tried.evaluations
+        evaluations=nearer.evaluations
+        + tried.evaluations
         + se.evaluations
         + (0 if shaded is None else shaded.evaluations),
         silhouette_overlap=overlap,

@@ -28,11 +28,11 @@ def limb_facings(
 ) -> tuple[LimbFacing, ...]:
     """How each limb's depth ambiguity was resolved (section 3.1)."""
     chosen = hypotheses[tried.best]
-    energy = tried.ends[tried.best].candidate.total
+    energy = tried.ends[tried.best].total
     facings: list[LimbFacing] = []
     for limb, facing in chosen.facing.items():
         others = [
-            end.candidate.total
+            end.total
             for hypothesis, end in zip(hypotheses, tried.ends, strict=True)
             if hypothesis.facing.get(limb) not in (None, facing)
         ]

@@ -3,29 +3,43 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from fitter.energies.objective import Objective
+from fitter.energies.objective import Candidate, Objective
 from fitter.optimizer.alternation import BodySearch
-from fitter.optimizer.gauss_newton import Minimum
 from fitter.parameters import BodyParameters
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class TriedHypotheses:
-    """The short searches' ends, in the order of the hypotheses; ``best`` indexes them."""
+    """The short searches' ends, in the order of the hypotheses, judged by one objective.
 
-    ends: tuple[Minimum, ...]
+    ``best`` indexes them; ``evaluations`` counts true energies.
+    """
+
+    ends: tuple[Candidate, ...]
     best: int
-
-    @property
-    def evaluations(self) -> int:
-        """True energies computed in all."""
-        return sum(end.evaluations for end in self.ends)
+    evaluations: int
 
 
 def try_hypotheses(
-    objective: Objective, starts: Sequence[BodyParameters], *, search: BodySearch
+    wide: Objective, sharp: Objective, starts: Sequence[BodyParameters], *, search: BodySearch
 ) -> TriedHypotheses:
-    """Search from each start and compare the true energies reached."""
-    ends = tuple(search(objective, start) for start in starts)
-    best = min(range(len(ends)), key=lambda index: ends[index].candidate.total)
-    return TriedHypotheses(ends=ends, best=best)
+    """Search from each start and compare.
+
+    Parameters
+    ----------
+    wide
+        With a boundary that pulls from afar: what the searches minimise.
+    sharp
+        With one that rejects what is far: what the ends are compared by.
+    starts
+        Bodies to begin with.
+    search
+        Minimises an objective from given parameters.
+    """
+    found = [search(wide, start) for start in starts]
+    ends = tuple(sharp.evaluate(minimum.candidate.parameters) for minimum in found)
+    return TriedHypotheses(
+        ends=ends,
+        best=min(range(len(ends)), key=lambda index: ends[index].total),
+        evaluations=sum(minimum.evaluations + 1 for minimum in found),
+    )

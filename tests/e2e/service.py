@@ -1,0 +1,67 @@
+"""The real service, as a user starts it: `maquette serve` on a free port of the loopback."""
+
+import contextlib
+import re
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import httpx
+
+REPOSITORY = Path(__file__).parents[2]
+READY_WITHIN_S = 120.0
+FIT_WITHIN_S = 300.0
+
+
+@contextlib.contextmanager
+def running_service(data_dir: Path) -> Iterator[httpx.Client]:
+    """Start API and worker on an empty data folder; stop them at the end."""
+    process = subprocess.Popen(
+        [
+            *(sys.executable, "-m", "service.cli", "serve"),
+            *("--port", "0", "--data-dir", str(data_dir)),
+        ],
+        cwd=REPOSITORY,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    assert process.stdout is not None
+    try:
+        address = next(
+            found[0] for line in process.stdout if (found := re.search(r"http://\S+:\d+", line))
+        )
+        with httpx.Client(base_url=address, timeout=60.0) as client:
+            wait_until_ready(client)
+            yield client
+    finally:
+        process.terminate()
+        process.wait()
+        process.stdout.close()
+
+
+def wait_until_ready(client: httpx.Client) -> None:
+    """Wait for the API and its worker."""
+    deadline = time.monotonic() + READY_WITHIN_S
+    while time.monotonic() < deadline:
+        with contextlib.suppress(httpx.TransportError):
+            if client.get("/healthz/ready").status_code == httpx.codes.OK:
+                return
+        time.sleep(0.1)
+    message = "the service did not get ready"
+    raise AssertionError(message)
+
+
+def ended_job(client: httpx.Client, response: httpx.Response) -> dict:
+    """Poll an accepted job to its end."""
+    assert response.status_code == httpx.codes.ACCEPTED, response.text
+    path = response.headers["Location"]
+    deadline = time.monotonic() + FIT_WITHIN_S
+    while time.monotonic() < deadline:
+        job = client.get(path).raise_for_status().json()
+        if job["state"] not in {"queued", "running"}:
+            return job
+        time.sleep(0.2)
+    message = f"{path} did not end"
+    raise AssertionError(message)
