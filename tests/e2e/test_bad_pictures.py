@@ -1,0 +1,122 @@
+"""Pictures that pass the first look and fail in the decoder or the fit: a named problem each."""
+
+import io
+import json
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from tests.e2e.service import ended_job, running_service
+
+SIZE = (300, 400)
+POINTS = {
+    "nose": [150, 60],
+    "left_shoulder": [185, 110],
+    "right_shoulder": [115, 110],
+    "left_elbow": [205, 165],
+    "right_elbow": [95, 165],
+    "left_wrist": [215, 215],
+    "right_wrist": [85, 215],
+    "left_hip": [170, 215],
+    "right_hip": [130, 215],
+    "left_knee": [172, 290],
+    "right_knee": [128, 290],
+    "left_ankle": [172, 360],
+    "right_ankle": [128, 360],
+}
+
+
+def encoded(picture: Image.Image, kind: str) -> bytes:
+    stream = io.BytesIO()
+    picture.save(stream, kind)
+    return stream.getvalue()
+
+
+def noise() -> Image.Image:
+    pixels = np.random.default_rng(1).integers(0, 256, (*SIZE[::-1], 3), dtype=np.uint8)
+    return Image.fromarray(pixels)
+
+
+def halved(content: bytes) -> bytes:
+    return content[: len(content) // 2]
+
+
+NOISE = encoded(noise(), "PNG")
+
+
+@pytest.fixture(scope="module")
+def client(tmp_path_factory: pytest.TempPathFactory):
+    with running_service(tmp_path_factory.mktemp("data")) as running:
+        yield running
+
+
+@pytest.mark.parametrize(
+    ("image", "mask", "points", "field", "code"),
+    [
+        (halved(encoded(noise(), "JPEG")), None, POINTS, "image", "image-damaged"),
+        (halved(encoded(noise(), "PNG")), None, POINTS, "image", "image-damaged"),
+        (halved(encoded(noise(), "WEBP")), None, POINTS, "image", "image-damaged"),
+        (
+            encoded(Image.new("RGB", SIZE, "grey"), "PNG"),
+            None,
+            POINTS,
+            "image",
+            "person-not-found",
+        ),
+        (
+            NOISE,
+            encoded(Image.new("L", SIZE, 0), "PNG"),
+            POINTS,
+            "mask",
+            "mask-without-foreground",
+        ),
+        (
+            NOISE,
+            encoded(Image.new("L", SIZE, 255), "PNG"),
+            POINTS,
+            "mask",
+            "mask-without-background",
+        ),
+        (
+            NOISE,
+            None,
+            {name: [150, 200] for name in POINTS},
+            "points",
+            "points-too-close",
+        ),
+        (
+            NOISE,
+            None,
+            {name: POINTS[name] for name in POINTS if "shoulder" in name or "hip" in name},
+            "points",
+            "points-too-few",
+        ),
+    ],
+    ids=[
+        "truncated JPEG",
+        "truncated PNG",
+        "truncated WebP",
+        "nobody there",
+        "mask of nothing",
+        "mask of everything",
+        "points in one place",
+        "trunk alone",
+    ],
+)
+def test_what_only_the_fit_can_find_wrong_ends_as_a_problem(
+    client, image, mask, points, field, code
+):
+    files = {"image": image} | ({} if mask is None else {"mask": mask})
+    request = {"gender": "female", "height_m": 1.7, "points": points, "cues": "SE"}
+    job = ended_job(
+        client, client.post("/v1/fits", files=files, data={"request": json.dumps(request)})
+    )
+    assert job["state"] == "failed"
+    problem = job["problem"]
+    assert problem["type"] == "/problems/unusable-input"
+    assert problem["field"] == field
+    assert problem["code"] == code
+    assert problem["errors"][0]["reason"]
+    assert problem["remedy"]
+    assert job["attempt"] == 1
