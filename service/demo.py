@@ -68,16 +68,15 @@ def run_demo(
 def _running_service(
     command: Sequence[str], data_dir: Path, log: IO[str]
 ) -> Iterator[httpx.Client]:
-    process = subprocess.Popen(
+    with subprocess.Popen(
         [*command, "--data-dir", str(data_dir)], stdout=subprocess.PIPE, stderr=log, text=True
-    )
-    try:
-        with httpx.Client(base_url=_address(process), timeout=30.0) as client:
-            _wait_until_ready(client, process)
-            yield client
-    finally:
-        process.terminate()
-        process.wait()
+    ) as process:
+        try:
+            with httpx.Client(base_url=_address(process), timeout=30.0) as client:
+                _wait_until_ready(client, process)
+                yield client
+        finally:
+            process.terminate()
 
 
 def _address(process: subprocess.Popen[str]) -> str:

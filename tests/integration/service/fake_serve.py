@@ -1,6 +1,8 @@
-"""The service with the fake pipeline; with ``api-only`` its workers are run by the test."""
+"""The service with the fake pipeline; with ``--no-worker`` its workers are run by the test."""
 
+import argparse
 import sys
+from pathlib import Path
 
 from service.logs import configure_logging
 from service.serve import listen, serve
@@ -9,11 +11,16 @@ from service.settings import Settings
 FAKE_WORKER = (sys.executable, "-m", "tests.integration.service.fake_worker")
 
 if __name__ == "__main__":
-    settings = Settings()
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--no-worker", action="store_true")
+    parser.add_argument("--data-dir", type=Path)
+    parsed = parser.parse_args()
+    given = {} if parsed.data_dir is None else {"data_dir": parsed.data_dir, "port": 0}
+    settings = Settings(**given)
     configure_logging(settings.log_level)
     serve(
         settings,
         listen(settings),
-        worker_command=None if "api-only" in sys.argv else FAKE_WORKER,
+        worker_command=None if parsed.no_worker else FAKE_WORKER,
         announce=lambda text: print(text, flush=True),
     )

@@ -167,7 +167,7 @@ class Service:
 def running_service(machine: Machine, *, api_only: bool = False) -> Iterator[Service]:
     """Start the service and, unless ``api_only``, wait until its worker is alive."""
     process = machine.start(
-        "fake_serve", *(["api-only"] if api_only else []), stdout=subprocess.PIPE
+        "fake_serve", *(["--no-worker"] if api_only else []), stdout=subprocess.PIPE
     )
     try:
         assert process.stdout is not None

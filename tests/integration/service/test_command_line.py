@@ -1,0 +1,138 @@
+"""``maquette fit`` and ``maquette demo`` with the fake pipeline."""
+
+import json
+import sys
+from pathlib import Path
+
+import pytest
+
+from api_schemas.results import FitResult
+from service.cli import main
+from service.demo import run_demo
+from service.demo_sample import Sample
+from service.local_fit import FitArguments, fit_locally, warm_up
+from tests.integration.service.fake_pipeline import scripted_image
+from tests.integration.service.harness import POINTS, QUICK, REQUEST
+
+FAKE = "tests.integration.service.fake_pipeline"
+FAKE_SERVE = (sys.executable, "-m", "tests.integration.service.fake_serve")
+
+
+def arguments(
+    folder: Path,
+    points: object,
+    *,
+    image: bytes | None = None,
+    mask: bytes | None = None,
+    **overrides: object,
+) -> FitArguments:
+    (folder / "picture.png").write_bytes(scripted_image() if image is None else image)
+    (folder / "points.json").write_text(points if isinstance(points, str) else json.dumps(points))
+    if mask is not None:
+        (folder / "mask.png").write_bytes(mask)
+    return FitArguments(
+        image=folder / "picture.png",
+        points=folder / "points.json",
+        mask=None if mask is None else folder / "mask.png",
+        output=folder / "out",
+        overrides=overrides,
+    )
+
+
+def test_a_fit_without_a_service_writes_its_files_and_prints_its_measurements(tmp_path, capsys):
+    assert fit_locally(arguments(tmp_path, REQUEST), pipeline=FAKE) == 0
+    result = FitResult.model_validate_json((tmp_path / "out" / "result.json").read_bytes())
+    for artifact in result.artifacts:
+        assert (tmp_path / "out" / artifact.name).stat().st_size == artifact.size
+    printed = capsys.readouterr().out
+    assert "waist girth" in printed
+    assert "85.0" in printed
+    assert "focal_length_px" in printed
+
+
+def test_a_points_file_may_hold_other_things_and_the_command_line_wins(tmp_path):
+    points = {"points": POINTS, "picture": "a painting", "height_m": 1.5, "width": 640}
+    given = arguments(tmp_path, points, gender="female", height_m=1.7)
+    assert fit_locally(given, pipeline=FAKE) == 0
+    result = FitResult.model_validate_json((tmp_path / "out" / "result.json").read_bytes())
+    assert result.gender == "female"
+    assert result.height_m == 1.7
+
+
+@pytest.mark.parametrize(
+    ("changes", "told"),
+    [
+        ({"points": "no json"}, "points"),
+        ({"points": "[1, 2]"}, "points"),
+        ({"points": {"points": POINTS}}, "gender"),
+        ({"points": REQUEST, "height_m": 3.0}, "height_m"),
+        ({"points": REQUEST, "image": b"text"}, "image"),
+        ({"points": REQUEST, "mask": scripted_image(width=3)}, "mask"),
+        ({"points": REQUEST, "image": scripted_image({"unusable": True})}, "image"),
+    ],
+)
+def test_unusable_input_is_told_and_nothing_is_written(tmp_path, capsys, changes, told):
+    points = changes.pop("points")
+    assert fit_locally(arguments(tmp_path, points, **changes), pipeline=FAKE) == 2
+    assert told in capsys.readouterr().out
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_missing_file_is_named(tmp_path, capsys):
+    given = arguments(tmp_path, REQUEST)
+    given.image.unlink()
+    assert fit_locally(given, pipeline=FAKE) == 2
+    assert "picture.png" in capsys.readouterr().out.replace("\n", "")
+
+
+def sample(script: dict[str, object] | None = None) -> Sample:
+    return Sample(
+        image=scripted_image(script),
+        request=json.dumps(REQUEST).encode(),
+        truth={"waist_girth": 83.0},
+    )
+
+
+@pytest.fixture
+def _quick(monkeypatch):
+    for name, value in QUICK.items():
+        monkeypatch.setenv(f"MAQUETTE_{name.upper()}", str(value))
+
+
+@pytest.mark.usefixtures("_quick")
+def test_the_demo_shows_bars_prints_the_truth_beside_and_keeps_the_files(tmp_path, capsys):
+    output = tmp_path / "demo-output"
+    script = {"seconds": 0.3}
+    assert run_demo(output, sample=sample(script), serve_command=FAKE_SERVE) == 0
+    printed = capsys.readouterr().out
+    assert "silhouette and edges" in printed
+    assert "+2.0" in printed
+    assert "demo-output" in printed.replace("\n", "")
+    assert (output / "overlay.png").read_bytes() == scripted_image(script)
+    FitResult.model_validate_json((output / "result.json").read_bytes())
+
+
+@pytest.mark.usefixtures("_quick")
+def test_a_demo_whose_fit_fails_says_why(tmp_path, capsys):
+    assert run_demo(tmp_path, sample=sample({"unusable": True}), serve_command=FAKE_SERVE) == 1
+    assert "The picture ends too early." in capsys.readouterr().out.replace("\n", " ")
+
+
+def test_warming_up_says_what_it_needs(tmp_path, monkeypatch):
+    monkeypatch.setattr("service.local_fit.load_sample", sample)
+    assert warm_up(pipeline=FAKE) == 0
+
+
+def test_help_names_every_command(capsys):
+    with pytest.raises(SystemExit) as ended:
+        main(["--help"])
+    assert ended.value.code == 0
+    printed = capsys.readouterr().out
+    assert all(name in printed for name in ("serve", "worker", "fit", "demo", "warm-up", "openapi"))
+
+
+def test_the_exported_contract_can_be_printed(tmp_path):
+    with pytest.raises(SystemExit) as ended:
+        main(["openapi", "--output", str(tmp_path / "openapi.json")])
+    assert ended.value.code == 0
+    assert json.loads((tmp_path / "openapi.json").read_text())["openapi"].startswith("3.1")

@@ -1,0 +1,230 @@
+import math
+
+import numpy as np
+import pytest
+
+from api_schemas import points as wire_points
+from api_schemas import requests as wire_request
+from api_schemas import results as wire
+from api_schemas.points import Point
+from api_schemas.requests import FitOptions
+from fitter import request as fitter_request
+from fitter import result as fitter_result
+from fitter.camera import Camera, FocalLengthSource
+from fitter.errors import InvalidInputError
+from fitter.measurement.quantity import Measurement
+from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
+from fitter.progress import Progress, Stage
+from fitter.remarks import Assumption, FitWarning
+from service.worker import translate
+
+PARTS = ("pelvis", "spine")
+
+REQUEST = """{
+  "gender": "female", "height_m": 1.65, "focal_length_35mm": 35, "cues": "SE",
+  "optimizer": "simplex",
+  "points": {"nose": [10, 20], "left_knee": {"x": 30, "y": 40, "visibility": 1},
+             "left_ankle": [1, 2, 0]},
+  "light": {"kind": "directional", "azimuth_deg": 90, "elevation_deg": -45},
+  "limb_facing": {"left_forearm": "toward"}
+}"""
+
+
+def fit_request() -> fitter_request.FitRequest:
+    options = FitOptions.model_validate_json(REQUEST)
+    return translate.fit_request(options, image=b"image", mask=b"mask", max_pixels=7)
+
+
+def test_a_request_says_the_same_in_both_languages():
+    request = fit_request()
+    assert request.image == b"image"
+    assert request.mask == b"mask"
+    assert request.max_pixels == 7
+    assert request.gender is fitter_request.Gender.FEMALE
+    assert request.height_m == 1.65
+    assert request.focal_length_px is None
+    assert request.focal_length_35mm == 35.0
+    assert request.cues is fitter_request.Cues.SE
+    assert request.optimizer is fitter_request.OptimizerKind.SIMPLEX
+    assert request.limb_facing == {"left_forearm": fitter_request.Facing.TOWARD}
+
+
+def test_a_guessed_point_is_occluded_and_an_absent_one_is_left_out():
+    assert fit_request().clicks == {
+        "nose": fitter_request.Click(x=10.0, y=20.0),
+        "left_knee": fitter_request.Click(x=30.0, y=40.0, occluded=True),
+    }
+
+
+def test_degrees_become_radians():
+    light = fit_request().light
+    assert light.kind is LightKind.DIRECTIONAL
+    assert light.azimuth == pytest.approx(math.pi / 2)
+    assert light.elevation == pytest.approx(-math.pi / 4)
+    assert light.distance is None
+
+
+def test_what_the_caller_leaves_open_stays_open():
+    options = FitOptions.model_validate_json('{"gender": "male", "points": {"nose": [1, 1]}}')
+    request = translate.fit_request(options, image=b"", mask=None, max_pixels=1)
+    assert request.height_m is None
+    assert request.focal_length_px is None
+    assert request.light == fitter_request.LightGuess()
+    assert request.limb_facing == {}
+
+
+@pytest.mark.parametrize(
+    ("wire_kind", "fitter_kind"),
+    [
+        (wire_request.Gender, fitter_request.Gender),
+        (wire_request.Cues, fitter_request.Cues),
+        (wire_request.OptimizerKind, fitter_request.OptimizerKind),
+        (wire_request.Facing, fitter_request.Facing),
+        (wire_request.LightKind, LightKind),
+        (wire.Outcome, fitter_result.Outcome),
+        (wire.FacingSource, fitter_result.FacingSource),
+        (wire.FocalLengthSource, FocalLengthSource),
+    ],
+)
+def test_both_sides_know_the_same_words(wire_kind, fitter_kind):
+    assert {word.value for word in wire_kind} == {word.value for word in fitter_kind}
+
+
+def test_every_point_on_the_wire_is_a_landmark_of_the_models():
+    from service.worker.pipeline import describe
+
+    for model in describe().models:
+        assert set(wire_points.POINT_NAMES) <= set(model.landmarks)
+        assert 1.5 < model.mean_height_m < 1.9
+        assert model.licences
+
+
+def test_progress_and_complaints_keep_their_words():
+    report = translate.report(
+        Progress(stage=Stage.SHADING, fraction=0.5, energies={"silhouette": 2.0})
+    )
+    assert (report.stage, report.progress, report.energies) == (
+        "shading",
+        0.5,
+        {"silhouette": 2.0},
+    )
+    error = InvalidInputError(code="a-code", field="mask", reason="Why.", remedy="What.")
+    assert translate.field_problem(error).model_dump() == {
+        "field": "mask",
+        "code": "a-code",
+        "reason": "Why.",
+        "remedy": "What.",
+    }
+
+
+def result(*, light: Light | None) -> fitter_result.FitResult:
+    body = BodyParameters(
+        pose=np.array([[0.1, 0.2, 0.3], [0.0, -0.5, 0.0]]),
+        translation=np.array([0.0, 0.1, 3.0]),
+        shape=np.array([1.0, -2.0]),
+    )
+    measurement = Measurement(
+        name="weight",
+        value=70.0,
+        unit="kg",
+        standard_error=None,
+        definition="Volume times density.",
+        source="ISO",
+    )
+    camera = Camera(focal_length_px=500.0, centre_x=32.0, centre_y=24.0, width=64, height=48)
+    return fitter_result.FitResult(
+        gender=fitter_request.Gender.FEMALE,
+        height_m=1.65,
+        cues=fitter_request.Cues.SES,
+        optimizer=fitter_request.OptimizerKind.GAUSS_NEWTON,
+        outcome=fitter_result.Outcome.CONVERGED,
+        camera=camera,
+        image_camera=camera.scaled(2.0, width=128, height=96),
+        focal_length_source=FocalLengthSource.ASSUMED,
+        body=body,
+        posed_vertices=np.zeros((3, 3)),
+        canonical_vertices=np.zeros((3, 3)),
+        light=light,
+        reflectance=None
+        if light is None
+        else Reflectance(
+            albedo=np.array([0.2, 0.4, 0.6]),
+            specularity=np.array([0.0, 0.1, 0.2]),
+            ambient=0.05,
+            specular_exponent=8.0,
+        ),
+        albedo_rgb=None,
+        energies={"silhouette": 1.5},
+        evaluations=12,
+        silhouette_overlap=0.93,
+        stages=(
+            fitter_result.StageBody(
+                name="SE",
+                body=body,
+                energies={"silhouette": 2.5},
+                silhouette_overlap=0.9,
+                measurements=(measurement,),
+            ),
+        ),
+        measurements=(measurement,),
+        limb_facing=(
+            fitter_result.LimbFacing(
+                limb="left_shin",
+                facing=fitter_request.Facing.AWAY,
+                source=fitter_result.FacingSource.PRIOR,
+                ambiguous=True,
+                alternative_energy=1.6,
+            ),
+        ),
+        assumptions=(Assumption(quantity="focal_length_35mm", value=50.0, reason="Unknown."),),
+        warnings=(FitWarning(code="a-warning", message="Look."),),
+        stage_seconds={"shading": 1.0},
+        pictures=fitter_result.Pictures(
+            image=np.zeros((48, 64, 3)), trimap=None, segmentation=np.zeros((48, 64), bool)
+        ),
+    )
+
+
+POINT_LIGHT = Light(kind=LightKind.POINT, azimuth=math.pi / 6, elevation=0.0, distance=2.0)
+SUN = Light(kind=LightKind.DIRECTIONAL, azimuth=0.0, elevation=0.0, distance=math.inf)
+
+
+@pytest.mark.parametrize("light", [None, POINT_LIGHT, SUN], ids=["SE", "point", "directional"])
+def test_a_result_survives_the_wire(light):
+    translated = translate.fit_result(result(light=light), part_names=PARTS)
+    assert wire.FitResult.model_validate_json(translated.model_dump_json()) == translated
+
+
+def test_a_result_says_the_same_in_both_languages():
+    translated = translate.fit_result(result(light=POINT_LIGHT), part_names=PARTS)
+    assert [part.part for part in translated.body.pose] == list(PARTS)
+    assert translated.body.pose[1].rotation == (0.0, -0.5, 0.0)
+    assert translated.body.shape == (1.0, -2.0)
+    assert translated.body.translation_m == (0.0, 0.1, 3.0)
+    assert translated.image_camera.width == 128
+    assert translated.image_camera.focal_length_px == 1000.0
+    assert translated.light is not None
+    assert translated.light.azimuth_deg == pytest.approx(30.0)
+    assert translated.light.distance_m == 2.0
+    assert translated.reflectance is not None
+    assert translated.reflectance.mean_albedo == pytest.approx(0.4)
+    assert translated.outcome_explanation == "The energy stopped decreasing."
+    assert translated.stages[0].energies == {"silhouette": 2.5}
+    assert translated.limb_facing[0].facing == wire_request.Facing.AWAY
+    assert translated.assumptions[0].value == 50.0
+    assert translated.warnings[0].code == "a-warning"
+
+
+def test_a_directional_light_has_no_distance():
+    translated = translate.fit_result(result(light=SUN), part_names=PARTS)
+    assert translated.light is not None
+    assert translated.light.distance_m is None
+
+
+def test_a_pose_of_another_number_of_parts_is_not_passed_over():
+    with pytest.raises(ValueError, match="zip"):
+        translate.fit_result(result(light=None), part_names=("pelvis",))
+
+
+def test_points_are_full_form_after_the_checks():
+    assert Point(x=1.0, y=2.0).visibility == translate.SEEN
