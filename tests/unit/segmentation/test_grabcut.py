@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from fitter.errors import InvalidInputError
-from fitter.segmentation.grabcut import border_warnings, segment
-from fitter.segmentation.trimap import TrimapLabel, first_band, trimap
+from fitter.segmentation.grabcut import _reopened, border_warnings, segment
+from fitter.segmentation.trimap import TrimapLabel, first_band, is_uncertain, trimap
 
 NO_BONES = np.zeros((0, 2, 2))
 
@@ -54,6 +54,21 @@ def test_the_gaps_between_arms_and_trunk_stay_open():
     gap = (slice(140, 230), slice(94, 104))
     assert not truth[gap].any()
     assert found.mask[gap].mean() < 0.05
+
+
+def test_a_narrow_gap_between_the_legs_of_a_large_figure_stays_open():
+    rows, columns = np.mgrid[:900, :400] + 0.5
+    x = columns - 200
+    trunk = (np.abs(x) < 70) & (rows > 100) & (rows < 450)
+    legs = (np.abs(np.abs(x) - 33) < 29) & (rows >= 450) & (rows < 800)
+    truth = trunk | legs
+    gap = (slice(500, 780), slice(198, 202))
+    assert not truth[gap].any()
+    # A muted picture: where colours differ little, a narrow gap is the first thing to be lost.
+    shown = 0.35 + 0.25 * (picture(truth) - 0.35)
+    guess = np.roll(truth, 3, axis=1)
+    found = segment(shown.astype(np.float32), labels_from(guess))
+    assert found.mask[gap].mean() < 0.1
 
 
 def test_a_small_picture_is_cut_at_its_own_size():
@@ -144,3 +159,16 @@ def test_a_body_cut_off_by_a_border_is_warned_of_by_side(side: str, window: tupl
 
 def test_a_body_inside_the_picture_is_not_warned_of():
     assert border_warnings(figure()) == ()
+
+
+def test_the_full_size_cut_may_undo_what_the_coarse_one_took_against_the_tri_maps_leaning():
+    coarse = np.ones((40, 40), dtype=np.bool_)
+    coarse[:, :5] = False
+    labels = np.full((120, 120), TrimapLabel.LIKELY_FOREGROUND, dtype=np.uint8)
+    labels[:, 58:64] = TrimapLabel.LIKELY_BACKGROUND
+    labels[:, 100:] = TrimapLabel.FOREGROUND
+    reopened = _reopened(coarse, labels, 3)
+    assert is_uncertain(reopened)[:, 58:64].all()
+    assert is_uncertain(reopened)[:, 12:18].all()
+    assert (reopened[:, 64:] == TrimapLabel.FOREGROUND).all()
+    assert (reopened[:, :8] == TrimapLabel.BACKGROUND).all()
