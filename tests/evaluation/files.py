@@ -1,0 +1,135 @@
+"""A case's files: picture, request, truth and masks, written by the generator."""
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from PIL import Image as PillowImage
+
+from fitter.arrays import Mask
+from fitter.parameters import Light, LightKind
+from tests.evaluation.clicks import noisy_clicks, rendering
+from tests.evaluation.photograph import photograph
+from tests.evaluation.scene import Case, FocalLength
+from tests.evaluation.staging import Staged, root_joint
+from tests.evaluation.truth import true_body, true_joints, true_light
+
+PICTURES_FOLDER = Path(__file__).parent / "data" / "pictures"
+
+CREDITS = (
+    "Our own render with Mitsuba 3 of a body made from MakeHuman's CC0 assets; released under "
+    "CC0 1.0. Nobody real is shown."
+)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class CaseFiles:
+    """What the suite reads of a case."""
+
+    image: bytes
+    document: dict[str, object]
+    body_mask: Mask
+    person_mask: Mask
+
+
+def write_picture(
+    folder: Path, staged: Staged, linear: np.ndarray, person: Mask, *, quality: int
+) -> None:
+    """The photograph and the masks of body and person."""
+    folder.mkdir(parents=True, exist_ok=True)
+    case = staged.case
+    in_exif = case.focal_length is FocalLength.EXIF
+    picture = photograph(
+        linear,
+        quality=quality,
+        equivalent_mm=case.view.equivalent_mm if in_exif else None,
+        rng=np.random.default_rng([case.seed, 1]),
+    )
+    (folder / f"{case.name}.jpg").write_bytes(picture)
+    _save_mask(folder / f"{case.name}_body.png", rendering(staged).silhouette)
+    _save_mask(folder / f"{case.name}_person.png", person)
+
+
+def write_document(folder: Path, staged: Staged) -> None:
+    """Request and truth, as JSON; needs no renderer."""
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / f"{staged.case.name}.json"
+    path.write_text(json.dumps(document(staged), indent=1) + "\n")
+
+
+def document(staged: Staged) -> dict[str, object]:
+    """Request and truth of a case."""
+    case = staged.case
+    return {
+        "request": request_of(staged),
+        "truth": true_measurements(staged),
+        "scene": {
+            "person": case.person,
+            "light": _light_document(true_light(staged)),
+            "focal_length_px": round(staged.camera.focal_length_px, 3),
+            "root_joint_m": _rounded(staged.in_camera(root_joint(staged))),
+            "joints_m": [_rounded(joint) for joint in true_joints(staged)],
+        },
+        "credits": CREDITS,
+    }
+
+
+def request_of(staged: Staged) -> dict[str, object]:
+    """The options of a fit: clicks, gender, height, and the focal length if it is given."""
+    case = staged.case
+    clicks = noisy_clicks(staged, rendering(staged), np.random.default_rng([case.seed, 2]))
+    request: dict[str, object] = {
+        "gender": staged.person.gender.value,
+        "height_m": round(true_measurements(staged)["stature"] / 100.0, 3),
+        "points": clicks,
+    }
+    if case.focal_length is FocalLength.GIVEN:
+        request["focal_length_px"] = round(staged.camera.focal_length_px, 2)
+    return request
+
+
+def true_measurements(staged: Staged) -> dict[str, float]:
+    """Measurements of the true body by name, centimetres and kilograms."""
+    return {name: round(value, 2) for name, value in true_body(staged.person).measurements.items()}
+
+
+def read_case(case: Case, folder: Path = PICTURES_FOLDER) -> CaseFiles:
+    """Read what the generator wrote."""
+    return CaseFiles(
+        image=(folder / f"{case.name}.jpg").read_bytes(),
+        document=json.loads((folder / f"{case.name}.json").read_text()),
+        body_mask=_load_mask(folder / f"{case.name}_body.png"),
+        person_mask=_load_mask(folder / f"{case.name}_person.png"),
+    )
+
+
+def light_from_document(values: dict[str, float]) -> Light:
+    """The light that :func:`document` wrote."""
+    return Light(
+        kind=LightKind.POINT,
+        azimuth=float(np.radians(values["azimuth_deg"])),
+        elevation=float(np.radians(values["elevation_deg"])),
+        distance=values["distance_m"],
+    )
+
+
+def _light_document(light: Light) -> dict[str, float]:
+    return {
+        "azimuth_deg": round(float(np.degrees(light.azimuth)), 3),
+        "elevation_deg": round(float(np.degrees(light.elevation)), 3),
+        "distance_m": round(light.distance, 4),
+    }
+
+
+def _rounded(point: np.ndarray) -> list[float]:
+    return [round(float(value), 5) for value in point]
+
+
+def _save_mask(path: Path, mask: Mask) -> None:
+    PillowImage.fromarray(mask).save(path, optimize=True)
+
+
+def _load_mask(path: Path) -> Mask:
+    with PillowImage.open(path) as picture:
+        return np.asarray(picture.convert("L")) > 127

@@ -1,0 +1,85 @@
+"""``python -m tests.evaluation.generate``: (re)build the suite's pictures and truths.
+
+Needs the renderer: the extra ``evaluation``. Everything is drawn from the cases' seeds, so that a
+second run gives the same files. ``--documents`` writes requests and truths alone, after a change
+of landmarks or measurement definitions, and needs no renderer.
+"""
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from tests.evaluation.cases import CASES, DEMO, PEOPLE
+from tests.evaluation.files import (
+    PICTURES_FOLDER,
+    document,
+    write_document,
+    write_picture,
+)
+from tests.evaluation.people import PEOPLE_FOLDER, load_person, save_person, solve_person
+from tests.evaluation.scene import Case
+from tests.evaluation.staging import Staged, stage
+
+SAMPLES = 128
+QUALITY = 92
+SAMPLE_FOLDER = Path(__file__).parents[2] / "service" / "demo_data"
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run the command line; returns the exit status."""
+    options = _parser().parse_args(arguments)
+    for name in options.case or list(CASES):
+        staged = _staged(CASES[name])
+        if not options.documents:
+            _render(staged, options)
+        write_document(options.output, staged)
+        if CASES[name] is DEMO and options.output == PICTURES_FOLDER:
+            _write_sample(staged, options.output)
+        print(f"{name}: written to {options.output}", flush=True)
+    return 0
+
+
+def _render(staged: Staged, options: argparse.Namespace) -> None:
+    from tests.evaluation.render_mitsuba import linear_picture, person_mask
+
+    seed = staged.case.seed
+    linear = linear_picture(staged, samples=options.samples, seed=seed)
+    write_picture(options.output, staged, linear, person_mask(staged, seed=seed), quality=QUALITY)
+
+
+def _staged(case: Case) -> Staged:
+    """Put the case's person in place, solving for them first if they have no file yet."""
+    source = PEOPLE[case.person]
+    path = PEOPLE_FOLDER / f"{source.name}.npz"
+    if not path.exists():
+        save_person(path, solve_person(source))
+    return stage(load_person(source), case)
+
+
+def _write_sample(staged: Staged, folder: Path) -> None:
+    """The sample of ``maquette demo`` is this suite's demo case."""
+    SAMPLE_FOLDER.mkdir(exist_ok=True)
+    picture = (folder / f"{staged.case.name}.jpg").read_bytes()
+    (SAMPLE_FOLDER / "sample.jpg").write_bytes(picture)
+    sample = {name: document(staged)[name] for name in ("request", "truth", "credits")}
+    (SAMPLE_FOLDER / "sample.json").write_text(json.dumps(sample, indent=1) + "\n")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="python -m tests.evaluation.generate",
+        description="Build the pictures and truths of the evaluation suite.",
+    )
+    parser.add_argument("--case", action="append", choices=list(CASES), help="default: all")
+    parser.add_argument("--output", type=Path, default=PICTURES_FOLDER, metavar="DIR")
+    parser.add_argument("--samples", type=int, default=SAMPLES, help="light paths a pixel")
+    parser.add_argument(
+        "--documents", action="store_true", help="requests and truths only, without rendering"
+    )
+    return parser
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,184 @@
+"""What one picture of the suite shows: frozen descriptions, nothing computed."""
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from fitter.request import Gender
+
+Rgb = tuple[float, float, float]
+"""Linear light."""
+
+
+class Half(StrEnum):
+    """Constants may be chosen on one half of the people; figures are reported on the other."""
+
+    TUNING = "tuning"
+    REPORTING = "reporting"
+
+
+class FocalLength(StrEnum):
+    """How a request learns the focal length."""
+
+    GIVEN = "given"
+    EXIF = "exif"
+    MISSING = "missing"
+
+
+class Wall(StrEnum):
+    """The surface behind the person."""
+
+    CANVAS = "canvas"
+    PLASTER = "plaster"
+    BRICK = "brick"
+    BOARDS = "boards"
+
+
+class Floor(StrEnum):
+    """The surface the person stands on."""
+
+    CONCRETE = "concrete"
+    WOOD = "wood"
+    CARPET = "carpet"
+
+
+class Hair(StrEnum):
+    """How hair is worn."""
+
+    SHORT = "short"
+    TIED = "tied"
+    SHAVED = "shaved"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Arm:
+    """An arm, degrees. All zero hangs straight down with the palm inward.
+
+    ``raised`` is the upper arm's angle from straight down in the chest's axes, in the direction
+    ``forward`` (0 sideways, 90 to the front, -90 to the back); ``turn`` is its twist about itself,
+    ``bend`` the elbow's, ``palm`` the forearm's (positive turns the palm to the back).
+    """
+
+    raised: float = 8.0
+    forward: float = 0.0
+    turn: float = 0.0
+    bend: float = 8.0
+    palm: float = 0.0
+    curl: float = 13.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Leg:
+    """A leg, degrees, in upright axes that turn with the person.
+
+    ``raised`` and ``forward`` as for an arm; ``turn`` turns knee and foot outward, ``bend`` is the
+    knee's, ``toe_out`` the foot's own turn, ``heel_up`` lifts the heel.
+    """
+
+    raised: float = 3.0
+    forward: float = 0.0
+    turn: float = 5.0
+    bend: float = 3.0
+    toe_out: float = 10.0
+    heel_up: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Stance:
+    """How a person stands: degrees about the body's axes at rest.
+
+    Vectors are (bend forward, turn to the left, lean to the right). ``pelvis`` turns the whole
+    body but for ``facing``, the turn of the person on the floor (positive to their left); legs are
+    aimed regardless of ``pelvis``. ``free_leg`` names the leg whose knee is bent further until
+    both feet touch the floor.
+    """
+
+    facing: float = 0.0
+    pelvis: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    spine: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    chest: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    neck: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    head: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    left_arm: Arm = field(default_factory=Arm)
+    right_arm: Arm = field(default_factory=Arm)
+    left_leg: Leg = field(default_factory=Leg)
+    right_leg: Leg = field(default_factory=Leg)
+    free_leg: str = "left"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class View:
+    """The camera: it looks at a height above the spot the person stands on.
+
+    ``equivalent_mm`` is the focal length's whole 35 mm equivalent, as EXIF writes it; metres.
+    """
+
+    width: int = 480
+    height: int = 640
+    equivalent_mm: int = 50
+    distance_m: float = 3.2
+    height_m: float = 1.35
+    aim_height_m: float = 0.9
+    aim_aside_m: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lighting:
+    """A lamp and light from all round.
+
+    ``azimuth`` and ``elevation`` are degrees about the person's middle, azimuth 0 at the camera and
+    positive to the right of the picture. ``strength`` and ``ambient`` are the radiances a white
+    surface at the person's middle that faces the lamp would get from each.
+    """
+
+    azimuth: float = -45.0
+    elevation: float = 35.0
+    distance_m: float = 2.8
+    lamp_radius_m: float = 0.06
+    strength: float = 0.8
+    ambient: float = 0.25
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Surroundings:
+    """Wall and floor."""
+
+    wall: Wall = Wall.PLASTER
+    floor: Floor = Floor.CONCRETE
+    wall_colour: Rgb = (0.42, 0.42, 0.40)
+    floor_colour: Rgb = (0.28, 0.27, 0.26)
+    wall_distance_m: float = 1.4
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Look:
+    """Skin, hair and clothes."""
+
+    skin: Rgb = (0.58, 0.345, 0.24)
+    hair: Hair = Hair.SHORT
+    hair_colour: Rgb = (0.045, 0.028, 0.018)
+    clothes_colour: Rgb = (0.03, 0.035, 0.06)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PersonSource:
+    """Where a held-out person came from: a stream of the survey's statistics no training uses."""
+
+    name: str
+    gender: Gender
+    seed: int
+    half: Half
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Case:
+    """One picture."""
+
+    name: str
+    person: str
+    stance: Stance
+    view: View = field(default_factory=View)
+    lighting: Lighting = field(default_factory=Lighting)
+    surroundings: Surroundings = field(default_factory=Surroundings)
+    look: Look = field(default_factory=Look)
+    focal_length: FocalLength = FocalLength.GIVEN
+    seed: int = 0

@@ -1,0 +1,74 @@
+"""The truth of a case: the body measured as the fitter measures, light, camera and joints."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+
+from fitter.arrays import Vertices
+from fitter.body.skeleton import regress
+from fitter.fittable import packaged_body
+from fitter.measurement.affine_body import AffineBody
+from fitter.measurement.anthropometry import measure
+from fitter.parameters import Light, LightKind
+from tests.evaluation.landmark_points import packaged_model
+from tests.evaluation.people import Person, posed_body
+from tests.evaluation.staging import Staged, lamp_place, root_joint
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class TrueBody:
+    """A person in the canonical pose, and what a tape finds on them.
+
+    ``canonical`` (m, 3) body frame, metres; ``measurements`` by name, centimetres and kilograms.
+    """
+
+    canonical: Vertices
+    measurements: dict[str, float]
+
+
+def true_body(person: Person) -> TrueBody:
+    """Measure a person by the fitter's own definitions.
+
+    Their canonical and standing pose are the body model's, taken by MakeHuman's rig.
+    """
+    model, measuring = packaged_model(person.gender), packaged_body(person.gender).measuring
+    canonical = posed_body(person, model.canonical_pose)
+    standing = posed_body(person, model.standing_pose)
+    fixed = replace(
+        measuring,
+        canonical=_fixed(canonical),
+        canonical_points=_fixed(_points(person, canonical)),
+        standing_points=_fixed(_points(person, standing)),
+    )
+    found = measure(fixed, np.zeros(0))
+    return TrueBody(canonical=canonical, measurements={each.name: each.value for each in found})
+
+
+def true_joints(staged: Staged) -> Float[np.ndarray, "p 3"]:
+    """The body model's joints on the true posed mesh, camera frame."""
+    rows = packaged_model(staged.person.gender).joint_regressor
+    return regress(rows, staged.in_camera(staged.body))
+
+
+def true_light(staged: Staged) -> Light:
+    """The lamp in the fitter's terms: spherical coordinates about the root joint."""
+    toward = staged.to_camera @ (lamp_place(staged) - root_joint(staged))
+    distance = float(np.linalg.norm(toward))
+    x, y, z = toward / distance
+    return Light(
+        kind=LightKind.POINT,
+        azimuth=float(np.arctan2(x, -z)),
+        elevation=float(np.arcsin(-y)),
+        distance=distance,
+    )
+
+
+def _points(person: Person, body: Vertices) -> Float[np.ndarray, "q 3"]:
+    model = packaged_model(person.gender)
+    return np.concatenate([regress(model.landmarks, body), regress(model.joint_regressor, body)])
+
+
+def _fixed(points: Vertices) -> AffineBody:
+    """A body that no coefficient changes."""
+    return AffineBody(mean=points, derivative=np.zeros((0, *points.shape)))
