@@ -74,7 +74,7 @@ def _parser() -> argparse.ArgumentParser:
         help="build (and report), or report on the files that are there",
     )
     parser.add_argument("--gender", choices=(*GENDERS, "both"), default="both")
-    parser.add_argument("--subjects", type=int, default=330, help="training subjects a gender")
+    parser.add_argument("--subjects", type=int, default=340, help="training subjects a gender")
     parser.add_argument("--held-out", type=int, default=60, help="subjects never trained on")
     parser.add_argument("--examples", type=int, default=3000, help="posed bodies a gender")
     parser.add_argument("--seed", type=int, default=1)

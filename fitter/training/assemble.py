@@ -22,7 +22,7 @@ from fitter.training.parts import cut_into_parts
 from fitter.training.pose_term import PoseExample, pose_feature_joints, train_pose_term
 from fitter.training.principal_shapes import PrincipalShapes, principal_shapes
 from fitter.training.random_poses import random_pose
-from fitter.training.surface import triangle_areas, vertex_areas
+from fitter.training.surface import triangle_areas, vertex_masses
 
 SHAPE_COUNT = 20
 """n in the paper's experiments."""
@@ -85,7 +85,7 @@ def assemble_body_model(
         Draws their poses.
     """
     triangles = surface.triangles
-    masses = vertex_areas(bodies.rest.mean(axis=0, dtype=np.float64), triangles)
+    masses = vertex_masses(bodies.rest.mean(axis=0, dtype=np.float64), triangles)
     shapes = principal_shapes(bodies.rest, masses, SHAPE_COUNT)
     mirror_joint = np.array([part_index(mirrored_part(name)) for name in PART_NAMES])
     regressor = fit_joint_regressor(bodies.rest, bodies.joints, surface.mirror, mirror_joint)

@@ -15,7 +15,7 @@ from fitter.training.assemble import RegisteredBodies, height_attribute
 from fitter.training.attribute_axes import attribute_changes
 from fitter.training.principal_shapes import centred, project
 from fitter.training.random_poses import random_pose
-from fitter.training.surface import vertex_areas
+from fitter.training.surface import vertex_areas, vertex_masses
 
 CHECKED_AT_DEVIATIONS = 3.0
 
@@ -70,14 +70,12 @@ def shape_coefficients(
     model: BodyModel, rest: Float[np.ndarray, "s m 3"]
 ) -> Float[np.ndarray, "s n"]:
     """Best coefficients of bodies at rest."""
-    return project(rest, _areas(model), model.mean_vertices, model.shape_basis)[0]
+    return _projected(model, rest)[0]
 
 
 def shape_error(model: BodyModel, rest: Float[np.ndarray, "s m 3"]) -> VertexError:
     """Error of bodies rebuilt from their n coefficients."""
-    areas = _areas(model)
-    _, residuals = project(rest, areas, model.mean_vertices, model.shape_basis)
-    return vertex_error(residuals, areas)
+    return vertex_error(_projected(model, rest)[1], _areas(model))
 
 
 def height_axes(model: BodyModel, bodies: RegisteredBodies) -> HeightAxes:
@@ -172,3 +170,10 @@ def _posed_error(
 
 def _areas(model: BodyModel) -> PerVertex:
     return vertex_areas(model.mean_vertices, model.triangles)
+
+
+def _projected(
+    model: BodyModel, rest: Float[np.ndarray, "s m 3"]
+) -> tuple[Float[np.ndarray, "s n"], Float[np.ndarray, "s m 3"]]:
+    masses = vertex_masses(model.mean_vertices, model.triangles)
+    return project(rest, masses, model.mean_vertices, model.shape_basis)

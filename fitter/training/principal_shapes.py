@@ -51,7 +51,8 @@ def principal_shapes(
     meshes
         Registered bodies at rest, body frame, metres; any translation.
     masses
-        Weight of each vertex: its area, so that the fine mesh of hands and face does not decide.
+        Weight of each vertex: mostly its area, so that the fine mesh of hands and face does not
+        decide.
     count
         n, the number of axes kept.
     """
