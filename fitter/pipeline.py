@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from fitter.arrays import GreyImage
 from fitter.body.shape_space import shape_for_height
 from fitter.body.skeleton import regress
 from fitter.energies.clicks import click_evidence
@@ -11,6 +12,7 @@ from fitter.energies.objective import Candidate, Objective, PictureEvidence
 from fitter.energies.scales import FAR_BOUNDARY_ETA_M, NEAR_BOUNDARY_ETA_M, scales_at
 from fitter.evidence.edge_cost import edge_cost_map
 from fitter.evidence.intensity import intensity_map
+from fitter.evidence.outline_confidence import outline_confidence
 from fitter.evidence.silhouette_evidence import silhouette_evidence
 from fitter.fittable import FittableBody, packaged_body
 from fitter.measurement.anthropometry import measure
@@ -42,6 +44,11 @@ RESEGMENTED_BAND = 0.5
 """Share of the first band's width in which the picture is cut again round the body found from the
 first cut (section 7 names this as future work): what the first cut took for the person far from
 any body, such as ground of the skin's colour, can no longer be taken."""
+
+DOUBTFUL_PARTS = ("head", "left_hand", "right_hand")
+"""Parts whose outline says little of the body: hair, and hands in a pose of their own."""
+
+_DOUBTFUL_MARGIN_M = 0.05
 
 _EDGE_THRESHOLD_M = 0.03
 """How far from a model edge an image edge may lie and still attract it."""
@@ -218,18 +225,40 @@ def _silhouette_and_edges(
     """E1 of this picture."""
     depth = initial.root_depth_m
     pixels_per_metre = observation.camera.focal_length_px / depth
+    confidence = _outline_confidence(observation, body, initial.parameters, pixels_per_metre)
     return Objective(
         instruments=body.instruments,
         evidence=PictureEvidence(
             camera=observation.camera,
             clicks=click_evidence(body.instruments.model.landmarks, observation.clicks),
-            silhouette=silhouette_evidence(segmentation.mask),
+            silhouette=silhouette_evidence(segmentation.mask, confidence),
             edges=edge_cost_map(
                 observation.display, threshold_px=_EDGE_THRESHOLD_M * pixels_per_metre
             ),
             shading=None,
         ),
         scales=scales_at(observation.camera, depth, boundary_eta_m=boundary_eta_m),
+    )
+
+
+def _outline_confidence(
+    observation: Observation,
+    body: FittableBody,
+    initial: BodyParameters,
+    pixels_per_metre: float,
+) -> GreyImage:
+    """Little where the initial body has its head and hands."""
+    model = body.instruments.model
+    projected = observation.camera.project(body.instruments.evaluator.vertices(initial))
+    corners = [
+        model.triangles[model.part_of_triangle == model.part_names.index(part)]
+        for part in DOUBTFUL_PARTS
+    ]
+    return outline_confidence(
+        observation.camera.height,
+        observation.camera.width,
+        [projected[np.unique(triangles)] for triangles in corners],
+        margin_px=_DOUBTFUL_MARGIN_M * pixels_per_metre,
     )
 
 

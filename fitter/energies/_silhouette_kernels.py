@@ -7,8 +7,8 @@ from numba import njit
 
 @no_type_check
 @njit(cache=True, fastmath=True)
-def robust_mismatch(model, image, to_image, to_model, scale, floor):
-    """Sum over unmatched pixels of ρ'(d), d their distance to the other region.
+def robust_mismatch(model, image, to_image, to_model, confidence, scale, floor):
+    """Sum over unmatched pixels of confidence times ρ'(d), d the distance to the other region.
 
     Beyond ``scale`` a pixel costs at least ``floor``.
     """
@@ -29,5 +29,5 @@ def robust_mismatch(model, image, to_image, to_model, scale, floor):
             cost = d / (damping * damping)
             if d > scale and cost < floor:
                 cost = floor
-            total += cost
+            total += cost * confidence[i, j]
     return total

@@ -43,6 +43,7 @@ def silhouette_energy(
         evidence.mask[top:bottom, left:right],
         evidence.signed_distance[top:bottom, left:right],
         outside,
+        evidence.confidence[top:bottom, left:right],
         scales.silhouette_eta,
         _FAR_COST * scales.silhouette_eta,
     )
@@ -78,7 +79,10 @@ def silhouette_rows(
     distances = evidence.distance_at(middles)
     forward = PositionRows(
         residuals=distances,
-        weights=nats * lengths * boundary_weights(distances, scales.silhouette_eta),
+        weights=nats
+        * evidence.confidence_at(middles)
+        * lengths
+        * boundary_weights(distances, scales.silhouette_eta),
         points=pairs,
         derivatives=0.5 * camera.pull_back(points, np.repeat(normals[:, None], 2, axis=1)),
     )
@@ -92,6 +96,7 @@ def silhouette_rows(
     backward = PositionRows(
         residuals=residuals,
         weights=nats
+        * evidence.confidence_at(observed)
         * evidence.boundary_spacing
         * boundary_weights(residuals, scales.silhouette_eta),
         points=pairs[nearest],

@@ -33,6 +33,8 @@ class SilhouetteEvidence:
         (h, w) the person.
     signed_distance
         (h, w) pixels to the outline at each pixel's centre, positive outside.
+    confidence
+        (h, w) how much an unmatched pixel or outline point counts, in [0, 1].
     boundary_points, boundary_normals
         (b, 2) points of the outline in continuous pixels, between the pixels' centres, with
         outward unit normals; the picture's own border is no outline.
@@ -44,11 +46,16 @@ class SilhouetteEvidence:
 
     mask: Mask
     signed_distance: GreyImage
+    confidence: GreyImage
     boundary_points: Points2D
     boundary_normals: Points2D
     boundary_spacing: float
     occupied_rows: Bool[np.ndarray, " h"]
     occupied_columns: Bool[np.ndarray, " w"]
+
+    def confidence_at(self, points: Points2D) -> Float[np.ndarray, " k"]:
+        """Confidence at continuous pixels."""
+        return sample(self.confidence, points)[0]
 
     def distance_at(self, points: Points2D) -> Float[np.ndarray, " k"]:
         """Signed distance at continuous pixels."""
@@ -56,12 +63,13 @@ class SilhouetteEvidence:
         return values
 
 
-def silhouette_evidence(mask: Mask) -> SilhouetteEvidence:
+def silhouette_evidence(mask: Mask, confidence: GreyImage | None = None) -> SilhouetteEvidence:
     """Prepare a segmentation."""
     points, normals = _outline(mask)
     return SilhouetteEvidence(
         mask=np.ascontiguousarray(mask),
         signed_distance=signed_distance(mask),
+        confidence=np.ones(mask.shape, dtype=np.float32) if confidence is None else confidence,
         boundary_points=points,
         boundary_normals=normals,
         boundary_spacing=_SPACING_PX,

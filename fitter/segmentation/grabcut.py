@@ -4,23 +4,14 @@ from dataclasses import dataclass
 
 import cv2
 import numpy as np
-from jaxtyping import UInt8
 
 from fitter.arrays import Image, Mask
 from fitter.errors import InvalidInputError
 from fitter.remarks import FitWarning
-from fitter.segmentation.trimap import Trimap, TrimapLabel, is_uncertain, trimap
+from fitter.segmentation.trimap import Trimap, TrimapLabel, is_uncertain
 
 ITERATIONS = 4
 """The borders move little after the third."""
-
-COARSE_PIXELS = 50_000
-"""Where GrabCut learns its colours. Most of its time goes into cutting the broad band over and
-again: on a 392x1018 painting 1.6 s at full size; 0.15 s at a third of it, with another 0.14 s for
-one cut at full size of the narrow band that is then still open. Overlap of both results 0.97."""
-
-REOPENED_PX = 2.0
-"""How many coarse pixels to each side of the coarse border the full-size cut may move it."""
 
 SEED = 20090927
 """GrabCut starts its mixtures by k-means on random numbers: a fixed seed, the same result."""
@@ -152,70 +143,24 @@ def _window(labels: Trimap) -> tuple[slice, slice]:
 
 
 def _foreground(display: Image, labels: Trimap) -> Mask:
-    """GrabCut on a reduced picture, then one cut of the border at full size."""
-    factor = int(np.ceil(np.sqrt(labels.size / COARSE_PIXELS)))
-    picture = np.ascontiguousarray(np.rint(display[:, :, ::-1] * 255.0), dtype=np.uint8)
-    coarse_labels = _reduced(labels, factor)
-    if not all((coarse_labels == known).any() for known in (0, 1)):
-        # The person fills the picture, or is a few pixels: no samples of one side to learn from.
-        return labels != TrimapLabel.BACKGROUND
-    height, width = coarse_labels.shape
-    coarse_picture = cv2.resize(
-        picture[: height * factor, : width * factor], (width, height), interpolation=cv2.INTER_AREA
-    )
-    models = np.zeros((1, 65)), np.zeros((1, 65))
-    cv2.setRNGSeed(SEED)
-    coarse = _cut(coarse_picture, coarse_labels, models, ITERATIONS, cv2.GC_INIT_WITH_MASK)
-    if factor == 1:
-        return coarse
-    return _cut(picture, _reopened(coarse, labels, factor), models, 1, cv2.GC_EVAL_FREEZE_MODEL)
+    """GrabCut at the full working size.
 
-
-def _cut(
-    picture: UInt8[np.ndarray, "h w 3"],
-    labels: Trimap,
-    models: tuple[np.ndarray, np.ndarray],
-    iterations: int,
-    mode: int,
-) -> Mask:
-    """One call of OpenCV's GrabCut; the colour models are filled or read, as ``mode`` says."""
-    states = labels.copy()
-    # The rectangle has no meaning with a mask.
-    cv2.grabCut(picture, states, (0, 0, 0, 0), *models, iterations, mode)
-    return (states == TrimapLabel.FOREGROUND) | (states == TrimapLabel.LIKELY_FOREGROUND)
-
-
-def _reduced(labels: Trimap, factor: int) -> Trimap:
-    """Labels of blocks: bones stay, and only pure background is sure background."""
-    height, width = labels.shape[0] // factor, labels.shape[1] // factor
-    blocks = labels[: height * factor, : width * factor]
-    blocks = blocks.reshape(height, factor, width, factor)
-    reduced = np.full((height, width), TrimapLabel.LIKELY_BACKGROUND, dtype=np.uint8)
-    for label, enough in (
-        (TrimapLabel.LIKELY_FOREGROUND, np.all),
-        (TrimapLabel.BACKGROUND, np.all),
-        (TrimapLabel.FOREGROUND, np.any),
-    ):
-        reduced[enough(blocks == label, axis=(1, 3))] = label
-    return reduced
-
-
-def _reopened(coarse: Mask, labels: Trimap, factor: int) -> Trimap:
-    """A tri-map with a narrow band along the coarse border; what was sure stays sure.
-
-    Also open is where the coarse cut took for the person what the tri-map leaned against: a gap
-    of a few coarse pixels between the legs costs more border than it holds colour there, and not
-    at full size.
+    Learning the colours on a reduced picture and cutting only its border at full size takes a
+    quarter of the time, but the reduced cut gives narrow gaps to the person: on a rendered man with
+    a hand on his hip the overlap with the truth was 0.90 and not 0.96, and his waist 5 cm wider.
     """
-    # Repeating the last row and column covers what the blocks left over at the border.
-    rows = np.minimum(np.arange(labels.shape[0]) // factor, coarse.shape[0] - 1)
-    columns = np.minimum(np.arange(labels.shape[1]) // factor, coarse.shape[1] - 1)
-    enlarged = coarse[np.ix_(rows, columns)]
-    reopened = trimap(enlarged, np.zeros((0, 2, 2)), band=REOPENED_PX * factor)
-    reopened[enlarged & (labels == TrimapLabel.LIKELY_BACKGROUND)] = TrimapLabel.LIKELY_FOREGROUND
-    sure = ~is_uncertain(labels)
-    reopened[sure] = labels[sure]
-    return reopened
+    if not all(
+        (labels == known).any() for known in (TrimapLabel.BACKGROUND, TrimapLabel.FOREGROUND)
+    ):
+        # The person fills the picture: no samples of one side to learn from.
+        return labels != TrimapLabel.BACKGROUND
+    picture = np.ascontiguousarray(np.rint(display[:, :, ::-1] * 255.0), dtype=np.uint8)
+    models = np.zeros((1, 65)), np.zeros((1, 65))
+    states = labels.copy()
+    cv2.setRNGSeed(SEED)
+    # The rectangle has no meaning with a mask.
+    cv2.grabCut(picture, states, (0, 0, 0, 0), *models, ITERATIONS, cv2.GC_INIT_WITH_MASK)
+    return (states == TrimapLabel.FOREGROUND) | (states == TrimapLabel.LIKELY_FOREGROUND)
 
 
 def _without_speckle(mask: Mask, sure: Mask) -> Mask:

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from fitter.errors import InvalidInputError
-from fitter.segmentation.grabcut import _reopened, border_warnings, segment
-from fitter.segmentation.trimap import TrimapLabel, first_band, is_uncertain, trimap
+from fitter.segmentation.grabcut import border_warnings, segment
+from fitter.segmentation.trimap import TrimapLabel, first_band, trimap
 
 NO_BONES = np.zeros((0, 2, 2))
 
@@ -159,16 +159,3 @@ def test_a_body_cut_off_by_a_border_is_warned_of_by_side(side: str, window: tupl
 
 def test_a_body_inside_the_picture_is_not_warned_of():
     assert border_warnings(figure()) == ()
-
-
-def test_the_full_size_cut_may_undo_what_the_coarse_one_took_against_the_tri_maps_leaning():
-    coarse = np.ones((40, 40), dtype=np.bool_)
-    coarse[:, :5] = False
-    labels = np.full((120, 120), TrimapLabel.LIKELY_FOREGROUND, dtype=np.uint8)
-    labels[:, 58:64] = TrimapLabel.LIKELY_BACKGROUND
-    labels[:, 100:] = TrimapLabel.FOREGROUND
-    reopened = _reopened(coarse, labels, 3)
-    assert is_uncertain(reopened)[:, 58:64].all()
-    assert is_uncertain(reopened)[:, 12:18].all()
-    assert (reopened[:, 64:] == TrimapLabel.FOREGROUND).all()
-    assert (reopened[:, :8] == TrimapLabel.BACKGROUND).all()
