@@ -8,7 +8,7 @@ from typing import Any, Final
 
 from fastapi import FastAPI
 
-from service.api import body_models, events, fits, health, problem_types, results
+from service.api import body_models, events, fits, health, problem_types, results, submissions
 from service.api.body_limit import BodyLimit
 from service.api.context import ApiContext
 from service.api.event_feed import EventFeed
@@ -59,7 +59,7 @@ def _resources(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]] 
         generate_unique_id_function=lambda route: route.name,
     )
     install_problem_handlers(app)
-    for resource in (fits, events, results, body_models, health, problem_types):
+    for resource in (submissions, fits, events, results, body_models, health, problem_types):
         app.include_router(resource.ROUTER)
     generate = app.openapi
 

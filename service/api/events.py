@@ -48,7 +48,8 @@ _STREAM: Final[dict[str, Any]] = {
     "/{fit_id}/events",
     summary="Follow a job",
     response_class=StreamingResponse,
-    responses={200: _STREAM} | documented("not-found", "invalid-request", "internal-error"),
+    responses={200: _STREAM}
+    | documented("not-found", "invalid-request", "not-ready", "internal-error"),
 )
 def follow(
     fit_id: UUID,

@@ -4,7 +4,6 @@ import shutil
 from typing import Final
 
 from fastapi import APIRouter
-from sqlalchemy.exc import SQLAlchemyError
 
 from api_schemas.health import Live, Ready
 from api_schemas.problems import problem
@@ -28,19 +27,13 @@ def live() -> Live:
 )
 def ready(context: Context) -> Ready:
     """Check that the database can be written, the disk has room and a worker is alive."""
-    try:
-        context.engine.check_writable()
-        workers = context.engine.live_workers()
-        queued = context.engine.queued()
-    except SQLAlchemyError as error:
-        raise _not_ready(
-            code="database-unavailable", detail="The database cannot be written."
-        ) from error
+    context.engine.check_writable()
+    workers = context.engine.live_workers()
     if _free_disk_mb(context) < context.settings.min_free_disk_mb:
         raise _not_ready(code="disk-full", detail="The disk of the data folder is nearly full.")
     if workers == 0:
         raise _not_ready(code="no-worker", detail="No worker is alive.")
-    return Ready(workers=workers, queued=queued)
+    return Ready(workers=workers, queued=context.engine.queued())
 
 
 def _free_disk_mb(context: ApiContext) -> float:

@@ -11,6 +11,7 @@ from fastapi.responses import Response
 from starlette.exceptions import HTTPException
 
 from api_schemas.problems import PROBLEM_MEDIA_TYPE, PROBLEM_TYPES, Problem, field_problem, problem
+from service.engine.port import EngineUnavailableError
 from service.submission import RefusedError
 from service.validation import field_problems
 
@@ -83,6 +84,7 @@ def install_problem_handlers(app: FastAPI) -> None:
     app.add_exception_handler(RefusedError, _on_refusal)
     app.add_exception_handler(RequestValidationError, _on_validation)
     app.add_exception_handler(HTTPException, _on_http)
+    app.add_exception_handler(EngineUnavailableError, _on_unavailable)
     app.add_exception_handler(Exception, _on_fault)
 
 
@@ -120,6 +122,17 @@ def _on_http(request: Request, error: Exception) -> Response:
         slug, detail=str(error.detail), remedy="Send what /openapi.json describes for this path."
     )
     return problem_response(request, reason, error.headers)
+
+
+def _on_unavailable(request: Request, error: Exception) -> Response:
+    LOG.error("%s %s: the database is away.", request.method, request.url.path, exc_info=error)
+    reason = problem(
+        "not-ready",
+        code="database-unavailable",
+        detail="The database of jobs is not available.",
+        remedy="Try again after the time in Retry-After; nothing was changed.",
+    )
+    return problem_response(request, reason)
 
 
 def _on_fault(request: Request, error: Exception) -> Response:

@@ -1,11 +1,15 @@
 """Job records as callers see them."""
 
 from datetime import UTC, datetime
+from typing import Final
 from uuid import UUID
 
 from api_schemas.jobs import Job, JobLinks, JobState
 from service.engine.port import JobRecord
 from service.jobs import ACTIVE
+
+POLL_AFTER_S: Final = 1
+"""What Retry-After says of a job that has not ended."""
 
 
 def job_path(job_id: str) -> str:

@@ -30,7 +30,7 @@ _NOT_MODIFIED: Final[dict[int | str, dict[str, Any]]] = {
     summary="The result document",
     responses={200: {"model": FitResult}}
     | _NOT_MODIFIED
-    | documented("not-found", "no-result", "invalid-request", "internal-error"),
+    | documented("not-found", "no-result", "invalid-request", "not-ready", "internal-error"),
 )
 def result(
     fit_id: UUID, context: Context, if_none_match: Annotated[str | None, Header()] = None
@@ -58,7 +58,9 @@ def result(
         206: {"description": "The part asked for.", "content": {"model/gltf-binary": _BINARY}},
     }
     | _NOT_MODIFIED
-    | documented("not-found", "range-not-satisfiable", "invalid-request", "internal-error"),
+    | documented(
+        "not-found", "range-not-satisfiable", "invalid-request", "not-ready", "internal-error"
+    ),
 )
 def artifact(
     fit_id: UUID,

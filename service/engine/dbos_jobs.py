@@ -1,17 +1,26 @@
 """The caller's side of the engine: our records, with DBOS's queue behind them."""
 
+import functools
 import time
-from collections.abc import Sequence
-from typing import Final
+from collections.abc import Callable, Sequence
+from typing import Final, ParamSpec, TypeVar
 
 import sqlalchemy as sa
 from dbos import DBOSClient, DBOSPortableJSONSerializer, EnqueueOptions
-from sqlalchemy.exc import IntegrityError
+from sqlalchemy.exc import IntegrityError, OperationalError
+from sqlalchemy.exc import TimeoutError as PoolTimeoutError
 
 from api_schemas.body_models import BodyModels
 from api_schemas.jobs import EventData, EventKind, JobState
 from service.engine.liveness import WorkerWatch
-from service.engine.port import JobEvent, JobRecord, NewJob, Submission, SubmitOutcome
+from service.engine.port import (
+    EngineUnavailableError,
+    JobEvent,
+    JobRecord,
+    NewJob,
+    Submission,
+    SubmitOutcome,
+)
 from service.engine.records import append_event, change_job, find_job, job_record
 from service.engine.tables import EVENTS, FACTS, JOBS, WORKERS
 
@@ -23,6 +32,21 @@ EXECUTION_VERSION: Final = "1"
 a stored checkpoint can no longer be continued; workers run jobs of their own version alone."""
 
 BODY_MODELS_FACT: Final = "body_models"
+
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+def _available(operation: Callable[P, T]) -> Callable[P, T]:
+    @functools.wraps(operation)
+    def wrapper(*args: P.args, **kwargs: P.kwargs) -> T:
+        try:
+            return operation(*args, **kwargs)
+        except (OperationalError, PoolTimeoutError) as error:
+            raise EngineUnavailableError from error
+
+    return wrapper
 
 
 class DbosJobEngine:
@@ -43,6 +67,7 @@ class DbosJobEngine:
         self._client.destroy()
         self._database.dispose()
 
+    @_available
     def submit(self, job: NewJob) -> Submission:
         """Write the record and the queue entry in one transaction."""
         try:
@@ -69,11 +94,13 @@ class DbosJobEngine:
                 raise
             return repeated
 
+    @_available
     def job(self, job_id: str) -> JobRecord | None:
         """Return the job, or None if there is none."""
         with self._database.connect() as connection:
             return find_job(connection, job_id)
 
+    @_available
     def jobs(
         self, *, limit: int, before: tuple[float, str] | None, state: JobState | None
     ) -> Sequence[JobRecord]:
@@ -92,6 +119,7 @@ class DbosJobEngine:
         with self._database.connect() as connection:
             return [job_record(row) for row in connection.execute(query).mappings()]
 
+    @_available
     def cancel(self, job_id: str) -> JobRecord | None:
         """End a queued job at once; ask the worker of a running one to stop.
 
@@ -116,6 +144,7 @@ class DbosJobEngine:
         self._client.cancel_workflow(job_id)
         return canceled
 
+    @_available
     def erase(self, job_id: str) -> bool:
         """Delete record, events and queue entry; a running attempt finds itself superseded."""
         with self._database.begin() as connection:
@@ -126,6 +155,7 @@ class DbosJobEngine:
             self._forget_pages()
         return found
 
+    @_available
     def events(self, job_id: str, *, after: int) -> Sequence[JobEvent]:
         """Return the events numbered above ``after``."""
         query = (
@@ -143,23 +173,27 @@ class DbosJobEngine:
                 for row in connection.execute(query)
             ]
 
+    @_available
     def last_events(self, job_ids: Sequence[str]) -> dict[str, int]:
         """Return the number of the last event of each job that exists."""
         query = sa.select(JOBS.c.id, JOBS.c.last_event).where(JOBS.c.id.in_(job_ids))
         with self._database.connect() as connection:
             return {row.id: row.last_event for row in connection.execute(query)}
 
+    @_available
     def queued(self) -> int:
         """Count the waiting jobs."""
         with self._database.connect() as connection:
             return self._count_queued(connection)
 
+    @_available
     def live_workers(self) -> int:
         """Count the workers that are alive."""
         with self._database.connect() as connection:
             rows = connection.execute(sa.select(WORKERS)).all()
         return len(self._watch.alive(rows))
 
+    @_available
     def body_models(self) -> BodyModels | None:
         """Return what the worker that last started can fit; None before any did."""
         query = sa.select(FACTS.c.value).where(FACTS.c.name == BODY_MODELS_FACT)
@@ -167,8 +201,9 @@ class DbosJobEngine:
             value = connection.execute(query).scalar_one_or_none()
         return None if value is None else BodyModels.model_validate_json(value)
 
+    @_available
     def check_writable(self) -> None:
-        """Raise if the database cannot be written."""
+        """Raise :class:`EngineUnavailableError` if the database cannot be written."""
         with self._database.begin() as connection:
             connection.execute(
                 sa.update(FACTS).where(FACTS.c.name == BODY_MODELS_FACT).values(name=FACTS.c.name)

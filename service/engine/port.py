@@ -69,6 +69,10 @@ class JobEvent:
     data: EventData
 
 
+class EngineUnavailableError(Exception):
+    """The engine's database is away or full; nothing was changed."""
+
+
 class SubmitOutcome(StrEnum):
     """How a submission ended."""
 
@@ -87,7 +91,10 @@ class Submission:
 
 
 class JobEngine(Protocol):
-    """The caller's side: accept, look up, stop and erase jobs."""
+    """The caller's side: accept, look up, stop and erase jobs.
+
+    Every method may raise :class:`EngineUnavailableError`.
+    """
 
     def submit(self, job: NewJob) -> Submission:
         """Accept a job durably, or say why not."""
@@ -132,7 +139,7 @@ class JobEngine(Protocol):
         ...
 
     def check_writable(self) -> None:
-        """Raise if the database cannot be written."""
+        """Raise :class:`EngineUnavailableError` if the database cannot be written."""
         ...
 
 

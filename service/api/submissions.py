@@ -1,0 +1,225 @@
+"""Submit a picture: the checks, the stored blobs, the accepted job."""
+
+import errno
+import hashlib
+import re
+import time
+from typing import Annotated, Any, Final
+from uuid import uuid4
+
+from fastapi import APIRouter, Header, Request, Response
+from starlette.concurrency import run_in_threadpool
+
+from api_schemas.jobs import Job
+from api_schemas.problems import problem
+from service.api.context import ApiContext, Context
+from service.api.problems import ProblemError, documented, not_found
+from service.api.representation import POLL_AFTER_S, job_path, represent
+from service.api.uploads import Upload, read_upload
+from service.engine.port import (
+    Idempotency,
+    JobRecord,
+    NewJob,
+    StoredBlob,
+    Submission,
+    SubmitOutcome,
+)
+from service.jobs import ACTIVE
+from service.submission import CheckedSubmission, check_submission
+
+ROUTER: Final = APIRouter(prefix="/v1/fits", tags=["fits"])
+
+MAX_WAIT_S: Final = 60
+
+_SUBMISSION: Final[dict[str, Any]] = {
+    "requestBody": {
+        "required": True,
+        "content": {
+            "multipart/form-data": {
+                "schema": {
+                    "type": "object",
+                    "additionalProperties": False,
+                    "required": ["image", "request"],
+                    "properties": {
+                        "image": {
+                            "type": "string",
+                            "format": "binary",
+                            "description": "JPEG, PNG or WebP.",
+                        },
+                        "request": {"$ref": "#/components/schemas/FitOptions"},
+                        "mask": {
+                            "type": "string",
+                            "format": "binary",
+                            "description": (
+                                "A grey picture of the same size; the person is brighter than "
+                                "half. Replaces the segmentation."
+                            ),
+                        },
+                    },
+                },
+                "encoding": {
+                    "image": {"contentType": "image/jpeg, image/png, image/webp"},
+                    "request": {"contentType": "application/json"},
+                    "mask": {"contentType": "image/jpeg, image/png, image/webp"},
+                },
+            }
+        },
+    }
+}
+
+_ACCEPTED_HEADERS: Final = {
+    "Location": {"description": "Path of the job.", "schema": {"type": "string"}},
+    "Retry-After": {"description": "Seconds to wait.", "schema": {"type": "integer"}},
+}
+
+
+@ROUTER.post(
+    "",
+    status_code=202,
+    response_model=Job,
+    summary="Submit a picture",
+    openapi_extra=_SUBMISSION,
+    responses={
+        200: {"model": Job, "description": "Ended within the time of `Prefer: wait`."},
+        202: {"description": "Accepted.", "headers": _ACCEPTED_HEADERS},
+    }
+    | documented(
+        "malformed-request",
+        "payload-too-large",
+        "unsupported-media-type",
+        "invalid-request",
+        "idempotency-key-reused",
+        "queue-full",
+        "not-ready",
+        "internal-error",
+    ),
+)
+async def submit(
+    request: Request,
+    response: Response,
+    context: Context,
+    idempotency_key: Annotated[str | None, Header(min_length=1, max_length=255)] = None,
+    prefer: Annotated[str | None, Header(description="`respond-async` or `wait=N`.")] = None,
+) -> Job:
+    """Accept a picture with its points; the answer is a job to follow.
+
+    The same `Idempotency-Key` with the same content answers with the earlier job. With
+    `Prefer: wait=N` (at most 60 s) the answer waits for the job's end.
+    """
+    upload = await read_upload(request)
+    submission = await run_in_threadpool(_store, context, upload, idempotency_key)
+    job = _accepted(submission)
+    wait_s = _preferred_wait_s(prefer)
+    if wait_s > 0:
+        job = await _wait_for_end(context, job, wait_s)
+        response.headers["Preference-Applied"] = f"wait={wait_s}"
+    response.headers["Location"] = job_path(job.id)
+    if job.state in ACTIVE:
+        response.headers["Retry-After"] = str(POLL_AFTER_S)
+    elif wait_s > 0:
+        response.status_code = 200
+    return represent(job)
+
+
+def _store(context: ApiContext, upload: Upload, idempotency_key: str | None) -> Submission:
+    checked = check_submission(
+        request=upload.request,
+        image=upload.image,
+        mask=upload.mask,
+        max_pixels=context.settings.max_pixels,
+    )
+    job_id = str(uuid4())
+    try:
+        return _keep(context, job_id, upload, checked, idempotency_key)
+    except OSError as error:
+        if error.errno not in (errno.ENOSPC, errno.EDQUOT):
+            raise
+        raise ProblemError(
+            problem(
+                "not-ready",
+                code="disk-full",
+                detail="There is no room to store the picture.",
+                remedy="Try again later; nothing was kept.",
+            )
+        ) from error
+
+
+def _keep(
+    context: ApiContext,
+    job_id: str,
+    upload: Upload,
+    checked: CheckedSubmission,
+    idempotency_key: str | None,
+) -> Submission:
+    blobs = context.blobs
+    try:
+        image = StoredBlob(
+            digest=blobs.put(job_id, upload.image), media_type=checked.image_media_type
+        )
+        mask = None
+        if upload.mask is not None and checked.mask_media_type is not None:
+            mask = StoredBlob(
+                digest=blobs.put(job_id, upload.mask), media_type=checked.mask_media_type
+            )
+    except OSError:
+        blobs.erase(job_id)
+        raise
+    # Should the database go away before it answers, it may have said yes: the blobs stay then.
+    submission = context.engine.submit(
+        NewJob(
+            id=job_id,
+            options=checked.options.model_dump_json(),
+            image=image,
+            mask=mask,
+            idempotency=_idempotency(idempotency_key, upload),
+        )
+    )
+    if submission.outcome is not SubmitOutcome.ACCEPTED:
+        blobs.erase(job_id)
+    return submission
+
+
+def _idempotency(key: str | None, upload: Upload) -> Idempotency | None:
+    if key is None:
+        return None
+    digest = hashlib.sha256()
+    for part in (upload.request, upload.image, upload.mask or b""):
+        digest.update(hashlib.sha256(part).digest())
+    return Idempotency(key=hashlib.sha256(key.encode()).hexdigest(), fingerprint=digest.hexdigest())
+
+
+def _accepted(submission: Submission) -> JobRecord:
+    if submission.outcome is SubmitOutcome.QUEUE_FULL:
+        raise ProblemError(
+            problem(
+                "queue-full",
+                detail="The queue of waiting jobs is full.",
+                remedy="Try again after the time in Retry-After.",
+            )
+        )
+    if submission.job is None:
+        raise ProblemError(
+            problem(
+                "idempotency-key-reused",
+                detail="This Idempotency-Key came earlier with another request.",
+                remedy="Use a new key for every new request.",
+                field="Idempotency-Key",
+            )
+        )
+    return submission.job
+
+
+def _preferred_wait_s(prefer: str | None) -> int:
+    found = re.search(r"(?:^|[,;\s])wait\s*=\s*(\d{1,6})", prefer or "")
+    return min(int(found[1]), MAX_WAIT_S) if found else 0
+
+
+async def _wait_for_end(context: ApiContext, job: JobRecord, wait_s: int) -> JobRecord:
+    deadline = time.monotonic() + wait_s
+    while job.state in ACTIVE and (remaining_s := deadline - time.monotonic()) > 0:
+        await context.feed.wait_beyond(job.id, job.last_event, timeout_s=remaining_s)
+        latest = await run_in_threadpool(context.engine.job, job.id)
+        if latest is None:
+            raise not_found(what="such job any more")
+        job = latest
+    return job
