@@ -38,14 +38,48 @@ class HullCut:
         return float(np.linalg.norm(corners - np.roll(corners, -1, axis=0), axis=1).sum())
 
 
-def hull_cut(vertices: Vertices, triangles: Triangles, point: Vector3, normal: Vector3) -> HullCut:
-    """Cut a closed mesh and take the hull of the loop around ``point``, or else nearest to it.
+def limb_cut(vertices: Vertices, triangles: Triangles, point: Vector3, normal: Vector3) -> HullCut:
+    """Cut a mesh and take the hull of the loop around ``point``, or else of the one nearest to it.
 
     Raises
     ------
     NumericalError
         If the plane misses the mesh.
     """
+    crossing = _crossing(vertices, triangles, point, normal)
+    loops = range(int(crossing.loop.max()) + 1)
+    chosen = min(loops, key=lambda loop: _remoteness(crossing.planar[crossing.loop == loop]))
+    return _hull(crossing, np.flatnonzero(crossing.loop == chosen))
+
+
+def trunk_cut(vertices: Vertices, triangles: Triangles, point: Vector3, normal: Vector3) -> HullCut:
+    """Cut a mesh and take the hull of all that is cut.
+
+    Of front and back where the armpits part them, of both thighs below the crotch. ``triangles``
+    leave out what the tape does not go around.
+
+    Raises
+    ------
+    NumericalError
+        If the plane misses the mesh.
+    """
+    crossing = _crossing(vertices, triangles, point, normal)
+    return _hull(crossing, np.arange(len(crossing.edges)))
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class _Crossing:
+    """Edges that a plane crosses, where (``share``, and in the plane), and the loop they are of."""
+
+    edges: Integer[np.ndarray, "e 2"]
+    share: Float[np.ndarray, " e"]
+    planar: Float[np.ndarray, "e 2"]
+    loop: Integer[np.ndarray, " e"]
+
+
+def _crossing(
+    vertices: Vertices, triangles: Triangles, point: Vector3, normal: Vector3
+) -> _Crossing:
     side = (vertices - point) @ normal
     # A vertex on the plane would make degenerate edges; it counts as above.
     above = side >= 0.0
@@ -60,15 +94,17 @@ def hull_cut(vertices: Vertices, triangles: Triangles, point: Vector3, normal: V
     edges, position = np.unique(np.sort(pairs[cut], axis=1), axis=0, return_inverse=True)
     links = position.reshape(-1, 2)
     graph = sparse.coo_array((np.ones(len(links)), (links[:, 0], links[:, 1])), (len(edges),) * 2)
-    count, loop_of = connected_components(graph, directed=False)
+    _, loop = connected_components(graph, directed=False)
     distance = np.abs(side[edges])
     share = distance[:, 0] / distance.sum(axis=1)
     positions = vertices[edges[:, 0]] + share[:, None] * np.diff(vertices[edges], axis=1)[:, 0]
     planar = (positions - point) @ _plane_axes(normal)
-    chosen = min(range(count), key=lambda loop: _remoteness(planar[loop_of == loop]))
-    members = np.flatnonzero(loop_of == chosen)
-    corners = members[ConvexHull(planar[members]).vertices]
-    return HullCut(edges=edges[corners], share=share[corners])
+    return _Crossing(edges=edges, share=share, planar=planar, loop=loop)
+
+
+def _hull(crossing: _Crossing, members: Integer[np.ndarray, " k"]) -> HullCut:
+    corners = members[ConvexHull(crossing.planar[members]).vertices]
+    return HullCut(edges=crossing.edges[corners], share=crossing.share[corners])
 
 
 def _remoteness(loop: Float[np.ndarray, "k 2"]) -> tuple[bool, float]:

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
+from fitter.arrays import Triangles
 from fitter.body.model import SparseRows
 from fitter.training.body_space import BodySpace, Traits, source_vertices
 from fitter.training.local_changes import FACE_CHANGES
@@ -51,6 +52,9 @@ OLDEST = YOUNG_AGE + 0.2
 
 FACE_SPREAD = 0.3
 
+ARM_MOTION = 0.02
+"""Share of the hand's motion above which skin moves with the arm's length."""
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Population:
@@ -82,9 +86,13 @@ class Population:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Workshop:
-    """What all subjects of a gender share."""
+    """What all subjects of a gender share.
+
+    ``trunk`` are the triangles of the body without its arms.
+    """
 
     space: BodySpace
+    trunk: Triangles
     body_targets: Float[np.ndarray, "k m 3"]
     rows: dict[str, Row]
     statistics: SurveyStatistics
@@ -100,9 +108,11 @@ class _Subject:
 
 def prepare(space: BodySpace, landmarks: SparseRows) -> Workshop:
     """Ready a gender for solving subjects; ``landmarks`` are those of the body model."""
+    body_targets = np.ascontiguousarray(space.base.body(space.targets))
     return Workshop(
         space=space,
-        body_targets=np.ascontiguousarray(space.base.body(space.targets)),
+        trunk=_without_arms(space, body_targets),
+        body_targets=body_targets,
         rows=named_rows(space.base, landmarks),
         statistics=load_statistics(packaged_statistics_path(), space.gender),
     )
@@ -153,14 +163,14 @@ def load_population(path: Path) -> Population:
 
 
 def residual_table(population: Population) -> str:
-    """Bias and mean absolute error of every measurement, and the parameters most at bounds."""
+    """Bias, mean and largest absolute error of measurements; the parameters most at bounds."""
     errors = population.reached - population.wanted
-    lines = [f"{'measurement':32s}{'bias':>9s}{'mean abs':>10s}{'survey SD':>11s}"]
+    lines = [f"{'measurement':32s}{'bias':>9s}{'mean abs':>10s}{'largest':>9s}{'survey SD':>11s}"]
     for column, name in enumerate(population.measurement_names):
         unit, scale = ("kg", 1.0) if name == "weightkg" else ("mm", 1000.0)
-        bias, absolute = errors[:, column].mean(), np.abs(errors[:, column]).mean()
+        bias, absolute = scale * errors[:, column].mean(), scale * np.abs(errors[:, column])
         lines.append(
-            f"{name:32s}{scale * bias:9.1f}{scale * absolute:10.1f}"
+            f"{name:32s}{bias:9.1f}{absolute.mean():10.1f}{absolute.max():9.1f}"
             f"{scale * population.deviation[column]:11.1f} {unit}"
         )
     at_bound = (population.parameters <= population.lower) | (
@@ -174,6 +184,14 @@ def residual_table(population: Population) -> str:
         if share[k] > 0.0
     ]
     return "\n".join(lines)
+
+
+def _without_arms(space: BodySpace, body_targets: Float[np.ndarray, "k m 3"]) -> Triangles:
+    """The triangles of which no corner moves when the upper arm is lengthened."""
+    change = [change.name for change in space.changes].index("measure-upperarm-length")
+    motion = np.linalg.norm(body_targets[len(space.macro.names) + 2 * change], axis=1)
+    arm = motion > ARM_MOTION * motion.max()
+    return space.base.triangles[~arm[space.base.triangles].any(axis=1)]
 
 
 def _solve(workshop: Workshop, stream: np.random.SeedSequence) -> _Subject:
@@ -208,5 +226,5 @@ def _placed(workshop: Workshop, traits: Traits, parameters: Float[np.ndarray, " 
     """The cuts placed on the body of these parameters."""
     space = workshop.space
     body = source_vertices(space, traits, parameters)
-    forms = place_measurements(space.base, workshop.rows, body)
+    forms = place_measurements(space.base, workshop.trunk, workshop.rows, body)
     return place(space, traits, forms, workshop.body_targets)

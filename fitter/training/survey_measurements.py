@@ -16,9 +16,9 @@ import numpy as np
 from jaxtyping import Float, Integer
 from scipy import sparse
 
-from fitter.arrays import Vector3, Vertices
+from fitter.arrays import Triangles, Vector3, Vertices
 from fitter.body.model import SparseRows
-from fitter.training.cuts import HullCut, hull_cut
+from fitter.training.cuts import HullCut, limb_cut, trunk_cut
 from fitter.training.makehuman import BaseMesh
 
 Row = Mapping[int, float]
@@ -145,13 +145,17 @@ def named_rows(base: BaseMesh, landmarks: SparseRows) -> dict[str, Row]:
     return rows | {"sole": landmark("sole_left"), "right_acromion": landmark("right_acromion")}
 
 
-def place_measurements(base: BaseMesh, rows: Mapping[str, Row], source: Vertices) -> LinearForms:
+def place_measurements(
+    base: BaseMesh, trunk: Triangles, rows: Mapping[str, Row], source: Vertices
+) -> LinearForms:
     """Place all cuts on one body and write its measurements as linear forms.
 
     Parameters
     ----------
     base
         The base mesh.
+    trunk
+        The triangles of the body without its arms.
     rows
         From :func:`named_rows`.
     source
@@ -161,7 +165,7 @@ def place_measurements(base: BaseMesh, rows: Mapping[str, Row], source: Vertices
         name: np.sum([weight * source[vertex] for vertex, weight in row.items()], axis=0)
         for name, row in rows.items()
     }
-    cuts = place_cuts(base, points, source)
+    cuts = place_cuts(base, trunk, points, source)
     entries = [
         (MEASUREMENTS.index(name), axis, row)
         for name, axis, row in _forms(base, rows, cuts, source)
@@ -182,13 +186,13 @@ def place_measurements(base: BaseMesh, rows: Mapping[str, Row], source: Vertices
 
 
 def place_cuts(
-    base: BaseMesh, points: Mapping[str, Vector3], source: Vertices
+    base: BaseMesh, trunk: Triangles, points: Mapping[str, Vector3], source: Vertices
 ) -> dict[str, HullCut]:
     """The cut of every girth on one body, over body vertices."""
     body = base.body(source)
 
     def cut(point: Vector3, normal: Vector3) -> HullCut:
-        return hull_cut(body, base.triangles, point, normal)
+        return limb_cut(body, base.triangles, point, normal)
 
     def scan(start: Vector3, end: Vector3, normal: Vector3, selection: str) -> HullCut:
         cuts = [cut(point, normal) for point in np.linspace(start, end, SCAN_CUTS)]
@@ -197,8 +201,8 @@ def place_cuts(
 
     found: dict[str, HullCut] = {}
     for name, level in LEVEL_GIRTHS.items():
-        # The trunk's loop is the one around the mid-plane; arms are loops of their own.
-        found[name] = cut(points[level] * [0.0, 1.0, 0.0] + points["hip"] * [0.0, 0.0, 1.0], UP)
+        middle = points[level] * [0.0, 1.0, 0.0] + points["hip"] * [0.0, 0.0, 1.0]
+        found[name] = trunk_cut(body, trunk, middle, UP)
     brow = points["head"] * [0.0, 0.0, 1.0] + points["eye"] * UP
     crown = points["head"] * [0.0, 0.0, 1.0] + points["crown"] * UP
     found["headcircumference"] = scan(

@@ -3,6 +3,7 @@ import pytest
 
 from fitter.numerics.meshes import enclosed_volume
 from fitter.training.body_space import average_traits, source_vertices
+from fitter.training.cuts import limb_cut, trunk_cut
 from fitter.training.landmarks import body_landmarks
 from fitter.training.makehuman import makehuman_folder
 from fitter.training.population import Workshop, prepare, solve_population
@@ -32,7 +33,7 @@ def workshop() -> Workshop:
 def placed_on(workshop: Workshop, parameters: np.ndarray) -> Placed:
     space = workshop.space
     body = source_vertices(space, average_traits(), parameters)
-    forms = place_measurements(space.base, workshop.rows, body)
+    forms = place_measurements(space.base, workshop.trunk, workshop.rows, body)
     return place(space, average_traits(), forms, workshop.body_targets)
 
 
@@ -112,3 +113,24 @@ def test_a_population_begins_with_the_shorter_one_and_meets_its_measurements(wor
     stature = MEASUREMENTS.index("stature")
     assert np.abs(two.reached - two.wanted)[:, stature].max() < 0.015
     assert np.median(np.abs(two.reached - two.wanted) / two.deviation) < 0.05
+
+
+@needs_makehuman
+def test_the_chest_is_measured_without_the_arms_where_they_join_the_trunk(workshop: Workshop):
+    space = workshop.space
+    body = space.base.body(source_vertices(space, average_traits(), space.neutral))
+    up = np.array([0.0, 1.0, 0.0])
+    nipple = sum(
+        weight * up @ body[space.base.body_vertex_ids.searchsorted(vertex)]
+        for vertex, weight in workshop.rows["nipple"].items()
+    )
+
+    def girths(rise_m: float) -> tuple[float, float]:
+        point = (nipple + rise_m) * up
+        whole = limb_cut(body, space.base.triangles, point, up)
+        return trunk_cut(body, workshop.trunk, point, up).girth(body), whole.girth(body)
+
+    assert girths(0.03)[0] == girths(0.03)[1]
+    # Two centimetres up is where the arms join in a level cut of the whole body.
+    assert girths(0.05)[1] > girths(0.03)[1] + 0.3
+    assert girths(0.05)[0] < girths(0.03)[0] + 0.1
