@@ -36,11 +36,15 @@ two neighbours costs as much as ten vertices left wholly unexplained, at 0.3 it 
 SPECULAR_EXPONENTS = (6.0, 12.0, 24.0, 48.0)
 """α is chosen from these once, with the first light: skin's broad gloss to a moist shine."""
 
+GRADUATION = ((8.0, 3), (3.0, 3), (1.0, 5))
+"""Factors of η₁ and iterations of each reflectance solve. Graduated non-convexity: cloth and hair
+are far from the first, uniform albedo, and a narrow robust function would take them for outliers
+for ever instead of giving them an albedo of their own."""
+
 # η₂ and η₃ relative to the median albedo: steps larger than this are edges of cloth or hair.
 _RELATIVE_ALBEDO_ETA = 0.1
 _RELATIVE_SPECULARITY_ETA = 0.1
 _LIGHT_ITERATIONS = 8
-_REFLECTANCE_ITERATIONS = 6
 _LEAST_USABLE = 200
 # A few vertices lie on hair, cloth or in a fold; this percentile is the darkest skin.
 _DARKEST_PERCENTILE = 3.0
@@ -221,28 +225,29 @@ def _with_new_reflectance(
     first, second = topology.edges.T
     lengths = np.linalg.norm(rendering.vertices[first] - rendering.vertices[second], axis=1)
     albedo_level = max(float(np.median(state.reflectance.albedo)), 1e-3)
-    found = solver.solve(
-        ReflectanceProblem(
-            diffuse=terms.diffuse,
-            specular=terms.specular,
-            intensity=intensity,
-            weights=weights,
-            edges=topology.edges,
-            ambient_limit=_darkest(intensity[usable]),
-            edge_lengths=np.maximum(lengths / lengths.mean(), 0.05),
-            albedo_smoothness=smoothness,
-            specularity_smoothness=smoothness,
-            data_eta=state.eta,
-            albedo_eta=_RELATIVE_ALBEDO_ETA * albedo_level,
-            specularity_eta=_RELATIVE_SPECULARITY_ETA * albedo_level,
-        ),
-        ReflectanceFields(
-            albedo=state.reflectance.albedo,
-            specularity=state.reflectance.specularity,
-            ambient=state.reflectance.ambient,
-        ),
-        iterations=_REFLECTANCE_ITERATIONS,
+    problem = ReflectanceProblem(
+        diffuse=terms.diffuse,
+        specular=terms.specular,
+        intensity=intensity,
+        weights=weights,
+        edges=topology.edges,
+        ambient_limit=_darkest(intensity[usable]),
+        edge_lengths=np.maximum(lengths / lengths.mean(), 0.05),
+        albedo_smoothness=smoothness,
+        specularity_smoothness=smoothness,
+        data_eta=state.eta,
+        albedo_eta=_RELATIVE_ALBEDO_ETA * albedo_level,
+        specularity_eta=_RELATIVE_SPECULARITY_ETA * albedo_level,
     )
+    found = ReflectanceFields(
+        albedo=state.reflectance.albedo,
+        specularity=state.reflectance.specularity,
+        ambient=state.reflectance.ambient,
+    )
+    for widening, iterations in GRADUATION:
+        found = solver.solve(
+            replace(problem, data_eta=widening * state.eta), found, iterations=iterations
+        )
     return replace(
         state,
         reflectance=replace(
