@@ -1,81 +1,21 @@
-"""``maquette serve``: the API in this process, a worker beside it, restarted when it dies."""
+"""``maquette serve``: the API in this process, a worker in another."""
 
 import logging
 import os
 import signal
 import socket
-import subprocess
 import sys
-import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from typing import Final
 
-import uvicorn
-
-from service.api.app import create_app
-from service.blobs import BlobStore
-from service.engine.database import open_database, prepare_database
-from service.engine.dbos_jobs import DbosJobEngine
 from service.settings import Settings
+from service.supervisor import SupervisedWorker
 
 LOG: Final = logging.getLogger(__name__)
 
 WORKER_COMMAND: Final = (sys.executable, "-m", "service.worker")
-RESTART_PAUSE_S: Final = 1.0
 STOP_MARGIN_S: Final = 5.0
 """What a worker gets beyond its drain time before it is killed."""
-
-
-class SupervisedWorker:
-    """A worker process that is started again whenever it ends unasked.
-
-    It holds the reading end of a pipe of ours as its standard input: should this process be
-    killed, the pipe ends and the worker stops by itself.
-    """
-
-    def __init__(
-        self, command: Sequence[str], *, environment: Mapping[str, str], stop_timeout_s: float
-    ) -> None:
-        self._command = list(command)
-        self._environment = dict(environment)
-        self._stop_timeout_s = stop_timeout_s
-        self._stopping = threading.Event()
-        self._lock = threading.Lock()
-        self._process = self._spawn()
-        self._thread = threading.Thread(target=self._watch, name="supervisor", daemon=True)
-        self._thread.start()
-
-    def stop(self) -> None:
-        """Ask the worker to drain and wait for it; kill it if it does not end."""
-        with self._lock:
-            self._stopping.set()
-            process = self._process
-        if process.stdin is not None:
-            process.stdin.close()
-        try:
-            process.wait(self._stop_timeout_s)
-        except subprocess.TimeoutExpired:
-            LOG.warning("The worker did not stop in time and is killed.")
-            process.kill()
-        self._thread.join()
-
-    def _spawn(self) -> subprocess.Popen[bytes]:
-        # A session of its own: an interrupt from the terminal is for us, we pass it on in order.
-        return subprocess.Popen(
-            self._command, stdin=subprocess.PIPE, env=self._environment, start_new_session=True
-        )
-
-    def _watch(self) -> None:
-        while True:
-            code = self._process.wait()
-            if self._stopping.is_set():
-                return
-            LOG.error("The worker ended with code %d; starting another.", code)
-            self._stopping.wait(RESTART_PAUSE_S)
-            with self._lock:
-                if self._stopping.is_set():
-                    return
-                self._process = self._spawn()
 
 
 def listen(settings: Settings) -> socket.socket:
@@ -98,11 +38,8 @@ def serve(
 
     Uvicorn is told to stop by SIGINT or SIGTERM and lets open requests end first.
     """
-    # Uvicorn takes the signals while it runs and raises them again when it is done: with the
-    # handlers Python begins with, that would end the process before the worker is stopped.
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, _stop_before_serving)
-    prepare_database(settings.system_database_url)
     worker = None
     if worker_command is not None:
         worker = SupervisedWorker(
@@ -110,6 +47,15 @@ def serve(
             environment=os.environ | settings.environment(),
             stop_timeout_s=settings.drain_s + STOP_MARGIN_S,
         )
+    # Imported while the worker starts: each of the two takes a second or more to load.
+    import uvicorn
+
+    from service.api.app import create_app
+    from service.blobs import BlobStore
+    from service.engine.database import open_database, prepare_database
+    from service.engine.dbos_jobs import DbosJobEngine
+
+    prepare_database(settings.system_database_url)
     engine = DbosJobEngine(
         open_database(settings.system_database_url),
         max_queued=settings.max_queued,
@@ -127,8 +73,10 @@ def serve(
             server_header=False,
         )
     )
+    # Uvicorn takes the signals while it runs, and raises them again when it is done: they must not
+    # end the process before the worker is stopped.
     for number in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(number, signal.SIG_IGN)
+        signal.signal(number, lambda *_: setattr(server, "should_exit", True))
     host, port = listener.getsockname()[:2]
     announce(f"Maquette listens on http://{host}:{port}, documented at /docs.")
     try:
