@@ -54,11 +54,14 @@ class BodyModel:
         (m, 4) the parts whose motion a vertex follows: the linear-blend tangent.
     pose_feature_joints
         (p, q) joints whose (R - I) drives the part's pose-dependent term, -1 where unused.
+    pose_feature_strengths
+        (p, 9 q, n) how strongly each feature acts on bodies of other shapes: times 1 + s . β.
     incidence_pointers, incidence_vertices
         Part by part, the vertices its triangles touch (CSR-like).
     pose_right_hand_sides
         (incidences, 3, 9 q) the pose-dependent term as right-hand sides of the least squares in
-        the part's frame: multiply by the flattened features (R_joint - I), joint-major.
+        the part's frame: multiply by the flattened features (1 + s . β) (R_joint - I),
+        joint-major.
     landmarks
         Rows by name: the 17 COCO points, ``neck``, ``head_top``, ``chin``, toes, heels, and the
         anatomical landmarks measurements are defined by.
@@ -84,6 +87,7 @@ class BodyModel:
     skinning_parts: Integer[np.ndarray, "m 4"]
     skinning_weights: Float[np.ndarray, "m 4"]
     pose_feature_joints: Integer[np.ndarray, "p q"]
+    pose_feature_strengths: Float[np.ndarray, "p nine_q n"]
     incidence_pointers: Integer[np.ndarray, " p1"]
     incidence_vertices: Integer[np.ndarray, " i"]
     pose_right_hand_sides: Float[np.ndarray, "i 3 nine_q"]

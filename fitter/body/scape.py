@@ -1,11 +1,12 @@
 """SCAPE at run time: shape and pose to vertices, and its exact reverse (section 3).
 
-Every triangle t of part p asks its deformation gradient to be R_p [D_t(β) + E_t(θ)], and the mesh
-is the least-squares answer, min over Y of Σ_t w_t ‖R_p(t) [D_t + E_t] - grad_t(Y)‖². Its normal
-equations have one fixed matrix, L = Gᵀ W G, and a right-hand side that is a sum over parts of
-R_p times something linear in β and in the pose features: L is factored once, and an evaluation is
-an assembly and two triangular solves. The derivative of any scalar with respect to all parameters
-costs one more solve, because L is symmetric.
+Every triangle t of part p asks its deformation gradient to be R_p [D_t(β) + E_t(β, θ)], and the
+mesh is the least-squares answer, min over Y of Σ_t w_t ‖R_p(t) [D_t + E_t] - grad_t(Y)‖². The
+normal equations have one fixed matrix, L = Gᵀ W G, and a right-hand side that is a sum over parts
+of R_p times something linear in β and in the pose features, (R_joint - I) each with its strength
+1 + s . β: L is factored once, and an evaluation is an assembly and two triangular solves. The
+derivative of any scalar with respect to all parameters costs one more solve, because L is
+symmetric.
 """
 
 from dataclasses import dataclass
@@ -87,7 +88,7 @@ class ScapeEvaluator:
     def body_frame_vertices(self, parameters: BodyParameters) -> Vertices:
         """Posed vertices in the body frame's axes, metres, root joint at the origin."""
         rotations = global_rotations(parameters.pose, self.model.part_parent)
-        features = self._features(parameters.pose)
+        features = self._strengths(parameters.shape) * self._features(parameters.pose)
         vertices = np.empty_like(self.model.mean_vertices)
         assemble_right_hand_side(
             self._shape_terms,
@@ -118,7 +119,9 @@ class ScapeEvaluator:
         adjoint = adjoint - self._root_weights[:, None] * adjoint.sum(axis=0)
         self._solve(adjoint)
         rotations = global_rotations(parameters.pose, self.model.part_parent)
-        features = self._features(parameters.pose)
+        strengths = self._strengths(parameters.shape)
+        unscaled = self._features(parameters.pose)
+        features = strengths * unscaled
         shape = np.empty(len(parameters.shape))
         feature_derivative = np.empty(features.shape)
         rotation_derivative = np.empty_like(rotations)
@@ -138,10 +141,13 @@ class ScapeEvaluator:
         )
         return BodyDerivative(
             pose=self._pose_derivative(
-                parameters.pose, rotations, rotation_derivative, feature_derivative
+                parameters.pose, rotations, rotation_derivative, strengths * feature_derivative
             ),
             translation=translation,
-            shape=shape,
+            shape=shape
+            + np.einsum(
+                "pa,pan->n", unscaled * feature_derivative, self.model.pose_feature_strengths
+            ),
         )
 
     def _pose_derivative(
@@ -170,6 +176,9 @@ class ScapeEvaluator:
         joints = self.model.pose_feature_joints
         features = np.where((joints >= 0)[:, :, None, None], difference[joints], 0.0)
         return features.reshape(len(joints), -1)
+
+    def _strengths(self, shape: Shape) -> Float[np.ndarray, "p nine_q"]:
+        return 1.0 + self.model.pose_feature_strengths @ shape
 
     def _solve(self, right: Vertices) -> None:
         solve_factored(

@@ -96,6 +96,13 @@ def assemble_body_model(
         gradient_operator(mean, triangles), areas, parts.part_of_triangle, len(PART_NAMES)
     )
     feature_joints = pose_feature_joints()
+    term = train_pose_term(
+        pose_examples(bodies, shapes.coefficients, example_count, rng),
+        laplacians,
+        parts,
+        feature_joints,
+        SHAPE_COUNT,
+    )
     joints = rest_joints_of(regressor, mean)
     model = BodyModel(
         gender=str(header["gender"]),
@@ -111,13 +118,10 @@ def assemble_body_model(
         skinning_parts=parts.skinning_parts,
         skinning_weights=parts.skinning_weights,
         pose_feature_joints=feature_joints,
+        pose_feature_strengths=term.strengths,
         incidence_pointers=parts.incidence_pointers,
         incidence_vertices=parts.incidence_vertices,
-        pose_right_hand_sides=_as_stored(
-            train_pose_term(
-                pose_examples(bodies, example_count, rng), laplacians, parts, feature_joints
-            )
-        ),
+        pose_right_hand_sides=_as_stored(term.right_hand_sides),
         landmarks=landmarks,
         uv=surface.uv,
         uv_triangles=surface.uv_triangles,
@@ -145,8 +149,13 @@ def with_height_axis(
     )
     basis = np.tensordot(found.rotation.T, model.shape_basis, axes=1)
     signs = np.array([1.0, *(_larger_side(model, axis) for axis in basis[1:])])
+    strengths = model.pose_feature_strengths @ found.rotation
     return TrainedModel(
-        model=replace(model, shape_basis=basis * signs[:, None, None]),
+        model=replace(
+            model,
+            shape_basis=basis * signs[:, None, None],
+            pose_feature_strengths=strengths * signs,
+        ),
         coefficients=shapes.coefficients @ found.rotation * signs,
     )
 
@@ -165,9 +174,12 @@ def height_attribute(model: BodyModel) -> Attribute:
 
 
 def pose_examples(
-    bodies: RegisteredBodies, count: int, rng: np.random.Generator
+    bodies: RegisteredBodies,
+    coefficients: Float[np.ndarray, "s n"],
+    count: int,
+    rng: np.random.Generator,
 ) -> Iterator[PoseExample]:
-    """Posed bodies, subjects taken in turn, poses at random."""
+    """Posed bodies with their shape coefficients; subjects taken in turn, poses at random."""
     for k in range(count):
         subject = k % len(bodies.rest)
         pose = random_pose(rng)
@@ -175,6 +187,7 @@ def pose_examples(
             rest=bodies.rest[subject].astype(np.float64),
             posed=bodies.posed(subject, pose),
             pose=pose,
+            shape=coefficients[subject],
         )
 
 
@@ -199,6 +212,7 @@ def model_arrays(model: BodyModel) -> dict[str, np.ndarray]:
         "mean_vertices": model.mean_vertices,
         "shape_basis": model.shape_basis,
         "triangle_weights": model.triangle_weights,
+        "pose_feature_strengths": model.pose_feature_strengths,
         "joint_weights": model.joint_regressor.weights,
         "skinning_weights": model.skinning_weights,
         "pose_right_hand_sides": model.pose_right_hand_sides,

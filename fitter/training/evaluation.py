@@ -110,9 +110,14 @@ def posed_error(
     """Error of held-out bodies in held-out poses, each body's shape given exactly.
 
     The bodies themselves take the place of the shape basis, so that the figure is that of the
-    articulation alone.
+    articulation alone; how strongly joints act still follows from their coefficients.
     """
-    exact = replace(model, shape_basis=bodies.rest - model.mean_vertices)
+    coefficients = shape_coefficients(model, bodies.rest)
+    exact = replace(
+        model,
+        shape_basis=bodies.rest - model.mean_vertices,
+        pose_feature_strengths=model.pose_feature_strengths @ coefficients.T,
+    )
     return _posed_error(exact, np.eye(len(bodies.rest)), bodies, count, rng)
 
 

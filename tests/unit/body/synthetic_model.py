@@ -68,6 +68,7 @@ def bar_model(*, seed: int = 0, rings: int = 13, sides: int = 8) -> BodyModel:
         skinning_parts=skinning_parts,
         skinning_weights=skinning_weights,
         pose_feature_joints=np.array([[1, -1], [1, 2], [2, -1]], dtype=np.int32),
+        pose_feature_strengths=0.3 * rng.standard_normal((3, 9 * q, 2)),
         incidence_pointers=np.cumsum([0] + [len(t) for t in touched]).astype(np.int32),
         incidence_vertices=np.concatenate(touched).astype(np.int32),
         pose_right_hand_sides=np.concatenate(blocks).reshape(-1, 3, 9 * q).astype(np.float32),

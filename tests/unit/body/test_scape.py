@@ -40,6 +40,7 @@ def plain_body_frame_vertices(model, parameters: BodyParameters) -> np.ndarray:
         features = np.concatenate(
             [difference[j].ravel() if j >= 0 else np.zeros(9) for j in joints]
         )
+        features *= 1.0 + model.pose_feature_strengths[index] @ parameters.shape
         start, stop = model.incidence_pointers[index : index + 2]
         local = model.pose_right_hand_sides[start:stop].astype(float) @ features
         right[model.incidence_vertices[start:stop]] += local @ rotations[index].T

@@ -2,11 +2,14 @@
 
 import numpy as np
 import trimesh
+from scipy import sparse
 
 from fitter.body.model import SparseRows
+from fitter.body.skeleton import global_rotations, posed_joints
 from fitter.training.assemble import RegisteredBodies
 from fitter.training.makehuman import BaseMesh
-from fitter.training.part_tree import PART_NAMES, mirrored_part, part_index
+from fitter.training.part_tree import PART_NAMES, PART_PARENT, mirrored_part, part_index
+from fitter.training.skinning import blend_linear
 
 SPHERE = trimesh.creation.icosphere(subdivisions=3)
 MEAN = np.asarray(SPHERE.vertices) * [0.3, 0.9, 0.2]
@@ -71,4 +74,12 @@ def population(subjects: int, seed: int, *, axes: int = PLANTED) -> RegisteredBo
     weights = part_weights()
     near = (weights / weights.sum(axis=0)).T
     joints = np.einsum("pm,smc->spc", near, rest)
-    return RegisteredBodies(rest=rest, joints=joints, posed=lambda subject, _: rest[subject])
+    skin = sparse.csr_array(weights)
+
+    def posed(subject, pose):
+        rotations = global_rotations(pose, PART_PARENT)
+        centres = posed_joints(joints[subject], rotations, PART_PARENT)
+        translations = centres - np.einsum("pij,pj->pi", rotations, joints[subject])
+        return blend_linear(skin, rotations, translations, rest[subject])
+
+    return RegisteredBodies(rest=rest, joints=joints, posed=posed)

@@ -7,7 +7,13 @@ from fitter.numerics.gradient_operators import gradient_operator, part_laplacian
 from fitter.parameters import BodyParameters
 from fitter.training.part_tree import PART_NAMES, PART_PARENT, part_index
 from fitter.training.parts import Parts, cut_into_parts
-from fitter.training.pose_term import PoseExample, features, pose_feature_joints, train_pose_term
+from fitter.training.pose_term import (
+    PoseExample,
+    PoseTerm,
+    features,
+    pose_feature_joints,
+    train_pose_term,
+)
 from fitter.training.surface import triangle_areas
 
 FOOT, SHIN = part_index("left_foot"), part_index("left_shin")
@@ -15,6 +21,8 @@ SPHERE = trimesh.creation.icosphere(subdivisions=3)
 TRIANGLES = np.asarray(SPHERE.faces)
 REST = np.asarray(SPHERE.vertices)
 JOINTS = pose_feature_joints()
+FIRST = 9 * list(JOINTS[SHIN]).index(FOOT)
+OF_FOOT = slice(FIRST, FIRST + 9)
 
 
 def slices_of_a_sphere() -> Parts:
@@ -36,55 +44,53 @@ def laplacians_of(parts: Parts):
     )
 
 
-def planted_examples(parts: Parts, count: int):
-    """Turning the foot moves the rest of the body by D (R_foot - I), and the foot not at all."""
+def planted_examples(parts: Parts, count: int, strength: np.ndarray):
+    """Turning the foot moves the shin by (1 + s . β) D (R_foot - I), and nothing else."""
     rng = np.random.default_rng(7)
     planted = rng.normal(scale=0.05, size=(*REST.shape, 9))
-    start, stop = parts.incidence_pointers[FOOT : FOOT + 2]
-    planted[parts.incidence_vertices[start:stop]] = 0.0
-    column = list(JOINTS[SHIN]).index(FOOT)
+    for part in set(range(len(PART_NAMES))) - {SHIN}:
+        start, stop = parts.incidence_pointers[part : part + 2]
+        planted[parts.incidence_vertices[start:stop]] = 0.0
     examples = []
     for _ in range(count):
         pose = np.zeros((len(PART_NAMES), 3))
         pose[FOOT] = rng.normal(size=3)
-        phi = features(pose, JOINTS)[SHIN].reshape(-1, 9)[column]
-        examples.append(PoseExample(rest=REST, posed=REST + planted @ phi, pose=pose))
+        shape = rng.normal(size=2)
+        phi = (1.0 + strength @ shape) * features(pose, JOINTS)[SHIN, OF_FOOT]
+        posed = REST + planted @ phi
+        examples.append(PoseExample(rest=REST, posed=posed, pose=pose, shape=shape))
     return planted, examples
 
 
 def test_regression_recovers_a_planted_linear_term():
     parts = slices_of_a_sphere()
     laplacians = laplacians_of(parts)
-    planted, examples = planted_examples(parts, 40)
-    term = train_pose_term(examples, laplacians, parts, JOINTS, ridge=1e-13)
+    planted, examples = planted_examples(parts, 40, np.zeros(2))
+    term = train_pose_term(examples, laplacians, parts, JOINTS, 2, ridge=1e-13)
     start, stop = parts.incidence_pointers[SHIN : SHIN + 2]
     vertices = parts.incidence_vertices[start:stop]
     expected = np.tensordot(laplacians[SHIN].toarray(), planted, axes=1)[vertices]
-    column = 9 * list(JOINTS[SHIN]).index(FOOT)
-    np.testing.assert_allclose(term[start:stop, :, column : column + 9], expected, atol=1e-6)
+    found = term.right_hand_sides[start:stop, :, OF_FOOT]
+    np.testing.assert_allclose(found, expected, atol=1e-6)
+    np.testing.assert_allclose(term.strengths, 0.0, atol=1e-6)
+
+
+def test_regression_recovers_how_the_term_grows_with_the_body():
+    parts = slices_of_a_sphere()
+    strength = np.array([0.2, -0.1])
+    _, examples = planted_examples(parts, 200, strength)
+    term = train_pose_term(examples, laplacians_of(parts), parts, JOINTS, 2, ridge=1e-13)
+    expected = np.broadcast_to(strength, (9, 2))
+    np.testing.assert_allclose(term.strengths[SHIN, OF_FOOT], expected, rtol=0.1)
 
 
 def test_the_trained_term_reproduces_its_examples_at_run_time():
     parts = slices_of_a_sphere()
-    adjacent = {SHIN, FOOT}
-    planted, examples = planted_examples(parts, 40)
-    # Parts further off have no feature of the foot, and cannot learn to move with it.
-    for part in set(range(len(PART_NAMES))) - adjacent:
-        start, stop = parts.incidence_pointers[part : part + 2]
-        planted[parts.incidence_vertices[start:stop]] = 0.0
-    column = list(JOINTS[SHIN]).index(FOOT)
-    examples = [
-        PoseExample(
-            rest=REST,
-            posed=REST + planted @ features(e.pose, JOINTS)[SHIN].reshape(-1, 9)[column],
-            pose=e.pose,
-        )
-        for e in examples
-    ]
-    term = train_pose_term(examples, laplacians_of(parts), parts, JOINTS, ridge=1e-13)
+    _, examples = planted_examples(parts, 40, np.zeros(2))
+    term = train_pose_term(examples, laplacians_of(parts), parts, JOINTS, 2, ridge=1e-13)
     evaluator = ScapeEvaluator(sphere_model(parts, term))
     for example in examples[:5]:
-        parameters = BodyParameters(pose=example.pose, translation=np.zeros(3), shape=np.zeros(1))
+        parameters = BodyParameters(pose=example.pose, translation=np.zeros(3), shape=example.shape)
         found = evaluator.body_frame_vertices(parameters)
         np.testing.assert_allclose(
             found - found.mean(axis=0), example.posed - example.posed.mean(axis=0), atol=2e-5
@@ -103,7 +109,7 @@ def test_limbs_feel_the_joints_of_their_own_side():
         assert all(PART_NAMES[j].startswith(side) for j in JOINTS[part] if j >= 0)
 
 
-def sphere_model(parts: Parts, term: np.ndarray) -> BodyModel:
+def sphere_model(parts: Parts, term: PoseTerm) -> BodyModel:
     m, p = len(REST), len(PART_NAMES)
     rows = SparseRows(
         names=PART_NAMES,
@@ -116,7 +122,7 @@ def sphere_model(parts: Parts, term: np.ndarray) -> BodyModel:
         header={},
         triangles=TRIANGLES,
         mean_vertices=REST,
-        shape_basis=np.zeros((1, m, 3)),
+        shape_basis=np.zeros((2, m, 3)),
         part_names=PART_NAMES,
         part_parent=PART_PARENT,
         part_of_triangle=parts.part_of_triangle,
@@ -125,9 +131,10 @@ def sphere_model(parts: Parts, term: np.ndarray) -> BodyModel:
         skinning_parts=parts.skinning_parts,
         skinning_weights=parts.skinning_weights,
         pose_feature_joints=JOINTS,
+        pose_feature_strengths=term.strengths,
         incidence_pointers=parts.incidence_pointers,
         incidence_vertices=parts.incidence_vertices,
-        pose_right_hand_sides=term.astype(np.float32),
+        pose_right_hand_sides=term.right_hand_sides.astype(np.float32),
         landmarks=rows,
         uv=np.zeros((1, 2)),
         uv_triangles=np.zeros_like(TRIANGLES),
