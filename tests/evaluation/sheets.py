@@ -12,7 +12,7 @@ from fitter.render.interpolation import shade_image
 from fitter.render.rasterizer import render
 from tests.evaluation.files import read_case
 from tests.evaluation.landmark_points import packaged_model
-from tests.evaluation.suite import Scored
+from tests.evaluation.suite import Scored, resampled, working_scale
 
 HEIGHT = 560
 FULL_SCALE_MM = 50.0
@@ -44,8 +44,11 @@ def write_sheet(folder: Path, scored: Scored) -> None:
 def _outlines(scored: Scored) -> Picture:
     image = (255.0 * scored.result.pictures.image).astype(np.uint8)
     camera = scored.result.camera
-    size = (camera.width, camera.height)
-    true = cv2.resize(read_case(scored.case).body_mask.astype(np.uint8), size)
+    true = resampled(
+        read_case(scored.case).body_mask,
+        1.0 / working_scale(scored.result),
+        (camera.height, camera.width),
+    ).astype(np.uint8)
     triangles = packaged_model(scored.result.gender).triangles
     found = render(scored.result.posed_vertices, triangles, camera).silhouette.astype(np.uint8)
     drawn = image.copy()
@@ -66,8 +69,9 @@ def _errors(scored: Scored, true: Vertices, found: Vertices, angle: float) -> Pi
     """Distances of vertices, black 0 to white at full scale, on the true body."""
     away = (found - found.mean(axis=0)) - (true - true.mean(axis=0))
     values = np.clip(1000.0 * np.linalg.norm(away, axis=1) / FULL_SCALE_MM, 0.0, 1.0)
-    heat = (255.0 * _drawn(scored, true, angle, values)).astype(np.uint8)
-    return cv2.applyColorMap(heat, cv2.COLORMAP_INFERNO)[..., ::-1]
+    drawn = _drawn(scored, true, angle, 0.98 * values)
+    heat = cv2.applyColorMap((255.0 * drawn).astype(np.uint8), cv2.COLORMAP_INFERNO)[..., ::-1]
+    return np.where((drawn == 1.0)[..., None], np.uint8(255), heat)
 
 
 def _drawn(

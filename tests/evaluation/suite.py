@@ -81,7 +81,8 @@ def score_case(case: Case, cues: Cues) -> Scored:
         joint_mm=_joint_error_mm(result, np.array(scene["joints_m"])),
         overlap=_overlap(_silhouette(result), files.body_mask),
         mask_overlap=_overlap(
-            _at_full_size(result.pictures.segmentation, files.body_mask.shape), files.person_mask
+            resampled(result.pictures.segmentation, working_scale(result), files.body_mask.shape),
+            files.person_mask,
         ),
         light_degrees=_light_error(result.light, light_from_document(scene["light"])),
         seconds=seconds,
@@ -124,10 +125,18 @@ def _silhouette(result: FitResult) -> Mask:
     return render(result.posed_vertices, triangles, result.image_camera).silhouette
 
 
-def _at_full_size(mask: Mask, shape: tuple[int, ...]) -> Mask:
-    rows = (np.arange(shape[0]) * mask.shape[0]) // shape[0]
-    columns = (np.arange(shape[1]) * mask.shape[1]) // shape[1]
-    return mask[np.ix_(rows, columns)]
+def working_scale(result: FitResult) -> float:
+    """Working pixels a pixel of the picture as it was sent."""
+    return result.camera.focal_length_px / result.image_camera.focal_length_px
+
+
+def resampled(mask: Mask, scale: float, shape: tuple[int, ...]) -> Mask:
+    """The nearest pixels of a mask ``scale`` times as large as a picture of a shape."""
+    row, column = (
+        np.minimum((scale * (np.arange(count) + 0.5)).astype(int), limit - 1)
+        for count, limit in zip(shape, mask.shape, strict=True)
+    )
+    return mask[np.ix_(row, column)]
 
 
 def _overlap(first: Mask, second: Mask) -> float:

@@ -1,0 +1,70 @@
+import io
+import json
+
+import numpy as np
+import pytest
+from PIL import Image as PillowImage
+
+from fitter.request import Gender
+from tests.evaluation.cases import CASES, DEMO, PEOPLE
+from tests.evaluation.files import PICTURES_FOLDER, document, read_case
+from tests.evaluation.generate import SAMPLE_FOLDER
+from tests.evaluation.people import load_person
+from tests.evaluation.scene import Half
+from tests.evaluation.staging import stage
+from tests.unit.training.makehuman_data import needs_makehuman
+
+LARGEST_BYTES = {"demo": 150_000}
+LARGEST_OTHER_BYTES = 80_000
+
+AGAIN = "run python -m tests.evaluation.generate --documents"
+
+
+def test_both_halves_have_women_and_men():
+    for half in Half:
+        assert {person.gender for person in PEOPLE.values() if person.half is half} == set(Gender)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_pictures_are_small_and_of_the_size_their_scene_says(name):
+    files = read_case(CASES[name])
+    with PillowImage.open(io.BytesIO(files.image)) as picture:
+        assert picture.size == (CASES[name].view.width, CASES[name].view.height)
+    assert len(files.image) <= LARGEST_BYTES.get(name, LARGEST_OTHER_BYTES)
+    assert files.body_mask.shape == files.person_mask.shape == picture.size[::-1]
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_two_renderers_agree_on_where_the_person_is(name):
+    files = read_case(CASES[name])
+    below_hair = (
+        np.arange(files.body_mask.shape[0])[:, None]
+        > np.flatnonzero(files.body_mask.any(axis=1))[0] + 0.15 * files.body_mask.any(axis=1).sum()
+    )
+    body, person = files.body_mask & below_hair, files.person_mask & below_hair
+    # Curled fingers and two millimetres of cloth are all that differs below the hair.
+    assert (body & person).sum() / (body | person).sum() > 0.97
+
+
+@needs_makehuman
+@pytest.mark.parametrize("name", CASES)
+def test_requests_and_truths_are_those_of_the_present_definitions(name):
+    staged = stage(load_person(PEOPLE[CASES[name].person]), CASES[name])
+    now = json.loads(json.dumps(document(staged)))
+    kept = read_case(CASES[name]).document
+    assert kept["truth"] == pytest.approx(now["truth"], abs=0.3), AGAIN
+    assert set(kept["request"]["points"]) == set(now["request"]["points"]), AGAIN
+    for point, click in kept["request"]["points"].items():
+        assert click == pytest.approx(now["request"]["points"][point], abs=1.0), AGAIN
+    np.testing.assert_allclose(
+        kept["scene"]["joints_m"], now["scene"]["joints_m"], atol=0.01, err_msg=AGAIN
+    )
+
+
+def test_the_demos_sample_is_the_suites_demo_case():
+    sample = json.loads((SAMPLE_FOLDER / "sample.json").read_text())
+    kept = read_case(DEMO)
+    assert (SAMPLE_FOLDER / "sample.jpg").read_bytes() == kept.image
+    assert sample["request"] == kept.document["request"]
+    assert sample["truth"] == kept.document["truth"]
+    assert (PICTURES_FOLDER / "demo.jpg").exists()
