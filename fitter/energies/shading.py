@@ -39,6 +39,9 @@ class ShadingEvidence:
         Per-vertex albedo and specularity, ambient and exponent.
     vertex_areas
         (m,) shares of the body's area.
+    shadowed
+        (m,) vertices in a cast shadow when the light was last found, with their surroundings:
+        Eq. 1 knows no cast shadow, and a body fitted to one bulges to turn away from the light.
     eta
         η₁ in units of luminance.
     """
@@ -48,21 +51,27 @@ class ShadingEvidence:
     body_centre: Vector3
     reflectance: Reflectance
     vertex_areas: PerVertex
+    shadowed: Bool[np.ndarray, " m"]
     eta: float
 
 
-def usable_vertices(rendering: Rendering, intensity: IntensityMap) -> Bool[np.ndarray, " m"]:
+def seen_vertices(rendering: Rendering, intensity: IntensityMap) -> Bool[np.ndarray, " m"]:
     """Visible vertices, not near the rim, whose pixel is neither clipped nor off the person."""
     rays = rendering.vertices / np.linalg.norm(rendering.vertices, axis=1, keepdims=True)
     facing = -np.einsum("mi,mi->m", rays, rendering.vertex_normals)
-    usable = rendering.vertex_visible & (facing > _LEAST_FACING)
-    usable[usable] = intensity.trusted_at(rendering.projected[usable])
-    return usable
+    seen = rendering.vertex_visible & (facing > _LEAST_FACING)
+    seen[seen] = intensity.trusted_at(rendering.projected[seen])
+    return seen
+
+
+def usable_vertices(rendering: Rendering, evidence: ShadingEvidence) -> Bool[np.ndarray, " m"]:
+    """Seen vertices that no cast shadow makes say something else than Eq. 1."""
+    return seen_vertices(rendering, evidence.intensity) & ~evidence.shadowed
 
 
 def shading_energy(rendering: Rendering, evidence: ShadingEvidence, scales: EnergyScales) -> float:
     """Data term of E_Sh in nats."""
-    chosen = np.flatnonzero(usable_vertices(rendering, evidence.intensity))
+    chosen = np.flatnonzero(usable_vertices(rendering, evidence))
     weights = evidence.vertex_areas[chosen]
     if not weights.sum() > 0.0:
         return scales.shading_weight
@@ -82,7 +91,7 @@ def shading_rows(
     rendering: Rendering, evidence: ShadingEvidence, scales: EnergyScales
 ) -> ShadingRows:
     """One row for each usable vertex."""
-    chosen = np.flatnonzero(usable_vertices(rendering, evidence.intensity))
+    chosen = np.flatnonzero(usable_vertices(rendering, evidence))
     positions = rendering.vertices[chosen]
     derivatives = shade_with_derivatives(
         positions,

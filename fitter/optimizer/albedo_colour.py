@@ -6,7 +6,7 @@ from scipy import sparse
 
 from fitter.arrays import Image, PerVertex, Vertices
 from fitter.energies.objective import Candidate
-from fitter.energies.shading import usable_vertices
+from fitter.energies.shading import seen_vertices
 from fitter.evidence.intensity import IntensityMap
 from fitter.evidence.sampling import sample
 from fitter.numerics.mesh_topology import MeshTopology
@@ -28,7 +28,7 @@ def albedo_rgb(
     The light is taken as white: a coloured light colours the albedo.
     """
     m = len(albedo)
-    usable = usable_vertices(candidate.rendering, intensity)
+    usable = seen_vertices(candidate.rendering, intensity)
     points = candidate.rendering.projected[usable]
     channels = [
         sample(np.ascontiguousarray(linear_rgb[..., channel]), points)[0] for channel in range(3)

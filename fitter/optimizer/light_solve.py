@@ -94,7 +94,7 @@ def estimate_light(surface: LitSurface, start: LightEstimate, *, iterations: int
 def first_light(surface: LitSurface, guesses: tuple[Light, ...]) -> LightEstimate:
     """The best of several first lights, each with its own linear fit of ambient and scales."""
     found = [
-        estimate_light(surface, _with_linear_scales(surface, light), iterations=6)
+        estimate_light(surface, _with_linear_scales(surface, light), iterations=15)
         for light in guesses
     ]
     return min(found, key=lambda estimate: estimate.energy)

@@ -261,6 +261,7 @@ def lit():
             specular_exponent=10.0,
         ),
         vertex_areas=instruments.vertex_areas,
+        shadowed=np.zeros(len(rendering.vertices), dtype=bool),
         eta=0.1,
     )
     return instruments, rendering, evidence
