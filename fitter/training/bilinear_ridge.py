@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
+from scipy.linalg import solve
 
 from fitter.arrays import Shape
 
@@ -75,6 +76,8 @@ def solve_bilinear(sums: BilinearSums, ridge: float) -> BilinearSolution:
     """Solve P and s in turn from s = 0; ``ridge``, on P, is relative to the features' square."""
     squares, products = sums.squares(), sums.products()
     strengths = np.zeros((len(products), products.shape[1] - 1))
+    if not squares.any():
+        return BilinearSolution(linear=np.zeros_like(products[:, 0]), strengths=strengths)
     linear = _solve_linear(squares, products, strengths, ridge)
     for _ in range(TURNS):
         strengths = _solve_strengths(squares, products, linear)
@@ -114,4 +117,4 @@ def _solve_strengths(
 def _ridge_solve(square: np.ndarray, right: np.ndarray, ridge: float) -> np.ndarray:
     # Features that no example has leave nothing to learn: any penalty gives zero there.
     penalty = ridge * np.trace(square) / len(square) or 1.0
-    return np.linalg.solve(square + penalty * np.eye(len(square)), right)
+    return solve(square + penalty * np.eye(len(square)), right, assume_a="pos")

@@ -13,6 +13,7 @@ from fitter.body.stature import stature_m
 from fitter.parameters import BodyParameters
 from fitter.training.assemble import RegisteredBodies, height_attribute
 from fitter.training.attribute_axes import attribute_changes
+from fitter.training.joints import joint_errors_mm
 from fitter.training.principal_shapes import centred, project
 from fitter.training.random_poses import random_pose
 from fitter.training.surface import vertex_areas, vertex_masses
@@ -127,6 +128,12 @@ def shaped_and_posed_error(
     """The same with each body rebuilt from its n coefficients: shape and pose errors together."""
     coefficients = shape_coefficients(model, bodies.rest)
     return _posed_error(model, coefficients, bodies, count, rng)
+
+
+def joint_distances(model: BodyModel, bodies: RegisteredBodies) -> dict[str, float]:
+    """Mean distance of regressed from true joint centres at rest, by part, millimetres."""
+    distances = joint_errors_mm(model.joint_regressor, bodies.rest, bodies.joints)
+    return dict(zip(model.part_names, distances.tolist(), strict=True))
 
 
 def without_pose_term(model: BodyModel) -> BodyModel:

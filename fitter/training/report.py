@@ -11,6 +11,7 @@ from fitter.training.evaluation import (
     VertexError,
     evaluation_milliseconds,
     height_axes,
+    joint_distances,
     posed_error,
     shape_error,
     shaped_and_posed_error,
@@ -36,6 +37,7 @@ class HeldOutErrors:
     posed: VertexError
     posed_rigid_parts_only: VertexError
     shaped_and_posed: VertexError
+    joints: Mapping[str, float]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,6 +69,7 @@ def held_out_errors(model: BodyModel, bodies: RegisteredBodies) -> HeldOutErrors
             without_pose_term(model), bodies, POSED_EXAMPLES, poses()
         ),
         shaped_and_posed=shaped_and_posed_error(model, bodies, POSED_EXAMPLES, poses()),
+        joints=joint_distances(model, bodies),
     )
 
 
@@ -84,6 +87,8 @@ def header_entry(errors: HeldOutErrors) -> dict[str, float | int]:
         "posed_by_area_mm": errors.posed.by_area,
         "posed_rigid_parts_only_mm": errors.posed_rigid_parts_only.by_vertex,
         "shaped_and_posed_mm": errors.shaped_and_posed.by_vertex,
+        "joints_mm": float(np.mean(list(errors.joints.values()))),
+        "worst_joint_mm": max(errors.joints.values()),
     }
 
 
@@ -141,6 +146,11 @@ def report_lines(model: BodyModel, errors: HeldOutErrors, *, file_bytes: int) ->
         "posed error of bodies rebuilt from n": f"{errors.shaped_and_posed.by_vertex:9.3f} mm",
         "height gained per sd of its axis": f"{errors.height_per_deviation:9.3f} mm",
         "correlation of height with its axis": f"{errors.height_correlation:11.5f}",
+    }
+    worst = max(errors.joints, key=lambda name: errors.joints[name])
+    plain |= {
+        "joint centres, mean distance": f"{np.mean(list(errors.joints.values())):9.3f} mm",
+        f"joint centres, worst: {worst}": f"{errors.joints[worst]:9.3f} mm",
     }
     lines.extend(f"  {name:<38}{value}" for name, value in plain.items())
     earlier = header.get("height_in_earlier_methods")

@@ -44,6 +44,7 @@ def errors(shape_mm: float) -> HeldOutErrors:
         posed=small,
         posed_rigid_parts_only=small,
         shaped_and_posed=small,
+        joints={"pelvis": 2.0, "left_hand": 4.0},
     )
 
 
@@ -65,6 +66,12 @@ def test_the_report_says_which_goals_are_missed(trained, shape_mm, verdict):
     lines = report_lines(trained.model, errors(shape_mm), file_bytes=6_000_000)
     line = next(line for line in lines if "mean vertex error" in line)
     assert re.search(rf"{shape_mm:.3f} mm .*{verdict}$", line)
+
+
+def test_the_report_names_the_worst_joint(trained):
+    text = "\n".join(report_lines(trained.model, errors(3.0), file_bytes=1))
+    assert re.search(r"joint centres, mean distance +3\.000 mm", text)
+    assert re.search(r"joint centres, worst: left_hand +4\.000 mm", text)
 
 
 def test_every_goal_of_the_model_is_judged(trained):
