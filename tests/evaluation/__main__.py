@@ -21,7 +21,7 @@ def main(arguments: Sequence[str]) -> int:
     scored: list[Scored] = []
     for case in chosen:
         for cues in Cues:
-            each = score_case(case, cues)
+            each = score_case(case, cues, true_mask=options.true_mask)
             scored.append(each)
             lines = case_lines([each])
             print("\n".join(lines if len(scored) == 1 else lines[1:]), flush=True)
@@ -50,6 +50,11 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--case", action="append", choices=list(CASES), help="default: all")
     parser.add_argument(
         "--pictures", type=Path, metavar="DIR", help="write a sheet of pictures for each fit"
+    )
+    parser.add_argument(
+        "--true-mask",
+        action="store_true",
+        help="give the person's true mask: what the errors would be without segmentation",
     )
     return parser
 

@@ -1,5 +1,6 @@
 """A case's files: picture, request, truth and masks, written by the generator."""
 
+import io
 import json
 from dataclasses import dataclass
 from pathlib import Path
@@ -47,8 +48,9 @@ def write_picture(
         rng=np.random.default_rng([case.seed, 1]),
     )
     (folder / f"{case.name}.jpg").write_bytes(picture)
-    _save_mask(folder / f"{case.name}_body.png", rendering(staged).silhouette)
-    _save_mask(folder / f"{case.name}_person.png", person)
+    body = rendering(staged).silhouette
+    (folder / f"{case.name}_body.png").write_bytes(encoded_mask(body))
+    (folder / f"{case.name}_person.png").write_bytes(encoded_mask(person))
 
 
 def write_document(folder: Path, staged: Staged) -> None:
@@ -126,8 +128,11 @@ def _rounded(point: np.ndarray) -> list[float]:
     return [round(float(value), 5) for value in point]
 
 
-def _save_mask(path: Path, mask: Mask) -> None:
-    PillowImage.fromarray(mask).save(path, optimize=True)
+def encoded_mask(mask: Mask) -> bytes:
+    """A mask as a request carries it: a PNG."""
+    stream = io.BytesIO()
+    PillowImage.fromarray(mask).save(stream, "PNG", optimize=True)
+    return stream.getvalue()
 
 
 def _load_mask(path: Path) -> Mask:

@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from fitter.render.rasterizer import render
 from fitter.request import Click, Cues, FitRequest, Gender
 from fitter.result import FitResult
 from tests.evaluation.cases import PEOPLE
-from tests.evaluation.files import CaseFiles, light_from_document, read_case
+from tests.evaluation.files import CaseFiles, encoded_mask, light_from_document, read_case
 from tests.evaluation.landmark_points import packaged_model
 from tests.evaluation.people import load_person
 from tests.evaluation.scene import Case, Half
@@ -59,11 +59,13 @@ class Scored:
     truth: TrueBody
 
 
-def score_case(case: Case, cues: Cues) -> Scored:
-    """Fit one picture with some cues."""
+def score_case(case: Case, cues: Cues, *, true_mask: bool = False) -> Scored:
+    """Fit one picture with some cues; ``true_mask`` tells how much the segmentation costs."""
     files = read_case(case)
     source = PEOPLE[case.person]
     request = fit_request(files, cues)
+    if true_mask:
+        request = replace(request, mask=encoded_mask(files.person_mask))
     started = time.perf_counter()
     result = fit(request)
     seconds = time.perf_counter() - started
