@@ -30,10 +30,10 @@ _MIDDLE: Mapping[str, Mapping[str, float]] = {
     "head": {"neck03": 1 / 3, "head": 2 / 3},
 }
 
-CANDIDATES = 110
+CANDIDATES = 200
 """Vertices a joint may be a mean of; with their mirror images at joints in the middle."""
 
-FLATTENING = 3.0
+FLATTENING = 2.0
 """Distance along the bone counts this many times: the nearest vertices then form a ring about the
 joint, where the plainly nearest lie all on one side (the back, for the spine)."""
 

@@ -38,12 +38,19 @@ def test_the_truth_has_no_silhouette_energy(scene):
     assert scene.objective.overlap(at_truth) == 1.0
 
 
-def test_gauss_newton_finds_the_way_back_from_a_perturbed_body(scene, silhouette_fit):
-    found = silhouette_fit.candidate
-    assert scene.posed_error_mm(found.parameters) < 0.5 * scene.posed_error_mm(scene.start)
-    assert scene.shape_error_mm(found.parameters) < 0.8 * scene.shape_error_mm(scene.start)
-    assert scene.objective.overlap(found) > 0.97
-    assert found.total < 1.3 * scene.objective.evaluate(scene.truth).total + 5.0
+def test_gauss_newton_finds_the_way_back_from_perturbed_bodies():
+    posed, shapes = [], []
+    for seed in range(4):
+        scene = rendered_scene(seed)
+        found = minimize_gauss_newton(
+            scene.objective, scene.start, max_evaluations=100, on_energies=ignore
+        ).candidate
+        posed.append(scene.posed_error_mm(found.parameters) / scene.posed_error_mm(scene.start))
+        shapes.append(scene.shape_error_mm(found.parameters) / scene.shape_error_mm(scene.start))
+        assert scene.objective.overlap(found) > 0.96
+        assert found.total < 1.3 * scene.objective.evaluate(scene.truth).total + 5.0
+    assert np.mean(posed) < 0.5
+    assert np.mean(shapes) < 0.8
 
 
 def test_the_energy_never_rises_from_step_to_step(scene):
