@@ -19,10 +19,10 @@ class Sample:
 
 
 def load_sample(folder: Path = FOLDER) -> Sample:
-    """Read ``sample.jpg`` and ``sample.json``: ``{"request": ..., "truth": {name: value}}``."""
-    values = json.loads((folder / "sample.json").read_text())
+    """Read ``sample.jpg``, ``request.json`` and ``truth.json``."""
+    truth = json.loads((folder / "truth.json").read_text())
     return Sample(
         image=(folder / "sample.jpg").read_bytes(),
-        request=json.dumps(values["request"]).encode(),
-        truth={name: float(value) for name, value in values["truth"].items()},
+        request=(folder / "request.json").read_bytes(),
+        truth={name: float(value) for name, value in truth["measurements"].items()},
     )

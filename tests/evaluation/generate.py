@@ -1,7 +1,7 @@
 """``python -m tests.evaluation.generate``: (re)build the suite's pictures and truths.
 
 Needs the renderer: the extra ``evaluation``. Everything is drawn from the cases' seeds, so that a
-second run gives the same files. ``--documents`` writes requests and truths alone, after a change
+second run gives the same files, but for rounding where the renderer's threads add up light. ``--documents`` writes requests and truths alone, after a change
 of landmarks or measurement definitions, and needs no renderer.
 """
 
@@ -63,8 +63,12 @@ def _write_sample(staged: Staged, folder: Path) -> None:
     SAMPLE_FOLDER.mkdir(exist_ok=True)
     picture = (folder / f"{staged.case.name}.jpg").read_bytes()
     (SAMPLE_FOLDER / "sample.jpg").write_bytes(picture)
-    sample = {name: document(staged)[name] for name in ("request", "truth", "credits")}
-    (SAMPLE_FOLDER / "sample.json").write_text(json.dumps(sample, indent=1) + "\n")
+    described = document(staged)
+    for name, values in (
+        ("request", described["request"]),
+        ("truth", {"measurements": described["truth"], "credits": described["credits"]}),
+    ):
+        (SAMPLE_FOLDER / f"{name}.json").write_text(json.dumps(values, indent=1) + "\n")
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -62,9 +62,10 @@ def test_requests_and_truths_are_those_of_the_present_definitions(name):
 
 
 def test_the_demos_sample_is_the_suites_demo_case():
-    sample = json.loads((SAMPLE_FOLDER / "sample.json").read_text())
+    request = json.loads((SAMPLE_FOLDER / "request.json").read_text())
+    truth = json.loads((SAMPLE_FOLDER / "truth.json").read_text())
     kept = read_case(DEMO)
     assert (SAMPLE_FOLDER / "sample.jpg").read_bytes() == kept.image
-    assert sample["request"] == kept.document["request"]
-    assert sample["truth"] == kept.document["truth"]
+    assert request == kept.document["request"]
+    assert truth["measurements"] == kept.document["truth"]
     assert (PICTURES_FOLDER / "demo.jpg").exists()

@@ -48,7 +48,7 @@ def test_gauss_newton_finds_the_way_back_from_perturbed_bodies():
         posed.append(scene.posed_error_mm(found.parameters) / scene.posed_error_mm(scene.start))
         shapes.append(scene.shape_error_mm(found.parameters) / scene.shape_error_mm(scene.start))
         assert scene.objective.overlap(found) > 0.96
-        assert found.total < 1.3 * scene.objective.evaluate(scene.truth).total + 5.0
+        assert found.total < 2.0 * scene.objective.evaluate(scene.truth).total + 10.0
     assert np.mean(posed) < 0.5
     assert np.mean(shapes) < 0.8
 
