@@ -7,10 +7,12 @@ from pathlib import Path
 
 from fitter.request import Cues
 from tests.evaluation.cases import CASES, PEOPLE
+from tests.evaluation.people import load_person
 from tests.evaluation.scene import Case, Half
+from tests.evaluation.shape_limit import shape_limit
 from tests.evaluation.sheets import write_sheet
 from tests.evaluation.suite import Scored, score_case
-from tests.evaluation.table import case_lines, summary_lines
+from tests.evaluation.table import case_lines, limit_lines, summary_lines
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -18,6 +20,11 @@ def main(arguments: Sequence[str]) -> int:
     options = _parser().parse_args(arguments)
     chosen = [CASES[name] for name in options.case or CASES]
     chosen = [case for case in chosen if options.half in (None, _half(case).value)]
+    if options.shape_limit:
+        people = {case.person: PEOPLE[case.person] for case in chosen}
+        limits = {name: shape_limit(load_person(source)) for name, source in people.items()}
+        print("\n".join(limit_lines(limits)))
+        return 0
     scored: list[Scored] = []
     for case in chosen:
         for cues in Cues:
@@ -55,6 +62,11 @@ def _parser() -> argparse.ArgumentParser:
         "--true-mask",
         action="store_true",
         help="give the person's true mask: what the errors would be without segmentation",
+    )
+    parser.add_argument(
+        "--shape-limit",
+        action="store_true",
+        help="fit nothing: print what the shape space's own coarseness costs",
     )
     return parser
 

@@ -1,8 +1,9 @@
 """``python -m tests.evaluation.generate``: (re)build the suite's pictures and truths.
 
 Needs the renderer: the extra ``evaluation``. Everything is drawn from the cases' seeds, so that a
-second run gives the same files, but for rounding where the renderer's threads add up light. ``--documents`` writes requests and truths alone, after a change
-of landmarks or measurement definitions, and needs no renderer.
+second run gives the same pictures, to the rounding of light added up by several threads.
+``--documents`` writes requests and truths alone, after a change of landmarks or measurement
+definitions, and needs no renderer.
 """
 
 import argparse

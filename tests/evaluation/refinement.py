@@ -22,8 +22,9 @@ def refined(quads: Integer[np.ndarray, "q 4"], vertex_count: int, *, times: int)
     """Cut each quad into four, ``times`` over: flat quads stay flat, no vertex moves."""
     rows = sparse.csr_array(sparse.eye_array(vertex_count))
     for _ in range(times):
-        step = _refined_once(quads, rows.shape[0])
+        step = _refined_once(quads, vertex_count)
         rows, quads = sparse.csr_array(step.rows @ rows), step.quads
+        vertex_count = len(step.rows.indptr) - 1
     return Refined(rows=rows, quads=quads)
 
 

@@ -36,7 +36,10 @@ def write_sheet(folder: Path, scored: Scored) -> None:
     below += [_errors(scored, true, found, angle) for angle in (0.0, 80.0)]
     rows = [np.hstack(panels) for panels in (above, below)]
     widest = max(row.shape[1] for row in rows)
-    sheet = np.vstack([np.pad(row, ((0, 0), (0, widest - row.shape[1]), (0, 0))) for row in rows])
+    to_right = [((0, 0), (0, widest - row.shape[1]), (0, 0)) for row in rows]
+    sheet = np.vstack(
+        [np.pad(row, pad, constant_values=255) for row, pad in zip(rows, to_right, strict=True)]
+    )
     path = folder / f"{scored.case.name}_{scored.cues.value}.png"
     cv2.imwrite(str(path), sheet[..., ::-1])
 

@@ -1,10 +1,11 @@
 """The suite's figures as text."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
 from fitter.request import Cues
+from tests.evaluation.shape_limit import ShapeLimit
 from tests.evaluation.suite import Scored
 
 MEASUREMENTS = (
@@ -56,6 +57,16 @@ def summary_lines(scored: Sequence[Scored]) -> list[str]:
         lines.append(
             f"light direction, SES: mean {np.mean(lights):.1f}°, largest {max(lights):.1f}°"
         )
+    return lines
+
+
+def limit_lines(limits: Mapping[str, ShapeLimit]) -> list[str]:
+    """What the shape space leaves of each person, by name."""
+    columns = "".join(f"{f'{name} {unit}':>10s}" for name, _, unit in MEASUREMENTS)
+    lines = [f"{'person':24s}{columns}{'rest mm':>9s}{'|shape|':>9s}"]
+    for name, limit in limits.items():
+        errors = "".join(f"{limit.errors[key]:+10.1f}" for _, key, _ in MEASUREMENTS)
+        lines.append(f"{name:24s}{errors}{limit.rest_mm:9.1f}{limit.length:9.1f}")
     return lines
 
 
