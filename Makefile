@@ -29,6 +29,9 @@ train: $(STAMP)
 report: $(STAMP)
 	$(VENV)/bin/python -m fitter.training report
 
+openapi: $(STAMP)
+	$(VENV)/bin/maquette openapi --output api_schemas/openapi.json
+
 lock:
 	$(VENV)/bin/pip install -q pip-tools
 	$(VENV)/bin/pip-compile -q --no-emit-index-url --no-emit-trusted-host --no-emit-find-links \
