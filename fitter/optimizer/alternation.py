@@ -32,8 +32,8 @@ from fitter.render.shadow import cast_shadow
 
 SMOOTHNESS_SCHEDULE = (40.0, 20.0, 10.0, 5.0)
 """λ₁ = λ₂ of each round, against data weights of mean one a vertex: a step of albedo between two
-neighbours costs as much as so many vertices left wholly unexplained. Lower ends (0.3) let the albedo
-absorb what the shape should explain; chosen on the evaluation's tuning half."""
+neighbours costs as much as so many vertices left wholly unexplained. Lower ends (0.3) let the
+albedo absorb what the shape should explain; chosen on the evaluation's tuning half."""
 
 SPECULAR_EXPONENTS = (6.0, 12.0, 24.0, 48.0)
 """α is chosen from these once, with the first light: skin's broad gloss to a moist shine."""
