@@ -52,7 +52,8 @@ def test_requests_and_truths_are_those_of_the_present_definitions(name):
     staged = stage(load_person(PEOPLE[CASES[name].person]), CASES[name])
     now = json.loads(json.dumps(document(staged)))
     kept = read_case(CASES[name]).document
-    assert kept["truth"] == pytest.approx(now["truth"], abs=0.3), AGAIN
+    # Cuts are placed by the model's joints, which every training finds a little elsewhere.
+    assert kept["truth"] == pytest.approx(now["truth"], abs=1.0), AGAIN
     assert set(kept["request"]["points"]) == set(now["request"]["points"]), AGAIN
     for point, click in kept["request"]["points"].items():
         assert click == pytest.approx(now["request"]["points"][point], abs=1.0), AGAIN
