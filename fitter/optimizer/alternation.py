@@ -35,6 +35,10 @@ SMOOTHNESS_SCHEDULE = (40.0, 20.0, 10.0, 5.0)
 neighbours costs as much as so many vertices left wholly unexplained. Lower ends (0.3) let the
 albedo absorb what the shape should explain; chosen on the evaluation's tuning half."""
 
+REPORTED_SMOOTHNESS = 1.0
+"""λ₁ = λ₂ of the reflectance that is reported, when the body no longer moves: at 5 dark cloth may
+still be dearer as an edge of albedo than as an error of intensity."""
+
 SPECULAR_EXPONENTS = (6.0, 12.0, 24.0, 48.0)
 """α is chosen from these once, with the first light: skin's broad gloss to a moist shine."""
 
@@ -130,7 +134,7 @@ def fit_shading(
         now = minimum.candidate
     assert minimum is not None
     # The reflectance of the final body: what is drawn must be what was found.
-    state = _with_new_reflectance(objective, now, state, solver, SMOOTHNESS_SCHEDULE[-1])
+    state = _with_new_reflectance(objective, now, state, solver, REPORTED_SMOOTHNESS)
     final = objective.with_shading(state).evaluate(now.parameters)
     light = light_about(state.light, old_centre=centre, new_centre=now.parameters.translation)
     return ShadedFit(
@@ -275,9 +279,11 @@ def _with_new_reflectance(
         ambient=state.reflectance.ambient,
     )
     for widening, iterations in GRADUATION:
-        found = solver.solve(
-            replace(problem, data_eta=widening * state.eta), found, iterations=iterations
+        # The weight keeps the curvature at zero: only what is far comes to count more.
+        wide = replace(
+            problem, data_eta=widening * state.eta, weights=widening**2 * problem.weights
         )
+        found = solver.solve(wide, found, iterations=iterations)
     return replace(
         state,
         reflectance=replace(
