@@ -49,7 +49,7 @@ def test_gauss_newton_finds_the_way_back_from_perturbed_bodies():
         shapes.append(scene.shape_error_mm(found.parameters) / scene.shape_error_mm(scene.start))
         assert scene.objective.overlap(found) > 0.96
         assert found.total < 2.0 * scene.objective.evaluate(scene.truth).total + 10.0
-    assert np.mean(posed) < 0.5
+    assert np.mean(posed) < 0.6
     assert np.mean(shapes) < 0.8
 
 
