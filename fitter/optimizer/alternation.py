@@ -35,7 +35,7 @@ SMOOTHNESS_SCHEDULE = (40.0, 20.0, 10.0, 5.0)
 neighbours costs as much as so many vertices left wholly unexplained. Lower ends (0.3) let the
 albedo absorb what the shape should explain; chosen on the evaluation's tuning half."""
 
-REPORTED_SMOOTHNESS = 1.0
+REPORTED_SMOOTHNESS = 0.3
 """λ₁ = λ₂ of the reflectance that is reported, when the body no longer moves: at 5 dark cloth may
 still be dearer as an edge of albedo than as an error of intensity."""
 
@@ -279,9 +279,15 @@ def _with_new_reflectance(
         ambient=state.reflectance.ambient,
     )
     for widening, iterations in GRADUATION:
-        # The weight keeps the curvature at zero: only what is far comes to count more.
+        # Weights keep the curvatures at zero: only what is far comes to count more.
         wide = replace(
-            problem, data_eta=widening * state.eta, weights=widening**2 * problem.weights
+            problem,
+            weights=widening**2 * problem.weights,
+            albedo_smoothness=widening**2 * problem.albedo_smoothness,
+            specularity_smoothness=widening**2 * problem.specularity_smoothness,
+            data_eta=widening * problem.data_eta,
+            albedo_eta=widening * problem.albedo_eta,
+            specularity_eta=widening * problem.specularity_eta,
         )
         found = solver.solve(wide, found, iterations=iterations)
     return replace(

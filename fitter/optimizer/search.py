@@ -35,7 +35,7 @@ class SearchLimits:
 
 _LIMITS: Mapping[OptimizerKind, SearchLimits] = {
     OptimizerKind.GAUSS_NEWTON: SearchLimits(
-        hypotheses=4, trial=20, silhouette_and_edges=100, shading_round=20
+        hypotheses=4, trial=20, silhouette_and_edges=100, shading_round=40
     ),
     # The paper's search needs tens of thousands; this is what a request can wait for (about two
     # minutes), and the outcome says that the limit ended it.
