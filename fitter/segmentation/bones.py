@@ -12,7 +12,6 @@ BONES = (
     ("right_shoulder", "right_elbow"), ("right_elbow", "right_wrist"),
     ("left_hip", "left_knee"), ("left_knee", "left_ankle"),
     ("right_hip", "right_knee"), ("right_knee", "right_ankle"),
-    ("left_shoulder", "left_hip"), ("right_shoulder", "right_hip"),
     ("left_shoulder", "right_shoulder"), ("left_hip", "right_hip"),
     ("left_shoulder", "right_hip"), ("right_shoulder", "left_hip"),
     ("neck", "left_shoulder"), ("neck", "right_shoulder"), ("neck", "head_top"),
@@ -22,7 +21,10 @@ BONES = (
     ("right_ankle", "right_toe"), ("right_ankle", "right_heel"), ("right_heel", "right_toe"),
 )  # fmt: skip
 """Straight lines between clicks that stay inside the body in any pose. From the nose to the neck is
-none: in profile it leaves the chin."""
+none: in profile it leaves the chin. From a shoulder to the hip below it is none either: on slim
+people a third to a half of that line runs outside the waist, by up to 10 pixels, and gives the gap
+between arm and trunk to the person. On seven rendered people it cost 8 cm of waist on the mean;
+the trunk's diagonals mark it well enough."""
 
 
 def clicked_bones(clicks: Mapping[str, Click]) -> Float[np.ndarray, "b 2 2"]:
