@@ -62,8 +62,8 @@ _CLICK_PIXELS = 2.5
 _CLICK_METRES = 0.02
 
 
-# A tenth of a nat for each vertex usually seen. On the evaluation's tuning half 300 to 1500 give the
-# same girths within the noise of four people; more weight moves what shading sees badly.
+# A tenth of a nat for each vertex usually seen. On the evaluation's tuning half 300 to 1500 give
+# the same girths within the noise of four people; more weight moves what shading sees badly.
 _SHADING_NATS = 600.0
 
 
