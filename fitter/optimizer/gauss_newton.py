@@ -29,13 +29,12 @@ class Minimum:
     """Where a search ended.
 
     ``converged`` is False when the limit of evaluations ended it; ``evaluations`` counts true
-    energies; ``damping`` lets a later search go on from this one's trust.
+    energies.
     """
 
     candidate: Candidate
     converged: bool
     evaluations: int
-    damping: float
 
 
 def minimize_gauss_newton(
@@ -44,12 +43,11 @@ def minimize_gauss_newton(
     *,
     max_evaluations: int,
     on_energies: EnergyObserver,
-    damping: float = _FIRST_DAMPING,
 ) -> Minimum:
     """Minimise from ``start`` until steps settle nothing or no damping helps."""
     now = objective.evaluate(start)
     free = free_columns(start)
-    evaluations, settled = 1, 0
+    damping, evaluations, settled = _FIRST_DAMPING, 1, 0
     on_energies(now.energies)
     while evaluations < max_evaluations:
         matrix, gradient = normal_equations(objective, now)
@@ -72,12 +70,11 @@ def minimize_gauss_newton(
                 candidate=now,
                 converged=damping >= _LARGEST_DAMPING,
                 evaluations=evaluations,
-                damping=_FIRST_DAMPING,
             )
         small = now.total - accepted.total < _SETTLED * abs(now.total)
         settled = settled + 1 if small else 0
         now = accepted
         on_energies(now.energies)
         if settled == 2:
-            return Minimum(candidate=now, converged=True, evaluations=evaluations, damping=damping)
-    return Minimum(candidate=now, converged=False, evaluations=evaluations, damping=damping)
+            return Minimum(candidate=now, converged=True, evaluations=evaluations)
+    return Minimum(candidate=now, converged=False, evaluations=evaluations)

@@ -63,6 +63,4 @@ def minimize_simplex(
         },
     )
     on_energies(best.energies)
-    return Minimum(
-        candidate=best, converged=bool(outcome.success), evaluations=evaluations, damping=1.0
-    )
+    return Minimum(candidate=best, converged=bool(outcome.success), evaluations=evaluations)
