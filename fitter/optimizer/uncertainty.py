@@ -11,8 +11,9 @@ from fitter.optimizer.parameter_vector import free_columns
 def shape_covariance(objective: Objective, candidate: Candidate) -> Float[np.ndarray, "n n"]:
     """Covariance of the shape with pose and place marginalised; zero for the held height.
 
-    Light and reflectance are held, as is everything else the objective fixes. Energies are negative log-likelihoods, so the inverse of the Gauss-Newton matrix is the
-    covariance of all parameters near the minimum.
+    Light and reflectance are held, as is everything else the objective fixes. Energies are negative
+    log-likelihoods, so the inverse of the Gauss-Newton matrix is the covariance of all parameters
+    near the minimum.
     """
     matrix, _ = normal_equations(objective, candidate)
     free = free_columns(candidate.parameters)
