@@ -35,7 +35,7 @@ CocoPointName = Literal[
 ExtraPointName = Literal[
     "neck", "head_top", "chin", "left_toe", "right_toe", "left_heel", "right_heel"
 ]
-PointName = CocoPointName | ExtraPointName
+PointName = Literal[CocoPointName, ExtraPointName]
 
 COCO_POINT_NAMES: Final[tuple[CocoPointName, ...]] = get_args(CocoPointName)
 POINT_NAMES: Final[tuple[PointName, ...]] = COCO_POINT_NAMES + get_args(ExtraPointName)

@@ -117,6 +117,7 @@ def fit(request: FitRequest, *, observer: Observer = ignore_progress) -> FitResu
         covariance = shape_covariance(
             objective if shaded is None else objective.with_shading(shaded.evidence),
             final.candidate,
+            height_known=request.height_m is not None,
         )
         measurements = measure(
             body.measuring, final.candidate.parameters.shape, shape_covariance=covariance

@@ -80,6 +80,8 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _serve(parsed: argparse.Namespace) -> int:
+    from pydantic import ValidationError
+
     from service.logs import configure_logging
     from service.serve import WORKER_COMMAND, listen, serve
     from service.settings import Settings
@@ -89,11 +91,26 @@ def _serve(parsed: argparse.Namespace) -> int:
         for name in ("host", "port", "data_dir")
         if (value := getattr(parsed, name)) is not None
     }
-    settings = Settings(**given)
+    try:
+        settings = Settings(**given)
+    except ValidationError as error:
+        for fault in error.errors():
+            name = "".join(str(part) for part in fault["loc"])
+            print(f"maquette serve: {name}: {fault['msg']}.", file=sys.stderr)
+        return 2
+    try:
+        listener = listen(settings)
+    except OSError as error:
+        print(
+            f"maquette serve: cannot listen on {settings.host}:{settings.port} "
+            f"({error.strerror}). Stop what listens there, or choose another port with --port.",
+            file=sys.stderr,
+        )
+        return 2
     configure_logging(settings.log_level)
     serve(
         settings,
-        listen(settings),
+        listener,
         worker_command=None if parsed.no_worker else WORKER_COMMAND,
         announce=lambda text: print(text, flush=True),
     )

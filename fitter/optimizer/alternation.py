@@ -71,12 +71,12 @@ class ShadedFit:
     Attributes
     ----------
     minimum
-        The body, its energies with the final reflectance.
+        The body and the energies that were minimised, those of ``evidence``.
     light, reflectance
         In coordinates about the final body's centre, where the light's intensity is 1.
     evidence
-        The shading term at the end; its light and reflectance still refer to the centre where the
-        alternation began.
+        The shading term of the last round; its light still refers to the centre where the
+        alternation began, and its reflectance is smoother than the one reported.
     evaluations
         True energies computed.
     """
@@ -134,13 +134,12 @@ def fit_shading(
         now = minimum.candidate
     assert minimum is not None
     # The reflectance of the final body: what is drawn must be what was found.
-    state = _with_new_reflectance(objective, now, state, solver, REPORTED_SMOOTHNESS)
-    final = objective.with_shading(state).evaluate(now.parameters)
+    reported = _with_new_reflectance(objective, now, state, solver, REPORTED_SMOOTHNESS)
     light = light_about(state.light, old_centre=centre, new_centre=now.parameters.translation)
     return ShadedFit(
-        minimum=replace(minimum, candidate=final),
+        minimum=minimum,
         light=light,
-        reflectance=_at_distance(state.reflectance, state.light, light),
+        reflectance=_at_distance(reported.reflectance, state.light, light),
         evidence=state,
         evaluations=evaluations,
     )

@@ -171,8 +171,11 @@ def _no_result(record: JobRecord) -> Any:
             detail=f"The job {record.state}: {record.problem.detail}",
             remedy=record.problem.remedy,
         )
+    canceled = record.state is JobState.CANCELED
     return problem(
         "no-result",
         detail=f"The job is {record.state}.",
-        remedy="Wait until it has succeeded; follow its events.",
+        remedy="Send the picture again."
+        if canceled
+        else "Wait until it has succeeded; follow its events.",
     )

@@ -1,6 +1,7 @@
 """``maquette fit`` and ``maquette demo`` with the fake pipeline."""
 
 import json
+import socket
 import sys
 from pathlib import Path
 
@@ -136,3 +137,24 @@ def test_the_exported_contract_can_be_printed(tmp_path):
         main(["openapi", "--output", str(tmp_path / "openapi.json")])
     assert ended.value.code == 0
     assert json.loads((tmp_path / "openapi.json").read_text())["openapi"].startswith("3.1")
+
+
+def test_a_port_in_use_is_said_so_with_what_to_do(capsys):
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        port = taken.getsockname()[1]
+        with pytest.raises(SystemExit) as ended:
+            main(["serve", "--port", str(port)])
+    assert ended.value.code == 2
+    said = capsys.readouterr().err
+    assert str(port) in said
+    assert "--port" in said
+
+
+def test_a_setting_that_is_no_number_is_named(capsys, monkeypatch):
+    monkeypatch.setenv("MAQUETTE_PORT", "abc")
+    with pytest.raises(SystemExit) as ended:
+        main(["serve"])
+    assert ended.value.code == 2
+    assert "port" in capsys.readouterr().err

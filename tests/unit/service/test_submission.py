@@ -2,7 +2,7 @@ import json
 
 import pytest
 
-from api_schemas.points import Point
+from api_schemas.points import POINT_NAMES, Point
 from service.submission import CheckedSubmission, RefusedError, check_submission
 from tests.integration.service.fake_pipeline import scripted_image
 
@@ -90,6 +90,14 @@ def test_a_bad_option_is_refused_naming_field_and_code(changes, field, code):
     assert named is not None
     assert named.startswith(field)
     assert named_code == code
+
+
+def test_a_misspelt_point_is_one_fault_that_offers_every_name():
+    with pytest.raises(RefusedError) as caught:
+        check(points=POINTS | {"left_sholder": [1, 1]})
+    (error,) = caught.value.problem.errors
+    assert error.field == "points.left_sholder"
+    assert all(f"'{name}'" in error.remedy for name in POINT_NAMES)
 
 
 def test_all_faults_are_told_at_once():
