@@ -10,6 +10,8 @@ from fitter.render.rasterizer import Rendering
 
 # The cost is linear in the distance to an image edge: its least-squares weight 1/cost is bounded.
 _LEAST_COST = 0.05
+# Edges seen end on have no length to take a mean over.
+_LEAST_LENGTH_PX = 1.0
 
 
 def edge_energy(edges: ModelEdges, cost: EdgeCostMap, scales: EnergyScales) -> float:
@@ -23,7 +25,7 @@ def edge_energy(edges: ModelEdges, cost: EdgeCostMap, scales: EnergyScales) -> f
     lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     values = cost.at(ends.reshape(-1, 2)).reshape(-1, 2)
     integral = float((lengths * values.mean(axis=1)).sum())
-    return scales.edge_weight * integral / float(lengths.sum())
+    return scales.edge_weight * integral / max(float(lengths.sum()), _LEAST_LENGTH_PX)
 
 
 def edge_rows(
@@ -35,7 +37,12 @@ def edge_rows(
     lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     points = pairs.reshape(-1)
     values, slopes = cost.with_gradient_at(ends.reshape(-1, 2))
-    share = scales.edge_weight * 0.5 * np.repeat(lengths, 2) / max(float(lengths.sum()), 1.0)
+    share = (
+        scales.edge_weight
+        * 0.5
+        * np.repeat(lengths, 2)
+        / max(float(lengths.sum()), _LEAST_LENGTH_PX)
+    )
     return PositionRows(
         residuals=values,
         weights=share / np.maximum(values, _LEAST_COST),

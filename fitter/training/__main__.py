@@ -19,6 +19,7 @@ from fitter.training.build import (
 )
 from fitter.training.makehuman import makehuman_folder
 from fitter.training.plan import Plan
+from fitter.training.population import residual_table
 from fitter.training.report import HeldOutErrors, held_out_errors, report_lines
 
 
@@ -54,6 +55,7 @@ def _build(
     population = solved_population(
         materials, gender, count=count, seed=plan.seed, cache=options.cache
     )
+    print(residual_table(population), flush=True)
     print(f"{gender}: training on {plan.subjects} of them", flush=True)
     model, errors = train_model(materials, gender, population, plan)
     written = write_model(path, model)
