@@ -5,6 +5,7 @@
     FitterError
     ├── InvalidInputError       what the caller sent cannot be used; names the field and the remedy
     ├── ModelFileError          a trained body model is missing, damaged or of another format
+    ├── MeshFolderError         a user's registered meshes cannot be trained on
     ├── DefinitionError         a measurement is defined by something the body model lacks
     └── NumericalError          a non-finite number where none may be: a fault of ours, never hidden
 
@@ -43,7 +44,52 @@ class InvalidInputError(FitterError):
 
 
 class ModelFileError(FitterError):
-    """A body model file that cannot be loaded; the message names the field and what to do."""
+    """A body model file that cannot be loaded.
+
+    Parameters
+    ----------
+    file
+        Its name.
+    field
+        The field at fault, such as ``mirror`` or ``header.gender``, or ``the file``.
+    reason
+        What was found where what was expected; goes on from the field and has no full stop.
+    remedy
+        What to do, in a sentence.
+    """
+
+    def __init__(self, *, file: str, field: str, reason: str, remedy: str) -> None:
+        super().__init__(file, field, reason, remedy)
+        self.file = file
+        self.field = field
+        self.reason = reason
+        self.remedy = remedy
+
+    def __str__(self) -> str:
+        return f"{self.file}: {self.field} {self.reason}. {self.remedy}"
+
+
+class MeshFolderError(FitterError):
+    """A folder of registered meshes that cannot be trained on.
+
+    Parameters
+    ----------
+    place
+        The file in the folder, with the entry at fault after a colon where it has entries.
+    reason
+        What was found where what was expected; goes on from the place and has no full stop.
+    remedy
+        What to do, in a sentence.
+    """
+
+    def __init__(self, *, place: str, reason: str, remedy: str) -> None:
+        super().__init__(place, reason, remedy)
+        self.place = place
+        self.reason = reason
+        self.remedy = remedy
+
+    def __str__(self) -> str:
+        return f"{self.place} {self.reason}. {self.remedy}"
 
 
 class DefinitionError(FitterError):

@@ -25,8 +25,8 @@ class BodyInstruments:
         (m,) a third of the area round each vertex of the mean body, as a share of the whole:
         energies over vertices are weighted by it, because head, hands and feet hold most of the
         triangles.
-    sphere_attachments
-        How the spheres of the penetration proxy hang on the body.
+    landmark_attachments, sphere_attachments
+        How the model's landmarks and the spheres of the penetration proxy hang on the body.
     """
 
     model: BodyModel
@@ -36,6 +36,7 @@ class BodyInstruments:
     rings: VertexRings
     pose_prior: PosePrior
     penetration: PenetrationProxy
+    landmark_attachments: Attachments
     sphere_attachments: Attachments
     vertex_areas: Float[np.ndarray, " m"]
 
@@ -62,6 +63,7 @@ def body_instruments(model: BodyModel) -> BodyInstruments:
         rings=vertex_rings(model.triangles, m),
         pose_prior=pose_prior(model.part_names, model.part_parent, tangent.joints_mean),
         penetration=penetration,
+        landmark_attachments=attached_rows(tangent, model.landmarks),
         sphere_attachments=attached_rows(tangent, penetration.centres),
         vertex_areas=areas / areas.sum(),
     )

@@ -15,13 +15,15 @@ def _is_crossed(heights, triangle, corner):
 
 @no_type_check
 @njit(cache=True)
-def _crossing(vertices, heights, triangle, corner, out):
-    # From the lower vertex id to the higher, so that both triangles of an edge find one point.
+def _crossing(vertices, shares, heights, triangle, corner, out):
+    # Coordinates and share. From the lower vertex id to the higher, so that both triangles of an
+    # edge find one point.
     low = min(triangle[corner], triangle[(corner + 1) % 3])
     high = max(triangle[corner], triangle[(corner + 1) % 3])
     along = heights[low] / (heights[low] - heights[high])
     for axis in range(3):
         out[axis] = vertices[low, axis] + along * (vertices[high, axis] - vertices[low, axis])
+    out[3] = shares[low] + along * (shares[high] - shares[low])
 
 
 @no_type_check
@@ -36,13 +38,15 @@ def _other_crossed_edge(heights, triangle, entry):
 
 @no_type_check
 @njit(cache=True)
-def _walk(vertices, heights, triangles, neighbours, allowed, visited, start, entry, out, count):
+def _walk(
+    vertices, shares, heights, triangles, neighbours, allowed, visited, start, entry, out, count
+):
     """Follow the cut from triangle ``start``, in through edge ``entry``; True if it closes."""
     current = start
     while True:
         visited[current] = True
         leave = _other_crossed_edge(heights, triangles[current], entry)
-        _crossing(vertices, heights, triangles[current], leave, out[count])
+        _crossing(vertices, shares, heights, triangles[current], leave, out[count])
         count += 1
         following = neighbours[current, leave]
         if following == start:
@@ -62,14 +66,15 @@ def _walk(vertices, heights, triangles, neighbours, allowed, visited, start, ent
 @no_type_check
 @njit(cache=True)
 def trace_section(
-    vertices, triangles, neighbours, allowed, candidates, candidate_vertices, point, normal
+    vertices, shares, triangles, neighbours, allowed, candidates, candidate_vertices, point, normal
 ):
     """Polylines of a plane cut, one after the other.
 
-    Returns the points, where each polyline starts, and whether it closes.
+    Returns the points with their shares in a fourth column, where each polyline starts, and
+    whether it closes.
     """
-    points = np.empty((2 * candidates.size + 2, 3))
-    behind = np.empty((candidates.size + 1, 3))
+    points = np.empty((2 * candidates.size + 2, 4))
+    behind = np.empty((candidates.size + 1, 4))
     starts = np.empty(candidates.size + 1, dtype=np.int64)
     closed = np.empty(candidates.size + 1, dtype=np.bool_)
     visited = np.zeros(triangles.shape[0], dtype=np.bool_)
@@ -95,14 +100,14 @@ def trace_section(
             continue
         starts[lines] = total
         closes, count = _walk(
-            vertices, heights, triangles, neighbours, allowed, visited, t, entry,
+            vertices, shares, heights, triangles, neighbours, allowed, visited, t, entry,
             points[total:], 0,
         )  # fmt: skip
         if not closes:
             back = 0
             leave = _other_crossed_edge(heights, triangles[t], entry)
             _, back = _walk(
-                vertices, heights, triangles, neighbours, allowed, visited, t, leave,
+                vertices, shares, heights, triangles, neighbours, allowed, visited, t, leave,
                 behind, 0,
             )  # fmt: skip
             for k in range(count - 1, -1, -1):

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from fitter.arrays import Shape, Triangles, Vector3, Vertices
-from fitter.body.model import BodyModel
+from fitter.arrays import PerVertex, Shape, Triangles, Vector3, Vertices
+from fitter.body.model import BodyModel, SparseRows
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.skeleton import regress
 from fitter.errors import NumericalError
@@ -51,11 +51,11 @@ class MeasuringBody:
     triangles
         (f, 3) of the mesh.
     regions
-        The triangles each measurement with parts may use, by its name.
-    canonical
-        The body in the canonical pose.
-    point_names
-        Landmarks, then joints with their prefix.
+        Where the tape of each measurement with parts may run, by its name.
+    canonical, standing
+        The body in the canonical and in the standing pose.
+    points
+        Rows of landmarks, then of joints, which have a prefix to their names.
     canonical_points, standing_points
         Those points in the canonical and in the standing pose.
     """
@@ -64,7 +64,8 @@ class MeasuringBody:
     triangles: Triangles
     regions: Mapping[str, Region]
     canonical: AffineBody
-    point_names: tuple[str, ...]
+    standing: AffineBody
+    points: SparseRows
     canonical_points: AffineBody
     standing_points: AffineBody
 
@@ -96,24 +97,20 @@ def measuring_body(
     standing = affine_body(evaluator, model.standing_pose)
     everything = whole_mesh(model.triangles)
     regions = {
-        definition.about.name: restricted(
-            everything,
-            np.isin(model.part_of_triangle, [model.part_names.index(p) for p in definition.parts]),
-        )
+        definition.about.name: restricted(everything, _part_shares(model, definition.parts))
         for definition in definitions
         if isinstance(definition, Girth | BackContour)
     }
+    points = _point_rows(model)
     return MeasuringBody(
         definitions=definitions,
         triangles=model.triangles,
         regions=regions,
         canonical=canonical,
-        point_names=(
-            *model.landmarks.names,
-            *(JOINT_PREFIX + part for part in model.part_names),
-        ),
-        canonical_points=_points(model, canonical),
-        standing_points=_points(model, standing),
+        standing=standing,
+        points=points,
+        canonical_points=_points(points, canonical),
+        standing_points=_points(points, standing),
     )
 
 
@@ -195,20 +192,35 @@ def _jacobian(
     return np.stack(columns, axis=1)
 
 
-def _points(model: BodyModel, posed: AffineBody) -> AffineBody:
-    def all_points(vertices: Vertices) -> np.ndarray:
-        return np.concatenate(
-            [regress(model.landmarks, vertices), regress(model.joint_regressor, vertices)]
-        )
+def _part_shares(model: BodyModel, parts: Sequence[str]) -> PerVertex:
+    """How far each vertex follows some parts, 0 to 1."""
+    chosen = np.isin(model.skinning_parts, [model.part_names.index(part) for part in parts])
+    weights = model.skinning_weights
+    return np.where(chosen, weights, 0.0).sum(axis=1) / weights.sum(axis=1)
 
+
+def _point_rows(model: BodyModel) -> SparseRows:
+    """Landmarks and joints as rows of one matrix."""
+    landmarks, joints = model.landmarks, model.joint_regressor
+    return SparseRows(
+        names=(*landmarks.names, *(JOINT_PREFIX + part for part in model.part_names)),
+        pointers=np.concatenate(
+            [landmarks.pointers[:-1], joints.pointers + landmarks.pointers[-1]]
+        ),
+        indices=np.concatenate([landmarks.indices, joints.indices]),
+        weights=np.concatenate([landmarks.weights, joints.weights]),
+    )
+
+
+def _points(rows: SparseRows, posed: AffineBody) -> AffineBody:
     return AffineBody(
-        mean=all_points(posed.mean),
-        derivative=np.stack([all_points(column) for column in posed.derivative]),
+        mean=regress(rows, posed.mean),
+        derivative=np.stack([regress(rows, column) for column in posed.derivative]),
     )
 
 
 def _take(body: MeasuringBody, shape: Shape, vertices: Vertices | None = None) -> _Taken:
-    names = body.point_names
+    names = body.points.names
     return _Taken(
         vertices=body.canonical.at(shape) if vertices is None else vertices,
         canonical=dict(zip(names, body.canonical_points.at(shape), strict=True)),

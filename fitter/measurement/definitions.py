@@ -46,18 +46,51 @@ class Orientation(StrEnum):
     ACROSS_AXIS = "across_axis"
 
 
+class Agreement(StrEnum):
+    """How a measurement stands to the survey's."""
+
+    SAME = "same"
+    DIFFERS = "differs"
+    ABSENT = "absent"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SurveyDefinition:
+    """How ANSUR II (the US Army's anthropometric survey of 2012) takes the same of people.
+
+    After its measurer's handbook (Hotzman et al. 2011, NATICK/TR-11/017) and report (Gordon et al.
+    2014, NATICK/TR-15/007), in our words.
+
+    Attributes
+    ----------
+    fields
+        The survey's fields whose sum it is; none where the survey does not take it.
+    share
+        Of that sum, what ours is taken to be: less than one where the survey tenses muscles.
+    agreement
+        ``same``: the same landmarks and the same tape.
+    definition
+        Landmark, plane, tape and posture of the survey.
+    difference
+        What is not the same: landmark, plane, tape, posture, breath.
+    """
+
+    fields: tuple[str, ...]
+    share: float
+    agreement: Agreement
+    definition: str
+    difference: str
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class About:
-    """What is said of a measurement to its reader.
-
-    ``survey_field`` is the ANSUR II field that measures the same on people, None where none does.
-    """
+    """What is said of a measurement to its reader."""
 
     name: str
     unit: Unit
     definition: str
     source: str
-    survey_field: str | None
+    survey: SurveyDefinition
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,7 +100,8 @@ class Girth:
     The plane stands on the axis from ``start`` to ``end`` at a fraction within ``fractions``
     of its length. Zero is ``start``, or the point of the axis beside ``origin`` where one is
     given; the range may reach beyond both ends. ``parts`` are the body parts the cut may run over;
-    with ``around_axis`` only the line that surrounds the axis counts.
+    with ``around_axis`` only the line that surrounds the axis counts. A part ends where vertices
+    follow it by half.
     """
 
     about: About
@@ -208,9 +242,9 @@ class _Entry:
             self.fail(field, f"is {found!r}, not of type {kind.__name__}")
         return cast("T", found)
 
-    def names(self, field: str) -> tuple[str, ...]:
+    def names(self, field: str, *, may_be_empty: bool = False) -> tuple[str, ...]:
         values = self.value(field, list)
-        if not values or not all(isinstance(value, str) for value in values):
+        if not (values or may_be_empty) or not all(isinstance(value, str) for value in values):
             self.fail(field, f"is {values!r}, not a list of names")
         return tuple(cast("list[str]", values))
 
@@ -233,7 +267,7 @@ def _read(fields: object) -> MeasurementDefinition:
         unit=entry.choice("unit", Unit),
         definition=entry.value("definition", str),
         source=entry.value("source", str),
-        survey_field=entry.value("survey_field", str) if "survey_field" in entry.fields else None,
+        survey=_read_survey(_Entry(f"{entry.name}: survey", entry.value("survey", dict))),
     )
     match entry.value("kind", str):
         case "girth":
@@ -258,6 +292,19 @@ def _read(fields: object) -> MeasurementDefinition:
         case kind:
             message = f"{about.name}: kind {kind!r} is not known."
             raise DefinitionError(message)
+
+
+def _read_survey(entry: _Entry) -> SurveyDefinition:
+    survey = SurveyDefinition(
+        fields=entry.names("fields", may_be_empty=True),
+        share=entry.value("share", float) if "share" in entry.fields else 1.0,
+        agreement=entry.choice("agreement", Agreement),
+        definition=entry.value("definition", str),
+        difference=entry.value("difference", str),
+    )
+    if bool(survey.fields) == (survey.agreement is Agreement.ABSENT):
+        entry.fail("fields", f"is {list(survey.fields)} where the agreement is {survey.agreement}")
+    return survey
 
 
 def _read_girth(entry: _Entry, about: About) -> Girth:

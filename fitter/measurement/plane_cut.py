@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float, Integer
 
-from fitter.arrays import Points2D, Points3D, Triangles, Vector3, Vertices
+from fitter.arrays import PerVertex, Points2D, Points3D, Triangles, Vector3, Vertices
 from fitter.measurement._section_kernels import (
     convex_hull,
     flatten,
@@ -17,6 +17,9 @@ from fitter.measurement._section_kernels import (
     trace_section,
 )
 from fitter.numerics.meshes import triangle_neighbours
+
+BORDER_SHARE = 0.5
+"""A region ends where vertices belong to it by half."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -37,13 +40,18 @@ class Region:
         (f, 3) of the whole mesh.
     allowed
         (f,) which triangles belong to the region.
+    shares
+        (m,) how far each vertex belongs to the region. Lines of a cut end where the share, linear
+        over every triangle, falls to a half: a smooth border, where one along triangles' edges
+        would let a girth jump as the plane passes from triangle to triangle.
     members, vertices
-        Ids of those triangles and of their corners, ascending.
+        Ids of the allowed triangles and of their corners, ascending.
     """
 
     triangles: Triangles
     neighbours: Integer[np.ndarray, "f 3"]
     allowed: Bool[np.ndarray, " f"]
+    shares: PerVertex
     members: Integer[np.ndarray, " r"]
     vertices: Integer[np.ndarray, " c"]
 
@@ -60,21 +68,36 @@ def whole_mesh(triangles: Triangles) -> Region:
     """The region of all triangles."""
     triangles = np.ascontiguousarray(triangles, dtype=np.int32)
     everything = np.ones(len(triangles), dtype=np.bool_)
-    return _region(triangles, triangle_neighbours(triangles), everything)
+    shares = np.ones(int(triangles.max()) + 1)
+    return _region(triangles, triangle_neighbours(triangles), everything, shares)
 
 
-def restricted(region: Region, allowed: Bool[np.ndarray, " f"]) -> Region:
-    """The region's triangles that are also ``allowed``."""
-    return _region(region.triangles, region.neighbours, region.allowed & allowed)
+def restricted(region: Region, shares: PerVertex) -> Region:
+    """The part of a region whose vertices belong by half or more to something else too.
+
+    Parameters
+    ----------
+    region
+        What is restricted.
+    shares
+        (m,) from 0 to 1.
+    """
+    shares = np.minimum(region.shares, shares)
+    touched = (shares >= BORDER_SHARE)[region.triangles].any(axis=1)
+    return _region(region.triangles, region.neighbours, region.allowed & touched, shares)
 
 
 def _region(
-    triangles: Triangles, neighbours: Integer[np.ndarray, "f 3"], allowed: Bool[np.ndarray, " f"]
+    triangles: Triangles,
+    neighbours: Integer[np.ndarray, "f 3"],
+    allowed: Bool[np.ndarray, " f"],
+    shares: PerVertex,
 ) -> Region:
     return Region(
         triangles=triangles,
         neighbours=neighbours,
         allowed=allowed,
+        shares=np.ascontiguousarray(shares, dtype=np.float64),
         members=np.flatnonzero(allowed),
         vertices=np.unique(triangles[allowed]),
     )
@@ -84,6 +107,7 @@ def plane_section(vertices: Vertices, region: Region, plane: Plane) -> tuple[Pol
     """Every polyline in which ``plane`` cuts ``region``, in the frame of ``vertices``."""
     points, starts, closed = trace_section(
         np.ascontiguousarray(vertices),
+        region.shares,
         region.triangles,
         region.neighbours,
         region.allowed,
@@ -92,10 +116,41 @@ def plane_section(vertices: Vertices, region: Region, plane: Plane) -> tuple[Pol
         plane.point,
         plane.normal,
     )
-    return tuple(
-        Polyline(points=points[start:stop], closed=bool(is_closed))
-        for start, stop, is_closed in zip(starts[:-1], starts[1:], closed, strict=True)
-    )
+    lines: list[Polyline] = []
+    for start, stop, is_closed in zip(starts[:-1], starts[1:], closed, strict=True):
+        line, shares = points[start:stop, :3], points[start:stop, 3]
+        if (shares >= BORDER_SHARE).all():
+            lines.append(Polyline(points=np.ascontiguousarray(line), closed=bool(is_closed)))
+        else:
+            lines.extend(_within(line, shares, closed=bool(is_closed)))
+    return tuple(lines)
+
+
+def _within(points: Points3D, shares: Float[np.ndarray, " k"], *, closed: bool) -> list[Polyline]:
+    """The stretches of a line that lie in the region, ending where the share is the border's."""
+    if closed:
+        first = int(np.argmin(shares))
+        turn = (np.arange(len(points) + 1) + first) % len(points)
+        points, shares = points[turn], shares[turn]
+    inside = shares >= BORDER_SHARE
+    stretches: list[Polyline] = []
+    # Runs of points inside, as pairs of (first, one past the last).
+    steps = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]])))
+    for start, stop in steps.reshape(-1, 2):
+        run = [points[start:stop]]
+        if start > 0:
+            run.insert(0, _border_point(points, shares, start - 1)[None])
+        if stop < len(points):
+            run.append(_border_point(points, shares, stop - 1)[None])
+        stretches.append(Polyline(points=np.concatenate(run), closed=False))
+    return stretches
+
+
+def _border_point(points: Points3D, shares: Float[np.ndarray, " k"], before: int) -> Vector3:
+    """Where the share passes the border's between a point and the next."""
+    low, high = shares[before], shares[before + 1]
+    along = (BORDER_SHARE - low) / (high - low)
+    return points[before] + along * (points[before + 1] - points[before])
 
 
 def in_plane(points: Points3D, plane: Plane) -> Points2D:

@@ -19,6 +19,10 @@ from fitter.measurement.plane_cut import (
 
 UP = np.array([0.0, 1.0, 0.0])
 
+SCRAP_SHARE = 0.2
+"""An open line shorter than this share of the longest is not part of what is measured: front and
+back of a chest are about equal, scraps of an arm are 1 to 3 cm."""
+
 SEARCH_CUTS = 15
 """Cuts tried along an axis before the best is refined: every 1 to 2 cm on the ranges in use."""
 
@@ -34,6 +38,7 @@ def girth_at_m(
     lines = plane_section(vertices, region, plane)
     if not lines:
         return float("nan")
+    lines = _without_scraps(lines)
     if girth.around_axis and len(lines) > 1:
         lines = (_line_around(lines, plane),)
     points = lines[0].points if len(lines) == 1 else np.concatenate([e.points for e in lines])
@@ -69,9 +74,9 @@ def girth_placement(
     return peak if score(peak) > at else float(fractions[best])
 
 
-def path_length_m(points: Sequence[Vector3]) -> float:
+def path_length_m(points: Points3D | Sequence[Vector3]) -> float:
     """Sum of straight distances from point to point."""
-    return float(np.linalg.norm(np.diff(np.stack(points), axis=0), axis=1).sum())
+    return float(np.linalg.norm(np.diff(np.asarray(points), axis=0), axis=1).sum())
 
 
 def back_contour_m(region: Region, vertices: Vertices, top: Vector3, bottom: Vector3) -> float:
@@ -88,6 +93,24 @@ def back_contour_m(region: Region, vertices: Vertices, top: Vector3, bottom: Vec
     # (y, -z): the hull's far side along the second axis is the person's back.
     taut = _upper_chain(np.stack([rear[:, 1], -rear[:, 2]], axis=1))
     return float(np.linalg.norm(np.diff(taut, axis=0), axis=1).sum())
+
+
+def _without_scraps(lines: Sequence[Polyline]) -> Sequence[Polyline]:
+    """The lines a tape goes round.
+
+    Where a line closes, open ones lie on a limb beyond the region's border. Above the armpits,
+    where none closes, front and back are what the tape spans, and short ones are such scraps: they
+    come and go as the plane moves, and a girth that took them in would jump by 6 mm.
+    """
+    closed = tuple(line for line in lines if line.closed)
+    if closed or len(lines) == 1:
+        return closed or lines
+    lengths = [path_length_m(line.points) for line in lines]
+    return [
+        line
+        for line, length in zip(lines, lengths, strict=True)
+        if length > SCRAP_SHARE * max(lengths)
+    ]
 
 
 def _line_around(lines: Sequence[Polyline], plane: Plane) -> Polyline:

@@ -1,9 +1,9 @@
-"""Closed triangle meshes: adjacency and volume."""
+"""Closed triangle meshes: adjacency, areas and volume."""
 
 import numpy as np
 from jaxtyping import Integer
 
-from fitter.arrays import Triangles, Vertices
+from fitter.arrays import PerTriangle, PerVertex, Triangles, Vertices
 from fitter.numerics._mesh_kernels import sum_of_tetrahedra
 
 
@@ -27,3 +27,15 @@ def enclosed_volume(vertices: Vertices, triangles: Triangles) -> float:
     Positive where triangles run counter-clockwise seen from outside.
     """
     return float(sum_of_tetrahedra(np.ascontiguousarray(vertices, dtype=np.float64), triangles))
+
+
+def triangle_areas(vertices: Vertices, triangles: Triangles) -> PerTriangle:
+    """Area of every triangle, square metres."""
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+
+
+def vertex_areas(vertices: Vertices, triangles: Triangles) -> PerVertex:
+    """A third of the area of the triangles about each vertex; they sum to the surface."""
+    shares = np.repeat(triangle_areas(vertices, triangles) / 3.0, 3)
+    return np.bincount(triangles.reshape(-1), weights=shares, minlength=len(vertices))

@@ -42,7 +42,7 @@ def check_clicks(clicks: Mapping[str, Click], *, width: int, height: int) -> Non
     Raises
     ------
     InvalidInputError
-        ``point-unknown``, ``point-not-finite``, ``point-outside-picture``, ``points-too-few`` or
+        ``point-unknown``, ``point-not-finite``, ``point-outside-image``, ``too-few-points`` or
         ``points-too-close``.
     """
     for name, click in clicks.items():
@@ -51,7 +51,7 @@ def check_clicks(clicks: Mapping[str, Click], *, width: int, height: int) -> Non
     trunk_count = sum(name in clicks for name in TRUNK_POINTS)
     if limb_count < LEAST_LIMB_POINTS or trunk_count < LEAST_TRUNK_POINTS:
         raise InvalidInputError(
-            code="points-too-few",
+            code="too-few-points",
             field="points",
             reason=(
                 f"{limb_count} limb points are given, {trunk_count} of them shoulders or hips."
@@ -130,7 +130,7 @@ def _check_click(name: str, click: Click, *, width: int, height: int) -> None:
         )
     if not (0.0 <= click.x <= width and 0.0 <= click.y <= height):
         raise InvalidInputError(
-            code="point-outside-picture",
+            code="point-outside-image",
             field=f"points.{name}",
             reason=(
                 f"({click.x:g}, {click.y:g}) lies outside the upright picture of "

@@ -1,9 +1,14 @@
 """What the caller says of the person and the light, checked."""
 
 import math
+from collections.abc import Mapping
 
 from fitter.errors import InvalidInputError
-from fitter.request import FitRequest
+from fitter.remarks import Assumption
+from fitter.request import FitRequest, Gender
+
+MEAN_HEIGHT_M: Mapping[Gender, float] = {Gender.FEMALE: 1.65, Gender.MALE: 1.82}
+"""Section 4: the heights taken for people, as in paintings, whose height nobody knows."""
 
 PLAUSIBLE_HEIGHT_M = (1.2, 2.3)
 """The adults the shape spaces were learned from, with room; outside, shapes are extrapolations."""
@@ -45,3 +50,16 @@ def check_subject(request: FitRequest) -> None:
             reason="A light's distance is positive.",
             remedy="Give metres from the person, or leave it out.",
         )
+
+
+def subject_height(request: FitRequest) -> tuple[float, tuple[Assumption, ...]]:
+    """The caller's height, or the mean of the gender and the assumption that it is."""
+    if request.height_m is not None:
+        return request.height_m, ()
+    mean = MEAN_HEIGHT_M[request.gender]
+    assumed = Assumption(
+        quantity="height_m",
+        value=mean,
+        reason=f"No height was given; the mean of the gender ({request.gender.value}) was taken.",
+    )
+    return mean, (assumed,)

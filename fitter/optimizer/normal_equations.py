@@ -8,28 +8,27 @@ it only shapes the step.
 import numpy as np
 from jaxtyping import Float
 
-from fitter.arrays import Points3D, Vertices
+from fitter.arrays import Vertices
 from fitter.body.model import SparseRows
 from fitter.body.pose_prior import prior_terms
-from fitter.body.tangent import (
-    Attachments,
-    Linearisation,
-    attached_rows,
-    attached_vertices,
-    direction_jacobian,
-    linearise,
-    point_jacobian,
-)
+from fitter.body.tangent import Attachments, linearise
 from fitter.energies.clicks import click_rows
 from fitter.energies.edges import edge_rows
+from fitter.energies.instruments import BodyInstruments
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.penetration import penetration_rows
 from fitter.energies.priors import lean_residual, shape_prior_precision
 from fitter.energies.rows import PositionRows, ShadingRows, thinned
 from fitter.energies.shading import shading_rows, thinned_shading
 from fitter.energies.silhouette import silhouette_rows
-from fitter.numerics.normals import normal_change, normal_derivative_to_vertices
+from fitter.numerics.normals import normal_derivative_to_vertices
 from fitter.optimizer.parameter_vector import as_vector
+from fitter.optimizer.row_jacobians import (
+    RowJacobian,
+    position_row_jacobian,
+    scatter,
+    shading_row_jacobian,
+)
 
 # Rows of each kind that enter the matrix; the gradient uses all of them.
 _MATRIX_ROWS = 600
@@ -42,36 +41,27 @@ Vector = Float[np.ndarray, " columns"]
 def normal_equations(objective: Objective, candidate: Candidate) -> tuple[Matrix, Vector]:
     """Matrix and gradient over the full parameter vector, in nats."""
     instruments, evidence, scales = objective.instruments, objective.evidence, objective.scales
-    tangent = instruments.tangent
-    frame = linearise(tangent, candidate.parameters)
     rendering, parameters = candidate.rendering, candidate.parameters
-    on_vertices = [
+    frame = linearise(instruments.tangent, parameters)
+    pull = np.zeros_like(candidate.vertices)
+    jacobians: list[RowJacobian] = []
+    for rows in (
         *silhouette_rows(rendering, candidate.edges, evidence.silhouette, scales),
         edge_rows(rendering, candidate.edges, evidence.edges, scales),
-    ]
-    clicks = click_rows(candidate.landmarks, evidence.clicks, evidence.camera, scales)
-    spheres = penetration_rows(candidate.spheres, candidate.radii, instruments.penetration, scales)
-
-    pull = np.zeros_like(candidate.vertices)
-    columns = parameters.pose.size + 3 + len(parameters.shape)
-    matrix = np.zeros((columns, columns))
-    for rows in on_vertices:
-        _scatter(rows, pull)
+    ):
+        scatter(rows, pull)
         few = thinned(rows, _MATRIX_ROWS)
-        chosen, index = np.unique(few.points, return_inverse=True)
-        jacobian = point_jacobian(
-            frame, attached_vertices(tangent, chosen), candidate.vertices[chosen]
-        )
-        matrix += _gram(few, index.reshape(few.points.shape), jacobian)
+        vertices = instruments.tangent.vertices
+        jacobians.append(position_row_jacobian(few, frame, vertices, candidate.vertices))
     for rows, support, attachments, positions in (
         (
-            clicks,
+            click_rows(candidate.landmarks, evidence.clicks, evidence.camera, scales),
             evidence.clicks.landmarks,
-            attached_rows(tangent, evidence.clicks.landmarks),
+            _attachments_of(instruments, evidence.clicks.landmarks.names),
             candidate.landmarks,
         ),
         (
-            spheres,
+            penetration_rows(candidate.spheres, candidate.radii, instruments.penetration, scales),
             instruments.penetration.centres,
             instruments.sphere_attachments,
             candidate.spheres,
@@ -80,16 +70,27 @@ def normal_equations(objective: Objective, candidate: Candidate) -> tuple[Matrix
         if not len(rows.residuals):
             continue
         _scatter_through(rows, support, len(positions), pull)
-        jacobian = point_jacobian(frame, attachments, positions)
-        matrix += _gram(rows, rows.points, jacobian)
+        jacobians.append(position_row_jacobian(rows, frame, attachments, positions))
     if evidence.shading is not None:
         rows = shading_rows(rendering, evidence.shading, scales)
         pull += _shading_pull(objective, candidate, rows)
-        matrix += _shading_gram(objective, candidate, rows, frame)
-
+        few = thinned_shading(rows, _MATRIX_SHADING_ROWS)
+        jacobians.append(shading_row_jacobian(few, frame, instruments, candidate))
+    every = np.concatenate(jacobians)
+    matrix = every.T @ every
     gradient = as_vector(instruments.evaluator.derivative(parameters, pull))
     _add_priors(objective, candidate, matrix, gradient)
     return matrix, gradient
+
+
+def _attachments_of(instruments: BodyInstruments, names: tuple[str, ...]) -> Attachments:
+    every, order = instruments.landmark_attachments, instruments.model.landmarks.names
+    rows = [order.index(name) for name in names]
+    return Attachments(
+        part_weights=every.part_weights[rows],
+        joint_follow=every.joint_follow[rows],
+        shape_basis=every.shape_basis[rows],
+    )
 
 
 def _add_priors(
@@ -113,28 +114,14 @@ def _add_priors(
     gradient[shape] += precision * parameters.shape
 
 
-def _scatter(rows: PositionRows, pull: Vertices) -> None:
-    """Add w r ∂r to the points' derivative."""
-    force = (rows.weights * rows.residuals)[:, None, None] * rows.derivatives
-    np.add.at(pull, rows.points.reshape(-1), force.reshape(-1, 3))
-
-
 def _scatter_through(rows: PositionRows, support: SparseRows, count: int, pull: Vertices) -> None:
-    """The same for points that are weighted sums of vertices."""
+    """:func:`scatter` for points that are weighted sums of vertices."""
     on_points = np.zeros((count, 3))
-    _scatter(rows, on_points)
+    scatter(rows, on_points)
     lengths = np.diff(support.pointers)
     np.add.at(
         pull, support.indices, np.repeat(on_points, lengths, axis=0) * support.weights[:, None]
     )
-
-
-def _gram(
-    rows: PositionRows, index: np.ndarray, jacobian: Float[np.ndarray, "u 3 columns"]
-) -> Matrix:
-    """Jᵀ W J of rows whose points are rows of ``jacobian``."""
-    combined = np.einsum("kqi,kqic->kc", rows.derivatives, jacobian[index], optimize=True)
-    return combined.T @ (rows.weights[:, None] * combined)
 
 
 def _shading_pull(objective: Objective, candidate: Candidate, rows: ShadingRows) -> Vertices:
@@ -145,29 +132,3 @@ def _shading_pull(objective: Objective, candidate: Candidate, rows: ShadingRows)
     by_normal[rows.vertices] = force * rows.normal_derivatives
     triangles = objective.instruments.model.triangles
     return pull + normal_derivative_to_vertices(candidate.vertices, triangles, by_normal)
-
-
-def _shading_gram(
-    objective: Objective, candidate: Candidate, rows: ShadingRows, frame: Linearisation
-) -> Matrix:
-    instruments = objective.instruments
-    few = thinned_shading(rows, _MATRIX_SHADING_ROWS)
-    attachments: Attachments = attached_vertices(instruments.tangent, few.vertices)
-    by_position = point_jacobian(frame, attachments, candidate.vertices[few.vertices])
-    rest: Points3D = instruments.model.mean_vertices + np.tensordot(
-        candidate.parameters.shape, instruments.model.shape_basis, axes=1
-    )
-    change = normal_change(
-        rest,
-        instruments.model.triangles,
-        instruments.rings,
-        few.vertices,
-        instruments.model.shape_basis,
-    )
-    by_normal = direction_jacobian(
-        frame, attachments, candidate.rendering.vertex_normals[few.vertices], change
-    )
-    combined = np.einsum("ki,kic->kc", few.position_derivatives, by_position) + np.einsum(
-        "ki,kic->kc", few.normal_derivatives, by_normal
-    )
-    return combined.T @ (few.weights[:, None] * combined)

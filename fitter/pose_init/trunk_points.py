@@ -101,7 +101,7 @@ def _add_missing_line(
         pixels[other[0]], pixels[other[1]] = centre - half, centre + half
         return
     raise InvalidInputError(
-        code="points-too-few",
+        code="too-few-points",
         field="points",
         reason="The trunk cannot be placed: too few of shoulders and hips are given.",
         remedy="Click both shoulders or both hips, and as many other joints as can be seen.",

@@ -13,7 +13,6 @@ from fitter.measurement.anthropometry import (
     measuring_body,
 )
 from fitter.measurement.definitions import (
-    About,
     Girth,
     Height,
     Length,
@@ -25,10 +24,7 @@ from fitter.measurement.definitions import (
 from fitter.numerics.meshes import enclosed_volume
 from fitter.parameters import BodyParameters
 from tests.unit.body.synthetic_model import bar_model
-
-
-def about(name, unit=Unit.CENTIMETRES):
-    return About(name=name, unit=unit, definition="A.", source="B.", survey_field=None)
+from tests.unit.measurement.made_up import about
 
 
 def bar_girth(name, *, fractions, selection=Selection.LARGEST):

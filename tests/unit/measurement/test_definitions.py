@@ -5,6 +5,7 @@ import pytest
 from fitter.errors import DefinitionError
 from fitter.measurement.definitions import (
     DEFINITIONS_PATH,
+    Agreement,
     Girth,
     check_against_model,
     load_definitions,
@@ -52,6 +53,21 @@ def test_every_measurement_promised_is_defined_with_its_source():
         assert definition.about.definition.endswith(".")
         assert definition.about.source.endswith(".")
         assert definition.about.unit in ("cm", "kg")
+
+
+def test_every_measurement_says_how_it_stands_to_the_surveys():
+    for definition in load_definitions():
+        survey = definition.about.survey
+        assert survey.definition.endswith("."), definition.about.name
+        assert survey.difference.endswith("."), definition.about.name
+        assert bool(survey.fields) == (survey.agreement is not Agreement.ABSENT)
+
+
+def test_fields_of_a_survey_that_does_not_take_the_measurement_are_refused(document, tmp_path):
+    entry = girth_entry(document)
+    entry["survey"]["agreement"] = "absent"
+    with pytest.raises(DefinitionError, match=f"{entry['name']}: survey: fields is"):
+        load_changed(document, tmp_path)
 
 
 def test_a_missing_field_is_named_with_its_measurement(document, tmp_path):

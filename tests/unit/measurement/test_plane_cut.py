@@ -90,12 +90,31 @@ def test_a_girth_does_not_change_when_body_and_plane_move_together():
 
 def test_a_restricted_region_gives_the_open_part_of_the_loop():
     vertices, triangles = tube(radius=0.2, height=1.0, sides=360)
-    front = vertices[triangles].mean(axis=1)[:, 2] > 0.0
+    front = np.clip(0.5 + vertices[:, 2] / 0.1, 0.0, 1.0)
     (line,) = plane_section(vertices, restricted(whole_mesh(triangles), front), level(0.3))
     assert not line.closed
     length = np.linalg.norm(np.diff(line.points, axis=0), axis=1).sum()
-    assert length == pytest.approx(np.pi * 0.2, rel=0.01)
-    assert line.points[:, 2].min() > -0.005
+    assert length == pytest.approx(np.pi * 0.2, rel=1e-4)
+    np.testing.assert_allclose(line.points[[0, -1], 2], 0.0, atol=1e-4)
+
+
+def test_the_border_of_a_region_cuts_across_triangles():
+    vertices, triangles = tube(radius=0.2, height=1.0, sides=24)
+    for border in (0.03, 0.05, 0.07):
+        shares = np.clip(0.5 + (vertices[:, 2] - border) / 0.4, 0.0, 1.0)
+        (line,) = plane_section(vertices, restricted(whole_mesh(triangles), shares), level(0.3))
+        np.testing.assert_allclose(line.points[[0, -1], 2], border, atol=1e-12)
+        assert (line.points[1:-1, 2] > border).all()
+
+
+def test_a_region_that_a_plane_crosses_twice_gives_two_lines():
+    vertices, triangles = tube(radius=0.2, height=1.0, sides=360)
+    front_and_back = np.clip(np.abs(vertices[:, 2]) / 0.2, 0.0, 1.0)
+    lines = plane_section(vertices, restricted(whole_mesh(triangles), front_and_back), level(0.3))
+    assert [line.closed for line in lines] == [False, False]
+    for line in lines:
+        length = np.linalg.norm(np.diff(line.points, axis=0), axis=1).sum()
+        assert length == pytest.approx(0.2 * np.deg2rad(120.0), rel=1e-3)
 
 
 @given(seed=st.integers(0, 10_000), count=st.integers(3, 60))

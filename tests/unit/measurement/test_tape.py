@@ -1,9 +1,10 @@
 import numpy as np
 import pytest
 
-from fitter.measurement.definitions import About, Girth, Orientation, Selection, Unit
+from fitter.measurement.definitions import Girth, Orientation, Selection
 from fitter.measurement.plane_cut import whole_mesh
 from fitter.measurement.tape import back_contour_m, girth_at_m, girth_placement, path_length_m
+from tests.unit.measurement.made_up import about
 from tests.unit.measurement.solids import lathe, prism, tube
 
 BOTTOM, TOP = np.zeros(3), np.array([0.0, 1.0, 0.0])
@@ -11,13 +12,7 @@ BOTTOM, TOP = np.zeros(3), np.array([0.0, 1.0, 0.0])
 
 def girth(*, fractions=(0.0, 1.0), selection=Selection.LARGEST, around_axis=False, across=False):
     return Girth(
-        about=About(
-            name="girth",
-            unit=Unit.CENTIMETRES,
-            definition="A girth.",
-            source="A test.",
-            survey_field=None,
-        ),
+        about=about("girth"),
         start=("a",),
         end=("b",),
         origin=None,

@@ -73,7 +73,7 @@ def test_a_half_figure_without_hips_is_enough():
 )  # fmt: skip
 def test_too_few_points_are_refused_and_the_least_set_is_named(names: tuple[str, ...]):
     problem = problem_of(only(*names))
-    assert problem.code == "points-too-few"
+    assert problem.code == "too-few-points"
     assert "6" in problem.remedy
     assert "shoulders or hips" in problem.remedy
 
@@ -81,7 +81,7 @@ def test_too_few_points_are_refused_and_the_least_set_is_named(names: tuple[str,
 @pytest.mark.parametrize("place", [(-0.1, 5), (5, -0.1), (WIDTH + 0.1, 5), (5, HEIGHT + 0.1)])
 def test_a_point_outside_the_picture_is_refused_by_name(place: tuple[float, float]):
     problem = problem_of(standing_clicks() | {"left_knee": Click(x=place[0], y=place[1])})
-    assert (problem.code, problem.field) == ("point-outside-picture", "points.left_knee")
+    assert (problem.code, problem.field) == ("point-outside-image", "points.left_knee")
 
 
 def test_points_on_the_border_are_inside():

@@ -1,0 +1,96 @@
+"""Rows of the Gauss-Newton matrix: residuals' derivatives by all body parameters.
+
+The derivative of a point by every parameter is never written down: each row's own derivative is
+taken through the linear-blend tangent at once (:mod:`fitter.optimizer._row_kernels`), in a
+twentieth of the time.
+"""
+
+import numpy as np
+from jaxtyping import Float
+
+from fitter.arrays import Points3D, Vertices
+from fitter.body.tangent import Attachments, Linearisation
+from fitter.energies.instruments import BodyInstruments
+from fitter.energies.objective import Candidate
+from fitter.energies.rows import PositionRows, ShadingRows
+from fitter.optimizer import _row_kernels as kernels
+
+RowJacobian = Float[np.ndarray, "k columns"]
+
+
+def position_row_jacobian(
+    rows: PositionRows, frame: Linearisation, attachments: Attachments, positions: Points3D
+) -> RowJacobian:
+    """√w ∂r of each row; columns as in :func:`fitter.body.tangent.point_jacobian`.
+
+    Parameters
+    ----------
+    rows
+        Their points index ``attachments`` and ``positions``.
+    frame
+        The body they were taken at.
+    attachments, positions
+        How the points hang on the body and where they are, camera frame, metres.
+    """
+    result = _empty(len(rows.residuals), frame)
+    kernels.position_row_jacobian(
+        rows.derivatives,
+        rows.points,
+        np.sqrt(rows.weights),
+        positions,
+        frame.translation,
+        attachments.joint_follow,
+        attachments.part_weights,
+        attachments.shape_basis,
+        frame.rotations,
+        frame.parent_rotations,
+        frame.joints,
+        frame.joint_offsets,
+        result,
+    )
+    return result
+
+
+def shading_row_jacobian(
+    rows: ShadingRows, frame: Linearisation, instruments: BodyInstruments, candidate: Candidate
+) -> RowJacobian:
+    """√w ∂r of each row, through the vertex and through its normal.
+
+    The normal turns with the body (:func:`fitter.body.tangent.direction_jacobian`), and changes
+    with the shape as on the body at rest.
+    """
+    attachments = instruments.tangent.vertices
+    model = instruments.model
+    rest = model.mean_vertices + np.tensordot(candidate.parameters.shape, model.shape_basis, axes=1)
+    result = _empty(len(rows.residuals), frame)
+    kernels.shading_row_jacobian(
+        rows.position_derivatives,
+        rows.normal_derivatives,
+        rows.vertices,
+        np.sqrt(rows.weights),
+        candidate.vertices,
+        candidate.rendering.vertex_normals,
+        frame.translation,
+        attachments.joint_follow,
+        attachments.part_weights,
+        attachments.shape_basis,
+        frame.rotations,
+        frame.parent_rotations,
+        frame.joints,
+        frame.joint_offsets,
+        rest,
+        model.triangles,
+        instruments.rings.pointers,
+        instruments.rings.triangles,
+        result,
+    )
+    return result
+
+
+def scatter(rows: PositionRows, derivative: Vertices) -> None:
+    """Add w r ∂r to the derivative by the rows' points, in place."""
+    kernels.scatter(rows.weights * rows.residuals, rows.points, rows.derivatives, derivative)
+
+
+def _empty(count: int, frame: Linearisation) -> RowJacobian:
+    return np.empty((count, 3 * len(frame.joints) + 3 + len(frame.joint_offsets)))
