@@ -53,14 +53,15 @@ class BodyModel:
     skinning_parts, skinning_weights
         (m, 4) the parts whose motion a vertex follows: the linear-blend tangent.
     pose_feature_joints
-        (p, q) joints whose (R - I) drives the part's pose-dependent term, -1 where unused.
+        (p, q) joints whose (R - I) drives the part's pose-dependent term, -1 where unused; p + j
+        stands for half the turn of joint j (:mod:`fitter.body.pose_features`).
     pose_feature_strengths
         (p, 9 q, n) how strongly each feature acts on bodies of other shapes: times 1 + s . β.
     incidence_pointers, incidence_vertices
         Part by part, the vertices its triangles touch (CSR-like).
     pose_right_hand_sides
         (incidences, 3, 9 q) the pose-dependent term as right-hand sides of the least squares in
-        the part's frame: multiply by the flattened features (1 + s . β) (R_joint - I),
+        the part's frame: multiply by the flattened features (1 + s . β) (R - I),
         joint-major.
     landmarks
         Rows by name: the 17 COCO points, ``neck``, ``head_top``, ``chin``, toes, heels, and the

@@ -3,7 +3,7 @@
 A part's rotation vector, read along the part's anatomical axes, gives three angles: flexion,
 abduction, twist (:mod:`fitter.body.joint_limits`). The axes come from the direction of the bone at
 rest, and the angles are shifted by what the rest pose already has (arms held off the trunk,
-slightly bent knees), so the same table serves any rest pose.
+slightly bent knees), so the same table serves any rest pose whose palms face the body.
 
 For large turns the three numbers are components of one rotation and not the successive angles of
 a goniometer; within the limits the difference stays below the tables' own rounding for hinges and
@@ -22,6 +22,8 @@ from fitter.numerics.vectors import cross_products, unit_vectors
 
 _FORWARD = np.array([0.0, 0.0, 1.0])
 _UP = np.array([0.0, 1.0, 0.0])
+# Where the left palm faces at rest, with half-raised arms: to the body and down, thumb forward.
+_LEFT_PALM = np.array([-0.74, -0.67, 0.0])
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -180,15 +182,23 @@ def _bone_directions(
 def _anatomical_axes(
     part_names: tuple[str, ...], bones: Float[np.ndarray, "p 3"]
 ) -> Float[np.ndarray, "p 3 3"]:
-    """Flexion, abduction and twist axes; right axes mirror left ones."""
+    """Flexion, abduction and twist axes; right axes mirror left ones.
+
+    A hand flexes to its palm and abducts to its thumb; other limbs flex forward (shins backward)
+    and abduct away from the middle.
+    """
     side = np.array([side_of(name) for name in part_names])[:, None]
+    hand = np.array([name.endswith("hand") for name in part_names])
     toward = np.tile(_FORWARD, (len(part_names), 1))
     toward[[name.endswith("shin") for name in part_names]] = -_FORWARD
     toward[[name.endswith("foot") for name in part_names]] = _UP
+    toward[hand] = _LEFT_PALM * np.where(side[hand] < 0, [-1.0, 1.0, 1.0], 1.0)
     flexion = unit_vectors(cross_products(bones, toward))
     abduction = cross_products(flexion, bones)
-    outward = cross_products(abduction, bones)[:, :1] * np.where(side < 0, -1.0, 1.0)
-    abduction = np.where(outward < 0.0, -abduction, abduction)
+    moved = cross_products(abduction, bones)
+    outward = moved[:, :1] * np.where(side < 0, -1.0, 1.0)
+    away = np.where(hand[:, None], moved[:, 2:], outward)
+    abduction = np.where(away < 0.0, -abduction, abduction)
     twist = np.where(side == 0, bones, -side * bones)
     return np.stack([flexion, abduction, twist], axis=1)
 

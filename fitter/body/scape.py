@@ -3,10 +3,10 @@
 Every triangle t of part p asks its deformation gradient to be R_p [D_t(β) + E_t(β, θ)], and the
 mesh is the least-squares answer, min over Y of Σ_t w_t ‖R_p(t) [D_t + E_t] - grad_t(Y)‖². The
 normal equations have one fixed matrix, L = Gᵀ W G, and a right-hand side that is a sum over parts
-of R_p times something linear in β and in the pose features, (R_joint - I) each with its strength
-1 + s . β: L is factored once, and an evaluation is an assembly and two triangular solves. The
-derivative of any scalar with respect to all parameters costs one more solve, because L is
-symmetric.
+of R_p times something linear in β and in the pose features (:mod:`fitter.body.pose_features`), each
+with its strength 1 + s . β: L is factored once, and an evaluation is an assembly and two triangular
+solves. The derivative of any scalar with respect to all parameters costs one more solve, because L
+is symmetric.
 """
 
 from dataclasses import dataclass
@@ -17,15 +17,13 @@ from jaxtyping import Float, Integer
 from scipy import sparse
 
 from fitter.arrays import Pose, Rotations, Shape, Vector3, Vertices
-from fitter.body._scape_kernels import (
-    assemble_right_hand_side,
-    gather_gradient,
-    solve_factored,
-)
+from fitter.body._scape_kernels import assemble_right_hand_side, gather_gradient
 from fitter.body.model import BodyModel, SparseRows
+from fitter.body.pose_features import axial_vectors, pose_derivative, pose_features
 from fitter.body.skeleton import descendants, global_rotations
 from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
-from fitter.numerics.rotations import compose, rotation_matrices
+from fitter.numerics.rotations import compose
+from fitter.numerics.supernodal import SupernodalFactor, supernodal_factor
 from fitter.parameters import BodyParameters
 
 CAMERA_AXES = np.array([1.0, -1.0, -1.0])
@@ -77,9 +75,7 @@ class ScapeEvaluator:
         self._feature_widths = _feature_widths(model)
         self._root_weights = _root_weights(model)
         self._moves = descendants(model.part_parent)
-        self._factor_pointers, self._factor_rows, self._factor_values, *rest = _factor(laplacians)
-        self._inverse_diagonal, self._permutation = rest
-        self._work = np.empty_like(model.mean_vertices)
+        self._factor = _factor(laplacians)
 
     def vertices(self, parameters: BodyParameters) -> Vertices:
         """Posed vertices, camera frame, metres."""
@@ -88,8 +84,10 @@ class ScapeEvaluator:
     def body_frame_vertices(self, parameters: BodyParameters) -> Vertices:
         """Posed vertices in the body frame's axes, metres, root joint at the origin."""
         rotations = global_rotations(parameters.pose, self.model.part_parent)
-        features = self._strengths(parameters.shape) * self._features(parameters.pose)
-        vertices = np.empty_like(self.model.mean_vertices)
+        features = self._strengths(parameters.shape) * pose_features(
+            parameters.pose, self.model.pose_feature_joints
+        )
+        right_hand_side = np.empty_like(self.model.mean_vertices)
         assemble_right_hand_side(
             self._shape_terms,
             parameters.shape,
@@ -99,9 +97,9 @@ class ScapeEvaluator:
             self.model.incidence_pointers,
             self.model.incidence_vertices,
             rotations,
-            vertices,
+            right_hand_side,
         )
-        self._solve(vertices)
+        vertices = self._factor.solve(right_hand_side)
         return vertices - self._root_weights @ vertices
 
     def derivative(self, parameters: BodyParameters, vertex_derivative: Vertices) -> BodyDerivative:
@@ -117,10 +115,10 @@ class ScapeEvaluator:
         adjoint = vertex_derivative * CAMERA_AXES
         translation = vertex_derivative.sum(axis=0)
         adjoint = adjoint - self._root_weights[:, None] * adjoint.sum(axis=0)
-        self._solve(adjoint)
+        adjoint = self._factor.solve(adjoint)
         rotations = global_rotations(parameters.pose, self.model.part_parent)
         strengths = self._strengths(parameters.shape)
-        unscaled = self._features(parameters.pose)
+        unscaled = pose_features(parameters.pose, self.model.pose_feature_joints)
         features = strengths * unscaled
         shape = np.empty(len(parameters.shape))
         feature_derivative = np.empty(features.shape)
@@ -157,39 +155,15 @@ class ScapeEvaluator:
         rotation_derivative: Rotations,
         feature_derivative: Float[np.ndarray, "p nine_q"],
     ) -> Pose:
-        torques = _axial(np.matmul(rotation_derivative, rotations.transpose(0, 2, 1)))
+        torques = axial_vectors(np.matmul(rotation_derivative, rotations.transpose(0, 2, 1)))
         gathered = self._moves @ torques
         parents = self.model.part_parent
         parent_rotations = np.where((parents < 0)[:, None, None], np.eye(3), rotations[parents])
         chain = np.einsum("pij,pi->pj", parent_rotations, gathered)
-        local = rotation_matrices(pose)
-        joints = self.model.pose_feature_joints
-        by_joint = np.zeros_like(local)
-        blocks = feature_derivative.reshape(*joints.shape, 3, 3)
-        used = joints >= 0
-        np.add.at(by_joint, joints[used], blocks[used])
-        return chain + _axial(np.matmul(by_joint, local.transpose(0, 2, 1)))
-
-    def _features(self, pose: Pose) -> Float[np.ndarray, "p nine_q"]:
-        """Features (R_joint - I) per part, flattened joint by joint, zero where unused."""
-        difference = rotation_matrices(pose) - np.eye(3)
-        joints = self.model.pose_feature_joints
-        features = np.where((joints >= 0)[:, :, None, None], difference[joints], 0.0)
-        return features.reshape(len(joints), -1)
+        return chain + pose_derivative(pose, self.model.pose_feature_joints, feature_derivative)
 
     def _strengths(self, shape: Shape) -> Float[np.ndarray, "p nine_q"]:
         return 1.0 + self.model.pose_feature_strengths @ shape
-
-    def _solve(self, right: Vertices) -> None:
-        solve_factored(
-            self._factor_pointers,
-            self._factor_rows,
-            self._factor_values,
-            self._inverse_diagonal,
-            self._permutation,
-            right,
-            self._work,
-        )
 
 
 def _shape_terms(
@@ -221,9 +195,7 @@ def _root_weights(model: BodyModel) -> Float[np.ndarray, " m"]:
     return weights / weights.sum()
 
 
-def _factor(
-    laplacians: list[sparse.csr_array],
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def _factor(laplacians: list[sparse.csr_array]) -> SupernodalFactor:
     """LDLᵀ of the whole Laplacian with vertex 0 held.
 
     The matrix leaves translation free. A weight on one vertex removes that without changing the
@@ -232,25 +204,5 @@ def _factor(
     matrix = sparse.lil_array(sum(laplacians[1:], start=laplacians[0]))
     matrix[0, 0] += matrix.diagonal().mean()
     solver = qdldl.Solver(sparse.csc_matrix(matrix))
-    factor, diagonal, permutation = solver.factors()
-    factor = sparse.csc_matrix(factor)
-    factor.sort_indices()
-    return (
-        factor.indptr.astype(np.int32),
-        factor.indices.astype(np.int32),
-        factor.data.astype(np.float64),
-        1.0 / np.asarray(diagonal),
-        np.asarray(permutation, dtype=np.int32),
-    )
-
-
-def _axial(matrices: Rotations) -> Float[np.ndarray, "p 3"]:
-    """Axial vectors w of matrices A: <A, [v]×> = w · v for every v."""
-    return np.stack(
-        [
-            matrices[:, 2, 1] - matrices[:, 1, 2],
-            matrices[:, 0, 2] - matrices[:, 2, 0],
-            matrices[:, 1, 0] - matrices[:, 0, 1],
-        ],
-        axis=1,
-    )
+    lower, diagonal, permutation = solver.factors()
+    return supernodal_factor(sparse.csc_matrix(lower), diagonal, permutation)

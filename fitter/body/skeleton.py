@@ -33,16 +33,16 @@ def global_rotations(pose: Pose, part_parent: Integer[np.ndarray, " p"]) -> Rota
 
 
 def posed_joints(
-    rest_joints: Float[np.ndarray, "p 3"],
+    rest_joints: Float[np.ndarray, "... p 3"],
     rotations: Rotations,
     part_parent: Integer[np.ndarray, " p"],
-) -> Float[np.ndarray, "p 3"]:
+) -> Float[np.ndarray, "... p 3"]:
     """Joint positions of the rigid chain, body frame, metres, root joint at the origin."""
     result = np.zeros_like(rest_joints)
     for part, parent in enumerate(part_parent):
         if parent >= 0:
-            bone = rest_joints[part] - rest_joints[parent]
-            result[part] = result[parent] + rotations[parent] @ bone
+            bone = rest_joints[..., part, :] - rest_joints[..., parent, :]
+            result[..., part, :] = result[..., parent, :] + bone @ rotations[parent].T
     return result
 
 

@@ -3,61 +3,21 @@
 import hashlib
 import json
 import zipfile
-import zlib
 from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 
 from fitter.body.model import BodyModel, SparseRows
+from fitter.body.model_checks import FIELDS, FORMAT_VERSION, model_faults
 from fitter.errors import ModelFileError
 
-FORMAT_VERSION = 1
-
-REBUILD = "Rebuild it with `python -m fitter.training` or reinstall the package."
-
-# Field -> (kind, shape); letters are dimensions that must agree across fields.
-FIELDS: Mapping[str, tuple[str, tuple[str | int, ...]]] = {
-    "triangles": ("i", ("f", 3)),
-    "mean_vertices": ("f", ("m", 3)),
-    "shape_basis": ("f", ("n", "m", 3)),
-    "part_parent": ("i", ("p",)),
-    "part_of_triangle": ("i", ("f",)),
-    "triangle_weights": ("f", ("f",)),
-    "joint_pointers": ("i", ("p+1",)),
-    "joint_indices": ("i", ("zj",)),
-    "joint_weights": ("f", ("zj",)),
-    "skinning_parts": ("i", ("m", 4)),
-    "skinning_weights": ("f", ("m", 4)),
-    "pose_feature_joints": ("i", ("p", "q")),
-    "pose_feature_strengths": ("f", ("p", "9q", "n")),
-    "incidence_pointers": ("i", ("p+1",)),
-    "incidence_vertices": ("i", ("i",)),
-    "pose_right_hand_sides": ("f", ("i", 3, "9q")),
-    "landmark_pointers": ("i", ("l+1",)),
-    "landmark_indices": ("i", ("zl",)),
-    "landmark_weights": ("f", ("zl",)),
-    "uv": ("f", ("u", 2)),
-    "uv_triangles": ("i", ("f", 3)),
-    "mirror": ("i", ("m",)),
-    "canonical_pose": ("f", ("p", 3)),
-    "standing_pose": ("f", ("p", 3)),
-}
-
-# What numpy raises on a missing header, a cut, emptied, damaged or pickled file, or a bare .npy.
-_UNREADABLE = (OSError, EOFError, ValueError, KeyError, TypeError, zipfile.BadZipFile, zlib.error)
-
-HEADER_KEYS = (
-    "format_version",
-    "gender",
-    "units",
-    "part_names",
-    "landmark_names",
-    "sources",
-    "licences",
-    "seed",
-    "checksum",
+REMAKE = (
+    "Make the file again: `python -m fitter.training` for the packaged models, or "
+    "`python -m fitter.training --meshes FOLDER` for your own (OWN_BODIES.md)."
 )
+
+_HEADER = "header"
 
 
 def arrays_checksum(arrays: Mapping[str, np.ndarray]) -> str:
@@ -78,16 +38,13 @@ def save_body_model(
     Raises
     ------
     ModelFileError
-        If a field is missing or has the wrong type or shape.
+        If the file could not be loaded again; then none is written.
     """
-    full_header = dict(header) | {
-        "format_version": FORMAT_VERSION,
-        "checksum": "",
-    }
-    _check_fields(path.name, full_header, arrays)
+    full_header = dict(header) | {"format_version": FORMAT_VERSION, "checksum": ""}
+    _check(path, full_header, arrays)
     full_header["checksum"] = arrays_checksum(arrays)
     encoded = np.frombuffer(json.dumps(full_header, sort_keys=True).encode(), dtype=np.uint8)
-    members: dict[str, np.ndarray] = {"header": encoded}
+    members: dict[str, np.ndarray] = {_HEADER: encoded}
     members |= {name: np.ascontiguousarray(arrays[name]) for name in FIELDS}
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
         for name, array in members.items():
@@ -98,35 +55,39 @@ def save_body_model(
                 np.lib.format.write_array(stream, array, allow_pickle=False)
 
 
-def load_body_model(path: Path) -> BodyModel:
+def load_body_model(path: Path, *, gender: str | None = None) -> BodyModel:
     """Read and check a model file.
+
+    Parameters
+    ----------
+    path
+        The file.
+    gender
+        The gender it must be a model of; None takes either.
 
     Raises
     ------
     ModelFileError
-        If the file is missing, damaged, of another format version, or a field is wrong.
+        If the file is missing, damaged, of another format version or gender, or breaks a rule of
+        :mod:`fitter.body.model_checks`.
     """
-    if not path.exists():
-        message = f"No body model at {path.name}. {REBUILD}"
-        raise ModelFileError(message)
-    try:
-        # numpy leaves the file open when it finds no archive in it, so it is opened here.
-        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as archive:
-            members = {name: archive[name] for name in archive.files}
-        header = json.loads(members["header"].tobytes())
-    except _UNREADABLE as error:
-        message = f"{path.name} is not a readable body model ({error}). {REBUILD}"
-        raise ModelFileError(message) from error
-    _check_fields(path.name, header, members)
-    if header["format_version"] != FORMAT_VERSION:
-        message = (
-            f"{path.name}: header.format_version is {header['format_version']}, this version "
-            f"reads {FORMAT_VERSION}. {REBUILD}"
-        )
-        raise ModelFileError(message)
+    members = _read(path)
+    header = _decoded_header(path, members.pop(_HEADER, None))
+    _check(path, header, members)
     if header["checksum"] != arrays_checksum(members):
-        message = f"{path.name}: the checksum does not match; the file is damaged. {REBUILD}"
-        raise ModelFileError(message)
+        raise ModelFileError(
+            file=path.name,
+            field="header.checksum",
+            reason="is not that of the fields: the file was damaged, or changed by hand",
+            remedy=f"Copy it again from where it came from. {REMAKE}",
+        )
+    if gender not in (None, header["gender"]):
+        raise ModelFileError(
+            file=path.name,
+            field="header.gender",
+            reason=f"is {header['gender']}, expected {gender}",
+            remedy="A folder of models holds female.npz and male.npz; give each file its name.",
+        )
     return _assemble(header, members)
 
 
@@ -178,68 +139,45 @@ def _assemble(header: Mapping[str, object], members: Mapping[str, np.ndarray]) -
     )
 
 
-def _check_fields(
-    file_name: str, header: Mapping[str, object], arrays: Mapping[str, np.ndarray]
-) -> None:
-    for key in HEADER_KEYS:
-        if key not in header:
-            message = f"{file_name}: header.{key} is missing. {REBUILD}"
-            raise ModelFileError(message)
-    sizes: dict[str, int] = {
-        "p": len(header["part_names"]),  # pyright: ignore
-        "l": len(header["landmark_names"]),  # pyright: ignore
-    }
-    for name, (kind, shape) in FIELDS.items():
-        if name not in arrays:
-            message = f"{file_name}: field {name} is missing. {REBUILD}"
-            raise ModelFileError(message)
-        array = arrays[name]
-        expected_kind = "iu" if kind == "i" else "f"
-        if array.dtype.kind not in expected_kind:
-            message = f"{file_name}: field {name} has type {array.dtype}, not {kind}. {REBUILD}"
-            raise ModelFileError(message)
-        if array.ndim != len(shape) or not all(
-            _dimension_fits(letter, size, sizes)
-            for letter, size in zip(shape, array.shape, strict=True)
-        ):
-            message = (
-                f"{file_name}: field {name} has shape {array.shape}, expected {shape} with "
-                f"{sizes}. {REBUILD}"
-            )
-            raise ModelFileError(message)
-        if array.dtype.kind == "f" and not np.isfinite(array).all():
-            message = f"{file_name}: field {name} holds a number that is not finite. {REBUILD}"
-            raise ModelFileError(message)
-    _check_indices(file_name, sizes, arrays)
+def _read(path: Path) -> dict[str, np.ndarray]:
+    if not path.is_file():
+        raise ModelFileError(
+            file=path.name,
+            field="the file",
+            reason=f"is not in {path.parent}",
+            remedy=REMAKE,
+        )
+    try:
+        # numpy leaves the file open when it finds no archive in it, so it is opened here.
+        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as archive:
+            return {name: archive[name] for name in archive.files}
+    except Exception as error:
+        # Not a list of types: what numpy and zipfile raise on a cut, emptied, damaged or pickled
+        # file, or on a bare .npy, is nowhere promised.
+        raise _unreadable(path, error) from error
 
 
-def _dimension_fits(letter: str | int, size: int, sizes: dict[str, int]) -> bool:
-    if isinstance(letter, int):
-        return size == letter
-    if letter.endswith("+1"):
-        return size == sizes.setdefault(letter[:-2], size - 1) + 1
-    if letter.startswith("9"):
-        return size == 9 * sizes[letter[1:]]
-    return size == sizes.setdefault(letter, size)
+def _decoded_header(path: Path, encoded: np.ndarray | None) -> dict[str, object]:
+    if encoded is None:
+        raise _unreadable(path, "it has no header")
+    try:
+        header = json.loads(encoded.tobytes())
+    except (ValueError, RecursionError) as error:
+        raise _unreadable(path, f"its header is no JSON: {error}") from error
+    if not isinstance(header, dict):
+        raise _unreadable(path, "its header is no JSON object")
+    return header
 
 
-def _check_indices(
-    file_name: str, sizes: Mapping[str, int], arrays: Mapping[str, np.ndarray]
-) -> None:
-    bounds = {
-        "triangles": (0, sizes["m"]),
-        "part_of_triangle": (0, sizes["p"]),
-        "part_parent": (-1, sizes["p"]),
-        "joint_indices": (0, sizes["m"]),
-        "skinning_parts": (0, sizes["p"]),
-        "pose_feature_joints": (-1, sizes["p"]),
-        "incidence_vertices": (0, sizes["m"]),
-        "landmark_indices": (0, sizes["m"]),
-        "uv_triangles": (0, sizes["u"]),
-        "mirror": (0, sizes["m"]),
-    }
-    for name, (low, high) in bounds.items():
-        array = arrays[name]
-        if array.size and (int(array.min()) < low or int(array.max()) >= high):
-            message = f"{file_name}: field {name} holds an index outside [{low}, {high}). {REBUILD}"
-            raise ModelFileError(message)
+def _unreadable(path: Path, why: object) -> ModelFileError:
+    return ModelFileError(
+        file=path.name,
+        field="the file",
+        reason=f"is not a readable body model ({why})",
+        remedy=f"Copy it again from where it came from. {REMAKE}",
+    )
+
+
+def _check(path: Path, header: Mapping[str, object], arrays: Mapping[str, np.ndarray]) -> None:
+    for fault in model_faults(header, arrays):
+        raise ModelFileError(file=path.name, field=fault.field, reason=fault.reason, remedy=REMAKE)

@@ -134,17 +134,15 @@ def linearise(tangent: TangentModel, parameters: BodyParameters) -> Linearisatio
     parents = tangent.model.part_parent
     rotations = global_rotations(parameters.pose, parents)
     rest = tangent.joints_mean + np.tensordot(parameters.shape, tangent.joints_derivative, axes=1)
-    offsets = [
-        posed_joints(derivative, rotations, parents)
-        - np.einsum("pij,pj->pi", rotations, derivative)
-        for derivative in tangent.joints_derivative
-    ]
+    offsets = posed_joints(tangent.joints_derivative, rotations, parents) - np.einsum(
+        "pij,npj->npi", rotations, tangent.joints_derivative
+    )
     return Linearisation(
         translation=parameters.translation,
         rotations=rotations,
         parent_rotations=np.where((parents < 0)[:, None, None], np.eye(3), rotations[parents]),
         joints=posed_joints(rest, rotations, parents),
-        joint_offsets=np.stack(offsets),
+        joint_offsets=offsets,
     )
 
 

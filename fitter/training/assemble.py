@@ -1,26 +1,27 @@
 """From registered bodies to a body model."""
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Integer
+from scipy import sparse
 
-from fitter.arrays import Pose, Shape, Vertices
+from fitter.arrays import Pose, Shape, Triangles, Vertices
 from fitter.body.model import BodyModel, SparseRows
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.stature import stature_m
 from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
-from fitter.numerics.meshes import enclosed_volume
 from fitter.parameters import BodyParameters
-from fitter.training.attribute_axes import Attribute, attribute_preserving_axes
+from fitter.training.attribute_axes import Attribute
+from fitter.training.attribute_spaces import attribute_space
 from fitter.training.joints import fit_joint_regressor, regressed_joints, rest_joints_of
 from fitter.training.makehuman import BaseMesh
 from fitter.training.named_poses import canonical_pose, standing_pose
 from fitter.training.part_tree import PART_NAMES, PART_PARENT, mirrored_part, part_index
-from fitter.training.parts import cut_into_parts
-from fitter.training.pose_term import PoseExample, pose_feature_joints, train_pose_term
-from fitter.training.principal_shapes import PrincipalShapes, principal_shapes
+from fitter.training.parts import Parts, cut_into_parts
+from fitter.training.pose_term import PoseExample, PoseTerm, pose_feature_joints, train_pose_term
+from fitter.training.principal_shapes import principal_shapes
 from fitter.training.random_poses import random_pose
 from fitter.training.surface import triangle_areas, vertex_masses
 
@@ -40,11 +41,48 @@ class RegisteredBodies:
         (s, p, 3) true centres about which the parts turn.
     posed
         Body of an index in a pose: a rig's answer here, registered scans for those who have them.
+    measurements
+        (s, k) in any units, that the shape space shall keep beside the vertices; None to keep
+        vertices alone.
     """
 
     rest: Float[np.ndarray, "s m 3"]
     joints: Float[np.ndarray, "s p 3"]
     posed: Callable[[int, Pose], Vertices]
+    measurements: Float[np.ndarray, "s k"] | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class BodyMesh:
+    """What the bodies of a model share besides their vertices; fields as in the model."""
+
+    triangles: Triangles
+    parts: Parts
+    joint_regressor: SparseRows
+    landmarks: SparseRows
+    uv: Float[np.ndarray, "u 2"]
+    uv_triangles: Triangles
+    mirror: Integer[np.ndarray, " m"]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class ShapeSpace:
+    """The whitened shape space that a pose-dependent term is learned in.
+
+    Attributes
+    ----------
+    mean, basis
+        (m, 3) and (n, m, 3), root joint at the origin, metres.
+    coefficients
+        (s, n) of the training subjects.
+    laplacians
+        L_p = G_pᵀ W_p G_p of each part on the mean.
+    """
+
+    mean: Vertices
+    basis: Float[np.ndarray, "n m 3"]
+    coefficients: Float[np.ndarray, "s n"]
+    laplacians: list[sparse.csr_array]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -84,32 +122,77 @@ def assemble_body_model(
     rng
         Draws their poses.
     """
-    triangles = surface.triangles
-    masses = vertex_masses(bodies.rest.mean(axis=0, dtype=np.float64), triangles)
-    shapes = principal_shapes(bodies.rest, masses, SHAPE_COUNT)
     mirror_joint = np.array([part_index(mirrored_part(name)) for name in PART_NAMES])
-    regressor = fit_joint_regressor(bodies.rest, bodies.joints, surface.mirror, mirror_joint)
-    mean = _as_stored(_rooted(shapes.mean[None], regressor)[0])
-    areas = _as_stored(triangle_areas(mean, triangles))
-    parts = cut_into_parts(triangles, part_weights)
-    laplacians = part_laplacians(
-        gradient_operator(mean, triangles), areas, parts.part_of_triangle, len(PART_NAMES)
+    mesh = BodyMesh(
+        triangles=surface.triangles,
+        parts=cut_into_parts(surface.triangles, part_weights),
+        joint_regressor=fit_joint_regressor(
+            bodies.rest, bodies.joints, surface.mirror, mirror_joint
+        ),
+        landmarks=landmarks,
+        uv=surface.uv,
+        uv_triangles=surface.uv_triangles,
+        mirror=surface.mirror,
     )
+
     feature_joints = pose_feature_joints()
-    term = train_pose_term(
-        pose_examples(bodies, shapes.coefficients, example_count, rng),
-        laplacians,
-        parts,
-        feature_joints,
-        SHAPE_COUNT,
+
+    def pose_term(space: ShapeSpace) -> PoseTerm:
+        return train_pose_term(
+            pose_examples(bodies, space.coefficients, example_count, rng),
+            space.laplacians,
+            mesh.parts,
+            feature_joints,
+            SHAPE_COUNT,
+        )
+
+    return learn_body_model(
+        bodies.rest,
+        mesh,
+        header=header,
+        shape_count=SHAPE_COUNT,
+        feature_joints=feature_joints,
+        pose_term=pose_term,
+        measurements=bodies.measurements,
     )
+
+
+def learn_body_model(
+    rest: Float[np.ndarray, "s m 3"],
+    mesh: BodyMesh,
+    *,
+    header: Mapping[str, object],
+    shape_count: int,
+    feature_joints: Integer[np.ndarray, "p q"],
+    pose_term: Callable[[ShapeSpace], PoseTerm],
+    measurements: Float[np.ndarray, "s k"] | None = None,
+) -> TrainedModel:
+    """Learn the shape space of bodies at rest; the pose-dependent term is asked for in it.
+
+    ``feature_joints`` are those whose turns drive the term, as in the model; ``measurements`` those
+    of :class:`RegisteredBodies`.
+    """
+    masses = vertex_masses(rest.mean(axis=0, dtype=np.float64), mesh.triangles)
+    shapes = principal_shapes(rest, masses, shape_count, measurements)
+    regressor, parts = mesh.joint_regressor, mesh.parts
+    mean = _as_stored(_rooted(shapes.mean[None], regressor)[0])
+    areas = _as_stored(triangle_areas(mean, mesh.triangles))
+    space = ShapeSpace(
+        mean=mean,
+        basis=_rooted(shapes.axes, regressor),
+        coefficients=shapes.coefficients,
+        laplacians=part_laplacians(
+            gradient_operator(mean, mesh.triangles), areas, parts.part_of_triangle, len(PART_NAMES)
+        ),
+    )
+    term = pose_term(space)
     joints = rest_joints_of(regressor, mean)
     model = BodyModel(
         gender=str(header["gender"]),
         header=header,
-        triangles=triangles,
+        triangles=mesh.triangles,
         mean_vertices=mean,
-        shape_basis=_rooted(shapes.axes, regressor),
+        shape_basis=space.basis,
         part_names=PART_NAMES,
         part_parent=PART_PARENT,
         part_of_triangle=parts.part_of_triangle,
@@ -122,42 +205,23 @@ def assemble_body_model(
         incidence_pointers=parts.incidence_pointers,
         incidence_vertices=parts.incidence_vertices,
         pose_right_hand_sides=_as_stored(term.right_hand_sides),
-        landmarks=landmarks,
-        uv=surface.uv,
-        uv_triangles=surface.uv_triangles,
-        mirror=surface.mirror,
+        landmarks=mesh.landmarks,
+        uv=mesh.uv,
+        uv_triangles=mesh.uv_triangles,
+        mirror=mesh.mirror,
         canonical_pose=canonical_pose(joints),
         standing_pose=standing_pose(joints),
     )
-    return with_height_axis(model, shapes, masses)
+    return with_height_axis(model, shapes.coefficients)
 
 
-def with_height_axis(
-    model: BodyModel, shapes: PrincipalShapes, masses: Float[np.ndarray, " m"]
-) -> TrainedModel:
+def with_height_axis(model: BodyModel, coefficients: Float[np.ndarray, "s n"]) -> TrainedModel:
     """The model in the basis whose first axis alone carries height (section 4).
 
-    More of the first axis is taller; more of every other is fuller.
+    ``coefficients`` are the training subjects' in the model's own, whitened, shape space.
     """
-    height = height_attribute(model)
-    sizes = np.sqrt(np.einsum("nmc,m,nmc->n", shapes.axes, masses, shapes.axes, optimize=True))
-    found = attribute_preserving_axes(
-        height,
-        shapes.coefficients,
-        np.array([height(shape) for shape in shapes.coefficients]),
-        sizes,
-    )
-    basis = np.tensordot(found.rotation.T, model.shape_basis, axes=1)
-    signs = np.array([1.0, *(_larger_side(model, axis) for axis in basis[1:])])
-    strengths = model.pose_feature_strengths @ found.rotation
-    return TrainedModel(
-        model=replace(
-            model,
-            shape_basis=basis * signs[:, None, None],
-            pose_feature_strengths=strengths * signs,
-        ),
-        coefficients=shapes.coefficients @ found.rotation * signs,
-    )
+    turned = attribute_space(model, height_attribute(model), coefficients)
+    return TrainedModel(model=turned.model, coefficients=coefficients @ turned.turn)
 
 
 def height_attribute(model: BodyModel) -> Attribute:
@@ -224,14 +288,6 @@ def model_arrays(model: BodyModel) -> dict[str, np.ndarray]:
     return {name: np.asarray(array, dtype=np.int32) for name, array in integers.items()} | {
         name: np.asarray(array, dtype=np.float32) for name, array in floats.items()
     }
-
-
-def _larger_side(model: BodyModel, axis: Vertices) -> float:
-    """Sign of the direction in which a body gains volume: the axes have none of their own."""
-    fuller, thinner = (
-        enclosed_volume(model.mean_vertices + sign * axis, model.triangles) for sign in (1.0, -1.0)
-    )
-    return 1.0 if fuller >= thinner else -1.0
 
 
 def _rooted(

@@ -6,6 +6,10 @@ e_j keeps the attribute::
 
     G_j = G_{j-1} R_jk(φ),   φ = argmin ( H(0) - H(G_{j-1} R_jk(φ) e_j) )²
 
+Here φ is where both ends of the axis, three standard deviations out, have the same attribute,
+H(3 G R e_j) = H(-3 G R e_j): for stature, which is linear in the shape, that is H(0) itself; for a
+weight or a girth it leaves half the change at the worse end that keeping one end alone would.
+
 The coefficients are whitened before (the paper does not say): with equal variances the axis that
 collects the attribute is the direction in which bodies of the population differ in it, while
 unwhitened it piles up small, unlikely axes and its ends are monsters.
@@ -24,6 +28,7 @@ SOLVED_AT_DEVIATIONS = 3.0
 """φ keeps the attribute this many standard deviations out: the range the paper checks it on."""
 
 Attribute = Callable[[Shape], float]
+"""H(β): an attribute of the body of whitened coefficients, measured on its mesh."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -46,7 +51,7 @@ def attribute_preserving_axes(
     attribute: Attribute,
     coefficients: Float[np.ndarray, "s n"],
     values: Float[np.ndarray, " s"],
-    axis_sizes: Float[np.ndarray, " n"],
+    gram: Float[np.ndarray, "n n"],
 ) -> AttributeAxes:
     """Turn a whitened shape space so that one axis carries an attribute.
 
@@ -56,9 +61,9 @@ def attribute_preserving_axes(
         H(β): measures the body of whitened coefficients.
     coefficients, values
         Training subjects' coefficients and their attribute.
-    axis_sizes
-        (n,) standard deviation of the displacement along each axis, which orders the new axes:
-        after whitening the coefficients' own variances are all one.
+    gram
+        Inner products of the displacements along the n axes in the metric of the mesh. They order
+        the new axes: after whitening the coefficients' own variances are all one.
 
     Returns
     -------
@@ -73,7 +78,7 @@ def attribute_preserving_axes(
             rotation = rotation @ plane_rotation(count, axis, candidate, angle)
     if attribute(rotation[:, candidate]) < attribute(-rotation[:, candidate]):
         rotation[:, candidate] *= -1.0
-    sizes = np.linalg.norm(axis_sizes[:, None] * rotation, axis=0)
+    sizes = np.einsum("aj,ab,bj->j", rotation, gram, rotation)
     others = [k for k in np.argsort(-sizes, kind="stable") if k != candidate]
     return AttributeAxes(rotation=rotation[:, [candidate, *others]], candidate=candidate)
 
@@ -111,16 +116,15 @@ def attribute_changes(
 def _preserving_angle(
     attribute: Attribute, rotation: Float[np.ndarray, "n n"], axis: int, candidate: int
 ) -> float:
-    """Solve H(0) = H(3 G R(φ) e_j) for φ within a quarter turn.
+    """Solve H(3 G R(φ) e_j) = H(-3 G R(φ) e_j) for φ within a quarter turn.
 
-    R(φ) e_j runs from -e_k over e_j to e_k, and the attribute grows or falls along e_k, so the ends
-    have opposite signs and one root lies between.
+    R(φ) e_j runs from -e_k over e_j to e_k, which turns the difference of both ends into its
+    negative: one root lies between.
     """
-    still = attribute(np.zeros(len(rotation)))
     first, second = rotation[:, axis], rotation[:, candidate]
 
-    def change(angle: float) -> float:
-        direction = np.cos(angle) * first + np.sin(angle) * second
-        return attribute(SOLVED_AT_DEVIATIONS * direction) - still
+    def difference(angle: float) -> float:
+        end = SOLVED_AT_DEVIATIONS * (np.cos(angle) * first + np.sin(angle) * second)
+        return attribute(end) - attribute(-end)
 
-    return float(brentq(change, -np.pi / 2.0, np.pi / 2.0, xtol=1e-10))  # pyright: ignore
+    return float(brentq(difference, -np.pi / 2.0, np.pi / 2.0, xtol=1e-10))  # pyright: ignore

@@ -2,7 +2,9 @@
 
 x_a are features, β a shape, P_a the output of a feature for the mean shape. With ψ = x ⊗ [1, β] all
 that the fit needs of the examples is Σ ψ ψᵀ and Σ ψ yᵀ, so they are read once and forgotten. P and
-s are solved in turn, each a linear ridge regression with the other held.
+s are solved in turn, each a linear ridge regression with the other held. Every output has its own
+entries of P, which therefore know no weighing of outputs against each other; all share s, which is
+fitted in the metric that is asked for.
 """
 
 from dataclasses import dataclass
@@ -72,15 +74,27 @@ class BilinearSolution:
     strengths: Float[np.ndarray, "a n"]
 
 
-def solve_bilinear(sums: BilinearSums, ridge: float) -> BilinearSolution:
-    """Solve P and s in turn from s = 0; ``ridge``, on P, is relative to the features' square."""
+def solve_bilinear(
+    sums: BilinearSums, ridge: float, motion: Float[np.ndarray, "v i"]
+) -> BilinearSolution:
+    """Solve P and s in turn from s = 0.
+
+    Parameters
+    ----------
+    sums
+        Of the examples, with 3 i outputs.
+    ridge
+        On P, relative to the features' square.
+    motion
+        F such that an error e, taken as (i, 3), counts as |F e|².
+    """
     squares, products = sums.squares(), sums.products()
     strengths = np.zeros((len(products), products.shape[1] - 1))
     if not squares.any():
         return BilinearSolution(linear=np.zeros_like(products[:, 0]), strengths=strengths)
     linear = _solve_linear(squares, products, strengths, ridge)
     for _ in range(TURNS):
-        strengths = _solve_strengths(squares, products, linear)
+        strengths = _solve_strengths(squares, products, linear, motion)
         linear = _solve_linear(squares, products, strengths, ridge)
     return BilinearSolution(linear=linear, strengths=strengths)
 
@@ -101,10 +115,15 @@ def _solve_strengths(
     squares: Float[np.ndarray, "a k a k"],
     products: Float[np.ndarray, "a k o"],
     linear: Float[np.ndarray, "a o"],
+    motion: Float[np.ndarray, "v i"],
 ) -> Float[np.ndarray, "a n"]:
     """Least squares of y - Σ_a x_a P_a on the x_a β_k P_a."""
-    square = squares * (linear @ linear.T)[:, None, :, None]
-    right = np.einsum("ako,ao->ak", products, linear, optimize=True)
+    rows = linear.reshape(len(linear), -1, 3)
+    moved = np.einsum("vi,aic->avc", motion, rows, optimize=True)
+    weighed = np.einsum("vi,avc->aic", motion, moved, optimize=True).reshape(linear.shape)
+    flat = moved.reshape(len(moved), -1)
+    square = squares * (flat @ flat.T)[:, None, :, None]
+    right = np.einsum("ako,ao->ak", products, weighed, optimize=True)
     remaining = right - square[:, :, :, 0].sum(axis=2)
     count, factors = right.shape
     size = count * (factors - 1)

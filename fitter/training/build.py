@@ -5,12 +5,16 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from jaxtyping import Float
 
 from fitter.body.model import BodyModel, SparseRows
 from fitter.body.storage import load_body_model, save_body_model
 from fitter.training.assemble import RegisteredBodies, assemble_body_model, model_arrays
 from fitter.training.body_space import BodySpace, load_body_space
-from fitter.training.comparison_figures import comparison_figures
+from fitter.training.bone_centres import with_skin_centres
+from fitter.training.header_figures import header_figures
+from fitter.training.held_out_errors import HeldOutErrors, held_out_errors
+from fitter.training.inner_points import with_inner_points
 from fitter.training.landmarks import body_landmarks
 from fitter.training.makehuman import load_base_mesh
 from fitter.training.plan import Plan
@@ -21,12 +25,22 @@ from fitter.training.population import (
     save_population,
     solve_population,
 )
-from fitter.training.provenance import model_statistics, provenance
-from fitter.training.report import HeldOutErrors, header_entry, held_out_errors
+from fitter.training.provenance import provenance
 from fitter.training.rig import load_rig
 from fitter.training.rigged_bodies import RiggedMesh, rigged_bodies, rigged_mesh
 
 GENDERS = ("female", "male")
+
+INNER_POINTS_STREAM = 1
+"""Of the seed: poses that landmarks are fitted in are not those of the pose term."""
+
+
+KEPT_MEASUREMENTS = (
+    "chestcircumference",
+    "waistcircumference",
+    "buttockcircumference",
+    "weightkg",
+)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -42,24 +56,31 @@ def read_materials(folder: Path) -> Materials:
     """Read mesh, rig and targets from MakeHuman's data folder."""
     base = load_base_mesh(folder)
     spaces = {gender: load_body_space(folder, base, gender) for gender in GENDERS}
+    cubes = load_rig(folder, base.groups, len(base.source_vertices))
     return Materials(
-        mesh=rigged_mesh(base, load_rig(folder, base.groups, len(base.source_vertices))),
+        mesh=rigged_mesh(base, with_skin_centres(cubes, base, spaces.values())),
         spaces=spaces,
         landmarks=body_landmarks(folder, base, tuple(spaces.values())),
     )
 
 
 def solved_population(
-    materials: Materials, gender: str, *, count: int, seed: int, cache: Path | None
+    materials: Materials,
+    gender: str,
+    *,
+    count: int,
+    seed: int,
+    cache: Path | None,
+    processes: int = 1,
 ) -> Population:
     """The first ``count`` subjects of a seed: from the cache if it holds as many, else solved."""
     path = None if cache is None else cache / f"population_{gender}_{seed}.npz"
     if path is not None and path.exists():
-        cached = load_population(path)
-        if len(cached.source_vertices) >= count:
-            return subjects(cached, slice(0, count))
+        cached = load_population(path, materials.spaces[gender], count=count)
+        if len(cached.source_vertices) == count:
+            return cached
     workshop = prepare(materials.spaces[gender], materials.landmarks)
-    population = solve_population(workshop, count, seed)
+    population = solve_population(workshop, count, seed, processes=processes)
     if path is not None:
         save_population(path, population)
     return population
@@ -67,30 +88,33 @@ def solved_population(
 
 def train_model(
     materials: Materials, gender: str, population: Population, plan: Plan
-) -> tuple[BodyModel, HeldOutErrors]:
-    """Train on the subjects that are not held out and test on those; the header says how."""
+) -> tuple[BodyModel, RegisteredBodies, HeldOutErrors]:
+    """Train on the subjects that are not held out and test on those; the header says how.
+
+    Returns the model, the held-out bodies and the model's errors on them.
+    """
     held_out = subjects(population, slice(0, plan.held_out))
     training = subjects(population, slice(plan.held_out, plan.held_out + plan.subjects))
+    taught = rigged_bodies(materials.mesh, training.source_vertices, kept_measurements(training))
     trained = assemble_body_model(
-        rigged_bodies(materials.mesh, training.source_vertices),
+        taught,
         materials.mesh.surface,
         materials.mesh.part_weights,
-        materials.landmarks,
+        with_inner_points(
+            materials.landmarks,
+            materials.mesh,
+            training.source_vertices,
+            taught,
+            np.random.default_rng([plan.seed, GENDERS.index(gender), INNER_POINTS_STREAM]),
+        ),
         header=provenance(gender, training, plan),
         example_count=plan.examples,
         rng=np.random.default_rng([plan.seed, GENDERS.index(gender)]),
     )
     tested = rigged_bodies(materials.mesh, held_out.source_vertices)
     errors = held_out_errors(trained.model, tested)
-    header = (
-        dict(trained.model.header)
-        | model_statistics(trained)
-        | {
-            "held_out_errors": header_entry(errors),
-            "height_in_earlier_methods": comparison_figures(trained, tested.rest),
-        }
-    )
-    return replace(trained.model, header=header), errors
+    header = dict(trained.model.header) | header_figures(trained, taught, tested, errors)
+    return replace(trained.model, header=header), tested, errors
 
 
 def write_model(path: Path, model: BodyModel) -> BodyModel:
@@ -103,7 +127,7 @@ def write_model(path: Path, model: BodyModel) -> BodyModel:
 
 
 def held_out_bodies(
-    materials: Materials, model: BodyModel, *, cache: Path | None
+    materials: Materials, model: BodyModel, *, cache: Path | None, processes: int = 1
 ) -> RegisteredBodies:
     """The subjects that a model file says were held out, solved again from its seed."""
     population = solved_population(
@@ -112,14 +136,24 @@ def held_out_bodies(
         count=int(str(model.header["held_out_subjects"])),
         seed=int(str(model.header["seed"])),
         cache=cache,
+        processes=processes,
     )
     return rigged_bodies(materials.mesh, population.source_vertices)
+
+
+def kept_measurements(population: Population) -> Float[np.ndarray, "s k"]:
+    """Those that the shape space keeps beside the vertices."""
+    columns = [population.measurement_names.index(name) for name in KEPT_MEASUREMENTS]
+    return population.reached[:, columns]
 
 
 def subjects(population: Population, chosen: slice) -> Population:
     """Some of a population."""
     return replace(
         population,
+        ages=population.ages[chosen],
+        ancestries=population.ancestries[chosen],
+        faces=population.faces[chosen],
         source_vertices=population.source_vertices[chosen],
         parameters=population.parameters[chosen],
         wanted=population.wanted[chosen],

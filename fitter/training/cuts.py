@@ -15,6 +15,7 @@ from scipy.spatial import ConvexHull
 
 from fitter.arrays import Triangles, Vector3, Vertices
 from fitter.errors import NumericalError
+from fitter.training._subject_kernels import crossed_triangles
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -83,15 +84,16 @@ def _crossing(
     side = (vertices - point) @ normal
     # A vertex on the plane would make degenerate edges; it counts as above.
     above = side >= 0.0
-    first, second, third = above[triangles.T]
-    crossed = triangles[(first != second) | (second != third)]
+    crossed = triangles[crossed_triangles(side, triangles)]
     if not len(crossed):
         message = "a girth's plane misses the body"
         raise NumericalError(message)
     pairs = np.stack([crossed, np.roll(crossed, -1, axis=1)], axis=2)
     cut = above[pairs[..., 0]] != above[pairs[..., 1]]
     # Every crossed triangle has two crossed edges, and they connect in the loop.
-    edges, position = np.unique(np.sort(pairs[cut], axis=1), axis=0, return_inverse=True)
+    low, high = np.sort(pairs[cut], axis=1).T.astype(np.int64)
+    keys, position = np.unique(low * len(vertices) + high, return_inverse=True)
+    edges = np.stack(np.divmod(keys, len(vertices)), axis=1)
     links = position.reshape(-1, 2)
     graph = sparse.coo_array((np.ones(len(links)), (links[:, 0], links[:, 1])), (len(edges),) * 2)
     _, loop = connected_components(graph, directed=False)

@@ -74,9 +74,21 @@ def shape_coefficients(
     return _projected(model, rest)[0]
 
 
+def mean_areas(model: BodyModel) -> PerVertex:
+    """Area of skin about each vertex of the mean body, square metres."""
+    return vertex_areas(model.mean_vertices, model.triangles)
+
+
+def shape_residuals(
+    model: BodyModel, rest: Float[np.ndarray, "s m 3"]
+) -> Float[np.ndarray, "s m 3"]:
+    """Bodies minus what n coefficients rebuild of them, metres, mass centres together."""
+    return _projected(model, rest)[1]
+
+
 def shape_error(model: BodyModel, rest: Float[np.ndarray, "s m 3"]) -> VertexError:
     """Error of bodies rebuilt from their n coefficients."""
-    return vertex_error(_projected(model, rest)[1], _areas(model))
+    return vertex_error(shape_residuals(model, rest), mean_areas(model))
 
 
 def height_axes(model: BodyModel, bodies: RegisteredBodies) -> HeightAxes:
@@ -105,6 +117,19 @@ def height_axes(model: BodyModel, bodies: RegisteredBodies) -> HeightAxes:
     )
 
 
+def bodies_as_axes(model: BodyModel, rest: Float[np.ndarray, "s m 3"]) -> BodyModel:
+    """The model with whole bodies in place of its shape axes: coefficients e_k are body k exactly.
+
+    How strongly joints act on each body follows from its coefficients in the model's shape space.
+    """
+    coefficients = shape_coefficients(model, rest)
+    return replace(
+        model,
+        shape_basis=rest - model.mean_vertices,
+        pose_feature_strengths=model.pose_feature_strengths @ coefficients.T,
+    )
+
+
 def posed_error(
     model: BodyModel, bodies: RegisteredBodies, count: int, rng: np.random.Generator
 ) -> VertexError:
@@ -113,12 +138,7 @@ def posed_error(
     The bodies themselves take the place of the shape basis, so that the figure is that of the
     articulation alone; how strongly joints act still follows from their coefficients.
     """
-    coefficients = shape_coefficients(model, bodies.rest)
-    exact = replace(
-        model,
-        shape_basis=bodies.rest - model.mean_vertices,
-        pose_feature_strengths=model.pose_feature_strengths @ coefficients.T,
-    )
+    exact = bodies_as_axes(model, bodies.rest)
     return _posed_error(exact, np.eye(len(bodies.rest)), bodies, count, rng)
 
 
@@ -168,7 +188,7 @@ def _posed_error(
     rng: np.random.Generator,
 ) -> VertexError:
     evaluator = ScapeEvaluator(model)
-    areas = _areas(model)
+    areas = mean_areas(model)
     residuals = np.empty((count, *model.mean_vertices.shape))
     for k in range(count):
         subject = k % len(shapes)
@@ -178,10 +198,6 @@ def _posed_error(
         )
         residuals[k] = found - bodies.posed(subject, pose)
     return vertex_error(residuals, areas)
-
-
-def _areas(model: BodyModel) -> PerVertex:
-    return vertex_areas(model.mean_vertices, model.triangles)
 
 
 def _projected(

@@ -77,10 +77,10 @@ def fit_joint_regressor(
     mean, mean_joints = meshes.mean(axis=0), joints.mean(axis=0)
     dense = np.zeros((joints.shape[1], meshes.shape[1]))
     for joint in range(joints.shape[1]):
-        chosen = _ring(mean - mean_joints[joint], rest_axis(PART_NAMES[joint]))
+        chosen = ring_about(mean - mean_joints[joint], rest_axis(PART_NAMES[joint]))
         if mirror_joint[joint] == joint:
             chosen = np.unique(np.concatenate([chosen, mirror[chosen]]))
-        dense[joint, chosen] = _convex_weights(meshes[:, chosen], joints[:, joint])
+        dense[joint, chosen] = convex_weights(meshes[:, chosen], joints[:, joint])
     reflected = np.zeros_like(dense)
     reflected[:, mirror] = dense[mirror_joint]
     dense = 0.5 * (dense + reflected)
@@ -91,13 +91,14 @@ def fit_joint_regressor(
     )
 
 
-def _ring(offsets: Vertices, axis: Float[np.ndarray, "3"]) -> Integer[np.ndarray, " c"]:
+def ring_about(offsets: Vertices, axis: Float[np.ndarray, "3"]) -> Integer[np.ndarray, " c"]:
+    """The vertices nearest to a joint at the origin, lengths along its bone counted double."""
     along = offsets @ axis
     squared = np.einsum("mi,mi->m", offsets, offsets) + (FLATTENING**2 - 1.0) * along**2
     return np.argsort(squared, kind="stable")[:CANDIDATES]
 
 
-def _convex_weights(
+def convex_weights(
     points: Float[np.ndarray, "s c 3"], joint: Float[np.ndarray, "s 3"]
 ) -> Float[np.ndarray, " c"]:
     """Weights w >= 0 with sum 1 that minimise Σ |Σ_c w_c x_c - joint|² + ridge |w|²."""

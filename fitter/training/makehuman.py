@@ -17,6 +17,8 @@ import numpy as np
 from jaxtyping import Float, Integer
 
 from fitter.arrays import Triangles, Vertices
+from fitter.training.knee_rings import with_knee_rings
+from fitter.training.phenotypes import YOUNG_AGE, free_axes, macro_coefficients, macro_targets
 from fitter.training.topology import closed_surface
 
 METRES_PER_UNIT = 0.1
@@ -33,7 +35,8 @@ class BaseMesh:
     source_vertices
         (v, 3) all vertices of the file, before any target.
     groups
-        Ids of the source vertices of each named group; helper cubes are named ``joint-...``.
+        Ids of the source vertices of each named group; helper cubes are named ``joint-...``, and
+        are rings of skin at the knees (:mod:`fitter.training.knee_rings`).
     body_vertex_ids
         (m,) ascending ids of the source vertices that form the body: ``full[body_vertex_ids]``.
     triangles
@@ -86,9 +89,11 @@ def load_base_mesh(folder: Path) -> BaseMesh:
     surface = closed_surface(vertices, quads, uv_quads)
     used = np.unique(surface.triangles)
     used_uv = np.unique(surface.uv_triangles)
+    groups = _read_groups(folder / "mesh_metadata" / "basemesh_vertex_groups.json")
+    average = _average_vertices(folder, vertices)
     return BaseMesh(
         source_vertices=vertices,
-        groups=_read_groups(folder / "mesh_metadata" / "basemesh_vertex_groups.json"),
+        groups=with_knee_rings(groups, average, used, mirror),
         body_vertex_ids=used,
         triangles=np.searchsorted(used, surface.triangles).astype(np.int32),
         cap_triangles=surface.cap_triangles,
@@ -116,6 +121,23 @@ def load_targets(folder: Path, names: Sequence[str], count: int) -> Float[np.nda
         rows = _read_target(folder / "targets" / f"{name}.target.gz")
         target[rows[:, 0].astype(int)] = METRES_PER_UNIT * rows[:, 1:]
     return displacements
+
+
+def _average_vertices(folder: Path, vertices: Float[np.ndarray, "v 3"]) -> Float[np.ndarray, "v 3"]:
+    """The mean of an average young woman and man, of equal ancestries."""
+    average = vertices.copy()
+    for gender in ("female", "male"):
+        targets = macro_targets(gender)
+        coefficients, _ = macro_coefficients(
+            targets,
+            age=YOUNG_AGE,
+            ancestry=np.full(3, 1.0 / 3.0),
+            values=dict.fromkeys(free_axes(gender), 0.5),
+        )
+        active = np.flatnonzero(coefficients)
+        moves = load_targets(folder, [targets.names[k] for k in active], len(vertices))
+        average += 0.5 * np.tensordot(coefficients[active], moves, axes=1)
+    return average
 
 
 def _read_obj(

@@ -32,7 +32,15 @@ def cut_into_parts(triangles: Triangles, weights: Float[np.ndarray, "m p"]) -> P
     weights
         Skinning weights summed over the bones of each part, rows sum to one.
     """
-    part_of_triangle = np.argmax(weights[triangles].sum(axis=1), axis=1)
+    return joined_parts(triangles, np.argmax(weights[triangles].sum(axis=1), axis=1), weights)
+
+
+def joined_parts(
+    triangles: Triangles,
+    part_of_triangle: Integer[np.ndarray, " f"],
+    weights: Float[np.ndarray, "m p"],
+) -> Parts:
+    """The same where each triangle's part is given."""
     strongest = np.argsort(-weights, axis=1, kind="stable")[:, :FOLLOWED_PARTS]
     kept = np.take_along_axis(weights, strongest, axis=1)
     touched = [np.unique(triangles[part_of_triangle == part]) for part in range(weights.shape[1])]

@@ -27,6 +27,9 @@ AXES: Mapping[str, tuple[str, ...]] = {
 YOUNG_AGE = 2.0 / 3.0
 """MakeHuman's age axis runs newborn -1/3, baby 0, child 1/3, young 2/3, old 1."""
 
+YOUNG_YEARS, OLD_YEARS = 25.0, 90.0
+"""Years that MakeHuman's young and old bodies stand for."""
+
 ANCHORS: Mapping[str, tuple[float, ...]] = {
     "age": (YOUNG_AGE, 1.0),
     **{
@@ -36,7 +39,7 @@ ANCHORS: Mapping[str, tuple[float, ...]] = {
     },
 }
 
-UPPER_BOUNDS: Mapping[str, float] = {"weight": 1.35}
+UPPER_BOUNDS: Mapping[str, float] = {"weight": 1.6}
 """Where a macro parameter may pass the last anchor. MakeHuman's heaviest body is short of a body
 mass index of 32 or so in subjects of little muscle; beyond it the same change goes on."""
 
@@ -91,6 +94,12 @@ def macro_targets(gender: str) -> MacroTargets:
 def free_axes(gender: str) -> tuple[str, ...]:
     """The macro parameters of one gender."""
     return FREE_AXES if gender == "female" else FREE_AXES[:4]
+
+
+def age_of_appearance(years: float) -> float:
+    """MakeHuman's age parameter of an adult."""
+    share = (years - YOUNG_YEARS) / (OLD_YEARS - YOUNG_YEARS)
+    return float(YOUNG_AGE + (1.0 - YOUNG_AGE) * np.clip(share, 0.0, 1.0))
 
 
 def hat_weights(value: float, anchors: Sequence[float]) -> Float[np.ndarray, " n"]:

@@ -4,7 +4,9 @@ Every subject has a random stream of its own, made from the seed and its number,
 population begins with the shorter one of the same seed.
 """
 
+import multiprocessing
 from dataclasses import dataclass, fields
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -13,12 +15,18 @@ from jaxtyping import Float
 from fitter.arrays import Triangles
 from fitter.body.model import SparseRows
 from fitter.training.body_space import BodySpace, Traits, source_vertices
+from fitter.training.civilians import (
+    CivilianStatistics,
+    draw_civilian,
+    load_civilians,
+    packaged_civilians_path,
+)
 from fitter.training.local_changes import FACE_CHANGES
-from fitter.training.phenotypes import YOUNG_AGE
+from fitter.training.phenotypes import age_of_appearance
 from fitter.training.subject_fit import Placed, Wanted, fit_subject, measured, place
 from fitter.training.survey import (
     SurveyStatistics,
-    draw_subjects,
+    draw_measurements,
     load_statistics,
     on_the_model,
     packaged_statistics_path,
@@ -31,6 +39,12 @@ measurement 3 mm nearer than two. What was reached is measured on one more place
 
 TIGHT = 0.1
 """Tolerance of a measurement in the survey's standard deviations."""
+
+TIGHTER = dict.fromkeys(
+    ("stature", "weightkg", "chestcircumference", "waistcircumference", "buttockcircumference"),
+    0.05,
+)
+"""The same of what people know of themselves and clothes are cut by."""
 
 LOOSE = {
     **dict.fromkeys(("hipbreadth", "buttockdepth", "waistbreadth", "waistdepth"), 0.3),
@@ -47,9 +61,6 @@ LOCAL_SPREAD = 0.4
 CENTRE_SHARE = 0.5
 """The prior's centre is drawn with this share of its spread."""
 
-OLDEST = YOUNG_AGE + 0.2
-"""Ages are drawn evenly up to here: about seventy years. Beyond, the targets are of frail age."""
-
 FACE_SPREAD = 0.3
 
 ARM_MOTION = 0.02
@@ -62,6 +73,10 @@ class Population:
 
     Attributes
     ----------
+    ages
+        (s,) years.
+    ancestries, faces
+        (s, 3) and (s, c) the other traits of each subject.
     source_vertices
         (s, v, 3) float32, all source vertices of each subject, body frame, metres.
     parameters
@@ -73,6 +88,9 @@ class Population:
         (q,) standard deviations in the survey.
     """
 
+    ages: Float[np.ndarray, " s"]
+    ancestries: Float[np.ndarray, "s 3"]
+    faces: Float[np.ndarray, "s c"]
     source_vertices: Float[np.ndarray, "s v 3"]
     parameters: Float[np.ndarray, "s p"]
     parameter_names: tuple[str, ...]
@@ -95,11 +113,14 @@ class Workshop:
     trunk: Triangles
     body_targets: Float[np.ndarray, "k m 3"]
     rows: dict[str, Row]
+    civilians: CivilianStatistics
     statistics: SurveyStatistics
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class _Subject:
+    age: float
+    traits: Traits
     source_vertices: Float[np.ndarray, "v 3"]
     parameters: Float[np.ndarray, " p"]
     wanted: Float[np.ndarray, " q"]
@@ -114,16 +135,29 @@ def prepare(space: BodySpace, landmarks: SparseRows) -> Workshop:
         trunk=_without_arms(space, body_targets),
         body_targets=body_targets,
         rows=named_rows(space.base, landmarks),
+        civilians=load_civilians(packaged_civilians_path(), space.gender),
         statistics=load_statistics(packaged_statistics_path(), space.gender),
     )
 
 
-def solve_population(workshop: Workshop, count: int, seed: int) -> Population:
-    """Draw and solve ``count`` subjects: about a second each."""
+def solve_population(
+    workshop: Workshop, count: int, seed: int, *, processes: int = 1
+) -> Population:
+    """Draw and solve ``count`` subjects: about a second each, ``processes`` at a time."""
     streams = np.random.SeedSequence(seed).spawn(count)
-    subjects = [_solve(workshop, stream) for stream in streams]
+    if processes == 1:
+        subjects = [_solve(workshop, stream) for stream in streams]
+    else:
+        # Forked children share the workshop's hundreds of megabytes without copying them.
+        _SHARED[processes] = workshop
+        with multiprocessing.get_context("fork").Pool(processes) as pool:
+            subjects = pool.map(partial(_solve_shared, processes), streams, chunksize=8)
+        del _SHARED[processes]
     space = workshop.space
     return Population(
+        ages=np.array([subject.age for subject in subjects]),
+        ancestries=np.stack([subject.traits.ancestry for subject in subjects]),
+        faces=np.stack([subject.traits.face for subject in subjects]),
         source_vertices=np.stack([subject.source_vertices for subject in subjects]),
         parameters=np.stack([subject.parameters for subject in subjects]),
         parameter_names=space.parameter_names,
@@ -136,30 +170,60 @@ def solve_population(workshop: Workshop, count: int, seed: int) -> Population:
     )
 
 
-def draw_traits(generator: np.random.Generator) -> Traits:
-    """Age, ancestry and face of a subject."""
+def draw_traits(age: float, generator: np.random.Generator) -> Traits:
+    """Appearance at an age in years, ancestry and face of a subject."""
     face = FACE_SPREAD * generator.normal(size=len(FACE_CHANGES))
     return Traits(
-        age=generator.uniform(YOUNG_AGE, OLDEST),
+        age=age_of_appearance(age),
         ancestry=generator.dirichlet(np.ones(3)),
         face=np.clip(face, -1.0, 1.0),
     )
 
 
+def packaged_population_path(gender: str) -> Path:
+    """The committed population of ``female`` or ``male``: what the packaged model learned from."""
+    return Path(__file__).parent / "data" / f"population_{gender}.npz"
+
+
 def save_population(path: Path, population: Population) -> None:
-    """Write a population to an ``.npz``."""
+    """Write a population to an ``.npz``, without its vertices, which follow from the rest."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    content = {field.name: getattr(population, field.name) for field in fields(Population)}
-    np.savez(path, **content)
+    names = [field.name for field in fields(Population) if field.name != "source_vertices"]
+    np.savez_compressed(path, **{name: getattr(population, name) for name in names})
 
 
-def load_population(path: Path) -> Population:
-    """Read what :func:`save_population` wrote."""
+def load_population(path: Path, space: BodySpace, *, count: int | None = None) -> Population:
+    """Read the first ``count`` subjects that :func:`save_population` wrote, or all of them.
+
+    Raises
+    ------
+    ValueError
+        If the file was solved in a space of other parameters.
+    """
     with np.load(path, allow_pickle=False) as archive:
         content = {name: archive[name] for name in archive.files}
     for name in ("parameter_names", "measurement_names"):
         content[name] = tuple(content[name].tolist())
-    return Population(**content)
+    if content["parameter_names"] != space.parameter_names:
+        message = f"{path.name} was solved with other parameters than the training now has"
+        raise ValueError(message)
+    for name in ("ages", "ancestries", "faces", "parameters", "wanted", "reached"):
+        content[name] = content[name][:count]
+    bodies = [
+        source_vertices(
+            space,
+            Traits(age=age_of_appearance(float(age)), ancestry=ancestry, face=face),
+            parameters,
+        ).astype(np.float32)
+        for age, ancestry, face, parameters in zip(
+            content["ages"],
+            content["ancestries"],
+            content["faces"],
+            content["parameters"],
+            strict=True,
+        )
+    ]
+    return Population(source_vertices=np.stack(bodies), **content)
 
 
 def residual_table(population: Population) -> str:
@@ -194,15 +258,24 @@ def _without_arms(space: BodySpace, body_targets: Float[np.ndarray, "k m 3"]) ->
     return space.base.triangles[~arm[space.base.triangles].any(axis=1)]
 
 
+_SHARED: dict[int, Workshop] = {}
+"""Handed to forked children by being there when they are forked."""
+
+
+def _solve_shared(key: int, stream: np.random.SeedSequence) -> _Subject:
+    return _solve(_SHARED[key], stream)
+
+
 def _solve(workshop: Workshop, stream: np.random.SeedSequence) -> _Subject:
     generator = np.random.default_rng(stream)
     space, statistics = workshop.space, workshop.statistics
-    drawn = draw_subjects(statistics, space.gender, 1, generator)[0]
-    traits = draw_traits(generator)
+    civilian = draw_civilian(workshop.civilians, generator)
+    drawn = draw_measurements(statistics, civilian, generator)
+    traits = draw_traits(civilian.age, generator)
     spread = np.where(space.neutral == 0.0, LOCAL_SPREAD, MACRO_SPREAD)
     spread[space.parameter_names.index("muscle")] = MUSCLE_SPREAD
     centre = space.neutral + CENTRE_SHARE * spread * generator.normal(size=len(spread))
-    tolerance = [LOOSE.get(name, TIGHT) for name in MEASUREMENTS]
+    tolerance = [(LOOSE | TIGHTER).get(name, TIGHT) for name in MEASUREMENTS]
     wanted = Wanted(
         measurements=on_the_model(MEASUREMENTS, space.gender, drawn),
         tolerance=np.array(tolerance) * statistics.deviation,
@@ -215,6 +288,8 @@ def _solve(workshop: Workshop, stream: np.random.SeedSequence) -> _Subject:
         parameters = fit_subject(placed, wanted, parameters)
     reached, _ = measured(_placed(workshop, traits, parameters), parameters)
     return _Subject(
+        age=civilian.age,
+        traits=traits,
         source_vertices=source_vertices(space, traits, parameters).astype(np.float32),
         parameters=parameters,
         wanted=wanted.measurements,

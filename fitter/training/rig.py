@@ -142,6 +142,14 @@ def posed_vertices(
     -------
     (m, 3) in the body frame; the root bone's centre stays where it is.
     """
+    rotations, translations = bone_motions(rig, heads, pose)
+    return blend_half_dual_quaternion(skin, rotations, translations, rest)
+
+
+def bone_motions(
+    rig: Rig, heads: Float[np.ndarray, "b 3"], pose: Pose
+) -> tuple[Rotations, Float[np.ndarray, "b 3"]]:
+    """Rigid motion x -> R x + t of every bone from rest to pose, body frame."""
     rotations = bone_rotations(rig, pose)
     centres = np.empty_like(heads)
     for bone, parent in enumerate(rig.bone_parent):
@@ -149,8 +157,7 @@ def posed_vertices(
             centres[bone] = heads[bone]
         else:
             centres[bone] = centres[parent] + rotations[parent] @ (heads[bone] - heads[parent])
-    translations = centres - np.einsum("bij,bj->bi", rotations, heads)
-    return blend_half_dual_quaternion(skin, rotations, translations, rest)
+    return rotations, centres - np.einsum("bij,bj->bi", rotations, heads)
 
 
 def _head_row(

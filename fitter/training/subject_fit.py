@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Integer
 
-from fitter.arrays import Triangles, Vertices
+from fitter.arrays import Vertices
+from fitter.training._subject_kernels import add_targets, pulls_on_targets, volume_and_pull
 from fitter.training.body_space import BodySpace, Traits, target_coefficients
 from fitter.training.survey_measurements import MEASUREMENTS, LinearForms
 
@@ -163,32 +164,16 @@ def measured(
     slopes = np.einsum("ksx,sx->sk", placed.by_target[moving], direction)
     count = len(MEASUREMENTS)
     values = np.bincount(forms.measurement, terms, minlength=count)
-    by_target = np.zeros((count, len(moving)))
-    np.add.at(by_target, forms.measurement, slopes)
-    body = placed.body_base.copy()
-    for target in active:
-        body += coefficients[target] * placed.body_targets[target]
-    volume, pull = volume_and_gradient(body, placed.space.base.triangles)
+    # Adds the terms of each measurement.
+    total = np.equal.outer(np.arange(count), forms.measurement).astype(np.float64)
+    by_target = total @ slopes
+    body = add_targets(placed.body_base, placed.body_targets, active, coefficients)
+    volume, pull = volume_and_pull(body, placed.space.base.triangles)
     values[-1] = DENSITY_KG_PER_M3 * volume
-    flat = pull.ravel().astype(np.float32)
-    by_target[-1] = [
-        DENSITY_KG_PER_M3 * float(flat @ placed.body_targets[target].ravel()) for target in moving
-    ]
-    return values, by_target @ by_parameter[moving]
-
-
-def volume_and_gradient(
-    vertices: Vertices, triangles: Triangles
-) -> tuple[float, Float[np.ndarray, "m 3"]]:
-    """Enclosed volume Σ a · (b x c) / 6 and its derivative by every vertex."""
-    a, b, c = (vertices[triangles[:, corner]] for corner in range(3))
-    across = np.cross(b, c)
-    pulls = np.concatenate([across, np.cross(c, a), np.cross(a, b)]) / 6.0
-    owners = triangles.T.ravel()
-    gradient = np.stack(
-        [np.bincount(owners, pulls[:, axis], minlength=len(vertices)) for axis in range(3)], axis=1
+    by_target[-1] = DENSITY_KG_PER_M3 * pulls_on_targets(
+        pull.astype(np.float32), placed.body_targets, moving
     )
-    return float(np.einsum("fx,fx->", a, across)) / 6.0, gradient
+    return values, by_target @ by_parameter[moving]
 
 
 def _linearise(placed: Placed, wanted: Wanted, parameters: Float[np.ndarray, " p"]) -> _Linearised:

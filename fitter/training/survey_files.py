@@ -43,11 +43,16 @@ def statistics_from_survey(path: Path, names: Sequence[str]) -> SurveyStatistics
         column = np.array([float(subject[field]) for subject in subjects]) / unit
         columns.append(np.log(column * RELAXED_SHARE.get(name, 1.0)))
     logarithms = np.stack(columns)
+    ages = np.array([float(subject["Age"]) for subject in subjects])
+    covariance = np.cov(np.vstack([logarithms, ages]))
     return SurveyStatistics(
         names=tuple(names),
         count=len(subjects),
         log_mean=logarithms.mean(axis=1),
-        log_covariance=np.cov(logarithms),
+        log_covariance=covariance[:-1, :-1],
+        age_mean=float(ages.mean()),
+        age_variance=float(covariance[-1, -1]),
+        age_covariance=covariance[-1, :-1],
     )
 
 
@@ -56,7 +61,7 @@ def save_statistics(path: Path, genders: Mapping[str, SurveyStatistics]) -> None
     content = {
         "source": "ANSUR II, US Army Anthropometric Survey 2012, public release",
         "definition": "mean and covariance of natural logarithms; metres, kilograms; flexed arm "
-        "girths reduced to relaxed ones",
+        "girths reduced to relaxed ones; age in years and its covariance with the logarithms",
         "relaxed_share": RELAXED_SHARE,
     } | {
         gender: {
@@ -64,6 +69,9 @@ def save_statistics(path: Path, genders: Mapping[str, SurveyStatistics]) -> None
             "count": statistics.count,
             "log_mean": np.round(statistics.log_mean, 6).tolist(),
             "log_covariance": np.round(statistics.log_covariance, 8).tolist(),
+            "age_mean": round(statistics.age_mean, 4),
+            "age_variance": round(statistics.age_variance, 4),
+            "age_covariance": np.round(statistics.age_covariance, 6).tolist(),
         }
         for gender, statistics in genders.items()
     }

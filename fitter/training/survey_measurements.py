@@ -39,7 +39,7 @@ LEVEL_GIRTHS = {
 }
 
 LIMB_GIRTHS = {
-    "calfcircumference": ("knee", "ankle", 0.15, 0.6, "largest"),
+    "calfcircumference": ("knee", "ankle", 0.22, 0.6, "largest"),
     "anklecircumference": ("knee", "ankle", 0.75, 0.98, "smallest"),
     "bicepscircumference": ("shoulder", "elbow", 0.4, 0.7, "largest"),
     "forearmcircumference": ("elbow", "wrist", 0.1, 0.5, "largest"),

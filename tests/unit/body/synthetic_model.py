@@ -7,7 +7,10 @@ from fitter.numerics.gradient_operators import gradient_operator
 
 
 def bar_model(*, seed: int = 0, rings: int = 13, sides: int = 8) -> BodyModel:
-    """A closed bar along y, 1.2 m high, bent at two joints, with two shape axes."""
+    """A closed bar along y, 1.2 m high, bent at two joints, with two shape axes.
+
+    The top is driven by the whole and by half of its own turn (joint 2 and 3 + 2).
+    """
     rng = np.random.default_rng(seed)
     y = np.linspace(0.0, 1.2, rings)
     angle = 2 * np.pi * np.arange(sides) / sides
@@ -67,7 +70,7 @@ def bar_model(*, seed: int = 0, rings: int = 13, sides: int = 8) -> BodyModel:
         ),
         skinning_parts=skinning_parts,
         skinning_weights=skinning_weights,
-        pose_feature_joints=np.array([[1, -1], [1, 2], [2, -1]], dtype=np.int32),
+        pose_feature_joints=np.array([[1, -1], [1, 2], [2, 5]], dtype=np.int32),
         pose_feature_strengths=0.3 * rng.standard_normal((3, 9 * q, 2)),
         incidence_pointers=np.cumsum([0] + [len(t) for t in touched]).astype(np.int32),
         incidence_vertices=np.concatenate(touched).astype(np.int32),

@@ -34,7 +34,8 @@ def plain_body_frame_vertices(model, parameters: BodyParameters) -> np.ndarray:
     rotations = global_rotations(parameters.pose, model.part_parent)
     part = np.repeat(model.part_of_triangle, 2)
     right = gradient.T @ (weights[:, None] * np.einsum("tij,tj->ti", rotations[part], target))
-    difference = rotation_matrices(parameters.pose) - np.eye(3)
+    turns = np.concatenate([parameters.pose, 0.5 * parameters.pose])
+    difference = rotation_matrices(turns) - np.eye(3)
     for index in range(len(model.part_names)):
         joints = model.pose_feature_joints[index]
         features = np.concatenate(

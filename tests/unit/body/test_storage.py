@@ -1,18 +1,16 @@
 import json
+import warnings
 import zipfile
 from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 from fitter.body.model import BodyModel
-from fitter.body.storage import (
-    FIELDS,
-    HEADER_KEYS,
-    arrays_checksum,
-    load_body_model,
-    save_body_model,
-)
+from fitter.body.model_checks import FIELDS, HEADER_KEYS, INDEX_BOUNDS
+from fitter.body.storage import arrays_checksum, load_body_model, save_body_model
 from fitter.errors import ModelFileError
 from fitter.training.assemble import model_arrays
 from tests.unit.body.synthetic_model import bar_model
@@ -48,11 +46,13 @@ def rewrite(path: Path, changes, *, keep_checksum: bool = False):
     np.savez(path, header=encoded, **members)
 
 
-def assert_refused(path: Path, *words: str):
+def assert_refused(path: Path, *words: str, gender: str | None = None):
+    """The one error there is names the file, says these words and what to do."""
     with pytest.raises(ModelFileError) as caught:
-        load_body_model(path)
+        load_body_model(path, gender=gender)
     for word in (path.name, *words):
         assert word in str(caught.value)
+    assert caught.value.remedy.endswith(".")
 
 
 def test_what_is_saved_comes_back(saved):
@@ -137,11 +137,30 @@ def test_a_field_of_another_rank_is_named(saved, name):
     assert_refused(saved, name, "shape")
 
 
+def retype(name: str, other: str):
+    return lambda _, members: members.update({name: members[name].astype(other)})
+
+
 @pytest.mark.parametrize("name", FIELDS)
 def test_a_field_of_another_type_is_named(saved, name):
-    other = "i4" if FIELDS[name][0] == "f" else "f4"
-    rewrite(saved, lambda _, members: members.update({name: members[name].astype(other)}))
-    assert_refused(saved, name, "type")
+    for other in ("i4" if FIELDS[name][0] == "f" else "f4", "U9", "c8", "?"):
+        changed = saved.with_name(f"{np.dtype(other).kind}.npz")
+        changed.write_bytes(saved.read_bytes())
+        with np.errstate(all="ignore"), warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            rewrite(changed, retype(name, other))
+        assert_refused(changed, name, "type", "expected")
+
+
+@pytest.mark.parametrize("name", FIELDS)
+def test_an_empty_field_is_named(saved, name):
+    rewrite(saved, lambda _, members: members.update({name: members[name][:0]}))
+    assert_refused(saved, name)
+
+
+def test_a_field_nobody_knows_is_named(saved):
+    rewrite(saved, lambda _, members: members.update(colour=np.zeros(3)))
+    assert_refused(saved, "colour", "no field", "mirror")
 
 
 @pytest.mark.parametrize("name", [name for name, (kind, _) in FIELDS.items() if kind == "f"])
@@ -153,28 +172,14 @@ def test_a_number_that_is_not_finite_is_named(saved, name):
     assert_refused(saved, name, "finite")
 
 
-@pytest.mark.parametrize(
-    "name",
-    [
-        "triangles",
-        "part_of_triangle",
-        "part_parent",
-        "joint_indices",
-        "skinning_parts",
-        "pose_feature_joints",
-        "incidence_vertices",
-        "landmark_indices",
-        "uv_triangles",
-        "mirror",
-    ],
-)
+@pytest.mark.parametrize("name", INDEX_BOUNDS)
 @pytest.mark.parametrize("value", [-5, 10**6])
 def test_an_index_out_of_range_is_named(saved, name, value):
     def spoil(_, members):
         members[name].reshape(-1)[0] = value
 
     rewrite(saved, spoil)
-    assert_refused(saved, name, "index")
+    assert_refused(saved, name, "index", str(value), "expected [")
 
 
 @pytest.mark.parametrize("name", ["mean_vertices", "skinning_weights", "mirror", "shape_basis"])
@@ -185,6 +190,191 @@ def test_fields_that_disagree_on_the_number_of_vertices_are_named(saved, name):
 
     rewrite(saved, shorten)
     assert_refused(saved, "shape")
+
+
+def put(name: str, place: int | tuple[int, ...], value: float):
+    def spoil(_, members):
+        members[name][place] = value
+
+    return spoil
+
+
+def swap_corners(_, members):
+    members["triangles"][4] = members["triangles"][4][::-1]
+
+
+def turn_inside_out(_, members):
+    members["triangles"] = members["triangles"][:, ::-1].copy()
+
+
+def drop_triangle(_, members):
+    """A hole, in every field that counts triangles."""
+    for name in ("triangles", "part_of_triangle", "triangle_weights", "uv_triangles"):
+        members[name] = members[name][1:]
+
+
+def repeat_triangle(_, members):
+    for name in ("triangles", "part_of_triangle", "triangle_weights", "uv_triangles"):
+        members[name] = np.concatenate([members[name], members[name][:1]])
+
+
+def put_corner_twice(_, members):
+    members["triangles"][3, 0] = members["triangles"][3, 1]
+
+
+def merge_parts(_, members):
+    members["part_of_triangle"][members["part_of_triangle"] == 2] = 1
+
+
+def double_first_row(_, members):
+    members["joint_weights"][: members["joint_pointers"][1]] *= 2.0
+
+
+FAULTS = {
+    "a gap in the pointers": (put("joint_pointers", 0, 1), "joint_pointers", "begin at 0"),
+    "an empty row": (put("landmark_pointers", 1, 0), "landmark_pointers", "rise by 1"),
+    "pointers that end early": (put("landmark_pointers", -1, 2), "landmark_pointers", "end at 3"),
+    "a falling pointer": (put("joint_pointers", 1, 17), "joint_pointers", "rise"),
+    "regressor rows beyond one": (double_first_row, "joint_weights", "2 for bottom, expected 1"),
+    "landmark rows short of one": (
+        put("landmark_weights", 1, 0.5),
+        "landmark_weights",
+        "0.5 for sole_left, expected 1",
+    ),
+    "weights beyond one": (put("skinning_weights", (7, 1), 0.5), "skinning_weights", "vertex 7"),
+    "a negative weight": (put("skinning_weights", (7, 0), -1.0), "skinning_weights", "negative"),
+    "two roots": (put("part_parent", 1, -1), "part_parent", "part 1 the parent -1"),
+    "a child before its parent": (put("part_parent", 1, 2), "part_parent", "part 1 the parent 2"),
+    "its own parent": (put("part_parent", 2, 2), "part_parent", "part 2 the parent 2"),
+    "no root": (put("part_parent", 0, 0), "part_parent", "expected -1"),
+    "a part without triangles": (merge_parts, "incidence_vertices", "part 1"),
+    "an incidence twice": (put("incidence_vertices", 1, 0), "incidence_vertices", "part 0"),
+    "incidences cut elsewhere": (put("incidence_pointers", 1, 3), "incidence_vertices", "part 0"),
+    "a vertex twice in the mirror": (put("mirror", 5, 6), "mirror", "expected 5"),
+    "a mirror that goes round": (
+        lambda _, members: members.update(mirror=np.roll(members["mirror"], 1)),
+        "mirror",
+        "its own inverse",
+    ),
+    "a hole": (drop_triangle, "triangles", "hole", "3 edges"),
+    "a triangle twice": (repeat_triangle, "triangles", "manifold", "3 edges"),
+    "a flipped triangle": (swap_corners, "triangles", "oriented", "3 edges"),
+    "a corner twice": (put_corner_twice, "triangles", "corner twice"),
+    "inside out": (turn_inside_out, "mean_vertices", "inside out"),
+    "a mesh in millimetres": (
+        lambda _, members: members.update(mean_vertices=1000.0 * members["mean_vertices"]),
+        "mean_vertices",
+        "1300",
+        "metres",
+    ),
+    "a flat mesh": (
+        lambda _, members: members.update(mean_vertices=members["mean_vertices"] * np.float32(0)),
+        "mean_vertices",
+        "no area",
+    ),
+    "a dead axis": (put("shape_basis", 1, 0.0), "shape_basis", "axis 1"),
+    "a triangle without weight": (put("triangle_weights", 9, 0.0), "triangle_weights", "9"),
+    "a pose term that pushes": (
+        put("pose_right_hand_sides", (4, 1, 2), 1.0),
+        "pose_right_hand_sides",
+        "part 0",
+    ),
+    "a turn beyond pi": (put("standing_pose", (1, 1), 4.0), "standing_pose", "4", "π"),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_a_rule_that_is_broken_is_named_with_what_was_found(saved, fault):
+    spoil, *words = FAULTS[fault]
+    rewrite(saved, spoil)
+    assert_refused(saved, *words)
+
+
+def test_a_mesh_in_two_pieces_is_refused(saved):
+    """The bar and its copy beside it, closed each for itself."""
+    doubled = ("mean_vertices", "shape_basis", "skinning_parts", "skinning_weights", "mirror")
+
+    def double(_, members):
+        m = len(members["mean_vertices"])
+        for name in doubled:
+            axis = 1 if name == "shape_basis" else 0
+            members[name] = np.concatenate([members[name], members[name]], axis=axis)
+        members["mirror"][m:] += m
+        for name in ("triangles", "part_of_triangle", "triangle_weights", "uv_triangles"):
+            members[name] = np.concatenate([members[name], members[name]])
+        members["triangles"][len(members["triangles"]) // 2 :] += m
+
+    rewrite(saved, double)
+    assert_refused(saved, "triangles", "2 pieces")
+
+
+HEADER_FAULTS = {
+    "another gender": ("gender", "child", "female or male"),
+    "no gender": ("gender", None, "female or male"),
+    "centimetres": ("units", "centimetres", "metres"),
+    "a seed in words": ("seed", "one", "whole number"),
+    "an empty name": ("part_names", ["bottom", "", "top"], "none empty"),
+    "a name that is none": ("landmark_names", ["crown", 3, "sole_left"], "list of names"),
+    "names in one text": ("part_names", "bottom middle top", "list of names"),
+    "a name twice": ("part_names", ["bottom", "top", "top"], "'top' 2 times"),
+    "no sole": ("landmark_names", ["crown", "sole_left", "navel"], "sole_right"),
+    "too few names": ("part_names", ["bottom", "top"], "p = 2"),
+    "no sources": ("sources", [], "list of names"),
+    "a licence without words": ("licences", [" "], "none empty"),
+    "a version in words": ("format_version", "1", "reads 1"),
+}
+
+
+@pytest.mark.parametrize("fault", HEADER_FAULTS)
+def test_a_wrong_header_entry_is_named(saved, fault):
+    key, value, word = HEADER_FAULTS[fault]
+    rewrite(saved, lambda header, _: header.update({key: value}))
+    assert_refused(saved, word)
+
+
+@pytest.mark.parametrize("header", [b"", b"no JSON", b"[]", b"3", b'"text"', b"[" * 100_000])
+def test_a_header_of_another_form_is_refused(saved, header):
+    with np.load(saved) as archive:
+        members = {name: archive[name] for name in archive.files}
+    members["header"] = np.frombuffer(header, dtype=np.uint8)
+    np.savez(saved, **members)
+    assert_refused(saved, "header")
+
+
+def test_the_model_of_another_gender_is_refused_where_one_is_wanted(saved):
+    assert load_body_model(saved, gender="female").gender == "female"
+    assert_refused(saved, "header.gender", "expected male", "female.npz", gender="male")
+
+
+@pytest.mark.parametrize("name", FIELDS)
+@pytest.mark.parametrize("end", [0, -1])
+def test_any_number_that_is_changed_is_noticed(saved, name, end):
+    """By the rule it breaks, or by the checksum."""
+
+    def change(_, members):
+        flat = members[name].reshape(-1)
+        flat[end] = flat[end] + 1
+
+    rewrite(saved, change, keep_checksum=True)
+    assert_refused(saved)
+
+
+@given(place=st.floats(0.0, 1.0), bit=st.integers(0, 7))
+@settings(
+    max_examples=100, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+def test_a_flipped_bit_is_refused_or_changes_nothing(saved, place, bit):
+    content = bytearray(saved.read_bytes())
+    content[int(place * (len(content) - 1))] ^= 1 << bit
+    flipped = saved.with_name("flipped.npz")
+    flipped.write_bytes(bytes(content))
+    try:
+        loaded = load_body_model(flipped)
+    except ModelFileError:
+        return
+    before, after = model_arrays(MODEL), model_arrays(loaded)
+    for name in FIELDS:
+        np.testing.assert_array_equal(after[name], before[name], err_msg=name)
 
 
 def test_a_wrong_field_is_refused_before_it_is_written(tmp_path):

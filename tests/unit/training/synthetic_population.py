@@ -37,7 +37,7 @@ def surface() -> BaseMesh:
 
 def part_weights() -> np.ndarray:
     """Seventeen blobs, mirrored in pairs."""
-    rng = np.random.default_rng(3)
+    rng = np.random.default_rng(4)  # a seed that leaves every part some triangles
     centres = MEAN[rng.choice(len(MEAN), len(PART_NAMES), replace=False)].copy()
     for part, name in enumerate(PART_NAMES):
         other = part_index(mirrored_part(name))

@@ -11,6 +11,7 @@ N = 8
 RNG = np.random.default_rng(11)
 COEFFICIENTS = RNG.normal(size=(500, N))
 SIZES = np.linspace(2.0, 0.1, N)
+GRAM = np.diag(SIZES**2)
 
 
 def linear_attribute(gradient):
@@ -23,7 +24,7 @@ def curved_attribute(gradient):
 
 def axes_for(attribute):
     values = np.array([attribute(c) for c in COEFFICIENTS])
-    return attribute_preserving_axes(attribute, COEFFICIENTS, values, SIZES)
+    return attribute_preserving_axes(attribute, COEFFICIENTS, values, GRAM)
 
 
 def test_a_linear_attribute_is_carried_by_its_gradient_alone():
@@ -33,15 +34,28 @@ def test_a_linear_attribute_is_carried_by_its_gradient_alone():
     np.testing.assert_allclose(gradient @ rotation[:, 1:], 0.0, atol=1e-8)
 
 
+def test_no_other_axis_changes_a_linear_attribute_at_three_deviations():
+    attribute = linear_attribute(RNG.normal(size=N))
+    changes = attribute_changes(attribute, list(axes_for(attribute).rotation[:, 1:].T), 3.0)
+    assert changes.max() < 1e-8
+
+
 @pytest.mark.parametrize("kind", [linear_attribute, curved_attribute])
-def test_no_other_axis_changes_the_attribute_at_three_deviations(kind):
+def test_both_ends_of_every_other_axis_have_the_same_attribute(kind):
     attribute = kind(RNG.normal(size=N))
-    rotation = axes_for(attribute).rotation
-    for axis in rotation[:, 1:].T:
-        # Signs are free after the solve at +3: one of the two ends keeps it to rounding.
-        still = attribute(np.zeros(N))
-        ends = [abs(attribute(sign * 3.0 * axis) - still) for sign in (1.0, -1.0)]
-        assert min(ends) < 1e-7
+    for axis in axes_for(attribute).rotation[:, 1:].T:
+        assert abs(attribute(3.0 * axis) - attribute(-3.0 * axis)) < 1e-7
+
+
+def test_of_a_curved_attribute_only_the_even_part_is_left():
+    gradient, bend = RNG.normal(size=N), RNG.normal(size=(N, N)) * 0.02
+
+    def attribute(shape):
+        return float(gradient @ shape + shape @ bend @ shape)
+
+    for axis in axes_for(attribute).rotation[:, 1:].T:
+        left = attribute_changes(attribute, [axis], 3.0)[0]
+        np.testing.assert_allclose(left, abs(9.0 * axis @ bend @ axis), atol=1e-7)
 
 
 @pytest.mark.parametrize("kind", [linear_attribute, curved_attribute])

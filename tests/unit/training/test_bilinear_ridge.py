@@ -4,6 +4,7 @@ from fitter.training.bilinear_ridge import BilinearSums, solve_bilinear
 
 RNG = np.random.default_rng(12)
 FEATURES, SHAPES, OUTPUTS = 4, 3, 6
+ALIKE = np.eye(OUTPUTS // 3)
 
 
 def examples(count: int, strengths: np.ndarray, linear: np.ndarray):
@@ -16,7 +17,7 @@ def solved(count: int, strengths: np.ndarray, linear: np.ndarray, ridge: float =
     sums = BilinearSums(feature_count=FEATURES, shape_count=SHAPES, output_count=OUTPUTS)
     for x, shape, output in examples(count, strengths, linear):
         sums.add(x, shape, output)
-    return solve_bilinear(sums, ridge)
+    return solve_bilinear(sums, ridge, ALIKE)
 
 
 def test_a_planted_bilinear_law_is_recovered():
@@ -38,12 +39,12 @@ def test_a_feature_that_never_occurs_learns_nothing():
     sums = BilinearSums(feature_count=2, shape_count=1, output_count=3)
     for _ in range(50):
         sums.add(np.array([RNG.normal(), 0.0]), RNG.normal(size=1), RNG.normal(size=3))
-    np.testing.assert_array_equal(solve_bilinear(sums, 1e-3).linear[1], 0.0)
+    np.testing.assert_array_equal(solve_bilinear(sums, 1e-3, np.eye(1)).linear[1], 0.0)
 
 
 def test_no_examples_give_no_term():
     sums = BilinearSums(feature_count=2, shape_count=1, output_count=3)
-    found = solve_bilinear(sums, 1e-3)
+    found = solve_bilinear(sums, 1e-3, np.eye(1))
     assert not found.linear.any()
     assert not found.strengths.any()
 

@@ -60,6 +60,21 @@ def test_landmarks_stack_as_a_body_does(landmarks: SparseRows, gender: str):
 
 
 @pytest.mark.parametrize("gender", ["female", "male"])
+def test_the_face_is_where_faces_have_it(landmarks: SparseRows, gender: str):
+    found = points(landmarks, gender)
+    eyes, mouth = (
+        found[f"left_{name}"] - found[f"right_{name}"] for name in ("eye", "mouth_corner")
+    )
+    assert 0.055 < eyes[0] < 0.07
+    assert 0.035 < mouth[0] < eyes[0]
+    downwards = ["left_eye", "nose", "left_mouth_corner", "chin"]
+    assert (np.diff([found[name][1] for name in downwards]) < -0.01).all()
+    backwards = ["nose", "left_mouth_corner", "left_eye", "left_ear", "cervicale"]
+    assert (np.diff([found[name][2] for name in backwards]) < -0.005).all()
+    assert found["left_ear"][0] > found["left_eye"][0] + 0.03
+
+
+@pytest.mark.parametrize("gender", ["female", "male"])
 def test_inner_points_lie_at_the_joints_of_the_average_body(landmarks: SparseRows, gender: str):
     space = body_space(gender)
     vertices = source_vertices(space, average_traits(), space.neutral)

@@ -8,10 +8,17 @@ from fitter.body.storage import load_body_model
 from fitter.training.assemble import assemble_body_model, height_attribute
 from fitter.training.build import subjects, write_model
 from fitter.training.evaluation import VertexError
+from fitter.training.held_out_errors import HeldOutErrors, header_entry
 from fitter.training.plan import Plan
 from fitter.training.population import Population
-from fitter.training.provenance import model_statistics, provenance, residuals
-from fitter.training.report import HeldOutErrors, goals, header_entry, report_lines
+from fitter.training.provenance import (
+    model_statistics,
+    provenance,
+    residual_lines,
+    residuals,
+)
+from fitter.training.reported import Reported
+from fitter.training.summary_figures import goals, summary_lines
 from tests.unit.training.synthetic_population import landmarks, part_weights, population, surface
 
 PLAN = Plan(subjects=4, held_out=2, examples=0, seed=7)
@@ -20,6 +27,9 @@ PLAN = Plan(subjects=4, held_out=2, examples=0, seed=7)
 def surveyed(count: int) -> Population:
     wanted = np.tile([1.70, 65.0], (count, 1)) + np.arange(count)[:, None] * [0.05, 5.0]
     return Population(
+        ages=np.full(count, 30.0),
+        ancestries=np.full((count, 3), 1.0 / 3.0),
+        faces=np.zeros((count, 2)),
         source_vertices=np.arange(count * 6, dtype=np.float32).reshape(count, 2, 3),
         parameters=np.zeros((count, 1)),
         parameter_names=("height",),
@@ -61,23 +71,38 @@ def trained():
     )
 
 
-@pytest.mark.parametrize(("shape_mm", "verdict"), [(3.4, "ok"), (3.6, "MISSED")])
+def reported(trained, shape_mm=3.0) -> Reported:
+    return Reported(
+        model=trained.model,
+        bodies=population(2, 9),
+        errors=errors(shape_mm),
+        file_bytes=6_000_000,
+    )
+
+
+@pytest.mark.parametrize(("shape_mm", "verdict"), [(2.9, "ok"), (3.1, "MISSED")])
 def test_the_report_says_which_goals_are_missed(trained, shape_mm, verdict):
-    lines = report_lines(trained.model, errors(shape_mm), file_bytes=6_000_000)
+    lines = summary_lines(reported(trained, shape_mm))
     line = next(line for line in lines if "mean vertex error" in line)
     assert re.search(rf"{shape_mm:.3f} mm .*{verdict}$", line)
 
 
 def test_the_report_names_the_worst_joint(trained):
-    text = "\n".join(report_lines(trained.model, errors(3.0), file_bytes=1))
+    text = "\n".join(summary_lines(reported(trained)))
     assert re.search(r"joint centres, mean distance +3\.000 mm", text)
     assert re.search(r"joint centres, worst: left_hand +4\.000 mm", text)
 
 
 def test_every_goal_of_the_model_is_judged(trained):
-    names = " ".join(goal.name for goal in goals(trained.model, errors(3.0)))
-    for word in ("vertex error", "height change", "posed error", "one evaluation"):
+    names = " ".join(goal.name for goal in goals(reported(trained)))
+    for word in ("vertex error", "height change", "full extent", "posed error", "one evaluation"):
         assert word in names
+
+
+def test_the_report_repeats_the_populations_residuals(trained):
+    text = "\n".join(residual_lines(reported(trained)))
+    assert re.search(r"stature +2\.0 mm", text)
+    assert re.search(r"weightkg +1\.50 kg", text)
 
 
 def test_the_header_names_sources_counts_and_ranges():

@@ -1,19 +1,28 @@
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from fitter.numerics.meshes import enclosed_volume
+from fitter.training._subject_kernels import volume_and_pull
 from fitter.training.body_space import average_traits, source_vertices
 from fitter.training.cuts import limb_cut, trunk_cut
 from fitter.training.landmarks import body_landmarks
 from fitter.training.makehuman import makehuman_folder
-from fitter.training.population import Workshop, prepare, solve_population
+from fitter.training.population import (
+    Workshop,
+    load_population,
+    packaged_population_path,
+    prepare,
+    save_population,
+    solve_population,
+)
 from fitter.training.subject_fit import (
     Placed,
     Wanted,
     fit_subject,
     measured,
     place,
-    volume_and_gradient,
 )
 from fitter.training.survey_measurements import (
     MEASUREMENTS,
@@ -45,12 +54,12 @@ def some_parameters(workshop: Workshop, seed: int) -> np.ndarray:
 
 def test_volume_has_the_derivative_that_finite_differences_give():
     vertices, triangles = sphere(radius=0.5, rings=8, sides=12)
-    volume, gradient = volume_and_gradient(vertices, triangles)
+    volume, gradient = volume_and_pull(vertices, triangles)
     assert volume == pytest.approx(enclosed_volume(vertices, triangles))
     direction = np.random.default_rng(0).normal(size=vertices.shape)
     step = 1e-5
-    above, _ = volume_and_gradient(vertices + step * direction, triangles)
-    below, _ = volume_and_gradient(vertices - step * direction, triangles)
+    above, _ = volume_and_pull(vertices + step * direction, triangles)
+    below, _ = volume_and_pull(vertices - step * direction, triangles)
     assert (gradient * direction).sum() == pytest.approx((above - below) / (2 * step), rel=1e-6)
 
 
@@ -113,6 +122,54 @@ def test_a_population_begins_with_the_shorter_one_and_meets_its_measurements(wor
     stature = MEASUREMENTS.index("stature")
     assert np.abs(two.reached - two.wanted)[:, stature].max() < 0.015
     assert np.median(np.abs(two.reached - two.wanted) / two.deviation) < 0.05
+
+
+@needs_makehuman
+def test_a_population_is_kept_without_its_vertices_and_comes_back_with_them(
+    workshop: Workshop, tmp_path: Path
+):
+    solved = solve_population(workshop, 2, seed=11)
+    save_population(tmp_path / "population.npz", solved)
+    assert (tmp_path / "population.npz").stat().st_size < 20_000
+    loaded = load_population(tmp_path / "population.npz", workshop.space)
+    assert np.array_equal(loaded.source_vertices, solved.source_vertices)
+    assert np.array_equal(loaded.reached, solved.reached)
+    first = load_population(tmp_path / "population.npz", workshop.space, count=1)
+    assert np.array_equal(first.source_vertices, solved.source_vertices[:1])
+    with pytest.raises(ValueError, match="other parameters"):
+        load_population(tmp_path / "population.npz", body_space("male"))
+
+
+@needs_makehuman
+@pytest.mark.parametrize("gender", ["female", "male"])
+def test_the_packaged_population_is_of_every_build_and_keeps_off_its_bounds(gender: str):
+    space = body_space(gender)
+    population = load_population(packaged_population_path(gender), space, count=3)
+    with np.load(packaged_population_path(gender), allow_pickle=False) as archive:
+        parameters, wanted, reached = (
+            archive[name] for name in ("parameters", "wanted", "reached")
+        )
+        ages = archive["ages"]
+    assert len(parameters) == 1300
+    at_bound = (parameters <= space.lower) | (parameters >= space.upper)
+    assert at_bound.mean(axis=0).max() < 0.10
+    stature, weight, waist = (
+        MEASUREMENTS.index(name) for name in ("stature", "weightkg", "waistcircumference")
+    )
+    index = wanted[:, weight] / wanted[:, stature] ** 2
+    assert 16.0 <= index.min() < 17.5
+    assert 43.5 < index.max() <= 45.0
+    assert ages.min() < 20.0
+    assert ages.max() > 78.0
+    error = np.abs(reached - wanted)
+    assert error[:, stature].mean() < 0.0026
+    assert error[:, weight].mean() < 1.0
+    assert abs((reached - wanted)[:, waist].mean()) < 0.005
+    # The first subject's body encloses the volume of the weight it reached.
+    volume = enclosed_volume(
+        space.base.body(population.source_vertices[0]).astype(np.float64), space.base.triangles
+    )
+    assert 1000.0 * volume == pytest.approx(reached[0, weight], abs=0.01)
 
 
 @needs_makehuman

@@ -3,12 +3,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from fitter.training.civilians import Civilian, load_civilians, packaged_civilians_path
 from fitter.training.survey import (
-    CIVILIAN_BMI,
-    draw_subjects,
+    draw_measurements,
     load_statistics,
     on_the_model,
     packaged_statistics_path,
+    regression,
 )
 from fitter.training.survey_files import save_statistics, statistics_from_survey
 from fitter.training.survey_measurements import MEASUREMENTS
@@ -27,33 +28,41 @@ def test_packaged_statistics_cover_what_the_model_measures(gender: str):
 
 
 @pytest.mark.parametrize("gender", GENDERS)
-def test_drawn_subjects_have_civilian_weight_and_the_surveys_stature(gender: str):
-    statistics = load_statistics(packaged_statistics_path(), gender)
-    drawn = draw_subjects(statistics, gender, 20_000, np.random.default_rng(0))
-    stature, weight = (drawn[:, MEASUREMENTS.index(name)] for name in ("stature", "weightkg"))
-    index = weight / stature**2
-    np.testing.assert_allclose(np.percentile(index, [2.5, 97.5]), CIVILIAN_BMI[gender], rtol=0.02)
-    assert abs(np.corrcoef(np.log(index), np.log(stature))[0, 1]) < 0.03
-    log_stature = MEASUREMENTS.index("stature")
-    assert np.log(stature).mean() == pytest.approx(statistics.log_mean[log_stature], abs=1e-3)
-    deviation = np.sqrt(statistics.log_covariance[log_stature, log_stature])
-    assert np.log(stature).std() == pytest.approx(deviation, rel=0.02)
+def test_the_surveys_regression_foretells_civilian_waists_at_every_age(gender: str):
+    civilians = load_civilians(packaged_civilians_path(), gender)
+    found = regression(load_statistics(packaged_statistics_path(), gender))
+    waist = MEASUREMENTS.index("waistcircumference")
+    given = np.stack(
+        [civilians.log_stature, civilians.log_bmi + 2.0 * civilians.log_stature, civilians.age]
+    )
+    expected = found.log_mean[waist] + found.slope[:, waist] @ (given - found.given_mean[:, None])
+    assert np.abs(civilians.log_waist - expected).max() < 0.03
 
 
-def test_at_given_stature_and_weight_the_rest_varies_as_in_the_survey():
+def test_a_drawn_subject_keeps_stature_and_weight_and_varies_about_the_regression():
     statistics = load_statistics(packaged_statistics_path(), "female")
-    drawn = np.log(draw_subjects(statistics, "female", 50_000, np.random.default_rng(1)))
+    found = regression(statistics)
+    generator = np.random.default_rng(1)
+    person = Civilian(age=70.0, stature=1.6, weight=80.0)
+    drawn = np.log([draw_measurements(statistics, person, generator) for _ in range(4000)])
     given = [MEASUREMENTS.index(name) for name in ("stature", "weightkg")]
+    np.testing.assert_allclose(drawn[:, given], np.log([[1.6, 80.0]]).repeat(4000, 0))
     others = [k for k in range(len(MEASUREMENTS)) if k not in given]
-
-    def residual(covariance: np.ndarray) -> np.ndarray:
-        slope = np.linalg.solve(covariance[np.ix_(given, given)], covariance[np.ix_(given, others)])
-        return covariance[np.ix_(others, others)] - covariance[np.ix_(others, given)] @ slope
-
-    expected = residual(statistics.log_covariance)
-    found = residual(np.cov(drawn.T))
+    expected = found.residual_covariance[np.ix_(others, others)]
     scale = np.sqrt(np.outer(np.diagonal(expected), np.diagonal(expected)))
-    assert np.abs((found - expected) / scale).max() < 0.03
+    assert np.abs((np.cov(drawn[:, others].T) - expected) / scale).max() < 0.08
+    deviation = (drawn.mean(axis=0) - found.expected(person))[others]
+    assert np.abs(deviation / np.sqrt(np.diagonal(expected))).max() < 0.08
+
+
+def test_older_people_of_one_weight_have_wider_waists_and_thinner_thighs():
+    found = regression(load_statistics(packaged_statistics_path(), "male"))
+    young, old = (
+        found.expected(Civilian(age=age, stature=1.75, weight=85.0)) for age in (25.0, 75.0)
+    )
+    change = dict(zip(MEASUREMENTS, np.expm1(old - young), strict=True))
+    assert change["waistcircumference"] > 0.05
+    assert change["thighcircumference"] < 0.0
 
 
 def test_definitions_that_agree_are_left_as_surveyed():
@@ -67,8 +76,12 @@ def test_definitions_that_agree_are_left_as_surveyed():
 def test_statistics_of_a_survey_file_survive_saving(tmp_path: Path):
     generator = np.random.default_rng(2)
     logarithms = generator.multivariate_normal([7.4, 6.5, 5.6], 0.01 * (np.eye(3) + 0.5), 400)
-    rows = ["stature,weightkg,bicepscircumferenceflexed"]
-    rows += [",".join(f"{value:.6f}" for value in row) for row in np.exp(logarithms)]
+    ages = generator.integers(18, 60, 400)
+    rows = ["stature,weightkg,bicepscircumferenceflexed,Age"]
+    rows += [
+        ",".join([*(f"{value:.6f}" for value in row), str(age)])
+        for row, age in zip(np.exp(logarithms), ages, strict=True)
+    ]
     path = tmp_path / "survey.csv"
     path.write_text("\n".join(rows), encoding="latin-1")
     statistics = statistics_from_survey(path, ("stature", "weightkg", "bicepscircumference"))
@@ -78,3 +91,8 @@ def test_statistics_of_a_survey_file_survive_saving(tmp_path: Path):
     units = np.log([1000.0, 10.0, 1000.0 / 0.93])
     np.testing.assert_allclose(loaded.log_mean, logarithms.mean(axis=0) - units, atol=1e-5)
     np.testing.assert_allclose(loaded.log_covariance, np.cov(logarithms.T), atol=1e-6)
+    assert loaded.age_mean == pytest.approx(ages.mean(), abs=1e-3)
+    assert loaded.age_variance == pytest.approx(ages.var(ddof=1), abs=1e-3)
+    np.testing.assert_allclose(
+        loaded.age_covariance, np.cov(np.vstack([logarithms.T, ages]))[-1, :-1], atol=1e-5
+    )

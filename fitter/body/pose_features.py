@@ -1,0 +1,74 @@
+"""What drives the pose-dependent term: (R_joint - I) of whole and of half turns.
+
+A part lists its joints by number. Joint j of p stands for its whole turn R_j, number p + j for half
+of it, H_j with H_j² = R_j and less than half a turn long: a shoulder blade goes along with a raised
+arm by a share of its angle, which the sine and cosine of the whole angle do not give.
+"""
+
+import numpy as np
+from jaxtyping import Float, Integer
+
+from fitter.arrays import Pose, Rotations
+from fitter.numerics.rotations import rotation_matrices
+
+FeatureJoints = Integer[np.ndarray, "p q"]
+
+
+def half_turns(pose: Pose) -> Pose:
+    """Rotation vectors of half the turns, each taken the short way round."""
+    angles = np.linalg.norm(pose, axis=1, keepdims=True)
+    whole_turns = 2.0 * np.pi * np.round(angles / (2.0 * np.pi))
+    return 0.5 * pose * (1.0 - whole_turns / np.where(angles > 0.0, angles, 1.0))
+
+
+def pose_features(pose: Pose, joints: FeatureJoints) -> Float[np.ndarray, "p nine_q"]:
+    """(R - I) of each part's joints, joint by joint and row by row, zero where unused (-1)."""
+    difference = _turns(pose) - np.eye(3)
+    return np.where((joints >= 0)[:, :, None, None], difference[joints], 0.0).reshape(
+        len(joints), -1
+    )
+
+
+def pose_derivative(
+    pose: Pose, joints: FeatureJoints, feature_derivative: Float[np.ndarray, "p nine_q"]
+) -> Pose:
+    """Derivative of a scalar by increments δ of each joint, applied as exp(δ) exp(pose).
+
+    From (exp(η) H)² = exp(δ) H² follows (I + H) η = δ for half turns.
+
+    Parameters
+    ----------
+    pose, joints
+        As in :func:`pose_features`.
+    feature_derivative
+        Derivative of the scalar by the features.
+    """
+    count = len(pose)
+    turns = _turns(pose)
+    by_turn = np.zeros_like(turns)
+    blocks = feature_derivative.reshape(*joints.shape, 3, 3)
+    used = joints >= 0
+    np.add.at(by_turn, joints[used], blocks[used])
+    torques = axial_vectors(np.matmul(by_turn, turns.transpose(0, 2, 1)))
+    result = torques[:count].copy()
+    halved = np.unique(joints[joints >= count])
+    spread = (np.eye(3) + turns[halved]).transpose(0, 2, 1)
+    result[halved - count] += np.linalg.solve(spread, torques[halved, :, None])[..., 0]
+    return result
+
+
+def axial_vectors(matrices: Rotations) -> Float[np.ndarray, "p 3"]:
+    """Axial vectors w of matrices A: <A, [v]×> = w · v for every v."""
+    return np.stack(
+        [
+            matrices[:, 2, 1] - matrices[:, 1, 2],
+            matrices[:, 0, 2] - matrices[:, 2, 0],
+            matrices[:, 1, 0] - matrices[:, 0, 1],
+        ],
+        axis=1,
+    )
+
+
+def _turns(pose: Pose) -> Rotations:
+    """(2 p, 3, 3) whole turns, then half turns."""
+    return rotation_matrices(np.concatenate([pose, half_turns(pose)]))

@@ -1,0 +1,1 @@
+"""The second door of training: body models from a user's own registered meshes (OWN_BODIES.md)."""

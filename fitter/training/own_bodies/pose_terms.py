@@ -1,0 +1,125 @@
+"""The pose-dependent term of a user's bodies: learned from scans, taken over, or none."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Integer
+from scipy import sparse
+from scipy.sparse.linalg import splu
+
+from fitter.body.model import BodyModel
+from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
+from fitter.training.assemble import ShapeSpace
+from fitter.training.parts import Parts
+from fitter.training.pose_term import PoseExample, PoseTerm, pose_feature_joints, train_pose_term
+from fitter.training.principal_shapes import project
+from fitter.training.surface import vertex_masses
+
+LEAST_STRENGTH = 0.2
+"""A feature keeps at least this share of its strength on the new mean body: bodies far from the
+packaged population would turn it round."""
+
+_REGULARISATION = 1e-6
+"""Relative; holds the translation that a part's Laplacian leaves free."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class PoseTermSource:
+    """Where E comes from.
+
+    Attributes
+    ----------
+    origin
+        In words, for header and report.
+    feature_joints
+        (p, q) joints that drive it, as in the model.
+    make
+        The term in a shape space.
+    """
+
+    origin: str
+    feature_joints: Integer[np.ndarray, "p q"]
+    make: Callable[[ShapeSpace], PoseTerm]
+
+
+def no_pose_term(parts: Parts) -> PoseTermSource:
+    """E = 0: parts turn rigidly and the skin between them is stretched."""
+    joints = pose_feature_joints()
+
+    def make(space: ShapeSpace) -> PoseTerm:
+        return PoseTerm(
+            right_hand_sides=np.zeros((len(parts.incidence_vertices), 3, 9 * joints.shape[1])),
+            strengths=np.zeros((len(joints), 9 * joints.shape[1], len(space.basis))),
+        )
+
+    origin = "none, for want of scans in poses: parts turn rigidly"
+    return PoseTermSource(origin=origin, feature_joints=joints, make=make)
+
+
+def learned_pose_term(
+    parts: Parts, count: int, examples: Callable[[ShapeSpace], Iterable[PoseExample]]
+) -> PoseTermSource:
+    """E by ridge regression from ``count`` scans."""
+    joints = pose_feature_joints()
+
+    def make(space: ShapeSpace) -> PoseTerm:
+        return train_pose_term(examples(space), space.laplacians, parts, joints, len(space.basis))
+
+    origin = f"learned from {count} scans in poses"
+    return PoseTermSource(origin=origin, feature_joints=joints, make=make)
+
+
+def packaged_pose_term(packaged: BodyModel) -> PoseTermSource:
+    """The packaged model's E, for bodies on the same surface cut into the same parts."""
+
+    def make(space: ShapeSpace) -> PoseTerm:
+        return transferred_pose_term(space, packaged)
+
+    return PoseTermSource(
+        origin=f"taken over from the packaged {packaged.gender} model",
+        feature_joints=packaged.pose_feature_joints,
+        make=make,
+    )
+
+
+def transferred_pose_term(space: ShapeSpace, packaged: BodyModel) -> PoseTerm:
+    """A model's E on another mean body and shape space of the same surface.
+
+    A file keeps L_p x = Gᵀ W E of its own mean. Solved for x, the displacement in the part's frame
+    whose gradients come nearest to E, it is multiplied by L_p of the new mean. A strength 1 + s . β
+    is linear in the shape: with β = b + B β' of the nearest packaged body it becomes
+    (1 + s . b) (1 + s B / (1 + s . b) . β').
+    """
+    old = part_laplacians(
+        gradient_operator(packaged.mean_vertices, packaged.triangles),
+        packaged.triangle_weights,
+        packaged.part_of_triangle,
+        len(packaged.part_names),
+    )
+    offset, turn = _packaged_coefficients(space, packaged)
+    strengths = packaged.pose_feature_strengths
+    at_mean = np.maximum(1.0 + strengths @ offset, LEAST_STRENGTH)
+    right_hand_sides = np.empty(packaged.pose_right_hand_sides.shape)
+    pointers = packaged.incidence_pointers
+    for part, (before, after) in enumerate(zip(old, space.laplacians, strict=True)):
+        span = slice(pointers[part], pointers[part + 1])
+        vertices = packaged.incidence_vertices[span]
+        right = packaged.pose_right_hand_sides[span].astype(np.float64) * at_mean[part]
+        local = before[vertices][:, vertices]
+        held = _REGULARISATION * local.diagonal().mean() * sparse.eye_array(len(vertices))
+        displacement = splu(sparse.csc_matrix(local + held)).solve(right.reshape(len(vertices), -1))
+        right_hand_sides[span] = (after[vertices][:, vertices] @ displacement).reshape(right.shape)
+    return PoseTerm(
+        right_hand_sides=right_hand_sides, strengths=(strengths @ turn) / at_mean[..., None]
+    )
+
+
+def _packaged_coefficients(
+    space: ShapeSpace, packaged: BodyModel
+) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, "n k"]]:
+    """B and B: the packaged coefficients nearest to the new mean, and along each new axis."""
+    masses = vertex_masses(packaged.mean_vertices, packaged.triangles)
+    meshes = np.concatenate([space.mean[None], space.mean + space.basis])
+    found, _ = project(meshes, masses, packaged.mean_vertices, packaged.shape_basis)
+    return found[0], (found[1:] - found[0]).T

@@ -1,0 +1,102 @@
+"""What twenty coefficients keep of bodies the model has not seen: by region and by measurement."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from jaxtyping import Float
+
+from fitter.body.model import BodyModel
+from fitter.body.scape import ScapeEvaluator
+from fitter.measurement.anthropometry import measurement_values, measuring_body
+from fitter.measurement.definitions import load_definitions
+from fitter.training.body_regions import vertex_regions
+from fitter.training.evaluation import bodies_as_axes, mean_areas, shape_residuals
+from fitter.training.reported import Reported
+from fitter.training.shape_curve import region_errors
+from fitter.training.text_tables import note_lines, table_lines
+
+BATCH = 50
+"""Bodies measured together; each is an axis of a model and takes 1 MB of it."""
+
+
+def shape_lines(reported: Reported) -> tuple[str, ...]:
+    """Error over n, by region, and of every measurement."""
+    model, rest = reported.model, reported.bodies.rest
+    residuals = shape_residuals(model, rest)
+    return (
+        *_count_lines(model),
+        *_region_lines(model, residuals),
+        *_measurement_lines(model, rest, residuals),
+    )
+
+
+def measured_bodies(model: BodyModel, rest: Float[np.ndarray, "s m 3"]) -> np.ndarray:
+    """(s, k) every measurement of whole bodies, in the order and units of the definitions.
+
+    The model poses them; their shapes are their own.
+    """
+    rows = []
+    for start in range(0, len(rest), BATCH):
+        exact = bodies_as_axes(model, rest[start : start + BATCH])
+        body = measuring_body(exact, ScapeEvaluator(exact))
+        rows.extend(measurement_values(body, axis) for axis in np.eye(len(exact.shape_basis)))
+    return np.stack(rows)
+
+
+def _count_lines(model: BodyModel) -> tuple[str, ...]:
+    curve = model.header.get("shape_error_by_count")
+    if not isinstance(curve, Mapping):
+        return ()
+    rows = [
+        (f"n = {count}", f"{error['by_vertex']:.2f}", f"{error['by_area']:.2f}")
+        for count, error in curve.items()
+    ]
+    return table_lines(
+        "held-out error by number of coefficients, mm", ("", "by vertex", "by area"), rows
+    )
+
+
+def _region_lines(model: BodyModel, residuals: Float[np.ndarray, "s m 3"]) -> tuple[str, ...]:
+    areas, regions = mean_areas(model), vertex_regions(model)
+    errors = region_errors(residuals, areas, regions)
+    rows = [
+        (
+            name,
+            f"{error:.2f}",
+            f"{100.0 * areas[regions[name]].sum() / areas.sum():.0f} %",
+            f"{100.0 * regions[name].mean():.0f} %",
+        )
+        for name, error in errors.items()
+    ]
+    return table_lines(
+        "the same by region, mm, each region's skin weighed by area",
+        ("", "error", "of the area", "of the vertices"),
+        rows,
+    )
+
+
+def _measurement_lines(
+    model: BodyModel,
+    rest: Float[np.ndarray, "s m 3"],
+    residuals: Float[np.ndarray, "s m 3"],
+) -> tuple[str, ...]:
+    true = measured_bodies(model, rest)
+    errors = measured_bodies(model, rest - residuals) - true
+    rows = [
+        (
+            definition.about.name,
+            definition.about.unit.value,
+            f"{true[:, k].std():.2f}",
+            f"{errors[:, k].mean():+.2f}",
+            f"{np.abs(errors[:, k]).mean():.2f}",
+            f"{np.abs(errors[:, k]).max():.2f}",
+        )
+        for k, definition in enumerate(load_definitions())
+    ]
+    heads = ("", "unit", "sd of people", "mean error", "mean abs", "worst")
+    return (
+        *table_lines("held-out bodies rebuilt from n coefficients, measured", heads, rows),
+        *note_lines(
+            "What the shape space cannot express; a fit to a picture adds its own error to this."
+        ),
+    )
