@@ -1,6 +1,6 @@
 """The paper on one page: from a picture and clicks to a measured, posed and lit body."""
 
-from collections.abc import Mapping
+from pathlib import Path
 
 import numpy as np
 
@@ -14,9 +14,10 @@ from fitter.evidence.edge_cost import edge_cost_map
 from fitter.evidence.intensity import intensity_map
 from fitter.evidence.outline_confidence import outline_confidence
 from fitter.evidence.silhouette_evidence import silhouette_evidence
-from fitter.fittable import FittableBody, packaged_body
+from fitter.fittable import FittableBody, fittable_body
 from fitter.measurement.anthropometry import measure
 from fitter.observation.observation import Observation, observe
+from fitter.observation.subject import subject_height
 from fitter.optimizer.albedo_colour import albedo_rgb
 from fitter.optimizer.alternation import ShadedFit, fit_shading
 from fitter.optimizer.hypotheses import try_hypotheses
@@ -27,18 +28,15 @@ from fitter.parameters import BodyParameters
 from fitter.pose_init.initial_pose import InitialPose, initialize_pose
 from fitter.pose_init.points import clicked_points
 from fitter.progress import Observer, Stage, ignore_progress
-from fitter.remarks import Assumption, FitWarning
+from fitter.remarks import FitWarning
 from fitter.render.rasterizer import render
 from fitter.reporting import fit_warnings, limb_facings, outcome_of
-from fitter.request import Cues, FitRequest, Gender
+from fitter.request import Cues, FitRequest
 from fitter.result import FitResult, Pictures, StageBody
 from fitter.segmentation.bones import clicked_bones, foot_bones
 from fitter.segmentation.grabcut import Segmentation, border_warnings, segment
 from fitter.segmentation.trimap import Trimap, first_band, trimap
 from fitter.stage_clock import StageClock
-
-MEAN_HEIGHT_M: Mapping[Gender, float] = {Gender.FEMALE: 1.65, Gender.MALE: 1.82}
-"""Section 4: the heights taken for people, as in paintings, whose height nobody knows."""
 
 RESEGMENTED_BAND = 0.5
 """Share of the first band's width in which the picture is cut again round the body found from the
@@ -54,21 +52,23 @@ _EDGE_THRESHOLD_M = 0.03
 """How far from a model edge an image edge may lie and still attract it."""
 
 
-def fit(request: FitRequest, *, observer: Observer = ignore_progress) -> FitResult:
-    """Fit a body to one picture.
+def fit(
+    request: FitRequest, *, models: Path | None = None, observer: Observer = ignore_progress
+) -> FitResult:
+    """Fit a body to one picture, with the packaged models or with those of a folder.
 
     Raises
     ------
     InvalidInputError
         If the request cannot be used; the message names the field and the remedy.
     ModelFileError
-        If the body model is missing or damaged.
+        If the body model is missing or damaged, or lacks something a fit needs.
     """
     clock = StageClock(observer)
     with clock.stage(Stage.OBSERVATION):
         observation = observe(request)
-        body = packaged_body(request.gender)
-        height_m, height_assumed = _height(request)
+        body = fittable_body(request.gender, models=models)
+        height_m, height_assumed = subject_height(request)
     with clock.stage(Stage.INITIAL_POSE):
         initial = initialize_pose(
             body.instruments.evaluator,
@@ -184,18 +184,6 @@ _SHADING_MISSING = (
         ),
     ),
 )
-
-
-def _height(request: FitRequest) -> tuple[float, tuple[Assumption, ...]]:
-    if request.height_m is not None:
-        return request.height_m, ()
-    mean = MEAN_HEIGHT_M[request.gender]
-    assumed = Assumption(
-        quantity="height_m",
-        value=mean,
-        reason=f"No height was given; the mean of the gender ({request.gender.value}) was taken.",
-    )
-    return mean, (assumed,)
 
 
 def _segmented(

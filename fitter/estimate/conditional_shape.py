@@ -1,0 +1,178 @@
+"""A standard normal population of shapes, conditioned on measurements of one of its people.
+
+The shape space is whitened, β ~ N(0, I), so its most probable member with measurements y taken
+with variances R is the minimum of
+
+    ½ ‖β‖² + ½ (y - m(β))ᵀ R⁻¹ (y - m(β)),
+
+and with R = 0 the shortest β with m(β) = y. Linearised at β, with J = ∂m/∂β, both are
+
+    β⁺ = Jᵀ (J Jᵀ + R)⁻¹ (y - m(β) + J β),    Σ = I - Jᵀ (J Jᵀ + R)⁻¹ J,
+
+the Gauss-Newton step and the covariance of what is left open. Measurements are nearly linear in β,
+so J is taken once, at the solution of the problem linearised at the mean, and held while the
+residual is driven to zero; only where that does not suffice it is taken anew.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from fitter.arrays import Shape
+
+HELD_WITHIN = 0.01
+"""Centimetres or kilograms within which exactly known measurements are met: a tenth of a
+millimetre, far below what a tape can tell."""
+
+_MOST_JACOBIANS = 4
+_STEPS_A_JACOBIAN = 5
+
+_NOWHERE = 12.0
+"""Standard deviations from the mean beyond which no search goes: nobody is there."""
+
+_SMALLEST_SHARE = 1e-10
+"""Directions of J Jᵀ + R with less than this share of the largest are left out: two measurements
+that say the same leave a residual instead of an infinity."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class MeasuredShapes:
+    """What of bodies is measured, k measurements of n coefficients.
+
+    Attributes
+    ----------
+    measure
+        Values of some of the measurements, by their rows; NaN where one cannot be taken.
+    jacobian
+        Of all of them by all coefficients.
+    mean, jacobian_at_mean
+        Both at β = 0.
+    """
+
+    measure: Callable[[Shape, Sequence[int]], Float[np.ndarray, " r"]]
+    jacobian: Callable[[Shape], Float[np.ndarray, "k n"]]
+    mean: Float[np.ndarray, " k"]
+    jacobian_at_mean: Float[np.ndarray, "k n"]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Conditions:
+    """What is known: r of the measurements, in their units, and with which variances."""
+
+    rows: Sequence[int]
+    values: Float[np.ndarray, " r"]
+    variances: Float[np.ndarray, " r"]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class ConditionedShape:
+    """The population given the conditions.
+
+    Attributes
+    ----------
+    shape
+        Its most probable member β.
+    covariance
+        (n, n) of what the conditions leave open, Σ.
+    jacobian
+        (k, n) the Jacobian of all measurements that both belong to.
+    met
+        Whether β is the solution: exact values are met, uncertain ones are in balance with the
+        population.
+    squared_distance
+        Twice the minimum's negative log-likelihood, ‖β‖² + Σ (y - m)²/R: of people of this
+        population it is distributed as χ² with r degrees of freedom.
+    """
+
+    shape: Shape
+    covariance: Float[np.ndarray, "n n"]
+    jacobian: Float[np.ndarray, "k n"]
+    met: bool
+    squared_distance: float
+
+
+def condition_shape(shapes: MeasuredShapes, conditions: Conditions) -> ConditionedShape:
+    """Find the most probable shape under the conditions."""
+    jacobian = shapes.jacobian_at_mean
+    if not conditions.rows:
+        n = jacobian.shape[1]
+        return ConditionedShape(
+            shape=np.zeros(n),
+            covariance=np.eye(n),
+            jacobian=jacobian,
+            met=True,
+            squared_distance=0.0,
+        )
+    slopes = jacobian[conditions.rows]
+    gain = _gain(slopes, conditions.variances)
+    found = shapes.mean[conditions.rows]
+    shape = gain @ (conditions.values - found)
+    met = False
+    for _ in range(_MOST_JACOBIANS):
+        if not _is_somewhere(shape):
+            break
+        latest = shapes.jacobian(shape)
+        if not np.isfinite(latest).all():
+            break
+        jacobian, slopes = latest, latest[conditions.rows]
+        gain = _gain(slopes, conditions.variances)
+        shape, found, met = _settle(shape, conditions, shapes, slopes, gain)
+        if met:
+            break
+    return ConditionedShape(
+        shape=shape,
+        covariance=np.eye(jacobian.shape[1]) - gain @ slopes,
+        jacobian=jacobian,
+        met=met,
+        squared_distance=_squared_distance(shape, conditions.values - found, conditions.variances),
+    )
+
+
+def _settle(
+    shape: Shape,
+    conditions: Conditions,
+    shapes: MeasuredShapes,
+    slopes: Float[np.ndarray, "r n"],
+    gain: Float[np.ndarray, "n r"],
+) -> tuple[Shape, Float[np.ndarray, " r"], bool]:
+    """Gauss-Newton steps with the Jacobian held: the shape, its measurements, whether it is met."""
+    found = shapes.measure(shape, conditions.rows)
+    for _ in range(_STEPS_A_JACOBIAN):
+        if not np.isfinite(found).all():
+            return shape, found, False
+        following = gain @ (conditions.values - found + slopes @ shape)
+        moved = float(np.abs(slopes @ (following - shape)).max(initial=0.0))
+        if moved < 0.5 * HELD_WITHIN:
+            exact = conditions.variances == 0.0
+            off = np.abs(conditions.values - found)[exact].max(initial=0.0)
+            return shape, found, bool(off < HELD_WITHIN)
+        if not _is_somewhere(following):
+            return shape, found, False
+        shape, found = following, shapes.measure(following, conditions.rows)
+    return shape, found, False
+
+
+def _is_somewhere(shape: Shape) -> bool:
+    return bool(np.linalg.norm(shape) < _NOWHERE)
+
+
+def _gain(
+    slopes: Float[np.ndarray, "r n"], variances: Float[np.ndarray, " r"]
+) -> Float[np.ndarray, "n r"]:
+    """Jᵀ (J Jᵀ + R)⁻¹, each measurement in its own standard deviations first."""
+    covariance = slopes @ slopes.T + np.diag(variances)
+    units = np.sqrt(np.diag(covariance))
+    scaled = covariance / np.outer(units, units)
+    values, vectors = np.linalg.eigh(scaled)
+    kept = values > _SMALLEST_SHARE * values.max(initial=0.0)
+    inverse = (vectors[:, kept] / values[kept]) @ vectors[:, kept].T
+    return slopes.T @ (inverse / np.outer(units, units))
+
+
+def _squared_distance(
+    shape: Shape, residuals: Float[np.ndarray, " r"], variances: Float[np.ndarray, " r"]
+) -> float:
+    uncertain = variances > 0.0
+    return float(shape @ shape + (residuals[uncertain] ** 2 / variances[uncertain]).sum())
