@@ -35,7 +35,7 @@ openapi: $(STAMP)
 lock:
 	$(VENV)/bin/pip install -q pip-tools
 	$(VENV)/bin/pip-compile -q --no-emit-index-url --no-emit-trusted-host --no-emit-find-links \
-		--strip-extras --extra dev -o requirements.lock pyproject.toml
+		--strip-extras --extra dev --extra s3 --extra tracing -o requirements.lock pyproject.toml
 
 $(STAMP): pyproject.toml requirements.lock
 	$(PYTHON) -c "import sys; sys.exit(sys.version_info < (3, 11) and 'Maquette needs Python 3.11 or newer; set PYTHON=...')"

@@ -1,8 +1,8 @@
 """What all wire types have in common."""
 
-from typing import LiteralString, cast
+from typing import Annotated, LiteralString, cast
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, BeforeValidator, ConfigDict
 from pydantic_core import PydanticCustomError
 
 
@@ -14,7 +14,12 @@ class WireModel(BaseModel):
     """
 
     model_config = ConfigDict(
-        frozen=True, extra="forbid", allow_inf_nan=False, strict=True, ser_json_inf_nan="strings"
+        frozen=True,
+        extra="forbid",
+        allow_inf_nan=False,
+        strict=True,
+        ser_json_inf_nan="strings",
+        hide_input_in_errors=True,
     )
 
 
@@ -27,3 +32,12 @@ def refusal(
     """
     context = {"reason": reason, "remedy": remedy} | ({"field": field} if field else {})
     return PydanticCustomError(cast("LiteralString", code), "{reason}", context)
+
+
+def _whole_number(value: object) -> object:
+    # 2.0 is an integer in JSON Schema and a float to a strict validator: take JSON's side.
+    return int(value) if isinstance(value, float) and value.is_integer() else value
+
+
+WholeNumber = Annotated[int, BeforeValidator(_whole_number)]
+"""An integer as JSON Schema understands it."""

@@ -26,7 +26,8 @@ class JobLinks(WireModel):
 
     self: str
     events: str
-    cancel: str | None = None
+    cancel: str | None = Field(default=None, description="While the job has not ended.")
+    retry: str | None = Field(default=None, description="Once the job has ended.")
     result: str | None = None
     artifacts: dict[str, str] = Field(default_factory=dict[str, str])
 
@@ -43,6 +44,9 @@ class Job(WireModel):
     created_at: datetime
     started_at: datetime | None
     finished_at: datetime | None
+    expires_at: datetime | None = Field(
+        default=None, description="When the job is erased with its picture; null if it is kept."
+    )
     problem: Problem | None = Field(description="Why the job has no result; null unless it failed.")
     links: JobLinks
 

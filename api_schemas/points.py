@@ -40,6 +40,33 @@ PointName = Literal[CocoPointName, ExtraPointName]
 COCO_POINT_NAMES: Final[tuple[CocoPointName, ...]] = get_args(CocoPointName)
 POINT_NAMES: Final[tuple[PointName, ...]] = COCO_POINT_NAMES + get_args(ExtraPointName)
 
+LIMB_POINT_NAMES: Final[tuple[PointName, ...]] = (
+    "left_shoulder",
+    "right_shoulder",
+    "left_elbow",
+    "right_elbow",
+    "left_wrist",
+    "right_wrist",
+    "left_hip",
+    "right_hip",
+    "left_knee",
+    "right_knee",
+    "left_ankle",
+    "right_ankle",
+)
+TRUNK_POINT_NAMES: Final[tuple[PointName, ...]] = (
+    "left_shoulder",
+    "right_shoulder",
+    "left_hip",
+    "right_hip",
+)
+MIN_LIMB_POINTS: Final = 6
+MIN_TRUNK_POINTS: Final = 2
+"""Of the twelve limb points at least six are needed, two of them shoulders or hips."""
+
+MIN_EXTENT: Final = 0.05
+"""The limb points must spread over this share of the picture's diagonal."""
+
 OPENPOSE_BODY25_INDEX: Final[Mapping[PointName, int]] = {
     **dict(
         zip(

@@ -54,10 +54,24 @@ _TYPES: Final = (
         description="The body is not well-formed multipart data, or its JSON part is not JSON.",
     ),
     ProblemType(
+        slug="unauthorized",
+        title="An API key is needed",
+        status=401,
+        description="There is no API key in the Authorization header, or it is not in use.",
+    ),
+    ProblemType(
+        slug="forbidden",
+        title="This may not be asked from here",
+        status=403,
+        description="The API key is for something else, or the request comes from a foreign page.",
+    ),
+    ProblemType(
         slug="not-found",
         title="There is nothing here",
         status=404,
-        description="No such path, job, artifact or problem type; erased jobs are not found.",
+        description=(
+            "No such path, job, artifact, picture or problem type; erased jobs are not found."
+        ),
     ),
     ProblemType(
         slug="method-not-allowed",
@@ -72,6 +86,18 @@ _TYPES: Final = (
         description="The job has not ended yet, or ended without a result; its status says which.",
     ),
     ProblemType(
+        slug="not-ended",
+        title="The job has not ended",
+        status=409,
+        description="What was asked for is possible only once the job has ended.",
+    ),
+    ProblemType(
+        slug="fit-expired",
+        title="The job has expired",
+        status=410,
+        description="Its picture and results were erased at the end of their retention.",
+    ),
+    ProblemType(
         slug="payload-too-large",
         title="The upload is too large",
         status=413,
@@ -81,7 +107,7 @@ _TYPES: Final = (
         slug="unsupported-media-type",
         title="This kind of content is not accepted",
         status=415,
-        description="The body is not multipart/form-data, or a picture is not JPEG, PNG or WebP.",
+        description="The body is of another kind, or a picture is not JPEG, PNG or WebP.",
     ),
     ProblemType(
         slug="range-not-satisfiable",
@@ -97,15 +123,23 @@ _TYPES: Final = (
     ),
     ProblemType(
         slug="unusable-input",
-        title="The picture, mask or points cannot be used",
+        title="What was sent cannot be used",
         status=422,
-        description="What was sent is well-formed, but no fit can be made from it.",
+        description=(
+            "Picture, mask, points or measurements are well-formed, but no body follows from them."
+        ),
     ),
     ProblemType(
         slug="idempotency-key-reused",
         title="The idempotency key belongs to another request",
         status=422,
         description="The same Idempotency-Key came earlier with another picture or other options.",
+    ),
+    ProblemType(
+        slug="too-many-requests",
+        title="Too much at once",
+        status=429,
+        description="This API key asks too often, or too many of its jobs are waiting.",
     ),
     ProblemType(
         slug="fit-failed",

@@ -1,12 +1,14 @@
-"""What a caller asks for: the JSON part ``request`` of ``POST /v1/fits``."""
+"""What a caller asks for: a fit, of a picture sent along or uploaded before."""
 
 from enum import StrEnum
-from typing import Final, Self
+from typing import Annotated, Final, Self
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 
 from api_schemas.base import WireModel, refusal
+from api_schemas.images import ImageId
 from api_schemas.points import Points, PointsFormat
+from api_schemas.webhooks import WebhookTarget
 
 MIN_HEIGHT_M: Final = 1.2
 MAX_HEIGHT_M: Final = 2.3
@@ -74,29 +76,64 @@ class LightGuess(WireModel):
     distance_m: float | None = Field(default=None, gt=0.0, le=100.0)
 
 
-class FitOptions(WireModel):
-    """One fit: who is in the picture, where the joints are, and what to do.
+_OTHER_UNITS: Final = (
+    (0.01, "centimetres"),
+    (0.001, "millimetres"),
+    (0.3048, "feet"),
+    (0.0254, "inches"),
+)
 
-    ``height_m`` left out means the mean of the gender, which the result then lists as assumed.
+
+def _metres(value: object) -> object:
+    """Name the unit a height was probably given in; other faults are told as usual."""
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        for factor, unit in _OTHER_UNITS if not MIN_HEIGHT_M <= value <= MAX_HEIGHT_M else ():
+            if MIN_HEIGHT_M <= value * factor <= MAX_HEIGHT_M:
+                raise refusal(
+                    code="out-of-range",
+                    reason=f"{value:g} metres is nobody's height; it looks like {unit}.",
+                    remedy=f"Send metres: {value * factor:.4g}.",
+                )
+    return value
+
+
+HeightM = Annotated[
+    float,
+    BeforeValidator(_metres),
+    Field(ge=MIN_HEIGHT_M, le=MAX_HEIGHT_M, description="Stature in metres.", examples=[1.68]),
+]
+
+
+class SubjectOptions(WireModel):
+    """Who is in the picture, where the joints are, and through which lens it was taken.
+
+    ``height_m`` left out means the mean of the gender, which the answer then lists as assumed.
     At most one focal length; without one the picture's EXIF data are asked.
     """
 
     gender: Gender
-    height_m: float | None = Field(
-        default=None, ge=MIN_HEIGHT_M, le=MAX_HEIGHT_M, description="Stature in metres."
-    )
+    height_m: HeightM | None = None
     points: Points = Field(
-        description="Clicked points, pixels of the picture as a browser shows it.",
-        examples=[{"left_shoulder": [401.5, 212.0], "nose": {"x": 380, "y": 120, "visibility": 2}}],
+        description=(
+            "Clicked points, pixels of the picture as a browser shows it. At least six of the "
+            "shoulders, elbows, wrists, hips, knees and ankles, two of them shoulders or hips."
+        ),
+        examples=[
+            {
+                "left_shoulder": [438.5, 222.0],
+                "right_shoulder": [249.0, 222.0],
+                "left_elbow": [484.0, 346.0],
+                "left_hip": [399.0, 460.0],
+                "right_hip": [296.0, 453.0],
+                "right_knee": {"x": 295, "y": 641, "visibility": 2},
+            }
+        ],
     )
     format: PointsFormat = PointsFormat.NAMED
     focal_length_px: float | None = Field(default=None, gt=0.0, le=1_000_000.0)
     focal_length_35mm: float | None = Field(
         default=None, ge=5.0, le=5_000.0, description="Focal length in 35 mm equivalent."
     )
-    cues: Cues = Cues.SES
-    optimizer: OptimizerKind = OptimizerKind.GAUSS_NEWTON
-    light: LightGuess = LightGuess()
     limb_facing: dict[Limb, Facing] = Field(default_factory=dict[Limb, Facing])
 
     @model_validator(mode="after")
@@ -109,3 +146,27 @@ class FitOptions(WireModel):
                 remedy="Send one of the two.",
             )
         return self
+
+
+class FitOptions(SubjectOptions):
+    """One fit: the subject, and what to do."""
+
+    cues: Cues = Cues.SES
+    optimizer: OptimizerKind = OptimizerKind.GAUSS_NEWTON
+    light: LightGuess = LightGuess()
+
+
+class FitRequest(FitOptions):
+    """The JSON part ``request`` of a submission: the fit, and whom to tell of its end."""
+
+    webhook: WebhookTarget | None = None
+
+
+class FitOfImage(FitRequest):
+    """A submission whose picture was uploaded before."""
+
+    image_id: ImageId
+    mask_id: ImageId | None = Field(
+        default=None,
+        description="A grey picture of the same size; the person is brighter than half.",
+    )

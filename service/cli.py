@@ -1,4 +1,4 @@
-"""``maquette serve | worker | fit | demo | warm-up | openapi``.
+"""``maquette serve | worker | keys | health | fit | demo | warm-up | openapi``.
 
 Every command imports what it needs itself: ``maquette --help`` and the processes forked by a worker
 load this module and nothing heavy with it.
@@ -8,6 +8,13 @@ import argparse
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from service.settings import Settings
+
+UNUSABLE: Final = 2
+"""Exit status where settings, arguments or what they name cannot be used."""
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -29,11 +36,31 @@ def _parser() -> argparse.ArgumentParser:
     serve.add_argument("--host", help="address to listen on (default: the setting, 127.0.0.1)")
     serve.add_argument("--port", type=int, help="port, 0 for a free one (default: 8000)")
     serve.add_argument("--data-dir", type=Path, help="folder of database, pictures and results")
+    serve.add_argument("--models-dir", type=Path, help="folder of female.npz and male.npz")
     serve.add_argument("--no-worker", action="store_true", help="the workers run elsewhere")
     serve.set_defaults(command=_serve)
 
     worker = commands.add_parser("worker", help="run fits for the API of the same database")
     worker.set_defaults(command=_worker)
+
+    keys = commands.add_parser("keys", help="make, list and revoke API keys")
+    actions = keys.add_subparsers(required=True, dest="action", metavar="ACTION")
+    create = actions.add_parser("create", help="make a key and print it, once")
+    create.add_argument("tenant", help="whose jobs it opens; made by being named")
+    create.add_argument(
+        "--role",
+        choices=("fits", "metrics"),
+        default="fits",
+        help="metrics: opens /metrics and nothing else (default: %(default)s)",
+    )
+    actions.add_parser("list", help="list all keys")
+    revoke = actions.add_parser("revoke", help="make a key useless")
+    revoke.add_argument("id", help="the part of the key between the underscores")
+    keys.set_defaults(command=_keys)
+
+    health = commands.add_parser("health", help="exit with 0 if the service here is ready")
+    health.add_argument("--worker", action="store_true", help="ask for the worker, not the API")
+    health.set_defaults(command=_health)
 
     fit = commands.add_parser("fit", help="fit one picture here and now, without a service")
     fit.add_argument("image", type=Path, metavar="IMAGE", help="JPEG, PNG or WebP")
@@ -51,6 +78,12 @@ def _parser() -> argparse.ArgumentParser:
     fit.add_argument("--cues", choices=("SE", "SES"))
     fit.add_argument("--optimizer", choices=("gauss_newton", "simplex"))
     fit.add_argument("--mask", type=Path, metavar="IMAGE", help="replaces the segmentation")
+    fit.add_argument(
+        "--models",
+        type=Path,
+        metavar="DIR",
+        help="folder of female.npz or male.npz (default: the packaged body models)",
+    )
     fit.add_argument(
         "--output",
         type=Path,
@@ -80,24 +113,17 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _serve(parsed: argparse.Namespace) -> int:
-    from pydantic import ValidationError
-
     from service.logs import configure_logging
     from service.serve import WORKER_COMMAND, listen, serve
-    from service.settings import Settings
 
-    given = {
-        name: value
-        for name in ("host", "port", "data_dir")
-        if (value := getattr(parsed, name)) is not None
-    }
-    try:
-        settings = Settings(**given)
-    except ValidationError as error:
-        for fault in error.errors():
-            name = "".join(str(part) for part in fault["loc"])
-            print(f"maquette serve: {name}: {fault['msg']}.", file=sys.stderr)
-        return 2
+    settings = _settings(
+        "serve",
+        **{
+            name: value
+            for name in ("host", "port", "data_dir", "models_dir")
+            if (value := getattr(parsed, name)) is not None
+        },
+    )
     try:
         listener = listen(settings)
     except OSError as error:
@@ -106,26 +132,78 @@ def _serve(parsed: argparse.Namespace) -> int:
             f"({error.strerror}). Stop what listens there, or choose another port with --port.",
             file=sys.stderr,
         )
-        return 2
-    configure_logging(settings.log_level)
-    serve(
-        settings,
-        listener,
-        worker_command=None if parsed.no_worker else WORKER_COMMAND,
-        announce=lambda text: print(text, flush=True),
+        return UNUSABLE
+    configure_logging(settings.log_level, settings.log_format)
+    return _told(
+        "serve",
+        lambda: serve(
+            settings,
+            listener,
+            worker_command=None if parsed.no_worker else WORKER_COMMAND,
+            announce=lambda text: print(text, flush=True),
+        ),
     )
-    return 0
 
 
 def _worker(_: argparse.Namespace) -> int:
     from service.logs import configure_logging
-    from service.settings import Settings
     from service.worker.main import run_worker
 
-    settings = Settings()
-    configure_logging(settings.log_level)
-    run_worker(settings, follow_stdin=False)
-    return 0
+    settings = _settings("worker")
+    configure_logging(settings.log_level, settings.log_format)
+    return _told("worker", lambda: run_worker(settings, follow_stdin=False))
+
+
+def _keys(parsed: argparse.Namespace) -> int:
+    from service import key_commands
+    from service.engine.keys import Role
+
+    settings = _settings("keys")
+    commands: dict[str, Callable[[], int]] = {
+        "create": lambda: key_commands.create_key(
+            settings, tenant=parsed.tenant, role=Role(parsed.role)
+        ),
+        "list": lambda: key_commands.list_keys(settings),
+        "revoke": lambda: key_commands.revoke_key(settings, identity=parsed.id),
+    }
+    return _told("keys", commands[parsed.action])
+
+
+def _health(parsed: argparse.Namespace) -> int:
+    from service.health_command import api_health, worker_health
+
+    settings = _settings("health")
+    check = worker_health if parsed.worker else api_health
+    return _told("health", lambda: check(settings))
+
+
+def _settings(command: str, **given: object) -> "Settings":
+    from pydantic import ValidationError
+
+    from service.settings import Settings
+
+    try:
+        return Settings(**given)  # pyright: ignore[reportArgumentType]
+    except ValidationError as error:
+        for fault in error.errors():
+            name = "".join(str(part) for part in fault["loc"])
+            print(f"maquette {command}: {name}: {fault['msg']}.", file=sys.stderr)
+        sys.exit(UNUSABLE)
+
+
+def _told(command: str, run: Callable[[], int | None]) -> int:
+    """Run a command; what only then turns out to be set wrong is said in a line."""
+    from service.engine.database import DatabaseUnusableError
+    from service.engine.port import EngineUnavailableError
+    from service.settings import SettingError
+
+    try:
+        return run() or 0
+    except (DatabaseUnusableError, SettingError) as error:
+        print(f"maquette {command}: {error}", file=sys.stderr)
+    except EngineUnavailableError:
+        print(f"maquette {command}: the database is not available.", file=sys.stderr)
+    return UNUSABLE
 
 
 def _fit(parsed: argparse.Namespace) -> int:
@@ -136,6 +214,7 @@ def _fit(parsed: argparse.Namespace) -> int:
             image=parsed.image,
             points=parsed.points,
             mask=parsed.mask,
+            models=parsed.models,
             output=parsed.output,
             overrides={
                 name: value

@@ -1,17 +1,19 @@
 """What a picture's header says of it, read without decoding a pixel.
 
-The API looks only this far: kind by magic bytes, size, EXIF orientation, animation. Decoders meet
-the caller's bytes in the child process alone, so this reads the three containers by itself.
+The API looks only this far: kind by magic bytes, size, EXIF orientation and focal length,
+animation. Decoders meet the caller's bytes in the child process alone, so this reads the three
+containers by itself.
 
 Sources: ITU-T T.81 annex B (JPEG markers), the PNG specification section 11, the WebP container
-specification, TIFF 6.0 section 2 and Exif 2.32 tag 0x0112 (orientation).
+specification.
 """
 
 import struct
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-ORIENTATION_TAG = 0x0112
+from service.exif_header import ExifFacts, read_exif_facts
+
 TURNED = range(5, 9)
 """Orientations that swap width and height."""
 
@@ -27,12 +29,16 @@ JPEG_APP1 = 0xE1
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ImageHeader:
-    """Kind and upright size (EXIF orientation applied) of a picture."""
+    """Kind and upright size (EXIF orientation applied) of a picture.
+
+    ``focal_length_35mm`` is the equivalent its EXIF data name, None where they name none.
+    """
 
     media_type: str
     width: int
     height: int
     animated: bool
+    focal_length_35mm: float | None
 
 
 class UnknownImageError(Exception):
@@ -67,18 +73,24 @@ def read_image_header(content: bytes) -> ImageHeader:
 
 
 def _header(
-    media_type: str, width: int, height: int, *, orientation: int, animated: bool
+    media_type: str, width: int, height: int, *, exif: ExifFacts, animated: bool
 ) -> ImageHeader:
     if width < 1 or height < 1:
         message = "the header gives a size of zero"
         raise DamagedImageError(message)
-    if orientation in TURNED:
+    if exif.orientation in TURNED:
         width, height = height, width
-    return ImageHeader(media_type=media_type, width=width, height=height, animated=animated)
+    return ImageHeader(
+        media_type=media_type,
+        width=width,
+        height=height,
+        animated=animated,
+        focal_length_35mm=exif.focal_length_35mm,
+    )
 
 
 def _jpeg(content: bytes) -> ImageHeader:
-    orientation = 1
+    exif = ExifFacts()
     position = 2
     for _ in range(MAX_SEGMENTS):
         if content[position] != 0xFF:
@@ -97,9 +109,9 @@ def _jpeg(content: bytes) -> ImageHeader:
         (length,) = struct.unpack_from(">H", content, position + 2)
         if marker in JPEG_FRAME_MARKERS:
             height, width = struct.unpack_from(">HH", content, position + 5)
-            return _header("image/jpeg", width, height, orientation=orientation, animated=False)
+            return _header("image/jpeg", width, height, exif=exif, animated=False)
         if marker == JPEG_APP1 and content[position + 4 : position + 10] == b"Exif\0\0":
-            orientation = _orientation(content[position + 10 : position + 2 + length])
+            exif = read_exif_facts(content[position + 10 : position + 2 + length])
         position += 2 + length
     message = "it has no end of segments"
     raise DamagedImageError(message)
@@ -110,7 +122,7 @@ def _png(content: bytes) -> ImageHeader:
         message = "the header chunk is missing"
         raise DamagedImageError(message)
     width, height = struct.unpack_from(">II", content, 16)
-    orientation = 1
+    exif = ExifFacts()
     animated = False
     position = 8
     for _ in range(MAX_SEGMENTS):
@@ -121,9 +133,9 @@ def _png(content: bytes) -> ImageHeader:
         if kind == b"acTL":
             animated = True
         elif kind == b"eXIf":
-            orientation = _orientation(content[position + 8 : position + 8 + length])
+            exif = read_exif_facts(content[position + 8 : position + 8 + length])
         position += 12 + length
-    return _header("image/png", width, height, orientation=orientation, animated=animated)
+    return _header("image/png", width, height, exif=exif, animated=animated)
 
 
 def _webp(content: bytes) -> ImageHeader:
@@ -131,14 +143,16 @@ def _webp(content: bytes) -> ImageHeader:
     if kind == b"VP8 ":
         width, height = struct.unpack_from("<HH", content, 26)
         # The two upper bits are a scale for display that decoders ignore.
-        return _header("image/webp", width & 0x3FFF, height & 0x3FFF, orientation=1, animated=False)
+        return _header(
+            "image/webp", width & 0x3FFF, height & 0x3FFF, exif=ExifFacts(), animated=False
+        )
     if kind == b"VP8L":
         (packed,) = struct.unpack_from("<I", content, 21)
         return _header(
             "image/webp",
             (packed & 0x3FFF) + 1,
             (packed >> 14 & 0x3FFF) + 1,
-            orientation=1,
+            exif=ExifFacts(),
             animated=False,
         )
     if kind != b"VP8X":
@@ -148,12 +162,12 @@ def _webp(content: bytes) -> ImageHeader:
     animated = bool(flags & 0x02)
     width = int.from_bytes(sizes[:3], "little") + 1
     height = int.from_bytes(sizes[3:], "little") + 1
-    orientation = 1
+    exif = ExifFacts()
     for chunk, start, length in _riff_chunks(content):
         if chunk == b"EXIF":
-            exif = content[start : start + length]
-            orientation = _orientation(exif.removeprefix(b"Exif\0\0"))
-    return _header("image/webp", width, height, orientation=orientation, animated=animated)
+            block = content[start : start + length]
+            exif = read_exif_facts(block.removeprefix(b"Exif\0\0"))
+    return _header("image/webp", width, height, exif=exif, animated=animated)
 
 
 def _riff_chunks(content: bytes) -> Iterator[tuple[bytes, int, int]]:
@@ -164,21 +178,3 @@ def _riff_chunks(content: bytes) -> Iterator[tuple[bytes, int, int]]:
         (length,) = struct.unpack_from("<I", content, position + 4)
         yield content[position : position + 4], position + 8, length
         position += 8 + length + (length & 1)
-
-
-def _orientation(tiff: bytes) -> int:
-    """Orientation from a TIFF block; 1 (upright) where the block is absent or damaged."""
-    order = {b"II": "<", b"MM": ">"}.get(tiff[:2])
-    if order is None:
-        return 1
-    try:
-        (offset,) = struct.unpack_from(f"{order}I", tiff, 4)
-        (count,) = struct.unpack_from(f"{order}H", tiff, offset)
-        for entry in range(count):
-            tag, kind = struct.unpack_from(f"{order}HH", tiff, offset + 2 + 12 * entry)
-            if tag == ORIENTATION_TAG and kind == 3:
-                (value,) = struct.unpack_from(f"{order}H", tiff, offset + 10 + 12 * entry)
-                return value if 1 <= value <= 8 else 1
-    except struct.error:
-        return 1
-    return 1

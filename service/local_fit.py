@@ -10,9 +10,11 @@ from rich.console import Console
 
 from api_schemas.problems import Problem, field_problem, problem
 from api_schemas.requests import FitOptions
+from fitter.errors import ModelFileError
 from service.demo_sample import load_sample
+from service.refusal import RefusedError
 from service.settings import Settings
-from service.submission import RefusedError, check_submission
+from service.submission import check_submission
 from service.terminal import print_problem, print_result, stage_bars
 from service.worker.artifacts import with_result_document
 from service.worker.pipeline_port import (
@@ -29,11 +31,15 @@ UNUSABLE_INPUT: Final = 2
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FitArguments:
-    """What the command line says; ``overrides`` replace what the points file says."""
+    """What the command line says; ``overrides`` replace what the points file says.
+
+    ``models`` is the folder of the body models, None for the service's setting.
+    """
 
     image: Path
     points: Path
     mask: Path | None
+    models: Path | None
     output: Path
     overrides: Mapping[str, object]
 
@@ -63,7 +69,17 @@ def fit_locally(arguments: FitArguments, *, pipeline: str = PIPELINE) -> int:
         request = request_from_file(arguments.points.read_text(), arguments.overrides)
         image = arguments.image.read_bytes()
         mask = None if arguments.mask is None else arguments.mask.read_bytes()
-        output = _fit(console, request=request, image=image, mask=mask, pipeline=pipeline)
+        output = _fit(
+            console,
+            request=request,
+            image=image,
+            mask=mask,
+            models=arguments.models,
+            pipeline=pipeline,
+        )
+    except ModelFileError as error:
+        console.print(f"[bold red]The body model cannot be used.[/] {error}", highlight=False)
+        return UNUSABLE_INPUT
     except OSError as error:
         console.print(f"[bold red]{error.strerror}:[/] {error.filename}")
         return UNUSABLE_INPUT
@@ -86,12 +102,25 @@ def warm_up(*, pipeline: str = PIPELINE) -> int:
     """Fit the sample once, so that whatever is compiled at first use is compiled and cached."""
     console = Console()
     sample = load_sample()
-    _fit(console, request=sample.request, image=sample.image, mask=None, pipeline=pipeline)
+    _fit(
+        console,
+        request=sample.request,
+        image=sample.image,
+        mask=None,
+        models=None,
+        pipeline=pipeline,
+    )
     return 0
 
 
 def _fit(
-    console: Console, *, request: bytes, image: bytes, mask: bytes | None, pipeline: str
+    console: Console,
+    *,
+    request: bytes,
+    image: bytes,
+    mask: bytes | None,
+    models: Path | None,
+    pipeline: str,
 ) -> PipelineOutput:
     settings = Settings()
     checked = check_submission(
@@ -100,7 +129,11 @@ def _fit(
     with stage_bars(console) as bars:
         output = load_pipeline(pipeline).run(
             PipelineInput(
-                options=checked.options, image=image, mask=mask, max_pixels=settings.max_pixels
+                options=checked.options,
+                image=image,
+                mask=mask,
+                max_pixels=settings.max_pixels,
+                models=models or settings.models_dir,
             ),
             lambda report: bars.show(report.stage, report.progress),
         )

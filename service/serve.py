@@ -5,6 +5,7 @@ import os
 import signal
 import socket
 import sys
+import threading
 from collections.abc import Callable, Sequence
 from typing import Final
 
@@ -52,43 +53,49 @@ def serve(
             stop_timeout_s=settings.drain_s + STOP_MARGIN_S,
         )
     # Imported while the worker starts: each of the two takes a second or more to load.
-    import uvicorn
-
     from service.api.app import create_app
-    from service.blobs import BlobStore
+    from service.api.server import ApiServer
+    from service.blobs import open_blob_store
     from service.engine.database import open_database, prepare_database
     from service.engine.dbos_jobs import DbosJobEngine
+    from service.engine.keys import KeyRing
+    from service.tracing import start_tracing
 
+    tracing = start_tracing(settings, role="api")
     prepare_database(settings.system_database_url)
+    blobs = open_blob_store(settings)
+    database = open_database(settings.system_database_url)
     engine = DbosJobEngine(
-        open_database(settings.system_database_url),
+        database,
+        blobs,
         max_queued=settings.max_queued,
+        max_queued_per_tenant=settings.tenant_queue_limit,
+        retention_s=settings.retention_s,
+        sweep_interval_s=settings.sweep_interval_s,
+        heartbeat_s=settings.heartbeat_s,
         dead_after_s=settings.dead_after_s,
     )
-    app = create_app(settings=settings, engine=engine, blobs=BlobStore(settings.blob_dir))
-    server = uvicorn.Server(
-        uvicorn.Config(
-            app,
-            log_config=None,
-            log_level=settings.log_level.lower(),
-            # Paths hold job ids; what happens to a job is logged where it happens.
-            access_log=False,
-            timeout_graceful_shutdown=5,
-            server_header=False,
-        )
+    draining = threading.Event()
+    app = create_app(
+        settings=settings, engine=engine, blobs=blobs, keys=KeyRing(database), draining=draining
     )
-    # Uvicorn takes the signals while it runs, and raises them again when it is done: they must not
-    # end the process before the worker is stopped.
+    server = ApiServer(
+        app, log_level=settings.log_level, draining=draining, stop_delay_s=settings.stop_delay_s
+    )
+    # The server takes the signals while it runs, and raises them again when it is done: they must
+    # not end the process before the worker is stopped.
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: setattr(server, "should_exit", True))
     host, port = listener.getsockname()[:2]
     announce(f"Maquette listens on http://{host}:{port}, documented at /docs.")
+    engine.start()
     try:
         server.run(sockets=[listener])
     finally:
         if worker is not None:
             worker.stop()
         engine.close()
+        tracing.stop()
 
 
 def _stop_before_serving(_number: int, _frame: object) -> None:

@@ -1,13 +1,24 @@
 """Every setting of the service, once. Built in the entry point and passed down."""
 
+import ipaddress
 import os
 from pathlib import Path
-from typing import Final
+from typing import Final, Literal
+from urllib.parse import urlsplit
 
-from pydantic import Field
+from pydantic import Field, ValidationInfo, field_validator
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
 PREFIX: Final = "MAQUETTE_"
+
+
+class SettingError(Exception):
+    """A setting cannot be followed; found out only when it was tried."""
+
+    def __init__(self, reason: str, *, name: str) -> None:
+        super().__init__(f"{PREFIX}{name.upper()}: {reason}")
+        self.name = name
+        self.reason = reason
 
 
 class Settings(BaseSettings):
@@ -17,6 +28,18 @@ class Settings(BaseSettings):
 
     host: str = Field(default="127.0.0.1", description="Address the API listens on.")
     port: int = Field(default=8000, ge=0, le=65535, description="Port the API listens on.")
+    authentication: Literal["off", "keys"] = Field(
+        default="off",
+        validate_default=True,
+        description=(
+            "`keys`: every request needs an API key (`maquette keys create`). `off`: no keys, one "
+            "tenant, and the service listens on loopback addresses only."
+        ),
+    )
+    cors_origins: str = Field(
+        default="",
+        description="Origins whose pages may call the API from a browser, separated by commas.",
+    )
     data_dir: Path = Field(
         default=Path("maquette-data"),
         description="Folder of the embedded database, the pictures and the results.",
@@ -24,6 +47,24 @@ class Settings(BaseSettings):
     database_url: str | None = Field(
         default=None,
         description="`postgresql://...` for several machines; SQLite in the data folder if unset.",
+    )
+    blob_url: str | None = Field(
+        default=None,
+        description=(
+            "`s3://bucket/prefix` for pictures and results in object storage (credentials from "
+            "`AWS_ACCESS_KEY_ID` and so on); the data folder if unset."
+        ),
+    )
+    s3_endpoint_url: str | None = Field(
+        default=None, description="Address of an S3-compatible server; Amazon's own if unset."
+    )
+    s3_region: str | None = Field(
+        default=None,
+        description="Region of the bucket; the S3 client's own if unset.",
+    )
+    models_dir: Path | None = Field(
+        default=None,
+        description="Folder with `female.npz` and `male.npz`; the packaged body models if unset.",
     )
     max_upload_bytes: int = Field(
         default=50_000_000, ge=1, description="Largest request body accepted."
@@ -33,6 +74,24 @@ class Settings(BaseSettings):
     )
     max_queued: int = Field(
         default=1_000, ge=1, description="Jobs that may wait before new ones are refused (503)."
+    )
+    max_queued_per_tenant: int = Field(
+        default=200,
+        ge=1,
+        description="Jobs of one tenant that may wait before its new ones are refused (429).",
+    )
+    requests_per_minute: int = Field(
+        default=1_200,
+        ge=1,
+        description="Requests of one API key, at each API process, before it is refused (429).",
+    )
+    retention_hours: float = Field(
+        default=168.0,
+        gt=0.0,
+        description="A job is erased, with its picture and results, this long after its end.",
+    )
+    sweep_interval_s: float = Field(
+        default=60.0, gt=0.0, description="How often what has expired is looked for and erased."
     )
     worker_processes: int = Field(
         default_factory=lambda: os.cpu_count() or 1,
@@ -53,6 +112,14 @@ class Settings(BaseSettings):
         ge=0.0,
         description="How long a stopping worker waits for its fits before handing them back.",
     )
+    stop_delay_s: float = Field(
+        default=0.0,
+        ge=0.0,
+        description=(
+            "How long a stopping API still answers while it reports itself not ready, so that a "
+            "load balancer can turn away from it."
+        ),
+    )
     heartbeat_s: float = Field(
         default=2.0, gt=0.0, description="How often a worker says that it is alive."
     )
@@ -71,12 +138,84 @@ class Settings(BaseSettings):
     min_free_disk_mb: int = Field(
         default=200, ge=0, description="With less free disk the service reports itself not ready."
     )
-    log_level: str = Field(default="INFO", description="DEBUG, INFO, WARNING or ERROR.")
+    log_level: Literal["DEBUG", "INFO", "WARNING", "ERROR"] = Field(
+        default="INFO", description="DEBUG, INFO, WARNING or ERROR."
+    )
+    log_format: Literal["text", "json"] = Field(
+        default="text", description="`json` for one object a line, `text` for people."
+    )
+    traces_endpoint: str | None = Field(
+        default=None,
+        description=(
+            "Address of an OTLP/HTTP collector (`http://host:4318`) to send traces to; none are "
+            "made if unset."
+        ),
+    )
+
+    @field_validator("authentication")
+    @classmethod
+    def _open_to_this_machine_only(cls, authentication: str, info: ValidationInfo) -> str:
+        host = str(info.data.get("host", ""))
+        if authentication == "off" and host and not is_loopback(host):
+            message = (
+                f"without API keys the service listens on this machine only, not on {host}: set "
+                f"{PREFIX}AUTHENTICATION=keys and create a key with `maquette keys create`, or "
+                "leave the host at 127.0.0.1"
+            )
+            raise ValueError(message)
+        return authentication
+
+    @field_validator("blob_url")
+    @classmethod
+    def _is_a_bucket(cls, url: str | None) -> str | None:
+        if url is not None and (urlsplit(url).scheme != "s3" or not urlsplit(url).netloc):
+            message = "write it as s3://bucket or s3://bucket/prefix"
+            raise ValueError(message)
+        return url
+
+    @field_validator("cors_origins")
+    @classmethod
+    def _are_origins(cls, origins: str) -> str:
+        for origin in split_origins(origins):
+            parts = urlsplit(origin)
+            if (
+                parts.scheme not in ("http", "https")
+                or origin != f"{parts.scheme}://{parts.netloc}"
+            ):
+                message = (
+                    f"{origin!r} is no origin; write scheme, host and port, as in https://host"
+                )
+                raise ValueError(message)
+        return origins
+
+    @field_validator("models_dir")
+    @classmethod
+    def _both_models_are_there(cls, folder: Path | None) -> Path | None:
+        for name in ("female.npz", "male.npz"):
+            if folder is not None and not (folder / name).is_file():
+                message = f"no {name} in {folder}: train one, or copy the packaged one there"
+                raise ValueError(message)
+        return folder
 
     @property
     def system_database_url(self) -> str:
         """The database of jobs: the one named, or the embedded one."""
         return self.database_url or f"sqlite:///{self.data_dir.resolve() / 'maquette.sqlite'}"
+
+    @property
+    def allowed_origins(self) -> tuple[str, ...]:
+        """Origins of other sites whose pages may call the API."""
+        return split_origins(self.cors_origins)
+
+    @property
+    def tenant_queue_limit(self) -> int:
+        """How many jobs of one tenant may wait; the sole tenant's are all there are."""
+        return self.max_queued if self.authentication == "off" else self.max_queued_per_tenant
+
+    @property
+    def retention_s(self) -> float:
+        """How long an ended job is kept."""
+        return self.retention_hours * 3600.0
 
     @property
     def blob_dir(self) -> Path:
@@ -87,3 +226,16 @@ class Settings(BaseSettings):
         """Write these settings as the environment of another process that is to share them."""
         values = self.model_dump(mode="json", exclude_none=True)
         return {f"{PREFIX}{name.upper()}": str(value) for name, value in values.items()}
+
+
+def is_loopback(host: str) -> bool:
+    """Say whether an address, or the name ``localhost``, is reached from this machine only."""
+    try:
+        return ipaddress.ip_address(host.strip("[]")).is_loopback
+    except ValueError:
+        return host == "localhost"
+
+
+def split_origins(text: str) -> tuple[str, ...]:
+    """Read the list of origins."""
+    return tuple(origin.strip() for origin in text.split(",") if origin.strip())

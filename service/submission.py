@@ -8,10 +8,9 @@ from dataclasses import dataclass
 from typing import Final
 
 from pydantic import ValidationError
-from pydantic_core import PydanticCustomError
 
-from api_schemas.points import Point, PointName, PointsFormat, named_points
-from api_schemas.problems import FieldProblem, Problem, field_problem, problem
+from api_schemas.points import PointsFormat
+from api_schemas.problems import FieldProblem, problem
 from api_schemas.requests import FitOptions
 from service.image_header import (
     DamagedImageError,
@@ -19,20 +18,11 @@ from service.image_header import (
     UnknownImageError,
     read_image_header,
 )
+from service.point_rules import checked_points
+from service.refusal import RefusedError, refused
 from service.validation import field_problems
 
-MIN_POINTS: Final = 4
-"""Fewer points cannot tell a body's place, size and lean apart; the fit itself may ask for more."""
-
 ACCEPTED_KINDS: Final = "JPEG, PNG or WebP"
-
-
-class RefusedError(Exception):
-    """A submission that cannot be accepted."""
-
-    def __init__(self, reason: Problem) -> None:
-        super().__init__(reason.detail)
-        self.problem = reason
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -70,30 +60,14 @@ def check_submission(
         mask_header = _check_picture("mask", mask, max_pixels=max_pixels)
         _check_same_size(header, mask_header)
         mask_media_type = mask_header.media_type
-    try:
-        points = named_points(
-            options.points, options.format, width=header.width, height=header.height
-        )
-    except PydanticCustomError as error:
-        context = error.context or {}
-        raise _refused(
-            FieldProblem(
-                field=str(context.get("field", "points")),
-                code=error.type,
-                reason=str(context.get("reason", error.message())),
-                remedy=str(context.get("remedy", "")),
-            )
-        ) from error
-    _check_points(points, header)
+    points = checked_points(
+        options.points, options.format, width=header.width, height=header.height
+    )
     return CheckedSubmission(
         options=options.model_copy(update={"points": points, "format": PointsFormat.NAMED}),
         image_media_type=header.media_type,
         mask_media_type=mask_media_type,
     )
-
-
-def _refused(*errors: FieldProblem, slug: str = "invalid-request") -> RefusedError:
-    return RefusedError(field_problem(slug, *errors))
 
 
 def _parse(request: bytes) -> FitOptions:
@@ -113,12 +87,12 @@ def _parse(request: bytes) -> FitOptions:
                     errors=errors,
                 )
             ) from error
-        raise _refused(*errors) from error
+        raise refused(*errors) from error
 
 
 def _check_picture(field: str, content: bytes, *, max_pixels: int) -> ImageHeader:
     if not content:
-        raise _refused(
+        raise refused(
             FieldProblem(
                 field=field,
                 code="empty-upload",
@@ -129,7 +103,7 @@ def _check_picture(field: str, content: bytes, *, max_pixels: int) -> ImageHeade
     try:
         header = read_image_header(content)
     except UnknownImageError as error:
-        raise _refused(
+        raise refused(
             FieldProblem(
                 field=field,
                 code="not-an-image",
@@ -139,7 +113,7 @@ def _check_picture(field: str, content: bytes, *, max_pixels: int) -> ImageHeade
             slug="unsupported-media-type",
         ) from error
     except DamagedImageError as error:
-        raise _refused(
+        raise refused(
             FieldProblem(
                 field=field,
                 code="image-damaged",
@@ -148,7 +122,7 @@ def _check_picture(field: str, content: bytes, *, max_pixels: int) -> ImageHeade
             )
         ) from error
     if header.animated:
-        raise _refused(
+        raise refused(
             FieldProblem(
                 field=field,
                 code="image-animated",
@@ -157,7 +131,7 @@ def _check_picture(field: str, content: bytes, *, max_pixels: int) -> ImageHeade
             )
         )
     if header.width * header.height > max_pixels:
-        raise _refused(
+        raise refused(
             FieldProblem(
                 field=field,
                 code="image-too-large",
@@ -173,7 +147,7 @@ def _check_picture(field: str, content: bytes, *, max_pixels: int) -> ImageHeade
 
 def _check_same_size(image: ImageHeader, mask: ImageHeader) -> None:
     if (image.width, image.height) != (mask.width, mask.height):
-        raise _refused(
+        raise refused(
             FieldProblem(
                 field="mask",
                 code="mask-size-mismatch",
@@ -182,32 +156,5 @@ def _check_same_size(image: ImageHeader, mask: ImageHeader) -> None:
                     f"{image.width} x {image.height}."
                 ),
                 remedy="Send a mask of the picture's size as a browser shows it.",
-            )
-        )
-
-
-def _check_points(points: dict[PointName, Point], header: ImageHeader) -> None:
-    outside = tuple(
-        FieldProblem(
-            field=f"points.{name}",
-            code="point-outside-image",
-            reason=(
-                f"({point.x:g}, {point.y:g}) lies outside the picture of {header.width} x "
-                f"{header.height} pixels."
-            ),
-            remedy="Leave out points that are not in the picture.",
-        )
-        for name, point in points.items()
-        if not (0.0 <= point.x <= header.width and 0.0 <= point.y <= header.height)
-    )
-    if outside:
-        raise _refused(*outside)
-    if len(points) < MIN_POINTS:
-        raise _refused(
-            FieldProblem(
-                field="points",
-                code="too-few-points",
-                reason=f"There are {len(points)} points; a fit needs at least {MIN_POINTS}.",
-                remedy="Click more points; shoulders, hips, knees and elbows help most.",
             )
         )

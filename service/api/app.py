@@ -2,18 +2,36 @@
 
 import asyncio
 import json
+import threading
 from collections.abc import AsyncIterator, Callable
 from contextlib import AbstractAsyncContextManager, asynccontextmanager, suppress
 from typing import Any, Final
 
 from fastapi import FastAPI
+from starlette.middleware.cors import CORSMiddleware
 
-from service.api import body_models, events, fits, health, problem_types, results, submissions
+from service.api import (
+    body_models,
+    documentation,
+    events,
+    fits,
+    health,
+    metrics,
+    problem_types,
+    results,
+    submissions,
+)
+from service.api.authentication import Authentication, KeySource, KnownKeys
 from service.api.body_limit import BodyLimit
-from service.api.context import ApiContext
+from service.api.context import Parts
 from service.api.event_feed import EventFeed
+from service.api.figures import Figures
+from service.api.local_guard import LocalGuard
+from service.api.observation import Observation
 from service.api.openapi import complete_openapi
 from service.api.problems import install_problem_handlers
+from service.api.rate_limit import RateLimit
+from service.api.security_headers import SecurityHeaders
 from service.blobs import BlobStore
 from service.engine.port import JobEngine
 from service.settings import Settings
@@ -24,9 +42,42 @@ MULTIPART_OVERHEAD_BYTES: Final = 2_000_000
 """Room beside the pictures for the JSON part and the multipart's own lines."""
 
 
-def create_app(*, settings: Settings, engine: JobEngine, blobs: BlobStore) -> FastAPI:
-    """Build the application on an engine and a blob store that live as long as it does."""
-    feed = EventFeed(engine)
+CORS_METHODS: Final = ("DELETE", "GET", "POST")
+CORS_REQUEST_HEADERS: Final = (
+    "Authorization",
+    "Content-Type",
+    "Idempotency-Key",
+    "If-None-Match",
+    "Last-Event-ID",
+    "Prefer",
+    "Range",
+    "X-Request-Id",
+)
+CORS_ANSWER_HEADERS: Final = (
+    "Content-Range",
+    "ETag",
+    "Link",
+    "Location",
+    "Preference-Applied",
+    "Retry-After",
+    "X-Request-Id",
+)
+
+
+def create_app(
+    *,
+    settings: Settings,
+    engine: JobEngine,
+    blobs: BlobStore,
+    keys: KeySource,
+    draining: threading.Event,
+) -> FastAPI:
+    """Build the application on an engine, a blob store and keys that live as long as it does.
+
+    ``draining`` is set once the process is told to stop: it is then no longer ready, and event
+    streams end.
+    """
+    feed = EventFeed(engine, draining)
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
@@ -37,9 +88,41 @@ def create_app(*, settings: Settings, engine: JobEngine, blobs: BlobStore) -> Fa
             await following
 
     app = _resources(lifespan)
-    app.state.context = ApiContext(settings=settings, engine=engine, blobs=blobs, feed=feed)
-    app.add_middleware(BodyLimit, max_bytes=settings.max_upload_bytes + MULTIPART_OVERHEAD_BYTES)
+    figures = Figures(engine)
+    app.state.parts = Parts(
+        settings=settings,
+        engine=engine,
+        blobs=blobs,
+        feed=feed,
+        figures=figures,
+        draining=draining,
+    )
+    _surround(app, settings=settings, keys=keys, figures=figures)
     return app
+
+
+def _surround(app: FastAPI, *, settings: Settings, keys: KeySource, figures: Figures) -> None:
+    """Put the layers round the resources, innermost first."""
+    needs_keys = settings.authentication == "keys"
+    app.add_middleware(BodyLimit, max_bytes=settings.max_upload_bytes + MULTIPART_OVERHEAD_BYTES)
+    app.add_middleware(
+        Authentication,
+        keys=KnownKeys(keys) if needs_keys else None,
+        rate_limit=RateLimit(per_minute=settings.requests_per_minute),
+    )
+    if settings.allowed_origins:
+        # Outside of authentication: a browser asks for leave without a key.
+        app.add_middleware(
+            CORSMiddleware,
+            allow_origins=settings.allowed_origins,
+            allow_methods=CORS_METHODS,
+            allow_headers=CORS_REQUEST_HEADERS,
+            expose_headers=CORS_ANSWER_HEADERS,
+        )
+    if not needs_keys:
+        app.add_middleware(LocalGuard, allowed_origins=settings.allowed_origins)
+    app.add_middleware(SecurityHeaders, cross_origin=bool(settings.allowed_origins))
+    app.add_middleware(Observation, figures=figures)
 
 
 def openapi_text() -> str:
@@ -53,13 +136,24 @@ def _resources(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]] 
         version=API_VERSION,
         summary="Human body shape, pose, light and measurements from a single picture.",
         lifespan=lifespan,
+        docs_url=None,
         redoc_url=None,
         # Paths are exact: a redirect would be an answer that no schema describes.
         redirect_slashes=False,
         generate_unique_id_function=lambda route: route.name,
     )
     install_problem_handlers(app)
-    for resource in (submissions, fits, events, results, body_models, health, problem_types):
+    for resource in (
+        submissions,
+        fits,
+        events,
+        results,
+        body_models,
+        health,
+        metrics,
+        problem_types,
+        documentation,
+    ):
         app.include_router(resource.ROUTER)
     generate = app.openapi
 

@@ -1,10 +1,16 @@
 """Refuse bodies that are too large before anything reads them whole."""
 
+from typing import Final
+
 from starlette.requests import Request
+from starlette.responses import Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from api_schemas.problems import Problem, problem
 from service.api.problems import ProblemError, problem_response
+
+DISCARDED_BYTES: Final = 10_000_000
+"""How much of a body is read and thrown away before it is refused unread."""
 
 
 class BodyLimit:
@@ -22,8 +28,8 @@ class BodyLimit:
         request = Request(scope)
         declared = request.headers.get("content-length", "")
         if declared.isdecimal() and int(declared) > self._max_bytes:
-            await self._discard(receive)
-            await problem_response(request, self._too_large())(scope, receive, send)
+            answer = problem_response(request, self._too_large())
+            await refuse(answer, scope, receive, send, discard_bytes=2 * self._max_bytes)
             return
         received = 0
 
@@ -37,18 +43,30 @@ class BodyLimit:
 
         await self._app(scope, counted, send)
 
-    async def _discard(self, receive: Receive) -> None:
-        # Most clients read an answer only after they have sent their body: let them, within reason.
-        discarded = 0
-        while discarded <= 2 * self._max_bytes:
-            message = await receive()
-            discarded += len(message.get("body", b""))
-            if message["type"] != "http.request" or not message.get("more_body", False):
-                return
-
     def _too_large(self) -> Problem:
         return problem(
             "payload-too-large",
             detail=f"The body exceeds {self._max_bytes} bytes.",
             remedy="Send the picture as JPEG, or scale it down; 1500 pixels are plenty.",
         )
+
+
+async def refuse(
+    answer: Response,
+    scope: Scope,
+    receive: Receive,
+    send: Send,
+    *,
+    discard_bytes: int = DISCARDED_BYTES,
+) -> None:
+    """Answer without having looked at the body.
+
+    Most clients read an answer only after they have sent their body: let them, within reason.
+    """
+    discarded = 0
+    while discarded <= discard_bytes:
+        message = await receive()
+        discarded += len(message.get("body", b""))
+        if message["type"] != "http.request" or not message.get("more_body", False):
+            break
+    await answer(scope, receive, send)

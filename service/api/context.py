@@ -1,28 +1,62 @@
-"""What the resources share, built once in :func:`service.api.app.create_app`."""
+"""What the resources share, built once in :func:`service.api.app.create_app`, and whose it is."""
 
+import threading
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Final
 
 from fastapi import Depends, Request
 
 from service.api.event_feed import EventFeed
+from service.api.figures import Figures
 from service.blobs import BlobStore
-from service.engine.port import JobEngine
+from service.engine.port import JobEngine, TenantJobs
 from service.settings import Settings
+
+SOLE_TENANT: Final = "default"
+"""Whose jobs there are where nobody needs a key."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ApiContext:
-    """Settings, jobs, blobs and the feed of their events."""
+class Parts:
+    """Settings, engine, blobs, the feed of events, figures; ``draining`` once told to stop."""
 
     settings: Settings
     engine: JobEngine
     blobs: BlobStore
     feed: EventFeed
+    figures: Figures
+    draining: threading.Event
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ApiContext:
+    """The parts as one request may use them: ``jobs`` are those of its tenant."""
+
+    settings: Settings
+    engine: JobEngine
+    blobs: BlobStore
+    feed: EventFeed
+    figures: Figures
+    draining: threading.Event
+    tenant: str
+    jobs: TenantJobs
+    request_id: str | None
 
 
 def _context(request: Request) -> ApiContext:
-    return request.app.state.context
+    parts: Parts = request.app.state.parts
+    tenant: str = request.state.tenant
+    return ApiContext(
+        settings=parts.settings,
+        engine=parts.engine,
+        blobs=parts.blobs,
+        feed=parts.feed,
+        figures=parts.figures,
+        draining=parts.draining,
+        tenant=tenant,
+        jobs=parts.engine.of(tenant),
+        request_id=getattr(request.state, "request_id", None),
+    )
 
 
 Context = Annotated[ApiContext, Depends(_context)]

@@ -2,6 +2,7 @@
 
 import asyncio
 import logging
+import threading
 from collections import Counter
 from typing import Final
 
@@ -18,18 +19,24 @@ PAUSE_AFTER_FAILURE_S: Final = 1.0
 class EventFeed:
     """Follows the last event number of every job that someone is waiting for."""
 
-    def __init__(self, engine: JobEngine) -> None:
+    def __init__(self, engine: JobEngine, draining: threading.Event) -> None:
         self._engine = engine
+        self._draining = draining
         self._waiting: Counter[str] = Counter()
         self._last: dict[str, int] = {}
         self._changed = asyncio.Condition()
 
     async def wait_beyond(self, job_id: str, number: int, *, timeout_s: float) -> None:
-        """Return when the job has an event numbered above ``number``, is gone, or time is up."""
+        """Return when the job has an event numbered above ``number``, is gone, or time is up.
+
+        Returns at once when the process is being stopped.
+        """
         self._waiting[job_id] += 1
         try:
             async with asyncio.timeout(timeout_s), self._changed:
-                await self._changed.wait_for(lambda: self._last.get(job_id, number) != number)
+                await self._changed.wait_for(
+                    lambda: self.is_ending or self._last.get(job_id, number) != number
+                )
         except TimeoutError:
             return
         finally:
@@ -38,10 +45,19 @@ class EventFeed:
                 del self._waiting[job_id]
                 self._last.pop(job_id, None)
 
+    @property
+    def is_ending(self) -> bool:
+        """Whether the process is being stopped: whoever follows a job is to ask another one."""
+        return self._draining.is_set()
+
     async def run(self) -> None:
         """Poll until canceled; idle while nobody waits."""
         while True:
             await asyncio.sleep(POLL_S)
+            if self.is_ending:
+                async with self._changed:
+                    self._changed.notify_all()
+                continue
             waiting = list(self._waiting)
             if not waiting:
                 continue

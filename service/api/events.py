@@ -49,7 +49,7 @@ _STREAM: Final[dict[str, Any]] = {
     summary="Follow a job",
     response_class=StreamingResponse,
     responses={200: _STREAM}
-    | documented("not-found", "invalid-request", "not-ready", "internal-error"),
+    | documented("not-found", "fit-expired", "invalid-request", "not-ready", "internal-error"),
 )
 def follow(
     fit_id: UUID,
@@ -74,17 +74,20 @@ async def _stream(context: ApiContext, job_id: str, seen: int) -> AsyncIterator[
     yield format_sse_event(retry=RECONNECT_MS)
     last_sign = time.monotonic()
     while True:
-        for event in await run_in_threadpool(context.engine.events, job_id, after=seen):
+        for event in await run_in_threadpool(context.jobs.events, job_id, after=seen):
             yield _format(event)
             seen = event.number
             last_sign = time.monotonic()
             if event.kind is EventKind.END:
                 return
+        if context.feed.is_ending:
+            # The listener comes back by itself, to a process that stays, and misses nothing.
+            return
         await context.feed.wait_beyond(
             job_id, seen, timeout_s=max(0.0, last_sign + PING_S - time.monotonic())
         )
         if time.monotonic() >= last_sign + PING_S:
-            if await run_in_threadpool(context.engine.job, job_id) is None:
+            if await run_in_threadpool(context.jobs.job, job_id) is None:
                 return
             yield KEEPALIVE_COMMENT
             last_sign = time.monotonic()

@@ -35,7 +35,7 @@ def list_fits(
 ) -> JobPage:
     """List jobs; `next` and the Link header lead to the following page."""
     before = None if cursor is None else _read_cursor(cursor)
-    records = context.engine.jobs(limit=limit + 1, before=before, state=state)
+    records = context.jobs.jobs(limit=limit + 1, before=before, state=state)
     page = records[:limit]
     following = None
     if len(records) > limit:
@@ -50,7 +50,7 @@ def list_fits(
     response_model=Job,
     summary="Look at a job",
     responses={304: {"description": "Not changed since the given ETag."}}
-    | documented("not-found", "invalid-request", "not-ready", "internal-error"),
+    | documented("not-found", "fit-expired", "invalid-request", "not-ready", "internal-error"),
 )
 def get_fit(
     fit_id: UUID,
@@ -79,11 +79,11 @@ def get_fit(
         200: {"model": Job, "description": "The job has ended."},
         202: {"description": "The job is being stopped."},
     }
-    | documented("not-found", "invalid-request", "not-ready", "internal-error"),
+    | documented("not-found", "fit-expired", "invalid-request", "not-ready", "internal-error"),
 )
 def cancel(fit_id: UUID, response: Response, context: Context) -> Job:
     """Stop a job; canceling again, or canceling what has ended, changes nothing."""
-    record = context.engine.cancel(str(fit_id))
+    record = context.jobs.cancel(str(fit_id))
     if record is None:
         raise not_found(what="such job")
     if record.state in TERMINAL:
@@ -95,11 +95,13 @@ def cancel(fit_id: UUID, response: Response, context: Context) -> Job:
     "/{fit_id}",
     status_code=204,
     summary="Erase a job",
-    responses=documented("not-found", "invalid-request", "not-ready", "internal-error"),
+    responses=documented(
+        "not-found", "fit-expired", "invalid-request", "not-ready", "internal-error"
+    ),
 )
 def erase(fit_id: UUID, context: Context) -> Response:
     """Stop the job if it runs, and erase its picture, intermediate files and results."""
-    if not context.engine.erase(str(fit_id)):
+    if not context.jobs.erase(str(fit_id)):
         raise not_found(what="such job")
     context.blobs.erase(str(fit_id))
     return Response(status_code=204)
@@ -107,7 +109,7 @@ def erase(fit_id: UUID, context: Context) -> Response:
 
 def find(context: ApiContext, fit_id: UUID) -> JobRecord:
     """Return the job or raise a 404."""
-    record = context.engine.job(str(fit_id))
+    record = context.jobs.job(str(fit_id))
     if record is None:
         raise not_found(what="such job")
     return record

@@ -1,6 +1,5 @@
 """Is the process there, and can it do its work."""
 
-import shutil
 from typing import Final
 
 from fastapi import APIRouter
@@ -9,6 +8,7 @@ from api_schemas.health import Live, Ready
 from api_schemas.problems import problem
 from service.api.context import ApiContext, Context
 from service.api.problems import ProblemError, documented
+from service.blobs import BlobsUnavailableError, StorageFullError
 
 ROUTER: Final = APIRouter(prefix="/healthz", tags=["health"])
 
@@ -26,18 +26,32 @@ def live() -> Live:
     responses=documented("not-ready"),
 )
 def ready(context: Context) -> Ready:
-    """Check that the database can be written, the disk has room and a worker is alive."""
+    """Check that database and storage can be written and a worker was seen to be alive.
+
+    503 also while the process is being stopped.
+    """
+    if context.draining.is_set():
+        raise _not_ready(code="draining", detail="This process is being stopped.")
     context.engine.check_writable()
-    workers = context.engine.live_workers()
-    if _free_disk_mb(context) < context.settings.min_free_disk_mb:
-        raise _not_ready(code="disk-full", detail="The disk of the data folder is nearly full.")
+    _check_storage(context)
+    workers = sum(worker.alive is True for worker in context.engine.workers())
     if workers == 0:
         raise _not_ready(code="no-worker", detail="No worker is alive.")
     return Ready(workers=workers, queued=context.engine.queued())
 
 
-def _free_disk_mb(context: ApiContext) -> float:
-    return shutil.disk_usage(context.settings.data_dir).free / 1e6
+def _check_storage(context: ApiContext) -> None:
+    free = context.blobs.free_bytes()
+    if free is not None and free < context.settings.min_free_disk_mb * 1_000_000:
+        raise _not_ready(code="disk-full", detail="The disk of the data folder is nearly full.")
+    try:
+        context.blobs.check_writable()
+    except StorageFullError as error:
+        raise _not_ready(code="disk-full", detail="The storage is full.") from error
+    except BlobsUnavailableError as error:
+        raise _not_ready(
+            code="storage-unavailable", detail="The storage cannot be written."
+        ) from error
 
 
 def _not_ready(*, code: str, detail: str) -> ProblemError:

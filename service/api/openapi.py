@@ -10,7 +10,22 @@ from api_schemas.requests import FitOptions
 from service.api.problems import documented
 
 _ANSWERED_EVERYWHERE = {
-    str(status): answer for status, answer in documented("method-not-allowed").items()
+    str(status): answer
+    for status, answer in documented(
+        "unauthorized", "forbidden", "method-not-allowed", "too-many-requests"
+    ).items()
+}
+
+_KEY_SCHEME = "apiKey"
+_SECURITY: dict[str, Any] = {
+    "securitySchemes": {
+        _KEY_SCHEME: {
+            "type": "http",
+            "scheme": "bearer",
+            "description": "An API key, where the service asks for one "
+            "(`MAQUETTE_AUTHENTICATION=keys`).",
+        }
+    }
 }
 
 
@@ -28,10 +43,13 @@ def complete_openapi(document: dict[str, Any]) -> dict[str, Any]:
         for operation in path.values():
             if _is_fastapi_error(operation):
                 del operation["responses"]["422"]
-            operation["responses"] |= _ANSWERED_EVERYWHERE
+            operation["responses"] = _ANSWERED_EVERYWHERE | operation["responses"]
     for name in ("HTTPValidationError", "ValidationError"):
         schemas.pop(name, None)
     document["components"]["schemas"] = dict(sorted(schemas.items()))
+    document["components"] |= _SECURITY
+    # With a key or without: which of the two, the service's settings say.
+    document["security"] = [{_KEY_SCHEME: []}, {}]
     return document
 
 

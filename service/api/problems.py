@@ -3,6 +3,7 @@
 import logging
 import re
 from collections.abc import Mapping
+from datetime import UTC, datetime
 from typing import Any, Final
 
 from fastapi import FastAPI, Request
@@ -11,8 +12,9 @@ from fastapi.responses import Response
 from starlette.exceptions import HTTPException
 
 from api_schemas.problems import PROBLEM_MEDIA_TYPE, PROBLEM_TYPES, Problem, field_problem, problem
-from service.engine.port import EngineUnavailableError
-from service.submission import RefusedError
+from service.blobs import BlobsUnavailableError, StorageFullError
+from service.engine.port import EngineUnavailableError, JobExpiredError
+from service.refusal import RefusedError
 from service.validation import field_problems
 
 LOG: Final = logging.getLogger(__name__)
@@ -69,7 +71,7 @@ def problem_response(
 ) -> Response:
     """Answer with a problem."""
     located = reason.model_copy(update={"instance": request.url.path})
-    retry = {"Retry-After": str(RETRY_AFTER_S)} if reason.status == 503 else {}
+    retry = {"Retry-After": str(RETRY_AFTER_S)} if reason.status in (429, 503) else {}
     return Response(
         located.model_dump_json(),
         status_code=reason.status,
@@ -85,6 +87,8 @@ def install_problem_handlers(app: FastAPI) -> None:
     app.add_exception_handler(RequestValidationError, _on_validation)
     app.add_exception_handler(HTTPException, _on_http)
     app.add_exception_handler(EngineUnavailableError, _on_unavailable)
+    app.add_exception_handler(BlobsUnavailableError, _on_no_storage)
+    app.add_exception_handler(JobExpiredError, _on_expired)
     app.add_exception_handler(Exception, _on_fault)
 
 
@@ -131,6 +135,33 @@ def _on_unavailable(request: Request, error: Exception) -> Response:
         code="database-unavailable",
         detail="The database of jobs is not available.",
         remedy="Try again after the time in Retry-After; nothing was changed.",
+    )
+    return problem_response(request, reason)
+
+
+def _on_no_storage(request: Request, error: Exception) -> Response:
+    full = isinstance(error, StorageFullError)
+    LOG.error(
+        "%s %s: the storage is %s.", request.method, request.url.path, "full" if full else "away"
+    )
+    reason = problem(
+        "not-ready",
+        code="disk-full" if full else "storage-unavailable",
+        detail="There is no room to store the picture."
+        if full
+        else "The storage of pictures and results is not available.",
+        remedy="Try again after the time in Retry-After; nothing was kept.",
+    )
+    return problem_response(request, reason)
+
+
+def _on_expired(request: Request, error: Exception) -> Response:
+    assert isinstance(error, JobExpiredError)
+    moment = datetime.fromtimestamp(error.expired_at, UTC).isoformat(timespec="seconds")
+    reason = problem(
+        "fit-expired",
+        detail=f"The job's time was over at {moment}; its picture and results are erased.",
+        remedy="Post the picture again.",
     )
     return problem_response(request, reason)
 

@@ -31,6 +31,7 @@ def represent(record: JobRecord) -> Job:
         created_at=_moment(record.created_at),
         started_at=None if record.started_at is None else _moment(record.started_at),
         finished_at=None if record.finished_at is None else _moment(record.finished_at),
+        expires_at=None if record.expires_at is None else _moment(record.expires_at),
         problem=record.problem,
         links=JobLinks(
             self=path,

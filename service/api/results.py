@@ -13,6 +13,7 @@ from api_schemas.results import Artifact, FitResult
 from service.api.context import ApiContext, Context
 from service.api.fits import find
 from service.api.problems import ProblemError, documented, not_found
+from service.blobs import BlobMissingError
 from service.engine.port import JobRecord
 
 ROUTER: Final = APIRouter(prefix="/v1/fits", tags=["results"])
@@ -30,7 +31,9 @@ _NOT_MODIFIED: Final[dict[int | str, dict[str, Any]]] = {
     summary="The result document",
     responses={200: {"model": FitResult}}
     | _NOT_MODIFIED
-    | documented("not-found", "no-result", "invalid-request", "not-ready", "internal-error"),
+    | documented(
+        "not-found", "fit-expired", "no-result", "invalid-request", "not-ready", "internal-error"
+    ),
 )
 def result(
     fit_id: UUID, context: Context, if_none_match: Annotated[str | None, Header()] = None
@@ -59,7 +62,12 @@ def result(
     }
     | _NOT_MODIFIED
     | documented(
-        "not-found", "range-not-satisfiable", "invalid-request", "not-ready", "internal-error"
+        "not-found",
+        "fit-expired",
+        "range-not-satisfiable",
+        "invalid-request",
+        "not-ready",
+        "internal-error",
     ),
 )
 def artifact(
@@ -122,13 +130,12 @@ def _serve(
         "ETag": f'"{listed.sha256}"',
         "Cache-Control": "private, immutable, max-age=31536000",
         "Accept-Ranges": "bytes",
-        "X-Content-Type-Options": "nosniff",
     }
     if if_none_match is not None and (listed.sha256 in if_none_match or if_none_match == "*"):
         return Response(status_code=304, headers=headers)
     try:
         content = context.blobs.get(record.id, listed.sha256)
-    except FileNotFoundError as error:
+    except BlobMissingError as error:
         raise not_found(what="such job any more") from error
     if range_header is None:
         return Response(content, media_type=listed.media_type, headers=headers)

@@ -1,6 +1,6 @@
 """Submit a picture: the checks, the stored blobs, the accepted job."""
 
-import errno
+import contextlib
 import hashlib
 import re
 import time
@@ -16,6 +16,7 @@ from service.api.context import ApiContext, Context
 from service.api.problems import ProblemError, documented, not_found
 from service.api.representation import POLL_AFTER_S, job_path, represent
 from service.api.uploads import Upload, read_upload
+from service.blobs import BlobsUnavailableError
 from service.engine.port import (
     Idempotency,
     JobRecord,
@@ -26,6 +27,7 @@ from service.engine.port import (
 )
 from service.jobs import ACTIVE
 from service.submission import CheckedSubmission, check_submission
+from service.tracing import current_traceparent
 
 ROUTER: Final = APIRouter(prefix="/v1/fits", tags=["fits"])
 
@@ -89,6 +91,7 @@ _ACCEPTED_HEADERS: Final = {
         "unsupported-media-type",
         "invalid-request",
         "idempotency-key-reused",
+        "too-many-requests",
         "queue-full",
         "not-ready",
         "internal-error",
@@ -129,54 +132,51 @@ def _store(context: ApiContext, upload: Upload, idempotency_key: str | None) -> 
         max_pixels=context.settings.max_pixels,
     )
     job_id = str(uuid4())
+    idempotency = _idempotency(idempotency_key, upload)
+    # From here on the job's scope is erased by itself unless the job is accepted.
+    reserved = context.jobs.reserve(job_id, idempotency)
+    if reserved.outcome is not SubmitOutcome.ACCEPTED:
+        return reserved
     try:
-        return _keep(context, job_id, upload, checked, idempotency_key)
-    except OSError as error:
-        if error.errno not in (errno.ENOSPC, errno.EDQUOT):
-            raise
-        raise ProblemError(
-            problem(
-                "not-ready",
-                code="disk-full",
-                detail="There is no room to store the picture.",
-                remedy="Try again later; nothing was kept.",
-            )
-        ) from error
+        job = _stored(context, job_id, upload, checked, idempotency)
+    except BlobsUnavailableError:
+        _erase_at_once(context, job_id)
+        raise
+    # Should the database go away before it answers, it may have said yes: the blobs stay then.
+    submission = context.jobs.submit(job)
+    if submission.outcome is not SubmitOutcome.ACCEPTED:
+        _erase_at_once(context, job_id)
+    return submission
 
 
-def _keep(
+def _stored(
     context: ApiContext,
     job_id: str,
     upload: Upload,
     checked: CheckedSubmission,
-    idempotency_key: str | None,
-) -> Submission:
-    blobs = context.blobs
-    try:
-        image = StoredBlob(
-            digest=blobs.put(job_id, upload.image), media_type=checked.image_media_type
-        )
-        mask = None
-        if upload.mask is not None and checked.mask_media_type is not None:
-            mask = StoredBlob(
-                digest=blobs.put(job_id, upload.mask), media_type=checked.mask_media_type
-            )
-    except OSError:
-        blobs.erase(job_id)
-        raise
-    # Should the database go away before it answers, it may have said yes: the blobs stay then.
-    submission = context.engine.submit(
-        NewJob(
-            id=job_id,
-            options=checked.options.model_dump_json(),
-            image=image,
-            mask=mask,
-            idempotency=_idempotency(idempotency_key, upload),
-        )
+    idempotency: Idempotency | None,
+) -> NewJob:
+    def stored(content: bytes, media_type: str) -> StoredBlob:
+        return StoredBlob(digest=context.blobs.put(job_id, content), media_type=media_type)
+
+    mask = None
+    if upload.mask is not None and checked.mask_media_type is not None:
+        mask = stored(upload.mask, checked.mask_media_type)
+    return NewJob(
+        id=job_id,
+        options=stored(checked.options.model_dump_json().encode(), "application/json"),
+        image=stored(upload.image, checked.image_media_type),
+        mask=mask,
+        idempotency=idempotency,
+        request_id=context.request_id,
+        traceparent=current_traceparent(),
     )
-    if submission.outcome is not SubmitOutcome.ACCEPTED:
-        blobs.erase(job_id)
-    return submission
+
+
+def _erase_at_once(context: ApiContext, job_id: str) -> None:
+    # If this fails too, the sweep comes to it.
+    with contextlib.suppress(BlobsUnavailableError):
+        context.blobs.erase(job_id)
 
 
 def _idempotency(key: str | None, upload: Upload) -> Idempotency | None:
@@ -195,6 +195,24 @@ def _accepted(submission: Submission) -> JobRecord:
                 "queue-full",
                 detail="The queue of waiting jobs is full.",
                 remedy="Try again after the time in Retry-After.",
+            )
+        )
+    if submission.outcome is SubmitOutcome.TENANT_FULL:
+        raise ProblemError(
+            problem(
+                "too-many-requests",
+                code="too-many-waiting",
+                detail="Too many of your jobs are waiting already.",
+                remedy="Try again when some of them have ended.",
+            )
+        )
+    if submission.outcome is SubmitOutcome.LOST:
+        raise ProblemError(
+            problem(
+                "not-ready",
+                code="submission-lost",
+                detail="The upload took too long and was given up.",
+                remedy="Post the picture again.",
             )
         )
     if submission.job is None:
@@ -216,9 +234,13 @@ def _preferred_wait_s(prefer: str | None) -> int:
 
 async def _wait_for_end(context: ApiContext, job: JobRecord, wait_s: int) -> JobRecord:
     deadline = time.monotonic() + wait_s
-    while job.state in ACTIVE and (remaining_s := deadline - time.monotonic()) > 0:
+    while (
+        job.state in ACTIVE
+        and not context.feed.is_ending
+        and (remaining_s := deadline - time.monotonic()) > 0
+    ):
         await context.feed.wait_beyond(job.id, job.last_event, timeout_s=remaining_s)
-        latest = await run_in_threadpool(context.engine.job, job.id)
+        latest = await run_in_threadpool(context.jobs.job, job.id)
         if latest is None:
             raise not_found(what="such job any more")
         job = latest

@@ -13,7 +13,15 @@ from api_schemas.jobs import EventKind, JobState
 from api_schemas.problems import Problem, problem
 from service.engine.patience import patiently
 from service.engine.port import AttemptResult, Directive, Ending, JobRecord, Report
-from service.engine.records import ARTIFACTS, append_event, change_job, find_job, job_record
+from service.engine.records import (
+    ARTIFACTS,
+    append_event,
+    end_job,
+    find_job,
+    job_record,
+    move_job,
+)
+from service.engine.statistics import count_durations
 from service.engine.tables import JOBS
 
 FINAL_STATES: Final = {
@@ -91,25 +99,33 @@ def _current(job: JobRecord) -> tuple[sa.ColumnElement[bool], ...]:
 class AttemptLog:
     """Begin and end attempts on behalf of one worker."""
 
-    def __init__(self, database: sa.Engine, *, executor_id: str, max_crashes: int) -> None:
+    def __init__(
+        self, database: sa.Engine, *, executor_id: str, max_crashes: int, retention_s: float
+    ) -> None:
         self._database = database
         self._executor_id = executor_id
         self._max_crashes = max_crashes
+        self._retention_s = retention_s
 
     @patiently
     def begin(self, job_id: str) -> RecordedAttempt | None:
         """Claim the next attempt; None when there is nothing (more) to do for this job."""
         with self._database.begin() as connection:
-            canceled = change_job(
-                connection, job_id, JOBS.c.cancel_requested.is_(True), state=JobState.CANCELED
+            canceled = end_job(
+                connection,
+                job_id,
+                JOBS.c.cancel_requested.is_(True),
+                state=JobState.CANCELED,
+                retention_s=self._retention_s,
             )
             if canceled is not None:
                 return None
-            hopeless = change_job(
+            hopeless = end_job(
                 connection,
                 job_id,
                 JOBS.c.crashes >= self._max_crashes,
                 state=JobState.FAILED,
+                retention_s=self._retention_s,
                 values={
                     "problem": given_up(
                         f"The process fitting this picture died {self._max_crashes} times."
@@ -118,7 +134,7 @@ class AttemptLog:
             )
             if hopeless is not None:
                 return None
-            job = change_job(
+            job = move_job(
                 connection,
                 job_id,
                 state=JobState.RUNNING,
@@ -144,17 +160,24 @@ class AttemptLog:
         """Publish the result; None if the attempt was superseded or the job erased."""
         state = FINAL_STATES[result.ending]
         with self._database.begin() as connection:
-            return change_job(
+            ended = end_job(
                 connection,
                 job_id,
                 JOBS.c.attempt == attempt,
                 state=state,
+                retention_s=self._retention_s,
                 values={
                     "artifacts": ARTIFACTS.dump_json(result.artifacts).decode(),
                     "problem": result.problem.model_dump_json() if result.problem else None,
                 }
                 | ({"progress": 1.0} if state is JobState.SUCCEEDED else {}),
             )
+            if ended is not None:
+                count_durations(
+                    connection,
+                    {f"stage.{stage}": lasted for stage, lasted in result.stage_seconds.items()},
+                )
+            return ended
 
     @patiently
     def exists(self, job_id: str) -> bool:
@@ -172,7 +195,7 @@ class AttemptLog:
                 )
             ).scalars()
             for job_id in list(ids):
-                change_job(
+                move_job(
                     connection,
                     job_id,
                     JOBS.c.claimed_by == self._executor_id,
@@ -189,6 +212,7 @@ def result_to_json(attempt: int, result: AttemptResult) -> str:
             "ending": result.ending.value,
             "artifacts": ARTIFACTS.dump_python(result.artifacts, mode="json"),
             "problem": result.problem.model_dump(mode="json") if result.problem else None,
+            "stage_seconds": dict(result.stage_seconds),
         }
     )
 
@@ -202,4 +226,5 @@ def result_from_json(text: str) -> tuple[int, AttemptResult]:
         problem=None
         if values["problem"] is None
         else Problem.model_validate_json(json.dumps(values["problem"])),
+        stage_seconds=values.get("stage_seconds", {}),
     )

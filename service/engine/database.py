@@ -9,39 +9,76 @@ import sqlalchemy as sa
 from dbos import DBOS
 from sqlalchemy import event
 
-from service.engine.tables import METADATA
+from service.engine.patience import patiently
+from service.engine.tables import FACTS, JOBS, METADATA
 
 BUSY_TIMEOUT_MS: Final = 30_000
 MIGRATION_LOCK: Final = 0x6D617175
 """Key of the Postgres advisory lock held while tables are created."""
 
 
+SCHEMA_VERSION: Final = "2"
+SCHEMA_FACT: Final = "schema_version"
+
+POSTGRES_CONNECTION: Final = {
+    "connect_timeout": 5,
+    # A database host that is gone without a word is noticed in seconds, not in hours.
+    "keepalives_idle": 10,
+    "keepalives_interval": 5,
+    "keepalives_count": 3,
+    "tcp_user_timeout": 15_000,
+}
+
+
 class DatabaseUnusableError(Exception):
     """The database cannot be used as it is; the message says what to do."""
 
 
-def open_database(url: str) -> sa.Engine:
-    """Open a connection pool; creates the folder of an SQLite file, nothing else."""
+def open_database(url: str, *, connections: int = 20) -> sa.Engine:
+    """Open a pool of at most ``connections``; creates the folder of an SQLite file, nothing else.
+
+    Statements are logged without their parameters: none of a caller's data gets into a log.
+    """
     parsed = sa.make_url(url)
     if parsed.get_backend_name() == "sqlite":
         _check_sqlite_version()
         Path(parsed.database or "").parent.mkdir(parents=True, exist_ok=True)
-        engine = sa.create_engine(parsed, pool_size=10, max_overflow=10, pool_timeout=30)
+        engine = sa.create_engine(
+            parsed,
+            pool_size=connections,
+            max_overflow=0,
+            pool_timeout=30,
+            hide_parameters=True,
+        )
         event.listen(engine, "connect", _configure_sqlite)
         return engine
     return sa.create_engine(
         parsed.set(drivername="postgresql+psycopg"),
-        pool_size=10,
-        max_overflow=10,
+        pool_size=connections,
+        max_overflow=0,
         pool_timeout=30,
         pool_pre_ping=True,
+        hide_parameters=True,
+        connect_args={
+            name: value for name, value in POSTGRES_CONNECTION.items() if name not in parsed.query
+        },
     )
 
 
+@patiently
 def prepare_database(url: str) -> None:
-    """Create or migrate all tables; safe to run in several processes at once."""
-    engine = open_database(url)
+    """Create or migrate all tables; safe to run in several processes at once.
+
+    A database that is not there yet is waited for.
+
+    Raises
+    ------
+    DatabaseUnusableError
+        If it is there and cannot be used as it is.
+    """
+    engine = open_database(url, connections=2)
     try:
+        _check_schema(engine)
         if engine.dialect.name == "sqlite":
             _prepare_sqlite_file(engine)
         DBOS.migrate(url)
@@ -51,8 +88,31 @@ def prepare_database(url: str) -> None:
             else:
                 connection.execute(sa.text("BEGIN IMMEDIATE"))
             METADATA.create_all(connection)
+            _note_schema(connection)
     finally:
         engine.dispose()
+
+
+def _check_schema(engine: sa.Engine) -> None:
+    if not sa.inspect(engine).has_table(JOBS.name):
+        return
+    with engine.connect() as connection:
+        found = connection.execute(
+            sa.select(FACTS.c.value).where(FACTS.c.name == SCHEMA_FACT)
+        ).scalar_one_or_none()
+    if found != SCHEMA_VERSION:
+        message = (
+            f"The database was made by another version of Maquette (tables {found or '1'}, here "
+            f"{SCHEMA_VERSION}). Let its jobs end with that version, then start this one with a "
+            "new MAQUETTE_DATA_DIR or MAQUETTE_DATABASE_URL."
+        )
+        raise DatabaseUnusableError(message)
+
+
+def _note_schema(connection: sa.Connection) -> None:
+    known = connection.execute(sa.select(FACTS.c.name).where(FACTS.c.name == SCHEMA_FACT))
+    if known.scalar_one_or_none() is None:
+        connection.execute(sa.insert(FACTS).values(name=SCHEMA_FACT, value=SCHEMA_VERSION))
 
 
 def _check_sqlite_version() -> None:

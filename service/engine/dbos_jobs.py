@@ -1,199 +1,140 @@
-"""The caller's side of the engine: our records, with DBOS's queue behind them."""
+"""The caller's side of the engine on DBOS: jobs of tenants, and the state of the whole."""
 
-import functools
+import logging
+import threading
 import time
-from collections.abc import Callable, Sequence
-from typing import Final, ParamSpec, TypeVar
+from collections.abc import Sequence
+from typing import Final
 
 import sqlalchemy as sa
-from dbos import DBOSClient, DBOSPortableJSONSerializer, EnqueueOptions
-from sqlalchemy.exc import IntegrityError, OperationalError
-from sqlalchemy.exc import TimeoutError as PoolTimeoutError
+from dbos import DBOSClient, DBOSPortableJSONSerializer
 
 from api_schemas.body_models import BodyModels
-from api_schemas.jobs import EventData, EventKind, JobState
+from api_schemas.jobs import JobState
+from service.blobs import BlobStore
+from service.engine.availability import available
 from service.engine.liveness import WorkerWatch
-from service.engine.port import (
-    EngineUnavailableError,
-    JobEvent,
-    JobRecord,
-    NewJob,
-    Submission,
-    SubmitOutcome,
-)
-from service.engine.records import append_event, change_job, find_job, job_record
-from service.engine.tables import EVENTS, FACTS, JOBS, WORKERS
+from service.engine.port import EngineStatistics, EngineUnavailableError, WorkerStatus
+from service.engine.queue import APPLICATION
+from service.engine.statistics import read_durations, read_outcomes
+from service.engine.sweeper import Sweeper
+from service.engine.tables import FACTS, JOBS, WORKERS
+from service.engine.tenant_jobs import DbosTenantJobs
 
-APPLICATION: Final = "maquette"
-QUEUE: Final = "fits"
-WORKFLOW: Final = "fit"
-EXECUTION_VERSION: Final = "1"
-"""DBOS's application version: names the meaning of checkpoints, not of the code. Raised only when
-a stored checkpoint can no longer be continued; workers run jobs of their own version alone."""
+LOG: Final = logging.getLogger(__name__)
 
 BODY_MODELS_FACT: Final = "body_models"
 
 
-P = ParamSpec("P")
-T = TypeVar("T")
-
-
-def _available(operation: Callable[P, T]) -> Callable[P, T]:
-    @functools.wraps(operation)
-    def wrapper(*args: P.args, **kwargs: P.kwargs) -> T:
-        try:
-            return operation(*args, **kwargs)
-        except (OperationalError, PoolTimeoutError) as error:
-            raise EngineUnavailableError from error
-
-    return wrapper
-
-
 class DbosJobEngine:
-    """Accept, look up, stop and erase jobs; see :class:`service.engine.port.JobEngine`."""
+    """Jobs of tenants, workers, figures; see :class:`service.engine.port.JobEngine`.
 
-    def __init__(self, database: sa.Engine, *, max_queued: int, dead_after_s: float) -> None:
+    ``start`` begins the two things that go on by themselves: erasing what has expired, and watching
+    the workers, of whom a single look says little.
+    """
+
+    def __init__(
+        self,
+        database: sa.Engine,
+        blobs: BlobStore,
+        *,
+        max_queued: int,
+        max_queued_per_tenant: int,
+        retention_s: float,
+        sweep_interval_s: float,
+        heartbeat_s: float,
+        dead_after_s: float,
+    ) -> None:
         self._database = database
         self._max_queued = max_queued
+        self._max_queued_per_tenant = max_queued_per_tenant
+        self._retention_s = retention_s
+        self._heartbeat_s = heartbeat_s
         self._client = DBOSClient(
             system_database_engine=database,
             serializer=DBOSPortableJSONSerializer(),
             application_name=APPLICATION,
         )
         self._watch = WorkerWatch(dead_after_s=dead_after_s)
+        self._sweeper = Sweeper(database, self._client, blobs, interval_s=sweep_interval_s)
+        self._stopped = threading.Event()
+        self._watching = threading.Thread(target=self._watch_workers, name="watch", daemon=True)
+
+    def start(self) -> None:
+        """Begin to sweep and to watch."""
+        self._sweeper.start()
+        self._watching.start()
 
     def close(self) -> None:
-        """Release the connections."""
+        """Stop sweeping and watching, and release the connections."""
+        self._stopped.set()
+        if self._watching.is_alive():
+            self._sweeper.stop()
+            self._watching.join()
         self._client.destroy()
         self._database.dispose()
 
-    @_available
-    def submit(self, job: NewJob) -> Submission:
-        """Write the record and the queue entry in one transaction."""
-        try:
-            with self._database.begin() as connection:
-                repeated = self._repeated(connection, job)
-                if repeated is not None:
-                    return repeated
-                if self._count_queued(connection) >= self._max_queued:
-                    return Submission(outcome=SubmitOutcome.QUEUE_FULL, job=None)
-                record = self._insert(connection, job)
-                options: EnqueueOptions = {
-                    "workflow_name": WORKFLOW,
-                    "queue_name": QUEUE,
-                    "workflow_id": job.id,
-                    "app_version": EXECUTION_VERSION,
-                }
-                self._client.enqueue_in_transaction(connection, options, job.id)
-                return Submission(outcome=SubmitOutcome.ACCEPTED, job=record)
-        except IntegrityError:
-            # Two requests with one new key raced; the other one is stored by now.
-            with self._database.begin() as connection:
-                repeated = self._repeated(connection, job)
-            if repeated is None:
-                raise
-            return repeated
-
-    @_available
-    def job(self, job_id: str) -> JobRecord | None:
-        """Return the job, or None if there is none."""
-        with self._database.connect() as connection:
-            return find_job(connection, job_id)
-
-    @_available
-    def jobs(
-        self, *, limit: int, before: tuple[float, str] | None, state: JobState | None
-    ) -> Sequence[JobRecord]:
-        """Return jobs newest first."""
-        query = sa.select(JOBS).order_by(JOBS.c.created_at.desc(), JOBS.c.id.desc()).limit(limit)
-        if before is not None:
-            created_at, job_id = before
-            query = query.where(
-                sa.or_(
-                    JOBS.c.created_at < created_at,
-                    sa.and_(JOBS.c.created_at == created_at, JOBS.c.id < job_id),
-                )
-            )
-        if state is not None:
-            query = query.where(JOBS.c.state == state.value)
-        with self._database.connect() as connection:
-            return [job_record(row) for row in connection.execute(query).mappings()]
-
-    @_available
-    def cancel(self, job_id: str) -> JobRecord | None:
-        """End a queued job at once; ask the worker of a running one to stop.
-
-        A running job keeps its place in DBOS: if its worker is dead, the next one must find the
-        job, see the request and end it.
-        """
-        with self._database.begin() as connection:
-            canceled = change_job(
-                connection,
-                job_id,
-                JOBS.c.state == JobState.QUEUED.value,
-                state=JobState.CANCELED,
-                values={"cancel_requested": True},
-            )
-            if canceled is None:
-                connection.execute(
-                    sa.update(JOBS)
-                    .where(JOBS.c.id == job_id, JOBS.c.state == JobState.RUNNING.value)
-                    .values(cancel_requested=True)
-                )
-                return find_job(connection, job_id)
-        self._client.cancel_workflow(job_id)
-        return canceled
-
-    @_available
-    def erase(self, job_id: str) -> bool:
-        """Delete record, events and queue entry; a running attempt finds itself superseded."""
-        with self._database.begin() as connection:
-            found = connection.execute(sa.delete(JOBS).where(JOBS.c.id == job_id)).rowcount > 0
-        if found:
-            self._client.cancel_workflow(job_id)
-            self._client.delete_workflow(job_id)
-            self._forget_pages()
-        return found
-
-    @_available
-    def events(self, job_id: str, *, after: int) -> Sequence[JobEvent]:
-        """Return the events numbered above ``after``."""
-        query = (
-            sa.select(EVENTS)
-            .where(EVENTS.c.job_id == job_id, EVENTS.c.number > after)
-            .order_by(EVENTS.c.number)
+    def of(self, tenant: str) -> DbosTenantJobs:
+        """Return the jobs of a tenant."""
+        return DbosTenantJobs(
+            tenant,
+            database=self._database,
+            client=self._client,
+            max_queued=self._max_queued,
+            max_queued_per_tenant=self._max_queued_per_tenant,
+            retention_s=self._retention_s,
         )
-        with self._database.connect() as connection:
-            return [
-                JobEvent(
-                    number=row.number,
-                    kind=EventKind(row.kind),
-                    data=EventData.model_validate_json(row.data),
-                )
-                for row in connection.execute(query)
-            ]
 
-    @_available
+    @available
     def last_events(self, job_ids: Sequence[str]) -> dict[str, int]:
         """Return the number of the last event of each job that exists."""
         query = sa.select(JOBS.c.id, JOBS.c.last_event).where(JOBS.c.id.in_(job_ids))
         with self._database.connect() as connection:
             return {row.id: row.last_event for row in connection.execute(query)}
 
-    @_available
+    @available
     def queued(self) -> int:
         """Count the waiting jobs."""
+        query = sa.select(sa.func.count()).where(JOBS.c.state == JobState.QUEUED.value)
         with self._database.connect() as connection:
-            return self._count_queued(connection)
+            return connection.execute(query).scalar_one()
 
-    @_available
-    def live_workers(self) -> int:
-        """Count the workers that are alive."""
+    @available
+    def workers(self) -> Sequence[WorkerStatus]:
+        """Return the workers that are known and not known to be gone."""
         with self._database.connect() as connection:
             rows = connection.execute(sa.select(WORKERS)).all()
-        return len(self._watch.alive(rows))
+        return self._watch.look(rows)
 
-    @_available
+    @available
+    def statistics(self) -> EngineStatistics:
+        """Return the figures of the whole."""
+        with self._database.connect() as connection:
+            active = {
+                row.state: row
+                for row in connection.execute(
+                    sa.select(
+                        JOBS.c.state,
+                        sa.func.count().label("jobs"),
+                        sa.func.min(JOBS.c.created_at).label("oldest"),
+                    )
+                    .where(JOBS.c.state.in_([JobState.QUEUED.value, JobState.RUNNING.value]))
+                    .group_by(JOBS.c.state)
+                )
+            }
+            outcomes = read_outcomes(connection)
+            durations = read_durations(connection)
+        queued = active.get(JobState.QUEUED.value)
+        running = active.get(JobState.RUNNING.value)
+        return EngineStatistics(
+            queued=queued.jobs if queued else 0,
+            running=running.jobs if running else 0,
+            oldest_queued_s=max(0.0, time.time() - queued.oldest) if queued else 0.0,
+            outcomes=outcomes,
+            durations=durations,
+        )
+
+    @available
     def body_models(self) -> BodyModels | None:
         """Return what the worker that last started can fit; None before any did."""
         query = sa.select(FACTS.c.value).where(FACTS.c.name == BODY_MODELS_FACT)
@@ -201,7 +142,7 @@ class DbosJobEngine:
             value = connection.execute(query).scalar_one_or_none()
         return None if value is None else BodyModels.model_validate_json(value)
 
-    @_available
+    @available
     def check_writable(self) -> None:
         """Raise :class:`EngineUnavailableError` if the database cannot be written."""
         with self._database.begin() as connection:
@@ -209,60 +150,11 @@ class DbosJobEngine:
                 sa.update(FACTS).where(FACTS.c.name == BODY_MODELS_FACT).values(name=FACTS.c.name)
             )
 
-    def _repeated(self, connection: sa.Connection, job: NewJob) -> Submission | None:
-        if job.idempotency is None:
-            return None
-        row = (
-            connection.execute(sa.select(JOBS).where(JOBS.c.idempotency_key == job.idempotency.key))
-            .mappings()
-            .one_or_none()
-        )
-        if row is None:
-            return None
-        earlier = job_record(row)
-        if earlier.fingerprint != job.idempotency.fingerprint:
-            return Submission(outcome=SubmitOutcome.KEY_REUSED, job=None)
-        return Submission(outcome=SubmitOutcome.REPEATED, job=earlier)
-
-    def _insert(self, connection: sa.Connection, job: NewJob) -> JobRecord:
-        row = (
-            connection.execute(
-                sa.insert(JOBS)
-                .values(
-                    id=job.id,
-                    state=JobState.QUEUED.value,
-                    progress=0.0,
-                    attempt=0,
-                    crashes=0,
-                    cancel_requested=False,
-                    created_at=time.time(),
-                    options=job.options,
-                    image_digest=job.image.digest,
-                    image_media_type=job.image.media_type,
-                    mask_digest=job.mask.digest if job.mask else None,
-                    mask_media_type=job.mask.media_type if job.mask else None,
-                    artifacts="[]",
-                    idempotency_key=job.idempotency.key if job.idempotency else None,
-                    fingerprint=job.idempotency.fingerprint if job.idempotency else None,
-                    last_event=1,
-                )
-                .returning(JOBS)
-            )
-            .mappings()
-            .one()
-        )
-        record = job_record(row)
-        append_event(connection, record, EventKind.STATE)
-        return record
-
-    def _count_queued(self, connection: sa.Connection) -> int:
-        query = sa.select(sa.func.count()).where(JOBS.c.state == JobState.QUEUED.value)
-        return connection.execute(query).scalar_one()
-
-    def _forget_pages(self) -> None:
-        # Erased content also stands in the write-ahead log, and the file does not shrink by itself.
-        if self._database.dialect.name != "sqlite":
-            return
-        with self._database.connect() as connection:
-            connection.execute(sa.text("PRAGMA incremental_vacuum"))
-            connection.execute(sa.text("PRAGMA wal_checkpoint(TRUNCATE)"))
+    def _watch_workers(self) -> None:
+        while not self._stopped.wait(self._heartbeat_s):
+            try:
+                self.workers()
+            except EngineUnavailableError:
+                LOG.warning("The database is not available; nothing is known of the workers.")
+            except Exception:
+                LOG.exception("Watching the workers failed.")

@@ -1,28 +1,28 @@
 """The worker's side of the engine on DBOS: claim, run, publish, survive."""
 
+import contextlib
 import logging
 import os
 import threading
 import time
 import uuid
-from typing import Final
+from collections.abc import Collection
+from typing import Any, Final
 
 import sqlalchemy as sa
-from dbos import DBOS, DBOSClient, DBOSPortableJSONSerializer
+from dbos import DBOS, DBOSClient, DBOSPortableJSONSerializer, Queue
+from opentelemetry.trace import SpanKind
 
 from api_schemas.body_models import BodyModels
-from service.blobs import BlobStore
+from service.blobs import BlobStore, BlobsUnavailableError
 from service.engine.attempts import AttemptLog, result_from_json, result_to_json
-from service.engine.dbos_jobs import (
-    APPLICATION,
-    BODY_MODELS_FACT,
-    EXECUTION_VERSION,
-    QUEUE,
-    WORKFLOW,
-)
+from service.engine.dbos_jobs import BODY_MODELS_FACT
 from service.engine.heartbeat import Heartbeat, executions_table
 from service.engine.port import AttemptHandler, Ending
+from service.engine.queue import APPLICATION, EXECUTION_VERSION, QUEUE, WORKFLOW
 from service.engine.tables import FACTS
+from service.logs import fields, log_context
+from service.tracing import span
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -47,6 +47,7 @@ class DbosWorkerEngine:
         heartbeat_s: float,
         dead_after_s: float,
         queue_poll_s: float,
+        retention_s: float,
     ) -> None:
         # Never reused: two live workers under one name would run each other's jobs again.
         self.executor_id = f"{os.uname().nodename[:20]}-{uuid.uuid4().hex}"
@@ -54,16 +55,24 @@ class DbosWorkerEngine:
         self._blobs = blobs
         self._processes = processes
         self._queue_poll_s = queue_poll_s
-        self._attempts = AttemptLog(database, executor_id=self.executor_id, max_crashes=max_crashes)
+        self._attempts = AttemptLog(
+            database,
+            executor_id=self.executor_id,
+            max_crashes=max_crashes,
+            retention_s=retention_s,
+        )
         self._heartbeat = Heartbeat(
             database,
             executor_id=self.executor_id,
             interval_s=heartbeat_s,
             dead_after_s=dead_after_s,
+            retention_s=retention_s,
             # Private, but the public resume_workflow forgets how often a job was recovered.
             recover=lambda dead: DBOS._recover_pending_workflows(dead),  # noqa: SLF001
+            put_back=lambda job_id: DBOS.resume_workflow(job_id, queue_name=QUEUE),
+            holds=self._held,
         )
-        self._running = 0
+        self._running: set[str] = set()
         self._idle = threading.Condition()
         self._handing_back = threading.Event()
         self._dbos: DBOS | None = None
@@ -86,6 +95,7 @@ class DbosWorkerEngine:
         self._store_body_models(body_models)
         self._heartbeat.register()
         DBOS.launch()
+        self._limit_own_concurrency(self._dbos)
         self._heartbeat.start()
 
     def stop(self, *, drain_s: float) -> None:
@@ -99,13 +109,17 @@ class DbosWorkerEngine:
         for stop in self._dbos.background_thread_stop_events:
             stop.set()
         with self._idle:
-            drained = self._idle.wait_for(lambda: self._running == 0, timeout=drain_s)
+            drained = self._idle.wait_for(lambda: not self._running, timeout=drain_s)
         if not drained:
             self._handing_back.set()
             self._attempts.hand_back()
         else:
             self._wait_for_outcomes()
         self._heartbeat.stop()
+
+    def _held(self) -> Collection[str]:
+        with self._idle:
+            return tuple(self._running)
 
     def _wait_for_outcomes(self) -> None:
         # DBOS notes the end of a workflow after the workflow has returned. Were the process to end
@@ -133,14 +147,14 @@ class DbosWorkerEngine:
         @DBOS.workflow(name=WORKFLOW, max_recovery_attempts=MAX_RECOVERIES)
         def fit(job_id: str) -> None:
             with self._idle:
-                self._running += 1
+                self._running.add(job_id)
             try:
                 result = run(job_id)
                 if result is not None:
                     publish(job_id, result)
             finally:
                 with self._idle:
-                    self._running -= 1
+                    self._running.discard(job_id)
                     self._idle.notify_all()
 
         self._workflow = fit
@@ -148,14 +162,24 @@ class DbosWorkerEngine:
     def _run(self, job_id: str, handler: AttemptHandler) -> str | None:
         while (attempt := self._attempts.begin(job_id)) is not None:
             started = time.monotonic()
-            result = handler(attempt)
-            LOG.info(
-                "job=%s attempt=%d ending=%s seconds=%.2f",
-                job_id,
-                attempt.job.attempt,
-                result.ending,
-                time.monotonic() - started,
-            )
+            with (
+                log_context(
+                    job=job_id, attempt=str(attempt.job.attempt), request=attempt.job.request_id
+                ),
+                span(
+                    "fit",
+                    parent=attempt.job.traceparent,
+                    kind=SpanKind.CONSUMER,
+                    attributes={"maquette.job": job_id, "maquette.attempt": attempt.job.attempt},
+                ) as current,
+            ):
+                LOG.info("The fit begins.")
+                result = handler(attempt)
+                current.set_attribute("maquette.ending", result.ending.value)
+                LOG.info(
+                    "The fit ended.",
+                    extra=fields(ending=result.ending, seconds=f"{time.monotonic() - started:.2f}"),
+                )
             if self._handing_back.is_set():
                 threading.Event().wait()
             if result.ending is Ending.SUPERSEDED:
@@ -172,9 +196,11 @@ class DbosWorkerEngine:
         self._erase_if_forgotten(job_id)
 
     def _erase_if_forgotten(self, job_id: str) -> None:
-        # The job may have been erased while its attempt was still writing results.
+        # The job may have been erased while its attempt was still writing results. Should this not
+        # succeed, the scope is among those the sweep erases.
         if not self._attempts.exists(job_id):
-            self._blobs.erase(job_id)
+            with contextlib.suppress(BlobsUnavailableError):
+                self._blobs.erase(job_id)
 
     def _declare_queue(self) -> None:
         # Before the launch: DBOS looks for new queues only once a second afterwards.
@@ -185,9 +211,23 @@ class DbosWorkerEngine:
         )
         client.register_queue(
             QUEUE,
-            worker_concurrency=self._processes,
+            worker_concurrency=1,
             polling_interval_sec=self._queue_poll_s,
         )
+
+    def _limit_own_concurrency(self, dbos: DBOS) -> None:
+        # DBOS keeps the limit in the database, one for all workers; ours is each machine's own.
+        # What stands there is the floor, should this private way in ever be gone.
+        system_database = dbos._sys_db  # noqa: SLF001
+        get_queue = system_database.get_queue
+
+        def get_queue_with_own_limit(name: str, **options: Any) -> Queue | None:
+            queue = get_queue(name, **options)
+            if queue is not None and queue.name == QUEUE:
+                queue._worker_concurrency = self._processes  # noqa: SLF001
+            return queue
+
+        system_database.get_queue = get_queue_with_own_limit
 
     def _store_body_models(self, body_models: BodyModels) -> None:
         with self._database.begin() as connection:

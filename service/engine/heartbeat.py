@@ -8,16 +8,17 @@ not alive has them put back into the queue.
 import logging
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from typing import Final
 
 import sqlalchemy as sa
+from sqlalchemy.exc import OperationalError
 
 from api_schemas.jobs import JobState
 from api_schemas.problems import problem
 from service.engine.attempts import given_up
 from service.engine.liveness import WorkerWatch, this_process
-from service.engine.records import change_job
+from service.engine.records import end_job
 from service.engine.tables import JOBS, WORKERS
 from service.jobs import ACTIVE
 
@@ -27,6 +28,10 @@ DBOS_TERMINAL: Final = ("SUCCESS", "ERROR", "CANCELLED", "MAX_RECOVERY_ATTEMPTS_
 RECONCILE_AFTER_S: Final = 5.0
 """How long a job may stand as active although its execution has ended: the time between the last
 checkpoint and DBOS's own note of it, many times over."""
+
+DROPPED_AFTER_S: Final = 20.0
+"""How long an execution may stand as run by a worker that does not run it. Putting one back early
+does no harm: its record has ended, or its checkpoint is there."""
 
 
 class Heartbeat:
@@ -39,16 +44,23 @@ class Heartbeat:
         executor_id: str,
         interval_s: float,
         dead_after_s: float,
+        retention_s: float,
         recover: Callable[[list[str]], object],
+        put_back: Callable[[str], object],
+        holds: Callable[[], Collection[str]],
     ) -> None:
         self._database = database
         self._executor_id = executor_id
         self._interval_s = interval_s
+        self._retention_s = retention_s
         self._recover = recover
+        self._put_back = put_back
+        self._holds = holds
         self._watch = WorkerWatch(dead_after_s=dead_after_s)
         self._process = this_process()
         self._stopped = threading.Event()
         self._ended_since: dict[str, float] = {}
+        self._dropped_since: dict[str, float] = {}
         self._thread = threading.Thread(target=self._run, name="heartbeat", daemon=True)
 
     def register(self) -> None:
@@ -71,7 +83,10 @@ class Heartbeat:
             try:
                 self._beat()
                 self._take_over()
+                self._pick_up()
                 self._reconcile()
+            except OperationalError as error:
+                LOG.warning("The database is not available (%s).", error.orig)
             except Exception:
                 # The database may be away and come back; a heart that stops is never the answer.
                 LOG.exception("A heartbeat failed.")
@@ -119,6 +134,26 @@ class Heartbeat:
             with self._database.begin() as connection:
                 connection.execute(sa.delete(WORKERS).where(WORKERS.c.executor_id.in_(gone)))
 
+    def _pick_up(self) -> None:
+        """Put back what stands as run by this worker and is not: its thread ended in an error.
+
+        That happens when DBOS itself cannot write what a fit returned, the disk being full.
+        """
+        executions = executions_table(self._database)
+        query = sa.select(executions.c.workflow_uuid).where(
+            executions.c.executor_id == self._executor_id, executions.c.status == "PENDING"
+        )
+        with self._database.connect() as connection:
+            pending = set(connection.execute(query).scalars())
+        now = time.monotonic()
+        dropped = pending - set(self._holds())
+        self._dropped_since = {each: self._dropped_since.get(each, now) for each in dropped}
+        for job_id, since in list(self._dropped_since.items()):
+            if now - since >= DROPPED_AFTER_S:
+                LOG.warning("job=%s was dropped by this worker and is put back.", job_id)
+                self._put_back(job_id)
+                del self._dropped_since[job_id]
+
     def _reconcile(self) -> None:
         """End the records of jobs whose execution DBOS has given up, so that none waits forever."""
         executions = executions_table(self._database)
@@ -150,10 +185,11 @@ class Heartbeat:
             )
         )
         with self._database.begin() as connection:
-            change_job(
+            end_job(
                 connection,
                 job_id,
                 state=JobState.FAILED,
+                retention_s=self._retention_s,
                 values={"problem": reason.model_dump_json()},
             )
 

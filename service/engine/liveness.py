@@ -1,11 +1,13 @@
 """Who is alive: heartbeats counted, never dated, so that no jump of a clock kills a worker.
 
-A worker raises its ``beat`` every few seconds. Whoever watches remembers when, by its own
-monotonic clock, it last saw the number change. On the watcher's own machine the process table is
-asked as well: a process that is gone is dead at once.
+A worker raises its ``beat`` every few seconds. Whoever watches adds up, by its own monotonic clock,
+for how long it has looked and seen the number stand still. Time in which it did not look does not
+count: when the database was away, nobody could beat, and nobody is dead for it. On the watcher's
+own machine the process table is asked as well: a process that is gone is dead at once.
 """
 
 import os
+import threading
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -13,6 +15,8 @@ from pathlib import Path
 from typing import Any, Final
 
 import sqlalchemy as sa
+
+from service.engine.port import WorkerStatus
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,8 +64,19 @@ def _read(path: str) -> str:
         return ""
 
 
+LONGEST_LOOK: Final = 0.25
+"""The share of the limit that may pass between two looks and still count as silence."""
+
+
+@dataclass(slots=True)
+class _Sight:
+    beat: int
+    silent_s: float = 0.0
+    has_beaten: bool = False
+
+
 class WorkerWatch:
-    """Remembers what was seen of each worker's heartbeat."""
+    """Remembers what was seen of each worker's heartbeat; safe to share between threads."""
 
     def __init__(
         self, *, dead_after_s: float, monotonic: Callable[[], float] = time.monotonic
@@ -69,21 +84,54 @@ class WorkerWatch:
         self._dead_after_s = dead_after_s
         self._monotonic = monotonic
         self._machine = this_machine()
-        self._seen: dict[str, tuple[int, float]] = {}
+        self._sights: dict[str, _Sight] = {}
+        self._last_look: float | None = None
+        self._lock = threading.Lock()
+
+    def look(self, workers: Sequence[sa.Row[Any]]) -> list[WorkerStatus]:
+        """Look at all rows of the workers' table, and say what is known of each."""
+        with self._lock:
+            now = self._monotonic()
+            passed = 0.0 if self._last_look is None else now - self._last_look
+            self._last_look = now
+            counted = min(passed, LONGEST_LOOK * self._dead_after_s)
+            self._sights = {row.executor_id: self._sight(row, counted) for row in workers}
+            return [self._status(row) for row in workers]
 
     def alive(self, workers: Sequence[sa.Row[Any]]) -> set[str]:
-        """Return the executor ids of the workers that are alive, of all rows of their table."""
-        now = self._monotonic()
-        known: dict[str, tuple[int, float]] = {}
-        for row in workers:
-            beat, since = self._seen.get(row.executor_id, (row.beat, now))
-            known[row.executor_id] = (beat, since) if beat == row.beat else (row.beat, now)
-        self._seen = known
-        return {
-            row.executor_id
-            for row in workers
-            if now - known[row.executor_id][1] < self._dead_after_s and not self._is_gone(row)
-        }
+        """Return the executor ids of the workers that are not known to be dead."""
+        return {status.executor_id for status in self.look(workers) if status.alive is not False}
 
-    def _is_gone(self, row: sa.Row[Any]) -> bool:
-        return row.machine == self._machine and _pid_started(row.pid) != row.pid_started
+    def _sight(self, row: sa.Row[Any], counted_s: float) -> _Sight:
+        sight = self._sights.get(row.executor_id)
+        if sight is None:
+            return _Sight(row.beat)
+        if sight.beat != row.beat:
+            return _Sight(row.beat, has_beaten=True)
+        sight.silent_s += counted_s
+        return sight
+
+    def _status(self, row: sa.Row[Any]) -> WorkerStatus:
+        sight = self._sights[row.executor_id]
+        runs = self._runs(row)
+        if runs is False or sight.silent_s >= self._dead_after_s:
+            alive = False
+        else:
+            alive = True if runs or sight.has_beaten else None
+        return WorkerStatus(
+            executor_id=row.executor_id, alive=alive, heartbeat_age_s=sight.silent_s
+        )
+
+    def _runs(self, row: sa.Row[Any]) -> bool | None:
+        """Ask the process table; None if the worker is elsewhere, or cannot be told."""
+        if row.machine != self._machine:
+            return None
+        try:
+            os.kill(row.pid, 0)
+        except ProcessLookupError:
+            return False
+        except PermissionError:
+            # Another user's, who may be hidden from us: its heartbeat decides.
+            pass
+        stat = _read(f"/proc/{row.pid}/stat")
+        return _pid_started(row.pid) == row.pid_started if stat else None

@@ -1,6 +1,6 @@
 """What the API and the worker ask of a job engine, whatever stands behind it."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Protocol
@@ -29,13 +29,18 @@ class Idempotency:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NewJob:
-    """A job to accept; its blobs are stored already. ``options`` is the request as JSON."""
+    """A job to accept; its blobs are stored already, ``options`` being the request as JSON.
+
+    ``request_id`` and ``traceparent`` name the HTTP request it came with, in logs and traces.
+    """
 
     id: str
-    options: str
+    options: StoredBlob
     image: StoredBlob
     mask: StoredBlob | None = None
     idempotency: Idempotency | None = None
+    request_id: str | None = None
+    traceparent: str | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -43,6 +48,7 @@ class JobRecord:
     """A job as stored; times are seconds since the epoch."""
 
     id: str
+    tenant: str
     state: JobState
     stage: str | None
     progress: float
@@ -51,13 +57,16 @@ class JobRecord:
     created_at: float
     started_at: float | None
     finished_at: float | None
+    expires_at: float | None
     problem: Problem | None
-    options: str
+    options: StoredBlob
     image: StoredBlob
     mask: StoredBlob | None
     artifacts: tuple[Artifact, ...]
     fingerprint: str | None
     last_event: int
+    request_id: str | None
+    traceparent: str | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,13 +82,27 @@ class EngineUnavailableError(Exception):
     """The engine's database is away or full; nothing was changed."""
 
 
+class JobExpiredError(Exception):
+    """The job has been erased, or is about to be, because its time is over."""
+
+    def __init__(self, expired_at: float) -> None:
+        super().__init__(expired_at)
+        self.expired_at = expired_at
+
+
 class SubmitOutcome(StrEnum):
-    """How a submission ended."""
+    """How a submission ended.
+
+    ``TENANT_FULL``: too many jobs of this tenant are waiting. ``LOST``: the blobs of the job were
+    taken for abandoned and erased before it was submitted.
+    """
 
     ACCEPTED = "accepted"
     REPEATED = "repeated"
     KEY_REUSED = "key_reused"
     QUEUE_FULL = "queue_full"
+    TENANT_FULL = "tenant_full"
+    LOST = "lost"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -90,14 +113,22 @@ class Submission:
     job: JobRecord | None
 
 
-class JobEngine(Protocol):
-    """The caller's side: accept, look up, stop and erase jobs.
+class TenantJobs(Protocol):
+    """The jobs of one tenant: no other's can be seen or touched through it.
 
-    Every method may raise :class:`EngineUnavailableError`.
+    Every method may raise :class:`EngineUnavailableError`; those that name a job raise
+    :class:`JobExpiredError` when its time is over.
     """
 
+    def reserve(self, job_id: str, idempotency: Idempotency | None) -> Submission:
+        """Say that blobs are about to be stored for a job: ``ACCEPTED``, yet without a job, if so.
+
+        Should nothing come of it, they are erased after an hour.
+        """
+        ...
+
     def submit(self, job: NewJob) -> Submission:
-        """Accept a job durably, or say why not."""
+        """Accept a job durably, or say why not; its scope was reserved before."""
         ...
 
     def job(self, job_id: str) -> JobRecord | None:
@@ -115,11 +146,58 @@ class JobEngine(Protocol):
         ...
 
     def erase(self, job_id: str) -> bool:
-        """Stop a job and forget it, with its events; say whether there was one."""
+        """Stop a job and forget it, with its events; say whether there was one.
+
+        Its blobs are the caller's to erase; should the caller not come to it, they are erased by
+        the sweep.
+        """
         ...
 
     def events(self, job_id: str, *, after: int) -> Sequence[JobEvent]:
         """Return the events numbered above ``after``."""
+        ...
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WorkerStatus:
+    """A worker as seen from here: how long ago its heart was seen to beat, by our own clock.
+
+    ``alive`` is None while nothing can be said yet, having been seen only once.
+    """
+
+    executor_id: str
+    alive: bool | None
+    heartbeat_age_s: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DurationHistogram:
+    """How long a phase of jobs took: jobs by upper bound of their seconds, and all seconds."""
+
+    phase: str
+    counts: tuple[tuple[float, int], ...]
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EngineStatistics:
+    """The queue now, and everything that ever ended."""
+
+    queued: int
+    running: int
+    oldest_queued_s: float
+    outcomes: Mapping[JobState, int]
+    durations: tuple[DurationHistogram, ...]
+
+
+class JobEngine(Protocol):
+    """The caller's side: jobs of tenants, and the state of the whole.
+
+    Every method but ``of`` may raise :class:`EngineUnavailableError`.
+    """
+
+    def of(self, tenant: str) -> TenantJobs:
+        """Return the jobs of a tenant."""
         ...
 
     def last_events(self, job_ids: Sequence[str]) -> dict[str, int]:
@@ -130,8 +208,12 @@ class JobEngine(Protocol):
         """Count the waiting jobs."""
         ...
 
-    def live_workers(self) -> int:
-        """Count the workers that are alive."""
+    def workers(self) -> Sequence[WorkerStatus]:
+        """Return the workers that are known and not known to be gone."""
+        ...
+
+    def statistics(self) -> EngineStatistics:
+        """Return the figures of the whole."""
         ...
 
     def body_models(self) -> BodyModels | None:
@@ -178,6 +260,7 @@ class AttemptResult:
     ending: Ending
     artifacts: tuple[Artifact, ...] = ()
     problem: Problem | None = None
+    stage_seconds: Mapping[str, float] = field(default_factory=dict[str, float])
 
 
 class Attempt(Protocol):

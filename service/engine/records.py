@@ -12,9 +12,11 @@ from api_schemas.jobs import EventData, EventKind, JobState
 from api_schemas.problems import Problem
 from api_schemas.results import Artifact
 from service.engine.port import JobRecord, StoredBlob
+from service.engine.statistics import count_ending
 from service.engine.tables import EVENTS, JOBS
-from service.jobs import TERMINAL, may_become
+from service.jobs import may_become
 
+OPTIONS_MEDIA_TYPE: Final = "application/json"
 ARTIFACTS: Final = TypeAdapter(tuple[Artifact, ...])
 
 
@@ -22,6 +24,7 @@ def job_record(values: sa.RowMapping) -> JobRecord:
     """Read a row of the jobs table."""
     return JobRecord(
         id=values["id"],
+        tenant=values["tenant"],
         state=JobState(values["state"]),
         stage=values["stage"],
         progress=values["progress"],
@@ -30,16 +33,19 @@ def job_record(values: sa.RowMapping) -> JobRecord:
         created_at=values["created_at"],
         started_at=values["started_at"],
         finished_at=values["finished_at"],
+        expires_at=values["expires_at"],
         problem=None
         if values["problem"] is None
         else Problem.model_validate_json(values["problem"]),
-        options=values["options"],
+        options=StoredBlob(digest=values["options_digest"], media_type=OPTIONS_MEDIA_TYPE),
         image=StoredBlob(digest=values["image_digest"], media_type=values["image_media_type"]),
         mask=None
         if values["mask_digest"] is None
         else StoredBlob(digest=values["mask_digest"], media_type=values["mask_media_type"]),
         artifacts=ARTIFACTS.validate_json(values["artifacts"]),
         fingerprint=values["fingerprint"],
+        request_id=values["request_id"],
+        traceparent=values["traceparent"],
         last_event=values["last_event"],
     )
 
@@ -71,24 +77,52 @@ def append_event(
     )
 
 
-def change_job(
+def move_job(
     connection: sa.Connection,
     job_id: str,
     *conditions: sa.ColumnElement[bool],
     state: JobState,
     values: Mapping[str, object] | None = None,
 ) -> JobRecord | None:
-    """Move a job to ``state`` if that is legal and the conditions hold, and append the event.
+    """Move a job to an active ``state`` if that is legal and the conditions hold.
 
     The check and the change are one statement, so that of two racing callers one loses. Returns
     the changed job, or None if nothing was changed.
     """
-    now = time.time()
-    changes: dict[str, Any] = {"state": state.value, "last_event": JOBS.c.last_event + 1}
-    if state in TERMINAL:
-        changes["finished_at"] = now
+    changes: dict[str, Any] = {}
     if state is JobState.RUNNING:
-        changes["started_at"] = sa.func.coalesce(JOBS.c.started_at, now)
+        changes["started_at"] = sa.func.coalesce(JOBS.c.started_at, time.time())
+    job = _change(connection, job_id, *conditions, state=state, values=changes | dict(values or {}))
+    if job is not None:
+        append_event(connection, job, EventKind.STATE)
+    return job
+
+
+def end_job(
+    connection: sa.Connection,
+    job_id: str,
+    *conditions: sa.ColumnElement[bool],
+    state: JobState,
+    retention_s: float,
+    values: Mapping[str, object] | None = None,
+) -> JobRecord | None:
+    """End a job as :func:`move_job` moves one; it expires ``retention_s`` from now."""
+    now = time.time()
+    changes = {"finished_at": now, "expires_at": now + retention_s}
+    job = _change(connection, job_id, *conditions, state=state, values=changes | dict(values or {}))
+    if job is not None:
+        append_event(connection, job, EventKind.END)
+        count_ending(connection, job)
+    return job
+
+
+def _change(
+    connection: sa.Connection,
+    job_id: str,
+    *conditions: sa.ColumnElement[bool],
+    state: JobState,
+    values: Mapping[str, object],
+) -> JobRecord | None:
     row = (
         connection.execute(
             sa.update(JOBS)
@@ -97,14 +131,10 @@ def change_job(
                 JOBS.c.state.in_([source.value for source in may_become(state)]),
                 *conditions,
             )
-            .values(**(changes | dict(values or {})))
+            .values(state=state.value, last_event=JOBS.c.last_event + 1, **values)
             .returning(JOBS)
         )
         .mappings()
         .one_or_none()
     )
-    if row is None:
-        return None
-    job = job_record(row)
-    append_event(connection, job, EventKind.END if state in TERMINAL else EventKind.STATE)
-    return job
+    return None if row is None else job_record(row)

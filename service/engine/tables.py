@@ -8,6 +8,7 @@ JOBS = sa.Table(
     "maquette_jobs",
     METADATA,
     sa.Column("id", sa.String(36), primary_key=True),
+    sa.Column("tenant", sa.String(64), nullable=False),
     sa.Column("state", sa.String(16), nullable=False),
     sa.Column("stage", sa.String(64)),
     sa.Column("progress", sa.Double, nullable=False),
@@ -18,18 +19,23 @@ JOBS = sa.Table(
     sa.Column("created_at", sa.Double, nullable=False),
     sa.Column("started_at", sa.Double),
     sa.Column("finished_at", sa.Double),
-    sa.Column("options", sa.Text, nullable=False),
+    sa.Column("expires_at", sa.Double),
+    sa.Column("options_digest", sa.String(64), nullable=False),
     sa.Column("image_digest", sa.String(64), nullable=False),
     sa.Column("image_media_type", sa.String(64), nullable=False),
     sa.Column("mask_digest", sa.String(64)),
     sa.Column("mask_media_type", sa.String(64)),
     sa.Column("artifacts", sa.Text, nullable=False),
     sa.Column("problem", sa.Text),
-    sa.Column("idempotency_key", sa.String(64), unique=True),
+    sa.Column("idempotency_key", sa.String(64)),
     sa.Column("fingerprint", sa.String(64)),
+    sa.Column("request_id", sa.String(64)),
+    sa.Column("traceparent", sa.String(64)),
     sa.Column("last_event", sa.Integer, nullable=False),
-    sa.Index("maquette_jobs_newest", "created_at", "id"),
-    sa.Index("maquette_jobs_state", "state"),
+    sa.UniqueConstraint("tenant", "idempotency_key", name="maquette_jobs_key"),
+    sa.Index("maquette_jobs_newest", "tenant", "created_at", "id"),
+    sa.Index("maquette_jobs_state", "state", "created_at"),
+    sa.Index("maquette_jobs_expiry", "expires_at"),
 )
 
 EVENTS = sa.Table(
@@ -45,6 +51,55 @@ EVENTS = sa.Table(
     sa.Column("kind", sa.String(16), nullable=False),
     sa.Column("data", sa.Text, nullable=False),
 )
+
+ERASURES = sa.Table(
+    "maquette_erasures",
+    METADATA,
+    sa.Column("scope", sa.String(64), primary_key=True),
+    sa.Column("due_at", sa.Double, nullable=False),
+    sa.Index("maquette_erasures_due", "due_at"),
+)
+"""Scopes of blobs to be erased from ``due_at`` on: of jobs that are gone, and of submissions that
+were begun and are taken out again when they are accepted."""
+
+TOMBSTONES = sa.Table(
+    "maquette_tombstones",
+    METADATA,
+    sa.Column("id", sa.String(36), primary_key=True),
+    sa.Column("tenant", sa.String(64), nullable=False),
+    sa.Column("expired_at", sa.Double, nullable=False),
+    sa.Index("maquette_tombstones_age", "expired_at"),
+)
+"""That there was a job and its time is over: nothing else is kept of it."""
+
+API_KEYS = sa.Table(
+    "maquette_api_keys",
+    METADATA,
+    sa.Column("id", sa.String(16), primary_key=True),
+    sa.Column("tenant", sa.String(64), nullable=False),
+    sa.Column("role", sa.String(16), nullable=False),
+    sa.Column("secret_hash", sa.String(64), nullable=False, unique=True),
+    sa.Column("created_at", sa.Double, nullable=False),
+    sa.Column("revoked_at", sa.Double),
+)
+
+OUTCOMES = sa.Table(
+    "maquette_outcomes",
+    METADATA,
+    sa.Column("state", sa.String(16), primary_key=True),
+    sa.Column("jobs", sa.BigInteger, nullable=False),
+)
+"""How many jobs ever ended in each state; erasing a job does not take it back."""
+
+DURATIONS = sa.Table(
+    "maquette_durations",
+    METADATA,
+    sa.Column("phase", sa.String(64), primary_key=True),
+    sa.Column("bucket", sa.Double, primary_key=True),
+    sa.Column("jobs", sa.BigInteger, nullable=False),
+    sa.Column("seconds", sa.Double, nullable=False),
+)
+"""How long phases of jobs took, as a histogram: ``bucket`` is the upper bound of its seconds."""
 
 WORKERS = sa.Table(
     "maquette_workers",

@@ -6,5 +6,5 @@ from service.worker.main import run_worker
 
 if __name__ == "__main__":
     settings = Settings()
-    configure_logging(settings.log_level)
+    configure_logging(settings.log_level, settings.log_format)
     run_worker(settings, follow_stdin=True)

@@ -1,10 +1,12 @@
 """Inside the child process: the only place where a caller's picture is decoded.
 
-One process a fit. It dies with its worker: a thread reads the pipe to the worker, which never says
-anything, and the end of the pipe is the end of the worker (a signal on the parent's death does not
-serve, the parent being the fork server).
+One process a fit. Input and files of the result go through the pipe to its worker, so it needs
+neither database nor storage. It dies with its worker: once it has its input, a thread reads the
+pipe, on which the worker says nothing more, and the end of the pipe is the end of the worker (a
+signal on the parent's death does not serve, the parent being the fork server).
 """
 
+import faulthandler
 import logging
 import os
 import resource
@@ -18,13 +20,15 @@ from typing import Final
 
 from api_schemas.problems import Problem, field_problem, problem
 from api_schemas.requests import FitOptions
-from service.blobs import BlobStore
+from fitter.errors import ModelFileError
 from service.engine.port import Report
-from service.worker.artifacts import describe_artifact, with_result_document
+from service.logs import LogContext, configure_logging, log_context
+from service.worker.artifacts import with_result_document
 from service.worker.messages import (
     MESSAGES,
     DescriptionMessage,
     DoneMessage,
+    FileMessage,
     Message,
     ProblemMessage,
     ProgressMessage,
@@ -42,48 +46,61 @@ OOM_SCORE: Final = 500
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ChildTask:
-    """What the worker gives the child: names of blobs, and limits."""
+    """What the worker tells the child to begin with; options, image and mask follow as bytes."""
 
     pipeline: str
-    blob_root: str
-    scope: str
-    options: str
-    image: str
-    mask: str | None
+    has_mask: bool
     max_pixels: int
+    models: Path | None
     memory_mb: int
+    log_level: str
+    log_format: str
+    log_context: LogContext
 
 
 def fit(task: ChildTask, connection: Connection) -> None:
     """Run one fit and tell the worker how it went."""
-    _follow_worker(connection)
+    _configure_logging(task)
     _limit(task.memory_mb)
-    _answer(connection, lambda: _fit(task, connection))
+    try:
+        options = connection.recv_bytes()
+        image = connection.recv_bytes()
+        mask = connection.recv_bytes() if task.has_mask else None
+    except EOFError:
+        os._exit(1)
+    _follow_worker(connection)
+    with log_context(**task.log_context):
+        _answer(connection, lambda: _fit(task, options, image, mask, connection))
 
 
-def describe(pipeline: str, connection: Connection) -> None:
+def describe(pipeline: str, models: Path | None, connection: Connection) -> None:
     """Tell the worker which body models there are."""
     _follow_worker(connection)
-    _send(connection, DescriptionMessage(body_models=load_pipeline(pipeline).describe()))
+    try:
+        description = load_pipeline(pipeline).describe(models)
+    except ModelFileError as error:
+        LOG.error("The body models cannot be used. %s", error)
+        return
+    _send(connection, DescriptionMessage(body_models=description))
 
 
-def _fit(task: ChildTask, connection: Connection) -> Message:
-    blobs = BlobStore(Path(task.blob_root))
+def _fit(
+    task: ChildTask, options: bytes, image: bytes, mask: bytes | None, connection: Connection
+) -> Message:
     output = load_pipeline(task.pipeline).run(
         PipelineInput(
-            options=FitOptions.model_validate_json(task.options),
-            image=blobs.get(task.scope, task.image),
-            mask=None if task.mask is None else blobs.get(task.scope, task.mask),
+            options=FitOptions.model_validate_json(options),
+            image=image,
+            mask=mask,
             max_pixels=task.max_pixels,
+            models=task.models,
         ),
         lambda report: _send(connection, _progress(report)),
     )
-    files = with_result_document(output.result, output.artifacts)
-    for content in files.values():
-        blobs.put(task.scope, content)
-    return DoneMessage(
-        artifacts=tuple(describe_artifact(name, content) for name, content in files.items())
-    )
+    for name, content in with_result_document(output.result, output.artifacts).items():
+        _send(connection, FileMessage(name=name))
+        connection.send_bytes(content)
+    return DoneMessage(stage_seconds=output.result.stage_seconds)
 
 
 def _answer(connection: Connection, work: Callable[[], Message]) -> None:
@@ -93,10 +110,6 @@ def _answer(connection: Connection, work: Callable[[], Message]) -> None:
         message = ProblemMessage(problem=field_problem("unusable-input", error.error))
     except MemoryError:
         message = ProblemMessage(problem=_out_of_memory())
-    except FileNotFoundError:
-        # The job was erased under the fit; nobody waits for an answer.
-        LOG.info("The input of the fit is gone.")
-        message = ProblemMessage(problem=_fault())
     except Exception:
         LOG.exception("The fit failed.")
         message = ProblemMessage(problem=_fault())
@@ -126,6 +139,12 @@ def _out_of_memory() -> Problem:
         detail="The fit needed more memory than one fit may have.",
         remedy="Send a smaller picture.",
     )
+
+
+def _configure_logging(task: ChildTask) -> None:
+    configure_logging(task.log_level, task.log_format, withhold_messages=task.log_level != "DEBUG")
+    # A crash in a decoder leaves the places it passed through, and nothing of what it read.
+    faulthandler.enable()
 
 
 def _follow_worker(connection: Connection) -> None:

@@ -1,27 +1,48 @@
 """The worker's side of a child process: start it, listen, stop it in time, note how it ended."""
 
+import contextlib
 import logging
+import threading
 import time
+from collections.abc import Iterator, Mapping
 from multiprocessing import forkserver, get_context
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerContext, ForkServerProcess
 from typing import Final
 
+from pydantic import ValidationError
+
 from api_schemas.body_models import BodyModels
 from api_schemas.problems import Problem, problem
-from service.engine.port import Attempt, AttemptResult, Directive, Ending, Report
+from api_schemas.results import Artifact
+from service.blobs import BlobMissingError, BlobStore, BlobsUnavailableError, StorageFullError
+from service.engine.port import Attempt, AttemptResult, Directive, Ending, JobRecord, Report
+from service.logs import current_log_context
 from service.settings import Settings
+from service.tracing import StageSpans, span
 from service.worker import child
+from service.worker.artifacts import describe_artifact
 from service.worker.messages import (
     MESSAGES,
     DescriptionMessage,
     DoneMessage,
+    FileMessage,
     Message,
     ProblemMessage,
     ProgressMessage,
 )
+from service.worker.patience import patient_with_storage
 
 LOG: Final = logging.getLogger(__name__)
+
+LARGEST_FILE_BYTES: Final = 256 * 1024 * 1024
+"""A child that sends more has been taken over by its picture."""
+
+WATCHDOG_S: Final = 1.0
+"""Beyond the time limit, a child that stalls in the middle of a message is killed from outside."""
+
+JOIN_S: Final = 1.0
+"""How long the exit code of a child that has closed its pipe is waited for."""
 
 STOPPED: Final = {
     Directive.CANCELED: AttemptResult(ending=Ending.CANCELED),
@@ -36,8 +57,11 @@ class ChildRunner:
     stays without threads, which is what makes forking safe.
     """
 
-    def __init__(self, settings: Settings, *, pipeline: str, preload: str) -> None:
+    def __init__(
+        self, settings: Settings, blobs: BlobStore, *, pipeline: str, preload: str
+    ) -> None:
         self._settings = settings
+        self._blobs = blobs
         self._pipeline = pipeline
         self._context: ForkServerContext = get_context("forkserver")
         self._context.set_forkserver_preload([preload])
@@ -47,10 +71,19 @@ class ChildRunner:
         forkserver.ensure_running()
 
     def describe(self) -> BodyModels:
-        """Ask a child which body models there are."""
+        """Ask a child which body models there are.
+
+        Raises
+        ------
+        RuntimeError
+            If they cannot be used; the child's log says why.
+        """
         connection, process = self._start_describing()
         try:
             message = MESSAGES.validate_json(connection.recv_bytes())
+        except EOFError as error:
+            message = "The body models cannot be used; the line above says why."
+            raise RuntimeError(message) from error
         finally:
             _end(connection, process)
         assert isinstance(message, DescriptionMessage)
@@ -58,30 +91,67 @@ class ChildRunner:
 
     def run(self, attempt: Attempt) -> AttemptResult:
         """Run one attempt to its end: done, failed, canceled, out of time or crashed."""
-        connection, process = self._start_fit(attempt)
         try:
-            return self._follow(attempt, connection, process)
+            return self._run(attempt)
+        except BlobMissingError:
+            # The job was erased under the attempt, or somebody emptied the storage by hand.
+            LOG.warning("The input of the fit is gone.")
+            return AttemptResult(ending=Ending.FAILED, problem=_input_gone())
+        except BlobsUnavailableError as error:
+            LOG.error("The storage did not come back (%s).", error)
+            return AttemptResult(ending=Ending.FAILED, problem=_no_storage(error))
+
+    def _run(self, attempt: Attempt) -> AttemptResult:
+        connection, process = self._start_fit(has_mask=attempt.job.mask is not None)
+        deadline = time.monotonic() + self._settings.job_time_limit_s
+        try:
+            with (
+                _killed_in_time(process, self._settings.job_time_limit_s + WATCHDOG_S),
+                contextlib.closing(StageSpans()) as spans,
+            ):
+                for part in self._input(attempt.job):
+                    connection.send_bytes(part)
+                return self._follow(attempt, connection, spans, deadline=deadline)
+        except (EOFError, OSError, ValidationError):
+            # The pipe broke, or what came through it was no message of ours.
+            if time.monotonic() >= deadline:
+                return self._timed_out()
+            process.join(JOIN_S)
+            LOG.warning("The process of the fit died, exit code %s.", process.exitcode)
+            return AttemptResult(ending=Ending.CRASHED)
         finally:
             _end(connection, process)
 
+    def _input(self, job: JobRecord) -> Iterator[bytes]:
+        read = patient_with_storage(self._blobs.get)
+        for part in (job.options, job.image, job.mask):
+            if part is not None:
+                yield read(job.id, part.digest)
+
+    def _timed_out(self) -> AttemptResult:
+        return AttemptResult(
+            ending=Ending.TIMED_OUT, problem=_too_slow(self._settings.job_time_limit_s)
+        )
+
     def _start_describing(self) -> tuple[Connection, ForkServerProcess]:
         ours, theirs = self._context.Pipe()
-        process = self._context.Process(target=child.describe, args=(self._pipeline, theirs))
+        process = self._context.Process(
+            target=child.describe, args=(self._pipeline, self._settings.models_dir, theirs)
+        )
         process.start()
         theirs.close()
         return ours, process
 
-    def _start_fit(self, attempt: Attempt) -> tuple[Connection, ForkServerProcess]:
-        job = attempt.job
+    def _start_fit(self, *, has_mask: bool) -> tuple[Connection, ForkServerProcess]:
         task = child.ChildTask(
             pipeline=self._pipeline,
-            blob_root=str(self._settings.blob_dir),
-            scope=job.id,
-            options=job.options,
-            image=job.image.digest,
-            mask=job.mask.digest if job.mask else None,
+            has_mask=has_mask,
             max_pixels=self._settings.max_pixels,
+            models=self._settings.models_dir,
             memory_mb=self._settings.child_memory_mb,
+            log_level=self._settings.log_level,
+            log_format=self._settings.log_format,
+            log_context=dict(current_log_context()),
         )
         ours, theirs = self._context.Pipe()
         process = self._context.Process(target=child.fit, args=(task, theirs))
@@ -90,37 +160,42 @@ class ChildRunner:
         return ours, process
 
     def _follow(
-        self, attempt: Attempt, connection: Connection, process: ForkServerProcess
+        self, attempt: Attempt, connection: Connection, spans: StageSpans, *, deadline: float
     ) -> AttemptResult:
-        deadline = time.monotonic() + self._settings.job_time_limit_s
         progress = _ThrottledProgress(attempt, interval_s=self._settings.progress_interval_s)
         next_look = 0.0
+        files: dict[str, bytes] = {}
         while True:
-            try:
-                message = _receive(connection, timeout_s=self._settings.cancel_poll_s)
-            except (EOFError, ConnectionResetError):
-                process.join()
-                LOG.warning(
-                    "job=%s: its process died, exit code %s.", attempt.job.id, process.exitcode
-                )
-                return AttemptResult(ending=Ending.CRASHED)
-            if isinstance(message, DoneMessage):
-                return AttemptResult(ending=Ending.SUCCEEDED, artifacts=message.artifacts)
+            message = _receive(connection, timeout_s=self._settings.cancel_poll_s)
+            if isinstance(message, FileMessage):
+                files[message.name] = connection.recv_bytes(LARGEST_FILE_BYTES)
             if isinstance(message, ProblemMessage):
                 return AttemptResult(ending=Ending.FAILED, problem=message.problem)
             if isinstance(message, ProgressMessage):
                 progress.take(message)
+                spans.enter(message.stage)
             progress.store_if_due()
             now = time.monotonic()
             if now >= deadline:
-                return AttemptResult(
-                    ending=Ending.TIMED_OUT, problem=_too_slow(self._settings.job_time_limit_s)
-                )
-            if now >= next_look:
+                return self._timed_out()
+            if now >= next_look or isinstance(message, DoneMessage):
                 next_look = now + self._settings.cancel_poll_s
                 directive = attempt.directive()
                 if directive is not Directive.CONTINUE:
                     return STOPPED[directive]
+            if isinstance(message, DoneMessage):
+                return AttemptResult(
+                    ending=Ending.SUCCEEDED,
+                    artifacts=self._store(attempt.job.id, files),
+                    stage_seconds=message.stage_seconds,
+                )
+
+    def _store(self, scope: str, files: Mapping[str, bytes]) -> tuple[Artifact, ...]:
+        put = patient_with_storage(self._blobs.put)
+        with span("store result"):
+            for content in files.values():
+                put(scope, content)
+        return tuple(describe_artifact(name, content) for name, content in files.items())
 
 
 class _ThrottledProgress:
@@ -155,6 +230,22 @@ class _ThrottledProgress:
         self._due = now + self._interval_s
 
 
+@contextlib.contextmanager
+def _killed_in_time(process: ForkServerProcess, limit_s: float) -> Iterator[None]:
+    def kill() -> None:
+        # Closed by now if it ended in this very moment.
+        with contextlib.suppress(ValueError):
+            process.kill()
+
+    watchdog = threading.Timer(limit_s, kill)
+    watchdog.daemon = True
+    watchdog.start()
+    try:
+        yield
+    finally:
+        watchdog.cancel()
+
+
 def _receive(connection: Connection, *, timeout_s: float) -> Message | None:
     if not connection.poll(timeout_s):
         return None
@@ -166,6 +257,25 @@ def _end(connection: Connection, process: ForkServerProcess) -> None:
     process.kill()
     process.join()
     process.close()
+
+
+def _input_gone() -> Problem:
+    return problem(
+        "fit-failed",
+        code="input-gone",
+        detail="The stored picture is gone.",
+        remedy="Post the picture again.",
+    )
+
+
+def _no_storage(error: BlobsUnavailableError) -> Problem:
+    full = isinstance(error, StorageFullError)
+    return problem(
+        "fit-failed",
+        code="storage-full" if full else "storage-unavailable",
+        detail="The result could not be stored.",
+        remedy="Post the picture again once the service reports itself ready.",
+    )
 
 
 def _too_slow(limit_s: float) -> Problem:

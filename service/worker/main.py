@@ -7,7 +7,7 @@ import sys
 import threading
 from typing import Final
 
-from service.blobs import BlobStore
+from service.blobs import open_blob_store
 from service.settings import Settings
 from service.worker.child_process import ChildRunner
 
@@ -25,6 +25,9 @@ THREAD_LIMITS: Final = (
 )
 """One thread a fit, fits side by side: threads within a fit cost more than they bring."""
 
+SPARE_CONNECTIONS: Final = 6
+"""To the database, beside one a fit: heartbeat, queue, notifications, and DBOS's own writes."""
+
 
 def run_worker(
     settings: Settings, *, follow_stdin: bool, pipeline: str = PIPELINE, preload: str = PRELOAD
@@ -38,27 +41,35 @@ def run_worker(
         threading.Thread(target=_wait_for_end_of_input, args=(stop,), daemon=True).start()
     for variable in THREAD_LIMITS:
         os.environ.setdefault(variable, "1")
-    runner = ChildRunner(settings, pipeline=pipeline, preload=preload)
+    blobs = open_blob_store(settings)
+    runner = ChildRunner(settings, blobs, pipeline=pipeline, preload=preload)
     runner.begin_preloading()
     # Imported while the fork server loads the numerics: each takes a good part of a second.
     from service.engine.database import open_database, prepare_database
     from service.engine.dbos_worker import DbosWorkerEngine
+    from service.tracing import start_tracing
 
+    tracing = start_tracing(settings, role="worker")
     prepare_database(settings.system_database_url)
     engine = DbosWorkerEngine(
-        open_database(settings.system_database_url),
-        BlobStore(settings.blob_dir),
+        open_database(
+            settings.system_database_url,
+            connections=settings.worker_processes + SPARE_CONNECTIONS,
+        ),
+        blobs,
         processes=settings.worker_processes,
         max_crashes=settings.max_crashes,
         heartbeat_s=settings.heartbeat_s,
         dead_after_s=settings.dead_after_s,
         queue_poll_s=settings.queue_poll_s,
+        retention_s=settings.retention_s,
     )
     engine.start(runner.run, body_models=runner.describe())
     LOG.info("Worker %s is ready.", engine.executor_id)
     stop.wait()
     LOG.info("Worker %s is stopping.", engine.executor_id)
     engine.stop(drain_s=settings.drain_s)
+    tracing.stop()
     logging.shutdown()
     # Not a return: threads of fits that were handed back may still be there.
     os._exit(0)

@@ -7,7 +7,6 @@ from pydantic import Field, TypeAdapter
 from api_schemas.base import WireModel
 from api_schemas.body_models import BodyModels
 from api_schemas.problems import Problem
-from api_schemas.results import Artifact
 
 
 class ProgressMessage(WireModel):
@@ -19,11 +18,18 @@ class ProgressMessage(WireModel):
     energies: dict[str, float]
 
 
+class FileMessage(WireModel):
+    """A file of the result; its bytes follow as the next message."""
+
+    kind: Literal["file"] = "file"
+    name: str
+
+
 class DoneMessage(WireModel):
-    """The fit is done; its files are stored."""
+    """The fit is done; all its files were sent."""
 
     kind: Literal["done"] = "done"
-    artifacts: tuple[Artifact, ...]
+    stage_seconds: dict[str, float]
 
 
 class ProblemMessage(WireModel):
@@ -41,7 +47,7 @@ class DescriptionMessage(WireModel):
 
 
 Message = Annotated[
-    ProgressMessage | DoneMessage | ProblemMessage | DescriptionMessage,
+    ProgressMessage | FileMessage | DoneMessage | ProblemMessage | DescriptionMessage,
     Field(discriminator="kind"),
 ]
 MESSAGES: Final[TypeAdapter[Message]] = TypeAdapter(Message)

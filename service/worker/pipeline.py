@@ -1,14 +1,16 @@
 """The pipeline of the service: the fitter between two translations."""
 
 from collections.abc import Callable, Mapping
+from pathlib import Path
 
 from api_schemas.body_models import BodyModelInfo, BodyModels
 from api_schemas.requests import Gender
 from fitter import request as fitter_request
 from fitter.errors import InvalidInputError
 from fitter.export import artifacts
-from fitter.fittable import packaged_body
-from fitter.pipeline import MEAN_HEIGHT_M, fit
+from fitter.fittable import fittable_body
+from fitter.observation.subject import MEAN_HEIGHT_M
+from fitter.pipeline import fit
 from service.engine.port import Report
 from service.worker import translate
 from service.worker.pipeline_port import PipelineInput, PipelineOutput, UnusableInputError
@@ -20,8 +22,12 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
         job.options, image=job.image, mask=job.mask, max_pixels=job.max_pixels
     )
     try:
-        result = fit(request, observer=lambda progress: observe(translate.report(progress)))
-        model = packaged_body(result.gender).instruments.model
+        result = fit(
+            request,
+            models=job.models,
+            observer=lambda progress: observe(translate.report(progress)),
+        )
+        model = fittable_body(result.gender, models=job.models).instruments.model
         files = artifacts(result, model=model, image=job.image)
     except InvalidInputError as error:
         raise UnusableInputError(translate.field_problem(error)) from error
@@ -30,14 +36,14 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
     )
 
 
-def describe() -> BodyModels:
-    """Return the body models shipped with the package."""
-    return BodyModels(models=tuple(_model_info(gender) for gender in Gender))
+def describe(models: Path | None) -> BodyModels:
+    """Return the body models of a folder, or those shipped with the package."""
+    return BodyModels(models=tuple(_model_info(gender, models) for gender in Gender))
 
 
-def _model_info(gender: Gender) -> BodyModelInfo:
+def _model_info(gender: Gender, models: Path | None) -> BodyModelInfo:
     fitted = fitter_request.Gender(gender.value)
-    model = packaged_body(fitted).instruments.model
+    model = fittable_body(fitted, models=models).instruments.model
     header = model.header
     return BodyModelInfo(
         gender=gender,

@@ -7,6 +7,7 @@ is imported in the child process only: the worker itself loads no numerics.
 import importlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Protocol, cast
 
 from api_schemas.body_models import BodyModels
@@ -18,12 +19,16 @@ from service.engine.port import Report
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PipelineInput:
-    """A request as it reaches the pipeline: options with named points, encoded pictures."""
+    """A request as it reaches the pipeline: options with named points, encoded pictures.
+
+    ``models`` is the folder of the body models, None for those shipped with the package.
+    """
 
     options: FitOptions
     image: bytes
     mask: bytes | None
     max_pixels: int
+    models: Path | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,8 +60,8 @@ class Pipeline(Protocol):
         """
         ...
 
-    def describe(self) -> BodyModels:
-        """Return the body models there are."""
+    def describe(self, models: Path | None) -> BodyModels:
+        """Return the body models there are, in a folder or shipped with the package."""
         ...
 
 

@@ -78,10 +78,10 @@ def fit_result(result: FitResult, *, part_names: Sequence[str]) -> wire.FitResul
         optimizer=wire_request.OptimizerKind(result.optimizer.value),
         outcome=wire.Outcome(result.outcome.value),
         outcome_explanation=OUTCOME_EXPLANATIONS[result.outcome],
-        camera=_camera(result.camera),
-        image_camera=_camera(result.image_camera),
+        camera=camera_result(result.camera),
+        image_camera=camera_result(result.image_camera),
         focal_length_source=wire.FocalLengthSource(result.focal_length_source.value),
-        body=_body(result.body, part_names),
+        body=body_result(result.body, part_names),
         light=None if result.light is None else _light(result.light),
         reflectance=None if result.reflectance is None else _reflectance(result.reflectance),
         energies=dict(result.energies),
@@ -106,7 +106,8 @@ def _radians(degrees: float | None) -> float | None:
     return None if degrees is None else math.radians(degrees)
 
 
-def _camera(camera: Camera) -> wire.CameraResult:
+def camera_result(camera: Camera) -> wire.CameraResult:
+    """Translate a camera."""
     return wire.CameraResult(
         focal_length_px=float(camera.focal_length_px),
         centre_x=float(camera.centre_x),
@@ -121,7 +122,8 @@ def _vector(values: np.ndarray) -> wire.Vector:
     return (x, y, z)
 
 
-def _body(body: BodyParameters, part_names: Sequence[str]) -> wire.BodyResult:
+def body_result(body: BodyParameters, part_names: Sequence[str]) -> wire.BodyResult:
+    """Translate pose, position and shape."""
     return wire.BodyResult(
         pose=tuple(
             wire.PartRotation(part=part, rotation=_vector(rotation))
@@ -166,7 +168,7 @@ def _stage(stage: StageBody, part_names: Sequence[str]) -> wire.Stage:
         name=stage.name,
         energies=dict(stage.energies),
         silhouette_overlap=stage.silhouette_overlap,
-        body=_body(stage.body, part_names),
+        body=body_result(stage.body, part_names),
         measurements=tuple(_measurement(measurement) for measurement in stage.measurements),
     )
 

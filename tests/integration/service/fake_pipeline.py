@@ -68,7 +68,7 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
     )
 
 
-def describe() -> BodyModels:
+def describe(models: Path | None) -> BodyModels:
     return BodyModels(
         models=tuple(
             BodyModelInfo(

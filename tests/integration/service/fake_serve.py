@@ -17,7 +17,7 @@ if __name__ == "__main__":
     parsed = parser.parse_args()
     given = {} if parsed.data_dir is None else {"data_dir": parsed.data_dir, "port": 0}
     settings = Settings(**given)
-    configure_logging(settings.log_level)
+    configure_logging(settings.log_level, settings.log_format)
     serve(
         settings,
         listen(settings),

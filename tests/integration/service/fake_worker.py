@@ -10,7 +10,7 @@ def main() -> None:
     from service.worker.main import run_worker
 
     settings = Settings()
-    configure_logging(settings.log_level)
+    configure_logging(settings.log_level, settings.log_format)
     run_worker(settings, follow_stdin=True, pipeline=FAKE, preload=FAKE)
 
 

@@ -3,6 +3,7 @@
 import json
 import socket
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -10,7 +11,7 @@ import pytest
 from api_schemas.results import FitResult
 from service.cli import main
 from service.demo import run_demo
-from service.demo_sample import Sample
+from service.demo_sample import Sample, load_sample
 from service.local_fit import FitArguments, fit_locally, warm_up
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import POINTS, QUICK, REQUEST
@@ -35,6 +36,7 @@ def arguments(
         image=folder / "picture.png",
         points=folder / "points.json",
         mask=None if mask is None else folder / "mask.png",
+        models=None,
         output=folder / "out",
         overrides=overrides,
     )
@@ -49,6 +51,16 @@ def test_a_fit_without_a_service_writes_its_files_and_prints_its_measurements(tm
     assert "waist girth" in printed
     assert "85.0" in printed
     assert "focal_length_px" in printed
+
+
+def test_a_folder_without_models_is_told(tmp_path, capsys):
+    sample = load_sample()
+    given = arguments(tmp_path, sample.request.decode(), image=sample.image, gender="female")
+    given = replace(given, models=tmp_path / "nowhere")
+    assert fit_locally(given) == 2
+    printed = capsys.readouterr().out
+    assert "female.npz" in printed
+    assert "python -m fitter.training" in printed
 
 
 def test_a_points_file_may_hold_other_things_and_the_command_line_wins(tmp_path):

@@ -129,7 +129,7 @@ def test_a_stopping_worker_finishes_what_it_began(embedded: Machine, tmp_path: P
             eventually(lambda: pids_noted(note), what="the fit runs")
             waiting = service.submit({"seconds": 0.0})
             worker.send_signal(signal.SIGTERM)
-            assert worker.wait(timeout=10.0) == 0
+            assert worker.wait(timeout=60.0) == 0
         job = service.job(path)
         assert job["state"] == "succeeded"
         assert job["attempt"] == 1
@@ -144,7 +144,7 @@ def test_a_stopping_worker_hands_back_what_it_cannot_finish(embedded: Machine, t
             path = service.submit({"seconds": 2.0, "note_pid": str(note)})
             (pid,) = eventually(lambda: pids_noted(note), what="the fit runs")
             worker.send_signal(signal.SIGTERM)
-            assert worker.wait(timeout=5.0) == 0
+            assert worker.wait(timeout=60.0) == 0
         assert service.state(path) == "queued"
         eventually(lambda: not is_running(pid), within_s=1.0, what="the fit ends")
         with running_worker(embedded):
@@ -172,7 +172,7 @@ def test_the_service_stops_cleanly_when_told_to(embedded: Machine, signal_number
     with running_service(embedded) as service:
         worker = _child_of(service.process.pid)
         service.process.send_signal(signal_number)
-        service.process.wait(timeout=10.0)
+        service.process.wait(timeout=60.0)
         assert not is_running(worker)
 
 

@@ -23,13 +23,14 @@ def database(tmp_path):
         connection.execute(
             sa.insert(JOBS).values(
                 id=JOB,
+                tenant="default",
                 state="queued",
                 progress=0.0,
                 attempt=0,
                 crashes=0,
                 cancel_requested=False,
                 created_at=1.0,
-                options="{}",
+                options_digest="0" * 64,
                 image_digest="0" * 64,
                 image_media_type="image/png",
                 artifacts="[]",
@@ -41,7 +42,7 @@ def database(tmp_path):
 
 
 def log(database: sa.Engine, name: str = "worker-1") -> AttemptLog:
-    return AttemptLog(database, executor_id=name, max_crashes=3)
+    return AttemptLog(database, executor_id=name, max_crashes=3, retention_s=60.0)
 
 
 def job(database: sa.Engine):

@@ -2,35 +2,36 @@ import hashlib
 
 import pytest
 
-from service.blobs import BlobStore
+from service.blobs import BlobMissingError, StorageFullError
+from service.blobs.local import LocalBlobStore
 
 
 def test_a_blob_is_named_by_its_content_and_read_back(tmp_path):
-    blobs = BlobStore(tmp_path)
+    blobs = LocalBlobStore(tmp_path)
     digest = blobs.put("job-1", b"picture")
     assert digest == hashlib.sha256(b"picture").hexdigest()
     assert blobs.get("job-1", digest) == b"picture"
 
 
 def test_storing_the_same_content_twice_leaves_one_file(tmp_path):
-    blobs = BlobStore(tmp_path)
+    blobs = LocalBlobStore(tmp_path)
     digest = blobs.put("job-1", b"picture")
     assert blobs.put("job-1", b"picture") == digest
     assert [path.name for path in (tmp_path / "jo" / "job-1").iterdir()] == [digest]
 
 
 def test_erasing_a_scope_leaves_other_scopes_with_the_same_content(tmp_path):
-    blobs = BlobStore(tmp_path)
+    blobs = LocalBlobStore(tmp_path)
     digest = blobs.put("job-1", b"picture")
     blobs.put("job-2", b"picture")
     blobs.erase("job-1")
-    with pytest.raises(FileNotFoundError):
+    with pytest.raises(BlobMissingError):
         blobs.get("job-1", digest)
     assert blobs.get("job-2", digest) == b"picture"
 
 
 def test_erasing_what_is_not_there_is_fine(tmp_path):
-    BlobStore(tmp_path).erase("job-1")
+    LocalBlobStore(tmp_path).erase("job-1")
 
 
 def test_a_failed_write_leaves_no_temporary_file(tmp_path, monkeypatch):
@@ -38,6 +39,6 @@ def test_a_failed_write_leaves_no_temporary_file(tmp_path, monkeypatch):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("os.fsync", full_disk)
-    with pytest.raises(OSError, match="No space"):
-        BlobStore(tmp_path).put("job-1", b"picture")
+    with pytest.raises(StorageFullError, match="No space"):
+        LocalBlobStore(tmp_path).put("job-1", b"picture")
     assert list((tmp_path / "jo" / "job-1").iterdir()) == []

@@ -5,6 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image, ImageOps
 
+from service.exif_header import read_exif_facts
 from service.image_header import DamagedImageError, UnknownImageError, read_image_header
 
 KINDS = {"JPEG": "image/jpeg", "PNG": "image/png", "WEBP": "image/webp"}
@@ -29,6 +30,27 @@ def test_size_and_orientation_agree_with_a_decoder(kind, width, height, orientat
     assert (header.width, header.height) == upright.size
     assert header.media_type == KINDS[kind]
     assert not header.animated
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(("named", "read"), [(28, 28.0), (0, None), (None, None)])
+def test_the_focal_length_is_read_where_it_is_named(kind, named, read):
+    exif = Image.Exif()
+    exif[0x0112] = 6
+    if named is not None:
+        exif.get_ifd(0x8769)[0xA405] = named
+    stream = io.BytesIO()
+    Image.new("RGB", (40, 30)).save(stream, kind, exif=exif)
+    header = read_image_header(stream.getvalue())
+    assert header.focal_length_35mm == read
+    assert (header.width, header.height) == (30, 40)
+
+
+@given(st.binary(max_size=300), st.sampled_from([b"II*\0\x08\0\0\0", b"MM\0*\0\0\0\x08"]))
+def test_a_damaged_exif_block_counts_as_none(tail, magic):
+    facts = read_exif_facts(magic + tail)
+    assert 1 <= facts.orientation <= 8
+    assert facts.focal_length_35mm is None or facts.focal_length_35mm > 0.0
 
 
 @pytest.mark.parametrize("options", [{"lossless": True}, {"quality": 50}])

@@ -3,7 +3,8 @@ import json
 import pytest
 
 from api_schemas.points import POINT_NAMES, Point
-from service.submission import CheckedSubmission, RefusedError, check_submission
+from service.refusal import RefusedError
+from service.submission import CheckedSubmission, check_submission
 from tests.integration.service.fake_pipeline import scripted_image
 
 POINTS = {
@@ -11,6 +12,16 @@ POINTS = {
     "right_shoulder": [100, 100],
     "left_hip": [180, 250],
     "right_hip": [120, 250],
+    "left_knee": [182, 350],
+    "right_knee": [118, 350],
+}
+LIMBS_WITHOUT_TRUNK = {
+    f"{side}_{joint}": [100 + 10 * n, 100 * n]
+    for n, joint in enumerate(("elbow", "wrist", "knee"))
+    for side in ("left", "right")
+} | {"left_hip": [180, 250]}
+FACE_AND_TRUNK = dict(list(POINTS.items())[:4]) | {
+    name: [150, 40 + n] for n, name in enumerate(("nose", "left_eye", "right_eye", "chin"))
 }
 
 
@@ -62,7 +73,10 @@ def test_checking_twice_changes_nothing():
         ({"gender": None}, "gender", "unknown-value"),
         ({"weight": 80}, "weight", "unknown-field"),
         ({"points": {}}, "points", "too-few-points"),
-        ({"points": dict(list(POINTS.items())[:3])}, "points", "too-few-points"),
+        ({"points": dict(list(POINTS.items())[:5])}, "points", "too-few-points"),
+        ({"points": LIMBS_WITHOUT_TRUNK}, "points", "too-few-points"),
+        ({"points": FACE_AND_TRUNK}, "points", "too-few-points"),
+        ({"points": {key: [150, 200] for key in POINTS}}, "points", "points-too-close"),
         ({"points": POINTS | {"nose": [float("nan"), 1]}}, "points.nose", "not-finite"),
         ({"points": POINTS | {"nose": [1, float("inf")]}}, "points.nose", "not-finite"),
         ({"points": POINTS | {"nose": [641, 100]}}, "points.nose", "point-outside-image"),

@@ -93,7 +93,7 @@ def test_both_sides_know_the_same_words(wire_kind, fitter_kind):
 def test_every_point_on_the_wire_is_a_landmark_of_the_models():
     from service.worker.pipeline import describe
 
-    for model in describe().models:
+    for model in describe(None).models:
         assert set(wire_points.POINT_NAMES) <= set(model.landmarks)
         assert 1.5 < model.mean_height_m < 1.9
         assert model.licences

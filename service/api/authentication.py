@@ -1,0 +1,174 @@
+"""Who asks: an API key names a tenant. Answered before anything of the body is looked at."""
+
+import time
+from collections.abc import Callable, Sequence
+from typing import Final, Protocol
+
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request
+from starlette.types import ASGIApp, Receive, Scope, Send
+
+from api_schemas.problems import problem
+from service.api.body_limit import refuse
+from service.api.context import SOLE_TENANT
+from service.api.problems import ProblemError, problem_response
+from service.api.rate_limit import RateLimit
+from service.engine.keys import ApiKey, Role, hash_key
+from service.engine.port import EngineUnavailableError
+
+OPEN: Final = ("/healthz/", "/problems/", "/docs", "/openapi.json")
+"""What anybody may ask, by the beginning of its path: nothing of a tenant's is there."""
+
+METRICS_PATH: Final = "/metrics"
+
+REFRESH_S: Final = 5.0
+"""A revoked key is refused after this time at the latest."""
+
+RETRY_UNKNOWN_S: Final = 0.5
+"""A key unknown so far is looked for in the database no more often than this, whoever asks."""
+
+NO_KEY: Final = "There is no API key."
+UNKNOWN_KEY: Final = "The API key is unknown or revoked."
+
+
+class KeySource(Protocol):
+    """Where the keys are."""
+
+    def all_keys(self) -> Sequence[ApiKey]:
+        """Return all keys."""
+        ...
+
+
+class KnownKeys:
+    """The keys in use, kept for a few seconds, so that a request costs no query."""
+
+    def __init__(
+        self, source: KeySource, *, monotonic: Callable[[], float] = time.monotonic
+    ) -> None:
+        self._source = source
+        self._monotonic = monotonic
+        self._by_hash: dict[str, ApiKey] = {}
+        self._read_at: float | None = None
+
+    def find(self, presented: str) -> ApiKey | None:
+        """Return the key in use that was presented; None if there is no such key.
+
+        Raises
+        ------
+        EngineUnavailableError
+            If the database is away and nothing is known yet.
+        """
+        secret_hash = hash_key(presented)
+        age = None if self._read_at is None else self._monotonic() - self._read_at
+        known = self._by_hash.get(secret_hash)
+        if age is None or age >= (REFRESH_S if known is not None else RETRY_UNKNOWN_S):
+            self._refresh()
+            known = self._by_hash.get(secret_hash)
+        return known
+
+    def _refresh(self) -> None:
+        try:
+            keys = self._source.all_keys()
+        except EngineUnavailableError:
+            # What was in use a moment ago still is: the next to fail is the request itself.
+            if self._read_at is None:
+                raise
+            return
+        self._by_hash = {key.secret_hash: key for key in keys if key.revoked_at is None}
+        self._read_at = self._monotonic()
+
+
+class Authentication:
+    """ASGI middleware: sets ``request.state.tenant``, or answers 401, 403 or 429.
+
+    Without ``keys`` everybody is the sole tenant; the settings see to it that the service is then
+    reached from its own machine only.
+    """
+
+    def __init__(self, app: ASGIApp, *, keys: KnownKeys | None, rate_limit: RateLimit) -> None:
+        self._app = app
+        self._keys = keys
+        self._rate_limit = rate_limit
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass the request on in the name of its tenant."""
+        if scope["type"] != "http":
+            await self._app(scope, receive, send)
+            return
+        request = Request(scope)
+        try:
+            request.state.tenant = await self._tenant(request)
+        except ProblemError as error:
+            await refuse(
+                problem_response(request, error.problem, error.headers), scope, receive, send
+            )
+            return
+        await self._app(scope, receive, send)
+
+    async def _tenant(self, request: Request) -> str:
+        if self._keys is None or request.url.path.startswith(OPEN):
+            return SOLE_TENANT
+        scheme, _, presented = request.headers.get("authorization", "").partition(" ")
+        if scheme.lower() != "bearer" or not presented.strip():
+            raise _unauthorized(NO_KEY)
+        try:
+            key = await run_in_threadpool(self._keys.find, presented.strip())
+        except EngineUnavailableError as error:
+            raise _not_ready() from error
+        if key is None:
+            raise _unauthorized(UNKNOWN_KEY)
+        for_metrics = request.url.path == METRICS_PATH
+        if (key.role is Role.METRICS) != for_metrics:
+            raise _forbidden(key)
+        retry_after_s = self._rate_limit.take(key.id)
+        if retry_after_s:
+            raise _too_many(retry_after_s)
+        return key.tenant
+
+
+def _unauthorized(detail: str) -> ProblemError:
+    return ProblemError(
+        problem(
+            "unauthorized",
+            detail=detail,
+            remedy="Send the header 'Authorization: Bearer' with a key; whoever runs the service "
+            "makes one with: maquette keys create TENANT",
+            field="Authorization",
+        ),
+        headers={"WWW-Authenticate": 'Bearer realm="maquette"'},
+    )
+
+
+def _forbidden(key: ApiKey) -> ProblemError:
+    return ProblemError(
+        problem(
+            "forbidden",
+            code="wrong-role",
+            detail=f"This key is for {key.role} only.",
+            remedy="Use a key made for this purpose.",
+            field="Authorization",
+        )
+    )
+
+
+def _too_many(retry_after_s: int) -> ProblemError:
+    return ProblemError(
+        problem(
+            "too-many-requests",
+            code="rate-limit",
+            detail="This key asks too often.",
+            remedy="Wait for the seconds in Retry-After; follow events instead of polling.",
+        ),
+        headers={"Retry-After": str(retry_after_s)},
+    )
+
+
+def _not_ready() -> ProblemError:
+    return ProblemError(
+        problem(
+            "not-ready",
+            code="database-unavailable",
+            detail="The API keys cannot be looked up at the moment.",
+            remedy="Try again after the time in Retry-After.",
+        )
+    )

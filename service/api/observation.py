@@ -1,0 +1,102 @@
+"""What is seen of a request from outside: its id, one line of log, figures, a span."""
+
+import logging
+import re
+import time
+import uuid
+from typing import Final
+
+from opentelemetry.trace import SpanKind
+from starlette.datastructures import MutableHeaders
+from starlette.requests import Request
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from api_schemas.problems import problem
+from service.api.figures import Figures
+from service.api.problems import problem_response
+from service.logs import fields, log_context
+from service.tracing import span
+
+LOG: Final = logging.getLogger(__name__)
+
+HEADER: Final = "x-request-id"
+WELL_FORMED: Final = re.compile(r"[A-Za-z0-9._-]{1,64}")
+QUIET: Final = ("/healthz/", "/metrics")
+"""Asked every few seconds by machines: told at DEBUG only."""
+
+
+class Observation:
+    """ASGI middleware, outermost of ours: sees every answer, and turns a fault into one."""
+
+    def __init__(self, app: ASGIApp, *, figures: Figures) -> None:
+        self._app = app
+        self._figures = figures
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass the request on under its id."""
+        if scope["type"] != "http":
+            await self._app(scope, receive, send)
+            return
+        request = Request(scope)
+        given = request.headers.get(HEADER, "")
+        request_id = given if WELL_FORMED.fullmatch(given) else uuid.uuid4().hex
+        request.state.request_id = request_id
+        with (
+            log_context(request=request_id),
+            span(
+                request.method,
+                parent=request.headers.get("traceparent"),
+                kind=SpanKind.SERVER,
+                attributes={"http.request.method": request.method, "maquette.request": request_id},
+            ) as current,
+        ):
+            started = time.monotonic()
+            status = await self._answer(request, request_id, receive, send)
+            seconds = time.monotonic() - started
+            route = _route(scope)
+            current.update_name(f"{request.method} {route}")
+            current.set_attribute("http.route", route)
+            current.set_attribute("http.response.status_code", status)
+            self._figures.count(method=request.method, route=route, status=status, seconds=seconds)
+            LOG.log(
+                logging.DEBUG if request.url.path.startswith(QUIET) else logging.INFO,
+                "%s %s",
+                request.method,
+                route,
+                extra=fields(
+                    status=status,
+                    seconds=f"{seconds:.3f}",
+                    **({"job": job} if (job := scope.get("path_params", {}).get("fit_id")) else {}),
+                    **({"tenant": tenant} if (tenant := scope["state"].get("tenant")) else {}),
+                ),
+            )
+
+    async def _answer(self, request: Request, request_id: str, receive: Receive, send: Send) -> int:
+        # What a client sees that hung up before there was an answer, in the logs of proxies.
+        status = 499
+
+        async def identified(message: Message) -> None:
+            nonlocal status
+            if message["type"] == "http.response.start":
+                status = message["status"]
+                MutableHeaders(scope=message)[HEADER] = request_id
+            await send(message)
+
+        try:
+            await self._app(request.scope, receive, identified)
+        except Exception:
+            LOG.exception("%s %s failed.", request.method, _route(request.scope))
+            if status != 499:
+                raise
+            reason = problem(
+                "internal-error",
+                detail="An unexpected fault; it has been logged.",
+                remedy="Try again later.",
+            )
+            await problem_response(request, reason)(request.scope, receive, identified)
+        return status
+
+
+def _route(scope: Scope) -> str:
+    """The template of the path that answered: bounded in number, and free of ids."""
+    return getattr(scope.get("route"), "path", "other")

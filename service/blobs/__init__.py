@@ -1,0 +1,17 @@
+"""Pictures and results as blobs: on the local disk, or in S3-compatible object storage.
+
+Blobs live in scopes, one a job, named by their content. Nothing is shared between scopes, so
+erasing a job erases one scope and nothing needs counting. The database holds names of blobs only:
+what a caller sent (picture, mask, points) and what was made of it is here and nowhere else.
+"""
+
+from service.blobs.port import BlobMissingError, BlobStore, BlobsUnavailableError, StorageFullError
+from service.blobs.selection import open_blob_store
+
+__all__ = [
+    "BlobMissingError",
+    "BlobStore",
+    "BlobsUnavailableError",
+    "StorageFullError",
+    "open_blob_store",
+]

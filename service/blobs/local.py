@@ -1,0 +1,123 @@
+"""Blobs as files below a folder, for one machine or a file system that several share.
+
+A blob is written to a temporary file, flushed to the disk and renamed; a reader sees all of it or
+nothing, and whatever was stored survives a crash.
+"""
+
+import contextlib
+import errno
+import hashlib
+import os
+import shutil
+import tempfile
+import uuid
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Final
+
+from service.blobs.port import BlobMissingError, BlobsUnavailableError, StorageFullError
+
+FULL: Final = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
+
+
+class LocalBlobStore:
+    """Content-addressed files: ``root/scope[:2]/scope/sha256``."""
+
+    def __init__(self, root: Path) -> None:
+        self.root = root
+
+    def put(self, scope: str, content: bytes) -> str:
+        """Store ``content`` and return its SHA-256, its name in the scope.
+
+        Raises
+        ------
+        BlobMissingError
+            If the scope was erased meanwhile.
+        """
+        digest = hashlib.sha256(content).hexdigest()
+        try:
+            with _told():
+                _write(self._folder(scope) / digest, content)
+        except FileNotFoundError as error:
+            raise BlobMissingError(digest) from error
+        return digest
+
+    def get(self, scope: str, name: str) -> bytes:
+        """Read a blob.
+
+        Raises
+        ------
+        BlobMissingError
+            If it was erased or never stored.
+        """
+        try:
+            with _told():
+                return (self._folder(scope) / name).read_bytes()
+        except FileNotFoundError as error:
+            raise BlobMissingError(name) from error
+
+    def erase(self, scope: str) -> None:
+        """Remove everything in a scope; erasing nothing is fine."""
+        folder = self._folder(scope)
+        with _told(), contextlib.suppress(FileNotFoundError):
+            # Twice: a file may come in between the listing of the folder and its removal.
+            for last in (False, True):
+                try:
+                    shutil.rmtree(folder)
+                    break
+                except OSError as error:
+                    if last or error.errno != errno.ENOTEMPTY:
+                        raise
+
+    def check_writable(self) -> None:
+        """Write and remove a file."""
+        scope = f".probe-{uuid.uuid4().hex}"
+        self.put(scope, b"probe")
+        self.erase(scope)
+
+    def free_bytes(self) -> int | None:
+        """Room left on the disk."""
+        folder = self.root
+        while not folder.exists():
+            folder = folder.parent
+        return shutil.disk_usage(folder).free
+
+    def _folder(self, scope: str) -> Path:
+        return self.root / scope[:2] / scope
+
+
+@contextlib.contextmanager
+def _told() -> Iterator[None]:
+    """Turn what a disk says into the store's own errors; a missing file stays what it is."""
+    try:
+        yield
+    except FileNotFoundError:
+        raise
+    except OSError as error:
+        kind = StorageFullError if error.errno in FULL else BlobsUnavailableError
+        raise kind(error.strerror) from error
+
+
+def _write(path: Path, content: bytes) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, name = tempfile.mkstemp(dir=path.parent, prefix=".new-")
+    temporary = Path(name)
+    try:
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(content)
+            stream.flush()
+            os.fsync(stream.fileno())
+        temporary.rename(path)
+    except BaseException:
+        temporary.unlink(missing_ok=True)
+        raise
+    _sync_folder(path.parent)
+
+
+def _sync_folder(folder: Path) -> None:
+    # The rename itself must reach the disk, not only the file's content.
+    handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)

@@ -1,0 +1,49 @@
+"""What the service asks of a blob store, and how it says that it cannot."""
+
+from typing import Protocol
+
+
+class BlobMissingError(Exception):
+    """There is no such blob: it was erased, or never stored."""
+
+
+class BlobsUnavailableError(Exception):
+    """The store cannot be reached or does not answer; what was to be stored is not stored."""
+
+
+class StorageFullError(BlobsUnavailableError):
+    """There is no room left."""
+
+
+class BlobStore(Protocol):
+    """Content-addressed bytes in scopes.
+
+    Every method may raise :class:`BlobsUnavailableError`. A reader sees all of a blob or nothing,
+    and what ``put`` has returned for survives a crash of this process and of its machine.
+    """
+
+    def put(self, scope: str, content: bytes) -> str:
+        """Store ``content`` and return its SHA-256, its name in the scope."""
+        ...
+
+    def get(self, scope: str, name: str) -> bytes:
+        """Return a blob.
+
+        Raises
+        ------
+        BlobMissingError
+            If it was erased or never stored.
+        """
+        ...
+
+    def erase(self, scope: str) -> None:
+        """Remove everything in a scope; erasing nothing is fine."""
+        ...
+
+    def check_writable(self) -> None:
+        """Store and remove a blob of a few bytes, or raise."""
+        ...
+
+    def free_bytes(self) -> int | None:
+        """Room left, or None where the store has no such thing."""
+        ...

@@ -1,0 +1,133 @@
+"""Blobs as objects in S3-compatible storage: ``prefix/scope/sha256`` in one bucket.
+
+Credentials come from where every S3 client looks for them: ``AWS_ACCESS_KEY_ID`` and
+``AWS_SECRET_ACCESS_KEY``, a shared file, or the machine's role.
+"""
+
+import contextlib
+import hashlib
+import uuid
+from collections.abc import Iterator
+from typing import Any, Final
+
+import boto3
+from botocore.config import Config
+from botocore.exceptions import BotoCoreError, ClientError
+
+from service.blobs.port import BlobMissingError, BlobsUnavailableError, StorageFullError
+
+MISSING: Final = frozenset({"NoSuchKey", "404", "NotFound"})
+FULL: Final = frozenset({"XMinioStorageFull", "QuotaExceeded", "InsufficientStorage", "507"})
+UNVERSIONED: Final = frozenset({"NotImplemented", "MethodNotAllowed"})
+"""What servers without versions answer when asked for them."""
+
+CONNECTIONS: Final = 32
+CONNECT_TIMEOUT_S: Final = 3
+READ_TIMEOUT_S: Final = 20
+ATTEMPTS: Final = 3
+
+
+class S3BlobStore:
+    """Content-addressed objects below a prefix of a bucket."""
+
+    def __init__(
+        self, *, bucket: str, prefix: str, endpoint_url: str | None, region: str | None
+    ) -> None:
+        self._bucket = bucket
+        self._prefix = f"{prefix.strip('/')}/" if prefix.strip("/") else ""
+        self._client: Any = boto3.client(
+            "s3",
+            endpoint_url=endpoint_url,
+            region_name=region,
+            config=Config(
+                connect_timeout=CONNECT_TIMEOUT_S,
+                read_timeout=READ_TIMEOUT_S,
+                retries={"mode": "standard", "total_max_attempts": ATTEMPTS},
+                max_pool_connections=CONNECTIONS,
+                # Many S3-compatible servers know neither buckets as host names nor the newer
+                # checksums; the content is checked by its name instead.
+                s3={"addressing_style": "path" if endpoint_url else "auto"},
+                request_checksum_calculation="when_required",
+                response_checksum_validation="when_required",
+            ),
+        )
+
+    def put(self, scope: str, content: bytes) -> str:
+        """Store ``content`` and return its SHA-256, its name in the scope."""
+        digest = hashlib.sha256(content).hexdigest()
+        with _told(digest):
+            self._client.put_object(Bucket=self._bucket, Key=self._key(scope, digest), Body=content)
+        return digest
+
+    def get(self, scope: str, name: str) -> bytes:
+        """Read a blob.
+
+        Raises
+        ------
+        BlobMissingError
+            If it was erased or never stored.
+        BlobsUnavailableError
+            If what came is not what was stored.
+        """
+        with _told(name):
+            answer = self._client.get_object(Bucket=self._bucket, Key=self._key(scope, name))
+            content: bytes = answer["Body"].read()
+        if hashlib.sha256(content).hexdigest() != name:
+            message = f"object {name} has another content than its name says"
+            raise BlobsUnavailableError(message)
+        return content
+
+    def erase(self, scope: str) -> None:
+        """Remove everything in a scope, in every version a bucket with versioning kept."""
+        with _told(scope):
+            # One by one: deletion in batches needs a checksum that not every server accepts.
+            for version in self._versions(f"{self._prefix}{scope}/"):
+                self._client.delete_object(Bucket=self._bucket, **version)
+
+    def check_writable(self) -> None:
+        """Write and remove an object."""
+        scope = f".probe-{uuid.uuid4().hex}"
+        self.put(scope, b"probe")
+        self.erase(scope)
+
+    def free_bytes(self) -> int | None:
+        """Object storage tells no room left."""
+        return None
+
+    def _key(self, scope: str, name: str) -> str:
+        return f"{self._prefix}{scope}/{name}"
+
+    def _versions(self, prefix: str) -> Iterator[dict[str, str]]:
+        try:
+            yield from self._listed("list_object_versions", prefix)
+        except ClientError as error:
+            if error.response.get("Error", {}).get("Code") not in UNVERSIONED:
+                raise
+            yield from self._listed("list_objects_v2", prefix)
+
+    def _listed(self, operation: str, prefix: str) -> Iterator[dict[str, str]]:
+        pages = self._client.get_paginator(operation)
+        for page in pages.paginate(Bucket=self._bucket, Prefix=prefix):
+            for kind in ("Versions", "DeleteMarkers", "Contents"):
+                for entry in page.get(kind, ()):
+                    version = {"Key": entry["Key"]}
+                    if entry.get("VersionId") not in (None, "null"):
+                        version["VersionId"] = entry["VersionId"]
+                    yield version
+
+
+@contextlib.contextmanager
+def _told(name: str) -> Iterator[None]:
+    """Turn what the client says into the store's own errors."""
+    try:
+        yield
+    except ClientError as error:
+        code = str(error.response.get("Error", {}).get("Code", ""))
+        if code in MISSING:
+            raise BlobMissingError(name) from error
+        kind = StorageFullError if code in FULL else BlobsUnavailableError
+        message = f"the object storage answered {code}"
+        raise kind(message) from error
+    except BotoCoreError as error:
+        message = f"the object storage cannot be reached ({type(error).__name__})"
+        raise BlobsUnavailableError(message) from error

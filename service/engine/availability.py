@@ -1,0 +1,26 @@
+"""One way to say that the database is away."""
+
+import functools
+from collections.abc import Callable
+from typing import ParamSpec, TypeVar
+
+from sqlalchemy.exc import OperationalError
+from sqlalchemy.exc import TimeoutError as PoolTimeoutError
+
+from service.engine.port import EngineUnavailableError
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+def available(operation: Callable[P, T]) -> Callable[P, T]:
+    """Turn what the database's driver raises into the port's own error."""
+
+    @functools.wraps(operation)
+    def wrapper(*args: P.args, **kwargs: P.kwargs) -> T:
+        try:
+            return operation(*args, **kwargs)
+        except (OperationalError, PoolTimeoutError) as error:
+            raise EngineUnavailableError from error
+
+    return wrapper

@@ -1,0 +1,155 @@
+"""The end of what is kept: jobs expire, and what is to be erased is written down until it is gone.
+
+Blobs are not in the database, so no transaction covers both. A scope that is to be erased stands in
+a table of its own, entered in the transaction that forgets the job, and is taken out only after its
+blobs are gone: whoever dies in between, the next sweep goes on. A submission enters its scope
+before it stores the first byte and takes it out when the job is accepted.
+"""
+
+import logging
+import time
+from collections.abc import Callable, Sequence
+from typing import Final
+
+import sqlalchemy as sa
+
+from api_schemas.jobs import JobState
+from service.engine.tables import ERASURES, JOBS, TOMBSTONES
+
+LOG: Final = logging.getLogger(__name__)
+
+ABANDONED_AFTER_S: Final = 3_600.0
+"""A submission that has stored its picture and was not heard of for this long is none."""
+
+LATE_WRITES_S: Final = 600.0
+"""A worker that is out of reach may still store results of a job that was erased under it; the
+scope is erased once more after this time."""
+
+TOMBSTONES_KEPT_S: Final = 90 * 86_400.0
+BATCH: Final = 200
+
+POSTPONED_S: Final = 600.0
+"""A scope that could not be erased is tried again after this time; others do not wait for it."""
+
+JUMP_S: Final = 60.0
+"""A wall clock that goes this much faster or slower than the time that has passed was set."""
+
+SETTLING_S: Final = 3_600.0
+"""For this long after a jump nothing expires: what is erased cannot be brought back, and a clock
+that was set wrong can be set right."""
+
+
+class ClockGuard:
+    """Notices when the wall clock jumps."""
+
+    def __init__(
+        self,
+        *,
+        wall: Callable[[], float] = time.time,
+        monotonic: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._wall = wall
+        self._monotonic = monotonic
+        self._offset = wall() - monotonic()
+        self._settled_at = monotonic()
+
+    def is_settled(self) -> bool:
+        """Say whether the wall clock has run evenly for a while."""
+        now = self._monotonic()
+        offset = self._wall() - now
+        if abs(offset - self._offset) > JUMP_S:
+            LOG.warning(
+                "The clock jumped by %.0f s; nothing expires for %.0f s.",
+                offset - self._offset,
+                SETTLING_S,
+            )
+            self._settled_at = now + SETTLING_S
+        self._offset = offset
+        return now >= self._settled_at
+
+
+def enter_erasures(connection: sa.Connection, scopes: Sequence[str], *, due_at: float) -> None:
+    """Write down that these scopes are to be erased from ``due_at`` on."""
+    if scopes:
+        connection.execute(
+            sa.insert(ERASURES), [{"scope": scope, "due_at": due_at} for scope in scopes]
+        )
+
+
+def take_out(connection: sa.Connection, scope: str) -> bool:
+    """Take a scope out of those to be erased; say whether it was still there."""
+    return connection.execute(sa.delete(ERASURES).where(ERASURES.c.scope == scope)).rowcount > 0
+
+
+def forget_job(connection: sa.Connection, job_id: str, *conditions: sa.ColumnElement[bool]) -> bool:
+    """Delete a job with its events, and write down its scope; say whether there was one."""
+    state = connection.execute(
+        sa.delete(JOBS).where(JOBS.c.id == job_id, *conditions).returning(JOBS.c.state)
+    ).scalar_one_or_none()
+    if state is None:
+        return False
+    now = time.time()
+    due_at = now + LATE_WRITES_S if state == JobState.RUNNING.value else now
+    enter_erasures(connection, [job_id], due_at=due_at)
+    return True
+
+
+def expire_jobs(connection: sa.Connection) -> int:
+    """Forget the jobs whose time is over, leaving their ids; returns how many."""
+    now = time.time()
+    ids = list(
+        connection.execute(
+            sa.select(JOBS.c.id)
+            .where(JOBS.c.expires_at <= now)
+            .limit(BATCH)
+            # Two processes may sweep at once.
+            .with_for_update(skip_locked=True)
+        ).scalars()
+    )
+    if not ids:
+        return 0
+    rows = connection.execute(
+        sa.delete(JOBS)
+        .where(JOBS.c.id.in_(ids))
+        .returning(JOBS.c.id, JOBS.c.tenant, JOBS.c.expires_at)
+    ).all()
+    connection.execute(
+        sa.insert(TOMBSTONES),
+        [{"id": row.id, "tenant": row.tenant, "expired_at": row.expires_at} for row in rows],
+    )
+    enter_erasures(connection, [row.id for row in rows], due_at=now)
+    return len(rows)
+
+
+def drop_old_tombstones(connection: sa.Connection) -> None:
+    """Forget that jobs expired long ago."""
+    connection.execute(
+        sa.delete(TOMBSTONES).where(TOMBSTONES.c.expired_at < time.time() - TOMBSTONES_KEPT_S)
+    )
+
+
+def due_erasures(connection: sa.Connection) -> list[str]:
+    """Return scopes whose blobs are to be erased now."""
+    query = sa.select(ERASURES.c.scope).where(ERASURES.c.due_at <= time.time()).limit(BATCH)
+    return list(connection.execute(query).scalars())
+
+
+def postpone(connection: sa.Connection, scope: str) -> None:
+    """Try a scope again later."""
+    connection.execute(
+        sa.update(ERASURES)
+        .where(ERASURES.c.scope == scope)
+        .values(due_at=time.time() + POSTPONED_S)
+    )
+
+
+def forget_pages(database: sa.Engine) -> None:
+    """Give free pages of an embedded database back to the disk, and empty its write-ahead log.
+
+    Erased rows also stand in the log, and the file does not shrink by itself.
+    """
+    if database.dialect.name != "sqlite":
+        return
+    with database.connect() as connection:
+        connection.execute(sa.text("PRAGMA incremental_vacuum"))
+        connection.execute(sa.text("PRAGMA wal_checkpoint(TRUNCATE)"))

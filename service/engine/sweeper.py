@@ -1,0 +1,93 @@
+"""A thread that erases what has expired, and what was to be erased and is still there."""
+
+import logging
+import threading
+from typing import Final
+
+import sqlalchemy as sa
+from dbos import DBOSClient
+from sqlalchemy.exc import OperationalError
+
+from service.blobs import BlobStore, BlobsUnavailableError
+from service.engine.expiry import (
+    ClockGuard,
+    drop_old_tombstones,
+    due_erasures,
+    expire_jobs,
+    forget_pages,
+    postpone,
+    take_out,
+)
+
+LOG: Final = logging.getLogger(__name__)
+
+
+class Sweeper:
+    """Sweeps every ``interval_s``; several processes may do so on one database."""
+
+    def __init__(
+        self, database: sa.Engine, client: DBOSClient, blobs: BlobStore, *, interval_s: float
+    ) -> None:
+        self._database = database
+        self._client = client
+        self._blobs = blobs
+        self._interval_s = interval_s
+        self._clock = ClockGuard()
+        self._stopped = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="sweeper", daemon=True)
+
+    def start(self) -> None:
+        """Begin, one interval from now."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Stop after the scope at hand."""
+        self._stopped.set()
+        self._thread.join()
+
+    def sweep(self) -> int:
+        """Expire and erase what is due; returns how many scopes were erased."""
+        if self._clock.is_settled():
+            while not self._stopped.is_set():
+                with self._database.begin() as connection:
+                    if expire_jobs(connection) == 0:
+                        break
+            with self._database.begin() as connection:
+                drop_old_tombstones(connection)
+        erased = 0
+        while not self._stopped.is_set():
+            with self._database.connect() as connection:
+                scopes = due_erasures(connection)
+            if not scopes:
+                break
+            erased += sum(self._erase(scope) for scope in scopes)
+        if erased:
+            forget_pages(self._database)
+        return erased
+
+    def _erase(self, scope: str) -> bool:
+        try:
+            self._blobs.erase(scope)
+        except BlobsUnavailableError as error:
+            LOG.warning("The blobs of %s cannot be erased now (%s).", scope, error)
+            with self._database.begin() as connection:
+                postpone(connection, scope)
+            return False
+        # What DBOS knows of it too: a no-op where DELETE came to it already.
+        self._client.cancel_workflow(scope)
+        self._client.delete_workflow(scope)
+        with self._database.begin() as connection:
+            take_out(connection, scope)
+        return True
+
+    def _run(self) -> None:
+        while not self._stopped.wait(self._interval_s):
+            try:
+                erased = self.sweep()
+            except OperationalError as error:
+                LOG.warning("The database is not available (%s); nothing is erased.", error.orig)
+            except Exception:
+                LOG.exception("Erasing what has expired failed.")
+            else:
+                if erased:
+                    LOG.info("Erased %d expired or forgotten jobs.", erased)

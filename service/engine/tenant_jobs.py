@@ -1,0 +1,278 @@
+"""The jobs of one tenant: our records, with DBOS's queue behind them."""
+
+import time
+from collections.abc import Sequence
+
+import sqlalchemy as sa
+from dbos import DBOSClient, EnqueueOptions
+from sqlalchemy.exc import IntegrityError
+
+from api_schemas.jobs import EventData, EventKind, JobState
+from service.engine.availability import available
+from service.engine.expiry import (
+    ABANDONED_AFTER_S,
+    enter_erasures,
+    forget_job,
+    forget_pages,
+    take_out,
+)
+from service.engine.port import (
+    Idempotency,
+    JobEvent,
+    JobExpiredError,
+    JobRecord,
+    NewJob,
+    Submission,
+    SubmitOutcome,
+)
+from service.engine.queue import EXECUTION_VERSION, QUEUE, WORKFLOW
+from service.engine.records import append_event, end_job, job_record
+from service.engine.tables import EVENTS, JOBS, TOMBSTONES
+
+
+class DbosTenantJobs:
+    """Accept, look up, stop and erase jobs; see :class:`service.engine.port.TenantJobs`."""
+
+    def __init__(
+        self,
+        tenant: str,
+        *,
+        database: sa.Engine,
+        client: DBOSClient,
+        max_queued: int,
+        max_queued_per_tenant: int,
+        retention_s: float,
+    ) -> None:
+        self._tenant = tenant
+        self._database = database
+        self._client = client
+        self._max_queued = max_queued
+        self._max_queued_per_tenant = max_queued_per_tenant
+        self._retention_s = retention_s
+
+    @available
+    def reserve(self, job_id: str, idempotency: Idempotency | None) -> Submission:
+        """Enter the job's scope among those to be erased, until the job is accepted."""
+        with self._database.begin() as connection:
+            answered = self._answered(connection, idempotency)
+            if answered is not None:
+                return answered
+            enter_erasures(connection, [job_id], due_at=time.time() + ABANDONED_AFTER_S)
+        return Submission(outcome=SubmitOutcome.ACCEPTED, job=None)
+
+    @available
+    def submit(self, job: NewJob) -> Submission:
+        """Write the record and the queue entry in one transaction."""
+        try:
+            with self._database.begin() as connection:
+                answered = self._answered(connection, job.idempotency)
+                if answered is not None:
+                    return answered
+                if not take_out(connection, job.id):
+                    return Submission(outcome=SubmitOutcome.LOST, job=None)
+                record = self._insert(connection, job)
+                options: EnqueueOptions = {
+                    "workflow_name": WORKFLOW,
+                    "queue_name": QUEUE,
+                    "workflow_id": job.id,
+                    "app_version": EXECUTION_VERSION,
+                }
+                self._client.enqueue_in_transaction(connection, options, job.id)
+                return Submission(outcome=SubmitOutcome.ACCEPTED, job=record)
+        except IntegrityError:
+            # Two requests with one new key raced; the other one is stored by now.
+            with self._database.begin() as connection:
+                repeated = self._repeated(connection, job.idempotency)
+            if repeated is None:
+                raise
+            return repeated
+
+    @available
+    def job(self, job_id: str) -> JobRecord | None:
+        """Return the job, or None if there is none."""
+        with self._database.connect() as connection:
+            return self._find(connection, job_id)
+
+    @available
+    def jobs(
+        self, *, limit: int, before: tuple[float, str] | None, state: JobState | None
+    ) -> Sequence[JobRecord]:
+        """Return jobs newest first."""
+        query = (
+            sa.select(JOBS)
+            .where(
+                JOBS.c.tenant == self._tenant,
+                sa.or_(JOBS.c.expires_at.is_(None), JOBS.c.expires_at > time.time()),
+            )
+            .order_by(JOBS.c.created_at.desc(), JOBS.c.id.desc())
+            .limit(limit)
+        )
+        if before is not None:
+            created_at, job_id = before
+            query = query.where(
+                sa.or_(
+                    JOBS.c.created_at < created_at,
+                    sa.and_(JOBS.c.created_at == created_at, JOBS.c.id < job_id),
+                )
+            )
+        if state is not None:
+            query = query.where(JOBS.c.state == state.value)
+        with self._database.connect() as connection:
+            return [job_record(row) for row in connection.execute(query).mappings()]
+
+    @available
+    def cancel(self, job_id: str) -> JobRecord | None:
+        """End a queued job at once; ask the worker of a running one to stop.
+
+        A running job keeps its place in DBOS: if its worker is dead, the next one must find the
+        job, see the request and end it.
+        """
+        with self._database.begin() as connection:
+            canceled = end_job(
+                connection,
+                job_id,
+                JOBS.c.tenant == self._tenant,
+                JOBS.c.state == JobState.QUEUED.value,
+                state=JobState.CANCELED,
+                retention_s=self._retention_s,
+                values={"cancel_requested": True},
+            )
+            if canceled is None:
+                connection.execute(
+                    sa.update(JOBS)
+                    .where(*self._own(job_id), JOBS.c.state == JobState.RUNNING.value)
+                    .values(cancel_requested=True)
+                )
+                return self._find(connection, job_id)
+        self._client.cancel_workflow(job_id)
+        return canceled
+
+    @available
+    def erase(self, job_id: str) -> bool:
+        """Delete record, events and queue entry; a running attempt finds itself superseded."""
+        with self._database.begin() as connection:
+            found = forget_job(connection, job_id, JOBS.c.tenant == self._tenant)
+            if not found:
+                self._find(connection, job_id)
+        if found:
+            self._client.cancel_workflow(job_id)
+            self._client.delete_workflow(job_id)
+            forget_pages(self._database)
+        return found
+
+    @available
+    def events(self, job_id: str, *, after: int) -> Sequence[JobEvent]:
+        """Return the events numbered above ``after``."""
+        query = (
+            sa.select(EVENTS)
+            .join(JOBS, JOBS.c.id == EVENTS.c.job_id)
+            .where(*self._own(job_id), EVENTS.c.number > after)
+            .order_by(EVENTS.c.number)
+        )
+        with self._database.connect() as connection:
+            return [
+                JobEvent(
+                    number=row.number,
+                    kind=EventKind(row.kind),
+                    data=EventData.model_validate_json(row.data),
+                )
+                for row in connection.execute(query)
+            ]
+
+    def _own(self, job_id: str) -> tuple[sa.ColumnElement[bool], ...]:
+        return (JOBS.c.id == job_id, JOBS.c.tenant == self._tenant)
+
+    def _find(self, connection: sa.Connection, job_id: str) -> JobRecord | None:
+        row = connection.execute(sa.select(JOBS).where(*self._own(job_id))).mappings().one_or_none()
+        if row is not None:
+            record = job_record(row)
+            if record.expires_at is not None and record.expires_at <= time.time():
+                raise JobExpiredError(record.expires_at)
+            return record
+        expired_at = connection.execute(
+            sa.select(TOMBSTONES.c.expired_at).where(
+                TOMBSTONES.c.id == job_id, TOMBSTONES.c.tenant == self._tenant
+            )
+        ).scalar_one_or_none()
+        if expired_at is not None:
+            raise JobExpiredError(expired_at)
+        return None
+
+    def _answered(
+        self, connection: sa.Connection, idempotency: Idempotency | None
+    ) -> Submission | None:
+        """Return what a submission is answered without being accepted; None if there is room."""
+        repeated = self._repeated(connection, idempotency)
+        if repeated is not None:
+            return repeated
+        refused = self._no_room(connection)
+        return None if refused is None else Submission(outcome=refused, job=None)
+
+    def _no_room(self, connection: sa.Connection) -> SubmitOutcome | None:
+        waiting = JOBS.c.state == JobState.QUEUED.value
+        everyone, ours = connection.execute(
+            sa.select(
+                sa.func.count(),
+                sa.func.count(sa.case((JOBS.c.tenant == self._tenant, 1))),
+            ).where(waiting)
+        ).one()
+        if everyone >= self._max_queued:
+            return SubmitOutcome.QUEUE_FULL
+        if ours >= self._max_queued_per_tenant:
+            return SubmitOutcome.TENANT_FULL
+        return None
+
+    def _repeated(
+        self, connection: sa.Connection, idempotency: Idempotency | None
+    ) -> Submission | None:
+        if idempotency is None:
+            return None
+        row = (
+            connection.execute(
+                sa.select(JOBS).where(
+                    JOBS.c.tenant == self._tenant, JOBS.c.idempotency_key == idempotency.key
+                )
+            )
+            .mappings()
+            .one_or_none()
+        )
+        if row is None:
+            return None
+        earlier = job_record(row)
+        if earlier.fingerprint != idempotency.fingerprint:
+            return Submission(outcome=SubmitOutcome.KEY_REUSED, job=None)
+        return Submission(outcome=SubmitOutcome.REPEATED, job=earlier)
+
+    def _insert(self, connection: sa.Connection, job: NewJob) -> JobRecord:
+        row = (
+            connection.execute(
+                sa.insert(JOBS)
+                .values(
+                    id=job.id,
+                    tenant=self._tenant,
+                    state=JobState.QUEUED.value,
+                    progress=0.0,
+                    attempt=0,
+                    crashes=0,
+                    cancel_requested=False,
+                    created_at=time.time(),
+                    options_digest=job.options.digest,
+                    image_digest=job.image.digest,
+                    image_media_type=job.image.media_type,
+                    mask_digest=job.mask.digest if job.mask else None,
+                    mask_media_type=job.mask.media_type if job.mask else None,
+                    artifacts="[]",
+                    idempotency_key=job.idempotency.key if job.idempotency else None,
+                    fingerprint=job.idempotency.fingerprint if job.idempotency else None,
+                    request_id=job.request_id,
+                    traceparent=job.traceparent,
+                    last_event=1,
+                )
+                .returning(JOBS)
+            )
+            .mappings()
+            .one()
+        )
+        record = job_record(row)
+        append_event(connection, record, EventKind.STATE)
+        return record

@@ -1,0 +1,10 @@
+"""An estimator of the API that started it: ``python -m service.estimates SOCKET``."""
+
+from service.estimates.main import run_estimator
+from service.logs import configure_logging
+from service.settings import Settings
+
+if __name__ == "__main__":
+    settings = Settings()
+    configure_logging(settings.log_level)
+    run_estimator(settings)

@@ -1,0 +1,117 @@
+"""The real answers: the fitter between two translations."""
+
+from functools import cache
+from pathlib import Path
+
+from api_schemas.bodies import STATURE, BodyRequest, UncertainMeasurement
+from api_schemas.initial_poses import InitialPose
+from api_schemas.problems import FieldProblem
+from fitter.errors import InvalidInputError
+from fitter.estimate.body_estimate import estimate_body
+from fitter.estimate.known import KnownMeasurement
+from fitter.estimate.measured_population import MeasuredPopulation, measured_population
+from fitter.export.plain_gltf import plain_glb
+from fitter.fittable import fittable_body
+from fitter.initial_body import initial_body
+from fitter.request import Gender
+from service.demo_sample import load_sample
+from service.estimates import translate
+from service.estimates.messages import BodyTask, InitialPoseTask
+from service.estimates.port import EstimatedBody
+from service.submission import check_submission
+from service.worker.pipeline_port import UnusableInputError
+from service.worker.translate import field_problem
+
+CENTIMETRES_PER_METRE = 100.0
+
+
+def prepare(models: Path | None) -> None:
+    """Load both models and answer a question of each kind, which compiles or loads all kernels."""
+    for gender in Gender:
+        body(
+            BodyTask(
+                request=BodyRequest(gender=translate.wire_gender(gender), height_m=1.7),
+                with_glb=True,
+            ),
+            models,
+        )
+    sample = load_sample()
+    checked = check_submission(
+        request=sample.request, image=sample.image, mask=None, max_pixels=50_000_000
+    )
+    initial_pose(
+        InitialPoseTask(
+            subject=checked.options, width=720, height=960, exif_focal_length_35mm=None
+        ),
+        models,
+    )
+
+
+def body(task: BodyTask, models: Path | None) -> EstimatedBody:
+    """Estimate a body from measurements."""
+    gender = Gender(task.request.gender)
+    try:
+        estimate = estimate_body(_population(gender, models), known_measurements(task.request))
+    except InvalidInputError as error:
+        raise UnusableInputError(_about_the_height(error, task.request)) from error
+    model = fittable_body(gender, models=models).instruments.model
+    answer = translate.body_estimate(estimate, model)
+    glb = b""
+    if task.with_glb:
+        glb = plain_glb(
+            estimate.canonical_vertices,
+            model,
+            name="body",
+            extras={
+                "known": {
+                    measurement.name: measurement.value
+                    for measurement in answer.measurements
+                    if measurement.given
+                },
+                "height_m": answer.height_m,
+            },
+        )
+    return EstimatedBody(estimate=answer, glb=glb)
+
+
+def initial_pose(task: InitialPoseTask, models: Path | None) -> InitialPose:
+    """Pose the mean person by clicks."""
+    request = translate.subject_request(task.subject)
+    fittable = fittable_body(request.gender, models=models)
+    try:
+        initial = initial_body(
+            request,
+            fittable,
+            width=task.width,
+            height=task.height,
+            exif_focal_length_35mm=task.exif_focal_length_35mm,
+        )
+    except InvalidInputError as error:
+        raise UnusableInputError(field_problem(error)) from error
+    return translate.initial_pose(initial, request, fittable.instruments.model.part_names)
+
+
+def known_measurements(request: BodyRequest) -> dict[str, KnownMeasurement]:
+    """What the request says, by measurement name and in its unit; a height is a stature."""
+    known = {
+        name: KnownMeasurement(value=given.value, standard_error=given.standard_error)
+        if isinstance(given, UncertainMeasurement)
+        else KnownMeasurement(value=given)
+        for name, given in request.measurements.items()
+    }
+    if request.height_m is not None:
+        stature_cm = request.height_m * CENTIMETRES_PER_METRE
+        return {STATURE: KnownMeasurement(value=stature_cm)} | known
+    return known
+
+
+@cache
+def _population(gender: Gender, models: Path | None) -> MeasuredPopulation:
+    return measured_population(fittable_body(gender, models=models).measuring)
+
+
+def _about_the_height(error: InvalidInputError, request: BodyRequest) -> FieldProblem:
+    reason = field_problem(error)
+    if request.height_m is not None and reason.field == f"measurements.{STATURE}":
+        return reason.model_copy(update={"field": "height_m"})
+    return reason

@@ -1,0 +1,62 @@
+"""The estimator process: the body models in memory, a question in, an answer out."""
+
+import logging
+import os
+import resource
+import sys
+from multiprocessing.connection import Connection
+from typing import Final
+
+from service.estimates.answering import Answers, load_answers
+from service.estimates.messages import (
+    READY,
+    TASKS,
+    Answer,
+    BodyAnswer,
+    BodyTask,
+    FaultAnswer,
+    InitialPoseAnswer,
+    RefusalAnswer,
+)
+from service.settings import Settings
+from service.worker.main import THREAD_LIMITS
+from service.worker.pipeline_port import UnusableInputError
+
+LOG: Final = logging.getLogger(__name__)
+
+ANSWERS_MODULE: Final = "service.estimates.answers"
+
+
+def run_estimator(settings: Settings, *, answers: str = ANSWERS_MODULE) -> None:
+    """Answer until the socket named by the last argument ends."""
+    connection = Connection(int(sys.argv[-1]))
+    for variable in THREAD_LIMITS:
+        os.environ.setdefault(variable, "1")
+    limit = settings.child_memory_mb * 1024 * 1024
+    resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    module = load_answers(answers)
+    module.prepare(settings.models_dir)
+    try:
+        connection.send_bytes(READY)
+        while True:
+            answer, file = _answer(module, connection.recv_bytes(), settings)
+            connection.send_bytes(answer.model_dump_json().encode())
+            connection.send_bytes(file)
+    except (EOFError, OSError):
+        # The API is gone.
+        return
+
+
+def _answer(module: Answers, text: bytes, settings: Settings) -> tuple[Answer, bytes]:
+    try:
+        task = TASKS.validate_json(text)
+        if isinstance(task, BodyTask):
+            body = module.body(task, settings.models_dir)
+            return BodyAnswer(estimate=body.estimate), body.glb
+        return InitialPoseAnswer(pose=module.initial_pose(task, settings.models_dir)), b""
+    except UnusableInputError as error:
+        return RefusalAnswer(error=error.error), b""
+    except Exception:
+        LOG.exception("An estimate failed.")
+        return FaultAnswer(), b""

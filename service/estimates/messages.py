@@ -1,0 +1,70 @@
+"""What the API and its estimator tell each other, as JSON over a socket.
+
+An answer is two messages: the JSON, and the bytes of a file, which may be none.
+"""
+
+from typing import Annotated, Final, Literal
+
+from pydantic import Field, TypeAdapter
+
+from api_schemas.base import WireModel
+from api_schemas.bodies import BodyEstimate, BodyRequest
+from api_schemas.initial_poses import InitialPose
+from api_schemas.problems import FieldProblem
+from api_schemas.requests import SubjectOptions
+
+READY: Final = b"ready"
+"""The estimator's first message: its models are loaded."""
+
+
+class BodyTask(WireModel):
+    """Estimate a body; ``with_glb`` asks for its file as well."""
+
+    kind: Literal["body"] = "body"
+    request: BodyRequest
+    with_glb: bool
+
+
+class InitialPoseTask(WireModel):
+    """Pose the mean person by clicks, which are named pixels of a picture of this size."""
+
+    kind: Literal["initial_pose"] = "initial_pose"
+    subject: SubjectOptions
+    width: int
+    height: int
+    exif_focal_length_35mm: float | None
+
+
+class BodyAnswer(WireModel):
+    """The estimated body."""
+
+    kind: Literal["body"] = "body"
+    estimate: BodyEstimate
+
+
+class InitialPoseAnswer(WireModel):
+    """The initial pose."""
+
+    kind: Literal["initial_pose"] = "initial_pose"
+    pose: InitialPose
+
+
+class RefusalAnswer(WireModel):
+    """The question is at fault."""
+
+    kind: Literal["refusal"] = "refusal"
+    error: FieldProblem
+
+
+class FaultAnswer(WireModel):
+    """The estimator is at fault; its log says how."""
+
+    kind: Literal["fault"] = "fault"
+
+
+Task = Annotated[BodyTask | InitialPoseTask, Field(discriminator="kind")]
+Answer = Annotated[
+    BodyAnswer | InitialPoseAnswer | RefusalAnswer | FaultAnswer, Field(discriminator="kind")
+]
+TASKS: Final[TypeAdapter[Task]] = TypeAdapter(Task)
+ANSWERS: Final[TypeAdapter[Answer]] = TypeAdapter(Answer)

@@ -1,0 +1,113 @@
+"""One estimator process as the API sees it: started, asked, replaced when it dies."""
+
+import contextlib
+import logging
+import socket
+import subprocess
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from multiprocessing.connection import Connection
+from typing import Final
+
+from service.estimates.messages import READY
+from service.estimates.port import EstimatorFailedError, EstimatorUnavailableError
+
+LOG: Final = logging.getLogger(__name__)
+
+READY_WITHIN_S: Final = 5.0
+"""How long a question waits for a process that has just been started."""
+
+ANSWER_WITHIN_S: Final = 10.0
+"""A hundred times what an answer takes: a process that needs more is stuck, and is replaced."""
+
+RESTART_PAUSE_S: Final = 1.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RawAnswer:
+    """The JSON of an answer and the file that belongs to it."""
+
+    text: bytes
+    file: bytes
+
+
+class EstimatorProcess:
+    """A process and the socket to it; not for several threads at once.
+
+    The process holds the other end of the socket, and ends when this end does: should the API be
+    killed, it does not stay behind.
+    """
+
+    def __init__(self, command: Sequence[str], *, environment: Mapping[str, str]) -> None:
+        self._command = list(command)
+        self._environment = dict(environment)
+        self._started_at = float("-inf")
+        self._start()
+
+    def ask(self, task: bytes) -> RawAnswer:
+        """Put a question and wait for its answer.
+
+        Raises
+        ------
+        EstimatorUnavailableError
+            If the process is still starting or cannot start.
+        EstimatorFailedError
+            If it died over the question or did not answer in time; the next one is started.
+        """
+        if self._process.poll() is not None:
+            self._restart()
+        self._await_ready()
+        try:
+            self._connection.send_bytes(task)
+            if not self._connection.poll(ANSWER_WITHIN_S):
+                LOG.error("An estimator did not answer within %.0f s.", ANSWER_WITHIN_S)
+                self._restart()
+                raise EstimatorFailedError
+            return RawAnswer(text=self._connection.recv_bytes(), file=self._connection.recv_bytes())
+        except (EOFError, OSError) as error:
+            code = self._end()
+            LOG.exception("An estimator died over a question, exit code %d.", code)
+            self._start()
+            raise EstimatorFailedError from error
+
+    def stop(self) -> None:
+        """End the process."""
+        self._end()
+
+    def _await_ready(self) -> None:
+        if self._ready:
+            return
+        try:
+            if not self._connection.poll(READY_WITHIN_S):
+                raise EstimatorUnavailableError
+            self._ready = self._connection.recv_bytes() == READY
+        except (EOFError, OSError) as error:
+            raise EstimatorUnavailableError from error
+
+    def _start(self) -> None:
+        ours, theirs = socket.socketpair()
+        with theirs:
+            # A session of its own: an interrupt from the terminal is for the API alone.
+            self._process = subprocess.Popen(
+                [*self._command, str(theirs.fileno())],
+                pass_fds=[theirs.fileno()],
+                stdin=subprocess.DEVNULL,
+                env=self._environment,
+                start_new_session=True,
+            )
+        self._connection: Connection = Connection(ours.detach())
+        self._ready = False
+        self._started_at = time.monotonic()
+
+    def _restart(self) -> None:
+        if time.monotonic() - self._started_at < RESTART_PAUSE_S:
+            raise EstimatorUnavailableError
+        self._end()
+        self._start()
+
+    def _end(self) -> int:
+        with contextlib.suppress(OSError):
+            self._connection.close()
+        self._process.kill()
+        return self._process.wait()

@@ -1,0 +1,100 @@
+"""Answers that do what the question tells them: the script is in a measurement's name."""
+
+import ctypes
+import os
+import time
+from pathlib import Path
+
+from api_schemas.bodies import BodyEstimate, EstimatedMeasurement
+from api_schemas.initial_poses import InitialPose, LimbReading
+from api_schemas.problems import FieldProblem
+from api_schemas.requests import Facing
+from api_schemas.results import BodyResult, CameraResult, FocalLengthSource, PartRotation
+from service.estimates.messages import BodyTask, InitialPoseTask
+from service.estimates.port import EstimatedBody
+from service.worker.pipeline_port import UnusableInputError
+
+GLB = b"glTF" + bytes(range(256))
+
+
+def prepare(models: Path | None) -> None:
+    del models
+
+
+def body(task: BodyTask, models: Path | None) -> EstimatedBody:
+    del models
+    for name, value in task.request.measurements.items():
+        _obey(name, value)
+    return EstimatedBody(
+        estimate=BodyEstimate(
+            gender=task.request.gender,
+            height_m=task.request.height_m or 1.7,
+            shape=(0.0, 0.0),
+            measurements=(
+                EstimatedMeasurement(
+                    name="waist_girth_navel",
+                    value=80.0,
+                    unit="cm",
+                    standard_error=float(os.getpid()),
+                    low=70.0,
+                    high=90.0,
+                    given=False,
+                    definition="At the navel.",
+                    source="ISO 8559-1",
+                ),
+            ),
+            plausibility=1.0,
+            body_model="0" * 64,
+        ),
+        glb=GLB if task.with_glb else b"",
+    )
+
+
+def initial_pose(task: InitialPoseTask, models: Path | None) -> InitialPose:
+    del models
+    return InitialPose(
+        gender=task.subject.gender,
+        height_m=task.subject.height_m or 1.7,
+        camera=CameraResult(
+            focal_length_px=task.exif_focal_length_35mm or 700.0,
+            centre_x=task.width / 2,
+            centre_y=task.height / 2,
+            width=task.width,
+            height=task.height,
+        ),
+        focal_length_source=FocalLengthSource.ASSUMED,
+        body=BodyResult(
+            pose=(PartRotation(part="pelvis", rotation=(0.0, 0.0, 0.0)),),
+            translation_m=(0.0, 0.0, 3.0),
+            shape=(0.0, 0.0),
+        ),
+        outline=(((1.0, 1.0), (2.0, 1.0), (2.0, 2.0)),),
+        points={"nose": (1.0, 1.0)},
+        residual_px=dict.fromkeys(task.subject.points, 0.5),
+        limbs=(
+            LimbReading(
+                limb="left_shin", facing=Facing.TOWARD, ambiguous=True, alternative_nats=1.0
+            ),
+        ),
+        assumptions=(),
+        warnings=(),
+    )
+
+
+def _obey(name: str, value: object) -> None:
+    if name == "sleep":
+        time.sleep(float(str(value)))
+    elif name == "segfault":
+        ctypes.string_at(0)
+    elif name == "fault":
+        message = "a fault in the fake"
+        raise RuntimeError(message)
+    elif name != "waist_girth_navel":
+        raise UnusableInputError(
+            FieldProblem(
+                field=f"measurements.{name}",
+                code="unknown-value",
+                reason="There is no measurement of this name.",
+                remedy="Use waist_girth_navel.",
+            )
+        )
