@@ -78,20 +78,6 @@ def client(tmp_path_factory: pytest.TempPathFactory):
             "mask",
             "mask-without-background",
         ),
-        (
-            NOISE,
-            None,
-            {name: [150, 200] for name in POINTS},
-            "points",
-            "points-too-close",
-        ),
-        (
-            NOISE,
-            None,
-            {name: POINTS[name] for name in POINTS if "shoulder" in name or "hip" in name},
-            "points",
-            "points-too-few",
-        ),
     ],
     ids=[
         "truncated JPEG",
@@ -100,8 +86,6 @@ def client(tmp_path_factory: pytest.TempPathFactory):
         "nobody there",
         "mask of nothing",
         "mask of everything",
-        "points in one place",
-        "trunk alone",
     ],
 )
 def test_what_only_the_fit_can_find_wrong_ends_as_a_problem(

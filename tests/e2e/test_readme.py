@@ -9,7 +9,6 @@ from pathlib import Path
 
 import pytest
 
-from service.settings import PREFIX, Settings
 from tests.e2e.service import REPOSITORY, running_service
 
 README = (REPOSITORY / "README.md").read_text()
@@ -88,14 +87,6 @@ def test_the_two_commands_stand_in_the_makefile():
     makefile = (REPOSITORY / "Makefile").read_text()
     for command in re.findall(r"^make (\w+)", README, re.MULTILINE):
         assert re.search(rf"^{command}:", makefile, re.MULTILINE), command
-
-
-def test_every_setting_is_in_the_readme_with_its_default_and_no_other_is():
-    listed = dict(re.findall(rf"^\| `({PREFIX}\w+)` \| (.*?) \|", README, re.MULTILINE))
-    assert set(listed) == {PREFIX + name.upper() for name in Settings.model_fields}
-    for name, field in Settings.model_fields.items():
-        if field.default_factory is None and field.default is not None:
-            assert listed[PREFIX + name.upper()] == f"`{field.default}`", name
 
 
 def test_the_readmes_files_exist():
