@@ -19,6 +19,9 @@ from tests.integration.service.harness import POINTS, QUICK, REQUEST
 FAKE = "tests.integration.service.fake_pipeline"
 FAKE_SERVE = (sys.executable, "-m", "tests.integration.service.fake_serve")
 
+FAKE_WAIST = 80.0 + len(POINTS)
+"""What the pretended pipeline measures, centimetres."""
+
 
 def arguments(
     folder: Path,
@@ -49,7 +52,7 @@ def test_a_fit_without_a_service_writes_its_files_and_prints_its_measurements(tm
         assert (tmp_path / "out" / artifact.name).stat().st_size == artifact.size
     printed = capsys.readouterr().out
     assert "waist girth" in printed
-    assert "85.0" in printed
+    assert f"{FAKE_WAIST:.1f}" in printed
     assert "focal_length_px" in printed
 
 
@@ -102,7 +105,7 @@ def sample(script: dict[str, object] | None = None) -> Sample:
     return Sample(
         image=scripted_image(script),
         request=json.dumps(REQUEST).encode(),
-        truth={"waist_girth": 83.0},
+        truth={"waist_girth": FAKE_WAIST - 2.0},
     )
 
 
