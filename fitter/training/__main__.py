@@ -4,10 +4,12 @@ import argparse
 import os
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from fitter.body.storage import load_body_model, packaged_model_path
+from fitter.errors import FitterError
+from fitter.training.assemble import SHAPE_COUNT
 from fitter.training.build import (
     GENDERS,
     Materials,
@@ -20,41 +22,84 @@ from fitter.training.build import (
 from fitter.training.held_out_errors import held_out_errors
 from fitter.training.makehuman import makehuman_folder
 from fitter.training.model_pictures import write_pictures
+from fitter.training.own_bodies.command import (
+    report_on_meshes,
+    train_on_meshes,
+    write_template,
+)
 from fitter.training.plan import Plan
 from fitter.training.population import residual_table
 from fitter.training.report import report_lines
 from fitter.training.reported import Reported
 
+HELD_OUT = 200
+"""Subjects of the packaged models never trained on."""
+
 
 def main(arguments: Sequence[str]) -> int:
     """Run the command line; returns the exit status."""
-    options = _parser().parse_args(arguments)
-    materials = read_materials(options.makehuman or makehuman_folder())
+    parser = _parser()
+    options = parser.parse_args(arguments)
+    if options.command == "template" and options.meshes is None:
+        parser.error("template needs --meshes FOLDER, the folder to write")
+    try:
+        for line in _lines(options):
+            print(line, flush=True)
+    except FitterError as error:
+        print(error, file=sys.stderr)
+        return 1
+    return 0
+
+
+def _lines(options: argparse.Namespace) -> Iterator[str]:
+    """Do what the command says; what there is to report, line by line."""
+    if options.command == "template":
+        yield from write_template(options.meshes, options.gender)
+        return
     genders = GENDERS if options.gender == "both" else (options.gender,)
+    if options.meshes is None:
+        yield from _packaged_lines(genders, options)
+    else:
+        yield from _own_lines(options)
+    for gender in genders if options.pictures is not None else ():
+        model = load_body_model(options.output / f"{gender}.npz")
+        yield from (f"  {picture}" for picture in write_pictures(model, options.pictures))
+
+
+def _own_lines(options: argparse.Namespace) -> Iterator[str]:
+    if options.command == "report":
+        return report_on_meshes(options.meshes, options.gender, options.output)
+    return train_on_meshes(
+        options.meshes,
+        options.gender,
+        options.output,
+        axes=options.axes,
+        held_out=options.held_out,
+        seed=options.seed,
+    )
+
+
+def _packaged_lines(genders: Sequence[str], options: argparse.Namespace) -> Iterator[str]:
+    materials = read_materials(options.makehuman or makehuman_folder())
     for gender in genders:
         path = options.output / f"{gender}.npz"
         if options.command == "build":
             reported = _build(materials, gender, path, options)
         else:
             reported = _read(materials, path, options)
-        for line in report_lines(reported):
-            print(line, flush=True)
-        if options.pictures is not None:
-            for picture in write_pictures(reported.model, options.pictures):
-                print(f"  {picture}", flush=True)
-    return 0
+        yield from report_lines(reported)
 
 
 def _build(materials: Materials, gender: str, path: Path, options: argparse.Namespace) -> Reported:
     plan = Plan(
         subjects=options.subjects,
-        held_out=options.held_out,
+        held_out=HELD_OUT if options.held_out is None else options.held_out,
         examples=options.examples,
         seed=options.seed,
     )
     count = plan.held_out + plan.subjects
     start = time.perf_counter()
-    print(f"{gender}: solving for {count} subjects, about a second each", flush=True)
+    print(f"{gender}: {count} subjects, about a second each where none are kept", flush=True)
     population = solved_population(
         materials,
         gender,
@@ -62,6 +107,7 @@ def _build(materials: Materials, gender: str, path: Path, options: argparse.Name
         seed=plan.seed,
         cache=options.cache,
         processes=options.processes,
+        anew=options.solve,
     )
     print(residual_table(population), flush=True)
     print(f"{gender}: training on {plan.subjects} of them", flush=True)
@@ -85,31 +131,30 @@ def _read(materials: Materials, path: Path, options: argparse.Namespace) -> Repo
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="python -m fitter.training",
-        description="Train the body models from MakeHuman's CC0 data and ANSUR II's statistics.",
+        description="Train the body models: from MakeHuman's CC0 data and ANSUR II's and NHANES' "
+        "statistics, or from registered meshes of your own (OWN_BODIES.md).",
     )
     parser.add_argument(
         "command",
         nargs="?",
-        choices=("build", "report"),
+        choices=("build", "report", "template"),
         default="build",
-        help="build (and report), or report on the files that are there",
+        help="build (and report), report on the files that are there, or write a folder to put "
+        "meshes of your own into",
     )
     parser.add_argument("--gender", choices=(*GENDERS, "both"), default="both")
-    parser.add_argument("--subjects", type=int, default=1100, help="training subjects a gender")
-    parser.add_argument("--held-out", type=int, default=200, help="subjects never trained on")
-    parser.add_argument("--examples", type=int, default=3000, help="posed bodies a gender")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument(
+        "--held-out",
+        type=int,
+        default=None,
+        help=f"subjects never trained on; {HELD_OUT}, or a tenth of your own",
+    )
     parser.add_argument(
         "--output",
         type=Path,
         default=packaged_model_path("female").parent,
         help="folder of the model files",
-    )
-    parser.add_argument(
-        "--processes",
-        type=int,
-        default=os.cpu_count() or 1,
-        help="subjects solved side by side; as many as there are processors by default",
     )
     parser.add_argument(
         "--pictures",
@@ -119,10 +164,26 @@ def _parser() -> argparse.ArgumentParser:
         default=None,
         help="draw the shape spaces into a folder, model-report/ if none is named",
     )
-    parser.add_argument(
+    own = parser.add_argument_group("your own bodies")
+    own.add_argument(
+        "--meshes", type=Path, default=None, help="folder of registered meshes of one gender"
+    )
+    own.add_argument(
+        "--axes", type=int, default=SHAPE_COUNT, help="shape axes, if the bodies span as many"
+    )
+    packaged = parser.add_argument_group("the packaged models, without --meshes")
+    packaged.add_argument("--subjects", type=int, default=1100, help="training subjects a gender")
+    packaged.add_argument("--examples", type=int, default=3000, help="posed bodies a gender")
+    packaged.add_argument(
+        "--processes",
+        type=int,
+        default=os.cpu_count() or 1,
+        help="subjects solved side by side; as many as there are processors by default",
+    )
+    packaged.add_argument(
         "--cache", type=Path, default=None, help="folder that keeps solved subjects between runs"
     )
-    parser.add_argument(
+    packaged.add_argument(
         "--makehuman",
         type=Path,
         default=None,

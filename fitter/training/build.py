@@ -21,6 +21,7 @@ from fitter.training.plan import Plan
 from fitter.training.population import (
     Population,
     load_population,
+    packaged_population_path,
     prepare,
     save_population,
     solve_population,
@@ -34,6 +35,8 @@ GENDERS = ("female", "male")
 INNER_POINTS_STREAM = 1
 """Of the seed: poses that landmarks are fitted in are not those of the pose term."""
 
+PACKAGED_SEED = 1
+"""That the committed populations were drawn from."""
 
 KEPT_MEASUREMENTS = (
     "chestcircumference",
@@ -72,13 +75,20 @@ def solved_population(
     seed: int,
     cache: Path | None,
     processes: int = 1,
+    anew: bool = False,
 ) -> Population:
-    """The first ``count`` subjects of a seed: from the cache if it holds as many, else solved."""
+    """The first ``count`` subjects of a seed: a second each to solve where no file holds as many.
+
+    The committed population is asked first, if the seed is its own, and then the cache, which also
+    keeps what is solved. With ``anew`` neither is read.
+    """
     path = None if cache is None else cache / f"population_{gender}_{seed}.npz"
-    if path is not None and path.exists():
-        cached = load_population(path, materials.spaces[gender], count=count)
-        if len(cached.source_vertices) == count:
-            return cached
+    packaged = packaged_population_path(gender) if seed == PACKAGED_SEED else None
+    for kept in () if anew else (packaged, path):
+        if kept is not None and kept.exists():
+            found = load_population(kept, materials.spaces[gender], count=count)
+            if len(found.source_vertices) == count:
+                return found
     workshop = prepare(materials.spaces[gender], materials.landmarks)
     population = solve_population(workshop, count, seed, processes=processes)
     if path is not None:
@@ -129,7 +139,7 @@ def write_model(path: Path, model: BodyModel) -> BodyModel:
 def held_out_bodies(
     materials: Materials, model: BodyModel, *, cache: Path | None, processes: int = 1
 ) -> RegisteredBodies:
-    """The subjects that a model file says were held out, solved again from its seed."""
+    """The subjects that a model file says were held out: see :func:`solved_population`."""
     population = solved_population(
         materials,
         model.gender,
