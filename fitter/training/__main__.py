@@ -61,9 +61,12 @@ def _lines(options: argparse.Namespace) -> Iterator[str]:
         yield from _packaged_lines(genders, options)
     else:
         yield from _own_lines(options)
-    for gender in genders if options.pictures is not None else ():
+    if options.pictures is None:
+        return
+    for gender in genders:
         model = load_body_model(options.output / f"{gender}.npz")
-        yield from (f"  {picture}" for picture in write_pictures(model, options.pictures))
+        for picture in write_pictures(model, options.pictures):
+            yield f"  {picture}"
 
 
 def _own_lines(options: argparse.Namespace) -> Iterator[str]:

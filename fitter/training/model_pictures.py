@@ -60,7 +60,7 @@ def first_axes_sheet(evaluator: ScapeEvaluator) -> Levels:
     mean_height = height_of_shape(evaluator, np.zeros(_count(evaluator)))
     bodies = {
         axis: [_along(evaluator, axis, at) for at in (-DEVIATIONS, 0.0, DEVIATIONS)]
-        for axis in range(FIRST_AXES)
+        for axis in range(min(FIRST_AXES, _count(evaluator)))
     }
     groups = {
         _axis_title(axis): [

@@ -1,19 +1,15 @@
-"""The command line of own bodies: ``--meshes FOLDER`` and ``template FOLDER``."""
+"""The command line of own bodies: template, build and report with ``--meshes FOLDER``."""
 
-import argparse
 from collections.abc import Iterator
 from pathlib import Path
-
-import numpy as np
 
 from fitter.body.model import BodyModel
 from fitter.body.model_checks import GENDERS
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.errors import MeshFolderError
-from fitter.training.assemble import SHAPE_COUNT
 from fitter.training.build import write_model
 from fitter.training.own_bodies.figures import own_errors, own_report_lines
-from fitter.training.own_bodies.folder import OwnBodies, read_own_bodies
+from fitter.training.own_bodies.folder import read_own_bodies
 from fitter.training.own_bodies.learning import (
     OwnPlan,
     split_subjects,
@@ -27,44 +23,39 @@ HELD_OUT_SHARE = 0.1
 """Of a user's subjects, unless the number is given."""
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """What the command line knows beside the arguments of the packaged models' training."""
-    parser.add_argument(
-        "folder", nargs="?", type=Path, help="template: the folder to write, for own meshes"
-    )
-    parser.add_argument(
-        "--meshes",
-        type=Path,
-        default=None,
-        help="train on the registered meshes in this folder instead (OWN_BODIES.md)",
-    )
-    parser.add_argument(
-        "--axes", type=int, default=SHAPE_COUNT, help="shape axes learned from own meshes"
-    )
+def write_template(meshes: Path, gender: str) -> Iterator[str]:
+    """Write a folder to start from: the packaged topology, its anatomy and mean body.
 
-
-def write_template(gender: str, folder: Path | None) -> Iterator[str]:
-    """Write a folder to start from: the packaged topology, its anatomy and mean body."""
-    if folder is None or gender not in GENDERS:
+    Raises
+    ------
+    MeshFolderError
+        If the gender is not one, or the folder holds anything.
+    """
+    packaged = _packaged(gender)
+    if meshes.exists() and not (meshes.is_dir() and not any(meshes.iterdir())):
         raise MeshFolderError(
-            place="template",
-            reason="needs a folder and a gender",
-            remedy="Write `python -m fitter.training template FOLDER --gender female`.",
+            place=str(meshes),
+            reason="is there already, and no empty folder",
+            remedy="Name a folder that is not there yet.",
         )
-    if folder.exists() and any(folder.iterdir()):
-        raise MeshFolderError(
-            place=str(folder), reason="is not empty", remedy="Name a folder that is not there yet."
-        )
-    model = load_body_model(packaged_model_path(gender), gender=gender)
-    write_starting_folder(folder, packaged_template(model))
-    yield f"{folder}: {len(model.mean_vertices)} vertices, {len(model.triangles)} triangles"
+    write_starting_folder(meshes, packaged_template(packaged))
+    size = f"{len(packaged.mean_vertices)} vertices, {len(packaged.triangles)} triangles"
+    yield f"{meshes}: template.obj has {size}"
     yield "Put one registered mesh a subject into rest/ and fill in bodies.json; see OWN_BODIES.md."
 
 
 def train_on_meshes(
     meshes: Path, gender: str, output: Path, *, axes: int, held_out: int | None, seed: int
 ) -> Iterator[str]:
-    """Train on a folder, write the model, report line by line."""
+    """Train on a folder and write the model; the report line by line.
+
+    ``held_out`` is a number of subjects; None holds out :data:`HELD_OUT_SHARE`.
+
+    Raises
+    ------
+    MeshFolderError
+        For the first fault of the folder, or where the model would replace a packaged one.
+    """
     packaged = _packaged(gender, output)
     bodies = read_own_bodies(meshes, packaged_template(packaged))
     count = len(bodies.subjects)
@@ -82,7 +73,15 @@ def train_on_meshes(
 
 
 def report_on_meshes(meshes: Path, gender: str, output: Path) -> Iterator[str]:
-    """Measure a model again on the subjects of its folder that were held out."""
+    """Measure a model again on the subjects of its folder that were held out.
+
+    Raises
+    ------
+    MeshFolderError
+        If the folder is not the one that the model was trained on.
+    ModelFileError
+        If there is no such model, or it cannot be read.
+    """
     packaged = _packaged(gender, output)
     path = output / f"{gender}.npz"
     model = load_body_model(path, gender=gender)
@@ -93,11 +92,13 @@ def report_on_meshes(meshes: Path, gender: str, output: Path) -> Iterator[str]:
             reason=f"holds other files than those {path.name} was trained on",
             remedy="Train again, or report on the folder as it was.",
         )
-    errors = own_errors(model, bodies.rest, _held_out(model, bodies), with_poses(bodies))
+    _, held_out = split_subjects(len(bodies.subjects), _plan_of(model))
+    errors = own_errors(model, bodies.rest, held_out, with_poses(bodies))
     yield from own_report_lines(model, errors, file_bytes=path.stat().st_size)
 
 
-def _packaged(gender: str, output: Path) -> BodyModel:
+def _packaged(gender: str, output: Path | None = None) -> BodyModel:
+    """The packaged model of the gender, once it is sure that ``output`` would not replace it."""
     if gender not in GENDERS:
         raise MeshFolderError(
             place="--gender",
@@ -105,7 +106,7 @@ def _packaged(gender: str, output: Path) -> BodyModel:
             remedy="Write --gender female or --gender male.",
         )
     packaged = packaged_model_path(gender)
-    if output.resolve() == packaged.parent.resolve():
+    if output is not None and output.resolve() == packaged.parent.resolve():
         raise MeshFolderError(
             place="--output",
             reason="is the folder of the packaged models, which stay as they are",
@@ -114,11 +115,10 @@ def _packaged(gender: str, output: Path) -> BodyModel:
     return load_body_model(packaged, gender=gender)
 
 
-def _held_out(model: BodyModel, bodies: OwnBodies) -> np.ndarray:
+def _plan_of(model: BodyModel) -> OwnPlan:
     header = model.header
-    plan = OwnPlan(
+    return OwnPlan(
         axes=len(model.shape_basis),
         held_out=int(str(header["held_out_subjects"])),
         seed=int(str(header["seed"])),
     )
-    return split_subjects(len(bodies.subjects), plan)[1]

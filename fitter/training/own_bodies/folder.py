@@ -10,7 +10,7 @@
 """
 
 import hashlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -29,13 +29,16 @@ from fitter.training.own_bodies.registration import (
     check_unit,
     check_vertex_count,
 )
-from fitter.training.own_bodies.template import Template
+from fitter.training.own_bodies.template import Template, same_surface
 from fitter.training.own_bodies.template_files import BODIES_FILE, TEMPLATE_FILE, read_template
 from fitter.training.part_tree import PART_NAMES
 
 POSES_FILE = "poses.json"
 REST_FOLDER = "rest"
 POSED_FOLDER = "posed"
+
+DESCRIBING = (".json", ".npy", ".obj", ".ply")
+"""Endings of the files beside the meshes: descriptions, and the template with its arrays."""
 
 LEAST_SUBJECTS = 4
 """Three to learn the two axes from that section 4 needs to turn one against the other, and one to
@@ -91,12 +94,17 @@ def read_own_bodies(folder: Path, packaged: Template) -> OwnBodies:
     """
     entries = read_entries(
         folder / BODIES_FILE,
-        remedy="`python -m fitter.training template FOLDER` writes one to start from.",
+        remedy="`python -m fitter.training template --meshes FOLDER` writes one to start from.",
     )
     entries.only(("units", "axes", "source", "licence"))
     frame = read_frame(entries)
-    described = (folder / TEMPLATE_FILE).is_file()
-    template = read_template(folder, frame) if described else packaged
+    source = _statement(entries, "source", "who was scanned, by whom and when")
+    licence = _statement(entries, "licence", "under which terms the meshes may be used")
+    template = packaged
+    if (folder / TEMPLATE_FILE).is_file():
+        template = read_template(folder, frame)
+        if same_surface(template.mesh, packaged.mesh):
+            template = replace(template, name=packaged.name)
     files = _rest_files(folder)
     rest = np.stack([_read_rest(folder, path, template, frame) for path in files.values()])
     places = [_place(folder, path) for path in files.values()]
@@ -108,8 +116,8 @@ def read_own_bodies(folder: Path, packaged: Template) -> OwnBodies:
         subjects=subjects,
         rest=rest,
         posed=posed,
-        source=_statement(entries, "source", "who was scanned, by whom and when"),
-        licence=_statement(entries, "licence", "under which terms the meshes may be used"),
+        source=source,
+        licence=licence,
         sha256=_digest(folder),
     )
 
@@ -235,12 +243,18 @@ def _statement(entries: Entries, name: str, wanted: str) -> str:
 
 
 def _digest(folder: Path) -> str:
-    """SHA-256 over names and contents of everything in the folder, in alphabetical order."""
+    """SHA-256 over names and contents of whatever may be read; other files may come and go."""
+    meshes = (
+        path
+        for pattern in (f"{REST_FOLDER}/*", f"{POSED_FOLDER}/*/*")
+        for path in folder.glob(pattern)
+        if path.suffix.lower() in READERS
+    )
+    described = (path for path in folder.iterdir() if path.suffix.lower() in DESCRIBING)
     digest = hashlib.sha256()
-    for path in sorted(folder.rglob("*")):
-        if path.is_file():
-            digest.update(f"{_place(folder, path)}\0{path.stat().st_size}\0".encode())
-            digest.update(path.read_bytes())
+    for path in sorted((*described, *meshes)):
+        digest.update(f"{_place(folder, path)}\0{path.stat().st_size}\0".encode())
+        digest.update(path.read_bytes())
     return digest.hexdigest()
 
 

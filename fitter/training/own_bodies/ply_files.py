@@ -45,10 +45,12 @@ def read_ply(path: Path) -> tuple[Vertices, np.ndarray | None]:
         message = "it has no PLY header"
         raise ValueError(message)
     body = body.partition(b"\n")[2]
-    order, elements = _header(head.decode("ascii"))
+    order, elements = _header(head.decode("utf-8", "replace"))
     lines = body.decode("ascii").splitlines() if order == "" else []
     tables: dict[str, Mapping[str, np.ndarray]] = {}
     for element in elements:
+        if element.rows == 0:
+            continue
         if order == "":
             tables[element.name] = _text_table(element, lines[: element.rows])
             lines = lines[element.rows :]

@@ -51,7 +51,7 @@ def read_template(folder: Path, frame: Frame) -> Template:
     """
     entries = read_entries(
         folder / TEMPLATE_FILE,
-        remedy="`python -m fitter.training template FOLDER` writes one to start from.",
+        remedy="`python -m fitter.training template --meshes FOLDER` writes one to start from.",
     )
     entries.only(_KNOWN)
     file_name = entries.get("mesh", str)
