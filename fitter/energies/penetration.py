@@ -64,7 +64,7 @@ def penetration_proxy(model: BodyModel, canonical_vertices: Vertices) -> Penetra
     apart = ~_neighbours(model)[owner[first], owner[second]]
     pairs = np.stack([first[apart], second[apart]], axis=1)
     spheres, radii = sphere_positions(centres, canonical_vertices)
-    overlap = _overlaps(spheres, radii, pairs)
+    overlap = sphere_overlaps(spheres, radii, pairs)
     return PenetrationProxy(centres=centres, pairs=pairs[overlap <= 0.0])
 
 
@@ -80,6 +80,15 @@ def sphere_positions(
     return positions, radii
 
 
+def sphere_overlaps(
+    spheres: Points3D, radii: Float[np.ndarray, " s"], pairs: Integer[np.ndarray, "q 2"]
+) -> Float[np.ndarray, " q"]:
+    """Depth by which the spheres of each pair overlap, metres; negative where they are apart."""
+    result = np.empty(len(pairs))
+    pair_overlaps(spheres, radii, pairs, result)
+    return result
+
+
 def penetration_energy(
     spheres: Points3D,
     radii: Float[np.ndarray, " s"],
@@ -87,7 +96,7 @@ def penetration_energy(
     scales: EnergyScales,
 ) -> float:
     """Half the sum of squared overlaps over σ²."""
-    overlap = np.maximum(_overlaps(spheres, radii, proxy.pairs), 0.0)
+    overlap = np.maximum(sphere_overlaps(spheres, radii, proxy.pairs), 0.0)
     return 0.5 * float((overlap**2).sum()) / scales.penetration_sigma_m**2
 
 
@@ -98,7 +107,7 @@ def penetration_rows(
     scales: EnergyScales,
 ) -> PositionRows:
     """One row for each overlapping pair; points index the spheres, radii are held."""
-    overlap = _overlaps(spheres, radii, proxy.pairs)
+    overlap = sphere_overlaps(spheres, radii, proxy.pairs)
     pairs = proxy.pairs[overlap > 0.0]
     between = spheres[pairs[:, 0]] - spheres[pairs[:, 1]]
     distance = np.maximum(np.linalg.norm(between, axis=1, keepdims=True), 1e-9)
@@ -109,14 +118,6 @@ def penetration_rows(
         points=pairs,
         derivatives=np.stack([-apart, apart], axis=1),
     )
-
-
-def _overlaps(
-    spheres: Points3D, radii: Float[np.ndarray, " s"], pairs: Integer[np.ndarray, "q 2"]
-) -> Float[np.ndarray, " q"]:
-    result = np.empty(len(pairs))
-    pair_overlaps(spheres, radii, pairs, result)
-    return result
 
 
 def _rings_of_part(vertices: Vertices, members: Integer[np.ndarray, " k"]) -> list[np.ndarray]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 
+from fitter.training.articulation_figures import articulation_lines
 from fitter.training.attribute_figures import attribute_lines
 from fitter.training.comparison_figures import comparison_lines
 from fitter.training.mesh_balance import mesh_balance_lines
@@ -15,6 +16,7 @@ Section = Callable[[Reported], tuple[str, ...]]
 SECTIONS: tuple[Section, ...] = (
     summary_lines,
     shape_lines,
+    articulation_lines,
     attribute_lines,
     comparison_lines,
     mesh_balance_lines,
