@@ -1,4 +1,4 @@
-"""Pictures of a trained model's shape space, after the paper's Fig. 6."""
+"""Pictures of a trained model: its shape space, after the paper's Fig. 6, and its extreme poses."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -10,6 +10,7 @@ from fitter.body.model import BodyModel
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.shape_space import height_of_shape, standing_vertices
 from fitter.export.display import png
+from fitter.training.articulation_pictures import extreme_poses_sheet
 from fitter.training.attributes import measurement_attribute
 from fitter.training.body_sheets import (
     FRONT,
@@ -128,6 +129,7 @@ _SHEETS: dict[str, Callable[[ScapeEvaluator], Levels]] = {
     "all_axes": all_axes_sheet,
     "percentiles": percentile_sheet,
     "random_bodies": random_sheet,
+    "extreme_poses": extreme_poses_sheet,
 }
 
 

@@ -15,6 +15,7 @@ def test_all_sheets_of_a_model_are_written_and_readable(tmp_path):
         "female_all_axes.png",
         "female_percentiles.png",
         "female_random_bodies.png",
+        "female_extreme_poses.png",
     ]
     for path in written:
         picture = cv2.imread(str(path))
