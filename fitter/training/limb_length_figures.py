@@ -1,7 +1,9 @@
 """Limb lengths predicted from gender and height (section 3.1) beside the survey's.
 
 The mean person of a height has the height coefficient alone; limb lengths follow as linear
-combinations of vertices. The survey's answer is its fields' mean among people of that stature.
+combinations of vertices. The survey's answer is its fields' mean among people of that stature. The
+models' people are civilians and heavier than the survey's soldiers, which moves some lengths, such
+as the crotch's height: so besides, the survey's mean among people of that stature and weight.
 """
 
 from collections.abc import Callable, Mapping
@@ -11,12 +13,14 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
-from fitter.arrays import Vector3
+from fitter.arrays import Shape, Vector3
 from fitter.body.model import BodyModel
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.shape_space import rest_vertices, shape_for_height, standing_vertices
 from fitter.body.skeleton import regress
+from fitter.numerics.meshes import enclosed_volume
 from fitter.training.reported import Reported
+from fitter.training.subject_fit import DENSITY_KG_PER_M3
 from fitter.training.survey_moments import SurveyMoments, load_moments, packaged_moments_path
 from fitter.training.text_tables import note_lines, table_lines
 
@@ -69,9 +73,17 @@ LIMBS = (
         "upper arm", _between("left_acromion", "left_elbow"), {"acromionradialelength": 1.0}, ""
     ),
     ComparedLimb(
-        "forearm", _between("left_elbow", "left_wrist"), {"radialestylionlength": 1.0}, ""
+        "forearm",
+        _between("left_elbow", "left_wrist"),
+        {"radialestylionlength": 1.0},
+        "to the wrist's centre, beyond the end of the radius",
     ),
-    ComparedLimb("hand", _between("left_wrist", "left_finger_tip"), {"handlength": 1.0}, ""),
+    ComparedLimb(
+        "hand",
+        _between("left_wrist", "left_finger_tip"),
+        {"handlength": 1.0},
+        "from the wrist's centre, fingers bent a little",
+    ),
     ComparedLimb(
         "thigh",
         _between("left_hip", "left_knee"),
@@ -113,6 +125,8 @@ class LimbLengthFigures:
         (h,) statures from the survey's 1st to its 99th percentile.
     predicted, surveyed
         (h, c) by the model from the height alone, and the survey's mean at that stature.
+    surveyed_alike
+        (h, c) the survey's mean at that stature and the predicted body's weight.
     correlation
         (c,) of the survey's length with stature: how much a height can tell.
     """
@@ -121,6 +135,7 @@ class LimbLengthFigures:
     heights: Float[np.ndarray, " h"]
     predicted: Float[np.ndarray, "h c"]
     surveyed: Float[np.ndarray, "h c"]
+    surveyed_alike: Float[np.ndarray, "h c"]
     correlation: Float[np.ndarray, " c"]
 
     @property
@@ -134,6 +149,11 @@ class LimbLengthFigures:
     def offsets_mm(self) -> Float[np.ndarray, " c"]:
         """Predicted less surveyed, mean over the heights."""
         return 10.0 * (self.predicted - self.surveyed).mean(axis=0)
+
+    @property
+    def alike_offsets_mm(self) -> Float[np.ndarray, " c"]:
+        """The same less people of that stature and weight."""
+        return 10.0 * (self.predicted - self.surveyed_alike).mean(axis=0)
 
     @property
     def slopes(self) -> tuple[Float[np.ndarray, " c"], Float[np.ndarray, " c"]]:
@@ -155,16 +175,24 @@ def limb_length_figures(
         Heights, evenly spaced.
     """
     evaluator = ScapeEvaluator(model)
-    mean, covariance = survey.of([{"stature": 1.0}, *(limb.fields for limb in LIMBS)])
+    mean, covariance = survey.of(
+        [{"stature": 1.0}, {"weightkg": 1.0}, *(limb.fields for limb in LIMBS)]
+    )
     deviation = np.sqrt(np.diagonal(covariance))
     heights = mean[0] + REACH_DEVIATIONS * deviation[0] * np.linspace(-1.0, 1.0, count)
-    slopes = covariance[0, 1:] / covariance[0, 0]
+    shapes = [shape_for_height(evaluator, height / 100.0) for height in heights]
+    weights = [
+        DENSITY_KG_PER_M3 * enclosed_volume(rest_vertices(model, shape), model.triangles)
+        for shape in shapes
+    ]
+    given = np.stack([heights, np.array(weights)], axis=1) - mean[:2]
     return LimbLengthFigures(
         limbs=LIMBS,
         heights=heights,
-        predicted=100.0 * np.array([_predicted(evaluator, height / 100.0) for height in heights]),
-        surveyed=mean[1:] + (heights - mean[0])[:, None] * slopes,
-        correlation=covariance[0, 1:] / (deviation[0] * deviation[1:]),
+        predicted=100.0 * np.array([_predicted(evaluator, shape) for shape in shapes]),
+        surveyed=mean[2:] + given[:, :1] * covariance[0, 2:] / covariance[0, 0],
+        surveyed_alike=mean[2:] + given @ np.linalg.solve(covariance[:2, :2], covariance[:2, 2:]),
+        correlation=covariance[0, 2:] / (deviation[0] * deviation[2:]),
     )
 
 
@@ -181,6 +209,7 @@ def limb_length_lines(reported: Reported) -> tuple[str, ...]:
             f"{figures.offsets_mm[k]:+.1f}",
             f"{errors[:, k].mean():.1f}",
             f"{errors[:, k].max():.1f}",
+            f"{figures.alike_offsets_mm[k]:+.1f}",
             f"{model_slopes[k]:.3f}",
             f"{survey_slopes[k]:.3f}",
             f"{figures.correlation[k]:.2f}",
@@ -194,6 +223,7 @@ def limb_length_lines(reported: Reported) -> tuple[str, ...]:
         "mean off, mm",
         "mean abs",
         "largest",
+        "off people as heavy",
         "per cm of stature",
         "survey's",
         "correlation",
@@ -207,13 +237,14 @@ def limb_length_lines(reported: Reported) -> tuple[str, ...]:
         *table_lines(title, heads, rows),
         *note_lines(
             "Where the last column names a difference of definition, mean absolute and largest "
-            "error are about the mean offset. Correlation: of the survey's length with stature."
+            "error are about the mean offset. Off people as heavy: off the survey's mean at that "
+            "stature and the predicted body's weight, soldiers being lighter. Correlation: of the "
+            "survey's length with stature."
         ),
     )
 
 
-def _predicted(evaluator: ScapeEvaluator, height_m: float) -> list[float]:
-    shape = shape_for_height(evaluator, height_m)
+def _predicted(evaluator: ScapeEvaluator, shape: Shape) -> list[float]:
     landmarks = evaluator.model.landmarks
     rest, standing = (
         dict(zip(landmarks.names, regress(landmarks, vertices), strict=True))

@@ -6,17 +6,13 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.body.model import BodyModel
-from fitter.body.scape import ScapeEvaluator
-from fitter.measurement.anthropometry import measurement_values, measuring_body
 from fitter.measurement.definitions import load_definitions
 from fitter.training.body_regions import vertex_regions
-from fitter.training.evaluation import bodies_as_axes, mean_areas, shape_residuals
+from fitter.training.evaluation import mean_areas, shape_residuals
+from fitter.training.measured_people import held_out_people, measured_bodies
 from fitter.training.reported import Reported
 from fitter.training.shape_curve import region_errors
 from fitter.training.text_tables import note_lines, table_lines
-
-BATCH = 50
-"""Bodies measured together; each is an axis of a model and takes 1 MB of it."""
 
 
 def shape_lines(reported: Reported) -> tuple[str, ...]:
@@ -26,21 +22,8 @@ def shape_lines(reported: Reported) -> tuple[str, ...]:
     return (
         *_count_lines(model),
         *_region_lines(model, residuals),
-        *_measurement_lines(model, rest, residuals),
+        *_measurement_lines(reported, residuals),
     )
-
-
-def measured_bodies(model: BodyModel, rest: Float[np.ndarray, "s m 3"]) -> np.ndarray:
-    """(s, k) every measurement of whole bodies, in the order and units of the definitions.
-
-    The model poses them; their shapes are their own.
-    """
-    rows = []
-    for start in range(0, len(rest), BATCH):
-        exact = bodies_as_axes(model, rest[start : start + BATCH])
-        body = measuring_body(exact, ScapeEvaluator(exact))
-        rows.extend(measurement_values(body, axis) for axis in np.eye(len(exact.shape_basis)))
-    return np.stack(rows)
 
 
 def _count_lines(model: BodyModel) -> tuple[str, ...]:
@@ -49,7 +32,7 @@ def _count_lines(model: BodyModel) -> tuple[str, ...]:
         return ()
     rows = [
         (f"n = {count}", f"{error['by_vertex']:.2f}", f"{error['by_area']:.2f}")
-        for count, error in curve.items()
+        for count, error in sorted(curve.items(), key=lambda item: int(item[0]))
     ]
     return table_lines(
         "held-out error by number of coefficients, mm", ("", "by vertex", "by area"), rows
@@ -76,12 +59,10 @@ def _region_lines(model: BodyModel, residuals: Float[np.ndarray, "s m 3"]) -> tu
 
 
 def _measurement_lines(
-    model: BodyModel,
-    rest: Float[np.ndarray, "s m 3"],
-    residuals: Float[np.ndarray, "s m 3"],
+    reported: Reported, residuals: Float[np.ndarray, "s m 3"]
 ) -> tuple[str, ...]:
-    true = measured_bodies(model, rest)
-    errors = measured_bodies(model, rest - residuals) - true
+    true = held_out_people(reported)
+    errors = measured_bodies(reported.model, reported.bodies.rest - residuals) - true
     rows = [
         (
             definition.about.name,

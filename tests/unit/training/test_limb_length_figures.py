@@ -6,16 +6,29 @@ from fitter.training.limb_length_figures import LIMBS, LimbLengthFigures, limb_l
 from fitter.training.survey_moments import load_moments, packaged_moments_path
 
 LARGEST_ERROR_MM = {
-    "upper arm": 4.0,
-    "forearm": 7.0,
-    "hand": 4.0,
+    "upper arm": 5.0,
+    "forearm": 3.0,
+    "hand": 3.0,
     "foot": 4.0,
-    "crotch height": 7.0,
+    "crotch height": 14.0,
     "nape height": 7.0,
-    "trunk": 9.0,
+    "trunk": 11.0,
     "shoulders across": 6.0,
 }
-"""At any of fifty heights from the survey's 1st to its 99th percentile."""
+"""At any of fifty heights from the survey's 1st to its 99th percentile. The crotch of heavier people
+is lower, and shoulder heights are what subjects are solved for most loosely."""
+
+LARGEST_OFFSET_MM = {
+    "upper arm": 4.0,
+    "foot": 3.0,
+    "knee height": 4.0,
+    "crotch height": 7.0,
+    "nape height": 6.0,
+    "shoulders across": 5.0,
+}
+"""Mean over the heights, off people of the predicted weight too."""
+
+SLOPE_TOLERANCE = 0.25
 
 
 @pytest.fixture(scope="module", params=["female", "male"])
@@ -43,7 +56,7 @@ def test_limbs_grow_with_stature(figures: LimbLengthFigures):
     assert (np.diff(figures.predicted, axis=0) > 0.0).all()
     quotient = dict(zip((limb.name for limb in LIMBS), ours / surveyed, strict=True))
     for name in LARGEST_ERROR_MM:
-        assert quotient[name] == pytest.approx(1.0, abs=0.2), name
+        assert quotient[name] == pytest.approx(1.0, abs=SLOPE_TOLERANCE), name
 
 
 def test_errors_of_limbs_that_are_defined_otherwise_are_about_their_mean(
@@ -54,3 +67,15 @@ def test_errors_of_limbs_that_are_defined_otherwise_are_about_their_mean(
     ):
         mean = 0.0 if limb.difference else offset
         assert errors.mean() == pytest.approx(mean, abs=1e-9), limb.name
+
+
+@pytest.mark.parametrize("name", LARGEST_OFFSET_MM)
+def test_lengths_agree_among_people_as_tall_and_as_heavy(figures: LimbLengthFigures, name: str):
+    limb = [limb.name for limb in figures.limbs].index(name)
+    assert abs(figures.alike_offsets_mm[limb]) < LARGEST_OFFSET_MM[name]
+
+
+def test_the_crotch_of_heavier_people_is_lower(figures: LimbLengthFigures):
+    limb = [limb.name for limb in figures.limbs].index("crotch height")
+    lower = (figures.surveyed - figures.surveyed_alike)[:, limb].mean()
+    assert lower > 0.1

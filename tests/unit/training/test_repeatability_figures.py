@@ -12,4 +12,5 @@ def test_measurements_repeat_within_a_millimetre(gender: str):
     assert figures.moved.max() < 1e-6
     assert figures.noisy.max() < 0.1
     assert figures.noisy.min() > 0.0
+    assert figures.mirrored.max() < 0.3
     assert len(figures.names) == len(figures.units) == len(figures.mirrored)
