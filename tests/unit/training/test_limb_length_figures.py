@@ -15,8 +15,8 @@ LARGEST_ERROR_MM = {
     "trunk": 11.0,
     "shoulders across": 6.0,
 }
-"""At any of fifty heights from the survey's 1st to its 99th percentile. The crotch of heavier people
-is lower, and shoulder heights are what subjects are solved for most loosely."""
+"""At any of fifty heights from the survey's 1st to its 99th percentile. Heavier people's crotch is
+lower, and shoulder heights are what subjects are solved for most loosely."""
 
 LARGEST_OFFSET_MM = {
     "upper arm": 4.0,
