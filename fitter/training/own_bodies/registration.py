@@ -29,7 +29,7 @@ LIKELY_HEIGHT_M = (1.2, 2.3)
 """Heights by which a wrong unit is guessed."""
 
 ALIGNED = 0.8
-"""Cosine within which the body's own directions must keep to axes: a third of a right angle."""
+"""Cosine within which the body's own directions must keep to axes: 37 degrees."""
 
 SAME_M = 5e-5
 """Two subjects whose vertices lie this near to each other on average are one: twice the rounding of
@@ -120,7 +120,7 @@ def check_unit(place: str, raw: Vertices, frame: Frame) -> None:
     raise MeshFolderError(
         place=place,
         reason=f"is {extent:.4g} {frame.unit} high or wide, expected a person"
-        + (f"; in {likely[0]} it would be one" if likely else ""),
+        + (f'; with "units": "{likely[0]}" it would be one' if likely else ""),
         remedy="Declare the unit in bodies.json; all files of a folder share it.",
     )
 

@@ -1,0 +1,65 @@
+"""Folders of registered bodies, made from the packaged model's own shape space."""
+
+import json
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from fitter.body.model import BodyModel
+from fitter.body.scape import ScapeEvaluator
+from fitter.body.shape_space import rest_vertices
+from fitter.body.storage import load_body_model, packaged_model_path
+from fitter.parameters import BodyParameters
+from fitter.training.own_bodies.template import Template, packaged_template
+from fitter.training.random_poses import random_pose
+
+AXES = {"left": "+x", "up": "+y", "forward": "+z"}
+DECLARED = {"units": "m", "axes": AXES, "source": "drawn for a test", "licence": "CC0-1.0"}
+
+
+@cache
+def packaged() -> BodyModel:
+    return load_body_model(packaged_model_path("female"))
+
+
+@cache
+def evaluator() -> ScapeEvaluator:
+    return ScapeEvaluator(packaged())
+
+
+def template() -> Template:
+    return packaged_template(packaged())
+
+
+def random_shapes(count: int, axes: int = 6, seed: int = 0) -> np.ndarray:
+    """Shapes that differ along the first few axes alone."""
+    shapes = np.zeros((count, len(packaged().shape_basis)))
+    shapes[:, :axes] = np.random.default_rng(seed).normal(size=(count, axes))
+    return shapes
+
+
+def write_bodies(folder: Path, shapes: np.ndarray, **declared: object) -> list[Path]:
+    """A folder of bodies at rest, named a, b, c, ... ; returns their files."""
+    (folder / "rest").mkdir(parents=True)
+    (folder / "bodies.json").write_text(json.dumps(DECLARED | declared))
+    files = []
+    for k, shape in enumerate(shapes):
+        files.append(folder / "rest" / f"{chr(ord('a') + k)}.npy")
+        np.save(files[-1], rest_vertices(packaged(), shape))
+    return files
+
+
+def write_scans(folder: Path, shapes: np.ndarray, per_subject: int, seed: int = 1) -> None:
+    """Scans of the same subjects in random poses."""
+    rng = np.random.default_rng(seed)
+    for k, shape in enumerate(shapes):
+        owner = folder / "posed" / chr(ord("a") + k)
+        owner.mkdir(parents=True)
+        for number in range(per_subject):
+            np.save(owner / f"{number}.npy", posed_body(shape, random_pose(rng)))
+
+
+def posed_body(shape: np.ndarray, pose: np.ndarray) -> np.ndarray:
+    parameters = BodyParameters(pose=pose, translation=np.zeros(3), shape=shape)
+    return evaluator().body_frame_vertices(parameters)
