@@ -66,7 +66,7 @@ def repeatability_figures(
 
 
 def repeatability_lines(reported: Reported) -> tuple[str, ...]:
-    """The section of the report; some 30 s of computing."""
+    """The section of the report."""
     figures = repeatability_figures(reported.model, np.random.default_rng(_SEED))
     rows = []
     for k, (name, unit) in enumerate(zip(figures.names, figures.units, strict=True)):
@@ -81,6 +81,7 @@ def repeatability_lines(reported: Reported) -> tuple[str, ...]:
         ),
         *note_lines(
             "Moved: by a random rotation and metres, the body's upright then found from its mesh. "
-            "Mirrored: the right limbs are measured, so the left ones become them."
+            "Mirrored: the right limbs are measured, so the left ones become them; what they then "
+            "differ by is the learned pose term's, which is taught on each side's own random poses."
         ),
     )

@@ -37,9 +37,7 @@ def found(model):
 
 
 def test_every_committed_figure_still_holds(model, found):
-    claimed = model.header.get("model_figures")
-    if claimed is None:
-        pytest.skip("a model built before headers kept these figures")
+    claimed = model.header["model_figures"]
     assert set(claimed) == set(TOLERANCES)
     for name, tolerance in TOLERANCES.items():
         assert found[name] == pytest.approx(claimed[name], rel=0, abs=tolerance), name
@@ -53,11 +51,21 @@ def test_the_held_out_errors_agree_on_height(model, found):
         "height_per_deviation_mm",
     ):
         assert found[name] == pytest.approx(claimed[name], rel=0, abs=TOLERANCES[name])
-    assert found["height_mm"] == pytest.approx(1000.0 * model.header["height_m"]["mean"], abs=0.05)
+    height = model.header["height_m"]
+    assert found["height_mm"] == pytest.approx(1000.0 * height["mean"], rel=0, abs=0.05)
+    assert found["height_per_deviation_mm"] == pytest.approx(1000.0 * height["sd"], rel=0, abs=0.02)
 
 
 def test_no_axis_but_the_first_changes_height(found):
     assert found["height_change_at_3_deviations_mm"] < GREATEST_HEIGHT_CHANGE_MM
+
+
+def test_the_mean_body_is_a_person_of_the_training_subjects_size(model, found):
+    stature, weight = model.header["stature_m"], model.header["model_weight_kg"]
+    assert found["height_mm"] == pytest.approx(1000.0 * stature["mean"], rel=0, abs=5.0)
+    # Volume curves upward in the shape, so that the mean body is lighter than the mean of bodies.
+    assert weight["mean"] - 2.0 < found["weight_kg"] <= weight["mean"] + 0.1
+    assert found["height_per_deviation_mm"] == pytest.approx(1000.0 * stature["sd"], rel=0.05)
 
 
 def test_bodies_of_the_prior_weigh_what_the_training_subjects_weighed(model):
