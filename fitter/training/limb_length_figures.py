@@ -76,13 +76,13 @@ LIMBS = (
         "forearm",
         _between("left_elbow", "left_wrist"),
         {"radialestylionlength": 1.0},
-        "to the wrist's centre, beyond the end of the radius",
+        "from the elbow's centre, not the radius's head",
     ),
     ComparedLimb(
         "hand",
         _between("left_wrist", "left_finger_tip"),
         {"handlength": 1.0},
-        "from the wrist's centre, fingers bent a little",
+        "straight to the tip of fingers bent a little",
     ),
     ComparedLimb(
         "thigh",
