@@ -68,19 +68,39 @@ def train_own_model(bodies: OwnBodies, plan: OwnPlan, packaged: BodyModel) -> Ow
     MeshFolderError
         If too few subjects are left to learn from.
     """
-    training, held_out = split_subjects(len(bodies.subjects), plan)
-    rest = bodies.rest[training]
-    axes, remarks = _possible_axes(rest, bodies, plan)
+    training, _ = split_subjects(len(bodies.subjects), plan)
+    axes, remarks = _possible_axes(bodies.rest[training], bodies, plan)
     posed = with_poses(bodies)
-    scans = [scan for scan in posed if scan.subject in training]
-    term = _pose_term_source(bodies, training, scans, packaged)
+    sources = _pose_term_sources(bodies, training, posed, packaged)
+    learned = [
+        _learned(bodies, replace(plan, axes=axes), packaged, posed, source) for source in sources
+    ]
+    best = min(learned, key=_posed_mm)
+    if len(learned) > 1:
+        found = ", ".join(
+            f"{_posed_mm(one):.1f} mm {source.origin}"
+            for one, source in zip(learned, sources, strict=True)
+        )
+        remarks = (*remarks, f"error on held-out scans: {found}; the lower is kept")
+    return replace(best, remarks=remarks)
+
+
+def _learned(
+    bodies: OwnBodies,
+    plan: OwnPlan,
+    packaged: BodyModel,
+    posed: Sequence[PosedScan],
+    source: PoseTermSource,
+) -> OwnModel:
+    """The model with its pose-dependent term from one source, without remarks."""
+    training, held_out = split_subjects(len(bodies.subjects), plan)
     trained = learn_body_model(
-        rest,
+        bodies.rest[training],
         bodies.template.mesh,
-        header=_provenance(packaged, bodies, plan, trained_on=len(scans), origin=term.origin),
-        shape_count=axes,
-        feature_joints=term.feature_joints,
-        pose_term=term.make,
+        header=_provenance(packaged, bodies, plan, source),
+        shape_count=plan.axes,
+        feature_joints=source.feature_joints,
+        pose_term=source.make,
     )
     errors = own_errors(trained.model, bodies.rest, held_out, posed)
     header = (
@@ -88,11 +108,11 @@ def train_own_model(bodies: OwnBodies, plan: OwnPlan, packaged: BodyModel) -> Ow
         | model_statistics(trained)
         | {"held_out_errors": header_entry(errors)}
     )
-    return OwnModel(
-        model=replace(trained.model, header=header),
-        errors=errors,
-        remarks=remarks,
-    )
+    return OwnModel(model=replace(trained.model, header=header), errors=errors, remarks=())
+
+
+def _posed_mm(learned: OwnModel) -> float:
+    return np.inf if learned.errors.posed is None else learned.errors.posed.by_vertex
 
 
 def split_subjects(
@@ -148,20 +168,29 @@ def _possible_axes(
     return axes, (remark,)
 
 
-def _pose_term_source(
+def _pose_term_sources(
     bodies: OwnBodies,
     training: Integer[np.ndarray, " s"],
-    scans: Sequence[PosedScan],
+    posed: Sequence[PosedScan],
     packaged: BodyModel,
-) -> PoseTermSource:
+) -> tuple[PoseTermSource, ...]:
+    """Where the pose-dependent term may come from; of several, held-out scans tell the best.
+
+    A term learned from few scans is far worse than one learned from thousands of other bodies: for
+    bodies of the packaged models' own rig 19.1 mm of posed error after 4 scans, 8.2 after 32, 5.1
+    after 128, 4.1 after 240 and 3.0 for the packaged term. So on the packaged surface scans must
+    show that theirs is better, on subjects that neither has seen.
+    """
     mesh = bodies.template.mesh
-    if scans:
-        return learned_pose_term(
-            mesh.parts, len(scans), lambda space: _examples(bodies, training, scans, space)
-        )
-    if same_surface(mesh, packaged_template(packaged).mesh):
-        return packaged_pose_term(packaged)
-    return no_pose_term(mesh.parts)
+    scans = [scan for scan in posed if scan.subject in training]
+    learned = learned_pose_term(
+        mesh.parts, len(scans), lambda space: _examples(bodies, training, scans, space)
+    )
+    if not same_surface(mesh, packaged_template(packaged).mesh):
+        return (learned if scans else no_pose_term(mesh.parts),)
+    if not scans or len(scans) == len(posed):
+        return (packaged_pose_term(packaged),)
+    return packaged_pose_term(packaged), learned
 
 
 def _examples(
@@ -182,7 +211,7 @@ def _examples(
 
 
 def _provenance(
-    packaged: BodyModel, bodies: OwnBodies, plan: OwnPlan, *, trained_on: int, origin: str
+    packaged: BodyModel, bodies: OwnBodies, plan: OwnPlan, source: PoseTermSource
 ) -> Mapping[str, object]:
     sources = [f"registered meshes of the user: {bodies.source}"]
     licences = [f"of the registered meshes: {bodies.licence}"]
@@ -199,8 +228,8 @@ def _provenance(
         "seed": plan.seed,
         "training_subjects": len(bodies.subjects) - plan.held_out,
         "held_out_subjects": plan.held_out,
-        "pose_examples": trained_on,
-        "pose_term": origin,
+        "pose_examples": source.scans,
+        "pose_term": source.origin,
     }
 
 

@@ -32,6 +32,8 @@ class PoseTermSource:
     ----------
     origin
         In words, for header and report.
+    scans
+        The user's scans that it is learned from.
     feature_joints
         (p, q) joints that drive it, as in the model.
     make
@@ -39,6 +41,7 @@ class PoseTermSource:
     """
 
     origin: str
+    scans: int
     feature_joints: Integer[np.ndarray, "p q"]
     make: Callable[[ShapeSpace], PoseTerm]
 
@@ -54,7 +57,7 @@ def no_pose_term(parts: Parts) -> PoseTermSource:
         )
 
     origin = "none, for want of scans in poses: parts turn rigidly"
-    return PoseTermSource(origin=origin, feature_joints=joints, make=make)
+    return PoseTermSource(origin=origin, scans=0, feature_joints=joints, make=make)
 
 
 def learned_pose_term(
@@ -67,7 +70,7 @@ def learned_pose_term(
         return train_pose_term(examples(space), space.laplacians, parts, joints, len(space.basis))
 
     origin = f"learned from {count} scans in poses"
-    return PoseTermSource(origin=origin, feature_joints=joints, make=make)
+    return PoseTermSource(origin=origin, scans=count, feature_joints=joints, make=make)
 
 
 def packaged_pose_term(packaged: BodyModel) -> PoseTermSource:
@@ -78,6 +81,7 @@ def packaged_pose_term(packaged: BodyModel) -> PoseTermSource:
 
     return PoseTermSource(
         origin=f"taken over from the packaged {packaged.gender} model",
+        scans=0,
         feature_joints=packaged.pose_feature_joints,
         make=make,
     )

@@ -1,0 +1,189 @@
+"""From a folder of registered meshes to a model that fits use, through the command line."""
+
+import json
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fitter.body.model import BodyModel
+from fitter.body.scape import ScapeEvaluator
+from fitter.body.shape_space import rest_vertices, shape_for_height
+from fitter.body.skeleton import regress
+from fitter.body.stature import stature_m
+from fitter.body.storage import load_body_model
+from fitter.fittable import fittable_body
+from fitter.initial_body import initial_body
+from fitter.observation.clicks import POINT_NAMES
+from fitter.parameters import BodyParameters
+from fitter.request import Click, FitRequest, Gender
+from fitter.training.__main__ import main
+from fitter.training.principal_shapes import project
+from fitter.training.surface import vertex_masses
+from tests.unit.training.own_bodies.bodies_folder import (
+    DECLARED,
+    packaged,
+    random_shapes,
+    write_bodies,
+    write_scans,
+)
+
+pytestmark = pytest.mark.slow
+
+SUBJECTS, SPANNED = 25, 6
+SHAPES = random_shapes(SUBJECTS, axes=SPANNED)
+
+
+def run(command: str, meshes: Path, models: Path, *more: str) -> int:
+    common = ["--gender", "female", "--meshes", str(meshes), "--output", str(models)]
+    return main([command, *common, *more])
+
+
+@pytest.fixture(scope="module")
+def meshes(tmp_path_factory) -> Path:
+    """25 bodies at rest, and a scan in a pose of each."""
+    folder = tmp_path_factory.mktemp("own") / "meshes"
+    write_bodies(folder, SHAPES)
+    write_scans(folder, SHAPES, per_subject=1)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def models(meshes) -> Path:
+    folder = meshes.parent / "models"
+    assert run("build", meshes, folder) == 0
+    return folder
+
+
+@pytest.fixture(scope="module")
+def model(models) -> BodyModel:
+    return load_body_model(models / "female.npz", gender="female")
+
+
+def test_the_model_spans_the_bodies_it_was_learned_from_and_those_held_out(model):
+    assert len(model.shape_basis) == SPANNED
+    errors = model.header["held_out_errors"]
+    assert errors["subjects"] == 2
+    assert errors["shape_mm"] < 0.01
+    assert errors["height_change_at_3_deviations_mm"] < 1.0
+    masses = vertex_masses(model.mean_vertices, model.triangles)
+    body = rest_vertices(packaged(), 0.5 * random_shapes(1, axes=SPANNED, seed=9)[0])
+    _, left = project(body[None], masses, model.mean_vertices, model.shape_basis)
+    assert 1000.0 * np.linalg.norm(left, axis=2).max() < 0.1
+
+
+def test_scans_in_poses_tell_which_pose_dependent_term_is_better(model):
+    """These bodies were posed by the packaged term: nothing that 23 scans teach comes near it."""
+    assert "taken over from the packaged female model" in model.header["pose_term"]
+    errors = model.header["held_out_errors"]
+    assert errors["scans"] == 2
+    assert errors["posed_mm"] < 0.5 * errors["posed_rigid_parts_only_mm"]
+
+
+def test_the_header_says_what_the_user_said(model):
+    assert any(DECLARED["source"] in text for text in model.header["sources"])
+    assert any(DECLARED["licence"] in text for text in model.header["licences"])
+    assert model.header["training_subjects"] == SUBJECTS - 2
+
+
+def test_the_report_measures_the_same_again(meshes, models, model, capsys):
+    assert run("report", meshes, models) == 0
+    lines = capsys.readouterr().out.splitlines()
+    (line,) = (line for line in lines if line.strip().startswith("posed error, 2 scans"))
+    assert float(line.split()[-2]) == pytest.approx(
+        model.header["held_out_errors"]["posed_mm"], abs=0.01
+    )
+
+
+def test_a_folder_that_has_changed_is_not_reported_on(meshes, models, tmp_path, capsys):
+    changed = tmp_path / "meshes"
+    shutil.copytree(meshes, changed)
+    (changed / "rest" / "a.npy").unlink()
+    shutil.rmtree(changed / "posed" / "a")
+    assert run("report", changed, models) == 1
+    assert "holds other files than those female.npz was trained on" in capsys.readouterr().err
+
+
+def test_clicks_on_a_person_give_their_body_in_the_users_own_model(models):
+    """The whole way of a fit before it looks at pixels: pose, limbs, distance, height."""
+    body = fittable_body(Gender.FEMALE, models=models)
+    model, evaluator = body.instruments.model, body.instruments.evaluator
+    truth = BodyParameters(
+        pose=model.canonical_pose,
+        translation=np.array([0.0, 0.0, 2.6]),
+        shape=shape_for_height(evaluator, 1.7),
+    )
+    joints = regress(model.landmarks, evaluator.vertices(truth))
+    pixels = 900.0 * joints[:, :2] / joints[:, 2:] + [360.0, 480.0]
+    places = dict(zip(model.landmarks.names, pixels.tolist(), strict=True))
+    request = FitRequest(
+        image=b"",
+        clicks={name: Click(x=places[name][0], y=places[name][1]) for name in POINT_NAMES},
+        gender=Gender.FEMALE,
+        height_m=1.7,
+        focal_length_px=900.0,
+    )
+    found = initial_body(request, body, width=720, height=960, exif_focal_length_35mm=None)
+    placed = regress(model.landmarks, evaluator.vertices(found.body))
+    assert np.linalg.norm(placed - joints, axis=1).mean() < 0.1
+    standing = BodyParameters(
+        pose=model.standing_pose, translation=np.zeros(3), shape=found.body.shape
+    )
+    height = stature_m(evaluator.body_frame_vertices(standing), model.landmarks)
+    assert height == pytest.approx(1.7, abs=1e-3)
+
+
+def renumbered(meshes: Path, template: Path, order: np.ndarray) -> None:
+    """Give a folder and its template the vertices in another order, as another topology."""
+    place = np.argsort(order)
+    for path in (meshes / "rest").glob("*.npy"):
+        np.save(path, np.load(path)[order])
+    for name in ("skinning_weights.npy", "part_of_triangle.npy"):
+        array = np.load(template / name)
+        np.save(meshes / name, array[order] if len(array) == len(order) else array)
+    description = json.loads((template / "template.json").read_text())
+    for rows in (description["joints"], description["landmarks"]):
+        for row in rows.values():
+            row["vertices"] = place[row["vertices"]].tolist()
+    del description["mirror"]
+    (meshes / "template.json").write_text(json.dumps(description))
+    lines = (template / "template.obj").read_text().splitlines()
+    vertices = [line for line in lines if line.startswith("v ")]
+    faces = [
+        [str(1 + place[int(corner.split("/")[0]) - 1]) for corner in line.split()[1:]]
+        for line in lines
+        if line.startswith("f ")
+    ]
+    text = [*(vertices[k] for k in order), *(f"f {' '.join(corners)}" for corners in faces)]
+    (meshes / "template.obj").write_text("\n".join(text) + "\n")
+
+
+def test_a_topology_of_ones_own_needs_nothing_of_the_packaged_surface(tmp_path, capsys):
+    template, own = tmp_path / "template", tmp_path / "meshes"
+    assert main(["template", "--meshes", str(template), "--gender", "female"]) == 0
+    write_bodies(own, SHAPES[:8])
+    order = np.random.default_rng(3).permutation(len(packaged().mean_vertices))
+    renumbered(own, template, order)
+    models = tmp_path / "models"
+    assert run("build", own, models, "--axes", "4", "--held-out", "1") == 0
+    assert "parts turn rigidly" in capsys.readouterr().out
+    model = load_body_model(models / "female.npz")
+    assert not model.pose_right_hand_sides.any()
+    assert not any("packaged" in text for text in model.header["sources"])
+    body = fittable_body(Gender.FEMALE, models=models).instruments.evaluator
+    assert isinstance(body, ScapeEvaluator)
+
+
+def test_faults_are_said_in_one_line_without_a_trace(tmp_path, capsys):
+    assert run("build", tmp_path, tmp_path / "models") == 1
+    assert capsys.readouterr().err.startswith("bodies.json is missing in ")
+    assert main(["build", "--gender", "female", "--meshes", str(tmp_path)]) == 1
+    assert "the packaged models, which stay as they are" in capsys.readouterr().err
+    assert main(["build", "--meshes", str(tmp_path), "--output", str(tmp_path / "models")]) == 1
+    assert "--gender is both" in capsys.readouterr().err
+    with pytest.raises(SystemExit):
+        main(["template"])
+    (tmp_path / "notes.txt").write_text("here")
+    assert main(["template", "--gender", "male", "--meshes", str(tmp_path)]) == 1
+    assert "no empty folder" in capsys.readouterr().err
