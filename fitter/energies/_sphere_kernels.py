@@ -8,8 +8,8 @@ from numba import njit
 
 @no_type_check
 @njit(cache=True, fastmath=True)
-def ring_spheres(vertices, pointers, indices, weights, filling, centres, radii):
-    """Weighted mean of each ring, and the ring's mean distance from it times ``filling``."""
+def ring_spheres(vertices, pointers, indices, weights, fillings, centres, radii):
+    """Weighted mean of each ring, and the ring's mean distance from it times its filling."""
     for s in range(len(pointers) - 1):
         x = y = z = 0.0
         for k in range(pointers[s], pointers[s + 1]):
@@ -25,7 +25,7 @@ def ring_spheres(vertices, pointers, indices, weights, filling, centres, radii):
             dy = vertices[v, 1] - y
             dz = vertices[v, 2] - z
             mean += weights[k] * sqrt(dx * dx + dy * dy + dz * dz)
-        radii[s] = filling * mean
+        radii[s] = fillings[s] * mean
 
 
 @no_type_check

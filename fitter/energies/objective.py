@@ -82,7 +82,7 @@ class Objective:
         rendering = render(vertices, instruments.model.triangles, evidence.camera)
         edges = model_edges(rendering, instruments.topology)
         landmarks = regress(evidence.clicks.landmarks, vertices)
-        spheres, radii = sphere_positions(instruments.penetration.centres, vertices)
+        spheres, radii = sphere_positions(instruments.penetration, vertices)
         energies = {
             "silhouette": silhouette_energy(rendering, evidence.silhouette, scales),
             "edges": edge_energy(edges, evidence.edges, scales),

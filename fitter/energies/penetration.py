@@ -1,26 +1,31 @@
 """Inter-penetration penalty E_Pn: parts of the body do not run into one another.
 
 Each part is filled with spheres hung on rings of its own vertices, so centres and radii follow
-shape and pose. Two spheres of parts that are not neighbours cost the square of their overlap.
+shape and pose: on the mean body each is the largest about its centre that the skin holds. Two
+spheres of parts that are not neighbours cost the square of their overlap.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float, Integer
+from scipy.spatial import KDTree
 
 from fitter.arrays import Points3D, Vertices
 from fitter.body.model import BodyModel, SparseRows
 from fitter.energies._sphere_kernels import pair_overlaps, ring_spheres
 from fitter.energies.rows import PositionRows
 from fitter.energies.scales import EnergyScales
+from fitter.numerics.meshes import vertex_areas
 
 _LEAST_RING = 6
-# Spheres stay inside the skin, which yields where parts touch.
-_FILLING = 0.9
-# A part as wide as this against its depth is split sideways: trunks are not round.
-_SPLIT_RATIO = 1.3
-_SLICES_PER_WIDTH = 2.0
+_SLICES_PER_THICKNESS = 4.0
+# A slice this much longer one way than the other gets a sphere on either side of the middle one.
+_SIDES_RATIO = 1.2
+# A sphere that skin leaves less than this, against the size of its ring, lies beside the body.
+_LEAST_FILLING = 0.3
+_UPRIGHT = ("pelvis", "spine", "chest", "neck", "head")
+_SIDEWAYS, _UP, _FORWARD = np.eye(3)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -30,12 +35,15 @@ class PenetrationProxy:
     Attributes
     ----------
     centres
-        s rows over the vertices; a centre is the mean of its ring.
+        s rows over the vertices; a centre is the mean of its ring, by area of skin.
+    fillings
+        (s,) radii over the mean distance of the rings from their centres.
     pairs
         (q, 2) sphere indices.
     """
 
     centres: SparseRows
+    fillings: Float[np.ndarray, " s"]
     pairs: Integer[np.ndarray, "q 2"]
 
 
@@ -44,38 +52,42 @@ def penetration_proxy(model: BodyModel, canonical_vertices: Vertices) -> Penetra
 
     Pairs that overlap in the canonical pose, where nothing penetrates, are left out.
     """
-    rings: list[np.ndarray] = []
-    parts: list[int] = []
-    dominant = model.skinning_parts[
-        np.arange(len(model.mean_vertices)), np.argmax(model.skinning_weights, axis=1)
-    ]
-    for part in range(len(model.part_names)):
-        for ring in _rings_of_part(model.mean_vertices, np.flatnonzero(dominant == part)):
-            rings.append(ring)
-            parts.append(part)
+    rings, owner = _rings(model)
+    areas = vertex_areas(model.mean_vertices, model.triangles)
     centres = SparseRows(
-        names=tuple(model.part_names[part] for part in parts),
+        names=tuple(model.part_names[part] for part in owner),
         pointers=np.concatenate([[0], np.cumsum([len(ring) for ring in rings])]),
         indices=np.concatenate(rings),
-        weights=np.concatenate([np.full(len(ring), 1.0 / len(ring)) for ring in rings]),
+        weights=np.concatenate([areas[ring] / areas[ring].sum() for ring in rings]),
     )
-    owner = np.array(parts)
+    fillings = _fillings(centres, canonical_vertices)
+    held = fillings >= _LEAST_FILLING
     first, second = np.triu_indices(len(rings), k=1)
-    apart = ~_neighbours(model)[owner[first], owner[second]]
-    pairs = np.stack([first[apart], second[apart]], axis=1)
-    spheres, radii = sphere_positions(centres, canonical_vertices)
-    overlap = sphere_overlaps(spheres, radii, pairs)
-    return PenetrationProxy(centres=centres, pairs=pairs[overlap <= 0.0])
+    apart = ~_neighbours(model)[owner[first], owner[second]] & held[first] & held[second]
+    every = PenetrationProxy(
+        centres=centres,
+        fillings=fillings,
+        pairs=np.stack([first[apart], second[apart]], axis=1),
+    )
+    overlaps = sphere_overlaps(*sphere_positions(every, canonical_vertices), every.pairs)
+    return replace(every, pairs=every.pairs[overlaps <= 0.0])
 
 
 def sphere_positions(
-    centres: SparseRows, vertices: Vertices
+    proxy: PenetrationProxy, vertices: Vertices
 ) -> tuple[Points3D, Float[np.ndarray, " s"]]:
     """Centres (frame of the vertices) and radii in metres, from the rings' present vertices."""
+    centres = proxy.centres
     count = len(centres.pointers) - 1
     positions, radii = np.empty((count, 3)), np.empty(count)
     ring_spheres(
-        vertices, centres.pointers, centres.indices, centres.weights, _FILLING, positions, radii
+        vertices,
+        centres.pointers,
+        centres.indices,
+        centres.weights,
+        proxy.fillings,
+        positions,
+        radii,
     )
     return positions, radii
 
@@ -120,23 +132,57 @@ def penetration_rows(
     )
 
 
-def _rings_of_part(vertices: Vertices, members: Integer[np.ndarray, " k"]) -> list[np.ndarray]:
-    """Cut a part's vertices into slices along its long axis, wide slices into halves."""
+def _fillings(centres: SparseRows, vertices: Vertices) -> Float[np.ndarray, " s"]:
+    """Share of its ring's mean distance at which a sphere touches the nearest skin."""
+    count = len(centres.pointers) - 1
+    unfilled = PenetrationProxy(
+        centres=centres, fillings=np.ones(count), pairs=np.zeros((0, 2), dtype=np.int64)
+    )
+    positions, distances = sphere_positions(unfilled, vertices)
+    nearest, _ = KDTree(vertices).query(positions)
+    return np.minimum(nearest / distances, 1.0)
+
+
+def _rings(model: BodyModel) -> tuple[list[np.ndarray], Integer[np.ndarray, " s"]]:
+    """The rings of all parts, and the part of each."""
+    dominant = model.skinning_parts[
+        np.arange(len(model.mean_vertices)), np.argmax(model.skinning_weights, axis=1)
+    ]
+    rings: list[np.ndarray] = []
+    owner: list[int] = []
+    for part, name in enumerate(model.part_names):
+        members = np.flatnonzero(dominant == part)
+        found = _rings_of_part(model.mean_vertices, members, upright=name in _UPRIGHT)
+        rings += found
+        owner += [part] * len(found)
+    return rings, np.array(owner)
+
+
+def _rings_of_part(
+    vertices: Vertices, members: Integer[np.ndarray, " k"], *, upright: bool
+) -> list[np.ndarray]:
+    """Cut a part's vertices into slices along its axis; of wide slices the halves as well."""
     if len(members) < _LEAST_RING:
         return []
     points = vertices[members] - vertices[members].mean(axis=0)
-    _, _, axes = np.linalg.svd(points, full_matrices=False)
+    if upright:
+        axes = np.stack([_UP, _SIDEWAYS, _FORWARD])
+    else:
+        _, _, axes = np.linalg.svd(points, full_matrices=False)
     along, across, deep = (points @ axis for axis in axes)
-    length, width, depth = (float(np.ptp(values)) for values in (along, across, deep))
-    slices = max(1, round(_SLICES_PER_WIDTH * length / max(depth, 1e-6)))
+    thickness = max(min(np.ptp(across), np.ptp(deep)), 1e-6)
+    slices = max(1, round(_SLICES_PER_THICKNESS * np.ptp(along) / thickness))
     bounds = np.linspace(along.min(), along.max(), slices + 1)
     index = np.clip(np.digitize(along, bounds) - 1, 0, slices - 1)
     rings: list[np.ndarray] = []
-    halves = 2 if width > _SPLIT_RATIO * depth else 1
     for cut in range(slices):
         inside = index == cut
-        sides = [inside] if halves == 1 else [inside & (across < 0), inside & (across >= 0)]
-        rings.extend(members[side] for side in sides if np.count_nonzero(side) >= _LEAST_RING)
+        groups = [inside]
+        for one, other in ((across, deep), (deep, across)):
+            if inside.any() and np.ptp(one[inside]) > _SIDES_RATIO * np.ptp(other[inside]):
+                middle = 0.5 * (one[inside].min() + one[inside].max())
+                groups += [inside & (one < middle), inside & (one >= middle)]
+        rings.extend(members[group] for group in groups if np.count_nonzero(group) >= _LEAST_RING)
     return rings
 
 

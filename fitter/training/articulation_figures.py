@@ -119,7 +119,7 @@ def posed_volumes(model: BodyModel, poses: list[Pose], rng: np.random.Generator)
         vertices = _posed(evaluator, mean, pose)
         mean_body[k] = _gain(model, mean, vertices)
         drawn_bodies[k] = _gain(model, shape, _posed(evaluator, shape, pose))
-        spheres, radii = sphere_positions(proxy.centres, vertices)
+        spheres, radii = sphere_positions(proxy, vertices)
         overlaps[k] = sphere_overlaps(spheres, radii, proxy.pairs).max(initial=0.0)
     return PosedVolumes(mean_body=mean_body, drawn_bodies=drawn_bodies, overlaps_m=overlaps)
 

@@ -186,6 +186,7 @@ class TestPenetration:
             indices=np.arange(4),
             weights=np.full(4, 0.5),
         ),
+        fillings=np.full(2, 0.9),
         pairs=np.array([[0, 1]]),
     )
 
@@ -195,7 +196,7 @@ class TestPenetration:
         return np.concatenate([ring, ring + [gap, 0, 0]])
 
     def test_the_energy_is_half_the_squared_overlap_over_its_spread(self):
-        centres, radii = sphere_positions(self.PROXY.centres, self.vertices(0.15))
+        centres, radii = sphere_positions(self.PROXY, self.vertices(0.15))
         overlap = radii.sum() - 0.15
         assert overlap > 0
         assert penetration_energy(centres, radii, self.PROXY, SCALES) == pytest.approx(
@@ -203,12 +204,12 @@ class TestPenetration:
         )
 
     def test_parts_that_do_not_touch_cost_nothing_and_give_no_rows(self):
-        centres, radii = sphere_positions(self.PROXY.centres, self.vertices(0.3))
+        centres, radii = sphere_positions(self.PROXY, self.vertices(0.3))
         assert penetration_energy(centres, radii, self.PROXY, SCALES) == 0.0
         assert len(penetration_rows(centres, radii, self.PROXY, SCALES).residuals) == 0
 
     def test_rows_are_the_slope_of_the_energy(self):
-        centres, radii = sphere_positions(self.PROXY.centres, self.vertices(0.15))
+        centres, radii = sphere_positions(self.PROXY, self.vertices(0.15))
         rows = penetration_rows(centres, radii, self.PROXY, SCALES)
         slope = rows.weights[0] * rows.residuals[0] * rows.derivatives[0]
         for index in np.ndindex(centres.shape):
@@ -232,7 +233,7 @@ class TestPenetration:
 
         def energy(parameters: BodyParameters) -> float:
             vertices = instruments.evaluator.vertices(parameters)
-            spheres, radii = sphere_positions(instruments.penetration.centres, vertices)
+            spheres, radii = sphere_positions(instruments.penetration, vertices)
             return penetration_energy(spheres, radii, instruments.penetration, SCALES)
 
         assert energy(body) == 0.0
