@@ -95,7 +95,9 @@ def fit(
             far,
             objective,
             [hypothesis.parameters for hypothesis in hypotheses],
-            search=body_search(request.optimizer, limits.trial, report),
+            trial=body_search(request.optimizer, limits.trial, report),
+            contenders=limits.contenders,
+            contest=body_search(request.optimizer, limits.contest, report),
         )
         se = body_search(request.optimizer, limits.silhouette_and_edges, report)(
             objective, tried.ends[tried.best].parameters

@@ -13,7 +13,9 @@ from jaxtyping import Bool, Float
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.shading import ShadingEvidence, seen_vertices, usable_vertices
 from fitter.evidence.intensity import IntensityMap
+from fitter.numerics.mesh_parts import grown, mesh_part
 from fitter.optimizer.gauss_newton import Minimum
+from fitter.optimizer.hidden_reflectance import filled_in
 from fitter.optimizer.light_solve import (
     LightEstimate,
     LitSurface,
@@ -42,10 +44,13 @@ still be dearer as an edge of albedo than as an error of intensity."""
 SPECULAR_EXPONENTS = (6.0, 12.0, 24.0, 48.0)
 """α is chosen from these once, with the first light: skin's broad gloss to a moist shine."""
 
-GRADUATION = ((8.0, 3), (3.0, 3), (1.0, 5))
+GRADUATION = ((8.0, 3), (3.0, 3), (1.0, 4))
 """Factors of η₁ and iterations of each reflectance solve. Graduated non-convexity: cloth and hair
 are far from the first, uniform albedo, and a narrow robust function would take them for outliers
 for ever instead of giving them an albedo of their own."""
+
+REFINEMENT = ((1.0, 3),)
+"""The same from a reflectance that was found already."""
 
 # η₂ and η₃ relative to the median albedo: steps larger than this are edges of cloth or hair.
 _RELATIVE_ALBEDO_ETA = 0.1
@@ -57,6 +62,8 @@ rejected but half of what there is to see. At 1 the first light of two rendered 
 degrees off, at 8 it was 4 and 6, and nearly the same from every guess."""
 _LIGHT_ITERATIONS = 8
 _PENUMBRA_RINGS = 2
+_MARGIN_RINGS = 3
+"""Round what is seen: what a search may bring to sight has an albedo of its own."""
 _LEAST_USABLE = 200
 # A few vertices lie on hair, cloth or in a fold; this percentile is the darkest skin.
 _DARKEST_PERCENTILE = 3.0
@@ -115,11 +122,9 @@ def fit_shading(
     -------
     None where too few vertices are visible and trusted for shading to say anything.
     """
-    instruments = objective.instruments
     if np.count_nonzero(seen_vertices(start.rendering, intensity)) < _LEAST_USABLE:
         return None
     centre = start.parameters.translation
-    solver = ReflectanceSolver(instruments.topology.edges, len(start.vertices))
     state = _first_state(objective, start, intensity, lights, centre)
     minimum: Minimum | None = None
     evaluations = 0
@@ -128,13 +133,15 @@ def fit_shading(
         if round_index > 0:
             state = _with_new_light(now, state)
         state = replace(state, shadowed=_shadowed(objective, now, state))
-        state = _with_new_reflectance(objective, now, state, solver, smoothness)
+        state = _with_new_reflectance(
+            objective, now, state, smoothness, REFINEMENT if round_index else GRADUATION
+        )
         minimum = search(objective.with_shading(state), now.parameters)
         evaluations += minimum.evaluations
         now = minimum.candidate
     assert minimum is not None
     # The reflectance of the final body: what is drawn must be what was found.
-    reported = _with_new_reflectance(objective, now, state, solver, REPORTED_SMOOTHNESS)
+    reported = _with_new_reflectance(objective, now, state, REPORTED_SMOOTHNESS, GRADUATION)
     light = light_about(state.light, old_centre=centre, new_centre=now.parameters.translation)
     return ShadedFit(
         minimum=minimum,
@@ -227,45 +234,43 @@ def _shadowed(
         light=state.light,
         body_centre=state.body_centre,
     )
-    first, second = objective.instruments.topology.edges.T
-    for _ in range(_PENUMBRA_RINGS):
-        touched = shadowed[first] | shadowed[second]
-        shadowed[first[touched]] = True
-        shadowed[second[touched]] = True
-    return shadowed
+    return grown(shadowed, objective.instruments.topology.edges, _PENUMBRA_RINGS)
 
 
 def _with_new_reflectance(
     objective: Objective,
     candidate: Candidate,
     state: ShadingEvidence,
-    solver: ReflectanceSolver,
     smoothness: float,
+    graduation: tuple[tuple[float, int], ...],
 ) -> ShadingEvidence:
     rendering, topology = candidate.rendering, objective.instruments.topology
     usable = usable_vertices(rendering, state)
-    intensity = np.zeros(len(usable))
-    intensity[usable] = state.intensity.at(rendering.projected[usable])
-    weights = np.where(usable, state.vertex_areas, 0.0)
-    weights *= np.count_nonzero(usable) / weights.sum()
+    part = mesh_part(grown(usable, topology.edges, _MARGIN_RINGS), topology.edges)
+    chosen, seen = part.vertices, usable[part.vertices]
+    intensity = np.zeros(len(chosen))
+    intensity[seen] = state.intensity.at(rendering.projected[chosen[seen]])
+    weights = np.where(seen, state.vertex_areas[chosen], 0.0)
+    weights *= np.count_nonzero(seen) / weights.sum()
     terms = shading_terms(
-        rendering.vertices,
-        rendering.vertex_normals,
+        rendering.vertices[chosen],
+        rendering.vertex_normals[chosen],
         light=state.light,
         body_centre=state.body_centre,
         specular_exponent=state.reflectance.specular_exponent,
     )
     first, second = topology.edges.T
     lengths = np.linalg.norm(rendering.vertices[first] - rendering.vertices[second], axis=1)
+    lengths = np.maximum(lengths / lengths.mean(), 0.05)
     albedo_level = max(float(np.median(state.reflectance.albedo)), 1e-3)
     problem = ReflectanceProblem(
         diffuse=terms.diffuse,
         specular=terms.specular,
         intensity=intensity,
         weights=weights,
-        edges=topology.edges,
-        ambient_limit=_darkest(intensity[usable]),
-        edge_lengths=np.maximum(lengths / lengths.mean(), 0.05),
+        edges=part.edges,
+        ambient_limit=_darkest(intensity[seen]),
+        edge_lengths=lengths[part.edge_ids],
         albedo_smoothness=smoothness,
         specularity_smoothness=smoothness,
         data_eta=state.eta,
@@ -273,11 +278,12 @@ def _with_new_reflectance(
         specularity_eta=_RELATIVE_SPECULARITY_ETA * albedo_level,
     )
     found = ReflectanceFields(
-        albedo=state.reflectance.albedo,
-        specularity=state.reflectance.specularity,
+        albedo=state.reflectance.albedo[chosen],
+        specularity=state.reflectance.specularity[chosen],
         ambient=state.reflectance.ambient,
     )
-    for widening, iterations in GRADUATION:
+    solver = ReflectanceSolver(part.edges, len(chosen))
+    for widening, iterations in graduation:
         # Weights keep the curvatures at zero: only what is far comes to count more.
         wide = replace(
             problem,
@@ -289,12 +295,14 @@ def _with_new_reflectance(
             specularity_eta=widening * problem.specularity_eta,
         )
         found = solver.solve(wide, found, iterations=iterations)
+    albedo, specularity = state.reflectance.albedo.copy(), state.reflectance.specularity.copy()
+    albedo[chosen], specularity[chosen] = found.albedo, found.specularity
     return replace(
         state,
         reflectance=replace(
             state.reflectance,
-            albedo=found.albedo,
-            specularity=found.specularity,
+            albedo=filled_in(albedo, part.members, topology.edges, lengths),
+            specularity=filled_in(specularity, part.members, topology.edges, lengths),
             ambient=found.ambient,
         ),
     )

@@ -10,9 +10,9 @@ from fitter.parameters import BodyParameters
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class TriedHypotheses:
-    """The short searches' ends, in the order of the hypotheses, judged by one objective.
+    """The searches' ends, in the order of the hypotheses, judged by one objective.
 
-    ``best`` indexes them; ``evaluations`` counts true energies.
+    ``best`` indexes them, one of those that were searched on; ``evaluations`` counts true energies.
     """
 
     ends: tuple[Candidate, ...]
@@ -21,9 +21,15 @@ class TriedHypotheses:
 
 
 def try_hypotheses(
-    wide: Objective, sharp: Objective, starts: Sequence[BodyParameters], *, search: BodySearch
+    wide: Objective,
+    sharp: Objective,
+    starts: Sequence[BodyParameters],
+    *,
+    trial: BodySearch,
+    contenders: int,
+    contest: BodySearch,
 ) -> TriedHypotheses:
-    """Search from each start and compare.
+    """Search from each start, search on from the best ends, and compare.
 
     Parameters
     ----------
@@ -33,13 +39,19 @@ def try_hypotheses(
         With one that rejects what is far: what the ends are compared by.
     starts
         Bodies to begin with.
-    search
-        Minimises an objective from given parameters.
+    trial, contenders, contest
+        Minimises an objective from each start; how many of the best ends go on; minimises from
+        those.
     """
-    found = [search(wide, start) for start in starts]
+    found = [trial(wide, start) for start in starts]
+    evaluations = sum(minimum.evaluations for minimum in found)
+    by_energy = sorted(range(len(found)), key=lambda index: found[index].candidate.total)
+    for index in by_energy[:contenders]:
+        found[index] = contest(wide, found[index].candidate.parameters)
+        evaluations += found[index].evaluations
     ends = tuple(sharp.evaluate(minimum.candidate.parameters) for minimum in found)
     return TriedHypotheses(
         ends=ends,
-        best=min(range(len(ends)), key=lambda index: ends[index].total),
-        evaluations=sum(minimum.evaluations + 1 for minimum in found),
+        best=min(by_energy[:contenders], key=lambda index: ends[index].total),
+        evaluations=evaluations + len(ends),
     )

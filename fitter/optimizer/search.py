@@ -20,7 +20,9 @@ class SearchLimits:
     hypotheses
         Readings of the clicks that are tried on the picture.
     trial
-        For each of them.
+        For each of them, and for the first body before the second segmentation.
+    contenders, contest
+        The best of them that are searched on, and for how long.
     silhouette_and_edges
         From the best of them to the minimum of E1.
     shading_round
@@ -29,18 +31,25 @@ class SearchLimits:
 
     hypotheses: int
     trial: int
+    contenders: int
+    contest: int
     silhouette_and_edges: int
     shading_round: int
 
 
 _LIMITS: Mapping[OptimizerKind, SearchLimits] = {
     OptimizerKind.GAUSS_NEWTON: SearchLimits(
-        hypotheses=4, trial=20, silhouette_and_edges=100, shading_round=40
+        hypotheses=4, trial=12, contenders=2, contest=12, silhouette_and_edges=100, shading_round=40
     ),
     # The paper's search needs tens of thousands; this is what a request can wait for (about two
     # minutes), and the outcome says that the limit ended it.
     OptimizerKind.SIMPLEX: SearchLimits(
-        hypotheses=2, trial=150, silhouette_and_edges=6000, shading_round=2500
+        hypotheses=2,
+        trial=150,
+        contenders=1,
+        contest=150,
+        silhouette_and_edges=6000,
+        shading_round=2500,
     ),
 }
 

@@ -1,0 +1,46 @@
+"""Which starts are searched on; energies are numbers in place of bodies."""
+
+from types import SimpleNamespace
+
+from fitter.optimizer.hypotheses import try_hypotheses
+
+
+class Bowl:
+    """An energy with its least value at 0; ``evaluate`` gives what a search would end with."""
+
+    def evaluate(self, where: float) -> SimpleNamespace:
+        return SimpleNamespace(parameters=where, total=where**2)
+
+
+def nearer(factor: float, visited: list[float]):
+    def search(objective: Bowl, start: float) -> SimpleNamespace:
+        visited.append(start)
+        return SimpleNamespace(candidate=objective.evaluate(factor * start), evaluations=3)
+
+    return search
+
+
+def test_only_the_best_ends_are_searched_on_and_the_best_of_those_wins():
+    first: list[float] = []
+    second: list[float] = []
+    tried = try_hypotheses(
+        Bowl(),
+        Bowl(),
+        [8.0, 2.0, 4.0, 16.0],
+        trial=nearer(0.5, first),
+        contenders=2,
+        contest=nearer(0.25, second),
+    )
+    assert first == [8.0, 2.0, 4.0, 16.0]
+    assert second == [1.0, 2.0]
+    assert [end.parameters for end in tried.ends] == [4.0, 0.25, 0.5, 8.0]
+    assert tried.best == 1
+    assert tried.evaluations == 3 * 4 + 3 * 2 + 4
+
+
+def test_one_start_alone_is_the_best():
+    tried = try_hypotheses(
+        Bowl(), Bowl(), [3.0], trial=nearer(0.5, []), contenders=2, contest=nearer(0.5, [])
+    )
+    assert tried.best == 0
+    assert tried.ends[0].parameters == 0.75
