@@ -1,7 +1,11 @@
 """From a folder of registered meshes to a model that fits use, through the command line."""
 
 import json
+import os
+import re
+import shlex
 import shutil
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +23,9 @@ from fitter.observation.clicks import POINT_NAMES
 from fitter.parameters import BodyParameters
 from fitter.request import Click, FitRequest, Gender
 from fitter.training.__main__ import main
+from fitter.training.own_bodies.folder import read_own_bodies
+from fitter.training.own_bodies.learning import OwnPlan, split_subjects
+from fitter.training.own_bodies.template import packaged_template
 from fitter.training.principal_shapes import project
 from fitter.training.surface import vertex_masses
 from tests.unit.training.own_bodies.bodies_folder import (
@@ -31,7 +38,8 @@ from tests.unit.training.own_bodies.bodies_folder import (
 
 pytestmark = pytest.mark.slow
 
-SUBJECTS, SPANNED = 25, 6
+SUBJECTS, HELD_OUT, SPANNED = 25, 2, 6
+DOCUMENT = Path(__file__).parents[2] / "OWN_BODIES.md"
 SHAPES = random_shapes(SUBJECTS, axes=SPANNED)
 
 
@@ -40,20 +48,39 @@ def run(command: str, meshes: Path, models: Path, *more: str) -> int:
     return main([command, *common, *more])
 
 
+def documented(command: str) -> list[str]:
+    """The arguments that OWN_BODIES.md gives for a command."""
+    lines = DOCUMENT.read_text(encoding="utf-8").splitlines()
+    (line,) = (line for line in lines if f"-m fitter.training {command}" in line)
+    return shlex.split(line.partition("-m fitter.training ")[2])
+
+
 @pytest.fixture(scope="module")
-def meshes(tmp_path_factory) -> Path:
-    """25 bodies at rest, and a scan in a pose of each."""
-    folder = tmp_path_factory.mktemp("own") / "meshes"
+def place(tmp_path_factory) -> Iterator[Path]:
+    """A working directory in which OWN_BODIES.md is followed."""
+    folder = tmp_path_factory.mktemp("own")
+    before = Path.cwd()
+    os.chdir(folder)
+    yield folder
+    os.chdir(before)
+
+
+@pytest.fixture(scope="module")
+def meshes(place) -> Path:
+    """The folder that the template command writes, with 25 bodies at rest and scans of six."""
+    assert main(documented("template")) == 0
+    folder = place / "my-bodies"
     write_bodies(folder, SHAPES)
-    write_scans(folder, SHAPES, per_subject=1)
+    plan = OwnPlan(axes=SPANNED, held_out=HELD_OUT, seed=1)
+    training, held_out = split_subjects(SUBJECTS, plan)
+    write_scans(folder, SHAPES, [*training[:4].tolist(), *held_out.tolist()])
     return folder
 
 
 @pytest.fixture(scope="module")
 def models(meshes) -> Path:
-    folder = meshes.parent / "models"
-    assert run("build", meshes, folder) == 0
-    return folder
+    assert main(documented("build")) == 0
+    return meshes.parent / "my-models"
 
 
 @pytest.fixture(scope="module")
@@ -74,11 +101,11 @@ def test_the_model_spans_the_bodies_it_was_learned_from_and_those_held_out(model
 
 
 def test_scans_in_poses_tell_which_pose_dependent_term_is_better(model):
-    """These bodies were posed by the packaged term: nothing that 23 scans teach comes near it."""
+    """These bodies were posed by the packaged term: nothing that four scans teach comes near it."""
     assert "taken over from the packaged female model" in model.header["pose_term"]
     errors = model.header["held_out_errors"]
     assert errors["scans"] == 2
-    assert errors["posed_mm"] < 0.5 * errors["posed_rigid_parts_only_mm"]
+    assert errors["posed_mm"] < 0.2 * errors["posed_rigid_parts_only_mm"]
 
 
 def test_the_header_says_what_the_user_said(model):
@@ -100,7 +127,7 @@ def test_a_folder_that_has_changed_is_not_reported_on(meshes, models, tmp_path, 
     changed = tmp_path / "meshes"
     shutil.copytree(meshes, changed)
     (changed / "rest" / "a.npy").unlink()
-    shutil.rmtree(changed / "posed" / "a")
+    shutil.rmtree(changed / "posed")
     assert run("report", changed, models) == 1
     assert "holds other files than those female.npz was trained on" in capsys.readouterr().err
 
@@ -132,6 +159,23 @@ def test_clicks_on_a_person_give_their_body_in_the_users_own_model(models):
     )
     height = stature_m(evaluator.body_frame_vertices(standing), model.landmarks)
     assert height == pytest.approx(1.7, abs=1e-3)
+
+
+def test_the_documented_descriptions_are_read(tmp_path):
+    """Of bodies.json and poses.json, with meshes as they declare them."""
+    blocks = re.findall(r"```json\n(.*?)```", DOCUMENT.read_text(encoding="utf-8"), re.DOTALL)
+    bodies, poses = (json.loads(block) for block in blocks)
+    for path in write_bodies(tmp_path, SHAPES[:4], **bodies):
+        x, y, z = np.load(path).T
+        np.save(path, 1000.0 * np.stack([x, -z, y], axis=1))
+    (tmp_path / "posed" / "a").mkdir(parents=True)
+    shutil.copy(tmp_path / "rest" / "a.npy", tmp_path / "posed" / "a" / "a-pose.npy")
+    (tmp_path / "poses.json").write_text(json.dumps(poses))
+    read = read_own_bodies(tmp_path, packaged_template(packaged()))
+    assert read.source == bodies["source"]
+    assert np.ptp(read.rest[0], axis=0)[1] > 1.4
+    (scan,) = read.posed
+    assert np.abs(scan.pose).sum() == pytest.approx(0.8)
 
 
 def renumbered(meshes: Path, template: Path, order: np.ndarray) -> None:

@@ -93,7 +93,7 @@ def report_on_meshes(meshes: Path, gender: str, output: Path) -> Iterator[str]:
             remedy="Train again, or report on the folder as it was.",
         )
     _, held_out = split_subjects(len(bodies.subjects), _plan_of(model))
-    errors = own_errors(model, bodies.rest, held_out, with_poses(bodies))
+    errors = own_errors(model, bodies.rest, held_out, with_poses(bodies, packaged))
     yield from own_report_lines(model, errors, file_bytes=path.stat().st_size)
 
 

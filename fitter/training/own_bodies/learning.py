@@ -1,17 +1,22 @@
 """From a user's registered meshes to the same model file as the packaged ones."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from jaxtyping import Float, Integer
 
+from fitter.arrays import Pose, Vertices
 from fitter.body.model import BodyModel
+from fitter.body.scape import ScapeEvaluator
 from fitter.errors import MeshFolderError
+from fitter.parameters import BodyParameters
 from fitter.training.assemble import ShapeSpace, learn_body_model
+from fitter.training.evaluation import bodies_as_axes
 from fitter.training.own_bodies.figures import OwnErrors, header_entry, own_errors
 from fitter.training.own_bodies.folder import LEAST_SUBJECTS, REST_FOLDER, OwnBodies, PosedScan
-from fitter.training.own_bodies.part_poses import solved_pose
+from fitter.training.own_bodies.part_poses import refined_pose, solved_pose
 from fitter.training.own_bodies.pose_terms import (
     PoseTermSource,
     learned_pose_term,
@@ -70,7 +75,7 @@ def train_own_model(bodies: OwnBodies, plan: OwnPlan, packaged: BodyModel) -> Ow
     """
     training, _ = split_subjects(len(bodies.subjects), plan)
     axes, remarks = _possible_axes(bodies.rest[training], bodies, plan)
-    posed = with_poses(bodies)
+    posed = with_poses(bodies, packaged)
     sources = _pose_term_sources(bodies, training, posed, packaged)
     learned = [
         _learned(bodies, replace(plan, axes=axes), packaged, posed, source) for source in sources
@@ -129,18 +134,42 @@ def split_subjects(
     return np.sort(order[plan.held_out :]), np.sort(order[: plan.held_out])
 
 
-def with_poses(bodies: OwnBodies) -> tuple[PosedScan, ...]:
-    """The scans with a pose for each: the one that was given, or the one solved for."""
+def with_poses(bodies: OwnBodies, packaged: BodyModel) -> tuple[PosedScan, ...]:
+    """The scans with a pose for each: the one that was given, or the one solved for.
+
+    On the packaged surface the packaged model refines what is solved for.
+    """
     mesh = bodies.template.mesh
     areas = vertex_areas(bodies.template.vertices, mesh.triangles)
-    return tuple(
-        scan
-        if scan.pose is not None
-        else replace(
-            scan, pose=solved_pose(bodies.rest[scan.subject], scan.vertices, mesh.parts, areas)
+    refine = same_surface(mesh, packaged_template(packaged).mesh)
+
+    # Scans come subject by subject, and a model of one is dear to prepare.
+    @lru_cache(maxsize=1)
+    def model_of(subject: int) -> Callable[[Pose], Vertices]:
+        return _posed_by(packaged, bodies.rest[subject])
+
+    scans = []
+    for scan in bodies.posed:
+        pose = scan.pose
+        if pose is None:
+            pose = solved_pose(bodies.rest[scan.subject], scan.vertices, mesh.parts, areas)
+            if refine:
+                posed = model_of(scan.subject)
+                pose = refined_pose(pose, posed, scan.vertices, mesh.parts, areas)
+        scans.append(replace(scan, pose=pose))
+    return tuple(scans)
+
+
+def _posed_by(model: BodyModel, rest: Vertices) -> Callable[[Pose], Vertices]:
+    """One body, its shape exact, in any pose of a model."""
+    evaluator = ScapeEvaluator(bodies_as_axes(model, rest[None]))
+
+    def posed(pose: Pose) -> Vertices:
+        return evaluator.body_frame_vertices(
+            BodyParameters(pose=pose, translation=np.zeros(3), shape=np.ones(1))
         )
-        for scan in bodies.posed
-    )
+
+    return posed
 
 
 def _possible_axes(

@@ -4,14 +4,22 @@ Registered meshes make this a closed form. Each part's turn is the rotation that
 rest nearest to its skin in the scan (Kabsch 1976), and what remains is the pose-dependent
 deformation E. Near joints skin follows neither part, so vertices count by how much they follow
 this part alone, and those left far away count ever less.
+
+Skin does not turn as its bone does: a forearm's lags behind its twist, a pelvis's follows the
+thighs. Where a model knows how, the pose is refined: each part turns on by what still takes the
+model's skin, in place of the skin at rest, nearest to the scan. Over eight scans of a rig's bodies
+this brings the mean error of a part's turn from 7.4 to 1.5 degrees in four steps.
 """
+
+from collections.abc import Callable
 
 import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import PerVertex, Pose, Vertices
+from fitter.body.skeleton import global_rotations
 from fitter.training.named_poses import relative_pose
-from fitter.training.part_tree import PART_NAMES
+from fitter.training.part_tree import PART_NAMES, PART_PARENT
 from fitter.training.parts import Parts
 
 SCALE_M = 0.01
@@ -19,6 +27,10 @@ SCALE_M = 0.01
 
 TURNS = 10
 """How often vertices are weighed anew."""
+
+REFINEMENTS = 4
+"""Steps of refinement. Vertices lie 9.0 mm from the scan without any, 4.8 mm after one, 3.4 after
+four and 3.3 after six."""
 
 SOLENESS = 4.0
 """Power of a vertex's skinning weight: skin that two parts share says little about either."""
@@ -36,13 +48,20 @@ def solved_pose(rest: Vertices, scan: Vertices, parts: Parts, areas: PerVertex) 
     areas
         (m,) of the vertices.
     """
-    turned = np.stack(
-        [
-            _rotation(rest, scan, areas * _following(parts, part) ** SOLENESS)
-            for part in range(len(PART_NAMES))
-        ]
-    )
-    return relative_pose(turned)
+    return relative_pose(_turns(rest, scan, parts, areas))
+
+
+def refined_pose(
+    pose: Pose, posed: Callable[[Pose], Vertices], scan: Vertices, parts: Parts, areas: PerVertex
+) -> Pose:
+    """A solved pose brought nearer to the bones' by a model of the same body.
+
+    ``posed`` gives the model's vertices in a pose; the others are those of :func:`solved_pose`.
+    """
+    for _ in range(REFINEMENTS):
+        further = _turns(posed(pose), scan, parts, areas)
+        pose = relative_pose(further @ global_rotations(pose, PART_PARENT))
+    return pose
 
 
 def best_rotation(
@@ -54,6 +73,18 @@ def best_rotation(
     u, _, vt = np.linalg.svd((share[:, None] * second).T @ first)
     u[:, 2] *= np.sign(np.linalg.det(u @ vt))
     return u @ vt
+
+
+def _turns(
+    start: Vertices, end: Vertices, parts: Parts, areas: PerVertex
+) -> Float[np.ndarray, "p 3 3"]:
+    """How far each part's skin has turned, in the body frame."""
+    return np.stack(
+        [
+            _rotation(start, end, areas * _following(parts, part) ** SOLENESS)
+            for part in range(len(PART_NAMES))
+        ]
+    )
 
 
 def _rotation(rest: Vertices, scan: Vertices, weights: PerVertex) -> Float[np.ndarray, "3 3"]:

@@ -1,6 +1,7 @@
 """Folders of registered bodies, made from the packaged model's own shape space."""
 
 import json
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 
@@ -41,7 +42,7 @@ def random_shapes(count: int, axes: int = 6, seed: int = 0) -> np.ndarray:
 
 def write_bodies(folder: Path, shapes: np.ndarray, **declared: object) -> list[Path]:
     """A folder of bodies at rest, named a, b, c, ... ; returns their files."""
-    (folder / "rest").mkdir(parents=True)
+    (folder / "rest").mkdir(parents=True, exist_ok=True)
     (folder / "bodies.json").write_text(json.dumps(DECLARED | declared))
     files = []
     for k, shape in enumerate(shapes):
@@ -50,14 +51,13 @@ def write_bodies(folder: Path, shapes: np.ndarray, **declared: object) -> list[P
     return files
 
 
-def write_scans(folder: Path, shapes: np.ndarray, per_subject: int, seed: int = 1) -> None:
-    """Scans of the same subjects in random poses."""
-    rng = np.random.default_rng(seed)
-    for k, shape in enumerate(shapes):
+def write_scans(folder: Path, shapes: np.ndarray, subjects: Sequence[int]) -> None:
+    """A scan of each of these subjects in a random pose."""
+    rng = np.random.default_rng(1)
+    for k in subjects:
         owner = folder / "posed" / chr(ord("a") + k)
         owner.mkdir(parents=True)
-        for number in range(per_subject):
-            np.save(owner / f"{number}.npy", posed_body(shape, random_pose(rng)))
+        np.save(owner / "scan.npy", posed_body(shapes[k], random_pose(rng)))
 
 
 def posed_body(shape: np.ndarray, pose: np.ndarray) -> np.ndarray:
