@@ -184,6 +184,9 @@ def _parser() -> argparse.ArgumentParser:
         help="subjects solved side by side; as many as there are processors by default",
     )
     packaged.add_argument(
+        "--solve", action="store_true", help="solve anew for subjects that the package keeps"
+    )
+    packaged.add_argument(
         "--cache", type=Path, default=None, help="folder that keeps solved subjects between runs"
     )
     packaged.add_argument(
