@@ -139,7 +139,7 @@ def assemble_body_model(
 
     def pose_term(space: ShapeSpace) -> PoseTerm:
         return train_pose_term(
-            pose_examples(bodies, space.coefficients, example_count, rng),
+            pose_examples(bodies, space.coefficients, surface.mirror, example_count, rng),
             space.laplacians,
             mesh.parts,
             feature_joints,
@@ -240,19 +240,38 @@ def height_attribute(model: BodyModel) -> Attribute:
 def pose_examples(
     bodies: RegisteredBodies,
     coefficients: Float[np.ndarray, "s n"],
+    mirror: Integer[np.ndarray, " m"],
     count: int,
     rng: np.random.Generator,
 ) -> Iterator[PoseExample]:
-    """Posed bodies with their shape coefficients; subjects taken in turn, poses at random."""
-    for k in range(count):
+    """Posed bodies with their shape coefficients; subjects taken in turn, poses at random.
+
+    Every body is followed by its mirror image, so that both sides are taught alike.
+    """
+    for k in range((count + 1) // 2):
         subject = k % len(bodies.rest)
         pose = random_pose(rng)
-        yield PoseExample(
+        example = PoseExample(
             rest=bodies.rest[subject].astype(np.float64),
             posed=bodies.posed(subject, pose),
             pose=pose,
             shape=coefficients[subject],
         )
+        yield example
+        yield mirrored_example(example, mirror)
+
+
+def mirrored_example(example: PoseExample, mirror: Integer[np.ndarray, " m"]) -> PoseExample:
+    """The mirror image of a posed body; its shape is taken to be as symmetric as the mesh."""
+    flip = np.array([-1.0, 1.0, 1.0])
+    turned = np.array([1.0, -1.0, -1.0])
+    parts = [part_index(mirrored_part(name)) for name in PART_NAMES]
+    return PoseExample(
+        rest=flip * example.rest[mirror],
+        posed=flip * example.posed[mirror],
+        pose=turned * example.pose[parts],
+        shape=example.shape,
+    )
 
 
 def model_arrays(model: BodyModel) -> dict[str, np.ndarray]:

@@ -9,7 +9,7 @@ its cube over bodies drawn from all shapes: as in section 3.1, where the paper h
 limbs linear in the vertices.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -23,8 +23,8 @@ from fitter.training.makehuman import BaseMesh
 from fitter.training.phenotypes import YOUNG_AGE
 from fitter.training.rig import Rig
 
-SAMPLES = 100
-"""Bodies a gender that the centres are fitted on."""
+SAMPLES = 200
+"""Bodies that the centres are fitted on."""
 
 SAMPLE_REACH = 0.5
 """Share of each parameter's range that they explore about the neutral body."""
@@ -40,13 +40,14 @@ _SHAFTS: Mapping[str, tuple[str, str]] = {
 """Bones within a limb, whose centre lies on the line between its ends: they only twist about it."""
 
 
-def with_skin_centres(rig: Rig, base: BaseMesh, spaces: Iterable[BodySpace]) -> Rig:
+def with_skin_centres(rig: Rig, base: BaseMesh, space: BodySpace) -> Rig:
     """The rig with bone centres that depend on the body's vertices alone.
 
-    Only bones that turn against their parent have a centre of their own; the others (fingers, toes,
-    face) move with their parent about any, and keep their cubes.
+    Of one gender: one row for both left women's elbows 9 mm behind their cubes. Only bones that
+    turn against their parent have a centre of their own; the others (fingers, toes, face) move with
+    their parent about any, and keep their cubes.
     """
-    sources = sample_sources(spaces)
+    sources = sample_sources(space)
     cubes = np.stack([rig.head_rows @ source for source in sources])
     bodies = base.body(sources)
     names = rig.bone_names
@@ -84,7 +85,7 @@ def turning_bones(rig: Rig) -> Integer[np.ndarray, " k"]:
     return np.flatnonzero(~with_parent | (rig.bone_parent < 0))
 
 
-def sample_sources(spaces: Iterable[BodySpace]) -> Float[np.ndarray, "s v 3"]:
+def sample_sources(space: BodySpace) -> Float[np.ndarray, "s v 3"]:
     """Source vertices of bodies of all ages, ancestries, statures and weights."""
     rng = np.random.default_rng(_SEED)
     return np.stack(
@@ -97,7 +98,6 @@ def sample_sources(spaces: Iterable[BodySpace]) -> Float[np.ndarray, "s v 3"]:
                 * (space.upper - space.lower)
                 * rng.uniform(-1.0, 1.0, len(space.neutral)),
             )
-            for space in spaces
             for _ in range(SAMPLES)
         ]
     )

@@ -48,9 +48,9 @@ KEPT_MEASUREMENTS = (
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Materials:
-    """What both genders share."""
+    """What both genders share, and each gender's rigged mesh and space of bodies."""
 
-    mesh: RiggedMesh
+    meshes: Mapping[str, RiggedMesh]
     spaces: Mapping[str, BodySpace]
     landmarks: SparseRows
 
@@ -61,7 +61,10 @@ def read_materials(folder: Path) -> Materials:
     spaces = {gender: load_body_space(folder, base, gender) for gender in GENDERS}
     cubes = load_rig(folder, base.groups, len(base.source_vertices))
     return Materials(
-        mesh=rigged_mesh(base, with_skin_centres(cubes, base, spaces.values())),
+        meshes={
+            gender: rigged_mesh(base, with_skin_centres(cubes, base, space))
+            for gender, space in spaces.items()
+        },
         spaces=spaces,
         landmarks=body_landmarks(folder, base, tuple(spaces.values())),
     )
@@ -105,14 +108,15 @@ def train_model(
     """
     held_out = subjects(population, slice(0, plan.held_out))
     training = subjects(population, slice(plan.held_out, plan.held_out + plan.subjects))
-    taught = rigged_bodies(materials.mesh, training.source_vertices, kept_measurements(training))
+    mesh = materials.meshes[gender]
+    taught = rigged_bodies(mesh, training.source_vertices, kept_measurements(training))
     trained = assemble_body_model(
         taught,
-        materials.mesh.surface,
-        materials.mesh.part_weights,
+        mesh.surface,
+        mesh.part_weights,
         with_inner_points(
             materials.landmarks,
-            materials.mesh,
+            mesh,
             training.source_vertices,
             taught,
             np.random.default_rng([plan.seed, GENDERS.index(gender), INNER_POINTS_STREAM]),
@@ -121,7 +125,7 @@ def train_model(
         example_count=plan.examples,
         rng=np.random.default_rng([plan.seed, GENDERS.index(gender)]),
     )
-    tested = rigged_bodies(materials.mesh, held_out.source_vertices)
+    tested = rigged_bodies(mesh, held_out.source_vertices)
     errors = held_out_errors(trained.model, tested)
     header = dict(trained.model.header) | header_figures(trained, taught, tested, errors)
     return replace(trained.model, header=header), tested, errors
@@ -148,7 +152,7 @@ def held_out_bodies(
         cache=cache,
         processes=processes,
     )
-    return rigged_bodies(materials.mesh, population.source_vertices)
+    return rigged_bodies(materials.meshes[model.gender], population.source_vertices)
 
 
 def kept_measurements(population: Population) -> Float[np.ndarray, "s k"]:

@@ -9,9 +9,16 @@ from fitter.body.skeleton import regress
 from fitter.body.storage import load_body_model, save_body_model
 from fitter.numerics.meshes import enclosed_volume
 from fitter.parameters import BodyParameters
-from fitter.training.assemble import assemble_body_model, height_attribute, model_arrays
+from fitter.training.assemble import (
+    assemble_body_model,
+    height_attribute,
+    mirrored_example,
+    model_arrays,
+)
 from fitter.training.comparison_figures import comparison_figures
 from fitter.training.evaluation import height_axes, posed_error, shape_error
+from fitter.training.part_tree import part_index
+from fitter.training.pose_term import PoseExample
 from tests.unit.training.synthetic_population import landmarks, part_weights, population, surface
 
 HEADER = {
@@ -169,3 +176,20 @@ def test_the_same_seed_trains_the_same_model():
     first, second = (model_arrays(train().model) for _ in range(2))
     for name, array in first.items():
         np.testing.assert_array_equal(array, second[name], err_msg=name)
+
+
+def test_a_mirrored_example_is_the_other_side_in_the_other_sides_pose():
+    rng = np.random.default_rng(3)
+    left, right = part_index("left_forearm"), part_index("right_forearm")
+    pose = np.zeros((17, 3))
+    pose[left] = [0.3, -0.2, 0.1]
+    points = rng.normal(size=(4, 3))
+    example = PoseExample(rest=points, posed=points + 1.0, pose=pose, shape=np.arange(3.0))
+    swapped = np.array([1, 0, 3, 2])
+    found = mirrored_example(example, swapped)
+    np.testing.assert_array_equal(found.pose[right], [0.3, 0.2, -0.1])
+    assert not found.pose[left].any()
+    np.testing.assert_array_equal(found.rest[0], points[1] * [-1.0, 1.0, 1.0])
+    again = mirrored_example(found, swapped)
+    np.testing.assert_array_equal(again.posed, example.posed)
+    np.testing.assert_array_equal(again.pose, example.pose)
