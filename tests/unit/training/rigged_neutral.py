@@ -1,0 +1,38 @@
+"""MakeHuman's neutral bodies with the rig that poses them, made once for all tests."""
+
+from functools import cache
+
+import numpy as np
+
+from fitter.training.assemble import RegisteredBodies
+from fitter.training.body_space import Traits, source_vertices
+from fitter.training.local_changes import FACE_CHANGES
+from fitter.training.makehuman import makehuman_folder
+from fitter.training.rig import Rig, load_rig
+from fitter.training.rigged_bodies import RiggedMesh, rigged_bodies, rigged_mesh
+from tests.unit.training.makehuman_data import base_mesh, body_space
+
+NEUTRAL = Traits(age=0.5, ancestry=np.full(3, 1.0 / 3.0), face=np.zeros(len(FACE_CHANGES)))
+
+
+@cache
+def rig() -> Rig:
+    base = base_mesh()
+    return load_rig(makehuman_folder(), base.groups, len(base.source_vertices))
+
+
+@cache
+def mesh() -> RiggedMesh:
+    return rigged_mesh(base_mesh(), rig())
+
+
+@cache
+def neutral_source() -> np.ndarray:
+    """(v, 3) source vertices of the neutral woman at rest."""
+    space = body_space("female")
+    return source_vertices(space, NEUTRAL, space.neutral)
+
+
+@cache
+def neutral_body() -> RegisteredBodies:
+    return rigged_bodies(mesh(), neutral_source()[None])

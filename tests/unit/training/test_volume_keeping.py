@@ -1,0 +1,92 @@
+"""Volume of MakeHuman's neutral woman in extreme poses, with and without what keeps it."""
+
+import numpy as np
+import pytest
+
+from fitter.arrays import Pose
+from fitter.numerics.meshes import enclosed_volume
+from fitter.training.extreme_poses import extreme_poses
+from fitter.training.part_tree import PART_NAMES, PART_PARENT, part_index
+from fitter.training.rig import bone_heads, posed_vertices
+from fitter.training.volume_keeping import volume_change
+from tests.unit.training.makehuman_data import needs_makehuman
+from tests.unit.training.rigged_neutral import mesh, neutral_body, neutral_source, rig
+
+pytestmark = needs_makehuman
+
+KEPT = 0.004
+"""Share of the volume that may be gained or lost."""
+
+
+def skinned(pose: Pose) -> np.ndarray:
+    heads = bone_heads(rig(), neutral_source())
+    return posed_vertices(rig(), mesh().skin, neutral_body().rest[0], heads, pose)
+
+
+def gain(vertices: np.ndarray) -> float:
+    triangles = mesh().surface.triangles
+    at_rest = enclosed_volume(neutral_body().rest[0], triangles)
+    return enclosed_volume(vertices, triangles) / at_rest - 1.0
+
+
+def poses() -> dict[str, Pose]:
+    return dict(extreme_poses(neutral_body().joints[0]))
+
+
+def test_skinning_alone_takes_and_adds_flesh():
+    gains = {name: gain(skinned(pose)) for name, pose in poses().items()}
+    assert gains["spine bent"] < -0.03
+    assert gains["hip flexed"] < -0.01
+    assert gains["shoulder raised"] > 0.015
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("shoulder raised", "shoulder crossed in front", "shoulder behind", "elbow bent"),
+        *("hip flexed", "hip abducted", "knee bent"),
+        *("spine bent", "spine arched", "spine leaning", "spine twisted"),
+    ],
+)
+def test_extreme_poses_keep_the_volume(name):
+    assert abs(gain(neutral_body().posed(0, poses()[name]))) < KEPT
+
+
+def test_at_rest_nothing_moves():
+    at_rest = neutral_body().posed(0, np.zeros((len(PART_NAMES), 3)))
+    np.testing.assert_allclose(at_rest, neutral_body().rest[0], atol=1e-9)
+
+
+def test_what_comes_out_comes_out_at_the_joint():
+    pose = np.zeros((len(PART_NAMES), 3))
+    pose[part_index("left_thigh"), 0] = -1.6
+    moved = np.linalg.norm(neutral_body().posed(0, pose) - skinned(pose), axis=1)
+    rest, joints = neutral_body().rest[0], neutral_body().joints[0]
+    from_hip = np.linalg.norm(rest - joints[part_index("left_thigh")], axis=1)
+    assert moved[from_hip < 0.15].max() > 0.003
+    assert moved[from_hip > 0.45].max() < 1e-9
+
+
+@pytest.mark.parametrize("name", ["left_thigh", "right_upper_arm", "spine"])
+def test_a_joints_own_change_is_that_of_the_whole_body(name):
+    about = next(a for a in mesh().surroundings if PART_NAMES[a.part] == name)
+    pose = np.zeros((len(PART_NAMES), 3))
+    pose[part_index(name)] = [-1.3, 0.0, 0.0]
+    heads = bone_heads(rig(), neutral_source())
+    rest = neutral_body().rest[0]
+    found = volume_change(rig(), about, rest, heads, pose)
+    whole = gain(skinned(pose)) * enclosed_volume(rest, mesh().surface.triangles)
+    assert found == pytest.approx(whole, rel=1e-6, abs=1e-10)
+    assert abs(found) > 1e-5
+
+
+def test_all_joints_but_those_of_rigid_ends_are_watched():
+    watched = {PART_NAMES[about.part] for about in mesh().surroundings}
+    ends = {name for name in PART_NAMES if name.endswith(("head", "hand", "foot"))}
+    assert watched == {n for n in PART_NAMES if PART_PARENT[part_index(n)] >= 0} - ends
+
+
+def test_shares_run_from_none_to_all_of_a_turn():
+    for about in mesh().surroundings:
+        assert about.share.min() == pytest.approx(0.0, abs=1e-9)
+        assert about.share.max() == pytest.approx(1.0, abs=1e-9)
