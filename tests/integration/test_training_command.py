@@ -27,7 +27,7 @@ def test_a_model_is_built_and_reported_on_again_from_its_file(tmp_path, capsys):
     assert 1.5 < model.header["height_m"]["mean"] < 1.75
     pictures = tmp_path / "pictures"
     assert run(tmp_path, cache, "report", "--pictures", str(pictures)) == 0
-    assert len(list(pictures.glob("female_*.png"))) == 4
+    assert len(list(pictures.glob("female_*.png"))) == 5
     again = capsys.readouterr().out.splitlines()
     for name in ("mean vertex error, n = 20", "posed error, rigid parts only", "weightkg"):
         (line,) = (line for line in again if line.strip().startswith(name))
