@@ -1,20 +1,35 @@
-"""GrabCut from the tri-map (section 3.2, reference [18])."""
+"""GrabCut from the tri-map (section 3.2).
+
+Reference [18]: Rother, Kolmogorov and Blake, "GrabCut", SIGGRAPH 2004. With OpenCV's choices where
+it leaves some, but a graph of the band alone and mixtures that start from what is known.
+"""
 
 from dataclasses import dataclass
 
 import cv2
 import numpy as np
+from jaxtyping import UInt8
 
 from fitter.arrays import Image, Mask
 from fitter.errors import InvalidInputError
 from fitter.remarks import FitWarning
+from fitter.segmentation.band_graph import BandGraph
+from fitter.segmentation.colour_mixture import first_mixture, relearnt_mixture
 from fitter.segmentation.trimap import Trimap, TrimapLabel, is_uncertain
 
-ITERATIONS = 4
+CUTS = 4
 """The borders move little after the third."""
 
-SEED = 20090927
-"""GrabCut starts its mixtures by k-means on random numbers: a fixed seed, the same result."""
+CUTS_FROM_KNOWN = 2
+"""How many of them learn the colours from the known pixels alone.
+
+OpenCV's GrabCut learns from the band at once, by the side it leans to; what lies on the wrong side
+of a first body is then learnt as the person's, or the person's as the background's. Over 28
+tri-maps of seven rendered people the masks overlap with the truth by 0.963; with none such cut and
+mixtures started with the band by 0.953, OpenCV's by 0.954 to 0.959 as its random seed falls."""
+
+LEARNT_EVERY = 4
+"""Every fourth pixel teaches the colours: as good as every one, in a fourth of the time."""
 
 SURROUNDINGS_SHARE = 0.15
 """How much sure background to show GrabCut around the band, as a share of the band's longer side:
@@ -72,11 +87,12 @@ def segment(display: Image, labels: Trimap) -> Segmentation:
         reason = "No part of the person lies inside the picture."
         raise _no_person(reason)
     window = _window(labels)
-    if display[window].std(axis=(0, 1)).max() < LEAST_CONTRAST:
+    picture = np.rint(display[window] * 255.0).astype(np.uint8)
+    if cv2.meanStdDev(picture)[1].max() < 255.0 * LEAST_CONTRAST:
         reason = "The picture has one colour around the clicked points."
         raise _no_person(reason)
     mask = np.zeros(labels.shape, dtype=np.bool_)
-    mask[window] = _foreground(display[window], labels[window])
+    mask[window] = _foreground(picture, labels[window])
     mask = _without_speckle(mask, labels == TrimapLabel.FOREGROUND)
     return Segmentation(mask=mask, warnings=(*_doubts(mask, labels), *border_warnings(mask)))
 
@@ -142,33 +158,45 @@ def _window(labels: Trimap) -> tuple[slice, slice]:
     )
 
 
-def _foreground(display: Image, labels: Trimap) -> Mask:
-    """GrabCut at the full working size.
+def _foreground(picture: UInt8[np.ndarray, "h w 3"], labels: Trimap) -> Mask:
+    """GrabCut: learn the colours of both sides, cut where colours and contrast say, and again.
 
-    Learning the colours on a reduced picture and cutting only its border at full size takes less
-    than half the time, but the reduced cut gives narrow gaps to the person: on a rendered man with
-    a hand on his hip the overlap with the truth was 0.90 and not 0.96, and his waist by SE 6 cm
-    wider.
+    Parameters
+    ----------
+    picture
+        Display values in 8-bit steps.
     """
-    if not all(
-        (labels == known).any() for known in (TrimapLabel.BACKGROUND, TrimapLabel.FOREGROUND)
-    ):
+    known = [labels == TrimapLabel.BACKGROUND, labels == TrimapLabel.FOREGROUND]
+    if not all(side.any() for side in known):
         # The person fills the picture: no samples of one side to learn from.
         return labels != TrimapLabel.BACKGROUND
-    picture = np.ascontiguousarray(np.rint(display[:, :, ::-1] * 255.0), dtype=np.uint8)
-    models = np.zeros((1, 65)), np.zeros((1, 65))
-    states = labels.copy()
-    cv2.setRNGSeed(SEED)
-    # The rectangle has no meaning with a mask.
-    cv2.grabCut(picture, states, (0, 0, 0, 0), *models, ITERATIONS, cv2.GC_INIT_WITH_MASK)
-    return (states == TrimapLabel.FOREGROUND) | (states == TrimapLabel.LIKELY_FOREGROUND)
+    open_pixels = is_uncertain(labels)
+    graph = BandGraph.of(picture, open_pixels, known[1])
+    band = picture[open_pixels].astype(np.float32)
+    known_colours = [picture[side][::LEARNT_EVERY].astype(np.float32) for side in known]
+    band_colours = band[::LEARNT_EVERY]
+    mixtures = [first_mixture(colours) for colours in known_colours]
+    taken = np.zeros(len(band), dtype=np.bool_)
+    for cut in range(CUTS):
+        colours = known_colours
+        if cut >= CUTS_FROM_KNOWN:
+            person = taken[::LEARNT_EVERY]
+            band_sides = band_colours[~person], band_colours[person]
+            colours = [np.concatenate(each) for each in zip(known_colours, band_sides, strict=True)]
+        mixtures = [relearnt_mixture(*each) for each in zip(mixtures, colours, strict=True)]
+        background, foreground = (mixture.costs(band) for mixture in mixtures)
+        taken = graph.cut(background - foreground)
+    mask = known[1].copy()
+    mask[open_pixels] = taken
+    return mask
 
 
 def _without_speckle(mask: Mask, sure: Mask) -> Mask:
     """What is connected to the sure foreground, without small holes."""
-    _, regions = cv2.connectedComponents(mask.astype(np.uint8), connectivity=8)
-    kept = np.unique(regions[sure & mask])
-    mask = np.isin(regions, kept[kept > 0])
+    count, regions = cv2.connectedComponents(mask.astype(np.uint8), connectivity=8)
+    kept = np.zeros(count, dtype=np.bool_)
+    kept[regions[sure & mask]] = True
+    mask = kept[regions]
     count, holes, statistics, _ = cv2.connectedComponentsWithStats(
         (~mask).astype(np.uint8), connectivity=4
     )

@@ -1,0 +1,114 @@
+"""Compiled loops of the colour mixtures. Plain arrays in and out; the wrappers carry the meaning.
+
+A component is a row of ten numbers: its offset, its mean (3), and the upper triangle of a factor of
+its precision (6), such that minus the logarithm of weight times density is
+``offset + |factor (z - mean)|² / 2``, up to a constant that all components share.
+"""
+
+from math import exp, log
+from typing import no_type_check
+
+import numpy as np
+from numba import njit
+
+NEGLIGIBLE = np.float32(12.0)
+"""Terms of a sum smaller than its largest by more than this many nats are left out: at most 3e-5
+nats, for half the exponentials."""
+
+BLOCK = 128
+"""Colours at once, so that the loop over them is vectorised: 1.8 ms for 4.4 ms of 117,000."""
+
+
+@no_type_check
+@njit(cache=True, nogil=True, error_model="numpy")
+def likeliest_components(colours, components):
+    """(s,) the component of the least cost of each colour; the first of equal ones."""
+    count = colours.shape[0]
+    chosen = np.empty(count, dtype=np.uint8)
+    planes = np.zeros((3, BLOCK), dtype=np.float32)
+    costs = np.empty((components.shape[0], BLOCK), dtype=np.float32)
+    least = np.empty(BLOCK, dtype=np.float32)
+    for start in range(0, count, BLOCK):
+        filled = min(BLOCK, count - start)
+        _block_costs(colours, start, filled, components, planes, costs, least)
+        for i in range(filled):
+            for k in range(components.shape[0]):
+                if costs[k, i] == least[i]:
+                    chosen[start + i] = k
+                    break
+    return chosen
+
+
+@no_type_check
+@njit(cache=True, nogil=True, error_model="numpy")
+def mixture_costs(colours, components):
+    """(s,) minus the logarithm of the mixture's density at each colour."""
+    count = colours.shape[0]
+    result = np.empty(count, dtype=np.float32)
+    planes = np.zeros((3, BLOCK), dtype=np.float32)
+    costs = np.empty((components.shape[0], BLOCK), dtype=np.float32)
+    least = np.empty(BLOCK, dtype=np.float32)
+    one = np.float32(1.0)
+    for start in range(0, count, BLOCK):
+        filled = min(BLOCK, count - start)
+        _block_costs(colours, start, filled, components, planes, costs, least)
+        for i in range(filled):
+            total = np.float32(0.0)
+            for k in range(components.shape[0]):
+                beyond = costs[k, i] - least[i]
+                if beyond == 0.0:
+                    total += one
+                elif beyond < NEGLIGIBLE:
+                    total += np.float32(exp(-beyond))
+            result[start + i] = least[i] - (np.float32(log(total)) if total > one else 0.0)
+    return result
+
+
+@no_type_check
+@njit(cache=True, nogil=True)
+def component_sums(colours, chosen, count):
+    """(k, 10) number, sum (3) and sums of products (rr, rg, rb, gg, gb, bb) by component."""
+    sums = np.zeros((count, 10))
+    for i in range(colours.shape[0]):
+        k = chosen[i]
+        r = np.float64(colours[i, 0])
+        g = np.float64(colours[i, 1])
+        b = np.float64(colours[i, 2])
+        sums[k, 0] += 1.0
+        sums[k, 1] += r
+        sums[k, 2] += g
+        sums[k, 3] += b
+        sums[k, 4] += r * r
+        sums[k, 5] += r * g
+        sums[k, 6] += r * b
+        sums[k, 7] += g * g
+        sums[k, 8] += g * b
+        sums[k, 9] += b * b
+    return sums
+
+
+@no_type_check
+@njit(cache=True, nogil=True, error_model="numpy")
+def _block_costs(colours, start, filled, components, planes, costs, least):
+    """Costs (k, BLOCK) of the colours from ``start`` on, and the least of each (BLOCK,)."""
+    red, green, blue = planes[0], planes[1], planes[2]
+    for i in range(filled):
+        red[i] = colours[start + i, 0]
+        green[i] = colours[start + i, 1]
+        blue[i] = colours[start + i, 2]
+    least[:] = np.inf
+    half = np.float32(0.5)
+    for k in range(components.shape[0]):
+        offset = components[k, 0]
+        mean_r, mean_g, mean_b = components[k, 1], components[k, 2], components[k, 3]
+        rr, rg, rb = components[k, 4], components[k, 5], components[k, 6]
+        gg, gb, bb = components[k, 7], components[k, 8], components[k, 9]
+        row = costs[k]
+        for i in range(BLOCK):
+            r, g, b = red[i] - mean_r, green[i] - mean_g, blue[i] - mean_b
+            x = rr * r + rg * g + rb * b
+            y = gg * g + gb * b
+            z = bb * b
+            cost = offset + half * (x * x + y * y + z * z)
+            row[i] = cost
+            least[i] = cost if cost < least[i] else least[i]
