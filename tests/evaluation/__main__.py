@@ -7,44 +7,69 @@ from pathlib import Path
 
 from fitter.request import Cues
 from tests.evaluation.cases import CASES, PEOPLE
+from tests.evaluation.page import write_page
 from tests.evaluation.people import load_person
-from tests.evaluation.scene import Case, Half
+from tests.evaluation.runs import Run, score_all
+from tests.evaluation.scene import Case, Half, Series
 from tests.evaluation.shape_limit import shape_limit
-from tests.evaluation.sheets import write_sheet
-from tests.evaluation.suite import Scored, score_case
+from tests.evaluation.suite import Scored, Told
 from tests.evaluation.table import case_lines, limit_lines, summary_lines
 
 
 def main(arguments: Sequence[str]) -> int:
     """Run the command line; returns the exit status."""
     options = _parser().parse_args(arguments)
-    chosen = [CASES[name] for name in options.case or CASES]
-    chosen = [case for case in chosen if options.half in (None, _half(case).value)]
+    chosen = [case for case in CASES.values() if _is_chosen(case, options)]
     if options.shape_limit:
         people = {case.person: PEOPLE[case.person] for case in chosen}
         limits = {name: shape_limit(load_person(source)) for name, source in people.items()}
         print("\n".join(limit_lines(limits)))
         return 0
+    run = Run(
+        told=Told(
+            mask=options.true_mask, light=options.true_light, focal_length=options.known_focal
+        ),
+        pictures=options.page,
+    )
     scored: list[Scored] = []
-    for case in chosen:
-        for cues in Cues:
-            each = score_case(case, cues, true_mask=options.true_mask)
-            scored.append(each)
-            lines = case_lines([each])
-            print("\n".join(lines if len(scored) == 1 else lines[1:]), flush=True)
-            if options.pictures is not None:
-                write_sheet(options.pictures, each)
-    for half in Half:
-        of_half = [each for each in scored if each.half is half]
-        if of_half:
-            people = len({each.case.person for each in of_half})
-            print(f"\n{half.value} half: {people} people, {len(of_half) // len(Cues)} pictures")
-            print("\n".join(summary_lines(of_half)))
+    for pair in score_all(chosen, run, jobs=options.jobs):
+        lines = case_lines(pair)
+        print("\n".join(lines[1:] if scored else lines), flush=True)
+        scored += pair
+    for title, part in _parts(scored):
+        print(f"\n{title}: {_counts(part)}")
+        print("\n".join(summary_lines(part)))
+    if options.page is not None:
+        print(f"\n{write_page(options.page, scored)}")
     return 0
 
 
-def _half(case: Case) -> Half:
-    return PEOPLE[case.person].half
+def _is_chosen(case: Case, options: argparse.Namespace) -> bool:
+    if options.case:
+        return case.name in options.case
+    return options.set in (None, case.series.value) and options.half in (
+        None,
+        PEOPLE[case.person].half.value,
+    )
+
+
+def _parts(scored: Sequence[Scored]) -> list[tuple[str, list[Scored]]]:
+    """What is summed up apart: the halves of the people, then each other set."""
+    parts = [
+        (f"{half.value} half", [each for each in people if each.half is half])
+        for people in [[each for each in scored if each.case.series is Series.PEOPLE]]
+        for half in Half
+    ]
+    parts += [
+        (f"{series.value} set", [each for each in scored if each.case.series is series])
+        for series in (Series.LIGHTS, Series.SAMPLE)
+    ]
+    return [(title, part) for title, part in parts if part]
+
+
+def _counts(scored: Sequence[Scored]) -> str:
+    people = len({each.case.person for each in scored})
+    return f"people {people}, pictures {len(scored) // len(Cues)}"
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -54,14 +79,26 @@ def _parser() -> argparse.ArgumentParser:
         choices=[half.value for half in Half],
         help="choose constants on tuning, report figures on reporting (default: both)",
     )
-    parser.add_argument("--case", action="append", choices=list(CASES), help="default: all")
+    parser.add_argument("--set", choices=[series.value for series in Series], help="default: all")
     parser.add_argument(
-        "--pictures", type=Path, metavar="DIR", help="write a sheet of pictures for each fit"
+        "--case", action="append", choices=list(CASES), help="these alone (default: all)"
+    )
+    parser.add_argument("--jobs", type=int, default=1, help="fits made side by side")
+    parser.add_argument(
+        "--page", type=Path, metavar="DIR", help="write an HTML page with pictures of every fit"
     )
     parser.add_argument(
         "--true-mask",
         action="store_true",
         help="give the person's true mask: what the errors would be without segmentation",
+    )
+    parser.add_argument(
+        "--true-light", action="store_true", help="begin the search for the light at the truth"
+    )
+    parser.add_argument(
+        "--known-focal",
+        action="store_true",
+        help="give the focal length in pixels, where it is in the file or missing too",
     )
     parser.add_argument(
         "--shape-limit",

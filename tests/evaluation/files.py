@@ -4,6 +4,7 @@ import io
 import json
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from PIL import Image as PillowImage
@@ -29,9 +30,19 @@ class CaseFiles:
     """What the suite reads of a case."""
 
     image: bytes
-    document: dict[str, object]
+    document: dict[str, Any]
     body_mask: Mask
     person_mask: Mask
+
+    @property
+    def request(self) -> dict[str, Any]:
+        """The options of the fit."""
+        return self.document["request"]
+
+    @property
+    def scene(self) -> dict[str, Any]:
+        """Light, camera and joints, which a request does not tell."""
+        return self.document["scene"]
 
 
 def write_picture(
@@ -106,18 +117,19 @@ def read_case(case: Case, folder: Path = PICTURES_FOLDER) -> CaseFiles:
     )
 
 
-def light_from_document(values: dict[str, float]) -> Light:
+def light_from_document(values: dict[str, Any]) -> Light:
     """The light that :func:`document` wrote."""
     return Light(
-        kind=LightKind.POINT,
+        kind=LightKind(values["kind"]),
         azimuth=float(np.radians(values["azimuth_deg"])),
         elevation=float(np.radians(values["elevation_deg"])),
         distance=values["distance_m"],
     )
 
 
-def _light_document(light: Light) -> dict[str, float]:
+def _light_document(light: Light) -> dict[str, Any]:
     return {
+        "kind": light.kind.value,
         "azimuth_deg": round(float(np.degrees(light.azimuth)), 3),
         "elevation_deg": round(float(np.degrees(light.elevation)), 3),
         "distance_m": round(light.distance, 4),

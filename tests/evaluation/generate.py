@@ -19,12 +19,12 @@ from tests.evaluation.files import (
     write_document,
     write_picture,
 )
-from tests.evaluation.people import PEOPLE_FOLDER, load_person, save_person, solve_person
-from tests.evaluation.scene import Case
+from tests.evaluation.people import load_person
+from tests.evaluation.scene import Case, Series
 from tests.evaluation.staging import Staged, stage
 
-SAMPLES = 128
-QUALITY = 92
+SAMPLES = {Series.SAMPLE: 128, Series.PEOPLE: 36, Series.LIGHTS: 36}
+QUALITY = {Series.SAMPLE: 92, Series.PEOPLE: 86, Series.LIGHTS: 86}
 SAMPLE_FOLDER = Path(__file__).parents[2] / "service" / "demo_data"
 
 
@@ -33,9 +33,9 @@ def main(arguments: Sequence[str]) -> int:
     options = _parser().parse_args(arguments)
     for name in options.case or list(CASES):
         staged = _staged(CASES[name])
+        write_document(options.output, staged)
         if not options.documents:
             _render(staged, options)
-        write_document(options.output, staged)
         if CASES[name] is DEMO and options.output == PICTURES_FOLDER:
             _write_sample(staged, options.output)
         print(f"{name}: written to {options.output}", flush=True)
@@ -43,20 +43,17 @@ def main(arguments: Sequence[str]) -> int:
 
 
 def _render(staged: Staged, options: argparse.Namespace) -> None:
-    from tests.evaluation.render_mitsuba import linear_picture, person_mask
+    from tests.evaluation.render_mitsuba import linear_picture_and_person
 
-    seed = staged.case.seed
-    linear = linear_picture(staged, samples=options.samples, seed=seed)
-    write_picture(options.output, staged, linear, person_mask(staged, seed=seed), quality=QUALITY)
+    case = staged.case
+    linear, person = linear_picture_and_person(
+        staged, samples=options.samples or SAMPLES[case.series], seed=case.seed
+    )
+    write_picture(options.output, staged, linear, person, quality=QUALITY[case.series])
 
 
 def _staged(case: Case) -> Staged:
-    """Put the case's person in place, solving for them first if they have no file yet."""
-    source = PEOPLE[case.person]
-    path = PEOPLE_FOLDER / f"{source.name}.npz"
-    if not path.exists():
-        save_person(path, solve_person(source))
-    return stage(load_person(source), case)
+    return stage(load_person(PEOPLE[case.person]), case)
 
 
 def _write_sample(staged: Staged, folder: Path) -> None:
@@ -79,7 +76,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--case", action="append", choices=list(CASES), help="default: all")
     parser.add_argument("--output", type=Path, default=PICTURES_FOLDER, metavar="DIR")
-    parser.add_argument("--samples", type=int, default=SAMPLES, help="light paths a pixel")
+    parser.add_argument("--samples", type=int, help="light paths a pixel")
     parser.add_argument(
         "--documents", action="store_true", help="requests and truths only, without rendering"
     )

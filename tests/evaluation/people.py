@@ -16,10 +16,8 @@ from scipy import sparse
 
 from fitter.arrays import Pose, Vertices
 from fitter.request import Gender
-from fitter.training.build import read_materials
 from fitter.training.joints import joint_rows_of_bones
 from fitter.training.makehuman import BaseMesh, load_base_mesh, makehuman_folder
-from fitter.training.population import prepare, solve_population
 from fitter.training.rig import Rig, bone_heads, load_rig, posed_vertices
 from fitter.training.rigged_bodies import RiggedMesh, rigged_mesh
 from fitter.training.skinning import blend_linear
@@ -73,16 +71,8 @@ def person_at_rest(gender: Gender, source_vertices: Vertices) -> Person:
     )
 
 
-def solve_person(source: PersonSource) -> Vertices:
-    """Source vertices of the first subject of the person's own seed."""
-    materials = read_materials(makehuman_folder())
-    workshop = prepare(materials.spaces[source.gender.value], materials.landmarks)
-    population = solve_population(workshop, 1, source.seed)
-    return population.source_vertices[0].astype(np.float64)
-
-
 def save_person(path: Path, source_vertices: Vertices) -> None:
-    """Write a person's file."""
+    """Write a person's file, as was done once for each."""
     steps = np.rint((source_vertices - _base().source_vertices) / STEP_M)
     path.parent.mkdir(parents=True, exist_ok=True)
     np.savez_compressed(path, displacement_steps=steps.astype(np.int16))

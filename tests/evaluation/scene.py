@@ -8,12 +8,23 @@ from fitter.request import Gender
 Rgb = tuple[float, float, float]
 """Linear light."""
 
+DISTANT_M = 20.0
+"""A lamp this far away lights the whole body alike."""
+
 
 class Half(StrEnum):
     """Constants may be chosen on one half of the people; figures are reported on the other."""
 
     TUNING = "tuning"
     REPORTING = "reporting"
+
+
+class Series(StrEnum):
+    """Sets of pictures whose figures are printed apart."""
+
+    PEOPLE = "people"
+    LIGHTS = "lights"
+    SAMPLE = "sample"
 
 
 class FocalLength(StrEnum):
@@ -31,6 +42,8 @@ class Wall(StrEnum):
     PLASTER = "plaster"
     BRICK = "brick"
     BOARDS = "boards"
+    SHELVES = "shelves"
+    HEDGE = "hedge"
 
 
 class Floor(StrEnum):
@@ -39,6 +52,7 @@ class Floor(StrEnum):
     CONCRETE = "concrete"
     WOOD = "wood"
     CARPET = "carpet"
+    GRASS = "grass"
 
 
 class Hair(StrEnum):
@@ -122,20 +136,32 @@ class View:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Lighting:
-    """A lamp and light from all round.
+class Lamp:
+    """A shining sphere.
 
     ``azimuth`` and ``elevation`` are degrees about the person's middle, azimuth 0 at the camera and
-    positive to the right of the picture. ``strength`` and ``ambient`` are the radiances a white
-    surface at the person's middle that faces the lamp would get from each.
+    positive to the right of the picture. ``strength`` is the radiance a white surface at the
+    person's middle that faces the lamp would get from it.
     """
 
     azimuth: float = -45.0
     elevation: float = 35.0
     distance_m: float = 2.8
-    lamp_radius_m: float = 0.06
+    radius_m: float = 0.06
     strength: float = 0.8
-    ambient: float = 0.25
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lighting:
+    """Lamps and light from all round.
+
+    ``lamp`` is the light a fit should find, directional if it is ``DISTANT_M`` away; ``second`` is
+    one it does not know of. ``ambient`` is the radiance from all round.
+    """
+
+    lamp: Lamp = field(default_factory=Lamp)
+    second: Lamp | None = None
+    ambient: Rgb = (0.25, 0.25, 0.25)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -161,12 +187,12 @@ class Look:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PersonSource:
-    """Where a held-out person came from: a stream of the survey's statistics no training uses."""
+    """A held-out person; ``stature_m`` is rounded, for the framing of their pictures."""
 
     name: str
     gender: Gender
-    seed: int
     half: Half
+    stature_m: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -175,6 +201,7 @@ class Case:
 
     name: str
     person: str
+    series: Series
     stance: Stance
     view: View = field(default_factory=View)
     lighting: Lighting = field(default_factory=Lighting)

@@ -1,5 +1,6 @@
-"""A sheet of pictures for each fit, after the paper's Fig. 8: picture, overlay, bodies, errors."""
+"""Pictures of a case's fits, after the paper's Fig. 8: bodies, outlines, errors."""
 
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import cv2
@@ -8,77 +9,105 @@ from jaxtyping import Integer
 
 from fitter.arrays import GreyImage, Vertices
 from fitter.camera import Camera
+from fitter.fittable import packaged_body
 from fitter.render.interpolation import shade_image
 from fitter.render.rasterizer import render
-from tests.evaluation.files import read_case
 from tests.evaluation.landmark_points import packaged_model
-from tests.evaluation.suite import Scored, resampled, working_scale
+from tests.evaluation.suite import Fitted, resampled, working_scale
 
-HEIGHT = 560
+HEIGHT = 420
 FULL_SCALE_MM = 50.0
 TRUE_COLOUR, FOUND_COLOUR = (40, 120, 255), (60, 230, 60)
 VIEWING_DISTANCE_M = 4.5
+FRONT, SIDE = 0.0, 80.0
 
 Picture = Integer[np.ndarray, "h w 3"]
 
+PANELS = (
+    "picture",
+    "initial",
+    "SE",
+    "SES",
+    "truth, front and side",
+    "SE, front and side",
+    "SES, front and side",
+    "errors of SE",
+    "errors of SES",
+)
+"""Of each case in this order, as files ``<case>_<number>.jpg``."""
 
-def write_sheet(folder: Path, scored: Scored) -> None:
-    """Picture, outlines (true body, fit), fit from the side, canonical truth and fit, errors."""
+
+def write_pictures(folder: Path, fits: Sequence[Fitted]) -> None:
+    """The panels of a case from its SE and SES fits, in this order."""
     folder.mkdir(parents=True, exist_ok=True)
-    posed = scored.result.posed_vertices
-    true, found = (
-        body * np.array([1.0, -1.0, -1.0])
-        for body in (scored.truth.canonical, scored.result.canonical_vertices)
-    )
-    above = [_outlines(scored)]
-    above += [_grey(scored, posed, angle) for angle in (0.0, 60.0, -75.0)]
-    below = [_grey(scored, body, angle) for angle in (0.0, 80.0) for body in (true, found)]
-    below += [_errors(scored, true, found, angle) for angle in (0.0, 80.0)]
-    rows = [np.hstack(panels) for panels in (above, below)]
-    widest = max(row.shape[1] for row in rows)
-    to_right = [((0, 0), (0, widest - row.shape[1]), (0, 0)) for row in rows]
-    sheet = np.vstack(
-        [np.pad(row, pad, constant_values=255) for row, pad in zip(rows, to_right, strict=True)]
-    )
-    path = folder / f"{scored.case.name}_{scored.cues.value}.png"
-    cv2.imwrite(str(path), sheet[..., ::-1])
+    for number, panel in enumerate(_panels(*fits)):
+        path = folder / panel_name(fits[0].case.name, number)
+        cv2.imwrite(str(path), panel[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, 88])
 
 
-def _outlines(scored: Scored) -> Picture:
-    image = (255.0 * scored.result.pictures.image).astype(np.uint8)
-    camera = scored.result.camera
+def panel_name(case: str, number: int) -> str:
+    """The file of a panel."""
+    return f"{case}_{number}.jpg"
+
+
+def _panels(se: Fitted, ses: Fitted) -> Iterator[Picture]:
+    evaluator = packaged_body(se.result.gender).instruments.evaluator
+    yield _at_height(_image(se))
+    yield _outlines(se, evaluator.vertices(se.result.stages[0].body))
+    for fitted in (se, ses):
+        yield _outlines(fitted, fitted.result.posed_vertices)
+    true = _in_camera_axes(se.truth.canonical)
+    found = [_in_camera_axes(fitted.result.canonical_vertices) for fitted in (se, ses)]
+    for body in (true, *found):
+        yield np.hstack([_grey(se, body, angle) for angle in (FRONT, SIDE)])
+    for body in found:
+        yield np.hstack([_errors(se, true, body, angle) for angle in (FRONT, SIDE)])
+
+
+def _in_camera_axes(body: Vertices) -> Vertices:
+    return body * np.array([1.0, -1.0, -1.0])
+
+
+def _image(fitted: Fitted) -> Picture:
+    return (255.0 * fitted.result.pictures.image).astype(np.uint8)
+
+
+def _outlines(fitted: Fitted, vertices: Vertices) -> Picture:
+    """The true body's outline and a found one's on the picture."""
+    result = fitted.result
+    camera = result.camera
     true = resampled(
-        read_case(scored.case).body_mask,
-        1.0 / working_scale(scored.result),
-        (camera.height, camera.width),
-    ).astype(np.uint8)
-    triangles = packaged_model(scored.result.gender).triangles
-    found = render(scored.result.posed_vertices, triangles, camera).silhouette.astype(np.uint8)
-    drawn = image.copy()
+        fitted.files.body_mask, 1.0 / working_scale(result), (camera.height, camera.width)
+    )
+    found = render(vertices, packaged_model(result.gender).triangles, camera).silhouette
+    drawn = _image(fitted)
     for mask, colour in ((true, TRUE_COLOUR), (found, FOUND_COLOUR)):
-        contours, _ = cv2.findContours(mask, cv2.RETR_CCOMP, cv2.CHAIN_APPROX_NONE)
+        contours, _ = cv2.findContours(mask.astype(np.uint8), cv2.RETR_CCOMP, cv2.CHAIN_APPROX_NONE)
         cv2.drawContours(drawn, contours, -1, colour, 1)
-    both = np.hstack([image, drawn])
-    width = round(both.shape[1] * HEIGHT / both.shape[0])
-    return cv2.resize(both, (width, HEIGHT), interpolation=cv2.INTER_AREA)
+    return _at_height(drawn)
 
 
-def _grey(scored: Scored, vertices: Vertices, angle: float) -> Picture:
-    drawn = _drawn(scored, vertices, angle, None)
+def _at_height(picture: Picture) -> Picture:
+    width = round(picture.shape[1] * HEIGHT / picture.shape[0])
+    return cv2.resize(picture, (width, HEIGHT), interpolation=cv2.INTER_AREA)
+
+
+def _grey(fitted: Fitted, vertices: Vertices, angle: float) -> Picture:
+    drawn = _drawn(fitted, vertices, angle, None)
     return np.repeat((255.0 * drawn).astype(np.uint8)[..., None], 3, axis=2)
 
 
-def _errors(scored: Scored, true: Vertices, found: Vertices, angle: float) -> Picture:
+def _errors(fitted: Fitted, true: Vertices, found: Vertices, angle: float) -> Picture:
     """Distances of vertices, black 0 to white at full scale, on the true body."""
     away = (found - found.mean(axis=0)) - (true - true.mean(axis=0))
     values = np.clip(1000.0 * np.linalg.norm(away, axis=1) / FULL_SCALE_MM, 0.0, 1.0)
-    drawn = _drawn(scored, true, angle, 0.98 * values)
+    drawn = _drawn(fitted, true, angle, 0.98 * values)
     heat = cv2.applyColorMap((255.0 * drawn).astype(np.uint8), cv2.COLORMAP_INFERNO)[..., ::-1]
     return np.where((drawn == 1.0)[..., None], np.uint8(255), heat)
 
 
 def _drawn(
-    scored: Scored, vertices: Vertices, angle: float, values: np.ndarray | None
+    fitted: Fitted, vertices: Vertices, angle: float, values: np.ndarray | None
 ) -> GreyImage:
     """A body turned about the vertical, shaded or with values on it, on white."""
     turn = np.radians(angle)
@@ -94,7 +123,7 @@ def _drawn(
         width=width,
         height=HEIGHT,
     )
-    seen = render(turned, packaged_model(scored.result.gender).triangles, camera)
+    seen = render(turned, packaged_model(fitted.result.gender).triangles, camera)
     if values is None:
         toward_light = np.array([0.4, -0.5, -0.77])
         values = 0.15 + 0.8 * np.clip(seen.vertex_normals @ toward_light, 0.0, 1.0)

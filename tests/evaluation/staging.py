@@ -19,7 +19,7 @@ from tests.evaluation.people import (
     posed_with_bone,
     rig_of_people,
 )
-from tests.evaluation.scene import Case, View
+from tests.evaluation.scene import Case, Lamp, View
 from tests.evaluation.stances import lowest, standing_on_both_feet
 
 FOOT_HEIGHT_AT_REST_M = 0.1
@@ -120,10 +120,9 @@ def root_joint(staged: Staged) -> Float[np.ndarray, "3"]:
     return 0.5 * (staged.bones["upperleg01.L"] + staged.bones["upperleg01.R"])
 
 
-def lamp_place(staged: Staged) -> Float[np.ndarray, "3"]:
-    """Where the lamp is, world: its angles are about the root joint, in the camera's axes."""
-    lighting = staged.case.lighting
-    azimuth, elevation = np.radians(lighting.azimuth), np.radians(lighting.elevation)
+def lamp_place(staged: Staged, lamp: Lamp) -> Float[np.ndarray, "3"]:
+    """Where a lamp is, world: its angles are about the root joint, in the camera's axes."""
+    azimuth, elevation = np.radians(lamp.azimuth), np.radians(lamp.elevation)
     toward = np.array(
         [
             np.cos(elevation) * np.sin(azimuth),
@@ -131,7 +130,7 @@ def lamp_place(staged: Staged) -> Float[np.ndarray, "3"]:
             -np.cos(elevation) * np.cos(azimuth),
         ]
     )
-    return root_joint(staged) + lighting.distance_m * (staged.to_camera.T @ toward)
+    return root_joint(staged) + lamp.distance_m * (staged.to_camera.T @ toward)
 
 
 def body_group_ids() -> np.ndarray:

@@ -12,27 +12,58 @@ from fitter.parameters import Light
 from fitter.pipeline import fit
 from fitter.render.light import direction_to_light
 from fitter.render.rasterizer import render
-from fitter.request import Click, Cues, FitRequest, Gender
+from fitter.request import Click, Cues, FitRequest, Gender, LightGuess
 from fitter.result import FitResult
-from tests.evaluation.cases import PEOPLE
 from tests.evaluation.files import CaseFiles, encoded_mask, light_from_document, read_case
 from tests.evaluation.landmark_points import packaged_model
+from tests.evaluation.limbs_in_depth import wrong_limbs
 from tests.evaluation.people import load_person
+from tests.evaluation.people_table import PEOPLE
 from tests.evaluation.scene import Case, Half
 from tests.evaluation.truth import TrueBody, true_body
 
 VISIBLE = 2
 MILLIMETRES = 1000.0
 
+LEAST_OVERLAP = 0.9
+"""A fit that covers less of the true body has failed."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Told:
+    """What a fit is told beyond its request: what the errors would be without that difficulty.
+
+    ``mask`` the person as seen, in place of segmentation; ``light`` where the search for the light
+    begins; ``focal_length`` in pixels, where the picture does not give it.
+    """
+
+    mask: bool = False
+    light: bool = False
+    focal_length: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Fitted:
+    """One fit, its files and the true body."""
+
+    case: Case
+    cues: Cues
+    files: CaseFiles
+    result: FitResult
+    truth: TrueBody
+    seconds: float
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Scored:
-    """One fit beside the truth.
+    """The figures of one fit.
 
     Attributes
     ----------
     errors
         Measured minus true by measurement, centimetres and kilograms.
+    standard_errors
+        What the fit says of these errors; measurements without one are left out.
     vertex_mm, joint_mm
         Mean distances: of vertices in the canonical pose with both bodies' centres together, of
         joints in the camera frame with both root joints together.
@@ -42,6 +73,8 @@ class Scored:
         The same of the segmentation the fit made, with the mask of the person as seen.
     light_degrees
         Angle between found and true direction to the light; None without shading.
+    wrong_limbs
+        Limbs that slant toward the camera instead of away from it, or the other way.
     """
 
     case: Case
@@ -49,54 +82,70 @@ class Scored:
     cues: Cues
     outcome: str
     errors: Mapping[str, float]
+    standard_errors: Mapping[str, float]
     vertex_mm: float
     joint_mm: float
     overlap: float
     mask_overlap: float
     light_degrees: float | None
+    wrong_limbs: tuple[str, ...]
     seconds: float
-    result: FitResult
-    truth: TrueBody
+
+    @property
+    def failed(self) -> bool:
+        """Whether the pose is wrong, so that girths mean little."""
+        return self.overlap < LEAST_OVERLAP or bool(self.wrong_limbs)
 
 
-def score_case(case: Case, cues: Cues, *, true_mask: bool = False) -> Scored:
-    """Fit one picture with some cues; ``true_mask`` tells how much the segmentation costs."""
+def fit_case(case: Case, cues: Cues, told: Told) -> Fitted:
+    """Fit one picture with some cues."""
     files = read_case(case)
-    source = PEOPLE[case.person]
-    request = fit_request(files, cues)
-    if true_mask:
-        request = replace(request, mask=encoded_mask(files.person_mask))
+    request = told_request(files, fit_request(files, cues), told)
     started = time.perf_counter()
     result = fit(request)
-    seconds = time.perf_counter() - started
-    truth = true_body(load_person(source))
-    found = {each.name: each.value for each in result.measurements}
-    scene = files.document["scene"]
-    assert isinstance(scene, dict)
-    return Scored(
+    return Fitted(
         case=case,
-        half=source.half,
         cues=cues,
+        files=files,
+        result=result,
+        truth=true_body(load_person(PEOPLE[case.person])),
+        seconds=time.perf_counter() - started,
+    )
+
+
+def score(fitted: Fitted) -> Scored:
+    """Compare a fit with the truth."""
+    result, files, truth = fitted.result, fitted.files, fitted.truth
+    scene = files.scene
+    found = {each.name: each for each in result.measurements}
+    joints, true_joints = _joints(result), np.array(scene["joints_m"])
+    return Scored(
+        case=fitted.case,
+        half=PEOPLE[fitted.case.person].half,
+        cues=fitted.cues,
         outcome=result.outcome.value,
-        errors={name: found[name] - value for name, value in truth.measurements.items()},
+        errors={name: found[name].value - value for name, value in truth.measurements.items()},
+        standard_errors={
+            name: each.standard_error
+            for name, each in found.items()
+            if each.standard_error is not None
+        },
         vertex_mm=_vertex_error_mm(result.canonical_vertices, truth.canonical),
-        joint_mm=_joint_error_mm(result, np.array(scene["joints_m"])),
+        joint_mm=_joint_error_mm(joints, true_joints),
         overlap=_overlap(_silhouette(result), files.body_mask),
         mask_overlap=_overlap(
             resampled(result.pictures.segmentation, working_scale(result), files.body_mask.shape),
             files.person_mask,
         ),
         light_degrees=_light_error(result.light, light_from_document(scene["light"])),
-        seconds=seconds,
-        result=result,
-        truth=truth,
+        wrong_limbs=wrong_limbs(joints, true_joints),
+        seconds=fitted.seconds,
     )
 
 
 def fit_request(files: CaseFiles, cues: Cues) -> FitRequest:
     """The request a case's file holds."""
-    options = files.document["request"]
-    assert isinstance(options, dict)
+    options = files.request
     return FitRequest(
         image=files.image,
         clicks={
@@ -110,13 +159,34 @@ def fit_request(files: CaseFiles, cues: Cues) -> FitRequest:
     )
 
 
+def told_request(files: CaseFiles, request: FitRequest, told: Told) -> FitRequest:
+    """A request with what is told beside."""
+    if told.mask:
+        request = replace(request, mask=encoded_mask(files.person_mask))
+    if told.focal_length:
+        request = replace(request, focal_length_px=files.scene["focal_length_px"])
+    if told.light:
+        light = light_from_document(files.scene["light"])
+        guess = LightGuess(
+            kind=light.kind,
+            azimuth=light.azimuth,
+            elevation=light.elevation,
+            distance=light.distance,
+        )
+        request = replace(request, light=guess)
+    return request
+
+
 def _vertex_error_mm(found: np.ndarray, true: np.ndarray) -> float:
     difference = (found - found.mean(axis=0)) - (true - true.mean(axis=0))
     return MILLIMETRES * float(np.linalg.norm(difference, axis=1).mean())
 
 
-def _joint_error_mm(result: FitResult, true: np.ndarray) -> float:
-    found = regress(packaged_model(result.gender).joint_regressor, result.posed_vertices)
+def _joints(result: FitResult) -> np.ndarray:
+    return regress(packaged_model(result.gender).joint_regressor, result.posed_vertices)
+
+
+def _joint_error_mm(found: np.ndarray, true: np.ndarray) -> float:
     difference = (found - found[0]) - (true - true[0])
     return MILLIMETRES * float(np.linalg.norm(difference, axis=1).mean())
 

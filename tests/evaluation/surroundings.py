@@ -39,6 +39,8 @@ def wall_texture(surroundings: Surroundings, rng: np.random.Generator) -> Textur
         Wall.PLASTER: _plaster,
         Wall.BRICK: _brick,
         Wall.BOARDS: _boards,
+        Wall.SHELVES: _shelves,
+        Wall.HEDGE: _hedge,
     }[surroundings.wall]
     texture = paint(sheet, surroundings.wall_colour, rng)
     return np.clip(texture, 0.01, 0.9)
@@ -46,7 +48,12 @@ def wall_texture(surroundings: Surroundings, rng: np.random.Generator) -> Textur
 
 def floor_texture(surroundings: Surroundings, rng: np.random.Generator) -> Texture:
     """The floor's albedo."""
-    paint = {Floor.CONCRETE: _concrete, Floor.WOOD: _wood, Floor.CARPET: _carpet}
+    paint = {
+        Floor.CONCRETE: _concrete,
+        Floor.WOOD: _wood,
+        Floor.CARPET: _carpet,
+        Floor.GRASS: _grass,
+    }
     sheet = _sheet(FLOOR_SIZE_M)
     return np.clip(paint[surroundings.floor](sheet, surroundings.floor_colour, rng), 0.01, 0.9)
 
@@ -87,6 +94,39 @@ def _brick(sheet: _Sheet, colour: Rgb, rng: np.random.Generator) -> Texture:
 
 def _boards(sheet: _Sheet, colour: Rgb, rng: np.random.Generator) -> Texture:
     return _planks(sheet.x, sheet.y, sheet, colour, rng, width=0.14)
+
+
+def _shelves(sheet: _Sheet, colour: Rgb, rng: np.random.Generator) -> Texture:
+    """Rows of books of all colours, skin's among them, between boards."""
+    row_height, board, width = 0.34, 0.03, 0.045
+    row = np.floor(sheet.y / row_height).astype(int)
+    up = sheet.y - row_height * row
+    shelf = np.floor(sheet.x / width + 7.3 * row).astype(int)
+    book = shelf - shelf.min()
+    count = int(book.max()) + 1
+    tops = rng.uniform(0.2, 0.29, count)[book]
+    faces = rng.uniform(0.03, 0.5, (count, 1)) * rng.uniform(0.3, 1.0, (count, 3))
+    shine = np.sqrt(np.clip(np.abs(np.sin(np.pi * (sheet.x / width + 7.3 * row))), 0.05, 1.0))
+    title = (np.abs(up - 0.16) < rng.uniform(0.0, 0.05, count)[book]) & (shine > 0.85)
+    books = faces[book] * shine[..., None]
+    books = np.where(title[..., None], 0.5, books)
+    behind = np.full(3, 0.02)
+    shelves = np.where((up < tops)[..., None], books, behind)
+    grain = np.exp(0.08 * sheet.noise(rng, (0.3, 0.01)))[..., None]
+    return np.where((up > row_height - board)[..., None], np.array(colour) * grain, shelves)
+
+
+def _hedge(sheet: _Sheet, colour: Rgb, rng: np.random.Generator) -> Texture:
+    """Leaves, lit and in shade."""
+    leaves = 0.55 * sheet.noise(rng, (0.03, 0.025), 2) + 0.3 * sheet.noise(rng, (0.25, 0.2))
+    yellow = 0.15 * sheet.noise(rng, (0.06, 0.06), 1)
+    tint = np.stack([1.0 + yellow, np.ones_like(yellow), 1.0 - yellow], axis=-1)
+    return np.array(colour) * tint * np.exp(leaves)[..., None]
+
+
+def _grass(sheet: _Sheet, colour: Rgb, rng: np.random.Generator) -> Texture:
+    blades = 0.4 * sheet.noise(rng, (0.008, 0.03), 2) + 0.15 * sheet.noise(rng, (0.5, 0.5))
+    return np.array(colour) * np.exp(blades)[..., None]
 
 
 def _wood(sheet: _Sheet, colour: Rgb, rng: np.random.Generator) -> Texture:

@@ -15,10 +15,13 @@ MEASUREMENTS = (
     ("weight", "weight", "kg"),
 )
 
+INTERVALS = ((68, 1.0), (95, 1.96))
+"""Per cent of a normal distribution within so many standard errors."""
+
 
 def case_lines(scored: Sequence[Scored]) -> list[str]:
     """One line a fit: signed errors."""
-    heading = f"{'case':24s}{'cues':5s}" + "".join(
+    heading = f"{'case':36s}{'cues':5s}" + "".join(
         f"{f'{name} {unit}':>10s}" for name, _, unit in MEASUREMENTS
     )
     heading += (
@@ -29,7 +32,7 @@ def case_lines(scored: Sequence[Scored]) -> list[str]:
 
 def summary_lines(scored: Sequence[Scored]) -> list[str]:
     """Mean absolute, median and 95th percentile of the errors, SE and SES side by side."""
-    figures: list[tuple[str, Callable[[Scored], float]]] = [
+    figures: list[tuple[str, Callable[[Scored], float | None]]] = [
         (f"{name} [{unit}]", lambda each, key=key: abs(each.errors[key]))
         for name, key, unit in MEASUREMENTS
     ]
@@ -37,6 +40,7 @@ def summary_lines(scored: Sequence[Scored]) -> list[str]:
         ("vertices [mm]", lambda each: each.vertex_mm),
         ("joints [mm]", lambda each: each.joint_mm),
         ("1 - overlap [%]", lambda each: 100.0 * (1.0 - each.overlap)),
+        ("light [degrees]", lambda each: each.light_degrees),
         ("seconds", lambda each: each.seconds),
     ]
     lines = [
@@ -46,34 +50,82 @@ def summary_lines(scored: Sequence[Scored]) -> list[str]:
         line = f"{name:18s}"
         for cues in Cues:
             values = [figure(each) for each in scored if each.cues is cues]
+            known = [value for value in values if value is not None]
             line += (
-                f"{np.mean(values):11.2f}{np.median(values):8.2f}{np.percentile(values, 95):8.2f}"
-                if values
-                else f"{'-':>27s}"
+                f"{np.mean(known):11.2f}{np.median(known):8.2f}{np.percentile(known, 95):8.2f}"
+                if known
+                else f"{'-':>11s}{'-':>8s}{'-':>8s}"
             )
         lines.append(line)
-    lights = [each.light_degrees for each in scored if each.light_degrees is not None]
-    if lights:
-        lines.append(
-            f"light direction, SES: mean {np.mean(lights):.1f}°, largest {max(lights):.1f}°"
-        )
+    lines += [
+        f"{name:18s}" + "".join(f"{_share(values[cues]):>11s}{'':16s}" for cues in Cues).rstrip()
+        for name, values in _shares(scored)
+    ]
+    lines.append(f"{'SES waist better':18s}{'':27s}{_share(_waist_better(scored)):>11s}")
     return lines
+
+
+def _shares(scored: Sequence[Scored]) -> list[tuple[str, dict[Cues, list[bool]]]]:
+    """Yes or no of every fit: whether intervals hold the truth, whether the pose failed."""
+    of = {cues: [each for each in scored if each.cues is cues] for cues in Cues}
+    keys = [key for _, key, _ in MEASUREMENTS]
+    rows = [
+        (
+            f"truth in {level} %",
+            {cues: [yes for each in of[cues] for yes in _held(each, keys, z)] for cues in Cues},
+        )
+        for level, z in INTERVALS
+    ]
+    rows += [
+        (
+            f"  {name} in {level} %",
+            {cues: [yes for each in of[cues] for yes in _held(each, [key], z)] for cues in Cues},
+        )
+        for name, key, _ in MEASUREMENTS
+        for level, z in INTERVALS
+    ]
+    rows.append(("failures", {cues: [each.failed for each in of[cues]] for cues in Cues}))
+    return rows
+
+
+def _held(scored: Scored, keys: Sequence[str], deviations: float) -> list[bool]:
+    """Whether intervals of so many standard errors hold the true measurements."""
+    return [
+        abs(scored.errors[key]) <= deviations * scored.standard_errors[key]
+        for key in keys
+        if key in scored.standard_errors
+    ]
+
+
+def _waist_better(scored: Sequence[Scored]) -> list[bool]:
+    """For each picture fitted with both: whether the waist of SES is nearer to the truth."""
+    waist = {(each.case.name, each.cues): abs(each.errors["waist_girth_navel"]) for each in scored}
+    return [
+        waist[name, Cues.SES] < error
+        for (name, cues), error in waist.items()
+        if cues is Cues.SE and (name, Cues.SES) in waist
+    ]
+
+
+def _share(yes: Sequence[bool]) -> str:
+    return f"{sum(yes)}/{len(yes)} {np.mean(yes):4.0%}" if yes else "-"
 
 
 def limit_lines(limits: Mapping[str, ShapeLimit]) -> list[str]:
     """What the shape space leaves of each person, by name."""
     columns = "".join(f"{f'{name} {unit}':>10s}" for name, _, unit in MEASUREMENTS)
-    lines = [f"{'person':24s}{columns}{'rest mm':>9s}{'|shape|':>9s}"]
+    lines = [f"{'person':28s}{columns}{'rest mm':>9s}{'|shape|':>9s}"]
     for name, limit in limits.items():
         errors = "".join(f"{limit.errors[key]:+10.1f}" for _, key, _ in MEASUREMENTS)
-        lines.append(f"{name:24s}{errors}{limit.rest_mm:9.1f}{limit.length:9.1f}")
+        lines.append(f"{name:28s}{errors}{limit.rest_mm:9.1f}{limit.length:9.1f}")
     return lines
 
 
 def _case_line(scored: Scored) -> str:
-    line = f"{scored.case.name:24s}{scored.cues.value:5s}"
+    line = f"{scored.case.name:36s}{scored.cues.value:5s}"
     line += "".join(f"{scored.errors[key]:+10.1f}" for _, key, _ in MEASUREMENTS)
     line += f"{scored.vertex_mm:11.1f}{scored.joint_mm:10.1f}"
     line += f"{scored.overlap:9.3f}{scored.mask_overlap:7.3f}"
     light = "-" if scored.light_degrees is None else f"{scored.light_degrees:.1f}"
-    return f"{line}{light:>8s}{scored.seconds:6.1f}"
+    failed = " failed " + " ".join(scored.wrong_limbs) if scored.failed else ""
+    return f"{line}{light:>8s}{scored.seconds:6.1f}{failed}".rstrip()

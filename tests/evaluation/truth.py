@@ -13,6 +13,7 @@ from fitter.measurement.anthropometry import measure
 from fitter.parameters import Light, LightKind
 from tests.evaluation.landmark_points import packaged_model
 from tests.evaluation.people import Person, posed_body
+from tests.evaluation.scene import DISTANT_M
 from tests.evaluation.staging import Staged, lamp_place, root_joint
 
 
@@ -53,11 +54,12 @@ def true_joints(staged: Staged) -> Float[np.ndarray, "p 3"]:
 
 def true_light(staged: Staged) -> Light:
     """The lamp in the fitter's terms: spherical coordinates about the root joint."""
-    toward = staged.to_camera @ (lamp_place(staged) - root_joint(staged))
+    lamp = staged.case.lighting.lamp
+    toward = staged.to_camera @ (lamp_place(staged, lamp) - root_joint(staged))
     distance = float(np.linalg.norm(toward))
     x, y, z = toward / distance
     return Light(
-        kind=LightKind.POINT,
+        kind=LightKind.DIRECTIONAL if lamp.distance_m >= DISTANT_M else LightKind.POINT,
         azimuth=float(np.arctan2(x, -z)),
         elevation=float(np.arcsin(-y)),
         distance=distance,

@@ -1,5 +1,6 @@
 import io
 import json
+from collections import Counter
 
 import numpy as np
 import pytest
@@ -9,20 +10,54 @@ from fitter.request import Gender
 from tests.evaluation.cases import CASES, DEMO, PEOPLE
 from tests.evaluation.files import PICTURES_FOLDER, document, read_case
 from tests.evaluation.generate import SAMPLE_FOLDER
-from tests.evaluation.people import load_person
-from tests.evaluation.scene import Half
+from tests.evaluation.people import PEOPLE_FOLDER, load_person
+from tests.evaluation.scene import FocalLength, Half, Series
 from tests.evaluation.staging import stage
+from tests.evaluation.stance_kinds import Kind
 from tests.unit.training.makehuman_data import needs_makehuman
 
 LARGEST_BYTES = {"demo": 150_000}
-LARGEST_OTHER_BYTES = 80_000
+LARGEST_OTHER_BYTES = 110_000
+LARGEST_SUM_BYTES = 6_000_000
 
 AGAIN = "run python -m tests.evaluation.generate --documents"
 
 
-def test_both_halves_have_women_and_men():
+PEOPLE_CASES = [case for case in CASES.values() if case.series is Series.PEOPLE]
+
+
+def test_both_halves_have_three_women_and_three_men_of_every_build():
+    people = {case.person: PEOPLE[case.person] for case in PEOPLE_CASES}
     for half in Half:
-        assert {person.gender for person in PEOPLE.values() if person.half is half} == set(Gender)
+        of_half = [person for person in people.values() if person.half is half]
+        assert Counter(person.gender for person in of_half) == dict.fromkeys(Gender, 3)
+        assert {person.name.split("_")[-1] for person in of_half} == {"thin", "middling", "heavy"}
+
+
+def test_everybody_is_shown_in_every_kind_of_stance_and_no_two_stances_are_alike():
+    shown = Counter((case.person, case.name.rsplit("_", 1)[1]) for case in PEOPLE_CASES)
+    assert len(shown) == 12 * len(Kind)
+    assert set(shown.values()) == {1}
+    assert len({repr(case.stance) for case in PEOPLE_CASES}) == len(PEOPLE_CASES)
+
+
+def test_half_of_the_pictures_come_with_a_focal_length_a_quarter_with_exif_a_quarter_without():
+    count = Counter(case.focal_length for case in PEOPLE_CASES)
+    assert count == {FocalLength.GIVEN: 18, FocalLength.EXIF: 9, FocalLength.MISSING: 9}
+
+
+def test_the_lights_show_people_of_the_tuning_half_alone():
+    lights = [case for case in CASES.values() if case.series is Series.LIGHTS]
+    assert len(lights) == 8
+    assert {PEOPLE[case.person].half for case in lights} == {Half.TUNING}
+
+
+def test_the_suite_is_small_and_holds_nothing_but_its_cases():
+    files = list(PICTURES_FOLDER.iterdir())
+    assert sum(path.stat().st_size for path in files) <= LARGEST_SUM_BYTES
+    endings = (".jpg", ".json", "_body.png", "_person.png")
+    assert {path.name for path in files} == {name + end for name in CASES for end in endings}
+    assert {path.stem for path in PEOPLE_FOLDER.iterdir()} == set(PEOPLE)
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -1,31 +1,29 @@
-from typing import Any
-
 import numpy as np
 
 from fitter.request import Cues
-from tests.evaluation.cases import DEMO
-from tests.evaluation.scene import Half
+from tests.evaluation.cases import CASES, DEMO
+from tests.evaluation.scene import Case, Half
 from tests.evaluation.suite import Scored, resampled
 from tests.evaluation.table import MEASUREMENTS, case_lines, summary_lines
 
-NOTHING: Any = None
 
-
-def _scored(cues: Cues, error: float) -> Scored:
+def _scored(
+    cues: Cues, error: float, *, case: Case = DEMO, wrong_limbs: tuple[str, ...] = ()
+) -> Scored:
     return Scored(
-        case=DEMO,
+        case=case,
         half=Half.TUNING,
         cues=cues,
         outcome="converged",
         errors={key: error for _, key, _ in MEASUREMENTS},
+        standard_errors={key: 2.0 for _, key, _ in MEASUREMENTS},
         vertex_mm=10.0,
         joint_mm=20.0,
         overlap=0.95,
         mask_overlap=0.97,
         light_degrees=None if cues is Cues.SE else 12.0,
+        wrong_limbs=wrong_limbs,
         seconds=1.0,
-        result=NOTHING,
-        truth=NOTHING,
     )
 
 
@@ -41,6 +39,31 @@ def test_the_lines_of_cases_keep_the_errors_signs():
     _, line = case_lines([_scored(Cues.SES, -2.5)])
     assert line.count("-2.5") == len(MEASUREMENTS)
     assert "12.0" in line
+
+
+def _line(scored: list[Scored], start: str) -> str:
+    return next(line for line in summary_lines(scored) if line.startswith(start))
+
+
+def test_intervals_hold_the_truth_within_their_standard_errors():
+    scored = [_scored(Cues.SE, error) for error in (-1.0, 1.9, 3.0, 5.0)]
+    assert "8/16  50%" in _line(scored, "truth in 68 %")
+    assert "12/16  75%" in _line(scored, "truth in 95 %")
+    assert "2/4  50%" in _line(scored, "  waist in 68 %")
+
+
+def test_a_fit_fails_by_a_limb_that_faces_the_wrong_way():
+    scored = [_scored(Cues.SES, 1.0), _scored(Cues.SES, 1.0, wrong_limbs=("left_forearm",))]
+    assert "1/2  50%" in _line(scored, "failures")
+    assert [each.failed for each in scored] == [False, True]
+    assert case_lines(scored)[2].endswith("left_forearm")
+
+
+def test_the_waist_of_ses_is_compared_with_that_of_se_on_the_same_picture():
+    other = next(case for case in CASES.values() if case is not DEMO)
+    scored = [_scored(Cues.SE, 3.0), _scored(Cues.SES, -1.0)]
+    scored += [_scored(Cues.SE, -2.0, case=other), _scored(Cues.SES, 2.5, case=other)]
+    assert "1/2  50%" in _line(scored, "SES waist better")
 
 
 def test_one_kind_of_fit_alone_can_be_summed_up():
