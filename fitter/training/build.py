@@ -34,8 +34,8 @@ from fitter.training.volume_learning import with_volume_learned
 GENDERS = ("female", "male")
 
 INNER_POINTS_STREAM, VOLUMES_STREAM = 1, 2
-"""Of the seed: poses that landmarks are fitted in, and those whose volume is asked for, are not those
-of the pose term."""
+"""Of the seed: poses that landmarks are fitted in, and poses whose volume is asked for, are not
+those of the pose term."""
 
 PACKAGED_SEED = 1
 """That the committed populations were drawn from."""
