@@ -193,7 +193,8 @@ def _foreground(picture: UInt8[np.ndarray, "h w 3"], labels: Trimap) -> Mask:
 
 def _without_speckle(mask: Mask, sure: Mask) -> Mask:
     """What is connected to the sure foreground, without small holes."""
-    count, regions = cv2.connectedComponents(mask.astype(np.uint8), connectivity=8)
+    count, found = cv2.connectedComponents(mask.astype(np.uint8), connectivity=8)
+    regions = np.asarray(found, dtype=np.int32)
     kept = np.zeros(count, dtype=np.bool_)
     kept[regions[sure & mask]] = True
     mask = kept[regions]
