@@ -1,42 +1,16 @@
 """Bodies without a picture: gender and known measurements in, the most probable body out."""
 
-from typing import Annotated, Final
+from pydantic import Field
 
-from pydantic import Field, model_validator
-
-from api_schemas.base import WireModel, refusal
-from api_schemas.requests import Gender, HeightM
-
-STATURE: Final = "stature"
-MAX_NAME_LENGTH: Final = 64
-
-MeasurementName = Annotated[
-    str, Field(min_length=1, max_length=MAX_NAME_LENGTH, examples=["waist_girth_navel"])
-]
-MeasuredValue = Annotated[float, Field(gt=0.0, le=10_000.0, examples=[84.0])]
+from api_schemas.base import WireModel
+from api_schemas.known import KnownMeasurements
+from api_schemas.requests import Gender
 
 
-class UncertainMeasurement(WireModel):
-    """A measurement with the standard error it was taken with, both in its unit."""
-
-    value: MeasuredValue
-    standard_error: float = Field(ge=0.0, le=1_000.0, examples=[1.5])
-
-
-class BodyRequest(WireModel):
-    """Of whom what is known.
-
-    ``measurements`` are by the names, and in the units, of a result's measurements
-    (`GET /v1/body-models` lists them). A number is held exactly; with a standard error the body
-    is drawn toward it as far as it is certain.
-    """
+class BodyRequest(KnownMeasurements):
+    """Of whom what is known."""
 
     gender: Gender
-    height_m: HeightM | None = None
-    measurements: dict[MeasurementName, MeasuredValue | UncertainMeasurement] = Field(
-        default_factory=dict[str, float | UncertainMeasurement],
-        examples=[{"weight": 64.5, "waist_girth_navel": {"value": 78, "standard_error": 1.5}}],
-    )
     include_glb: bool = Field(
         default=False,
         description=(
@@ -44,17 +18,6 @@ class BodyRequest(WireModel):
             "with the file itself instead."
         ),
     )
-
-    @model_validator(mode="after")
-    def _one_height(self) -> "BodyRequest":
-        if self.height_m is not None and STATURE in self.measurements:
-            raise refusal(
-                code="two-heights",
-                reason="Both height_m and measurements.stature are given.",
-                field="height_m",
-                remedy="Send one of the two.",
-            )
-        return self
 
 
 class EstimatedMeasurement(WireModel):

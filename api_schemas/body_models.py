@@ -3,8 +3,9 @@
 from pydantic import Field
 
 from api_schemas.base import WireModel
+from api_schemas.known import MAX_HEIGHT_M, MIN_HEIGHT_M
 from api_schemas.points import POINT_NAMES, PointsFormat
-from api_schemas.requests import MAX_HEIGHT_M, MIN_HEIGHT_M, Gender, Limb
+from api_schemas.requests import Gender, Limb
 
 
 class BodyModelInfo(WireModel):

@@ -1,17 +1,15 @@
 """What a caller asks for: a fit, of a picture sent along or uploaded before."""
 
 from enum import StrEnum
-from typing import Annotated, Final, Self
+from typing import Self
 
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import Field, model_validator
 
 from api_schemas.base import WireModel, refusal
 from api_schemas.images import ImageId
+from api_schemas.known import KnownMeasurements
 from api_schemas.points import Points, PointsFormat
 from api_schemas.webhooks import WebhookTarget
-
-MIN_HEIGHT_M: Final = 1.2
-MAX_HEIGHT_M: Final = 2.3
 
 
 class Gender(StrEnum):
@@ -76,43 +74,16 @@ class LightGuess(WireModel):
     distance_m: float | None = Field(default=None, gt=0.0, le=100.0)
 
 
-_OTHER_UNITS: Final = (
-    (0.01, "centimetres"),
-    (0.001, "millimetres"),
-    (0.3048, "feet"),
-    (0.0254, "inches"),
-)
-
-
-def _metres(value: object) -> object:
-    """Name the unit a height was probably given in; other faults are told as usual."""
-    if isinstance(value, int | float) and not isinstance(value, bool):
-        for factor, unit in _OTHER_UNITS if not MIN_HEIGHT_M <= value <= MAX_HEIGHT_M else ():
-            if MIN_HEIGHT_M <= value * factor <= MAX_HEIGHT_M:
-                raise refusal(
-                    code="out-of-range",
-                    reason=f"{value:g} metres is nobody's height; it looks like {unit}.",
-                    remedy=f"Send metres: {value * factor:.4g}.",
-                )
-    return value
-
-
-HeightM = Annotated[
-    float,
-    BeforeValidator(_metres),
-    Field(ge=MIN_HEIGHT_M, le=MAX_HEIGHT_M, description="Stature in metres.", examples=[1.68]),
-]
-
-
-class SubjectOptions(WireModel):
+class SubjectOptions(KnownMeasurements):
     """Who is in the picture, where the joints are, and through which lens it was taken.
 
-    ``height_m`` left out means the mean of the gender, which the answer then lists as assumed.
-    At most one focal length; without one the picture's EXIF data are asked.
+    The body has the height, the weight and the measurements that are given. ``height_m`` left out
+    means the mean of the gender, or the most probable height of people with the given measurements;
+    the answer then lists it as assumed. At most one focal length; without one the picture's EXIF
+    data are asked.
     """
 
     gender: Gender
-    height_m: HeightM | None = None
     points: Points = Field(
         description=(
             "Clicked points, pixels of the picture as a browser shows it. At least six of the "

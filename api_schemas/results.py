@@ -83,12 +83,16 @@ class ReflectanceResult(WireModel):
 
 
 class Measurement(WireModel):
-    """One anthropometric measurement in its unit; ``standard_error`` is null where unknown."""
+    """One anthropometric measurement in its unit.
+
+    ``standard_error`` is null where unknown, and zero where the request gave the value exactly.
+    """
 
     name: str
     value: float
     unit: str
     standard_error: float | None
+    given: bool = Field(description="Whether the request gave it.")
     definition: str
     source: str
 

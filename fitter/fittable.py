@@ -9,6 +9,7 @@ from fitter.body.model import BodyModel
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.energies.instruments import BodyInstruments, body_instruments
 from fitter.errors import ModelFileError
+from fitter.estimate.measured_population import MeasuredPopulation, measured_population
 from fitter.measurement.anthropometry import MeasuringBody, measuring_body
 from fitter.measurement.definitions import JOINT_PREFIX, load_definitions, points_of
 from fitter.observation.clicks import POINT_NAMES
@@ -34,6 +35,7 @@ class FittableBody:
 
     instruments: BodyInstruments
     measuring: MeasuringBody
+    population: MeasuredPopulation
 
 
 def fittable_body(gender: Gender, *, models: Path | None = None) -> FittableBody:
@@ -76,8 +78,9 @@ def _prepared(path: Path, gender: Gender) -> FittableBody:
     model = load_body_model(path, gender=gender.value)
     _check_names(path, model)
     instruments = body_instruments(model)
+    measuring = measuring_body(model, instruments.evaluator)
     return FittableBody(
-        instruments=instruments, measuring=measuring_body(model, instruments.evaluator)
+        instruments=instruments, measuring=measuring, population=measured_population(measuring)
     )
 
 

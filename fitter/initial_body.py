@@ -7,15 +7,15 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Points2D, Vertices
-from fitter.body.shape_space import shape_for_height
 from fitter.body.skeleton import regress
 from fitter.camera import Camera, FocalLengthSource
+from fitter.estimate.known_person import known_person
 from fitter.fittable import FittableBody
 from fitter.observation.clicks import POINT_NAMES, check_clicks, side_warnings
 from fitter.observation.exif import ExifTags
 from fitter.observation.focal_length import focal_length
 from fitter.observation.resampling import working_size
-from fitter.observation.subject import check_subject, subject_height
+from fitter.observation.subject import check_subject
 from fitter.parameters import BodyParameters
 from fitter.pose_init.initial_pose import PoseHypothesis, initialize_pose
 from fitter.pose_init.points import clicked_points
@@ -50,11 +50,11 @@ class InitialBody:
     Attributes
     ----------
     height_m
-        The caller's, or the gender's mean, which is then among ``assumptions``.
+        The caller's, or the most probable, which is then among ``assumptions``.
     camera
         Of the whole picture.
     body
-        Pose, position and the mean shape of the height.
+        Pose, position and the mean shape of the height and the known measurements.
     vertices
         (m, 3) camera frame, metres.
     outline
@@ -88,7 +88,7 @@ def initial_body(
     height: int,
     exif_focal_length_35mm: float | None,
 ) -> InitialBody:
-    """Pose the mean person of the gender and height by the clicks.
+    """Pose the mean person of the gender, height and known measurements by the clicks.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ def initial_body(
     Raises
     ------
     InvalidInputError
-        If clicks, height or focal length cannot be used.
+        If clicks, height, measurements or focal length cannot be used.
     """
     check_subject(request)
     check_clicks(request.clicks, width=width, height=height)
@@ -122,13 +122,13 @@ def initial_body(
         width=width,
         height=height,
     )
-    height_m, height_assumed = subject_height(request)
     evaluator = body.instruments.evaluator
+    person = known_person(request, body.population, evaluator)
     initial = initialize_pose(
         evaluator,
         camera=camera,
         clicks=clicked_points(request.clicks),
-        shape=shape_for_height(evaluator, height_m),
+        shape=person.shape,
         limb_facing=request.limb_facing,
     )
     vertices = evaluator.vertices(initial.parameters)
@@ -137,7 +137,7 @@ def initial_body(
         zip(landmarks.names, camera.project(regress(landmarks, vertices)), strict=True)
     )
     return InitialBody(
-        height_m=height_m,
+        height_m=person.height_m,
         camera=camera,
         focal_length_source=focal.source,
         body=initial.parameters,
@@ -146,7 +146,7 @@ def initial_body(
         landmarks={name: projected[name] for name in POINT_NAMES},
         limbs=limb_readings(initial.hypotheses, request.limb_facing),
         residual_px=initial.residual_px,
-        assumptions=focal.assumptions + height_assumed,
+        assumptions=focal.assumptions + person.assumptions,
         warnings=side_warnings(request.clicks),
     )
 

@@ -5,11 +5,12 @@ from pathlib import Path
 import numpy as np
 
 from fitter.arrays import GreyImage
-from fitter.body.shape_space import shape_for_height
 from fitter.body.skeleton import regress
+from fitter.energies.attributes import KnownAttributes
 from fitter.energies.clicks import click_evidence
 from fitter.energies.objective import Candidate, Objective, PictureEvidence
 from fitter.energies.scales import FAR_BOUNDARY_ETA_M, NEAR_BOUNDARY_ETA_M, scales_at
+from fitter.estimate.known_person import known_person
 from fitter.evidence.edge_cost import edge_cost_map
 from fitter.evidence.intensity import intensity_map
 from fitter.evidence.outline_confidence import outline_confidence
@@ -17,7 +18,6 @@ from fitter.evidence.silhouette_evidence import silhouette_evidence
 from fitter.fittable import FittableBody, fittable_body
 from fitter.measurement.anthropometry import measure
 from fitter.observation.observation import Observation, observe
-from fitter.observation.subject import subject_height
 from fitter.optimizer.albedo_colour import albedo_rgb
 from fitter.optimizer.alternation import ShadedFit, fit_shading
 from fitter.optimizer.hypotheses import try_hypotheses
@@ -68,19 +68,21 @@ def fit(
     with clock.stage(Stage.OBSERVATION):
         observation = observe(request)
         body = fittable_body(request.gender, models=models)
-        height_m, height_assumed = subject_height(request)
+        person = known_person(request, body.population, body.instruments.evaluator)
     with clock.stage(Stage.INITIAL_POSE):
         initial = initialize_pose(
             body.instruments.evaluator,
             camera=observation.camera,
             clicks=clicked_points(observation.clicks),
-            shape=shape_for_height(body.instruments.evaluator, height_m),
+            shape=person.shape,
             limb_facing=request.limb_facing,
         )
     limits = limits_of(request.optimizer)
     with clock.stage(Stage.SEGMENTATION) as report:
         labels, segmentation = _segmented(observation, body, initial.parameters, 1.0)
-        coarse = _silhouette_and_edges(observation, body, initial, segmentation, FAR_BOUNDARY_ETA_M)
+        coarse = _silhouette_and_edges(
+            observation, body, initial, segmentation, person.attributes, FAR_BOUNDARY_ETA_M
+        )
         nearer = body_search(request.optimizer, limits.trial, report)(coarse, initial.parameters)
         labels, segmentation = _segmented(
             observation, body, nearer.candidate.parameters, RESEGMENTED_BAND
@@ -88,7 +90,7 @@ def fit(
     with clock.stage(Stage.SILHOUETTE_AND_EDGES) as report:
         hypotheses = initial.hypotheses[: limits.hypotheses]
         far, objective = (
-            _silhouette_and_edges(observation, body, initial, segmentation, eta)
+            _silhouette_and_edges(observation, body, initial, segmentation, person.attributes, eta)
             for eta in (FAR_BOUNDARY_ETA_M, NEAR_BOUNDARY_ETA_M)
         )
         tried = try_hypotheses(
@@ -119,7 +121,7 @@ def fit(
         covariance = shape_covariance(
             objective if shaded is None else objective.with_shading(shaded.evidence),
             final.candidate,
-            height_known=request.height_m is not None,
+            height_variance=person.height_variance,
         )
         measurements = measure(
             body.measuring, final.candidate.parameters.shape, shape_covariance=covariance
@@ -133,7 +135,8 @@ def fit(
     shading_missing = request.cues is Cues.SES and shaded is None
     return FitResult(
         gender=request.gender,
-        height_m=height_m,
+        height_m=person.height_m,
+        given=person.given,
         cues=request.cues,
         optimizer=request.optimizer,
         outcome=outcome_of(converged=final.converged, overlap=overlap),
@@ -163,7 +166,7 @@ def fit(
         stages=tuple(stages),
         measurements=measurements,
         limb_facing=facings,
-        assumptions=observation.assumptions + height_assumed,
+        assumptions=observation.assumptions + person.assumptions,
         warnings=observation.warnings
         + segmentation.warnings
         + fit_warnings(overlap, facings)
@@ -211,6 +214,7 @@ def _silhouette_and_edges(
     body: FittableBody,
     initial: InitialPose,
     segmentation: Segmentation,
+    attributes: KnownAttributes,
     boundary_eta_m: float,
 ) -> Objective:
     """E1 of this picture."""
@@ -229,6 +233,7 @@ def _silhouette_and_edges(
             shading=None,
         ),
         scales=scales_at(observation.camera, depth, boundary_eta_m=boundary_eta_m),
+        attributes=attributes,
     )
 
 

@@ -3,8 +3,12 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import Final
 
 from fitter.parameters import LightKind
+
+STATURE: Final = "stature"
+"""The measurement that ``FitRequest.height_m`` is in metres."""
 
 
 class Gender(StrEnum):
@@ -45,6 +49,29 @@ class Click:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class KnownMeasurement:
+    """What the caller knows of the person.
+
+    Attributes
+    ----------
+    value
+        In the measurement's unit.
+    standard_error
+        With which it was taken; 0 holds it exactly.
+    field
+        Where the request has it, None for ``measurements``.
+    """
+
+    value: float
+    standard_error: float = 0.0
+    field: str | None = None
+
+    def field_of(self, name: str) -> str:
+        """The request field of the measurement of this name."""
+        return self.field or f"measurements.{name}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class LightGuess:
     """The caller's coarse first light (section 5); the angles are those of ``Light``, radians."""
 
@@ -66,7 +93,10 @@ class FitRequest:
         By canonical name: COCO-17 (``left_shoulder`` ...), ``neck``, ``head_top``, ``chin``,
         ``left_toe``, ``left_heel`` ...; left and right are the person's own.
     height_m
-        Stature in metres; None means the mean of the gender, which is then reported as assumed.
+        Stature in metres; None means the mean of the gender, or the most probable height of people
+        with the known measurements, which is then reported as assumed.
+    measurements
+        What else is known of the person, by measurement name.
     focal_length_px, focal_length_35mm
         At most one; pixels of the upright picture, or the 35 mm equivalent.
     limb_facing
@@ -81,6 +111,9 @@ class FitRequest:
     clicks: Mapping[str, Click]
     gender: Gender
     height_m: float | None
+    measurements: Mapping[str, KnownMeasurement] = field(
+        default_factory=dict[str, KnownMeasurement]
+    )
     focal_length_px: float | None = None
     focal_length_35mm: float | None = None
     cues: Cues = Cues.SES

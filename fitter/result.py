@@ -85,13 +85,15 @@ class Pictures:
 class FitResult:
     """The whole result; vertices in the camera frame (posed) and body frame (canonical), metres.
 
-    ``light`` and ``reflectance`` are None for SE, which does not estimate them. ``camera`` refers
+    ``given`` names the measurements the request gave, its height as stature. ``light`` and
+    ``reflectance`` are None for SE, which does not estimate them. ``camera`` refers
     to the working picture, ``image_camera`` to the upright original. ``stage_seconds`` is wall
     time by stage name.
     """
 
     gender: Gender
     height_m: float
+    given: tuple[str, ...]
     cues: Cues
     optimizer: OptimizerKind
     outcome: Outcome

@@ -73,6 +73,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     fit.add_argument("--gender", choices=("female", "male"))
     fit.add_argument("--height-m", type=float, metavar="METRES")
+    fit.add_argument("--weight-kg", type=float, metavar="KILOGRAMS")
     fit.add_argument("--focal-length-px", type=float, metavar="PIXELS")
     fit.add_argument("--focal-length-35mm", type=float, metavar="MM")
     fit.add_argument("--cues", choices=("SE", "SES"))
@@ -221,6 +222,7 @@ def _fit(parsed: argparse.Namespace) -> int:
                 for name in (
                     "gender",
                     "height_m",
+                    "weight_kg",
                     "focal_length_px",
                     "focal_length_35mm",
                     "cues",

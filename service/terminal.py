@@ -102,7 +102,8 @@ def _measurements(result: FitResult, truth: Mapping[str, float]) -> Table:
         row = [final.name.replace("_", " "), final.unit, f"{earlier.value:.1f}"]
         if shaded:
             row.append(f"{final.value:.1f}")
-        row.append("" if final.standard_error is None else f"{final.standard_error:.1f}")
+        error = "" if final.standard_error is None else f"{final.standard_error:.1f}"
+        row.append("given" if final.given and error == "0.0" else error)
         if truth:
             true = truth.get(final.name)
             row += ["", ""] if true is None else [f"{true:.1f}", f"{final.value - true:+.1f}"]

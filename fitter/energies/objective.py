@@ -15,6 +15,7 @@ from fitter.arrays import Points3D, Vertices
 from fitter.body.pose_prior import prior_terms
 from fitter.body.skeleton import regress
 from fitter.camera import Camera
+from fitter.energies.attributes import NOTHING_KNOWN, KnownAttributes, attribute_energy
 from fitter.energies.clicks import ClickEvidence, click_energy
 from fitter.energies.edges import edge_energy
 from fitter.energies.instruments import BodyInstruments
@@ -63,11 +64,15 @@ class Candidate:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Objective:
-    """An energy over bodies: instruments, evidence and scales, all fixed."""
+    """An energy over bodies: instruments, evidence, scales and what is known, all fixed.
+
+    Held attributes are no energy: a search keeps to the bodies that have them.
+    """
 
     instruments: BodyInstruments
     evidence: PictureEvidence
     scales: EnergyScales
+    attributes: KnownAttributes = NOTHING_KNOWN
 
     def evaluate(self, parameters: BodyParameters) -> Candidate:
         """The true energy of a body.
@@ -94,6 +99,8 @@ class Objective:
         }
         lean, _ = lean_residual(parameters.pose)
         energies["pose_prior"] += 0.5 * lean * lean
+        if len(self.attributes.standard_errors):
+            energies["attributes"] = attribute_energy(self.attributes, parameters.shape)
         if evidence.shading is not None:
             energies["shading"] = shading_energy(rendering, evidence.shading, scales)
         for name, value in energies.items():

@@ -7,10 +7,11 @@ import numpy as np
 from scipy.special import chdtrc
 
 from fitter.arrays import Shape, Vertices
-from fitter.estimate.known import KnownMeasurement, conditioned_population
+from fitter.estimate.known import conditioned_population
 from fitter.estimate.measured_population import MeasuredPopulation
 from fitter.measurement.anthropometry import measure
 from fitter.measurement.quantity import Measurement
+from fitter.request import KnownMeasurement
 
 INTERVAL_PROBABILITY = 0.95
 _INTERVAL_SD = 1.959964

@@ -1,7 +1,6 @@
 """What is known of somebody, and what is wrong with it where nobody is like that."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
@@ -10,6 +9,7 @@ from scipy.special import chdtri
 from fitter.errors import InvalidInputError
 from fitter.estimate.conditional_shape import ConditionedShape, Conditions, condition_shape
 from fitter.estimate.measured_population import MeasuredPopulation
+from fitter.request import KnownMeasurement
 
 RAREST_SD = 5.0
 """Who is further from the mean of the population in one measurement is one in two million, and the
@@ -17,8 +17,6 @@ model, learned from a thousand, knows nothing of their shape."""
 
 _RAREST_SHARE = 5.733e-7
 """The share of people beyond that, either side; several measurements together are judged by it."""
-
-FIELD = "measurements"
 
 _LEAST_SPREAD = 0.1
 """Centimetres or kilograms: what follows from the others more closely than this is not told apart
@@ -29,14 +27,6 @@ _OTHER_UNITS: Mapping[str, Sequence[tuple[float, str]]] = {
     "kg": ((0.453_592, "pounds"), (6.350_29, "stones"), (0.001, "grams")),
 }
 """By unit: what a value has to be multiplied by if it was given in another."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class KnownMeasurement:
-    """A value in the measurement's unit, and the standard error it was taken with; 0 holds it."""
-
-    value: float
-    standard_error: float = 0.0
 
 
 def conditioned_population(
@@ -50,11 +40,11 @@ def conditioned_population(
         ``unknown-value`` for a name that is not measured, ``out-of-range`` for a value nobody
         has, ``contradictory-measurements`` where nobody has all of them together.
     """
-    for name in known:
+    for name, measurement in known.items():
         if name not in population.names:
             raise InvalidInputError(
                 code="unknown-value",
-                field=f"{FIELD}.{name}",
+                field=measurement.field_of(name),
                 reason="There is no measurement of this name.",
                 remedy=f"Use one of {', '.join(population.names)}.",
             )
@@ -102,13 +92,13 @@ def _check_alone(population: MeasuredPopulation, name: str, measurement: KnownMe
         if low <= measurement.value * factor <= high:
             raise InvalidInputError(
                 code="out-of-range",
-                field=f"{FIELD}.{name}",
+                field=measurement.field_of(name),
                 reason=f"{reason} It looks like {other}.",
                 remedy=f"Send {measurement.value * factor:.4g}: this measurement is in {unit}.",
             )
     raise InvalidInputError(
         code="out-of-range",
-        field=f"{FIELD}.{name}",
+        field=measurement.field_of(name),
         reason=reason,
         remedy=f"Check the value; this measurement is in {unit}.",
     )
@@ -149,7 +139,7 @@ def _contradiction(
     unit = population.units[conditions.rows[most]]
     return InvalidInputError(
         code="contradictory-measurements",
-        field=f"{FIELD}.{name}",
+        field=known[name].field_of(name),
         reason=(
             "Nobody has all of these together: with "
             f"{', '.join(other for other in known if other != name)} as given, {name} is "

@@ -27,13 +27,13 @@ class MeasuredPopulation:
     units: tuple[str, ...]
     shapes: MeasuredShapes
 
-    def only(self, name: str) -> "MeasuredPopulation":
-        """The same people, of whom nothing else is measured."""
-        row = self.names.index(name)
+    def only(self, *names: str) -> "MeasuredPopulation":
+        """The same people, of whom nothing else is measured; in the order of the names."""
+        rows = [self.names.index(name) for name in names]
         return _population(
-            replace(self.body, definitions=(self.body.definitions[row],)),
-            mean=self.shapes.mean[[row]],
-            jacobian_at_mean=self.shapes.jacobian_at_mean[[row]],
+            replace(self.body, definitions=tuple(self.body.definitions[row] for row in rows)),
+            mean=self.shapes.mean[rows],
+            jacobian_at_mean=self.shapes.jacobian_at_mean[rows],
         )
 
 

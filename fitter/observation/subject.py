@@ -5,7 +5,7 @@ from collections.abc import Mapping
 
 from fitter.errors import InvalidInputError
 from fitter.remarks import Assumption
-from fitter.request import FitRequest, Gender
+from fitter.request import STATURE, FitRequest, Gender
 
 MEAN_HEIGHT_M: Mapping[Gender, float] = {Gender.FEMALE: 1.65, Gender.MALE: 1.82}
 """Section 4: the heights taken for people, as in paintings, whose height nobody knows."""
@@ -15,12 +15,12 @@ PLAUSIBLE_HEIGHT_M = (1.2, 2.3)
 
 
 def check_subject(request: FitRequest) -> None:
-    """Refuse a height or a first light that cannot be.
+    """Refuse a height, a measurement or a first light that cannot be.
 
     Raises
     ------
     InvalidInputError
-        ``height-out-of-range`` or ``light-invalid``.
+        ``height-out-of-range``, ``two-heights``, ``measurement-invalid`` or ``light-invalid``.
     """
     low, high = PLAUSIBLE_HEIGHT_M
     if request.height_m is not None and not low <= request.height_m <= high:
@@ -30,6 +30,21 @@ def check_subject(request: FitRequest) -> None:
             reason=f"A height of {request.height_m:g} m is outside {low:g} to {high:g} m.",
             remedy="Give the standing height in metres, or leave it out for the mean.",
         )
+    if request.height_m is not None and STATURE in request.measurements:
+        raise InvalidInputError(
+            code="two-heights",
+            field="height_m",
+            reason=f"Both height_m and measurements.{STATURE} are given.",
+            remedy="Send one of the two.",
+        )
+    for name, known in request.measurements.items():
+        if not (0.0 < known.value < math.inf and 0.0 <= known.standard_error < math.inf):
+            raise InvalidInputError(
+                code="measurement-invalid",
+                field=known.field_of(name),
+                reason="A value is positive and finite, a standard error finite and not negative.",
+                remedy="Correct it, or leave the measurement out.",
+            )
     guess = request.light
     for name, value in (
         ("azimuth", guess.azimuth),

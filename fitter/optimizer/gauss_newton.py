@@ -11,8 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitter.energies.objective import Candidate, Objective
+from fitter.optimizer.free_space import free_space
 from fitter.optimizer.normal_equations import normal_equations
-from fitter.optimizer.parameter_vector import free_columns, limited, moved
+from fitter.optimizer.parameter_vector import limited
 from fitter.parameters import BodyParameters
 
 _FIRST_DAMPING = 1e-2
@@ -48,25 +49,30 @@ def minimize_gauss_newton(
     max_evaluations: int,
     on_energies: EnergyObserver,
 ) -> Minimum:
-    """Minimise from ``start`` until steps settle nothing or no damping helps."""
+    """Minimise from ``start`` until steps settle nothing or no damping helps.
+
+    ``start`` has the attributes the objective holds.
+    """
     now = objective.evaluate(start)
-    free = free_columns(start)
     damping, rise, evaluations, settled = _FIRST_DAMPING, _FIRST_RISE, 1, 0
     on_energies(now.energies)
     while evaluations < max_evaluations:
         matrix, gradient = normal_equations(objective, now)
-        inner, pull = matrix[np.ix_(free, free)], gradient[free]
+        space = free_space(objective.attributes.held, now.parameters)
+        inner = space.directions.T @ matrix @ space.directions
+        pull = gradient @ space.directions
         diagonal = inner.diagonal()
         accepted: Candidate | None = None
         while evaluations < max_evaluations and damping < _LARGEST_DAMPING:
-            step = np.zeros(len(free))
             damped = inner + np.diag(damping * diagonal + 1e-9)
-            step[free] = np.linalg.solve(damped, -pull)
-            candidate = objective.evaluate(moved(now.parameters, limited(now.parameters, step)))
+            step = np.linalg.solve(damped, -pull)
+            candidate = objective.evaluate(
+                space.moved(now.parameters, limited(now.parameters, space.directions @ step))
+            )
             evaluations += 1
             if candidate.total < now.total:
                 accepted = candidate
-                predicted = -float(step[free] @ (pull + 0.5 * inner @ step[free]))
+                predicted = -float(step @ (pull + 0.5 * inner @ step))
                 gain = (now.total - candidate.total) / predicted
                 change = np.clip(1.0 - (2.0 * gain - 1.0) ** 3, _FASTEST_FALL, _FASTEST_RISE)
                 damping = max(damping * float(change), _SMALLEST_DAMPING)

@@ -12,6 +12,7 @@ from fitter.arrays import Vertices
 from fitter.body.model import SparseRows
 from fitter.body.pose_prior import prior_terms
 from fitter.body.tangent import Attachments, linearise
+from fitter.energies.attributes import attribute_residuals, attribute_slopes
 from fitter.energies.clicks import click_rows
 from fitter.energies.edges import edge_rows
 from fitter.energies.instruments import BodyInstruments
@@ -96,7 +97,7 @@ def _attachments_of(instruments: BodyInstruments, names: tuple[str, ...]) -> Att
 def _add_priors(
     objective: Objective, candidate: Candidate, matrix: Matrix, gradient: Vector
 ) -> None:
-    """Add the exact quadratic forms of the priors in place."""
+    """Add the quadratic forms of the priors and of what the caller knows, in place."""
     parameters = candidate.parameters
     pose_size = parameters.pose.size
     terms = prior_terms(objective.instruments.pose_prior, parameters.pose)
@@ -112,6 +113,9 @@ def _add_priors(
     shape = slice(pose_size + 3, None)
     matrix[shape, shape] += np.diag(precision)
     gradient[shape] += precision * parameters.shape
+    slopes = attribute_slopes(objective.attributes, parameters.shape)
+    matrix[shape, shape] += slopes.T @ slopes
+    gradient[shape] += slopes.T @ attribute_residuals(objective.attributes, parameters.shape)
 
 
 def _scatter_through(rows: PositionRows, support: SparseRows, count: int, pull: Vertices) -> None:

@@ -1,7 +1,7 @@
 """Body parameters as one vector of local increments: 3 p of pose, 3 of translation, n of shape."""
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Float
 
 from fitter.body.scape import BodyDerivative, increment
 from fitter.parameters import BodyParameters
@@ -21,13 +21,6 @@ def moved(parameters: BodyParameters, step: Float[np.ndarray, " columns"]) -> Bo
 def as_vector(derivative: BodyDerivative) -> Float[np.ndarray, " columns"]:
     """A derivative in the order of the vector."""
     return np.concatenate([derivative.pose.ravel(), derivative.translation, derivative.shape])
-
-
-def free_columns(parameters: BodyParameters) -> Bool[np.ndarray, " columns"]:
-    """All but the height coefficient: stature is given or assumed, never estimated."""
-    free = np.ones(parameters.pose.size + 3 + len(parameters.shape), dtype=bool)
-    free[parameters.pose.size + 3] = False
-    return free
 
 
 def limited(

@@ -4,8 +4,8 @@ import numpy as np
 from scipy.optimize import minimize
 
 from fitter.energies.objective import Candidate, Objective
+from fitter.optimizer.free_space import free_space
 from fitter.optimizer.gauss_newton import EnergyObserver, Minimum
-from fitter.optimizer.parameter_vector import free_columns, moved
 from fitter.parameters import BodyParameters
 
 # First simplex: a few degrees, centimetres and half a standard deviation along each axis.
@@ -23,7 +23,7 @@ def minimize_simplex(
     on_energies: EnergyObserver,
 ) -> Minimum:
     """Nelder and Mead's search with coefficients adapted to the dimension (Gao and Han 2012)."""
-    free = free_columns(start)
+    space = free_space(objective.attributes.held, start)
     spread = np.concatenate(
         [
             np.full(start.pose.size, _FIRST_TURN),
@@ -37,9 +37,9 @@ def minimize_simplex(
 
     def energy(step: np.ndarray) -> float:
         nonlocal best, evaluations
-        whole = np.zeros(len(free))
-        whole[free] = step * spread[free]
-        candidate: Candidate = objective.evaluate(moved(start, whole))
+        # The spread is the same for all of the shape, which the directions mix.
+        whole = spread * (space.directions @ step)
+        candidate: Candidate = objective.evaluate(space.moved(start, whole))
         evaluations += 1
         if candidate.total < best.total:
             best = candidate
@@ -47,7 +47,7 @@ def minimize_simplex(
             on_energies(best.energies)
         return candidate.total
 
-    dimension = int(np.count_nonzero(free))
+    dimension = space.directions.shape[1]
     corners = np.vstack([np.zeros(dimension), np.eye(dimension)])
     outcome = minimize(
         energy,

@@ -1,26 +1,22 @@
 """The real answers: the fitter between two translations."""
 
-from functools import cache
 from pathlib import Path
 
-from api_schemas.bodies import STATURE, BodyRequest, UncertainMeasurement
+from api_schemas.bodies import BodyRequest
 from api_schemas.initial_poses import InitialPose
-from api_schemas.problems import FieldProblem
 from fitter.errors import InvalidInputError
 from fitter.estimate.body_estimate import estimate_body
-from fitter.estimate.known import KnownMeasurement
-from fitter.estimate.measured_population import MeasuredPopulation, measured_population
 from fitter.export.plain_gltf import plain_glb
 from fitter.fittable import fittable_body
 from fitter.initial_body import initial_body
-from fitter.request import Gender
+from fitter.request import STATURE, Gender, KnownMeasurement
 from service.demo_sample import load_sample
 from service.estimates import translate
 from service.estimates.messages import BodyTask, InitialPoseTask
 from service.estimates.port import EstimatedBody
 from service.submission import check_submission
 from service.worker.pipeline_port import UnusableInputError
-from service.worker.translate import field_problem
+from service.worker.translate import field_problem, known_measurements
 
 CENTIMETRES_PER_METRE = 100.0
 
@@ -50,11 +46,12 @@ def prepare(models: Path | None) -> None:
 def body(task: BodyTask, models: Path | None) -> EstimatedBody:
     """Estimate a body from measurements."""
     gender = Gender(task.request.gender)
+    fittable = fittable_body(gender, models=models)
     try:
-        estimate = estimate_body(_population(gender, models), known_measurements(task.request))
+        estimate = estimate_body(fittable.population, _known(task.request))
     except InvalidInputError as error:
-        raise UnusableInputError(_about_the_height(error, task.request)) from error
-    model = fittable_body(gender, models=models).instruments.model
+        raise UnusableInputError(field_problem(error)) from error
+    model = fittable.instruments.model
     answer = translate.body_estimate(estimate, model)
     glb = b""
     if task.with_glb:
@@ -91,27 +88,9 @@ def initial_pose(task: InitialPoseTask, models: Path | None) -> InitialPose:
     return translate.initial_pose(initial, request, fittable.instruments.model.part_names)
 
 
-def known_measurements(request: BodyRequest) -> dict[str, KnownMeasurement]:
-    """What the request says, by measurement name and in its unit; a height is a stature."""
-    known = {
-        name: KnownMeasurement(value=given.value, standard_error=given.standard_error)
-        if isinstance(given, UncertainMeasurement)
-        else KnownMeasurement(value=given)
-        for name, given in request.measurements.items()
-    }
-    if request.height_m is not None:
-        stature_cm = request.height_m * CENTIMETRES_PER_METRE
-        return {STATURE: KnownMeasurement(value=stature_cm)} | known
-    return known
-
-
-@cache
-def _population(gender: Gender, models: Path | None) -> MeasuredPopulation:
-    return measured_population(fittable_body(gender, models=models).measuring)
-
-
-def _about_the_height(error: InvalidInputError, request: BodyRequest) -> FieldProblem:
-    reason = field_problem(error)
-    if request.height_m is not None and reason.field == f"measurements.{STATURE}":
-        return reason.model_copy(update={"field": "height_m"})
-    return reason
+def _known(request: BodyRequest) -> dict[str, KnownMeasurement]:
+    known = known_measurements(request)
+    if request.height_m is None:
+        return known
+    stature_cm = request.height_m * CENTIMETRES_PER_METRE
+    return {STATURE: KnownMeasurement(value=stature_cm, field="height_m")} | known

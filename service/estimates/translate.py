@@ -9,12 +9,13 @@ from api_schemas import bodies as wire_bodies
 from api_schemas import initial_poses as wire_poses
 from api_schemas import requests as wire_request
 from api_schemas import results as wire_results
+from api_schemas.known import STATURE
 from api_schemas.points import points_by_name
 from fitter.body.model import BodyModel
 from fitter.estimate.body_estimate import BodyEstimate
 from fitter.initial_body import InitialBody
 from fitter.request import Click, Facing, FitRequest, Gender
-from service.worker.translate import SEEN, body_result, camera_result
+from service.worker.translate import SEEN, body_result, camera_result, known_measurements
 
 
 def wire_gender(gender: Gender) -> wire_request.Gender:
@@ -32,6 +33,7 @@ def subject_request(subject: wire_request.SubjectOptions) -> FitRequest:
         },
         gender=Gender(subject.gender),
         height_m=subject.height_m,
+        measurements=known_measurements(subject),
         focal_length_px=subject.focal_length_px,
         focal_length_35mm=subject.focal_length_35mm,
         limb_facing={limb.value: Facing(facing) for limb, facing in subject.limb_facing.items()},
@@ -87,7 +89,7 @@ def body_estimate(estimate: BodyEstimate, model: BodyModel) -> wire_bodies.BodyE
         )
         for each in estimate.measurements
     )
-    stature_cm = next(each.value for each in measurements if each.name == wire_bodies.STATURE)
+    stature_cm = next(each.value for each in measurements if each.name == STATURE)
     return wire_bodies.BodyEstimate(
         gender=wire_request.Gender(model.gender),
         height_m=stature_cm / 100.0,

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from api_schemas import known as wire_known
 from api_schemas import requests as wire_request
 from api_schemas import results as wire
 from api_schemas.points import points_by_name
@@ -14,7 +15,16 @@ from fitter.errors import InvalidInputError
 from fitter.measurement.quantity import Measurement
 from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
 from fitter.progress import Progress
-from fitter.request import Click, Cues, Facing, FitRequest, Gender, LightGuess, OptimizerKind
+from fitter.request import (
+    Click,
+    Cues,
+    Facing,
+    FitRequest,
+    Gender,
+    KnownMeasurement,
+    LightGuess,
+    OptimizerKind,
+)
 from fitter.result import OUTCOME_EXPLANATIONS, FitResult, LimbFacing, StageBody
 from service.engine.port import Report
 
@@ -38,6 +48,7 @@ def fit_request(
         },
         gender=Gender(options.gender),
         height_m=options.height_m,
+        measurements=known_measurements(options),
         focal_length_px=options.focal_length_px,
         focal_length_35mm=options.focal_length_35mm,
         cues=Cues(options.cues),
@@ -51,6 +62,21 @@ def fit_request(
         limb_facing={limb.value: Facing(facing) for limb, facing in options.limb_facing.items()},
         max_pixels=max_pixels,
     )
+
+
+def known_measurements(known: wire_known.KnownMeasurements) -> dict[str, KnownMeasurement]:
+    """Translate what is known beside the height, by measurement name and in its unit."""
+    measurements = {
+        name: KnownMeasurement(value=given.value, standard_error=given.standard_error)
+        if isinstance(given, wire_known.UncertainMeasurement)
+        else KnownMeasurement(value=given)
+        for name, given in known.measurements.items()
+    }
+    if known.weight_kg is None:
+        return measurements
+    return {
+        wire_known.WEIGHT: KnownMeasurement(value=known.weight_kg, field="weight_kg")
+    } | measurements
 
 
 def report(progress: Progress) -> Report:
@@ -87,8 +113,8 @@ def fit_result(result: FitResult, *, part_names: Sequence[str]) -> wire.FitResul
         energies=dict(result.energies),
         evaluations=result.evaluations,
         silhouette_overlap=result.silhouette_overlap,
-        measurements=tuple(_measurement(measurement) for measurement in result.measurements),
-        stages=tuple(_stage(stage, part_names) for stage in result.stages),
+        measurements=_measurements(result.measurements, result.given),
+        stages=tuple(_stage(stage, part_names, result.given) for stage in result.stages),
         limb_facing=tuple(_limb_facing(facing) for facing in result.limb_facing),
         assumptions=tuple(
             wire.Assumption(quantity=each.quantity, value=each.value, reason=each.reason)
@@ -152,24 +178,30 @@ def _reflectance(reflectance: Reflectance) -> wire.ReflectanceResult:
     )
 
 
-def _measurement(measurement: Measurement) -> wire.Measurement:
-    return wire.Measurement(
-        name=measurement.name,
-        value=measurement.value,
-        unit=measurement.unit,
-        standard_error=measurement.standard_error,
-        definition=measurement.definition,
-        source=measurement.source,
+def _measurements(
+    measurements: Sequence[Measurement], given: Sequence[str]
+) -> tuple[wire.Measurement, ...]:
+    return tuple(
+        wire.Measurement(
+            name=measurement.name,
+            value=measurement.value,
+            unit=measurement.unit,
+            standard_error=measurement.standard_error,
+            given=measurement.name in given,
+            definition=measurement.definition,
+            source=measurement.source,
+        )
+        for measurement in measurements
     )
 
 
-def _stage(stage: StageBody, part_names: Sequence[str]) -> wire.Stage:
+def _stage(stage: StageBody, part_names: Sequence[str], given: Sequence[str]) -> wire.Stage:
     return wire.Stage(
         name=stage.name,
         energies=dict(stage.energies),
         silhouette_overlap=stage.silhouette_overlap,
         body=body_result(stage.body, part_names),
-        measurements=tuple(_measurement(measurement) for measurement in stage.measurements),
+        measurements=_measurements(stage.measurements, given),
     )
 
 

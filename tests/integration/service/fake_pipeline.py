@@ -10,8 +10,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 from api_schemas.body_models import BodyModelInfo, BodyModels
+from api_schemas.known import UncertainMeasurement
 from api_schemas.problems import FieldProblem
-from api_schemas.requests import Gender
+from api_schemas.requests import FitOptions, Gender
 from api_schemas.results import (
     Assumption,
     BodyResult,
@@ -27,6 +28,9 @@ from service.worker.pipeline_port import PipelineInput, PipelineOutput, Unusable
 
 STAGES = ("observation", "initial_pose", "segmentation", "silhouette_and_edges", "measurement")
 SCRIPT_MARK = b"#script:"
+
+NOBODYS_WEIGHT_KG = 33.0
+"""Contradicts whatever else is given."""
 
 
 def scripted_image(
@@ -53,6 +57,15 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
                 code="image-truncated",
                 reason="The picture ends too early.",
                 remedy="Send the whole file.",
+            )
+        )
+    if job.options.weight_kg == NOBODYS_WEIGHT_KG:
+        raise UnusableInputError(
+            FieldProblem(
+                field="weight_kg",
+                code="contradictory-measurements",
+                reason="Nobody has all of these together.",
+                remedy="Leave out the least certain.",
             )
         )
     if script.get("fault"):
@@ -126,9 +139,11 @@ def _result(job: PipelineInput) -> FitResult:
                 value=80.0 + len(job.options.points),
                 unit="cm",
                 standard_error=1.0,
+                given=False,
                 definition="At the navel.",
                 source="ISO 8559-1",
             ),
+            *_given(job.options),
         ),
         stages=(),
         limb_facing=(),
@@ -136,4 +151,22 @@ def _result(job: PipelineInput) -> FitResult:
         warnings=(),
         stage_seconds={"observation": 0.1},
         artifacts=(),
+    )
+
+
+def _given(options: FitOptions) -> tuple[Measurement, ...]:
+    known = dict(options.measurements)
+    if options.weight_kg is not None:
+        known["weight"] = options.weight_kg
+    return tuple(
+        Measurement(
+            name=name,
+            value=each.value if isinstance(each, UncertainMeasurement) else each,
+            unit="kg" if name == "weight" else "cm",
+            standard_error=each.standard_error if isinstance(each, UncertainMeasurement) else 0.0,
+            given=True,
+            definition="As given.",
+            source="The caller",
+        )
+        for name, each in known.items()
     )

@@ -55,6 +55,8 @@ def test_a_bad_picture_is_refused_at_once(service: Service, image, status, code)
     [
         ({"height_m": 1.1}, "height_m", "out-of-range"),
         ({"height_m": 2.4}, "height_m", "out-of-range"),
+        ({"measurements": {"stature": 180}}, "height_m", "two-heights"),
+        ({"measurements": {"inseam": 0}}, "measurements.inseam", "out-of-range"),
         ({"gender": "other"}, "gender", "unknown-value"),
         ({"points": POINTS | {"nose": [700, 10]}}, "points.nose", "point-outside-image"),
         ({"points": {"nose": [1, 1]}}, "points", "too-few-points"),

@@ -45,6 +45,24 @@ def test_a_picture_goes_in_and_a_result_with_its_files_comes_out(machine: Machin
             assert hashlib.sha256(file.content).hexdigest() == artifact.sha256
 
 
+def test_known_measurements_reach_the_fit_and_the_result_says_they_were_given(service: Service):
+    known = {
+        "weight_kg": 82.5,
+        "measurements": {"hip_girth": 99, "inseam": {"value": 80, "standard_error": 1.5}},
+    }
+    job = service.ended(service.post(request=REQUEST | known).headers["Location"])
+    document = service.client.get(job["links"]["result"])
+    result = FitResult.model_validate_json(document.content)
+    given = {each.name: each for each in result.measurements if each.given}
+    assert {name: each.value for name, each in given.items()} == {
+        "weight": 82.5,
+        "hip_girth": 99.0,
+        "inseam": 80.0,
+    }
+    assert given["inseam"].standard_error == 1.5
+    assert len(given) < len(result.measurements)
+
+
 def test_the_request_part_may_be_a_file(service: Service):
     response = service.client.post(
         "/v1/fits",

@@ -1,18 +1,15 @@
 """Bodies from measurements alone, on the shipped models."""
 
-import functools
-
 import numpy as np
 import pytest
 
 from fitter.body.shape_space import height_of_shape, shape_for_height
 from fitter.errors import InvalidInputError
 from fitter.estimate.body_estimate import BodyEstimate, estimate_body
-from fitter.estimate.known import KnownMeasurement
-from fitter.estimate.measured_population import MeasuredPopulation, measured_population
+from fitter.estimate.measured_population import MeasuredPopulation
 from fitter.fittable import FittableBody, packaged_body
 from fitter.measurement.anthropometry import measurement_values
-from fitter.request import Gender
+from fitter.request import Gender, KnownMeasurement
 
 GENDERS = pytest.mark.parametrize("gender", list(Gender))
 
@@ -21,9 +18,8 @@ def body(gender: Gender) -> FittableBody:
     return packaged_body(gender)
 
 
-@functools.cache
 def population(gender: Gender) -> MeasuredPopulation:
-    return measured_population(body(gender).measuring)
+    return body(gender).population
 
 
 def estimate(gender: Gender, **known: float | tuple[float, float]) -> BodyEstimate:

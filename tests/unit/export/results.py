@@ -45,6 +45,7 @@ def result_of(
     return FitResult(
         gender=Gender.FEMALE,
         height_m=1.3,
+        given=("stature",),
         cues=Cues.SE if light is None else Cues.SES,
         optimizer=OptimizerKind.GAUSS_NEWTON,
         outcome=Outcome.CONVERGED,

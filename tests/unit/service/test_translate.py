@@ -1,4 +1,6 @@
+import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -47,6 +49,32 @@ def test_a_request_says_the_same_in_both_languages():
     assert request.cues is fitter_request.Cues.SE
     assert request.optimizer is fitter_request.OptimizerKind.SIMPLEX
     assert request.limb_facing == {"left_forearm": fitter_request.Facing.TOWARD}
+
+
+def known(**fields: object) -> dict[str, fitter_request.KnownMeasurement]:
+    options = FitOptions.model_validate_json(json.dumps(json.loads(REQUEST) | fields))
+    request = translate.fit_request(options, image=b"", mask=None, max_pixels=7)
+    return dict(request.measurements)
+
+
+def test_what_is_known_of_the_person_is_said_by_name_and_place():
+    assert known() == {}
+    assert known(
+        weight_kg=64.5,
+        measurements={"hip_girth": 98, "inseam": {"value": 78.5, "standard_error": 1.5}},
+    ) == {
+        "weight": fitter_request.KnownMeasurement(value=64.5, field="weight_kg"),
+        "hip_girth": fitter_request.KnownMeasurement(value=98.0),
+        "inseam": fitter_request.KnownMeasurement(value=78.5, standard_error=1.5),
+    }
+
+
+def test_a_result_says_which_measurements_were_given():
+    given = translate.fit_result(result(light=None), part_names=PARTS)
+    assert [each.given for each in given.measurements] == [True]
+    assert [each.given for each in given.stages[0].measurements] == [True]
+    free = translate.fit_result(replace(result(light=None), given=()), part_names=PARTS)
+    assert [each.given for each in free.measurements] == [False]
 
 
 def test_a_guessed_point_is_occluded_and_an_absent_one_is_left_out():
@@ -135,6 +163,7 @@ def result(*, light: Light | None) -> fitter_result.FitResult:
     return fitter_result.FitResult(
         gender=fitter_request.Gender.FEMALE,
         height_m=1.65,
+        given=("weight",),
         cues=fitter_request.Cues.SES,
         optimizer=fitter_request.OptimizerKind.GAUSS_NEWTON,
         outcome=fitter_result.Outcome.CONVERGED,

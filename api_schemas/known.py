@@ -1,0 +1,108 @@
+"""What a caller knows of a person's measures; the same in every request."""
+
+from collections.abc import Mapping
+from typing import Annotated, Final, Self
+
+from pydantic import BeforeValidator, Discriminator, Field, Tag, model_validator
+
+from api_schemas.base import WireModel, refusal
+
+MIN_HEIGHT_M: Final = 1.2
+MAX_HEIGHT_M: Final = 2.3
+MAX_NAME_LENGTH: Final = 64
+
+STATURE: Final = "stature"
+WEIGHT: Final = "weight"
+
+_OTHER_UNITS: Final = (
+    (0.01, "centimetres"),
+    (0.001, "millimetres"),
+    (0.3048, "feet"),
+    (0.0254, "inches"),
+)
+
+
+def _metres(value: object) -> object:
+    """Name the unit a height was probably given in; other faults are told as usual."""
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        for factor, unit in _OTHER_UNITS if not MIN_HEIGHT_M <= value <= MAX_HEIGHT_M else ():
+            if MIN_HEIGHT_M <= value * factor <= MAX_HEIGHT_M:
+                raise refusal(
+                    code="out-of-range",
+                    reason=f"{value:g} metres is nobody's height; it looks like {unit}.",
+                    remedy=f"Send metres: {value * factor:.4g}.",
+                )
+    return value
+
+
+HeightM = Annotated[
+    float,
+    BeforeValidator(_metres),
+    Field(ge=MIN_HEIGHT_M, le=MAX_HEIGHT_M, description="Stature in metres.", examples=[1.68]),
+]
+WeightKg = Annotated[
+    float,
+    Field(
+        gt=0.0,
+        le=1_000.0,
+        description="Weight in kilograms; says the same as `measurements.weight`.",
+        examples=[64.5],
+    ),
+]
+MeasurementName = Annotated[
+    str, Field(min_length=1, max_length=MAX_NAME_LENGTH, examples=["waist_girth_navel"])
+]
+MeasuredValue = Annotated[float, Field(gt=0.0, le=10_000.0, examples=[84.0])]
+
+
+class UncertainMeasurement(WireModel):
+    """A measurement with the standard error it was taken with, both in its unit."""
+
+    value: MeasuredValue
+    standard_error: float = Field(ge=0.0, le=1_000.0, examples=[1.5])
+
+
+def _kind(value: object) -> str:
+    return "[uncertain]" if isinstance(value, Mapping | UncertainMeasurement) else "[exact]"
+
+
+KnownMeasurement = Annotated[
+    Annotated[MeasuredValue, Tag("[exact]")] | Annotated[UncertainMeasurement, Tag("[uncertain]")],
+    Discriminator(_kind),
+]
+
+
+class KnownMeasurements(WireModel):
+    """Height, weight, and whatever else was measured of the person.
+
+    ``measurements`` are by the names, and in the units, of a result's measurements (MEASUREMENTS.md
+    lists them). A number is held exactly; with a standard error the body is drawn toward it as far
+    as it is certain.
+    """
+
+    height_m: HeightM | None = None
+    weight_kg: WeightKg | None = None
+    measurements: dict[MeasurementName, KnownMeasurement] = Field(
+        default_factory=dict[str, float | UncertainMeasurement],
+        description=(
+            "Girths and lengths in centimetres, by the names of a result's measurements. A number "
+            "is held exactly; with a standard error the body is drawn toward it as far as it is "
+            "certain."
+        ),
+        examples=[{"hip_girth": 98, "waist_girth_navel": {"value": 78, "standard_error": 1.5}}],
+    )
+
+    @model_validator(mode="after")
+    def _said_once(self) -> Self:
+        for field, code, name in (
+            ("height_m", "two-heights", STATURE),
+            ("weight_kg", "two-weights", WEIGHT),
+        ):
+            if getattr(self, field) is not None and name in self.measurements:
+                raise refusal(
+                    code=code,
+                    reason=f"Both {field} and measurements.{name} are given.",
+                    field=field,
+                    remedy="Send one of the two.",
+                )
+        return self

@@ -1,0 +1,118 @@
+"""The bodies a search may look at: all of the held height and the held attributes.
+
+The height coefficient stays where it is. Attributes held beside it leave, at every body, the
+directions of shape in which none of them changes, the null space of their Jacobian J without its
+height column: section 4's rotation of the shape space, renewed where the body is. A step along
+these changes an attribute in second order only, and is then brought back,
+
+    β⁺ = β + J⁺ (y - m(β)).
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+
+from fitter.arrays import Shape
+from fitter.energies.attributes import Attributes
+from fitter.errors import NumericalError
+from fitter.optimizer.parameter_vector import moved
+from fitter.parameters import BodyParameters
+
+HELD_WITHIN = 1e-3
+"""Centimetres or kilograms within which held attributes are met."""
+
+_STEPS_A_JACOBIAN = 5
+_MOST_STEPS = 20
+
+_SMALLEST_SHARE = 1e-5
+"""Directions in which attributes change by less than this share of the most are not held: two
+measurements that say the same hold the body once."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class FreeSpace:
+    """The space about one body.
+
+    Attributes
+    ----------
+    directions
+        Orthonormal increments of the parameter vector, in columns; none changes the height
+        coefficient.
+    height_response
+        (n,) change of shape with one unit of the height coefficient, the least that keeps what is
+        held.
+    held
+        What every body has.
+    slopes
+        (r, n - 1) J at the body.
+    """
+
+    directions: Float[np.ndarray, "columns free"]
+    height_response: Shape
+    held: Attributes
+    slopes: Float[np.ndarray, "r rest"]
+
+    def moved(
+        self, parameters: BodyParameters, step: Float[np.ndarray, " columns"]
+    ) -> BodyParameters:
+        """Apply increments, and bring the shape back to what is held."""
+        reached = moved(parameters, step)
+        return replace(reached, shape=_brought_back(self.held, reached.shape, self.slopes))
+
+
+def free_space(held: Attributes, parameters: BodyParameters) -> FreeSpace:
+    """The space about a body that has what is held."""
+    n = len(parameters.shape)
+    jacobian = held.jacobian(parameters.shape)
+    slopes = jacobian[:, 1:]
+    shapes = _kept_directions(slopes)
+    others = parameters.pose.size + 3
+    directions = np.zeros((others + n, others + shapes.shape[1]))
+    directions[:others, :others] = np.eye(others)
+    directions[others + 1 :, others:] = shapes
+    return FreeSpace(
+        directions=directions,
+        height_response=np.concatenate([[1.0], -_inverse(slopes) @ jacobian[:, 0]]),
+        held=held,
+        slopes=slopes,
+    )
+
+
+def held_shape(held: Attributes, shape: Shape) -> Shape:
+    """The nearest shape of the same height coefficient that has what is held.
+
+    Raises
+    ------
+    NumericalError
+        If there is none nearby.
+    """
+    return _brought_back(held, shape, held.jacobian(shape)[:, 1:])
+
+
+def _brought_back(held: Attributes, shape: Shape, slopes: Float[np.ndarray, "r rest"]) -> Shape:
+    """Newton steps, the Jacobian held for some of them: attributes are nearly linear."""
+    inverse = _inverse(slopes)
+    for step in range(1, _MOST_STEPS + 1):
+        missing = held.values - held.measure(shape)
+        if np.abs(missing).max(initial=0.0) < HELD_WITHIN:
+            return shape
+        if not np.isfinite(missing).all():
+            break
+        shape = np.concatenate([shape[:1], shape[1:] + inverse @ missing])
+        if step % _STEPS_A_JACOBIAN == 0:
+            inverse = _inverse(held.jacobian(shape)[:, 1:])
+    message = f"No body near shape {shape} has the attributes {held.values}."
+    raise NumericalError(message)
+
+
+def _kept_directions(slopes: Float[np.ndarray, "r rest"]) -> Float[np.ndarray, "rest free"]:
+    """Orthonormal null space, the axes themselves where nothing is held."""
+    if not len(slopes):
+        return np.eye(slopes.shape[1])
+    _, sizes, axes = np.linalg.svd(slopes)
+    return axes[np.count_nonzero(sizes > _SMALLEST_SHARE * sizes[0]) :].T
+
+
+def _inverse(slopes: Float[np.ndarray, "r rest"]) -> Float[np.ndarray, "rest r"]:
+    return np.linalg.pinv(slopes, rcond=_SMALLEST_SHARE) if len(slopes) else slopes.T
