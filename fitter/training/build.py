@@ -9,7 +9,12 @@ from jaxtyping import Float
 
 from fitter.body.model import BodyModel, SparseRows
 from fitter.body.storage import load_body_model, save_body_model
-from fitter.training.assemble import RegisteredBodies, assemble_body_model, model_arrays
+from fitter.training.assemble import (
+    RegisteredBodies,
+    assemble_body_model,
+    model_arrays,
+    with_height_axis,
+)
 from fitter.training.body_space import BodySpace, load_body_space
 from fitter.training.bone_centres import with_skin_centres
 from fitter.training.header_figures import header_figures
@@ -129,7 +134,9 @@ def train_model(
     )
     tested = rigged_bodies(mesh, held_out.source_vertices)
     volumes = np.random.default_rng([plan.seed, GENDERS.index(gender), VOLUMES_STREAM])
-    trained = replace(trained, model=with_volume_learned(trained.model, volumes))
+    corrected = with_volume_learned(trained.model, volumes)
+    # The correction reaches the standing pose, in which height is measured.
+    trained = with_height_axis(corrected, trained.coefficients)
     errors = held_out_errors(trained.model, tested)
     header = dict(trained.model.header) | header_figures(trained, taught, tested, errors)
     return replace(trained.model, header=header), tested, errors
