@@ -2,7 +2,7 @@
 
 A known pixel is no node. Its link to an open neighbour cannot be cut from its own side, so it is as
 good as a link of that neighbour to the terminal the known pixel belongs to (Boykov and Jolly 2001).
-The band is a fifth of the picture, and the time goes with the nodes.
+The band is a tenth to a third of the picture, and the time goes with the nodes.
 """
 
 from dataclasses import dataclass

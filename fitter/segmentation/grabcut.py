@@ -18,18 +18,21 @@ from fitter.segmentation.colour_mixture import first_mixture, relearnt_mixture
 from fitter.segmentation.trimap import Trimap, TrimapLabel, is_uncertain
 
 CUTS = 4
-"""The borders move little after the third."""
+"""The borders move little after the third: over 28 tri-maps of seven rendered people the masks
+overlap with the truth by 0.960, 0.962 and 0.963 after two, three and four, in 55, 70 and 81 ms.
+Where the first body is off by most the first two do as well, 0.961 for 0.959."""
 
 CUTS_FROM_KNOWN = 2
 """How many of them learn the colours from the known pixels alone.
 
 OpenCV's GrabCut learns from the band at once, by the side it leans to; what lies on the wrong side
-of a first body is then learnt as the person's, or the person's as the background's. Over 28
-tri-maps of seven rendered people the masks overlap with the truth by 0.963; with none such cut and
-mixtures started with the band by 0.953, OpenCV's by 0.954 to 0.959 as its random seed falls."""
+of a first body is then learnt as the person's, or the person's as the background's. Over the same
+tri-maps the overlap is 0.963, 0.959 with none such cut, 0.953 with none and mixtures started with
+the band too, and OpenCV's 0.954 to 0.959 as its random seed falls."""
 
 LEARNT_EVERY = 4
-"""Every fourth pixel teaches the colours: as good as every one, in a fourth of the time."""
+"""Every fourth pixel teaches the colours: the masks overlap with the truth as well as with every
+one, to 0.0001 with mixtures started with the band, and learning takes a fourth of the time."""
 
 SURROUNDINGS_SHARE = 0.15
 """How much sure background to show GrabCut around the band, as a share of the band's longer side:

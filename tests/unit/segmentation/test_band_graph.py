@@ -1,28 +1,16 @@
-import io
-
 import numpy as np
 import pytest
-from PIL import Image as PillowImage
 
 from fitter.segmentation.band_graph import BandGraph
 from fitter.segmentation.colour_mixture import ColourMixture, first_mixture
-from fitter.segmentation.trimap import TrimapLabel, first_band, is_uncertain, trimap
-from tests.evaluation.cases import CASES
-from tests.evaluation.files import read_case
+from fitter.segmentation.trimap import TrimapLabel, is_uncertain
 from tests.unit.segmentation.plain_grabcut import border_cost, opencv_cut, plain_costs
-
-PICTURES = tuple(CASES)[:3]
-"""The packaged sample and the first two of the suite."""
+from tests.unit.segmentation.rendered_pictures import PICTURES, rendered_picture
 
 
 def picture_and_labels(name: str) -> tuple[np.ndarray, np.ndarray]:
-    """A rendered picture and the tri-map of its body, moved."""
-    files = read_case(CASES[name])
-    with PillowImage.open(io.BytesIO(files.image)) as opened:
-        picture = np.asarray(opened.convert("RGB"))
-    guess = np.roll(files.body_mask, (5, -6), axis=(0, 1))
-    bones = np.zeros((0, 2, 2))
-    return picture, trimap(guess, bones, band=first_band(guess, bones))
+    picture = rendered_picture(name)
+    return picture.pixels, picture.labels
 
 
 def mixtures(picture: np.ndarray, labels: np.ndarray) -> tuple[ColourMixture, ColourMixture]:
