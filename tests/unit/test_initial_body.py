@@ -12,14 +12,16 @@ from fitter.camera import Camera, FocalLengthSource
 from fitter.errors import InvalidInputError
 from fitter.fittable import packaged_body
 from fitter.initial_body import initial_body, limb_readings
+from fitter.measurement.anthropometry import measure
 from fitter.observation.clicks import POINT_NAMES
 from fitter.parameters import BodyParameters
 from fitter.pose_init.initial_pose import PoseHypothesis
 from fitter.render.rasterizer import render
-from fitter.request import Click, Facing, FitRequest, Gender
+from fitter.request import Click, Facing, FitRequest, Gender, KnownMeasurement
 
 CAMERA = Camera(focal_length_px=900.0, centre_x=360.0, centre_y=480.0, width=720, height=960)
 HEIGHT_M = 1.7
+KNOWN = {"weight": 82.0, "inseam": 82.0}
 
 
 def standing_person() -> tuple[ScapeEvaluator, BodyParameters]:
@@ -133,3 +135,19 @@ def test_a_limb_is_ambiguous_where_a_reading_nearly_as_good_says_otherwise():
     assert (shin.ambiguous, shin.alternative_nats) == (True, 2.0)
     assert (forearm.ambiguous, forearm.alternative_nats) == (False, 20.0)
     assert (torso.ambiguous, torso.alternative_nats) == (False, None)
+
+
+def test_the_initial_body_has_the_measurements_that_are_known(request_of_standing_person):
+    known = {name: KnownMeasurement(value=value) for name, value in KNOWN.items()}
+    initial = found(replace(request_of_standing_person, measurements=known))
+    values = {
+        each.name: each.value
+        for each in measure(packaged_body(Gender.FEMALE).measuring, initial.body.shape)
+    }
+    for name, value in KNOWN.items():
+        assert values[name] == pytest.approx(value, abs=0.01)
+    assert values["stature"] == pytest.approx(100.0 * HEIGHT_M, abs=0.01)
+    # Height comes from the height coefficient alone; where limbs lie comes from the whole shape.
+    without = found(request_of_standing_person)
+    assert initial.body.shape[0] == pytest.approx(without.body.shape[0], abs=1e-4)
+    assert initial.residual_px != without.residual_px
