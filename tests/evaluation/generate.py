@@ -23,7 +23,7 @@ from tests.evaluation.people import load_person
 from tests.evaluation.scene import Case, Series
 from tests.evaluation.staging import Staged, stage
 
-SAMPLES = {Series.SAMPLE: 128, Series.PEOPLE: 36, Series.LIGHTS: 36}
+SAMPLES = {Series.SAMPLE: 64, Series.PEOPLE: 36, Series.LIGHTS: 36}
 QUALITY = {Series.SAMPLE: 92, Series.PEOPLE: 86, Series.LIGHTS: 86}
 SAMPLE_FOLDER = Path(__file__).parents[2] / "service" / "demo_data"
 

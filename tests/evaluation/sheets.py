@@ -115,7 +115,7 @@ def _drawn(
         [[np.cos(turn), 0, np.sin(turn)], [0, 1, 0], [-np.sin(turn), 0, np.cos(turn)]]
     )
     turned = (vertices - vertices.mean(axis=0)) @ rotation.T + [0.0, 0.0, VIEWING_DISTANCE_M]
-    width = round(0.55 * HEIGHT)
+    width = round(0.64 * HEIGHT)
     camera = Camera(
         focal_length_px=2.1 * HEIGHT,
         centre_x=width / 2.0,
