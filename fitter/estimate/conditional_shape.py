@@ -26,8 +26,9 @@ HELD_WITHIN = 0.01
 """Centimetres or kilograms within which exactly known measurements are met: a tenth of a
 millimetre, far below what a tape can tell."""
 
-_MOST_JACOBIANS = 4
+_MOST_JACOBIANS = 8
 _STEPS_A_JACOBIAN = 5
+_SMALLEST_STEP = 0.1
 
 _NOWHERE = 12.0
 """Standard deviations from the mean beyond which no search goes: nobody is there."""
@@ -150,8 +151,37 @@ def _settle(
             return shape, found, bool(off < HELD_WITHIN)
         if not _is_somewhere(following):
             return shape, found, False
-        shape, found = following, shapes.measure(following, conditions.rows)
+        shape, found = _nearer(shape, following, found, conditions, shapes)
     return shape, found, False
+
+
+def _nearer(
+    shape: Shape,
+    following: Shape,
+    found: Float[np.ndarray, " r"],
+    conditions: Conditions,
+    shapes: MeasuredShapes,
+) -> tuple[Shape, Float[np.ndarray, " r"]]:
+    """The step, or as much of it as brings exact values nearer, and what is measured there.
+
+    Where nearly as much is known as there are coefficients, the whole step overshoots.
+    """
+
+    exact = conditions.variances == 0.0
+    if not exact.any():
+        return following, shapes.measure(following, conditions.rows)
+
+    def distance(measured: Float[np.ndarray, " r"]) -> float:
+        off = np.abs(conditions.values - measured)[exact]
+        return float(np.nan_to_num(off, nan=np.inf).max())
+
+    share = 1.0
+    while True:
+        reached = shape + share * (following - shape)
+        measured = shapes.measure(reached, conditions.rows)
+        if share < _SMALLEST_STEP or distance(measured) < distance(found):
+            return reached, measured
+        share *= 0.5
 
 
 def _is_somewhere(shape: Shape) -> bool:
