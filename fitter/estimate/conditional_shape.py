@@ -166,7 +166,6 @@ def _nearer(
 
     Where nearly as much is known as there are coefficients, the whole step overshoots.
     """
-
     exact = conditions.variances == 0.0
     if not exact.any():
         return following, shapes.measure(following, conditions.rows)
