@@ -87,6 +87,13 @@ def test_all_measurements_of_somebody_give_that_somebodys_measurements(gender):
 
 
 @GENDERS
+@pytest.mark.parametrize("seed", [1, 2])
+def test_all_measurements_of_anybody_are_met_however_weakly_they_tell_shapes_apart(gender, seed):
+    person = typical(gender, *np.random.default_rng(seed).standard_normal(20))
+    assert values(estimate(gender, **person)) == pytest.approx(person, abs=0.02)
+
+
+@GENDERS
 def test_every_further_measurement_narrows_the_others(gender):
     person = typical(gender, 0.5, 0.5, 0.5)
     spreads: list[float] = []
