@@ -55,10 +55,11 @@ class FreeSpace:
 
     def moved(
         self, parameters: BodyParameters, step: Float[np.ndarray, " columns"]
-    ) -> BodyParameters:
-        """Apply increments, and bring the shape back to what is held."""
+    ) -> BodyParameters | None:
+        """Apply increments, and bring the shape back to what is held; None if it goes too far."""
         reached = moved(parameters, step)
-        return replace(reached, shape=_brought_back(self.held, reached.shape, self.slopes))
+        shape = _brought_back(self.held, reached.shape, self.slopes)
+        return None if shape is None else replace(reached, shape=shape)
 
 
 def free_space(held: Attributes, parameters: BodyParameters) -> FreeSpace:
@@ -87,10 +88,16 @@ def held_shape(held: Attributes, shape: Shape) -> Shape:
     NumericalError
         If there is none nearby.
     """
-    return _brought_back(held, shape, held.jacobian(shape)[:, 1:])
+    found = _brought_back(held, shape, held.jacobian(shape)[:, 1:])
+    if found is None:
+        message = f"No body near shape {shape} has the attributes {held.values}."
+        raise NumericalError(message)
+    return found
 
 
-def _brought_back(held: Attributes, shape: Shape, slopes: Float[np.ndarray, "r rest"]) -> Shape:
+def _brought_back(
+    held: Attributes, shape: Shape, slopes: Float[np.ndarray, "r rest"]
+) -> Shape | None:
     """Newton steps, the Jacobian held for some of them: attributes are nearly linear."""
     inverse = _inverse(slopes)
     for step in range(1, _MOST_STEPS + 1):
@@ -98,12 +105,11 @@ def _brought_back(held: Attributes, shape: Shape, slopes: Float[np.ndarray, "r r
         if np.abs(missing).max(initial=0.0) < HELD_WITHIN:
             return shape
         if not np.isfinite(missing).all():
-            break
+            return None
         shape = np.concatenate([shape[:1], shape[1:] + inverse @ missing])
         if step % _STEPS_A_JACOBIAN == 0:
             inverse = _inverse(held.jacobian(shape)[:, 1:])
-    message = f"No body near shape {shape} has the attributes {held.values}."
-    raise NumericalError(message)
+    return None
 
 
 def _kept_directions(slopes: Float[np.ndarray, "r rest"]) -> Float[np.ndarray, "rest free"]:

@@ -66,11 +66,10 @@ def minimize_gauss_newton(
         while evaluations < max_evaluations and damping < _LARGEST_DAMPING:
             damped = inner + np.diag(damping * diagonal + 1e-9)
             step = np.linalg.solve(damped, -pull)
-            candidate = objective.evaluate(
-                space.moved(now.parameters, limited(now.parameters, space.directions @ step))
-            )
+            reached = space.moved(now.parameters, limited(now.parameters, space.directions @ step))
+            candidate = None if reached is None else objective.evaluate(reached)
             evaluations += 1
-            if candidate.total < now.total:
+            if candidate is not None and candidate.total < now.total:
                 accepted = candidate
                 predicted = -float(step @ (pull + 0.5 * inner @ step))
                 gain = (now.total - candidate.total) / predicted

@@ -39,8 +39,11 @@ def minimize_simplex(
         nonlocal best, evaluations
         # The spread is the same for all of the shape, which the directions mix.
         whole = spread * (space.directions @ step)
-        candidate: Candidate = objective.evaluate(space.moved(start, whole))
+        reached = space.moved(start, whole)
         evaluations += 1
+        if reached is None:
+            return np.inf
+        candidate: Candidate = objective.evaluate(reached)
         if candidate.total < best.total:
             best = candidate
         if evaluations % _REPORT_EVERY == 0:

@@ -121,6 +121,7 @@ def test_a_step_ends_on_a_body_that_has_what_is_held(scene, size):
     step[-len(known.shape) :] = size * rng.standard_normal(len(known.shape))
     step = space.directions @ (space.directions.T @ step)
     reached = space.moved(parameters, step)
+    assert reached is not None
     assert np.linalg.norm(reached.shape - parameters.shape) > size
     assert reached.shape[0] == parameters.shape[0]
     found, wanted = measured(reached.shape), measured(scene.truth.shape)
@@ -148,6 +149,23 @@ def test_what_no_body_nearby_has_is_an_error_and_not_an_endless_search(scene):
     held = person(scene, {"waist_girth_navel": 0.0}).attributes.held
     with pytest.raises(NumericalError, match="No body near"):
         held_shape(replace(held, values=np.array([-10.0])), scene.start.shape)
+
+
+def test_a_step_that_cannot_be_brought_back_is_none(scene):
+    held = person(scene, {"waist_girth_navel": 0.0}).attributes.held
+    space = free_space(replace(held, values=np.array([-10.0])), scene.start)
+    assert space.moved(scene.start, np.zeros(len(space.directions))) is None
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_with_everything_known_the_pose_is_still_searched(seed):
+    scene = rendered_scene(seed)
+    others = [name for name in BODY.population.names if name != "stature"]
+    objective, start = begun(scene, person(scene, dict.fromkeys(others, 0.0)))
+    found = minimize_gauss_newton(objective, start, max_evaluations=60, on_energies=ignore)
+    assert found.candidate.total < 0.5 * objective.evaluate(start).total
+    values = measured(found.candidate.parameters.shape)
+    assert values == pytest.approx(measured(scene.truth.shape), abs=0.02)
 
 
 def test_an_uncertain_attribute_costs_half_a_nat_at_its_standard_error(scene):
