@@ -3,8 +3,10 @@
 import numpy as np
 from jaxtyping import Float
 
+from fitter.arrays import Shape
+from fitter.energies.attributes import attribute_slopes
 from fitter.energies.objective import Candidate, Objective
-from fitter.optimizer.free_space import free_space
+from fitter.optimizer.free_space import FreeSpace, free_space
 from fitter.optimizer.normal_equations import normal_equations
 
 
@@ -24,6 +26,23 @@ def shape_covariance(
     inner = space.directions.T @ matrix @ space.directions
     inverse = np.linalg.inv(inner + 1e-9 * np.eye(len(inner)))
     shapes = space.directions[-len(candidate.parameters.shape) :]
-    return shapes @ inverse @ shapes.T + height_variance * np.outer(
-        space.height_response, space.height_response
-    )
+    response = _height_response(objective, candidate, space, shapes)
+    return shapes @ inverse @ shapes.T + height_variance * np.outer(response, response)
+
+
+def _height_response(
+    objective: Objective,
+    candidate: Candidate,
+    space: FreeSpace,
+    shapes: Float[np.ndarray, "n free"],
+) -> Shape:
+    """How the most probable shape changes with the height coefficient.
+
+    With what is held kept, the population N(0, I) and the uncertain attributes together: with
+    their slopes S and the response e that keeps what is held, e - B (I + BᵀSᵀSB)⁻¹ BᵀSᵀ S e.
+    """
+    held = space.height_response
+    slopes = attribute_slopes(objective.attributes, candidate.parameters.shape)
+    along = slopes @ shapes
+    weights = np.linalg.solve(np.eye(shapes.shape[1]) + along.T @ along, along.T @ (slopes @ held))
+    return held - shapes @ weights

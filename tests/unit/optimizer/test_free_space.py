@@ -274,3 +274,14 @@ def test_an_unknown_height_spreads_all_but_what_is_held(scene, held_fit):
     assert errors["stature"] > 3.0
     for name in HELD:
         assert errors[name] < 1e-3
+
+
+def test_an_unknown_height_leaves_uncertain_attributes_as_certain_as_they_were_told(scene):
+    known = person(scene, {"weight": 1.0, "inseam": 0.5})
+    objective, start = begun(scene, known)
+    candidate = objective.evaluate(start)
+    errors = spreads(objective, candidate, 0.4)
+    assert errors["stature"] > 3.0
+    # The shape answers a change of height: without that the weight alone would be 3 kg uncertain.
+    assert errors["weight"] < 1.1
+    assert errors["inseam"] < 0.55
