@@ -21,6 +21,7 @@ from fitter.training.survey import load_statistics, packaged_statistics_path
 from fitter.training.survey_moments import SurveyMoments, load_moments, packaged_moments_path
 from fitter.training.survey_weights import (
     Target,
+    TooFewPeopleError,
     effective_count,
     matching_weights,
     weighted_moments,
@@ -158,8 +159,11 @@ def measurement_figures(
 def measurement_lines(reported: Reported) -> tuple[str, ...]:
     """The section of the report."""
     gender, definitions = reported.model.gender, load_definitions()
-    ours = measurement_figures(gender, definitions, drawn_people(reported))
-    theirs = measurement_figures(gender, definitions, held_out_people(reported))
+    try:
+        ours = measurement_figures(gender, definitions, drawn_people(reported))
+        theirs = measurement_figures(gender, definitions, held_out_people(reported))
+    except TooFewPeopleError as error:
+        return note_lines(f"Measurements are not held against ANSUR II's: {error}")
     summaries = [_summary(each) for each in (ours, theirs)]
     return (
         *table_lines(

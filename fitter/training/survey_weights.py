@@ -22,6 +22,10 @@ class Target:
     covariance: Float[np.ndarray, "d d"]
 
 
+class TooFewPeopleError(ValueError):
+    """People who cannot stand for a survey however they are weighted."""
+
+
 def matching_weights(given: Float[np.ndarray, "s d"], target: Target) -> Float[np.ndarray, " s"]:
     """Weights, summing to one, under which ``given`` have the target's mean and covariance.
 
@@ -38,7 +42,7 @@ def matching_weights(given: Float[np.ndarray, "s d"], target: Target) -> Float[n
 
     Raises
     ------
-    ValueError
+    TooFewPeopleError
         If the people do not reach far enough to have the target's moments.
     """
     root = np.linalg.cholesky(target.covariance)
@@ -63,7 +67,7 @@ def matching_weights(given: Float[np.ndarray, "s d"], target: Target) -> Float[n
         multipliers = multipliers + size * step
         value, weights = _tilted(features, multipliers)
     message = f"No weights give these {len(given)} people the target's moments."
-    raise ValueError(message)
+    raise TooFewPeopleError(message)
 
 
 def effective_count(weights: Float[np.ndarray, " s"]) -> float:

@@ -3,6 +3,7 @@ import pytest
 
 from fitter.training.survey_weights import (
     Target,
+    TooFewPeopleError,
     effective_count,
     matching_weights,
     weighted_moments,
@@ -58,5 +59,5 @@ def test_what_goes_with_the_given_follows_their_weights():
 
 def test_people_out_of_reach_of_the_target_are_refused():
     far = Target(mean=np.array([50.0, 0.0]), covariance=0.1 * np.eye(2))
-    with pytest.raises(ValueError, match="No weights give these 4000 people"):
+    with pytest.raises(TooFewPeopleError, match="No weights give these 4000 people"):
         matching_weights(people(), far)
