@@ -27,6 +27,12 @@ from service.refusal import refused
 MOST_WAITING: Final = 20
 """Questions a process may have waiting: some two seconds' worth. More are told to come back."""
 
+MOMENT_S: Final = 0.5
+"""What a question waits for a busy process where the answer can be done without."""
+
+LOOK_AFTER_S: Final = 5.0
+"""How often idle processes are looked after, so that one that died is there again when asked."""
+
 
 class EstimatorPool:
     """See :class:`service.estimates.port.Estimator`."""
@@ -40,44 +46,70 @@ class EstimatorPool:
         ]
         for process in self._processes:
             self._idle.put(process)
-        self._places = threading.BoundedSemaphore(processes * (1 + MOST_WAITING))
+        self._capacity = processes * (1 + MOST_WAITING)
+        self._places = threading.BoundedSemaphore(self._capacity)
+        self._stopping = threading.Event()
+        self._watch = threading.Thread(target=self._look_after, name="estimators", daemon=True)
+        self._watch.start()
 
-    def body(self, task: BodyTask) -> EstimatedBody:
+    @property
+    def capacity(self) -> int:
+        """How many questions are taken at once."""
+        return self._capacity
+
+    def body(self, task: BodyTask, *, patient: bool = True) -> EstimatedBody:
         """Estimate a body from measurements."""
-        answer, file = self._ask(task)
+        answer, file = self._ask(task, patient=patient)
         if not isinstance(answer, BodyAnswer):
             raise EstimatorFailedError
         return EstimatedBody(estimate=answer.estimate, glb=file)
 
     def initial_pose(self, task: InitialPoseTask) -> InitialPose:
         """Pose the mean person by clicks."""
-        answer, _ = self._ask(task)
+        answer, _ = self._ask(task, patient=True)
         if not isinstance(answer, InitialPoseAnswer):
             raise EstimatorFailedError
         return answer.pose
 
     def stop(self) -> None:
         """End the processes; questions that are being answered fail."""
+        self._stopping.set()
+        self._watch.join()
         for process in self._processes:
             process.stop()
 
-    def _ask(self, task: BodyTask | InitialPoseTask) -> tuple[Answer, bytes]:
-        with self._process() as process:
-            raw = process.ask(task.model_dump_json().encode())
+    def _ask(self, task: BodyTask | InitialPoseTask, *, patient: bool) -> tuple[Answer, bytes]:
+        with self._process(timeout_s=None if patient else MOMENT_S) as process:
+            raw = process.ask(task.model_dump_json().encode(), patient=patient)
         answer = ANSWERS.validate_json(raw.text)
         if isinstance(answer, RefusalAnswer):
             raise refused(answer.error, slug="unusable-input")
         return answer, raw.file
 
     @contextmanager
-    def _process(self) -> Iterator[EstimatorProcess]:
+    def _process(self, *, timeout_s: float | None) -> Iterator[EstimatorProcess]:
         if not self._places.acquire(blocking=False):
             raise EstimatorUnavailableError
         try:
-            process = self._idle.get()
+            try:
+                process = self._idle.get(timeout=timeout_s)
+            except queue.Empty as error:
+                raise EstimatorUnavailableError from error
             try:
                 yield process
             finally:
                 self._idle.put(process)
         finally:
             self._places.release()
+
+    def _look_after(self) -> None:
+        while not self._stopping.wait(LOOK_AFTER_S):
+            for _ in self._processes:
+                try:
+                    process = self._idle.get_nowait()
+                except queue.Empty:
+                    break
+                try:
+                    process.revive()
+                finally:
+                    self._idle.put(process)

@@ -21,7 +21,11 @@ class EstimatorUnavailableError(Exception):
 
 
 class EstimatorFailedError(Exception):
-    """The question ended its process or took too long; others are not affected."""
+    """The question met a fault or ended its process; others are not affected."""
+
+
+class EstimatorTimeoutError(EstimatorFailedError):
+    """The question took too long, and its process was replaced."""
 
 
 class Estimator(Protocol):
@@ -31,8 +35,20 @@ class Estimator(Protocol):
     one of the errors above.
     """
 
-    def body(self, task: BodyTask) -> EstimatedBody:
-        """Estimate a body from measurements."""
+    @property
+    def capacity(self) -> int:
+        """How many questions are taken at once, answered and waiting; none if there is no process.
+
+        One more is refused with :class:`EstimatorUnavailableError`.
+        """
+        ...
+
+    def body(self, task: BodyTask, *, patient: bool = True) -> EstimatedBody:
+        """Estimate a body from measurements.
+
+        Who is not ``patient`` waits neither for a process that is still starting nor, for more than
+        a moment, for a busy one.
+        """
         ...
 
     def initial_pose(self, task: InitialPoseTask) -> InitialPose:

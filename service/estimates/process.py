@@ -11,7 +11,11 @@ from multiprocessing.connection import Connection
 from typing import Final
 
 from service.estimates.messages import READY
-from service.estimates.port import EstimatorFailedError, EstimatorUnavailableError
+from service.estimates.port import (
+    EstimatorFailedError,
+    EstimatorTimeoutError,
+    EstimatorUnavailableError,
+)
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -43,27 +47,33 @@ class EstimatorProcess:
         self._command = list(command)
         self._environment = dict(environment)
         self._started_at = float("-inf")
+        self._stopped = False
         self._start()
 
-    def ask(self, task: bytes) -> RawAnswer:
+    def ask(self, task: bytes, *, patient: bool = True) -> RawAnswer:
         """Put a question and wait for its answer.
+
+        A process that is starting is waited for only by who is ``patient``.
 
         Raises
         ------
         EstimatorUnavailableError
             If the process is still starting or cannot start.
         EstimatorFailedError
-            If it died over the question or did not answer in time; the next one is started.
+            If it died over the question; the next one is started.
+        EstimatorTimeoutError
+            If it did not answer in time; the next one is started.
         """
         if self._process.poll() is not None:
             self._restart()
-        self._await_ready()
+        self._await_ready(READY_WITHIN_S if patient else 0.0)
         try:
             self._connection.send_bytes(task)
             if not self._connection.poll(ANSWER_WITHIN_S):
                 LOG.error("An estimator did not answer within %.0f s.", ANSWER_WITHIN_S)
-                self._restart()
-                raise EstimatorFailedError
+                self._end()
+                self._start()
+                raise EstimatorTimeoutError
             return RawAnswer(text=self._connection.recv_bytes(), file=self._connection.recv_bytes())
         except (EOFError, OSError) as error:
             code = self._end()
@@ -71,21 +81,31 @@ class EstimatorProcess:
             self._start()
             raise EstimatorFailedError from error
 
+    def revive(self) -> None:
+        """Start the process anew if it has died; what is too early for that is left as it is."""
+        if self._process.poll() is not None and not self._stopped:
+            LOG.error("An estimator died, exit code %d; starting another.", self._process.wait())
+            with contextlib.suppress(EstimatorUnavailableError):
+                self._restart()
+
     def stop(self) -> None:
-        """End the process."""
+        """End the process; no other takes its place."""
+        self._stopped = True
         self._end()
 
-    def _await_ready(self) -> None:
+    def _await_ready(self, within_s: float) -> None:
         if self._ready:
             return
         try:
-            if not self._connection.poll(READY_WITHIN_S):
+            if not self._connection.poll(within_s):
                 raise EstimatorUnavailableError
             self._ready = self._connection.recv_bytes() == READY
         except (EOFError, OSError) as error:
             raise EstimatorUnavailableError from error
 
     def _start(self) -> None:
+        if self._stopped:
+            return
         ours, theirs = socket.socketpair()
         with theirs:
             # A session of its own: an interrupt from the terminal is for the API alone.

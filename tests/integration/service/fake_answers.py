@@ -1,4 +1,7 @@
-"""Answers that do what the question tells them: the script is in a measurement's name."""
+"""Answers that do what the question tells them: the script is in a measurement's name.
+
+``gate`` holds the answer back until the file named by the environment variable of ``GATE`` exists.
+"""
 
 import ctypes
 import os
@@ -13,8 +16,11 @@ from api_schemas.results import BodyResult, CameraResult, FocalLengthSource, Par
 from service.estimates.messages import BodyTask, InitialPoseTask
 from service.estimates.port import EstimatedBody
 from service.worker.pipeline_port import UnusableInputError
+from tests.integration.service.fake_pipeline import NOBODYS_WEIGHT_KG
 
 GLB = b"glTF" + bytes(range(256))
+GATE = "FAKE_ANSWERS_GATE"
+KNOWN_NAMES = ("waist_girth_navel", "hip_girth", "inseam")
 
 
 def prepare(models: Path | None) -> None:
@@ -25,6 +31,15 @@ def body(task: BodyTask, models: Path | None) -> EstimatedBody:
     del models
     for name, value in task.request.measurements.items():
         _obey(name, value)
+    if task.request.weight_kg == NOBODYS_WEIGHT_KG:
+        raise UnusableInputError(
+            FieldProblem(
+                field="weight_kg",
+                code="contradictory-measurements",
+                reason="Nobody has all of these together.",
+                remedy="Leave out the least certain.",
+            )
+        )
     return EstimatedBody(
         estimate=BodyEstimate(
             gender=task.request.gender,
@@ -89,7 +104,10 @@ def _obey(name: str, value: object) -> None:
     elif name == "fault":
         message = "a fault in the fake"
         raise RuntimeError(message)
-    elif name != "waist_girth_navel":
+    elif name == "gate":
+        while not Path(os.environ[GATE]).exists():
+            time.sleep(0.01)
+    elif name not in KNOWN_NAMES:
         raise UnusableInputError(
             FieldProblem(
                 field=f"measurements.{name}",

@@ -15,10 +15,14 @@ from service.estimates import pool as pools
 from service.estimates import process as processes
 from service.estimates.messages import BodyTask
 from service.estimates.pool import EstimatorPool
-from service.estimates.port import EstimatorFailedError, EstimatorUnavailableError
+from service.estimates.port import (
+    EstimatorFailedError,
+    EstimatorTimeoutError,
+    EstimatorUnavailableError,
+)
 from service.refusal import RefusedError
-from tests.integration.service.fake_answers import GLB
-from tests.integration.service.harness import REPOSITORY, eventually, is_running
+from tests.integration.service.fake_answers import GATE, GLB
+from tests.integration.service.harness import PATIENCE_S, REPOSITORY, eventually, is_running
 
 COMMAND = (sys.executable, "-m", "tests.integration.service.fake_estimator")
 
@@ -30,13 +34,20 @@ def task(*, with_glb: bool = False, **script: float) -> BodyTask:
 
 @pytest.fixture(autouse=True)
 def patience(monkeypatch):
-    monkeypatch.setattr(processes, "READY_WITHIN_S", 30.0)
+    monkeypatch.setattr(processes, "READY_WITHIN_S", PATIENCE_S)
+    monkeypatch.setattr(processes, "ANSWER_WITHIN_S", PATIENCE_S)
 
 
 @pytest.fixture
-def pool(monkeypatch):
+def gate(tmp_path):
+    """A file that lets go what waits at the gate, once it exists."""
+    return tmp_path / "gate"
+
+
+@pytest.fixture
+def pool(monkeypatch, gate):
     monkeypatch.chdir(REPOSITORY)
-    running = EstimatorPool(COMMAND, environment=os.environ, processes=2)
+    running = EstimatorPool(COMMAND, environment=os.environ | {GATE: str(gate)}, processes=2)
     yield running
     running.stop()
 
@@ -84,38 +95,67 @@ def test_a_process_killed_between_questions_is_replaced_unnoticed(pool, monkeypa
 
 
 def test_a_question_that_takes_too_long_is_given_up_and_its_process_killed(pool, monkeypatch):
-    monkeypatch.setattr(processes, "ANSWER_WITHIN_S", 0.3)
-    monkeypatch.setattr(processes, "RESTART_PAUSE_S", 0.0)
     before = {answering_pid(pool) for _ in range(4)}
-    with pytest.raises(EstimatorFailedError):
-        pool.body(task(sleep=60.0))
-    monkeypatch.undo()
-    monkeypatch.setattr(processes, "READY_WITHIN_S", 30.0)
+    with monkeypatch.context() as impatience:
+        impatience.setattr(processes, "ANSWER_WITHIN_S", 0.3)
+        with pytest.raises(EstimatorTimeoutError):
+            pool.body(task(gate=1.0))
     after = {answering_pid(pool) for _ in range(4)}
     assert len(before & after) == 1
     assert not any(is_running(pid) for pid in before - after)
 
 
 def test_as_many_are_answered_at_once_as_there_are_processes_and_too_many_are_turned_away(
-    pool, monkeypatch
+    pool, gate
 ):
     answered: list[int] = []
     refused: list[bool] = []
 
     def ask() -> None:
         try:
-            answered.append(answering_pid(pool, sleep=0.2))
+            answered.append(answering_pid(pool, gate=1.0))
         except EstimatorUnavailableError:
             refused.append(True)
 
-    answering_pid(pool)
-    callers = [threading.Thread(target=ask) for _ in range(2 * (1 + pools.MOST_WAITING) + 5)]
+    assert pool.capacity == 2 * (1 + pools.MOST_WAITING)
+    callers = [threading.Thread(target=ask) for _ in range(pool.capacity + 5)]
     for caller in callers:
         caller.start()
+    # Nobody is answered before the gate opens, so every place is taken and stays so.
+    eventually(lambda: len(refused) == 5, what="those beyond the capacity were turned away")
+    assert not answered
+    gate.touch()
     for caller in callers:
         caller.join()
-    assert len(refused) == 5
+    assert (len(answered), len(refused)) == (pool.capacity, 5)
     assert len(set(answered)) == 2
+
+
+def test_who_is_not_patient_does_not_wait_for_busy_processes(pool, gate):
+    held = [
+        threading.Thread(target=answering_pid, args=(pool,), kwargs={"gate": 1.0}) for _ in range(2)
+    ]
+    for caller in held:
+        caller.start()
+    eventually(lambda: pool._idle.empty(), what="both processes are busy")
+    with pytest.raises(EstimatorUnavailableError):
+        pool.body(task(), patient=False)
+    gate.touch()
+    for caller in held:
+        caller.join()
+    assert pool.body(task(), patient=False).estimate
+
+
+def test_a_process_that_died_is_started_anew_before_it_is_asked(pool, monkeypatch):
+    monkeypatch.setattr(processes, "RESTART_PAUSE_S", 0.0)
+    before = {answering_pid(pool) for _ in range(4)}
+    for pid in before:
+        os.kill(pid, signal.SIGKILL)
+    eventually(lambda: not any(is_running(pid) for pid in before), what="killed")
+    eventually(
+        lambda: all(is_running(each._process.pid) for each in pool._processes), what="revived"
+    )
+    assert not {answering_pid(pool) for _ in range(4)} & before
 
 
 def test_processes_that_cannot_start_say_so_quickly(monkeypatch):
@@ -126,7 +166,7 @@ def test_processes_that_cannot_start_say_so_quickly(monkeypatch):
     started = time.monotonic()
     with pytest.raises(EstimatorUnavailableError):
         broken.body(task())
-    assert time.monotonic() - started < 5.0
+    assert time.monotonic() - started < processes.READY_WITHIN_S
     broken.stop()
 
 
