@@ -1,0 +1,46 @@
+"""What a fit searched: every objective with the start and the end of the search over it."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+from fitter import pipeline
+from fitter.energies.objective import Objective
+from fitter.optimizer.alternation import BodySearch
+from fitter.optimizer.gauss_newton import EnergyObserver, Minimum
+from fitter.optimizer.search import body_search
+from fitter.parameters import BodyParameters
+from fitter.request import OptimizerKind
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Search:
+    """One search of a fit."""
+
+    objective: Objective
+    start: BodyParameters
+    end: Minimum
+
+
+@contextmanager
+def recorded_searches() -> Iterator[list[Search]]:
+    """While the context lasts, the searches of every fit in the order they were made."""
+    found: list[Search] = []
+
+    def recording(
+        kind: OptimizerKind, max_evaluations: int, on_energies: EnergyObserver
+    ) -> BodySearch:
+        search = body_search(kind, max_evaluations, on_energies)
+
+        def recorded(objective: Objective, start: BodyParameters) -> Minimum:
+            end = search(objective, start)
+            found.append(Search(objective=objective, start=start, end=end))
+            return end
+
+        return recorded
+
+    pipeline.body_search = recording
+    try:
+        yield found
+    finally:
+        pipeline.body_search = body_search

@@ -1,0 +1,54 @@
+"""The evaluation suite's pictures at the sizes that are timed."""
+
+import io
+from dataclasses import replace
+
+from PIL import Image as PillowImage
+
+from fitter.pipeline import fit
+from fitter.request import Click, Cues, FitRequest
+from tests.evaluation.cases import CASES
+from tests.evaluation.files import read_case
+from tests.evaluation.suite import fit_request
+
+_WARMING = 2
+"""Fits before the clock starts: compiled code is loaded and memory is kept."""
+
+_QUALITY = 90
+
+
+def suite_requests(
+    count: int, *, width: int, height: int, cues: Cues = Cues.SES
+) -> list[FitRequest]:
+    """The first ``count`` pictures of the suite, each at this size; past its end it begins anew."""
+    cases = list(CASES.values())
+    return [
+        resized(fit_request(read_case(cases[index % len(cases)]), cues), width=width, height=height)
+        for index in range(count)
+    ]
+
+
+def resized(request: FitRequest, *, width: int, height: int) -> FitRequest:
+    """The same request for the picture at another size of the same shape."""
+    with PillowImage.open(io.BytesIO(request.image)) as picture:
+        factor = width / picture.width
+        exif = picture.info.get("exif", b"")
+        same_shape = picture.resize((width, height), PillowImage.Resampling.LANCZOS)
+    stream = io.BytesIO()
+    same_shape.save(stream, "JPEG", quality=_QUALITY, exif=exif)
+    focal = request.focal_length_px
+    return replace(
+        request,
+        image=stream.getvalue(),
+        clicks={
+            name: Click(x=factor * click.x, y=factor * click.y, occluded=click.occluded)
+            for name, click in request.clicks.items()
+        },
+        focal_length_px=None if focal is None else factor * focal,
+    )
+
+
+def warm_up() -> None:
+    """Fit a few pictures untimed."""
+    for request in suite_requests(_WARMING, width=480, height=640):
+        fit(request)

@@ -1,0 +1,139 @@
+"""What a fit's cost grows with: size of the picture, number of starts, number of vertices."""
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+
+import numpy as np
+import qdldl
+import trimesh
+from scipy import sparse
+
+from fitter import pipeline
+from fitter.camera import Camera
+from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
+from fitter.numerics.mesh_topology import mesh_topology
+from fitter.numerics.supernodal import supernodal_factor
+from fitter.optimizer.search import limits_of
+from fitter.progress import Stage
+from fitter.render.contours import model_edges
+from fitter.render.rasterizer import render
+from fitter.training.text_tables import note_lines, table_lines
+from tests.benchmarks.requests import suite_requests, warm_up
+from tests.benchmarks.spent import TimedFit, median, timed, timed_fit
+
+WIDTHS = (240, 360, 480, 960, 1920, 3000)
+STARTS = (1, 2, 3, 4)
+SUBDIVISIONS = (3, 4, 5, 6)
+CAMERA = Camera(focal_length_px=800, centre_x=240, centre_y=320, width=480, height=640)
+_CALLS = 20
+
+
+def lines(count: int) -> Iterator[str]:
+    """Three tables."""
+    warm_up()
+    yield from _by_picture(count)
+    yield from _by_starts(count)
+    yield from _by_vertices()
+
+
+def _by_picture(count: int) -> Iterator[str]:
+    rows: list[tuple[str, ...]] = []
+    for width in WIDTHS:
+        height = width * 4 // 3
+        fits = [timed_fit(each) for each in suite_requests(count, width=width, height=height)]
+        camera = fits[0].result.camera
+        observed = [each.stages[Stage.OBSERVATION].processor_s for each in fits]
+        rows.append(
+            (
+                f"{width}x{height}",
+                f"{camera.width}x{camera.height}",
+                f"{median(observed):.3f}",
+                f"{_whole(fits) - median(observed):.2f}",
+                f"{_whole(fits):.2f}",
+            )
+        )
+    yield from table_lines(
+        f"Size of the picture, median processor seconds of {count} fits",
+        ("picture", "worked on at", "reading it", "the rest", "in all"),
+        rows,
+    )
+
+
+def _by_starts(count: int) -> Iterator[str]:
+    rows: list[tuple[str, ...]] = []
+    for starts in STARTS:
+        with _at_most(starts):
+            fits = [timed_fit(each) for each in suite_requests(count, width=480, height=640)]
+        searched = [each.stages[Stage.SILHOUETTE_AND_EDGES].processor_s for each in fits]
+        energies = [sum(each.result.energies.values()) for each in fits]
+        evaluations = [float(each.result.evaluations) for each in fits]
+        rows.append(
+            (
+                str(starts),
+                f"{median(searched):.2f}",
+                f"{_whole(fits):.2f}",
+                f"{median(evaluations):.0f}",
+                f"{np.mean(energies):.1f}",
+            )
+        )
+    yield from table_lines(
+        f"Readings of the clicks tried at most, medians of {count} fits, processor seconds",
+        ("starts", "silhouette_and_edges", "in all", "energies computed", "mean final energy"),
+        rows,
+    )
+
+
+@contextmanager
+def _at_most(starts: int) -> Iterator[None]:
+    """Fits in this context try so many readings of the clicks at most."""
+    pipeline.limits_of = lambda kind: replace(
+        limits_of(kind), hypotheses=starts, contenders=min(starts, limits_of(kind).contenders)
+    )
+    try:
+        yield
+    finally:
+        pipeline.limits_of = limits_of
+
+
+def _by_vertices() -> Iterator[str]:
+    rows = [_vertex_row(subdivisions) for subdivisions in SUBDIVISIONS]
+    yield from table_lines(
+        "Number of vertices, one egg in 480x640, median processor milliseconds a call",
+        ("vertices", "render", "model edges", "least squares, 3 columns"),
+        rows,
+    )
+    yield from note_lines(
+        "A body has 12,440 vertices. These are the parts of an energy that work on every vertex; "
+        "the terms of shape and pose grow in proportion to vertices as well."
+    )
+
+
+def _vertex_row(subdivisions: int) -> tuple[str, ...]:
+    mesh = trimesh.creation.icosphere(subdivisions=subdivisions)
+    vertices = np.array(mesh.vertices) * [0.5, 0.95, 0.4] + [0.0, 0.0, 3.2]
+    triangles = np.array(mesh.faces)
+    topology = mesh_topology(triangles, vertex_count=len(vertices))
+    rendering = render(vertices, triangles, CAMERA)
+    gradient = gradient_operator(vertices, triangles)
+    one_part = np.zeros(len(triangles), dtype=np.int64)
+    (laplacian,) = part_laplacians(gradient, np.ones(len(triangles)), one_part, 1)
+    matrix = sparse.lil_array(laplacian)
+    matrix[0, 0] += matrix.diagonal().mean()
+    lower, diagonal, permutation = qdldl.Solver(sparse.csc_matrix(matrix)).factors()
+    factor = supernodal_factor(sparse.csc_matrix(lower), diagonal, permutation)
+    actions: Sequence[Callable[[], object]] = (
+        lambda: render(vertices, triangles, CAMERA),
+        lambda: model_edges(rendering, topology),
+        lambda: factor.solve(vertices),
+    )
+    return (f"{len(vertices):,}", *(f"{_milliseconds(action):.2f}" for action in actions))
+
+
+def _milliseconds(action: Callable[[], object]) -> float:
+    action()
+    return 1e3 * median([timed(action)[1].processor_s for _ in range(_CALLS)])
+
+
+def _whole(fits: Sequence[TimedFit]) -> float:
+    return median([each.whole.processor_s for each in fits])
