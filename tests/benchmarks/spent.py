@@ -66,14 +66,15 @@ def timed_fit(request: FitRequest) -> TimedFit:
         if progress.stage not in begins:
             begins[progress.stage] = now()
 
-    result, whole = timed(lambda: fit(request, observer=observe))
+    began = now()
+    result = fit(request, observer=observe)
     end = now()
     ends = [*list(begins.values())[1:], end]
     model = packaged_body(result.gender).instruments.model
     _, export = timed(lambda: artifacts(result, model=model, image=request.image))
     return TimedFit(
         result=result,
-        whole=whole,
+        whole=end - began,
         export=export,
         stages={stage: ended - begins[stage] for stage, ended in zip(begins, ends, strict=True)},
     )
