@@ -7,6 +7,8 @@ times a fit, and building the objects costs more than the evaluation itself.
 import numpy as np
 from jaxtyping import Float
 
+from fitter.numerics._rotation_kernels import rodrigues
+
 _SMALL_ANGLE = 1e-8
 
 
@@ -16,14 +18,9 @@ def rotation_matrices(vectors: Float[np.ndarray, "k 3"]) -> Float[np.ndarray, "k
     R = I + sin(t)/t K + (1 - cos(t))/t² K², with K the cross-product matrix and t the angle.
     """
     vectors = np.asarray(vectors, dtype=np.float64)
-    squared = np.einsum("ki,ki->k", vectors, vectors)
-    angle = np.sqrt(squared)
-    small = angle < _SMALL_ANGLE
-    safe = np.where(small, 1.0, angle)
-    sine = np.where(small, 1.0 - squared / 6.0, np.sin(safe) / safe)
-    cosine = np.where(small, 0.5 - squared / 24.0, (1.0 - np.cos(safe)) / (safe * safe))
-    cross = cross_product_matrices(vectors)
-    return np.eye(3) + sine[:, None, None] * cross + cosine[:, None, None] * np.matmul(cross, cross)
+    matrices = np.empty((len(vectors), 3, 3))
+    rodrigues(vectors, _SMALL_ANGLE, matrices)
+    return matrices
 
 
 def cross_product_matrices(vectors: Float[np.ndarray, "k 3"]) -> Float[np.ndarray, "k 3 3"]:
