@@ -98,3 +98,34 @@ def gather_gradient(
                     rotation_gradient[part, r, c] += adjoint[vertex, r] * value
         feature_gradient[part, :width] = by_feature[:width]
     shape_gradient[:] = by_shape[1:]
+
+
+@no_type_check
+@njit(cache=True, fastmath=True)
+def place(vertices, root_weights, axes, translation, result):
+    """(x - root) * axes + translation; ``root_weights`` take the root joint from the vertices."""
+    root = np.zeros(3)
+    for v in range(len(vertices)):
+        weight = root_weights[v]
+        if weight != 0.0:
+            for c in range(3):
+                root[c] += weight * vertices[v, c]
+    for c in range(3):
+        root[c] = translation[c] - axes[c] * root[c]
+    for v in range(len(vertices)):
+        for c in range(3):
+            result[v, c] = axes[c] * vertices[v, c] + root[c]
+
+
+@no_type_check
+@njit(cache=True, fastmath=True)
+def place_reverse(derivative, root_weights, axes, result, by_translation):
+    """Reverse of :func:`place`: by vertices, and by translation."""
+    by_translation[:] = 0.0
+    for v in range(len(derivative)):
+        for c in range(3):
+            by_translation[c] += derivative[v, c]
+    for v in range(len(derivative)):
+        weight = root_weights[v]
+        for c in range(3):
+            result[v, c] = axes[c] * (derivative[v, c] - weight * by_translation[c])

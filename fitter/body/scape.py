@@ -17,7 +17,12 @@ from jaxtyping import Float, Integer
 from scipy import sparse
 
 from fitter.arrays import Pose, Rotations, Shape, Vector3, Vertices
-from fitter.body._scape_kernels import assemble_right_hand_side, gather_gradient
+from fitter.body._scape_kernels import (
+    assemble_right_hand_side,
+    gather_gradient,
+    place,
+    place_reverse,
+)
 from fitter.body.model import BodyModel, SparseRows
 from fitter.body.pose_features import axial_vectors, pose_derivative, pose_features
 from fitter.body.skeleton import descendants, global_rotations
@@ -79,10 +84,14 @@ class ScapeEvaluator:
 
     def vertices(self, parameters: BodyParameters) -> Vertices:
         """Posed vertices, camera frame, metres."""
-        return self.body_frame_vertices(parameters) * CAMERA_AXES + parameters.translation
+        return self._placed(parameters, CAMERA_AXES, parameters.translation)
 
     def body_frame_vertices(self, parameters: BodyParameters) -> Vertices:
         """Posed vertices in the body frame's axes, metres, root joint at the origin."""
+        return self._placed(parameters, np.ones(3), np.zeros(3))
+
+    def _placed(self, parameters: BodyParameters, axes: Vector3, translation: Vector3) -> Vertices:
+        """Posed vertices with the root joint at ``translation``, along body axes times ``axes``."""
         rotations = global_rotations(parameters.pose, self.model.part_parent)
         features = self._strengths(parameters.shape) * pose_features(
             parameters.pose, self.model.pose_feature_joints
@@ -99,8 +108,9 @@ class ScapeEvaluator:
             rotations,
             right_hand_side,
         )
-        vertices = self._factor.solve(right_hand_side)
-        return vertices - self._root_weights @ vertices
+        placed = np.empty_like(right_hand_side)
+        place(self._factor.solve(right_hand_side), self._root_weights, axes, translation, placed)
+        return placed
 
     def derivative(self, parameters: BodyParameters, vertex_derivative: Vertices) -> BodyDerivative:
         """Pull the derivative of a scalar with respect to camera-frame vertices back to the body.
@@ -112,10 +122,9 @@ class ScapeEvaluator:
         vertex_derivative
             (m, 3) derivative with respect to :meth:`vertices`.
         """
-        adjoint = vertex_derivative * CAMERA_AXES
-        translation = vertex_derivative.sum(axis=0)
-        adjoint = adjoint - self._root_weights[:, None] * adjoint.sum(axis=0)
-        adjoint = self._factor.solve(adjoint)
+        unsolved, translation = np.empty_like(vertex_derivative), np.empty(3)
+        place_reverse(vertex_derivative, self._root_weights, CAMERA_AXES, unsolved, translation)
+        adjoint = self._factor.solve(unsolved)
         rotations = global_rotations(parameters.pose, self.model.part_parent)
         strengths = self._strengths(parameters.shape)
         unscaled = pose_features(parameters.pose, self.model.pose_feature_joints)

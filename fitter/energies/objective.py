@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Points3D, Vertices
-from fitter.body.pose_prior import prior_terms
+from fitter.body.pose_prior import prior_residuals
 from fitter.body.skeleton import regress
 from fitter.camera import Camera
 from fitter.energies.attributes import NOTHING_KNOWN, KnownAttributes, attribute_energy
@@ -95,7 +95,7 @@ class Objective:
             "clicks": click_energy(landmarks, evidence.clicks, evidence.camera, scales),
             "shape_prior": shape_prior_energy(parameters.shape),
             "pose_prior": 0.5
-            * float((prior_terms(instruments.pose_prior, parameters.pose).residuals ** 2).sum()),
+            * float((prior_residuals(instruments.pose_prior, parameters.pose) ** 2).sum()),
         }
         lean, _ = lean_residual(parameters.pose)
         energies["pose_prior"] += 0.5 * lean * lean

@@ -12,6 +12,7 @@ import numpy as np
 from jaxtyping import Bool
 
 from fitter.arrays import PerVertex, Vector3
+from fitter.energies._shading_kernels import facing_camera
 from fitter.energies.rows import ShadingRows
 from fitter.energies.scales import EnergyScales
 from fitter.evidence.intensity import IntensityMap
@@ -57,9 +58,14 @@ class ShadingEvidence:
 
 def seen_vertices(rendering: Rendering, intensity: IntensityMap) -> Bool[np.ndarray, " m"]:
     """Visible vertices, not near the rim, whose pixel is neither clipped nor off the person."""
-    rays = rendering.vertices / np.linalg.norm(rendering.vertices, axis=1, keepdims=True)
-    facing = -np.einsum("mi,mi->m", rays, rendering.vertex_normals)
-    seen = rendering.vertex_visible & (facing > _LEAST_FACING)
+    seen = np.empty_like(rendering.vertex_visible)
+    facing_camera(
+        rendering.vertices,
+        rendering.vertex_normals,
+        rendering.vertex_visible,
+        _LEAST_FACING,
+        seen,
+    )
     seen[seen] = intensity.trusted_at(rendering.projected[seen])
     return seen
 
