@@ -1,5 +1,6 @@
 """The paper on one page: from a picture and clicks to a measured, posed and lit body."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -80,18 +81,19 @@ def fit(
     limits = limits_of(request.optimizer)
     with clock.stage(Stage.SEGMENTATION) as report:
         labels, segmentation = _segmented(observation, body, initial.parameters, 1.0)
-        coarse = _silhouette_and_edges(
-            observation, body, initial, segmentation, person.attributes, FAR_BOUNDARY_ETA_M
-        )
+        coarse = _silhouette_and_edges(observation, body, initial, segmentation, person.attributes)
         nearer = body_search(request.optimizer, limits.trial, report)(coarse, initial.parameters)
         labels, segmentation = _segmented(
             observation, body, nearer.candidate.parameters, RESEGMENTED_BAND
         )
     with clock.stage(Stage.SILHOUETTE_AND_EDGES) as report:
         hypotheses = initial.hypotheses[: limits.hypotheses]
-        far, objective = (
-            _silhouette_and_edges(observation, body, initial, segmentation, person.attributes, eta)
-            for eta in (FAR_BOUNDARY_ETA_M, NEAR_BOUNDARY_ETA_M)
+        far = _with_silhouette(coarse, segmentation)
+        objective = replace(
+            far,
+            scales=scales_at(
+                observation.camera, initial.root_depth_m, boundary_eta_m=NEAR_BOUNDARY_ETA_M
+            ),
         )
         tried = try_hypotheses(
             far,
@@ -215,9 +217,8 @@ def _silhouette_and_edges(
     initial: InitialPose,
     segmentation: Segmentation,
     attributes: KnownAttributes,
-    boundary_eta_m: float,
 ) -> Objective:
-    """E1 of this picture."""
+    """E1 of this picture, with a boundary that pulls from afar."""
     depth = initial.root_depth_m
     pixels_per_metre = observation.camera.focal_length_px / depth
     confidence = _outline_confidence(observation, body, initial.parameters, pixels_per_metre)
@@ -232,9 +233,16 @@ def _silhouette_and_edges(
             ),
             shading=None,
         ),
-        scales=scales_at(observation.camera, depth, boundary_eta_m=boundary_eta_m),
+        scales=scales_at(observation.camera, depth, boundary_eta_m=FAR_BOUNDARY_ETA_M),
         attributes=attributes,
     )
+
+
+def _with_silhouette(objective: Objective, segmentation: Segmentation) -> Objective:
+    """The same picture with the person cut out anew."""
+    evidence = objective.evidence
+    silhouette = silhouette_evidence(segmentation.mask, evidence.silhouette.confidence)
+    return replace(objective, evidence=replace(evidence, silhouette=silhouette))
 
 
 def _outline_confidence(
