@@ -40,6 +40,13 @@ DIFFERENCE_STEP = 1e-3
 is of second order; a change of 1e-3 moves a girth by about 0.05 mm, far above rounding."""
 
 
+UNEXPLAINED_KEY = "unexplained_measurements"
+"""Of a model's header: by name, how much people differ from the nearest body of the model."""
+
+_HELD_VARIANCE = 1e-8
+"""A measurement that varies less is one that was given and held."""
+
+
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class MeasuringBody:
     """A body model made ready for measuring; one per model, shared by all fits.
@@ -58,6 +65,9 @@ class MeasuringBody:
         Rows of landmarks, then of joints, which have a prefix to their names.
     canonical_points, standing_points
         Those points in the canonical and in the standing pose.
+    unexplained
+        (k,) how much people differ in each measurement from the nearest body of the model, one
+        standard deviation: what no fit can know of them.
     """
 
     definitions: tuple[MeasurementDefinition, ...]
@@ -68,6 +78,7 @@ class MeasuringBody:
     points: SparseRows
     canonical_points: AffineBody
     standing_points: AffineBody
+    unexplained: Float[np.ndarray, " k"]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -111,7 +122,17 @@ def measuring_body(
         points=points,
         canonical_points=_points(points, canonical),
         standing_points=_points(points, standing),
+        unexplained=_unexplained(model, definitions),
     )
+
+
+def _unexplained(
+    model: BodyModel, definitions: Sequence[MeasurementDefinition]
+) -> Float[np.ndarray, " k"]:
+    """Zero where the header says nothing, as of models that were given no people to test on."""
+    said = model.header.get(UNEXPLAINED_KEY)
+    by_name = said if isinstance(said, Mapping) else {}
+    return np.array([float(by_name.get(each.about.name, 0.0)) for each in definitions])
 
 
 def measure(
@@ -129,7 +150,8 @@ def measure(
     shape
         (n,) coefficients, standard deviations.
     shape_covariance
-        Covariance of ``shape`` at the final body; gives every measurement J Σ Jᵀ as its variance.
+        Covariance of ``shape`` at the final body; gives every measurement J Σ Jᵀ as its variance,
+        and what the shapes leave unexplained besides, but for what is held.
 
     Raises
     ------
@@ -147,6 +169,7 @@ def measure(
     if shape_covariance is not None:
         jacobian = _jacobian(body, shape, placements)
         variances = np.einsum("kn,nj,kj->k", jacobian, shape_covariance, jacobian)
+        variances += np.where(variances > _HELD_VARIANCE, body.unexplained**2, 0.0)
         errors = [float(e) for e in np.sqrt(np.maximum(variances, 0.0))]
     return tuple(
         Measurement(

@@ -1,9 +1,17 @@
 """The figures a build measures and the model's header keeps."""
 
+import numpy as np
+from jaxtyping import Float
+
+from fitter.body.model import BodyModel
+from fitter.measurement.anthropometry import UNEXPLAINED_KEY
+from fitter.measurement.definitions import load_definitions
 from fitter.training.assemble import RegisteredBodies, TrainedModel
 from fitter.training.body_regions import vertex_regions
 from fitter.training.comparison_figures import HEADER_KEY, comparison_figures
+from fitter.training.evaluation import shape_residuals
 from fitter.training.held_out_errors import HeldOutErrors, header_entry
+from fitter.training.measured_people import measured_bodies
 from fitter.training.model_figures import model_figures
 from fitter.training.provenance import model_statistics
 from fitter.training.shape_curve import error_by_count, error_by_metric
@@ -28,4 +36,18 @@ def header_figures(
             taught.rest, held_out.rest, model.triangles, regions, taught.measurements
         ),
         HEADER_KEY: comparison_figures(trained, held_out.rest),
+        UNEXPLAINED_KEY: unexplained_measurements(model, held_out.rest),
+    }
+
+
+def unexplained_measurements(
+    model: BodyModel, rest: Float[np.ndarray, "s m 3"]
+) -> dict[str, float]:
+    """Root mean square by which held-out bodies measure other than when rebuilt from n."""
+    true = measured_bodies(model, rest)
+    rebuilt = measured_bodies(model, rest - shape_residuals(model, rest))
+    spread = np.sqrt(np.mean((rebuilt - true) ** 2, axis=0))
+    return {
+        definition.about.name: round(float(value), 4)
+        for definition, value in zip(load_definitions(), spread, strict=True)
     }
