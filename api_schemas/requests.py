@@ -133,7 +133,7 @@ class FitRequest(FitOptions):
     webhook: WebhookTarget | None = None
 
 
-class FitOfImage(FitRequest):
+class FitOfImage(FitOptions):
     """A submission whose picture was uploaded before."""
 
     image_id: ImageId

@@ -1,4 +1,4 @@
-"""``maquette serve``: the API in this process, a worker in another."""
+"""``maquette serve``: the API in this process, a worker and estimators in others."""
 
 import logging
 import os
@@ -15,6 +15,7 @@ from service.supervisor import SupervisedWorker
 LOG: Final = logging.getLogger(__name__)
 
 WORKER_COMMAND: Final = (sys.executable, "-m", "service.worker")
+ESTIMATOR_COMMAND: Final = (sys.executable, "-m", "service.estimates")
 STOP_MARGIN_S: Final = 5.0
 """What a worker gets beyond its drain time before it is killed."""
 
@@ -22,7 +23,9 @@ STOP_MARGIN_S: Final = 5.0
 def listen(settings: Settings) -> socket.socket:
     """Bind the API's address; port 0 takes a free one."""
     family = socket.AF_INET6 if ":" in settings.host else socket.AF_INET
-    listener = socket.socket(family, socket.SOCK_STREAM)
+    # With its protocol named, asyncio sends what is written at once: else each answer over a kept
+    # connection would wait for the acknowledgement of its headers, 40 ms.
+    listener = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         listener.bind((settings.host, settings.port))
@@ -37,6 +40,7 @@ def serve(
     listener: socket.socket,
     *,
     worker_command: Sequence[str] | None = WORKER_COMMAND,
+    estimator_command: Sequence[str] = ESTIMATOR_COMMAND,
     announce: Callable[[str], None] = LOG.info,
 ) -> None:
     """Serve until interrupted; without a ``worker_command`` the workers run elsewhere.
@@ -52,7 +56,14 @@ def serve(
             environment=os.environ | settings.environment(),
             stop_timeout_s=settings.drain_s + STOP_MARGIN_S,
         )
-    # Imported while the worker starts: each of the two takes a second or more to load.
+    # Imported while the others start: each takes a second or more to load.
+    from service.estimates.pool import EstimatorPool
+
+    estimators = EstimatorPool(
+        estimator_command,
+        environment=os.environ | settings.environment(),
+        processes=settings.estimator_processes,
+    )
     from service.api.app import create_app
     from service.api.server import ApiServer
     from service.blobs import open_blob_store
@@ -77,7 +88,12 @@ def serve(
     )
     draining = threading.Event()
     app = create_app(
-        settings=settings, engine=engine, blobs=blobs, keys=KeyRing(database), draining=draining
+        settings=settings,
+        engine=engine,
+        blobs=blobs,
+        estimator=estimators,
+        keys=KeyRing(database),
+        draining=draining,
     )
     server = ApiServer(
         app, log_level=settings.log_level, draining=draining, stop_delay_s=settings.stop_delay_s
@@ -94,6 +110,7 @@ def serve(
     finally:
         if worker is not None:
             worker.stop()
+        estimators.stop()
         engine.close()
         tracing.stop()
 

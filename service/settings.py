@@ -98,6 +98,14 @@ class Settings(BaseSettings):
         ge=1,
         description="Fits one worker runs side by side; the number of CPU cores if unset.",
     )
+    estimator_processes: int = Field(
+        default=1,
+        ge=1,
+        description=(
+            "Processes beside the API that answer bodies and initial poses, one question at a time "
+            "each; about 400 MB each."
+        ),
+    )
     job_time_limit_s: float = Field(
         default=600.0, gt=0.0, description="A fit is stopped after this many seconds."
     )

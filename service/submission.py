@@ -7,10 +7,8 @@ The API makes them at ``POST``, the command line before it fits. What only a dec
 from dataclasses import dataclass
 from typing import Final
 
-from pydantic import ValidationError
-
 from api_schemas.points import PointsFormat
-from api_schemas.problems import FieldProblem, problem
+from api_schemas.problems import FieldProblem
 from api_schemas.requests import FitOptions
 from service.image_header import (
     DamagedImageError,
@@ -19,8 +17,8 @@ from service.image_header import (
     read_image_header,
 )
 from service.point_rules import checked_points
-from service.refusal import RefusedError, refused
-from service.validation import field_problems
+from service.refusal import refused
+from service.validation import parsed
 
 ACCEPTED_KINDS: Final = "JPEG, PNG or WebP"
 
@@ -53,11 +51,28 @@ def check_submission(
     RefusedError
         With the problem to answer.
     """
-    options = _parse(request)
-    header = _check_picture("image", image, max_pixels=max_pixels)
+    return check_parts(
+        parsed(FitOptions, request, whole="request", called="the part 'request'"),
+        image=image,
+        mask=mask,
+        max_pixels=max_pixels,
+    )
+
+
+def check_parts(
+    options: FitOptions, *, image: bytes, mask: bytes | None, max_pixels: int
+) -> CheckedSubmission:
+    """Check options and encoded pictures against each other, as :func:`check_submission` does.
+
+    Raises
+    ------
+    RefusedError
+        With the problem to answer.
+    """
+    header = check_picture("image", image, max_pixels=max_pixels)
     mask_media_type = None
     if mask is not None:
-        mask_header = _check_picture("mask", mask, max_pixels=max_pixels)
+        mask_header = check_picture("mask", mask, max_pixels=max_pixels)
         _check_same_size(header, mask_header)
         mask_media_type = mask_header.media_type
     points = checked_points(
@@ -70,27 +85,14 @@ def check_submission(
     )
 
 
-def _parse(request: bytes) -> FitOptions:
-    try:
-        return FitOptions.model_validate_json(request)
-    except ValidationError as error:
-        errors = field_problems(error.errors())
-        if any(each.code == "invalid-json" for each in errors):
-            first = errors[0]
-            raise RefusedError(
-                problem(
-                    "malformed-request",
-                    detail=f"The part 'request' is not JSON: {first.reason}",
-                    remedy=first.remedy,
-                    code=first.code,
-                    field="request",
-                    errors=errors,
-                )
-            ) from error
-        raise refused(*errors) from error
+def check_picture(field: str, content: bytes, *, max_pixels: int) -> ImageHeader:
+    """Check an encoded picture by its header alone; nothing is decoded.
 
-
-def _check_picture(field: str, content: bytes, *, max_pixels: int) -> ImageHeader:
+    Raises
+    ------
+    RefusedError
+        If it is empty, of another kind, damaged, animated or larger than ``max_pixels``.
+    """
     if not content:
         raise refused(
             FieldProblem(

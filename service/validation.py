@@ -1,11 +1,15 @@
 """Pydantic's errors as field problems: which field, what is wrong, what to do."""
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Final
+from typing import Any, Final, TypeVar
 
+from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
-from api_schemas.problems import FieldProblem
+from api_schemas.problems import FieldProblem, problem
+from service.refusal import RefusedError, refused
+
+Model = TypeVar("Model", bound=BaseModel)
 
 Context = Mapping[str, Any]
 
@@ -35,6 +39,44 @@ _REMEDIES: Final[Mapping[str, tuple[str, Callable[[Context], str]]]] = {
     ),
     "json_invalid": ("invalid-json", lambda _: "Send well-formed JSON."),
 }
+
+
+def parsed(kind: type[Model], text: bytes, *, whole: str, called: str) -> Model:
+    """Read JSON text as a wire type.
+
+    Parameters
+    ----------
+    kind
+        The type.
+    text
+        The JSON text.
+    whole
+        Names what is at fault when no field of it is.
+    called
+        What the text is to the caller, for sentences: ``the body``.
+
+    Raises
+    ------
+    RefusedError
+        400 if it is not JSON, 422 if it is not of this type.
+    """
+    try:
+        return kind.model_validate_json(text)
+    except ValidationError as error:
+        errors = field_problems(error.errors(), whole=whole)
+        if not any(each.code == "invalid-json" for each in errors):
+            raise refused(*errors) from error
+        first = errors[0]
+        raise RefusedError(
+            problem(
+                "malformed-request",
+                detail=f"{called[:1].upper()}{called[1:]} is not JSON: {first.reason}",
+                remedy=first.remedy,
+                code=first.code,
+                field=whole,
+                errors=errors,
+            )
+        ) from error
 
 
 def field_problems(

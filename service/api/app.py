@@ -11,11 +11,14 @@ from fastapi import FastAPI
 from starlette.middleware.cors import CORSMiddleware
 
 from service.api import (
+    bodies,
     body_models,
     documentation,
     events,
     fits,
     health,
+    images,
+    initial_poses,
     metrics,
     problem_types,
     results,
@@ -24,6 +27,7 @@ from service.api import (
 from service.api.authentication import Authentication, KeySource, KnownKeys
 from service.api.body_limit import BodyLimit
 from service.api.context import Parts
+from service.api.estimates import Estimates
 from service.api.event_feed import EventFeed
 from service.api.figures import Figures
 from service.api.local_guard import LocalGuard
@@ -34,6 +38,7 @@ from service.api.rate_limit import RateLimit
 from service.api.security_headers import SecurityHeaders
 from service.blobs import BlobStore
 from service.engine.port import JobEngine
+from service.estimates.port import Estimator
 from service.settings import Settings
 
 API_VERSION: Final = "1.0.0"
@@ -69,10 +74,11 @@ def create_app(
     settings: Settings,
     engine: JobEngine,
     blobs: BlobStore,
+    estimator: Estimator,
     keys: KeySource,
     draining: threading.Event,
 ) -> FastAPI:
-    """Build the application on an engine, a blob store and keys that live as long as it does.
+    """Build the application on an engine, blobs, estimators and keys that outlive it.
 
     ``draining`` is set once the process is told to stop: it is then no longer ready, and event
     streams end.
@@ -93,6 +99,7 @@ def create_app(
         settings=settings,
         engine=engine,
         blobs=blobs,
+        estimates=Estimates(estimator),
         feed=feed,
         figures=figures,
         draining=draining,
@@ -148,6 +155,9 @@ def _resources(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]] 
         fits,
         events,
         results,
+        images,
+        initial_poses,
+        bodies,
         body_models,
         health,
         metrics,

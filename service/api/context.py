@@ -6,10 +6,11 @@ from typing import Annotated, Final
 
 from fastapi import Depends, Request
 
+from service.api.estimates import Estimates
 from service.api.event_feed import EventFeed
 from service.api.figures import Figures
 from service.blobs import BlobStore
-from service.engine.port import JobEngine, TenantJobs
+from service.engine.port import JobEngine, TenantImages, TenantJobs
 from service.settings import Settings
 
 SOLE_TENANT: Final = "default"
@@ -18,11 +19,12 @@ SOLE_TENANT: Final = "default"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Parts:
-    """Settings, engine, blobs, the feed of events, figures; ``draining`` once told to stop."""
+    """Settings, engine, blobs, estimates, events, figures; ``draining`` once told to stop."""
 
     settings: Settings
     engine: JobEngine
     blobs: BlobStore
+    estimates: Estimates
     feed: EventFeed
     figures: Figures
     draining: threading.Event
@@ -30,16 +32,18 @@ class Parts:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ApiContext:
-    """The parts as one request may use them: ``jobs`` are those of its tenant."""
+    """The parts as one request may use them: ``jobs`` and ``images`` are those of its tenant."""
 
     settings: Settings
     engine: JobEngine
     blobs: BlobStore
+    estimates: Estimates
     feed: EventFeed
     figures: Figures
     draining: threading.Event
     tenant: str
     jobs: TenantJobs
+    images: TenantImages
     request_id: str | None
 
 
@@ -50,11 +54,13 @@ def _context(request: Request) -> ApiContext:
         settings=parts.settings,
         engine=parts.engine,
         blobs=parts.blobs,
+        estimates=parts.estimates,
         feed=parts.feed,
         figures=parts.figures,
         draining=parts.draining,
         tenant=tenant,
         jobs=parts.engine.of(tenant),
+        images=parts.engine.images_of(tenant),
         request_id=getattr(request.state, "request_id", None),
     )
 

@@ -4,9 +4,13 @@ from typing import Any
 
 from pydantic.json_schema import models_json_schema
 
+from api_schemas.base import WireModel
+from api_schemas.bodies import BodyEstimate, BodyRequest
+from api_schemas.images import UploadedImage
+from api_schemas.initial_poses import InitialPose, InitialPoseRequest
 from api_schemas.jobs import EventData
 from api_schemas.problems import PROBLEM_MEDIA_TYPE, Problem
-from api_schemas.requests import FitOptions
+from api_schemas.requests import FitOfImage, FitOptions
 from service.api.problems import documented
 
 _ANSWERED_EVERYWHERE = {
@@ -53,8 +57,10 @@ def complete_openapi(document: dict[str, Any]) -> dict[str, Any]:
     return document
 
 
-def _models(mode: str) -> tuple[type[FitOptions] | type[Problem] | type[EventData], ...]:
-    return (FitOptions,) if mode == "validation" else (Problem, EventData)
+def _models(mode: str) -> tuple[type[WireModel], ...]:
+    if mode == "validation":
+        return (FitOptions, FitOfImage, BodyRequest, InitialPoseRequest)
+    return (Problem, EventData, BodyEstimate, InitialPose, UploadedImage)
 
 
 def _is_fastapi_error(operation: dict[str, Any]) -> bool:

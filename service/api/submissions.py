@@ -10,9 +10,14 @@ from uuid import uuid4
 from fastapi import APIRouter, Header, Request, Response
 from starlette.concurrency import run_in_threadpool
 
+from api_schemas.bodies import BodyRequest
 from api_schemas.jobs import Job
 from api_schemas.problems import problem
+from api_schemas.requests import FitOfImage, FitOptions
 from service.api.context import ApiContext, Context
+from service.api.examples import FIT_OF_IMAGE
+from service.api.images import image_content
+from service.api.json_bodies import JSON, json_content, media_type, read_json_text
 from service.api.problems import ProblemError, documented, not_found
 from service.api.representation import POLL_AFTER_S, job_path, represent
 from service.api.uploads import Upload, read_upload
@@ -25,9 +30,11 @@ from service.engine.port import (
     Submission,
     SubmitOutcome,
 )
+from service.estimates.messages import BodyTask
 from service.jobs import ACTIVE
-from service.submission import CheckedSubmission, check_submission
+from service.submission import CheckedSubmission, check_parts, check_submission
 from service.tracing import current_traceparent
+from service.validation import parsed
 
 ROUTER: Final = APIRouter(prefix="/v1/fits", tags=["fits"])
 
@@ -64,7 +71,8 @@ _SUBMISSION: Final[dict[str, Any]] = {
                     "request": {"contentType": "application/json"},
                     "mask": {"contentType": "image/jpeg, image/png, image/webp"},
                 },
-            }
+            },
+            JSON: json_content(FitOfImage, FIT_OF_IMAGE),
         },
     }
 }
@@ -90,6 +98,7 @@ _ACCEPTED_HEADERS: Final = {
         "payload-too-large",
         "unsupported-media-type",
         "invalid-request",
+        "unusable-input",
         "idempotency-key-reused",
         "too-many-requests",
         "queue-full",
@@ -106,11 +115,25 @@ async def submit(
 ) -> Job:
     """Accept a picture with its points; the answer is a job to follow.
 
+    The picture comes along, or was uploaded to `/v1/images` before: then the body is JSON and names
+    it by `image_id`.
+
     The same `Idempotency-Key` with the same content answers with the earlier job. With
     `Prefer: wait=N` (at most 60 s) the answer waits for the job's end.
     """
-    upload = await read_upload(request)
-    submission = await run_in_threadpool(_store, context, upload, idempotency_key)
+    if media_type(request) == JSON:
+        text = await read_json_text(request)
+        checked, upload = await run_in_threadpool(_check_fit_of_image, context, text)
+    else:
+        upload = await read_upload(request)
+        checked = await run_in_threadpool(_check, context, upload)
+    job_id = str(uuid4())
+    idempotency = _idempotency(idempotency_key, upload)
+    # From here on the job's scope is erased by itself unless the job is accepted.
+    submission = await run_in_threadpool(context.jobs.reserve, job_id, idempotency)
+    if submission.outcome is SubmitOutcome.ACCEPTED:
+        await _refuse_nobody(context, checked.options)
+        submission = await run_in_threadpool(_store, context, job_id, upload, checked, idempotency)
     job = _accepted(submission)
     wait_s = _preferred_wait_s(prefer)
     if wait_s > 0:
@@ -124,19 +147,55 @@ async def submit(
     return represent(job)
 
 
-def _store(context: ApiContext, upload: Upload, idempotency_key: str | None) -> Submission:
-    checked = check_submission(
+def _check(context: ApiContext, upload: Upload) -> CheckedSubmission:
+    return check_submission(
         request=upload.request,
         image=upload.image,
         mask=upload.mask,
         max_pixels=context.settings.max_pixels,
     )
-    job_id = str(uuid4())
-    idempotency = _idempotency(idempotency_key, upload)
-    # From here on the job's scope is erased by itself unless the job is accepted.
-    reserved = context.jobs.reserve(job_id, idempotency)
-    if reserved.outcome is not SubmitOutcome.ACCEPTED:
-        return reserved
+
+
+def _check_fit_of_image(context: ApiContext, text: bytes) -> tuple[CheckedSubmission, Upload]:
+    asked = parsed(FitOfImage, text, whole="body", called="the body")
+    upload = Upload(
+        request=text,
+        image=image_content(context, asked.image_id, field="image_id"),
+        mask=None
+        if asked.mask_id is None
+        else image_content(context, asked.mask_id, field="mask_id"),
+    )
+    checked = check_parts(
+        FitOptions.model_construct(
+            **{name: getattr(asked, name) for name in FitOptions.model_fields}
+        ),
+        image=upload.image,
+        mask=upload.mask,
+        max_pixels=context.settings.max_pixels,
+    )
+    return checked, upload
+
+
+async def _refuse_nobody(context: ApiContext, options: FitOptions) -> None:
+    """Refuse what the job would be refused for: measurements that nobody has together."""
+    if not options.measurements and options.weight_kg is None:
+        return
+    known = BodyRequest(
+        gender=options.gender,
+        height_m=options.height_m,
+        weight_kg=options.weight_kg,
+        measurements=options.measurements,
+    )
+    await context.estimates.refuse_nobody(BodyTask(request=known, with_glb=False))
+
+
+def _store(
+    context: ApiContext,
+    job_id: str,
+    upload: Upload,
+    checked: CheckedSubmission,
+    idempotency: Idempotency | None,
+) -> Submission:
     try:
         job = _stored(context, job_id, upload, checked, idempotency)
     except BlobsUnavailableError:

@@ -1,5 +1,6 @@
 """Read the multipart body of a submission."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -9,9 +10,12 @@ from starlette.datastructures import UploadFile
 from starlette.exceptions import HTTPException
 
 from api_schemas.problems import FieldProblem, field_problem, problem
+from service.api.json_bodies import media_type, unsupported
 from service.api.problems import ProblemError
 
-PARTS: Final = frozenset({"image", "request", "mask"})
+NEEDED_PARTS: Final = ("image", "request")
+PARTS: Final = (*NEEDED_PARTS, "mask")
+MULTIPART: Final = "multipart/form-data"
 MAX_REQUEST_PART_BYTES: Final = 1_000_000
 
 
@@ -32,25 +36,44 @@ async def read_upload(request: Request) -> Upload:
     ProblemError
         If the body is no multipart form, or a part is missing, unknown or doubled.
     """
-    content_type = request.headers.get("content-type", "").partition(";")[0].strip().lower()
-    if content_type != "multipart/form-data":
-        raise ProblemError(
-            problem(
-                "unsupported-media-type",
-                detail=f"The body is {content_type or 'of no declared kind'}.",
-                remedy="Send multipart/form-data with the parts 'image' and 'request'.",
+    if media_type(request) != MULTIPART:
+        raise unsupported(
+            request,
+            remedy=(
+                f"Send {MULTIPART} with the parts 'image' and 'request', or application/json with "
+                "the image_id of an uploaded picture."
             ),
-            headers={"Accept-Post": "multipart/form-data"},
+            accepted=f"{MULTIPART}, application/json",
         )
     form = await _form(request)
     try:
-        _check_parts(form)
+        _check_parts(form, needed=NEEDED_PARTS, known=PARTS)
         mask = form.get("mask")
         return Upload(
             request=await _content(form["request"]),
             image=await _content(form["image"]),
             mask=None if mask is None else await _content(mask),
         )
+    finally:
+        await form.close()
+
+
+async def read_image(request: Request) -> bytes:
+    """Read the one part of an upload that is nothing but a picture.
+
+    Raises
+    ------
+    ProblemError
+        If the body is no multipart form, or has other parts than ``image``.
+    """
+    if media_type(request) != MULTIPART:
+        raise unsupported(
+            request, remedy=f"Send {MULTIPART} with the part 'image'.", accepted=MULTIPART
+        )
+    form = await _form(request)
+    try:
+        _check_parts(form, needed=("image",), known=("image",))
+        return await _content(form["image"])
     finally:
         await form.close()
 
@@ -70,7 +93,7 @@ async def _form(request: Request) -> FormData:
         ) from error
 
 
-def _check_parts(form: FormData) -> None:
+def _check_parts(form: FormData, *, needed: Sequence[str], known: Sequence[str]) -> None:
     names = [name for name, _ in form.multi_items()]
     errors = [
         FieldProblem(
@@ -79,7 +102,7 @@ def _check_parts(form: FormData) -> None:
             reason=f"The part '{name}' is missing.",
             remedy=f"Send a multipart part named '{name}'.",
         )
-        for name in ("image", "request")
+        for name in needed
         if name not in names
     ]
     errors += [
@@ -87,10 +110,10 @@ def _check_parts(form: FormData) -> None:
             field=name,
             code="unknown-field",
             reason=f"There is no part called '{name}'.",
-            remedy="Send the parts 'image', 'request' and, if you have one, 'mask'.",
+            remedy=f"Parts there are: {', '.join(known)}.",
         )
         for name in dict.fromkeys(names)
-        if name not in PARTS
+        if name not in known
     ]
     errors += [
         FieldProblem(
@@ -100,7 +123,7 @@ def _check_parts(form: FormData) -> None:
             remedy="Send it once.",
         )
         for name in dict.fromkeys(names)
-        if name in PARTS and names.count(name) > 1
+        if name in known and names.count(name) > 1
     ]
     if errors:
         raise ProblemError(field_problem("invalid-request", *errors))

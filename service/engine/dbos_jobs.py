@@ -13,6 +13,7 @@ from api_schemas.body_models import BodyModels
 from api_schemas.jobs import JobState
 from service.blobs import BlobStore
 from service.engine.availability import available
+from service.engine.images import StoredImages
 from service.engine.liveness import WorkerWatch
 from service.engine.port import EngineStatistics, EngineUnavailableError, WorkerStatus
 from service.engine.queue import APPLICATION
@@ -84,6 +85,10 @@ class DbosJobEngine:
             max_queued_per_tenant=self._max_queued_per_tenant,
             retention_s=self._retention_s,
         )
+
+    def images_of(self, tenant: str) -> StoredImages:
+        """Return the uploaded pictures of a tenant."""
+        return StoredImages(tenant, database=self._database, retention_s=self._retention_s)
 
     @available
     def last_events(self, job_ids: Sequence[str]) -> dict[str, int]:

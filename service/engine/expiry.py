@@ -14,7 +14,7 @@ from typing import Final
 import sqlalchemy as sa
 
 from api_schemas.jobs import JobState
-from service.engine.tables import ERASURES, JOBS, TOMBSTONES
+from service.engine.tables import ERASURES, IMAGES, JOBS, TOMBSTONES
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -119,6 +119,18 @@ def expire_jobs(connection: sa.Connection) -> int:
     )
     enter_erasures(connection, [row.id for row in rows], due_at=now)
     return len(rows)
+
+
+def expire_images(connection: sa.Connection) -> int:
+    """Forget the uploaded pictures whose time is over; returns how many."""
+    now = time.time()
+    scopes = list(
+        connection.execute(
+            sa.delete(IMAGES).where(IMAGES.c.expires_at <= now).returning(IMAGES.c.scope)
+        ).scalars()
+    )
+    enter_erasures(connection, scopes, due_at=now)
+    return len(scopes)
 
 
 def drop_old_tombstones(connection: sa.Connection) -> None:

@@ -159,6 +159,74 @@ class TenantJobs(Protocol):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class NewImage:
+    """An uploaded picture to keep; its blob, named ``id``, is in ``scope`` already.
+
+    ``width`` and ``height`` are those of the upright picture.
+    """
+
+    id: str
+    scope: str
+    media_type: str
+    width: int
+    height: int
+    size: int
+    focal_length_35mm: float | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ImageRecord(NewImage):
+    """A picture as kept; times are seconds since the epoch."""
+
+    created_at: float
+    expires_at: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class KeptImage:
+    """The picture, and whether it is the one just brought or was there already."""
+
+    record: ImageRecord
+    is_new: bool
+
+
+class TenantImages(Protocol):
+    """The uploaded pictures of one tenant: no other's can be seen or touched through it.
+
+    Every method may raise :class:`EngineUnavailableError`.
+    """
+
+    def find(self, image_id: str) -> ImageRecord | None:
+        """Return the picture, or None if there is none or its time is over."""
+        ...
+
+    def renew(self, image_id: str) -> ImageRecord | None:
+        """Begin the picture's time anew, if there is such a picture."""
+        ...
+
+    def reserve(self, scope: str) -> None:
+        """Say that a picture is about to be stored in a scope.
+
+        Should nothing come of it, the scope is erased after an hour.
+        """
+        ...
+
+    def keep(self, image: NewImage) -> KeptImage | None:
+        """Keep a picture whose scope was reserved, or return the same one kept before.
+
+        None if its scope was taken for abandoned and erased meanwhile.
+        """
+        ...
+
+    def erase(self, image_id: str) -> str | None:
+        """Forget the picture; returns its scope, which is the caller's to erase, if there was one.
+
+        Should the caller not come to it, the sweep does.
+        """
+        ...
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class WorkerStatus:
     """A worker as seen from here: how long ago its heart was seen to beat, by our own clock.
 
@@ -191,13 +259,17 @@ class EngineStatistics:
 
 
 class JobEngine(Protocol):
-    """The caller's side: jobs of tenants, and the state of the whole.
+    """The caller's side: jobs and pictures of tenants, and the state of the whole.
 
-    Every method but ``of`` may raise :class:`EngineUnavailableError`.
+    Every method but ``of`` and ``images_of`` may raise :class:`EngineUnavailableError`.
     """
 
     def of(self, tenant: str) -> TenantJobs:
         """Return the jobs of a tenant."""
+        ...
+
+    def images_of(self, tenant: str) -> TenantImages:
+        """Return the uploaded pictures of a tenant."""
         ...
 
     def last_events(self, job_ids: Sequence[str]) -> dict[str, int]:

@@ -13,6 +13,7 @@ from service.engine.expiry import (
     ClockGuard,
     drop_old_tombstones,
     due_erasures,
+    expire_images,
     expire_jobs,
     forget_pages,
     postpone,
@@ -53,6 +54,7 @@ class Sweeper:
                     if expire_jobs(connection) == 0:
                         break
             with self._database.begin() as connection:
+                expire_images(connection)
                 drop_old_tombstones(connection)
         erased = 0
         while not self._stopped.is_set():
@@ -90,4 +92,4 @@ class Sweeper:
                 LOG.exception("Erasing what has expired failed.")
             else:
                 if erased:
-                    LOG.info("Erased %d expired or forgotten jobs.", erased)
+                    LOG.info("Erased %d expired or forgotten jobs and pictures.", erased)

@@ -62,6 +62,24 @@ ERASURES = sa.Table(
 """Scopes of blobs to be erased from ``due_at`` on: of jobs that are gone, and of submissions that
 were begun and are taken out again when they are accepted."""
 
+IMAGES = sa.Table(
+    "maquette_images",
+    METADATA,
+    sa.Column("tenant", sa.String(64), primary_key=True),
+    sa.Column("id", sa.String(64), primary_key=True),
+    sa.Column("scope", sa.String(64), nullable=False),
+    sa.Column("media_type", sa.String(64), nullable=False),
+    sa.Column("width", sa.Integer, nullable=False),
+    sa.Column("height", sa.Integer, nullable=False),
+    sa.Column("size", sa.BigInteger, nullable=False),
+    sa.Column("focal_length_35mm", sa.Double),
+    sa.Column("created_at", sa.Double, nullable=False),
+    sa.Column("expires_at", sa.Double, nullable=False),
+    sa.Index("maquette_images_expiry", "expires_at"),
+)
+"""Pictures uploaded before any fit; ``id`` is the SHA-256 of the file, the blob's name in its
+scope."""
+
 TOMBSTONES = sa.Table(
     "maquette_tombstones",
     METADATA,

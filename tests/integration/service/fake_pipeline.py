@@ -30,7 +30,10 @@ STAGES = ("observation", "initial_pose", "segmentation", "silhouette_and_edges",
 SCRIPT_MARK = b"#script:"
 
 NOBODYS_WEIGHT_KG = 33.0
-"""Contradicts whatever else is given."""
+"""Contradicts whatever else is given, as the estimator says too."""
+
+UNNOTICED_WEIGHT_KG = 34.0
+"""As well, but the estimator has nothing against it."""
 
 
 def scripted_image(
@@ -59,7 +62,7 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
                 remedy="Send the whole file.",
             )
         )
-    if job.options.weight_kg == NOBODYS_WEIGHT_KG:
+    if job.options.weight_kg in (NOBODYS_WEIGHT_KG, UNNOTICED_WEIGHT_KG):
         raise UnusableInputError(
             FieldProblem(
                 field="weight_kg",

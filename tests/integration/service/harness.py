@@ -171,10 +171,18 @@ class Service:
 
 
 @contextlib.contextmanager
-def running_service(machine: Machine, *, api_only: bool = False) -> Iterator[Service]:
-    """Start the service and, unless ``api_only``, wait until its worker is alive."""
+def running_service(
+    machine: Machine, *, api_only: bool = False, broken_estimator: bool = False
+) -> Iterator[Service]:
+    """Start the service and, unless ``api_only``, wait until its worker is alive.
+
+    A ``broken_estimator`` ends as soon as it is started.
+    """
     process = machine.start(
-        "fake_serve", *(["--no-worker"] if api_only else []), stdout=subprocess.PIPE
+        "fake_serve",
+        *(["--no-worker"] if api_only else []),
+        *(["--broken-estimator"] if broken_estimator else []),
+        stdout=subprocess.PIPE,
     )
     try:
         assert process.stdout is not None

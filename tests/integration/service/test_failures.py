@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.integration.service.fake_pipeline import NOBODYS_WEIGHT_KG
+from tests.integration.service.fake_pipeline import NOBODYS_WEIGHT_KG, UNNOTICED_WEIGHT_KG
 from tests.integration.service.harness import (
     REQUEST,
     Machine,
@@ -35,9 +35,37 @@ def test_a_picture_the_decoder_refuses_ends_with_field_code_and_remedy(service: 
     assert problem["remedy"] == "Send the whole file."
 
 
+def test_contradictory_measurements_are_refused_before_there_is_a_job(service: Service):
+    before = service.client.get("/v1/fits").json()["jobs"]
+    # Once it answers, the estimator is up.
+    eventually(
+        lambda: service.client.post("/v1/bodies", json={"gender": "male"}).status_code == 200,
+        what="the estimator answers",
+    )
+    answer = service.post(request=REQUEST | {"weight_kg": NOBODYS_WEIGHT_KG})
+    problem = answer.json()
+    assert (answer.status_code, problem["type"]) == (422, "/problems/unusable-input")
+    assert (problem["field"], problem["code"]) == ("weight_kg", "contradictory-measurements")
+    assert problem["remedy"]
+    assert service.client.get("/v1/fits").json()["jobs"] == before
+
+
+def test_a_key_whose_fit_was_refused_may_be_used_again(service: Service):
+    headers = {"Idempotency-Key": "refused-first"}
+    eventually(
+        lambda: service.client.post("/v1/bodies", json={"gender": "male"}).status_code == 200,
+        what="the estimator answers",
+    )
+    refused = service.post(request=REQUEST | {"weight_kg": NOBODYS_WEIGHT_KG}, headers=headers)
+    assert refused.status_code == 422
+    accepted = service.post(request=REQUEST | {"weight_kg": 80.0}, headers=headers)
+    assert accepted.status_code == 202
+    assert service.ended(accepted.headers["Location"])["state"] == "succeeded"
+
+
 def test_contradictory_measurements_end_with_a_422_that_names_the_field(service: Service):
     job = service.ended(
-        service.post(request=REQUEST | {"weight_kg": NOBODYS_WEIGHT_KG}).headers["Location"]
+        service.post(request=REQUEST | {"weight_kg": UNNOTICED_WEIGHT_KG}).headers["Location"]
     )
     problem = job["problem"]
     assert (problem["type"], problem["status"]) == ("/problems/unusable-input", 422)
@@ -100,7 +128,7 @@ def test_a_worker_restarted_by_its_supervisor_goes_on(embedded: Machine, tmp_pat
     with running_service(embedded) as service:
         path = service.submit({"seconds": 1.0, "note_pid": str(note)})
         eventually(lambda: pids_noted(note), what="the fit runs")
-        worker = _child_of(service.process.pid)
+        worker = _worker_of(service.process.pid)
         os.kill(worker, signal.SIGKILL)
         job = service.ended(path)
         assert job["state"] == "succeeded"
@@ -113,7 +141,7 @@ def test_killing_the_service_ends_its_worker_and_the_fit(embedded: Machine, tmp_
     with running_service(machine) as service:
         path = service.submit({"seconds": 60, "note_pid": str(note)})
         (pid,) = eventually(lambda: pids_noted(note), what="the fit runs")
-        worker = _child_of(service.process.pid)
+        worker = _worker_of(service.process.pid)
         service.process.kill()
         service.process.wait()
         eventually(lambda: not is_running(worker), within_s=5.0, what="the worker ends")
@@ -182,13 +210,18 @@ def test_a_job_canceled_while_its_worker_is_dead_is_not_run_again(
 @pytest.mark.parametrize("signal_number", [signal.SIGTERM, signal.SIGINT])
 def test_the_service_stops_cleanly_when_told_to(embedded: Machine, signal_number: signal.Signals):
     with running_service(embedded) as service:
-        worker = _child_of(service.process.pid)
+        worker = _worker_of(service.process.pid)
         service.process.send_signal(signal_number)
         service.process.wait(timeout=60.0)
         assert not is_running(worker)
 
 
-def _child_of(pid: int) -> int:
+def _worker_of(pid: int) -> int:
+    """The one child of a service that is its worker; the others are estimators."""
     children = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
-    assert len(children) == 1
-    return int(children[0])
+    (worker,) = (
+        int(child)
+        for child in children
+        if b"fake_worker" in Path(f"/proc/{child}/cmdline").read_bytes()
+    )
+    return worker

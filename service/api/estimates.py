@@ -1,0 +1,103 @@
+"""The estimator as the resources ask it: in threads of its own, its troubles told as problems."""
+
+from collections.abc import Callable
+from functools import partial
+from typing import Final, TypeVar
+
+from anyio import CapacityLimiter, to_thread
+
+from api_schemas.initial_poses import InitialPose
+from api_schemas.problems import problem
+from service.api.problems import ProblemError
+from service.estimates.messages import BodyTask, InitialPoseTask
+from service.estimates.port import (
+    EstimatedBody,
+    Estimator,
+    EstimatorFailedError,
+    EstimatorTimeoutError,
+    EstimatorUnavailableError,
+)
+
+SPARE_THREADS: Final = 4
+"""Beyond what the estimator takes at once: in these, one too many is turned away at once."""
+
+SOON_S: Final = 2
+"""When an estimator that is busy or starting should be asked again."""
+
+Answer = TypeVar("Answer")
+
+
+class Estimates:
+    """Questions to the estimator.
+
+    They wait in threads that nothing else needs: however many there are, the rest of the API is not
+    held up.
+    """
+
+    def __init__(self, estimator: Estimator) -> None:
+        self._estimator = estimator
+        self._threads = CapacityLimiter(estimator.capacity + SPARE_THREADS)
+
+    async def body(self, task: BodyTask) -> EstimatedBody:
+        """Estimate a body from measurements.
+
+        Raises
+        ------
+        RefusedError
+            If the question is at fault.
+        ProblemError
+            503 if there is no answer now, 500 if the question met a fault.
+        """
+        return await self._answer(partial(self._estimator.body, task))
+
+    async def initial_pose(self, task: InitialPoseTask) -> InitialPose:
+        """Pose the mean person by clicks; raises as :meth:`body` does."""
+        return await self._answer(partial(self._estimator.initial_pose, task))
+
+    async def refuse_nobody(self, task: BodyTask) -> None:
+        """Raise :class:`service.refusal.RefusedError` if nobody has what is known.
+
+        Where the estimator is not at hand nothing is said: whoever asks finds out later.
+        """
+        try:
+            await self._in_thread(partial(self._estimator.body, task, patient=False))
+        except (EstimatorUnavailableError, EstimatorFailedError):
+            return
+
+    async def _answer(self, question: Callable[[], Answer]) -> Answer:
+        try:
+            return await self._in_thread(question)
+        except EstimatorUnavailableError as error:
+            raise _not_now(
+                code="estimator-unavailable",
+                detail="All estimators are busy, or still starting.",
+            ) from error
+        except EstimatorTimeoutError as error:
+            raise _not_now(
+                code="estimator-timeout",
+                detail="The estimate took too long and was given up.",
+            ) from error
+        except EstimatorFailedError as error:
+            raise ProblemError(
+                problem(
+                    "internal-error",
+                    code="estimator-failed",
+                    detail="An unexpected fault ended the estimate; it has been logged.",
+                    remedy="Report it; other requests are not affected.",
+                )
+            ) from error
+
+    async def _in_thread(self, question: Callable[[], Answer]) -> Answer:
+        return await to_thread.run_sync(question, limiter=self._threads)
+
+
+def _not_now(*, code: str, detail: str) -> ProblemError:
+    return ProblemError(
+        problem(
+            "not-ready",
+            code=code,
+            detail=detail,
+            remedy="Try again after the time in Retry-After.",
+        ),
+        headers={"Retry-After": str(SOON_S)},
+    )

@@ -1,0 +1,212 @@
+"""Pictures uploaded once, for any number of initial poses and fits."""
+
+import contextlib
+import hashlib
+from datetime import UTC, datetime
+from typing import Annotated, Any, Final
+from uuid import uuid4
+
+from fastapi import APIRouter, Path, Request, Response
+from starlette.concurrency import run_in_threadpool
+
+from api_schemas.images import ImageId, UploadedImage
+from api_schemas.problems import FieldProblem, problem
+from service.api.context import ApiContext, Context
+from service.api.examples import UPLOADED_IMAGE
+from service.api.json_bodies import JSON, json_content
+from service.api.problems import ProblemError, documented, not_found
+from service.api.uploads import read_image
+from service.blobs import BlobMissingError, BlobsUnavailableError
+from service.engine.port import ImageRecord, KeptImage, NewImage
+from service.refusal import RefusedError, refused
+from service.submission import check_picture
+
+ROUTER: Final = APIRouter(prefix="/v1/images", tags=["images"])
+
+_UPLOAD: Final[dict[str, Any]] = {
+    "requestBody": {
+        "required": True,
+        "content": {
+            "multipart/form-data": {
+                "schema": {
+                    "type": "object",
+                    "additionalProperties": False,
+                    "required": ["image"],
+                    "properties": {
+                        "image": {
+                            "type": "string",
+                            "format": "binary",
+                            "description": "JPEG, PNG or WebP.",
+                        }
+                    },
+                },
+                "encoding": {"image": {"contentType": "image/jpeg, image/png, image/webp"}},
+            }
+        },
+    }
+}
+_CONTENT: Final = {JSON: json_content(UploadedImage, {"photograph": UPLOADED_IMAGE})}
+_LOCATION: Final = {
+    "Location": {"description": "Path of the picture.", "schema": {"type": "string"}}
+}
+
+
+@ROUTER.post(
+    "",
+    status_code=201,
+    response_model=UploadedImage,
+    summary="Upload a picture",
+    openapi_extra=_UPLOAD,
+    responses={
+        200: {
+            "description": "The same picture is there already; its time begins anew.",
+            "content": _CONTENT,
+            "headers": _LOCATION,
+        },
+        201: {"description": "Kept.", "content": _CONTENT, "headers": _LOCATION},
+    }
+    | documented(
+        "malformed-request",
+        "payload-too-large",
+        "unsupported-media-type",
+        "invalid-request",
+        "not-ready",
+        "internal-error",
+    ),
+)
+async def upload_image(request: Request, response: Response, context: Context) -> UploadedImage:
+    """Keep a picture, to be named by its id in fits and initial poses.
+
+    The id is the SHA-256 of the file. It is erased at its `expires_at`, or by DELETE; fits that
+    were made of it have a copy of their own.
+    """
+    content = await read_image(request)
+    kept = await run_in_threadpool(_keep, context, content)
+    response.status_code = 201 if kept.is_new else 200
+    response.headers["Location"] = f"/v1/images/{kept.record.id}"
+    return _represent(kept.record)
+
+
+@ROUTER.get(
+    "/{image_id}",
+    response_model=UploadedImage,
+    summary="Look at an uploaded picture's facts",
+    responses={200: {"content": _CONTENT}}
+    | documented("not-found", "invalid-request", "not-ready", "internal-error"),
+)
+def get_image(
+    image_id: Annotated[ImageId, Path()], response: Response, context: Context
+) -> UploadedImage:
+    """Return kind, size and focal length of a picture, and when it expires."""
+    record = context.images.find(image_id)
+    if record is None:
+        raise not_found(what="such picture")
+    response.headers["Cache-Control"] = "no-cache"
+    return _represent(record)
+
+
+@ROUTER.delete(
+    "/{image_id}",
+    status_code=204,
+    summary="Erase an uploaded picture",
+    responses=documented("not-found", "invalid-request", "not-ready", "internal-error"),
+)
+def erase_image(image_id: Annotated[ImageId, Path()], context: Context) -> Response:
+    """Erase a picture; fits that were made of it are not affected."""
+    scope = context.images.erase(image_id)
+    if scope is None:
+        raise not_found(what="such picture")
+    context.blobs.erase(scope)
+    return Response(status_code=204)
+
+
+def known_image(context: ApiContext, image_id: str, *, field: str) -> ImageRecord:
+    """Return the picture a request names in a field.
+
+    Raises
+    ------
+    RefusedError
+        If there is no such picture, or not any more.
+    """
+    record = context.images.find(image_id)
+    if record is None:
+        raise _unknown(field)
+    return record
+
+
+def image_content(context: ApiContext, image_id: str, *, field: str) -> bytes:
+    """Return the file of the picture a request names in a field; raises as :func:`known_image`."""
+    record = known_image(context, image_id, field=field)
+    try:
+        return context.blobs.get(record.scope, record.id)
+    except BlobMissingError as error:
+        raise _unknown(field) from error
+
+
+def _unknown(field: str) -> RefusedError:
+    return refused(
+        FieldProblem(
+            field=field,
+            code="unknown-image",
+            reason="There is no uploaded picture with this id; it may have expired.",
+            remedy="Upload the picture to /v1/images and send the id it answers.",
+        )
+    )
+
+
+def _keep(context: ApiContext, content: bytes) -> KeptImage:
+    header = check_picture("image", content, max_pixels=context.settings.max_pixels)
+    image_id = hashlib.sha256(content).hexdigest()
+    earlier = context.images.renew(image_id)
+    if earlier is not None:
+        return KeptImage(record=earlier, is_new=False)
+    scope = str(uuid4())
+    # From here on the scope is erased by itself unless the picture is kept.
+    context.images.reserve(scope)
+    try:
+        context.blobs.put(scope, content)
+    except BlobsUnavailableError:
+        _erase_at_once(context, scope)
+        raise
+    kept = context.images.keep(
+        NewImage(
+            id=image_id,
+            scope=scope,
+            media_type=header.media_type,
+            width=header.width,
+            height=header.height,
+            size=len(content),
+            focal_length_35mm=header.focal_length_35mm,
+        )
+    )
+    if kept is None or not kept.is_new:
+        _erase_at_once(context, scope)
+    if kept is None:
+        raise ProblemError(
+            problem(
+                "not-ready",
+                code="submission-lost",
+                detail="The upload took too long and was given up.",
+                remedy="Post the picture again.",
+            )
+        )
+    return kept
+
+
+def _erase_at_once(context: ApiContext, scope: str) -> None:
+    # If this fails too, the sweep comes to it.
+    with contextlib.suppress(BlobsUnavailableError):
+        context.blobs.erase(scope)
+
+
+def _represent(record: ImageRecord) -> UploadedImage:
+    return UploadedImage(
+        id=record.id,
+        media_type=record.media_type,
+        width=record.width,
+        height=record.height,
+        size=record.size,
+        focal_length_35mm=record.focal_length_35mm,
+        created_at=datetime.fromtimestamp(record.created_at, UTC),
+        expires_at=datetime.fromtimestamp(record.expires_at, UTC),
+    )

@@ -1,0 +1,140 @@
+"""Pictures a tenant uploaded before any fit: their records, beside those of jobs.
+
+The blob of a picture lies in a scope of its own. As with jobs, the scope stands among those to be
+erased until the record is there, and again as soon as the record is gone (see
+:mod:`service.engine.expiry`). A fit copies the picture into the job's scope, so neither needs the
+other to stay.
+"""
+
+import time
+
+import sqlalchemy as sa
+from sqlalchemy.exc import IntegrityError
+
+from service.engine.availability import available
+from service.engine.expiry import ABANDONED_AFTER_S, enter_erasures, take_out
+from service.engine.port import ImageRecord, KeptImage, NewImage
+from service.engine.tables import IMAGES
+
+
+class StoredImages:
+    """Keep, look up and forget pictures; see :class:`service.engine.port.TenantImages`."""
+
+    def __init__(self, tenant: str, *, database: sa.Engine, retention_s: float) -> None:
+        self._tenant = tenant
+        self._database = database
+        self._retention_s = retention_s
+
+    @available
+    def find(self, image_id: str) -> ImageRecord | None:
+        """Return the picture, or None if there is none or its time is over."""
+        with self._database.connect() as connection:
+            return self._find(connection, image_id)
+
+    @available
+    def renew(self, image_id: str) -> ImageRecord | None:
+        """Begin the picture's time anew, if there is such a picture."""
+        with self._database.begin() as connection:
+            return self._renew(connection, image_id)
+
+    @available
+    def reserve(self, scope: str) -> None:
+        """Enter the scope among those to be erased, until the picture is kept."""
+        with self._database.begin() as connection:
+            enter_erasures(connection, [scope], due_at=time.time() + ABANDONED_AFTER_S)
+
+    @available
+    def keep(self, image: NewImage) -> KeptImage | None:
+        """Write the record; the same picture of another upload goes before it."""
+        try:
+            with self._database.begin() as connection:
+                earlier = self._renew(connection, image.id)
+                if earlier is not None:
+                    return KeptImage(record=earlier, is_new=False)
+                return self._insert(connection, image)
+        except IntegrityError:
+            # Two uploads of one picture raced, or one whose time is over is not swept yet.
+            with self._database.begin() as connection:
+                self._forget(connection, image.id, IMAGES.c.expires_at <= time.time())
+                earlier = self._renew(connection, image.id)
+                if earlier is not None:
+                    return KeptImage(record=earlier, is_new=False)
+                return self._insert(connection, image)
+
+    @available
+    def erase(self, image_id: str) -> str | None:
+        """Forget the picture; returns its scope, which is the caller's to erase."""
+        with self._database.begin() as connection:
+            return self._forget(connection, image_id, IMAGES.c.expires_at > time.time())
+
+    def _own(self, image_id: str) -> tuple[sa.ColumnElement[bool], ...]:
+        return (IMAGES.c.id == image_id, IMAGES.c.tenant == self._tenant)
+
+    def _find(self, connection: sa.Connection, image_id: str) -> ImageRecord | None:
+        query = sa.select(IMAGES).where(*self._own(image_id), IMAGES.c.expires_at > time.time())
+        row = connection.execute(query).mappings().one_or_none()
+        return None if row is None else _record(row)
+
+    def _renew(self, connection: sa.Connection, image_id: str) -> ImageRecord | None:
+        now = time.time()
+        row = (
+            connection.execute(
+                sa.update(IMAGES)
+                .where(*self._own(image_id), IMAGES.c.expires_at > now)
+                .values(expires_at=now + self._retention_s)
+                .returning(IMAGES)
+            )
+            .mappings()
+            .one_or_none()
+        )
+        return None if row is None else _record(row)
+
+    def _insert(self, connection: sa.Connection, image: NewImage) -> KeptImage | None:
+        if not take_out(connection, image.scope):
+            return None
+        now = time.time()
+        row = (
+            connection.execute(
+                sa.insert(IMAGES)
+                .values(
+                    tenant=self._tenant,
+                    id=image.id,
+                    scope=image.scope,
+                    media_type=image.media_type,
+                    width=image.width,
+                    height=image.height,
+                    size=image.size,
+                    focal_length_35mm=image.focal_length_35mm,
+                    created_at=now,
+                    expires_at=now + self._retention_s,
+                )
+                .returning(IMAGES)
+            )
+            .mappings()
+            .one()
+        )
+        return KeptImage(record=_record(row), is_new=True)
+
+    def _forget(
+        self, connection: sa.Connection, image_id: str, condition: sa.ColumnElement[bool]
+    ) -> str | None:
+        scope = connection.execute(
+            sa.delete(IMAGES).where(*self._own(image_id), condition).returning(IMAGES.c.scope)
+        ).scalar_one_or_none()
+        if scope is not None:
+            enter_erasures(connection, [scope], due_at=time.time())
+        return scope
+
+
+def _record(row: sa.RowMapping) -> ImageRecord:
+    return ImageRecord(
+        id=row["id"],
+        scope=row["scope"],
+        media_type=row["media_type"],
+        width=row["width"],
+        height=row["height"],
+        size=row["size"],
+        focal_length_35mm=row["focal_length_35mm"],
+        created_at=row["created_at"],
+        expires_at=row["expires_at"],
+    )
