@@ -4,9 +4,11 @@ import pytest
 
 from api_schemas.bodies import BodyRequest
 from api_schemas.known import UncertainMeasurement
-from api_schemas.requests import Gender
-from service.estimates.answers import body
-from service.estimates.messages import BodyTask
+from api_schemas.requests import Facing, Gender, Limb
+from service.demo_sample import load_sample
+from service.estimates.answers import body, initial_pose
+from service.estimates.messages import BodyTask, InitialPoseTask
+from service.submission import check_submission
 from service.worker.pipeline_port import UnusableInputError
 
 
@@ -50,3 +52,42 @@ def test_what_nobody_is_is_refused_where_it_was_said(known, field, code):
         answer(**known)
     assert (caught.value.error.field, caught.value.error.code) == (field, code)
     assert caught.value.error.remedy
+
+
+def sample_pose(*, exif_focal_length_35mm: float | None = None, **changes: object):
+    sample = load_sample()
+    options = check_submission(
+        request=sample.request, image=sample.image, mask=None, max_pixels=1_000_000
+    ).options.model_copy(update=changes)
+    task = InitialPoseTask(
+        subject=options, width=720, height=960, exif_focal_length_35mm=exif_focal_length_35mm
+    )
+    return options, initial_pose(task, None)
+
+
+def test_the_sample_s_clicks_give_a_body_near_them_with_an_outline_round_them():
+    options, pose = sample_pose(exif_focal_length_35mm=50.0)
+    assert pose.height_m == options.height_m
+    assert pose.focal_length_source == "exif_35mm_equivalent"
+    assert set(pose.residual_px) == set(options.points)
+    assert sorted(pose.residual_px.values())[len(pose.residual_px) // 2] < 10.0
+    corners = [corner for loop in pose.outline for corner in loop]
+    for axis in (0, 1):
+        low, high = min(each[axis] for each in corners), max(each[axis] for each in corners)
+        assert low < pose.points["nose"][axis] < high
+    assert any(reading.ambiguous for reading in pose.limbs)
+
+
+def test_a_limb_whose_facing_is_said_faces_that_way_and_is_not_ambiguous():
+    _, pose = sample_pose()
+    limb = next(each for each in pose.limbs if each.ambiguous)
+    other = Facing.TOWARD if limb.facing is Facing.AWAY else Facing.AWAY
+    _, said = sample_pose(limb_facing={Limb(limb.limb): other})
+    found = next(each for each in said.limbs if each.limb == limb.limb)
+    assert (found.facing, found.ambiguous) == (other, False)
+
+
+def test_a_pose_of_somebody_nobody_is_is_refused_where_it_was_said():
+    with pytest.raises(UnusableInputError) as caught:
+        sample_pose(weight_kg=70.0, measurements={"waist_girth_navel": 160.0})
+    assert caught.value.error.code == "contradictory-measurements"
