@@ -64,10 +64,10 @@ _CLICK_PIXELS = 2.5
 _CLICK_METRES = 0.02
 
 
-# What Eq. 1 leaves unexplained, a sixteenth of the median brightness, repeats itself over patches of
-# a hand's breadth: a hundred of them are in sight. On the evaluation's tuning half chest, waist, hip
-# and weight err by 1.9, 2.0, 1.7 cm and 1.9 kg on the mean; from 120 to 350 nats all within 0.3 of
-# that; with 600, and boundaries taken for independent every 5 cm, 2.3, 2.6, 1.9 and 2.8.
+# What Eq. 1 leaves unexplained, a sixteenth of the median brightness, repeats itself over patches
+# of a hand's breadth: a hundred of them are in sight. On the evaluation's tuning half chest, waist,
+# hip and weight err by 1.9, 2.0, 1.7 cm and 1.9 kg on the mean; from 120 to 350 nats all within 0.3
+# of that; with 600, and boundaries independent every 5 cm, 2.3, 2.6, 1.9 and 2.8.
 _SHADING_NATS = 250.0
 
 
