@@ -297,12 +297,13 @@ def _with_new_reflectance(
         found = solver.solve(wide, found, iterations=iterations)
     albedo, specularity = state.reflectance.albedo.copy(), state.reflectance.specularity.copy()
     albedo[chosen], specularity[chosen] = found.albedo, found.specularity
+    albedo, specularity = filled_in((albedo, specularity), part.members, topology.edges, lengths)
     return replace(
         state,
         reflectance=replace(
             state.reflectance,
-            albedo=filled_in(albedo, part.members, topology.edges, lengths),
-            specularity=filled_in(specularity, part.members, topology.edges, lengths),
+            albedo=albedo,
+            specularity=specularity,
             ambient=found.ambient,
         ),
     )
