@@ -81,7 +81,7 @@ def repeatability_lines(reported: Reported) -> tuple[str, ...]:
         ),
         *note_lines(
             "Moved: by a random rotation and metres, the body's upright then found from its mesh. "
-            "Mirrored: the right limbs are measured, so the left ones become them; what they then "
-            "differ by is the learned pose term's, which is taught on each side's own random poses."
+            "Mirrored: the right limbs are measured, so the left ones become them; mesh and "
+            "pose term are alike on both sides but for rounding and what the solved bodies have."
         ),
     )
