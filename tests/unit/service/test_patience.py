@@ -1,7 +1,10 @@
 import pytest
 from sqlalchemy.exc import OperationalError
 
-from service.engine import patience
+from service import patience
+from service.blobs import BlobsUnavailableError
+from service.engine.patience import patiently
+from service.worker.patience import patient_with_storage
 
 STATEMENT = "UPDATE"
 
@@ -23,13 +26,13 @@ def _no_pauses(monkeypatch):
 
 
 def test_an_operation_is_repeated_until_the_database_is_back():
-    assert patience.patiently(Database(5).write)(7) == 7
+    assert patiently(Database(5).write)(7) == 7
 
 
 def test_patience_ends(monkeypatch):
     monkeypatch.setattr(patience, "PATIENCE_S", 0.0)
     with pytest.raises(OperationalError):
-        patience.patiently(Database(1).write)(7)
+        patiently(Database(1).write)(7)
 
 
 def test_other_errors_are_not_repeated():
@@ -40,5 +43,16 @@ def test_other_errors_are_not_repeated():
         raise KeyError
 
     with pytest.raises(KeyError):
-        patience.patiently(broken)()
+        patiently(broken)()
     assert len(calls) == 1
+
+
+def test_a_storage_is_waited_for_as_a_database_is():
+    failures = [BlobsUnavailableError("full"), BlobsUnavailableError("away")]
+
+    def write(value: int) -> int:
+        if failures:
+            raise failures.pop()
+        return value
+
+    assert patient_with_storage(write)(7) == 7
