@@ -126,7 +126,10 @@ def fit(
             height_variance=person.height_variance,
         )
         measurements = measure(
-            body.measuring, final.candidate.parameters.shape, shape_covariance=covariance
+            body.measuring,
+            final.candidate.parameters.shape,
+            shape_covariance=covariance,
+            given=person.given,
         )
         first = objective.evaluate(hypotheses[0].parameters)
         stages = [_stage(body, objective, "initial", first)]

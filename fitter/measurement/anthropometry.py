@@ -4,7 +4,7 @@ In one pose SCAPE's vertices are affine in the shape, so a body is measured with
 model again, and how measurements change with shape costs tape measures only.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -42,9 +42,6 @@ is of second order; a change of 1e-3 moves a girth by about 0.05 mm, far above r
 
 UNEXPLAINED_KEY = "unexplained_measurements"
 """Of a model's header: by name, how much people differ from the nearest body of the model."""
-
-_HELD_VARIANCE = 1e-8
-"""A measurement that varies less is one that was given and held."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -140,6 +137,7 @@ def measure(
     shape: Shape,
     *,
     shape_covariance: Float[np.ndarray, "n n"] | None = None,
+    given: Collection[str] = (),
 ) -> tuple[Measurement, ...]:
     """All measurements of the body of this shape.
 
@@ -151,7 +149,9 @@ def measure(
         (n,) coefficients, standard deviations.
     shape_covariance
         Covariance of ``shape`` at the final body; gives every measurement J Σ Jᵀ as its variance,
-        and what the shapes leave unexplained besides, but for what is held.
+        and what the shapes leave unexplained besides.
+    given
+        Names of measurements that were told and not inferred: nothing of them is unexplained.
 
     Raises
     ------
@@ -169,7 +169,8 @@ def measure(
     if shape_covariance is not None:
         jacobian = _jacobian(body, shape, placements)
         variances = np.einsum("kn,nj,kj->k", jacobian, shape_covariance, jacobian)
-        variances += np.where(variances > _HELD_VARIANCE, body.unexplained**2, 0.0)
+        inferred = [each.about.name not in given for each in body.definitions]
+        variances += np.where(inferred, body.unexplained**2, 0.0)
         errors = [float(e) for e in np.sqrt(np.maximum(variances, 0.0))]
     return tuple(
         Measurement(

@@ -127,18 +127,14 @@ def test_a_tape_that_misses_the_body_is_an_error_that_names_it(bar, evaluator):
         measure(measuring_body(bar, evaluator, missing), SHAPE)
 
 
-def test_what_the_shapes_leave_unexplained_is_added_where_nothing_is_held(body):
-    covariance = np.diag(np.arange(len(SHAPE)) == 0).astype(float)
+def test_what_the_shapes_leave_unexplained_is_added_to_what_is_not_given(body):
+    covariance = np.eye(len(SHAPE))
     plain = measure(body, SHAPE, shape_covariance=covariance)
+    first, *others = plain
     unsure = replace(body, unexplained=np.full(len(plain), 2.0))
-    found = measure(unsure, SHAPE, shape_covariance=covariance)
-    moved = 0
-    for before, after in zip(plain, found, strict=True):
+    told, *inferred = measure(unsure, SHAPE, shape_covariance=covariance, given=(first.name,))
+    assert others
+    assert told.standard_error == first.standard_error
+    for before, after in zip(others, inferred, strict=True):
         assert before.standard_error is not None
-        if before.standard_error > 1e-3:
-            expected = np.hypot(before.standard_error, 2.0)
-            moved += 1
-        else:
-            expected = before.standard_error
-        assert after.standard_error == pytest.approx(expected)
-    assert moved > 0
+        assert after.standard_error == pytest.approx(np.hypot(before.standard_error, 2.0))

@@ -43,12 +43,13 @@ def measured(shape: np.ndarray) -> dict[str, float]:
 
 
 def spreads(objective: Objective, candidate: Candidate, height_variance: float) -> dict[str, float]:
-    """Standard errors of the measurements."""
+    """Standard errors of the body's own measurements: how certain the fit is."""
     shape = candidate.parameters.shape
+    measuring = replace(BODY.measuring, unexplained=np.zeros_like(BODY.measuring.unexplained))
     covariance = shape_covariance(objective, candidate, height_variance=height_variance)
     return {
         each.name: each.standard_error or 0.0
-        for each in measure(BODY.measuring, shape, shape_covariance=covariance)
+        for each in measure(measuring, shape, shape_covariance=covariance)
     }
 
 
