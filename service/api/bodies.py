@@ -7,6 +7,7 @@ from fastapi import APIRouter, Header, Request, Response
 
 from api_schemas.bodies import BodyEstimate, BodyRequest
 from service.api.context import Context
+from service.api.estimates import ESTIMATE_PROBLEMS
 from service.api.examples import BODY_ANSWER, BODY_REQUESTS
 from service.api.json_bodies import JSON, json_body, json_content, read_json
 from service.api.problems import documented
@@ -32,16 +33,7 @@ _ANSWER: Final[dict[int | str, dict[str, Any]]] = {
     response_class=Response,
     summary="Estimate a body from measurements",
     openapi_extra=json_body(BodyRequest, BODY_REQUESTS),
-    responses=_ANSWER
-    | documented(
-        "malformed-request",
-        "payload-too-large",
-        "unsupported-media-type",
-        "invalid-request",
-        "unusable-input",
-        "not-ready",
-        "internal-error",
-    ),
+    responses=_ANSWER | documented(*ESTIMATE_PROBLEMS),
 )
 async def estimate_body(
     request: Request, context: Context, accept: Annotated[str | None, Header()] = None

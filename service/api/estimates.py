@@ -24,6 +24,17 @@ SPARE_THREADS: Final = 4
 SOON_S: Final = 2
 """When an estimator that is busy or starting should be asked again."""
 
+ESTIMATE_PROBLEMS: Final = (
+    "malformed-request",
+    "payload-too-large",
+    "unsupported-media-type",
+    "invalid-request",
+    "unusable-input",
+    "not-ready",
+    "internal-error",
+)
+"""What may be wrong with a question, or with the estimator."""
+
 Answer = TypeVar("Answer")
 
 

@@ -9,6 +9,7 @@ from api_schemas.initial_poses import ImageSize, InitialPose, InitialPoseRequest
 from api_schemas.points import PointsFormat
 from api_schemas.problems import FieldProblem
 from service.api.context import ApiContext, Context
+from service.api.estimates import ESTIMATE_PROBLEMS
 from service.api.examples import INITIAL_POSE_ANSWER, INITIAL_POSE_REQUESTS
 from service.api.images import known_image
 from service.api.json_bodies import JSON, json_body, json_content, read_json
@@ -32,16 +33,7 @@ _ANSWER: Final[dict[int | str, dict[str, Any]]] = {
     response_class=Response,
     summary="Pose a body by clicks alone",
     openapi_extra=json_body(InitialPoseRequest, INITIAL_POSE_REQUESTS),
-    responses=_ANSWER
-    | documented(
-        "malformed-request",
-        "payload-too-large",
-        "unsupported-media-type",
-        "invalid-request",
-        "unusable-input",
-        "not-ready",
-        "internal-error",
-    ),
+    responses=_ANSWER | documented(*ESTIMATE_PROBLEMS),
 )
 async def initial_pose(request: Request, context: Context) -> Response:
     """Return pose, camera and outline of the body a fit would begin from.

@@ -18,10 +18,9 @@ from fitter.arrays import Pose, Vertices
 from fitter.request import Gender
 from fitter.training.joints import joint_rows_of_bones
 from fitter.training.makehuman import BaseMesh, load_base_mesh, makehuman_folder
-from fitter.training.rig import Rig, bone_heads, load_rig, posed_vertices
+from fitter.training.relaxed_hands import with_curled_fingers
+from fitter.training.rig import bone_heads, load_rig, posed_vertices
 from fitter.training.rigged_bodies import RiggedMesh, rigged_mesh
-from fitter.training.skinning import blend_linear
-from tests.evaluation.fingers import finger_rotations
 from tests.evaluation.scene import PersonSource
 
 PEOPLE_FOLDER = Path(__file__).parent / "data" / "people"
@@ -121,24 +120,7 @@ def posed_skin(
     heads = bone_heads(rig, person.source_vertices)
     skin = sparse.csr_array(rig.weights[vertex_ids])
     rest = person.source_vertices[vertex_ids]
-    return posed_vertices(rig, skin, _curled(rig, skin, rest, heads, curl), heads, pose)
-
-
-def _curled(
-    rig: Rig,
-    skin: sparse.csr_array,
-    rest: Vertices,
-    heads: Float[np.ndarray, "b 3"],
-    curl: Mapping[str, float],
-) -> Vertices:
-    """The rest body with bent fingers; all other bones stay."""
-    rotations = finger_rotations(rig.bone_names, heads, curl)
-    centres = heads.copy()
-    for bone, parent in enumerate(rig.bone_parent):
-        if parent >= 0:
-            centres[bone] = centres[parent] + rotations[parent] @ (heads[bone] - heads[parent])
-    translations = centres - np.einsum("bij,bj->bi", rotations, heads)
-    return blend_linear(skin, rotations, translations, rest)
+    return posed_vertices(rig, skin, with_curled_fingers(rig, skin, rest, heads, curl), heads, pose)
 
 
 def _base() -> BaseMesh:
