@@ -23,6 +23,7 @@ from fitter.optimizer.albedo_colour import albedo_rgb
 from fitter.optimizer.alternation import ShadedFit, fit_shading
 from fitter.optimizer.hypotheses import try_hypotheses
 from fitter.optimizer.light_solve import guessed_lights
+from fitter.optimizer.renewed_lines import renewing_lines, with_lines_about
 from fitter.optimizer.search import body_search, limits_of
 from fitter.optimizer.uncertainty import shape_covariance
 from fitter.parameters import BodyParameters
@@ -32,7 +33,7 @@ from fitter.progress import Observer, Stage, ignore_progress
 from fitter.remarks import FitWarning
 from fitter.render.rasterizer import render
 from fitter.reporting import fit_warnings, limb_facings, outcome_of
-from fitter.request import Cues, FitRequest
+from fitter.request import Cues, FitRequest, OutlineKind
 from fitter.result import FitResult, Pictures, StageBody
 from fitter.segmentation.bones import clicked_bones, foot_bones
 from fitter.segmentation.grabcut import Segmentation, border_warnings, segment
@@ -79,10 +80,11 @@ def fit(
             limb_facing=request.limb_facing,
         )
     limits = limits_of(request.optimizer)
+    meets_lines = request.outline is OutlineKind.LINES and observation.mask is None
     with clock.stage(Stage.SEGMENTATION) as report:
         labels, segmentation = _segmented(observation, body, initial.parameters, 1.0)
         coarse = _silhouette_and_edges(observation, body, initial, segmentation, person.attributes)
-        nearer = body_search(request.optimizer, limits.trial, report)(coarse, initial.parameters)
+        nearer = body_search(request.optimizer, limits.first, report)(coarse, initial.parameters)
         labels, segmentation = _segmented(
             observation, body, nearer.candidate.parameters, RESEGMENTED_BAND
         )
@@ -103,22 +105,29 @@ def fit(
             contenders=limits.contenders,
             contest=body_search(request.optimizer, limits.contest, report),
         )
-        se = body_search(request.optimizer, limits.silhouette_and_edges, report)(
-            objective, tried.ends[tried.best].parameters
-        )
+        search = body_search(request.optimizer, limits.silhouette_and_edges, report)
+        if meets_lines:
+            settle = body_search(request.optimizer, limits.contest, report)
+            search = renewing_lines([settle, search], observation.display)
+        se = search(objective, tried.ends[tried.best].parameters)
     intensity = intensity_map(observation.luminance, observation.display, segmentation.mask)
     shaded: ShadedFit | None = None
     with clock.stage(Stage.SHADING) as report:
         if request.cues is Cues.SES:
+            search = body_search(request.optimizer, limits.shading_round, report)
+            if meets_lines:
+                search = renewing_lines([search], observation.display)
             shaded = fit_shading(
                 objective,
                 se.candidate,
                 intensity,
                 guessed_lights(request.light),
-                search=body_search(request.optimizer, limits.shading_round, report),
+                search=search,
             )
     final = se if shaded is None else shaded.minimum
     with clock.stage(Stage.MEASUREMENT):
+        if meets_lines:
+            objective = with_lines_about(objective, final.candidate.parameters, observation.display)
         overlap = objective.overlap(final.candidate)
         covariance = shape_covariance(
             objective if shaded is None else objective.with_shading(shaded.evidence),

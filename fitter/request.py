@@ -32,6 +32,17 @@ class OptimizerKind(StrEnum):
     SIMPLEX = "simplex"
 
 
+class OutlineKind(StrEnum):
+    """What the body's contour is to meet; a mask the caller sent is always met as it is.
+
+    ``GRABCUT``: the segmentation, as in the paper. ``LINES``: once a body is near, the person's
+    boundary on lines across its contour, found by the colours around each.
+    """
+
+    GRABCUT = "grabcut"
+    LINES = "correspondence_lines"
+
+
 class Facing(StrEnum):
     """Whether the far end of a limb is nearer to the camera than its near end, or farther."""
 
@@ -118,6 +129,7 @@ class FitRequest:
     focal_length_35mm: float | None = None
     cues: Cues = Cues.SES
     optimizer: OptimizerKind = OptimizerKind.GAUSS_NEWTON
+    outline: OutlineKind = OutlineKind.LINES
     light: LightGuess = field(default_factory=LightGuess)
     limb_facing: Mapping[str, Facing] = field(default_factory=dict[str, Facing])
     mask: bytes | None = None

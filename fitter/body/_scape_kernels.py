@@ -3,41 +3,34 @@
 from typing import no_type_check
 
 import numpy as np
-from numba import njit
+from numba import njit, uint32
 
 
 @no_type_check
 @njit(cache=True, fastmath=True)
-def assemble_right_hand_side(
-    shape_terms,
-    shape,
-    pose_terms,
-    features,
-    widths,
-    pointers,
-    vertices,
-    rotations,
-    result,
-):
-    """Sum over parts of R_p (S_i [1, β] + P_i φ_p), scattered to the vertices."""
+def assemble_right_hand_side(terms, widths, shape, features, pointers, vertices, rotations, result):
+    """Sum over parts of R_p (S_i [1, β] + P_i φ_p), scattered to the vertices.
+
+    ``terms`` holds rows [S_i, P_i], as wide as each part's ``widths``, one after the other.
+    """
     result[:] = 0.0
-    parts = len(pointers) - 1
     n = len(shape)
+    factors = np.ones(1 + n + features.shape[1])
+    factors[1 : n + 1] = shape
     local = np.empty(3)
-    for part in range(parts):
+    entry = uint32(0)
+    for part in range(len(pointers) - 1):
         rotation = rotations[part]
-        width = widths[part]
+        width = uint32(widths[part])
+        factors[n + 1 :] = features[part]
         for incidence in range(pointers[part], pointers[part + 1]):
             for c in range(3):
-                terms = shape_terms[incidence, c]
-                value = float(terms[0])
-                for k in range(n):
-                    value += terms[k + 1] * shape[k]
-                pose = pose_terms[incidence, c]
+                value = 0.0
                 for k in range(width):
-                    value += pose[k] * features[part, k]
+                    value += terms[entry + k] * factors[k]
+                entry += width
                 local[c] = value
-            vertex = vertices[incidence]
+            vertex = uint32(vertices[incidence])
             for r in range(3):
                 result[vertex, r] += (
                     rotation[r, 0] * local[0]
@@ -49,11 +42,10 @@ def assemble_right_hand_side(
 @no_type_check
 @njit(cache=True, fastmath=True)
 def gather_gradient(
-    shape_terms,
-    shape,
-    pose_terms,
-    features,
+    terms,
     widths,
+    shape,
+    features,
     pointers,
     vertices,
     rotations,
@@ -66,38 +58,37 @@ def gather_gradient(
     shape_gradient[:] = 0.0
     feature_gradient[:] = 0.0
     rotation_gradient[:] = 0.0
-    parts = len(pointers) - 1
     n = len(shape)
-    # Local sums: the compiler cannot know that the results do not overlap the terms.
-    by_shape = np.zeros(n + 1)
-    by_feature = np.zeros(features.shape[1])
-    for part in range(parts):
+    factors = np.ones(1 + n + features.shape[1], dtype=np.float32)
+    factors[1 : n + 1] = shape
+    # A local sum: the compiler cannot know that the results do not overlap the terms.
+    sums = np.empty(len(factors), dtype=np.float32)
+    entry = uint32(0)
+    for part in range(len(pointers) - 1):
         rotation = rotations[part]
-        width = widths[part]
-        by_feature[:] = 0.0
+        width = uint32(widths[part])
+        factors[n + 1 :] = features[part]
+        sums[:] = 0.0
         for incidence in range(pointers[part], pointers[part + 1]):
-            vertex = vertices[incidence]
+            vertex = uint32(vertices[incidence])
             for c in range(3):
-                weight = (
+                weight = np.float32(
                     rotation[0, c] * adjoint[vertex, 0]
                     + rotation[1, c] * adjoint[vertex, 1]
                     + rotation[2, c] * adjoint[vertex, 2]
                 )
-                terms = shape_terms[incidence, c]
-                pose = pose_terms[incidence, c]
-                value = float(terms[0])
-                for k in range(n):
-                    value += terms[k + 1] * shape[k]
+                value = np.float32(0.0)
                 for k in range(width):
-                    value += pose[k] * features[part, k]
-                for k in range(n + 1):
-                    by_shape[k] += terms[k] * weight
-                for k in range(width):
-                    by_feature[k] += pose[k] * weight
+                    term = terms[entry + k]
+                    value += term * factors[k]
+                    sums[k] += term * weight
+                entry += width
                 for r in range(3):
                     rotation_gradient[part, r, c] += adjoint[vertex, r] * value
-        feature_gradient[part, :width] = by_feature[:width]
-    shape_gradient[:] = by_shape[1:]
+        for k in range(n):
+            shape_gradient[k] += sums[k + 1]
+        for k in range(n + 1, width):
+            feature_gradient[part, k - n - 1] = sums[k]
 
 
 @no_type_check

@@ -75,9 +75,7 @@ class ScapeEvaluator:
         laplacians = part_laplacians(
             gradient, model.triangle_weights, model.part_of_triangle, len(model.part_names)
         )
-        self._shape_terms = _shape_terms(model, laplacians)
-        self._pose_terms = np.ascontiguousarray(model.pose_right_hand_sides, dtype=np.float32)
-        self._feature_widths = _feature_widths(model)
+        self._terms, self._term_widths = _terms(model, _shape_terms(model, laplacians))
         self._root_weights = _root_weights(model)
         self._moves = descendants(model.part_parent)
         self._factor = _factor(laplacians)
@@ -98,11 +96,10 @@ class ScapeEvaluator:
         )
         right_hand_side = np.empty_like(self.model.mean_vertices)
         assemble_right_hand_side(
-            self._shape_terms,
+            self._terms,
+            self._term_widths,
             parameters.shape,
-            self._pose_terms,
             features,
-            self._feature_widths,
             self.model.incidence_pointers,
             self.model.incidence_vertices,
             rotations,
@@ -133,11 +130,10 @@ class ScapeEvaluator:
         feature_derivative = np.empty(features.shape)
         rotation_derivative = np.empty_like(rotations)
         gather_gradient(
-            self._shape_terms,
+            self._terms,
+            self._term_widths,
             parameters.shape,
-            self._pose_terms,
             features,
-            self._feature_widths,
             self.model.incidence_pointers,
             self.model.incidence_vertices,
             rotations,
@@ -191,10 +187,22 @@ def _shape_terms(
     return np.ascontiguousarray(terms, dtype=np.float32)
 
 
-def _feature_widths(model: BodyModel) -> Integer[np.ndarray, " p"]:
-    """Leading features each part uses: most parts have fewer joints beside them than the chest."""
+def _terms(
+    model: BodyModel, shape_terms: Float[np.ndarray, "i 3 n1"]
+) -> tuple[Float[np.ndarray, " t"], Integer[np.ndarray, " p"]]:
+    """Rows of shape terms and used pose terms, part after part; and the rows' widths.
+
+    Most parts have fewer joints beside them than the chest. What an evaluation reads is read in
+    one go: it is more than a processor's own cache holds.
+    """
     used = model.pose_feature_joints >= 0
-    return 9 * np.max(np.where(used, np.arange(used.shape[1]) + 1, 0), axis=1)
+    features = 9 * np.max(np.where(used, np.arange(used.shape[1]) + 1, 0), axis=1)
+    blocks: list[np.ndarray] = []
+    for part, width in enumerate(features):
+        rows = slice(model.incidence_pointers[part], model.incidence_pointers[part + 1])
+        pose_terms = model.pose_right_hand_sides[rows, :, :width]
+        blocks.append(np.concatenate([shape_terms[rows], pose_terms], axis=2).ravel())
+    return np.concatenate(blocks).astype(np.float32), features + shape_terms.shape[2]
 
 
 def _root_weights(model: BodyModel) -> Float[np.ndarray, " m"]:

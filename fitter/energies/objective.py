@@ -17,6 +17,7 @@ from fitter.body.skeleton import regress
 from fitter.camera import Camera
 from fitter.energies.attributes import NOTHING_KNOWN, KnownAttributes, attribute_energy
 from fitter.energies.clicks import ClickEvidence, click_energy
+from fitter.energies.correspondence_lines import line_energy
 from fitter.energies.edges import edge_energy
 from fitter.energies.instruments import BodyInstruments
 from fitter.energies.penetration import penetration_energy, sphere_positions
@@ -25,6 +26,7 @@ from fitter.energies.scales import EnergyScales
 from fitter.energies.shading import ShadingEvidence, shading_energy
 from fitter.energies.silhouette import silhouette_energy, silhouette_overlap
 from fitter.errors import NumericalError
+from fitter.evidence.correspondence_lines import CorrespondenceLines
 from fitter.evidence.edge_cost import EdgeCostMap
 from fitter.evidence.silhouette_evidence import SilhouetteEvidence
 from fitter.parameters import BodyParameters
@@ -34,11 +36,23 @@ from fitter.render.rasterizer import Rendering, render
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class PictureEvidence:
-    """What the picture says; ``shading`` is None for E1."""
+    """What the picture says.
+
+    Attributes
+    ----------
+    silhouette
+        The region segmentation found.
+    lines
+        Where the person ends on lines across the contour of a body near by; then these are the
+        silhouette energy. None while there is no such body: then the region is.
+    shading
+        None for E1.
+    """
 
     camera: Camera
     clicks: ClickEvidence
     silhouette: SilhouetteEvidence
+    lines: CorrespondenceLines | None = None
     edges: EdgeCostMap
     shading: ShadingEvidence | None
 
@@ -89,7 +103,9 @@ class Objective:
         landmarks = regress(evidence.clicks.landmarks, vertices)
         spheres, radii = sphere_positions(instruments.penetration, vertices)
         energies = {
-            "silhouette": silhouette_energy(rendering, evidence.silhouette, scales),
+            "silhouette": silhouette_energy(rendering, evidence.silhouette, scales)
+            if evidence.lines is None
+            else line_energy(rendering, evidence.lines, scales),
             "edges": edge_energy(edges, evidence.edges, scales),
             "penetration": penetration_energy(spheres, radii, instruments.penetration, scales),
             "clicks": click_energy(landmarks, evidence.clicks, evidence.camera, scales),
@@ -121,6 +137,10 @@ class Objective:
     def overlap(self, candidate: Candidate) -> float:
         """Intersection over union of the body's silhouette and the observed one."""
         return silhouette_overlap(candidate.rendering, self.evidence.silhouette)
+
+    def with_lines(self, lines: CorrespondenceLines) -> "Objective":
+        """The same objective with another outline to meet."""
+        return replace(self, evidence=replace(self.evidence, lines=lines))
 
     def with_shading(self, shading: ShadingEvidence) -> "Objective":
         """The same objective with another shading term."""

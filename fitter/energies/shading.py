@@ -9,7 +9,7 @@ sum over visible vertices is taken: a body must not gain by hiding.
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Bool
+from jaxtyping import Bool, Integer
 
 from fitter.arrays import PerVertex, Vector3
 from fitter.energies._shading_kernels import facing_camera
@@ -39,7 +39,7 @@ class ShadingEvidence:
     reflectance
         Per-vertex albedo and specularity, ambient and exponent.
     vertex_areas
-        (m,) shares of the body's area.
+        (m,) shares of the body's area; vertices with none take no part.
     shadowed
         (m,) vertices in a cast shadow when the light was last found, with their surroundings:
         Eq. 1 knows no cast shadow, and a body fitted to one bulges to turn away from the light.
@@ -55,14 +55,28 @@ class ShadingEvidence:
     shadowed: Bool[np.ndarray, " m"]
     eta: float
 
+    def reflectance_of(self, vertices: Integer[np.ndarray, " k"]) -> Reflectance:
+        """The reflectance of some vertices, in their order."""
+        return replace(
+            self.reflectance,
+            albedo=self.reflectance.albedo[vertices],
+            specularity=self.reflectance.specularity[vertices],
+        )
+
 
 def seen_vertices(rendering: Rendering, intensity: IntensityMap) -> Bool[np.ndarray, " m"]:
     """Visible vertices, not near the rim, whose pixel is neither clipped nor off the person."""
-    seen = np.empty_like(rendering.vertex_visible)
+    return _seen_among(rendering.vertex_visible, rendering, intensity)
+
+
+def _seen_among(
+    visible: Bool[np.ndarray, " m"], rendering: Rendering, intensity: IntensityMap
+) -> Bool[np.ndarray, " m"]:
+    seen = np.empty_like(visible)
     facing_camera(
         rendering.vertices,
         rendering.vertex_normals,
-        rendering.vertex_visible,
+        visible,
         _LEAST_FACING,
         seen,
     )
@@ -71,8 +85,9 @@ def seen_vertices(rendering: Rendering, intensity: IntensityMap) -> Bool[np.ndar
 
 
 def usable_vertices(rendering: Rendering, evidence: ShadingEvidence) -> Bool[np.ndarray, " m"]:
-    """Seen vertices that no cast shadow makes say something else than Eq. 1."""
-    return seen_vertices(rendering, evidence.intensity) & ~evidence.shadowed
+    """Seen vertices that take part and that no cast shadow makes say something else than Eq. 1."""
+    taking_part = (evidence.vertex_areas > 0.0) & ~evidence.shadowed
+    return _seen_among(rendering.vertex_visible & taking_part, rendering, evidence.intensity)
 
 
 def shading_energy(rendering: Rendering, evidence: ShadingEvidence, scales: EnergyScales) -> float:
@@ -86,7 +101,7 @@ def shading_energy(rendering: Rendering, evidence: ShadingEvidence, scales: Ener
         rendering.vertex_normals[chosen],
         light=evidence.light,
         body_centre=evidence.body_centre,
-        reflectance=_of_vertices(evidence.reflectance, chosen),
+        reflectance=evidence.reflectance_of(chosen),
     )
     observed = evidence.intensity.at(rendering.projected[chosen])
     loss = geman_mcclure(predicted - observed, evidence.eta)
@@ -104,7 +119,7 @@ def shading_rows(
         rendering.vertex_normals[chosen],
         light=evidence.light,
         body_centre=evidence.body_centre,
-        reflectance=_of_vertices(evidence.reflectance, chosen),
+        reflectance=evidence.reflectance_of(chosen),
     )
     observed, slopes = evidence.intensity.with_gradient_at(rendering.projected[chosen])
     residuals = derivatives.shading - observed
@@ -133,12 +148,4 @@ def thinned_shading(rows: ShadingRows, limit: int) -> ShadingRows:
         vertices=rows.vertices[chosen],
         position_derivatives=rows.position_derivatives[chosen],
         normal_derivatives=rows.normal_derivatives[chosen],
-    )
-
-
-def _of_vertices(reflectance: Reflectance, chosen: np.ndarray) -> Reflectance:
-    return replace(
-        reflectance,
-        albedo=reflectance.albedo[chosen],
-        specularity=reflectance.specularity[chosen],
     )

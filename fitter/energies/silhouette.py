@@ -8,11 +8,14 @@ body, and pull at nothing there. Divided by σ² and by the length over which ne
 repeat themselves it is a negative log-likelihood.
 """
 
-import cv2
 import numpy as np
-from scipy.spatial import KDTree
+from jaxtyping import Bool
 
-from fitter.energies._silhouette_kernels import robust_mismatch
+from fitter.energies._silhouette_kernels import (
+    bounding_box,
+    nearest_within,
+    robust_mismatch,
+)
 from fitter.energies.rows import PositionRows
 from fitter.energies.scales import EnergyScales
 from fitter.evidence.silhouette_evidence import SilhouetteEvidence
@@ -27,6 +30,8 @@ _SHARE = 0.5
 # What a pixel far from everything costs, in robust scales: without it a body that has left the
 # person altogether would cost nothing. Constant, so it pulls at nothing.
 _FAR_COST = 0.1
+# From where on, in robust scales, d / (1 + d²/η²)² is less than that.
+_FAR = 1.81
 _MARGIN_PX = 2
 
 
@@ -34,18 +39,15 @@ def silhouette_energy(
     rendering: Rendering, evidence: SilhouetteEvidence, scales: EnergyScales
 ) -> float:
     """E_Si in nats; pixels outside the picture count for nothing."""
-    model = rendering.silhouette
-    top, bottom, left, right = _common_box(model, evidence)
-    model = np.ascontiguousarray(model[top:bottom, left:right])
-    outside = cv2.distanceTransform((~model).view(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
+    top, bottom, left, right = _common_box(rendering, evidence)
     total = robust_mismatch(
-        model,
+        rendering.face_ids[top:bottom, left:right],
         evidence.mask[top:bottom, left:right],
         evidence.signed_distance[top:bottom, left:right],
-        outside,
         evidence.confidence[top:bottom, left:right],
         scales.silhouette_eta,
         _FAR_COST * scales.silhouette_eta,
+        _FAR * scales.silhouette_eta,
     )
     return float(total) / (scales.silhouette_sigma**2 * scales.correlation_length)
 
@@ -117,30 +119,38 @@ def _nearest_facing_alike(
 ) -> np.ndarray:
     """Contour index for each observed boundary point, -1 where none is near and faces alike.
 
-    Position and normal together are the key of the tree: a normal turned by 60 degrees counts like
-    twice the robust scale, so the far side of a thin limb is never the nearest.
+    Position and normal together are the key: a normal turned by 60 degrees counts like twice the
+    robust scale, so the far side of a thin limb is never the nearest.
     """
     scale = 2.0 * scales.silhouette_eta
-    tree = KDTree(np.hstack([middles, scale * normals]))
-    distance, index = tree.query(
+    keys = np.hstack([middles, scale * normals])
+    order = np.argsort(middles[:, 0])
+    nearest = nearest_within(
+        keys[order],
         np.hstack([evidence.boundary_points, scale * evidence.boundary_normals]),
-        distance_upper_bound=1.5 * scale,
+        1.5 * scale,
     )
-    found = np.isfinite(distance)
-    index = np.where(found, index, -1)
+    index = np.where(nearest >= 0, order[nearest], -1)
     agreement = np.einsum("ki,ki->k", normals[index], evidence.boundary_normals)
-    return np.where(found & (agreement > _LEAST_NORMAL_AGREEMENT), index, -1)
+    return np.where((index >= 0) & (agreement > _LEAST_NORMAL_AGREEMENT), index, -1)
 
 
-def _common_box(model: np.ndarray, evidence: SilhouetteEvidence) -> tuple[int, int, int, int]:
+def _common_box(rendering: Rendering, evidence: SilhouetteEvidence) -> tuple[int, int, int, int]:
     """Rows and columns that hold both regions, with a margin."""
-    rows = np.flatnonzero(model.any(axis=1) | evidence.occupied_rows)
-    columns = np.flatnonzero(model.any(axis=0) | evidence.occupied_columns)
-    if not len(rows):
-        return 0, 1, 0, 1
+    left, right, top, bottom = bounding_box(rendering.projected)
+    height, width = evidence.mask.shape
     return (
-        max(int(rows[0]) - _MARGIN_PX, 0),
-        int(rows[-1]) + 1 + _MARGIN_PX,
-        max(int(columns[0]) - _MARGIN_PX, 0),
-        int(columns[-1]) + 1 + _MARGIN_PX,
+        *_span(top, bottom, evidence.occupied_rows, height),
+        *_span(left, right, evidence.occupied_columns, width),
     )
+
+
+def _span(
+    first: float, last: float, occupied: Bool[np.ndarray, " k"], size: int
+) -> tuple[int, int]:
+    """Where a body's projection and the occupied lines lie within a picture, with a margin."""
+    lines = np.flatnonzero(occupied)
+    if len(lines):
+        first, last = min(first, float(lines[0])), max(last, float(lines[-1]) + 1.0)
+    start = min(max(int(np.floor(first)) - _MARGIN_PX, 0), size - 1)
+    return start, max(min(int(np.ceil(last)) + _MARGIN_PX, size), start + 1)

@@ -1,9 +1,10 @@
 """Every file a fit gives back but the result itself."""
 
 from fitter.body.model import BodyModel
-from fitter.export.display import png
+from fitter.export.display import finer, png
 from fitter.export.gltf import body_canonical_glb, body_posed_glb
 from fitter.export.pictures import (
+    SUPERSAMPLING,
     drawing_camera,
     drawing_picture,
     mask_levels,
@@ -69,11 +70,11 @@ def _reflectance_pictures(
     """Fig. 7: albedo, the Lambertian part of Eq. 1, and all of it, as the camera sees them."""
     if result.light is None:
         return {}
-    camera = drawing_camera(result.image_camera)
-    normals = render(result.posed_vertices, model.triangles, camera).vertex_normals
+    camera = finer(drawing_camera(result.image_camera), SUPERSAMPLING)
+    rendering = render(result.posed_vertices, model.triangles, camera)
     terms = shading_terms(
         result.posed_vertices,
-        normals,
+        rendering.vertex_normals,
         light=result.light,
         body_centre=result.body.translation,
         specular_exponent=reflectance.specular_exponent,
@@ -85,7 +86,4 @@ def _reflectance_pictures(
         "shading_lambertian.png": lambertian,
         "shading.png": lambertian + reflectance.specularity * terms.specular,
     }
-    return {
-        name: png(vertex_value_picture(value, result.posed_vertices, model.triangles, camera))
-        for name, value in values.items()
-    }
+    return {name: png(vertex_value_picture(value, rendering)) for name, value in values.items()}

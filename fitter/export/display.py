@@ -7,8 +7,12 @@ from jaxtyping import Float, UInt8
 from fitter.arrays import GreyImage
 from fitter.camera import Camera
 
-_COMPRESSION = 4
-"""zlib level: two thirds of the default's time for three per cent more bytes on a photograph."""
+_COMPRESSION = (
+    *(cv2.IMWRITE_PNG_COMPRESSION, 1),
+    *(cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE),
+)
+"""zlib's fastest level, which looks for repeats of one byte alone: three quarters of the time of
+level 4, for 4 per cent more bytes on a photograph and as many on drawn pictures."""
 
 
 def to_levels(display: Float[np.ndarray, "..."]) -> UInt8[np.ndarray, "..."]:
@@ -19,7 +23,7 @@ def to_levels(display: Float[np.ndarray, "..."]) -> UInt8[np.ndarray, "..."]:
 def png(levels: UInt8[np.ndarray, "h w ..."]) -> bytes:
     """A PNG of (h, w) grey or (h, w, 3) red-green-blue levels; the same input, the same bytes."""
     ordered = levels[:, :, ::-1] if levels.ndim == 3 else levels
-    encoded, content = cv2.imencode(".png", ordered, [cv2.IMWRITE_PNG_COMPRESSION, _COMPRESSION])
+    encoded, content = cv2.imencode(".png", ordered, _COMPRESSION)
     if not encoded:
         message = f"OpenCV could not encode a picture of shape {levels.shape}."
         raise RuntimeError(message)

@@ -6,13 +6,13 @@ from jaxtyping import Float, UInt8
 
 from fitter.arrays import Mask, PerVertex, Triangles, Vertices
 from fitter.camera import Camera
-from fitter.export.display import block_means, finer, to_levels
+from fitter.export.display import block_means, to_levels
 from fitter.numerics.mesh_topology import mesh_topology
 from fitter.observation.colour import display_from_linear
 from fitter.observation.resampling import WorkingSize, linear_working_picture
 from fitter.render.contours import model_edges
 from fitter.render.interpolation import shade_image
-from fitter.render.rasterizer import render
+from fitter.render.rasterizer import Rendering, render
 from fitter.segmentation.trimap import Trimap, trimap_picture
 
 LONGEST_SIDE_PX = 1600
@@ -97,21 +97,17 @@ def overlay_picture(
 
 
 def vertex_value_picture(
-    linear_values: Float[np.ndarray, "m 3"] | PerVertex,
-    vertices: Vertices,
-    triangles: Triangles,
-    camera: Camera,
+    linear_values: Float[np.ndarray, "m 3"] | PerVertex, rendering: Rendering
 ) -> Levels:
-    """Linear values on vertices, grey or red-green-blue, seen by the camera.
+    """Linear values on vertices, grey or red-green-blue, as a rendering shows them.
 
     Parameters
     ----------
     linear_values
         Clipped to [0, 1] where they are seen, then sRGB-coded.
-    vertices
-        (m, 3) camera frame, metres.
+    rendering
+        By a camera ``SUPERSAMPLING`` times as fine as the picture.
     """
-    rendering = render(vertices, triangles, finer(camera, SUPERSAMPLING))
     columns = [linear_values] if linear_values.ndim == 1 else list(linear_values.T)
     seen = [shade_image(rendering, column, background=SURROUNDINGS) for column in columns]
     channels = [block_means(np.clip(channel, 0.0, 1.0), SUPERSAMPLING) for channel in seen]

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from fitter.arrays import PerVertex, Shape, Triangles, Vector3, Vertices
+from fitter.arrays import PerVertex, Points3D, Shape, Triangles, Vector3, Vertices
 from fitter.body.model import BodyModel, SparseRows
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.skeleton import regress
@@ -30,7 +30,14 @@ from fitter.measurement.definitions import (
 )
 from fitter.measurement.plane_cut import Region, restricted, whole_mesh
 from fitter.measurement.quantity import Measurement
-from fitter.measurement.tape import back_contour_m, girth_at_m, girth_placement, path_length_m
+from fitter.measurement.tape import (
+    back_contour,
+    back_contour_m,
+    girth_at_m,
+    girth_loop,
+    girth_placement,
+    path_length_m,
+)
 from fitter.numerics.meshes import enclosed_volume
 
 CENTIMETRES_PER_METRE = 100.0
@@ -191,6 +198,24 @@ def measurement_values(body: MeasuringBody, shape: Shape) -> Float[np.ndarray, "
     return _values(body, taken, _placements(body, taken))
 
 
+def tape_lines(body: MeasuringBody, shape: Shape) -> Mapping[str, Points3D]:
+    """Where on the canonical body each measurement is taken, by its name.
+
+    Lines of (k, 3) points in the body frame, metres; a girth's is closed by repeating its first
+    point. A weight has none. Heights are taken in the standing pose, whose legs are straight down;
+    their lines show the same points on the canonical body, so that these lines may be some
+    millimetres shorter than what is measured.
+    """
+    taken = _take(body, shape)
+    placements = _placements(body, taken)
+    lines = {
+        definition.about.name: _line(body, definition, taken, placements)
+        for definition in body.definitions
+        if not isinstance(definition, Mass)
+    }
+    return {name: line for name, line in lines.items() if len(line) and np.isfinite(line).all()}
+
+
 def measurement_jacobian(body: MeasuringBody, shape: Shape) -> Float[np.ndarray, "k n"]:
     """Derivative of every measurement (rows, their units) by every shape coefficient.
 
@@ -305,6 +330,38 @@ def _value(
                 _point(definition.bottom, points),
             )
     return metres * CENTIMETRES_PER_METRE
+
+
+def _line(
+    body: MeasuringBody,
+    definition: Girth | Length | Height | BackContour,
+    taken: _Taken,
+    placements: Mapping[str, float],
+) -> Points3D:
+    points = taken.canonical
+    name = definition.about.name
+    match definition:
+        case Girth():
+            return girth_loop(
+                definition,
+                body.regions[name],
+                taken.vertices,
+                *_axis(definition, points),
+                placements[name],
+            )
+        case Length():
+            return np.stack([_point(names, points) for names in definition.path])
+        case Height():
+            top = _point(definition.point, points)
+            soles = _point(("sole_left", "sole_right"), points)
+            return np.stack([top, [top[0], soles[1], top[2]]])
+        case BackContour():
+            return back_contour(
+                body.regions[name],
+                taken.vertices,
+                _point(definition.top, points),
+                _point(definition.bottom, points),
+            )
 
 
 def _axis(girth: Girth, points: Mapping[str, Vector3]) -> tuple[Vector3, Vector3]:

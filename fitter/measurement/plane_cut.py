@@ -158,9 +158,14 @@ def in_plane(points: Points3D, plane: Plane) -> Points2D:
     return flatten(np.ascontiguousarray(points), plane.point, plane.normal)
 
 
+def hull_indices(points: Points2D) -> Integer[np.ndarray, " k"]:
+    """Which points are corners of the convex hull, counter-clockwise."""
+    return convex_hull(np.ascontiguousarray(points))
+
+
 def hull_of(points: Points2D) -> Points2D:
     """Corners of the convex hull, counter-clockwise."""
-    return points[convex_hull(np.ascontiguousarray(points))]
+    return points[hull_indices(points)]
 
 
 def closed_length(points: Float[np.ndarray, "k d"]) -> float:

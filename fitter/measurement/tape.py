@@ -11,6 +11,7 @@ from fitter.measurement.plane_cut import (
     Polyline,
     Region,
     closed_length,
+    hull_indices,
     hull_of,
     in_plane,
     plane_section,
@@ -31,18 +32,43 @@ def girth_at_m(
     girth: Girth, region: Region, vertices: Vertices, start: Vector3, end: Vector3, fraction: float
 ) -> float:
     """Hull length of the cut at a fraction of the axis; NaN where the plane misses the region."""
+    plane = _girth_plane(girth, start, end, fraction)
+    points = _under_tape(girth, region, vertices, plane)
+    if points is None:
+        return float("nan")
+    return closed_length(hull_of(in_plane(points, plane)))
+
+
+def girth_loop(
+    girth: Girth, region: Region, vertices: Vertices, start: Vector3, end: Vector3, fraction: float
+) -> Points3D:
+    """The tape whose length :func:`girth_at_m` tells, closed by repeating its first point.
+
+    (k, 3) in the frame of the vertices; empty where the plane misses the region.
+    """
+    plane = _girth_plane(girth, start, end, fraction)
+    points = _under_tape(girth, region, vertices, plane)
+    if points is None:
+        return np.zeros((0, 3))
+    corners = hull_indices(in_plane(points, plane))
+    return points[np.append(corners, corners[0])]
+
+
+def _girth_plane(girth: Girth, start: Vector3, end: Vector3, fraction: float) -> Plane:
     axis = end - start
-    point = start + fraction * axis
     normal = UP if girth.orientation is Orientation.LEVEL else axis / np.linalg.norm(axis)
-    plane = Plane(point=point, normal=normal)
+    return Plane(point=start + fraction * axis, normal=normal)
+
+
+def _under_tape(girth: Girth, region: Region, vertices: Vertices, plane: Plane) -> Points3D | None:
+    """The points of the cut that a tape goes round; None where the plane misses the region."""
     lines = plane_section(vertices, region, plane)
     if not lines:
-        return float("nan")
+        return None
     lines = _without_scraps(lines)
     if girth.around_axis and len(lines) > 1:
         lines = (_line_around(lines, plane),)
-    points = lines[0].points if len(lines) == 1 else np.concatenate([e.points for e in lines])
-    return closed_length(hull_of(in_plane(points, plane)))
+    return lines[0].points if len(lines) == 1 else np.concatenate([e.points for e in lines])
 
 
 def girth_placement(
@@ -80,19 +106,25 @@ def path_length_m(points: Points3D | Sequence[Vector3]) -> float:
 
 
 def back_contour_m(region: Region, vertices: Vertices, top: Vector3, bottom: Vector3) -> float:
-    """Taut length down the back in the sagittal plane through ``top``, to the height of ``bottom``.
+    """Length of :func:`back_contour`; NaN where the plane misses the region."""
+    taut = back_contour(region, vertices, top, bottom)
+    return path_length_m(taut) if len(taut) else float("nan")
+
+
+def back_contour(region: Region, vertices: Vertices, top: Vector3, bottom: Vector3) -> Points3D:
+    """A tape laid taut down the back in the sagittal plane through ``top``, to ``bottom``'s height.
 
     The tape touches what stands out and spans the hollow of the back: it is the rear side of the
-    convex hull between both heights.
+    convex hull between both heights. (k, 3); empty where the plane misses the region.
     """
     sagittal = Plane(point=top, normal=np.array([1.0, 0.0, 0.0]))
     lines = plane_section(vertices, region, sagittal)
     if not lines:
-        return float("nan")
+        return np.zeros((0, 3))
     rear = _rear_line(lines, top[1], bottom[1])
     # (y, -z): the hull's far side along the second axis is the person's back.
     taut = _upper_chain(np.stack([rear[:, 1], -rear[:, 2]], axis=1))
-    return float(np.linalg.norm(np.diff(taut, axis=0), axis=1).sum())
+    return np.stack([np.full(len(taut), top[0]), taut[:, 0], -taut[:, 1]], axis=1)
 
 
 def _without_scraps(lines: Sequence[Polyline]) -> Sequence[Polyline]:

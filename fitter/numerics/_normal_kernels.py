@@ -1,5 +1,6 @@
 """Numba kernels for vertex normals and their derivatives."""
 
+from math import sqrt
 from typing import no_type_check
 
 import numpy as np
@@ -30,28 +31,67 @@ def accumulate_normals(vertices, triangles, result):
 
 @no_type_check
 @njit(cache=True, fastmath=True)
-def pull_back_normals(vertices, triangles, pull, result):
-    """Derivative by vertices of a scalar whose derivative by summed cross products is ``pull``."""
-    result[:] = 0.0
-    u = np.empty(3)
-    v = np.empty(3)
-    s = np.empty(3)
-    for t in range(len(triangles)):
-        a, b, c = triangles[t]
-        for k in range(3):
-            u[k] = vertices[b, k] - vertices[a, k]
-            v[k] = vertices[c, k] - vertices[a, k]
-            s[k] = pull[a, k] + pull[b, k] + pull[c, k]
-        if s[0] == 0.0 and s[1] == 0.0 and s[2] == 0.0:
+def pull_back_normals(vertices, triangles, pointers, rings, chosen, by_normal, result):
+    """Add the derivative by vertices of a scalar known by its derivative by some unit normals.
+
+    With S = Σ u × v over a vertex' ring, a derivative g by the unit normal n = S / |S| is
+    q = (g - (g . n) n) / |S| by S, and of every cross product v × q by u and q × u by v.
+    """
+    for i in range(len(chosen)):
+        vertex = chosen[i]
+        sx = sy = sz = 0.0
+        for r in range(pointers[vertex], pointers[vertex + 1]):
+            t = rings[r]
+            a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+            ux, uy, uz = (
+                vertices[b, 0] - vertices[a, 0],
+                vertices[b, 1] - vertices[a, 1],
+                vertices[b, 2] - vertices[a, 2],
+            )
+            vx, vy, vz = (
+                vertices[c, 0] - vertices[a, 0],
+                vertices[c, 1] - vertices[a, 1],
+                vertices[c, 2] - vertices[a, 2],
+            )
+            sx += uy * vz - uz * vy
+            sy += uz * vx - ux * vz
+            sz += ux * vy - uy * vx
+        length = sqrt(sx * sx + sy * sy + sz * sz)
+        if length == 0.0:
             continue
-        for k in range(3):
-            k1 = (k + 1) % 3
-            k2 = (k + 2) % 3
-            by_u = v[k1] * s[k2] - v[k2] * s[k1]
-            by_v = s[k1] * u[k2] - s[k2] * u[k1]
-            result[b, k] += by_u
-            result[c, k] += by_v
-            result[a, k] -= by_u + by_v
+        sx, sy, sz = sx / length, sy / length, sz / length
+        gx, gy, gz = by_normal[i, 0], by_normal[i, 1], by_normal[i, 2]
+        along = gx * sx + gy * sy + gz * sz
+        qx, qy, qz = (
+            (gx - along * sx) / length,
+            (gy - along * sy) / length,
+            (gz - along * sz) / length,
+        )
+        for r in range(pointers[vertex], pointers[vertex + 1]):
+            t = rings[r]
+            a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+            # By u = b - a and v = c - a; a takes what both leave, q × (c - b).
+            ux, uy, uz = (
+                vertices[b, 0] - vertices[a, 0],
+                vertices[b, 1] - vertices[a, 1],
+                vertices[b, 2] - vertices[a, 2],
+            )
+            vx, vy, vz = (
+                vertices[c, 0] - vertices[a, 0],
+                vertices[c, 1] - vertices[a, 1],
+                vertices[c, 2] - vertices[a, 2],
+            )
+            bx, by, bz = vy * qz - vz * qy, vz * qx - vx * qz, vx * qy - vy * qx
+            cx, cy, cz = qy * uz - qz * uy, qz * ux - qx * uz, qx * uy - qy * ux
+            result[b, 0] += bx
+            result[b, 1] += by
+            result[b, 2] += bz
+            result[c, 0] += cx
+            result[c, 1] += cy
+            result[c, 2] += cz
+            result[a, 0] -= bx + cx
+            result[a, 1] -= by + cy
+            result[a, 2] -= bz + cz
 
 
 @no_type_check

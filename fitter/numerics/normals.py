@@ -39,27 +39,28 @@ def summed_cross_products(vertices: Vertices, triangles: Triangles) -> Normals:
     return result
 
 
-def normal_derivative_to_vertices(
-    vertices: Vertices, triangles: Triangles, normal_derivative: Normals
-) -> Vertices:
-    """Derivative by vertices of a scalar known by its derivative by unit vertex normals.
+def add_normal_derivative(
+    vertices: Vertices,
+    triangles: Triangles,
+    rings: VertexRings,
+    chosen: Integer[np.ndarray, " k"],
+    by_normal: Float[np.ndarray, "k 3"],
+    by_vertices: Vertices,
+) -> None:
+    """Add the derivative by vertices of a scalar known by its derivative by some unit normals.
 
     Parameters
     ----------
-    vertices, triangles
+    vertices, triangles, rings
         The mesh, any frame.
-    normal_derivative
-        (m, 3) derivative by the unit normals; zero where a normal plays no part.
+    chosen, by_normal
+        Vertices, and the derivative by their unit normals.
+    by_vertices
+        (m, 3) added to in place.
     """
-    sums = summed_cross_products(vertices, triangles)
-    length = np.linalg.norm(sums, axis=1, keepdims=True)
-    length = np.where(length > 0.0, length, 1.0)
-    unit = sums / length
-    along = np.einsum("mi,mi->m", unit, normal_derivative)[:, None]
-    pull = (normal_derivative - along * unit) / length
-    result = np.empty_like(vertices)
-    pull_back_normals(vertices, triangles, pull, result)
-    return result
+    pull_back_normals(
+        vertices, triangles, rings.pointers, rings.triangles, chosen, by_normal, by_vertices
+    )
 
 
 def normal_change(

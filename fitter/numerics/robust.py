@@ -31,7 +31,13 @@ def huber(residuals: Float[np.ndarray, "..."], threshold: float) -> Float[np.nda
     return np.where(size <= threshold, 0.5 * size * size, threshold * (size - 0.5 * threshold))
 
 
+def boundary_loss(residuals: Float[np.ndarray, "..."], scale: float) -> Float[np.ndarray, "..."]:
+    """½ x² / (1 + x²/η²): Geman and McClure's function with unit curvature at zero."""
+    squared = residuals * residuals
+    return 0.5 * squared / (1.0 + squared / (scale * scale))
+
+
 def boundary_weights(residuals: Float[np.ndarray, "..."], scale: float) -> Float[np.ndarray, "..."]:
-    """Weights of ½ x² / (1 + x²/η²): Geman and McClure's function with unit curvature at zero."""
+    """Weights w with w x = the derivative of :func:`boundary_loss`."""
     damping = 1.0 + (residuals / scale) ** 2
     return 1.0 / (damping * damping)

@@ -281,3 +281,13 @@ def scatter(forces, points, derivatives, result):
             v = points[k, q]
             for axis in range(3):
                 result[v, axis] += forces[k] * derivatives[k, q, axis]
+
+
+@no_type_check
+@njit(cache=True, fastmath=True)
+def scatter_sums(by_sums, pointers, indices, weights, result):
+    """Add the derivative by each sum, times the weights, to the points it is made of."""
+    for s in range(len(pointers) - 1):
+        for entry in range(pointers[s], pointers[s + 1]):
+            for axis in range(3):
+                result[indices[entry], axis] += weights[entry] * by_sums[s, axis]

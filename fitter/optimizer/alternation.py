@@ -8,8 +8,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Integer
 
+from fitter.arrays import Vertices
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.shading import ShadingEvidence, seen_vertices, usable_vertices
 from fitter.evidence.intensity import IntensityMap
@@ -32,7 +33,7 @@ from fitter.render.light import light_about
 from fitter.render.reflectance import shading_terms
 from fitter.render.shadow import cast_shadow
 
-SMOOTHNESS_SCHEDULE = (40.0, 20.0, 10.0, 5.0)
+SMOOTHNESS_SCHEDULE = (40.0, 14.0, 5.0)
 """λ₁ = λ₂ of each round, against data weights of mean one a vertex: a step of albedo between two
 neighbours costs as much as so many vertices left wholly unexplained. Lower ends (0.3) let the
 albedo absorb what the shape should explain; chosen on the evaluation's tuning half."""
@@ -44,7 +45,7 @@ still be dearer as an edge of albedo than as an error of intensity."""
 SPECULAR_EXPONENTS = (6.0, 12.0, 24.0, 48.0)
 """α is chosen from these once, with the first light: skin's broad gloss to a moist shine."""
 
-GRADUATION = ((8.0, 3), (3.0, 3), (1.0, 4))
+GRADUATION = ((8.0, 2), (3.0, 2), (1.0, 3))
 """Factors of η₁ and iterations of each reflectance solve. Graduated non-convexity: cloth and hair
 are far from the first, uniform albedo, and a narrow robust function would take them for outliers
 for ever instead of giving them an albedo of their own."""
@@ -142,6 +143,7 @@ def fit_shading(
     assert minimum is not None
     # The reflectance of the final body: what is drawn must be what was found.
     reported = _with_new_reflectance(objective, now, state, REPORTED_SMOOTHNESS, GRADUATION)
+    reported = _everywhere(objective, now, reported)
     light = light_about(state.light, old_centre=centre, new_centre=now.parameters.translation)
     return ShadedFit(
         minimum=minimum,
@@ -171,7 +173,7 @@ def _first_state(
         reflectance=Reflectance(
             albedo=np.ones(m), specularity=np.ones(m), ambient=0.0, specular_exponent=1.0
         ),
-        vertex_areas=objective.instruments.vertex_areas,
+        vertex_areas=objective.instruments.shaded.areas,
         shadowed=np.zeros(m, dtype=np.bool_),
         eta=eta,
     )
@@ -244,10 +246,11 @@ def _with_new_reflectance(
     smoothness: float,
     graduation: tuple[tuple[float, int], ...],
 ) -> ShadingEvidence:
-    rendering, topology = candidate.rendering, objective.instruments.topology
+    rendering, sample = candidate.rendering, objective.instruments.shaded
     usable = usable_vertices(rendering, state)
-    part = mesh_part(grown(usable, topology.edges, _MARGIN_RINGS), topology.edges)
-    chosen, seen = part.vertices, usable[part.vertices]
+    part = mesh_part(grown(usable[sample.vertices], sample.edges, _MARGIN_RINGS), sample.edges)
+    chosen = sample.vertices[part.vertices]
+    seen = usable[chosen]
     intensity = np.zeros(len(chosen))
     intensity[seen] = state.intensity.at(rendering.projected[chosen[seen]])
     weights = np.where(seen, state.vertex_areas[chosen], 0.0)
@@ -259,10 +262,8 @@ def _with_new_reflectance(
         body_centre=state.body_centre,
         specular_exponent=state.reflectance.specular_exponent,
     )
-    first, second = topology.edges.T
-    lengths = np.linalg.norm(rendering.vertices[first] - rendering.vertices[second], axis=1)
-    lengths = np.maximum(lengths / lengths.mean(), 0.05)
-    albedo_level = max(float(np.median(state.reflectance.albedo)), 1e-3)
+    lengths = _edge_lengths(rendering.vertices[sample.vertices], sample.edges)
+    albedo_level = max(float(np.median(state.reflectance.albedo[sample.vertices])), 1e-3)
     problem = ReflectanceProblem(
         diffuse=terms.diffuse,
         specular=terms.specular,
@@ -297,7 +298,6 @@ def _with_new_reflectance(
         found = solver.solve(wide, found, iterations=iterations)
     albedo, specularity = state.reflectance.albedo.copy(), state.reflectance.specularity.copy()
     albedo[chosen], specularity[chosen] = found.albedo, found.specularity
-    albedo, specularity = filled_in((albedo, specularity), part.members, topology.edges, lengths)
     return replace(
         state,
         reflectance=replace(
@@ -307,6 +307,29 @@ def _with_new_reflectance(
             ambient=found.ambient,
         ),
     )
+
+
+def _everywhere(
+    objective: Objective, candidate: Candidate, state: ShadingEvidence
+) -> ShadingEvidence:
+    """Reflectance of all vertices from that of the seen ones that took part."""
+    edges = objective.instruments.topology.edges
+    albedo, specularity = filled_in(
+        (state.reflectance.albedo, state.reflectance.specularity),
+        usable_vertices(candidate.rendering, state),
+        edges,
+        _edge_lengths(candidate.vertices, edges),
+    )
+    return replace(
+        state, reflectance=replace(state.reflectance, albedo=albedo, specularity=specularity)
+    )
+
+
+def _edge_lengths(vertices: Vertices, edges: Integer[np.ndarray, "e 2"]) -> Float[np.ndarray, " e"]:
+    """Over their mean; no edge counts as shorter than a twentieth of it."""
+    first, second = edges.T
+    lengths = np.linalg.norm(vertices[first] - vertices[second], axis=1)
+    return np.maximum(lengths / lengths.mean(), 0.05)
 
 
 def _lit_surface(candidate: Candidate, state: ShadingEvidence, exponent: float) -> LitSurface:

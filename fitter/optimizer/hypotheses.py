@@ -3,9 +3,20 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from fitter.energies.objective import Candidate, Objective
+from fitter.energies.objective import Objective
 from fitter.optimizer.alternation import BodySearch
 from fitter.parameters import BodyParameters
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class JudgedEnd:
+    """Where a search ended and what the comparing objective says of it, nats.
+
+    The rendering is not kept: it would be 3 MB a reading for the rest of the fit.
+    """
+
+    parameters: BodyParameters
+    total: float
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -15,7 +26,7 @@ class TriedHypotheses:
     ``best`` indexes them, one of those that were searched on; ``evaluations`` counts true energies.
     """
 
-    ends: tuple[Candidate, ...]
+    ends: tuple[JudgedEnd, ...]
     best: int
     evaluations: int
 
@@ -49,7 +60,11 @@ def try_hypotheses(
     for index in by_energy[:contenders]:
         found[index] = contest(wide, found[index].candidate.parameters)
         evaluations += found[index].evaluations
-    ends = tuple(sharp.evaluate(minimum.candidate.parameters) for minimum in found)
+    reached = [minimum.candidate.parameters for minimum in found]
+    ends = tuple(
+        JudgedEnd(parameters=parameters, total=sharp.evaluate(parameters).total)
+        for parameters in reached
+    )
     return TriedHypotheses(
         ends=ends,
         best=min(by_energy[:contenders], key=lambda index: ends[index].total),

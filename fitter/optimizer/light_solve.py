@@ -12,13 +12,13 @@ from jaxtyping import Float
 from fitter.arrays import Vector3
 from fitter.numerics.robust import geman_mcclure, geman_mcclure_weights
 from fitter.parameters import Light, LightKind, Reflectance
-from fitter.render.reflectance import shade, shade_with_derivatives
+from fitter.render.reflectance import ShadingDerivatives, shade, shade_with_derivatives
 from fitter.request import LightGuess
 
 # A light's distance is told by attenuation across the body alone: a weak prior about 3 m, spread
 # over a factor of two, keeps it out of the body and out of infinity.
 _USUAL_DISTANCE_M = 3.0
-_DISTANCE_SPREAD = 0.6
+DISTANCE_SPREAD = 0.6
 _DISTANCE_RANGE_M = (1.0, 30.0)
 _ELEVATION_RANGE = (-1.45, 1.45)
 _DISTANCE_PRIOR_WEIGHT = 2e-3
@@ -28,6 +28,8 @@ _LARGEST_DAMPING = 1e6
 # First guesses when the caller gave none: frontal and from both sides, level and from above.
 _GUESSED_AZIMUTHS = (-0.9, 0.0, 0.9)
 _GUESSED_ELEVATIONS = (0.0, 0.7)
+# Each guess is followed for a few steps, the best of them on to the end.
+_TRIAL_ITERATIONS, _CONTENDERS, _ITERATIONS = 4, 2, 12
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -71,8 +73,8 @@ def estimate_light(surface: LitSurface, start: LightEstimate, *, iterations: int
         matrix = jacobian.T @ (weights[:, None] * jacobian)
         gradient = jacobian.T @ (weights * residuals)
         if now.light.kind is LightKind.POINT:
-            away = np.log(now.light.distance / _USUAL_DISTANCE_M) / _DISTANCE_SPREAD**2
-            matrix[2, 2] += 2.0 * _DISTANCE_PRIOR_WEIGHT / _DISTANCE_SPREAD**2
+            away = np.log(now.light.distance / _USUAL_DISTANCE_M) / DISTANCE_SPREAD**2
+            matrix[2, 2] += 2.0 * _DISTANCE_PRIOR_WEIGHT / DISTANCE_SPREAD**2
             gradient[2] += 2.0 * _DISTANCE_PRIOR_WEIGHT * away
         else:
             matrix[2, :] = matrix[:, 2] = 0.0
@@ -93,9 +95,14 @@ def estimate_light(surface: LitSurface, start: LightEstimate, *, iterations: int
 
 def first_light(surface: LitSurface, guesses: tuple[Light, ...]) -> LightEstimate:
     """The best of several first lights, each with its own linear fit of ambient and scales."""
-    found = [
-        estimate_light(surface, _with_linear_scales(surface, light), iterations=15)
+    tried = [
+        estimate_light(surface, _with_linear_scales(surface, light), iterations=_TRIAL_ITERATIONS)
         for light in guesses
+    ]
+    tried.sort(key=lambda estimate: estimate.energy)
+    found = [
+        estimate_light(surface, estimate, iterations=_ITERATIONS)
+        for estimate in tried[:_CONTENDERS]
     ]
     return min(found, key=lambda estimate: estimate.energy)
 
@@ -158,14 +165,39 @@ def _energy(surface: LitSurface, estimate: LightEstimate) -> float:
     data = float(surface.weights @ geman_mcclure(predicted - surface.observed, surface.eta))
     if estimate.light.kind is LightKind.DIRECTIONAL:
         return data
-    away = np.log(estimate.light.distance / _USUAL_DISTANCE_M) / _DISTANCE_SPREAD
+    away = np.log(estimate.light.distance / _USUAL_DISTANCE_M) / DISTANCE_SPREAD
     return data + _DISTANCE_PRIOR_WEIGHT * float(away * away)
+
+
+def light_columns(
+    derivatives: ShadingDerivatives,
+    light: Light,
+    *,
+    albedo: Float[np.ndarray, " k"],
+    specularity: Float[np.ndarray, " k"],
+) -> Float[np.ndarray, "k 6"]:
+    """Derivatives of Eq. 1 by azimuth, elevation, log distance, ambient light and two scales.
+
+    The scales multiply ``albedo`` and ``specularity``; a directional light has no distance, and
+    zeros in its column.
+    """
+    point = light.kind is LightKind.POINT
+    return np.stack(
+        [
+            derivatives.by_light[:, 0],
+            derivatives.by_light[:, 1],
+            light.distance * derivatives.by_light[:, 2] if point else np.zeros(len(albedo)),
+            np.ones(len(albedo)),
+            albedo * derivatives.by_albedo,
+            specularity * derivatives.by_specularity,
+        ],
+        axis=1,
+    )
 
 
 def _linearise(
     surface: LitSurface, estimate: LightEstimate
 ) -> tuple[Float[np.ndarray, "k 6"], Float[np.ndarray, " k"]]:
-    """Columns: azimuth, elevation, log distance, ambient, albedo scale, specularity scale."""
     derivatives = shade_with_derivatives(
         surface.positions,
         surface.normals,
@@ -173,18 +205,8 @@ def _linearise(
         body_centre=surface.body_centre,
         reflectance=_reflectance(surface, estimate),
     )
-    point = estimate.light.kind is LightKind.POINT
-    by_log_distance = derivatives.by_light[:, 2] * estimate.light.distance if point else 0.0
-    jacobian = np.stack(
-        [
-            derivatives.by_light[:, 0],
-            derivatives.by_light[:, 1],
-            np.broadcast_to(by_log_distance, len(surface.observed)),
-            np.ones(len(surface.observed)),
-            surface.albedo * derivatives.by_albedo,
-            surface.specularity * derivatives.by_specularity,
-        ],
-        axis=1,
+    jacobian = light_columns(
+        derivatives, estimate.light, albedo=surface.albedo, specularity=surface.specularity
     )
     return jacobian, derivatives.shading - surface.observed
 

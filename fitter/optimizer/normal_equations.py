@@ -14,6 +14,7 @@ from fitter.body.pose_prior import prior_terms
 from fitter.body.tangent import Attachments, linearise
 from fitter.energies.attributes import attribute_residuals, attribute_slopes
 from fitter.energies.clicks import click_rows
+from fitter.energies.correspondence_lines import line_rows
 from fitter.energies.edges import edge_rows
 from fitter.energies.instruments import BodyInstruments
 from fitter.energies.objective import Candidate, Objective
@@ -22,18 +23,19 @@ from fitter.energies.priors import lean_residual, shape_prior_precision
 from fitter.energies.rows import PositionRows, ShadingRows, thinned
 from fitter.energies.shading import shading_rows, thinned_shading
 from fitter.energies.silhouette import silhouette_rows
-from fitter.numerics.normals import normal_derivative_to_vertices
+from fitter.numerics.normals import add_normal_derivative
 from fitter.optimizer.parameter_vector import as_vector
 from fitter.optimizer.row_jacobians import (
     RowJacobian,
     position_row_jacobian,
     scatter,
+    scatter_sums,
     shading_row_jacobian,
 )
 
 # Rows of each kind that enter the matrix; the gradient uses all of them.
-_MATRIX_ROWS = 600
-_MATRIX_SHADING_ROWS = 500
+_MATRIX_ROWS = 300
+MATRIX_SHADING_ROWS = 300
 
 Matrix = Float[np.ndarray, "columns columns"]
 Vector = Float[np.ndarray, " columns"]
@@ -47,7 +49,7 @@ def normal_equations(objective: Objective, candidate: Candidate) -> tuple[Matrix
     pull = np.zeros_like(candidate.vertices)
     jacobians: list[RowJacobian] = []
     for rows in (
-        *silhouette_rows(rendering, candidate.edges, evidence.silhouette, scales),
+        *_outline_rows(objective, candidate),
         edge_rows(rendering, candidate.edges, evidence.edges, scales),
     ):
         scatter(rows, pull)
@@ -74,14 +76,22 @@ def normal_equations(objective: Objective, candidate: Candidate) -> tuple[Matrix
         jacobians.append(position_row_jacobian(rows, frame, attachments, positions))
     if evidence.shading is not None:
         rows = shading_rows(rendering, evidence.shading, scales)
-        pull += _shading_pull(objective, candidate, rows)
-        few = thinned_shading(rows, _MATRIX_SHADING_ROWS)
+        _add_shading_pull(objective, candidate, rows, pull)
+        few = thinned_shading(rows, MATRIX_SHADING_ROWS)
         jacobians.append(shading_row_jacobian(few, frame, instruments, candidate))
     every = np.concatenate(jacobians)
     matrix = every.T @ every
     gradient = as_vector(instruments.evaluator.derivative(parameters, pull))
     _add_priors(objective, candidate, matrix, gradient)
     return matrix, gradient
+
+
+def _outline_rows(objective: Objective, candidate: Candidate) -> tuple[PositionRows, ...]:
+    """Rows of the silhouette energy: of its lines, or of the segmented region."""
+    evidence, scales = objective.evidence, objective.scales
+    if evidence.lines is not None:
+        return (line_rows(candidate.rendering, evidence.lines, scales),)
+    return silhouette_rows(candidate.rendering, candidate.edges, evidence.silhouette, scales)
 
 
 def _attachments_of(instruments: BodyInstruments, names: tuple[str, ...]) -> Attachments:
@@ -122,17 +132,21 @@ def _scatter_through(rows: PositionRows, support: SparseRows, count: int, pull: 
     """:func:`scatter` for points that are weighted sums of vertices."""
     on_points = np.zeros((count, 3))
     scatter(rows, on_points)
-    lengths = np.diff(support.pointers)
-    np.add.at(
-        pull, support.indices, np.repeat(on_points, lengths, axis=0) * support.weights[:, None]
-    )
+    scatter_sums(on_points, support, pull)
 
 
-def _shading_pull(objective: Objective, candidate: Candidate, rows: ShadingRows) -> Vertices:
+def _add_shading_pull(
+    objective: Objective, candidate: Candidate, rows: ShadingRows, pull: Vertices
+) -> None:
     force = (rows.weights * rows.residuals)[:, None]
-    pull = np.zeros_like(candidate.vertices)
-    pull[rows.vertices] = force * rows.position_derivatives
-    by_normal = np.zeros_like(pull)
-    by_normal[rows.vertices] = force * rows.normal_derivatives
-    triangles = objective.instruments.model.triangles
-    return pull + normal_derivative_to_vertices(candidate.vertices, triangles, by_normal)
+    # No vertex has two rows.
+    pull[rows.vertices] += force * rows.position_derivatives
+    instruments = objective.instruments
+    add_normal_derivative(
+        candidate.vertices,
+        instruments.model.triangles,
+        instruments.rings,
+        rows.vertices,
+        force * rows.normal_derivatives,
+        pull,
+    )

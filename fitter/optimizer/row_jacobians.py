@@ -9,6 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Points3D, Vertices
+from fitter.body.model import SparseRows
 from fitter.body.tangent import Attachments, Linearisation
 from fitter.energies.instruments import BodyInstruments
 from fitter.energies.objective import Candidate
@@ -90,6 +91,11 @@ def shading_row_jacobian(
 def scatter(rows: PositionRows, derivative: Vertices) -> None:
     """Add w r ∂r to the derivative by the rows' points, in place."""
     kernels.scatter(rows.weights * rows.residuals, rows.points, rows.derivatives, derivative)
+
+
+def scatter_sums(by_sums: Points3D, support: SparseRows, derivative: Vertices) -> None:
+    """Add a derivative by weighted sums of vertices to that by the vertices, in place."""
+    kernels.scatter_sums(by_sums, support.pointers, support.indices, support.weights, derivative)
 
 
 def _empty(count: int, frame: Linearisation) -> RowJacobian:

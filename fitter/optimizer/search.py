@@ -17,10 +17,10 @@ class SearchLimits:
 
     Attributes
     ----------
-    hypotheses
-        Readings of the clicks that are tried on the picture.
-    trial
-        For each of them, and for the first body before the second segmentation.
+    first
+        For the first body before the second segmentation.
+    hypotheses, trial
+        Readings of the clicks that are tried on the picture, and for how long.
     contenders, contest
         The best of them that are searched on, and for how long.
     silhouette_and_edges
@@ -29,6 +29,7 @@ class SearchLimits:
         For the body in each round of the alternation.
     """
 
+    first: int
     hypotheses: int
     trial: int
     contenders: int
@@ -39,11 +40,18 @@ class SearchLimits:
 
 _LIMITS: Mapping[OptimizerKind, SearchLimits] = {
     OptimizerKind.GAUSS_NEWTON: SearchLimits(
-        hypotheses=4, trial=12, contenders=2, contest=12, silhouette_and_edges=100, shading_round=40
+        first=6,
+        hypotheses=4,
+        trial=4,
+        contenders=2,
+        contest=6,
+        silhouette_and_edges=100,
+        shading_round=40,
     ),
     # The paper's search needs tens of thousands; this is what a request can wait for (about two
     # minutes), and the outcome says that the limit ended it.
     OptimizerKind.SIMPLEX: SearchLimits(
+        first=150,
         hypotheses=2,
         trial=150,
         contenders=1,

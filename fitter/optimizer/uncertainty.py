@@ -7,21 +7,24 @@ from fitter.arrays import Shape
 from fitter.energies.attributes import attribute_slopes
 from fitter.energies.objective import Candidate, Objective
 from fitter.optimizer.free_space import FreeSpace, free_space
+from fitter.optimizer.light_freedom import information_lost_to_light
 from fitter.optimizer.normal_equations import normal_equations
 
 
 def shape_covariance(
     objective: Objective, candidate: Candidate, *, height_variance: float
 ) -> Float[np.ndarray, "n n"]:
-    """Covariance of the shape with pose and place marginalised.
+    """Covariance of the shape with pose, place and light marginalised.
 
-    Light and reflectance are held, as is everything else the objective fixes. Energies are negative
-    log-likelihoods, so the inverse of the Gauss-Newton matrix is the covariance of all parameters
-    near the minimum. What is held exactly does not vary. The height is never estimated from the
-    picture: ``height_variance`` is the population's, given what is known, in its coefficient's
-    unit; zero for a height that is known.
+    The albedo of each vertex is held, as is everything else the objective fixes. Energies are
+    negative log-likelihoods, so the inverse of the Gauss-Newton matrix is the covariance of all
+    parameters near the minimum. What is held exactly does not vary. The height is never estimated
+    from the picture: ``height_variance`` is the population's, given what is known, in its
+    coefficient's unit; zero for a height that is known.
     """
     matrix, _ = normal_equations(objective, candidate)
+    if objective.evidence.shading is not None:
+        matrix -= information_lost_to_light(objective, candidate, objective.evidence.shading)
     space = free_space(objective.attributes.held, candidate.parameters)
     inner = space.directions.T @ matrix @ space.directions
     inverse = np.linalg.inv(inner + 1e-9 * np.eye(len(inner)))

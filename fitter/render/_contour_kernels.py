@@ -35,16 +35,15 @@ def describe_contour_edges(
     front_facing,
     vertices,
     triangles,
-    triangle_normals,
     projected,
     face_ids,
-    depth,
+    inverse_depth,
     tolerance,
     beyond_rim,
 ):
     """Directed vertex ids, image endpoints, outward normals, visible, outer; one row an edge."""
     count = edge_ids.shape[0]
-    height, width = depth.shape
+    height, width = inverse_depth.shape
     directed = np.empty((count, 2), dtype=np.int32)
     endpoints = np.empty((count, 2, 2))
     outward = np.empty((count, 2))
@@ -77,13 +76,18 @@ def describe_contour_edges(
         # The back face must fall away behind the front one's plane; at a dent it stands before it
         # and hides the edge itself, whatever the z-buffer's grain says.
         rise = 0.0
-        for corner in range(3):
-            v = triangles[back, corner]
-            for axis in range(3):
-                rise += triangle_normals[front, axis] * (vertices[v, axis] - vertices[start, axis])
+        a, b, c = triangles[front, 0], triangles[front, 1], triangles[front, 2]
+        for axis in range(3):
+            after, last = (axis + 1) % 3, (axis + 2) % 3
+            normal = (vertices[b, after] - vertices[a, after]) * (
+                vertices[c, last] - vertices[a, last]
+            ) - (vertices[b, last] - vertices[a, last]) * (vertices[c, after] - vertices[a, after])
+            for corner in range(3):
+                v = triangles[back, corner]
+                rise += normal * (vertices[v, axis] - vertices[start, axis])
         x, y = 0.5 * (x0 + x1), 0.5 * (y0 + y1)
         z = 0.5 * (vertices[start, 2] + vertices[end, 2])
-        visible[k] = rise < 0.0 and unoccluded(x, y, z, depth, tolerance)
+        visible[k] = rise < 0.0 and unoccluded(x, y, z, inverse_depth, tolerance)
         column = int(np.floor(x + beyond_rim * nx))
         row = int(np.floor(y + beyond_rim * ny))
         in_picture = 0 <= column < width and 0 <= row < height

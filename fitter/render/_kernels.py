@@ -6,6 +6,9 @@ from typing import no_type_check
 import numpy as np
 from numba import njit, uint32
 
+# What rounding may move the end of a row's span, in pixels.
+ROUNDING = 1e-6
+
 
 @no_type_check
 @njit(cache=True, error_model="numpy", nogil=True)
@@ -87,6 +90,16 @@ def rasterise(projected, inverse_depth, triangles, width, height, least_area):
         front_facing[t] = True
         if area > -least_area:
             continue
+        # Most triangles of a head or a hand hold no pixel's centre: out before anything is divided.
+        first_row = max(ceil(min(ay, by, cy) - 0.5), 0)
+        end_row = min(ceil(max(ay, by, cy) - 0.5), height)
+        if first_row >= end_row:
+            continue
+        left, right = min(ax, bx, cx), max(ax, bx, cx)
+        if right < 0.0 or left > width:
+            continue
+        if ceil(left - 0.5 - ROUNDING) >= ceil(right - 0.5 + ROUNDING):
+            continue
         scale = 1.0 / area
         dw_dx = ((wb - wa) * (cy - ay) - (wc - wa) * (by - ay)) * scale
         dw_dy = ((wc - wa) * (bx - ax) - (wb - wa) * (cx - ax)) * scale
@@ -97,12 +110,6 @@ def rasterise(projected, inverse_depth, triangles, width, height, least_area):
             bx, by, cx, cy = cx, cy, bx, by
             if by < ay:
                 ax, ay, bx, by = bx, by, ax, ay
-        first_row = max(ceil(ay - 0.5), 0)
-        end_row = min(ceil(cy - 0.5), height)
-        if first_row >= end_row:
-            continue
-        if max(ax, bx, cx) < 0.0 or min(ax, bx, cx) > width:
-            continue
         long_slope = (cx - ax) / (cy - ay)
         upper_slope = (bx - ax) / (by - ay) if by > ay else 0.0
         lower_slope = (cx - bx) / (cy - by) if cy > by else 0.0
@@ -121,40 +128,38 @@ def rasterise(projected, inverse_depth, triangles, width, height, least_area):
                 if w > nearest[i, j]:
                     nearest[i, j] = w
                     face_ids[i, j] = t
-    for row in range(height):
-        for column in range(width):
-            nearest[row, column] = np.float32(1.0) / nearest[row, column]
     return face_ids, nearest, front_facing
 
 
 @no_type_check
 @njit(cache=True, error_model="numpy", nogil=True, inline="always")
-def unoccluded(x, y, z, depth, tolerance):
+def unoccluded(x, y, z, inverse_depth, tolerance):
     """Whether a point is no farther than the surface at any of the four pixel centres around it.
 
     Beside a silhouette some of the four lie beyond it, where the surface is farther or absent:
     a point on the rim passes there, although the surface it belongs to bulges toward the camera
     within a fraction of a pixel by more than any tolerance of use.
     """
-    height, width = depth.shape
+    height, width = inverse_depth.shape
     if not (0.0 <= x < width and 0.0 <= y < height):
         return False
     column = int(np.floor(x - 0.5))
     row = int(np.floor(y - 0.5))
     for i in range(max(row, 0), min(row + 2, height)):
         for j in range(max(column, 0), min(column + 2, width)):
-            if z <= depth[i, j] + tolerance:
+            # z <= 1 / w + tolerance; w is 0 where nothing is.
+            if (z - tolerance) * inverse_depth[i, j] <= 1.0:
                 return True
     return False
 
 
 @no_type_check
 @njit(cache=True, error_model="numpy", nogil=True)
-def visible_vertices(vertices, vertex_normals, projected, inverse_depth, depth, tolerance):
+def visible_vertices(vertices, vertex_normals, projected, inverse_depth, near, tolerance):
     """(m,) True where the vertex faces the camera and nothing lies before it."""
     visible = np.zeros(vertices.shape[0], dtype=np.bool_)
     for i in range(vertices.shape[0]):
-        if inverse_depth[i] == 0.0:
+        if vertices[i, 2] <= near:
             continue
         facing = (
             vertex_normals[i, 0] * vertices[i, 0]
@@ -163,6 +168,6 @@ def visible_vertices(vertices, vertex_normals, projected, inverse_depth, depth, 
         )
         if facing < 0.0:
             visible[i] = unoccluded(
-                projected[i, 0], projected[i, 1], vertices[i, 2], depth, tolerance
+                projected[i, 0], projected[i, 1], vertices[i, 2], inverse_depth, tolerance
             )
     return visible

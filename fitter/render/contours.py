@@ -56,10 +56,9 @@ def model_edges(rendering: Rendering, topology: MeshTopology) -> ModelEdges:
         rendering.front_facing,
         rendering.vertices,
         rendering.triangles,
-        rendering.triangle_normals,
         rendering.projected,
         rendering.face_ids,
-        rendering.depth,
+        rendering.inverse_depth,
         DEPTH_TOLERANCE_M,
         BEYOND_RIM_PX,
     )

@@ -1,6 +1,7 @@
 """One z-buffer rendering of a mesh: what every image energy of a candidate body reads."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from jaxtyping import Bool, Float, Integer
@@ -21,42 +22,69 @@ held at pixel centres, and a surface turned 60 degrees away sinks 4 mm within th
 3 mm at usual scales) between a vertex and the next centre."""
 
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Rendering:
     """A mesh seen by a camera; all in the camera frame, metres.
+
+    What only some energies read is computed when it is first asked for.
 
     Attributes
     ----------
     face_ids
         (h, w) the triangle seen through each pixel's centre, -1 for none.
-    depth
-        (h, w) its z, infinite for none.
+    inverse_depth
+        (h, w) its 1/z, 0 for none.
     projected
         (m, 2) vertices in continuous pixels; meaningless (the picture's centre) for vertices at
         or before the near plane.
     front_facing
         (f,) whether a triangle turns its outer side to the camera and lies beyond the near plane.
-    triangle_normals, vertex_normals
-        (f, 3), (m, 3) outward unit normals; those of vertices are area-weighted means.
-    vertex_visible
-        (m,) whether the vertex lies in the picture, faces the camera and is not occluded.
     """
 
     vertices: Vertices
     triangles: Triangles
     camera: Camera
     face_ids: Integer[np.ndarray, "h w"]
-    depth: GreyImage
+    inverse_depth: GreyImage
     projected: Float[np.ndarray, "m 2"]
     front_facing: Bool[np.ndarray, " f"]
-    triangle_normals: Float[np.ndarray, "f 3"]
-    vertex_normals: Normals
-    vertex_visible: Bool[np.ndarray, " m"]
 
     @property
     def silhouette(self) -> Mask:
         """(h, w) the pixels whose centre the mesh covers."""
         return self.face_ids >= 0
+
+    @property
+    def depth(self) -> GreyImage:
+        """(h, w) z of what each pixel's centre sees, infinite for nothing."""
+        with np.errstate(divide="ignore"):
+            return np.float32(1.0) / self.inverse_depth
+
+    @property
+    def triangle_normals(self) -> Float[np.ndarray, "f 3"]:
+        """(f, 3) outward unit normals."""
+        return self._normals[0]
+
+    @property
+    def vertex_normals(self) -> Normals:
+        """(m, 3) outward unit normals, area-weighted means of those of the triangles."""
+        return self._normals[1]
+
+    @cached_property
+    def vertex_visible(self) -> Bool[np.ndarray, " m"]:
+        """(m,) whether the vertex lies in the picture, faces the camera and is not occluded."""
+        return _kernels.visible_vertices(
+            self.vertices,
+            self.vertex_normals,
+            self.projected,
+            self.inverse_depth,
+            NEAR_PLANE_M,
+            DEPTH_TOLERANCE_M,
+        )
+
+    @cached_property
+    def _normals(self) -> tuple[Normals, Normals]:
+        return _kernels.mesh_normals(self.vertices, self.triangles)
 
 
 def render(vertices: Vertices, triangles: Triangles, camera: Camera) -> Rendering:
@@ -67,25 +95,18 @@ def render(vertices: Vertices, triangles: Triangles, camera: Camera) -> Renderin
     """
     vertices = np.ascontiguousarray(vertices, dtype=np.float64)
     triangles = np.ascontiguousarray(triangles, dtype=np.int32)
-    projected, inverse_depth = _kernels.project_vertices(
+    projected, vertex_inverse_depth = _kernels.project_vertices(
         vertices, camera.focal_length_px, camera.centre_x, camera.centre_y, NEAR_PLANE_M
     )
-    triangle_normals, vertex_normals = _kernels.mesh_normals(vertices, triangles)
-    face_ids, depth, front_facing = _kernels.rasterise(
-        projected, inverse_depth, triangles, camera.width, camera.height, LEAST_AREA_PX
-    )
-    vertex_visible = _kernels.visible_vertices(
-        vertices, vertex_normals, projected, inverse_depth, depth, DEPTH_TOLERANCE_M
+    face_ids, inverse_depth, front_facing = _kernels.rasterise(
+        projected, vertex_inverse_depth, triangles, camera.width, camera.height, LEAST_AREA_PX
     )
     return Rendering(
         vertices=vertices,
         triangles=triangles,
         camera=camera,
         face_ids=face_ids,
-        depth=depth,
+        inverse_depth=inverse_depth,
         projected=projected,
         front_facing=front_facing,
-        triangle_normals=triangle_normals,
-        vertex_normals=vertex_normals,
-        vertex_visible=vertex_visible,
     )

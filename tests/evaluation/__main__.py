@@ -5,15 +5,23 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from fitter.request import Cues
+from fitter.request import Cues, Gender, OutlineKind
 from tests.evaluation.cases import CASES, PEOPLE
+from tests.evaluation.outline_limit import outline_limit
 from tests.evaluation.page import write_page
 from tests.evaluation.people import load_person
 from tests.evaluation.runs import Run, score_all
 from tests.evaluation.scene import Case, Half, Series
 from tests.evaluation.shape_limit import shape_limit
 from tests.evaluation.suite import Scored, Told
-from tests.evaluation.table import case_lines, limit_lines, summary_lines
+from tests.evaluation.table import (
+    MEASUREMENTS,
+    case_lines,
+    limit_lines,
+    outline_lines,
+    summary_lines,
+    worst_lines,
+)
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -25,9 +33,17 @@ def main(arguments: Sequence[str]) -> int:
         limits = {name: shape_limit(load_person(source)) for name, source in people.items()}
         print("\n".join(limit_lines(limits)))
         return 0
+    if options.outline_limit:
+        print("\n".join(outline_lines({each.value: outline_limit(each) for each in Gender})))
+        return 0
     run = Run(
         told=Told(
-            mask=options.true_mask, light=options.true_light, focal_length=options.known_focal
+            mask=options.true_mask,
+            light=options.true_light,
+            focal_length=options.known_focal,
+            pose=options.true_pose,
+            measurements=tuple(options.given or ()),
+            outline=None if options.outline is None else OutlineKind(options.outline),
         ),
         pictures=options.page,
     )
@@ -39,6 +55,7 @@ def main(arguments: Sequence[str]) -> int:
     for title, part in _parts(scored):
         print(f"\n{title}: {_counts(part)}")
         print("\n".join(summary_lines(part)))
+        print("\n".join(worst_lines(part)))
     if options.page is not None:
         print(f"\n{write_page(options.page, scored)}")
     return 0
@@ -93,6 +110,11 @@ def _parser() -> argparse.ArgumentParser:
         help="give the person's true mask: what the errors would be without segmentation",
     )
     parser.add_argument(
+        "--outline",
+        choices=[kind.value for kind in OutlineKind],
+        help="what the contour is to meet (default: as every fit)",
+    )
+    parser.add_argument(
         "--true-light", action="store_true", help="begin the search for the light at the truth"
     )
     parser.add_argument(
@@ -101,9 +123,25 @@ def _parser() -> argparse.ArgumentParser:
         help="give the focal length in pixels, where it is in the file or missing too",
     )
     parser.add_argument(
+        "--true-pose",
+        action="store_true",
+        help="hold the pose at the truth, within half a degree a joint",
+    )
+    parser.add_argument(
+        "--given",
+        action="append",
+        choices=[key for _, key, _ in MEASUREMENTS],
+        help="give this measurement, as a caller of the service may; may be repeated",
+    )
+    parser.add_argument(
         "--shape-limit",
         action="store_true",
         help="fit nothing: print what the shape space's own coarseness costs",
+    )
+    parser.add_argument(
+        "--outline-limit",
+        action="store_true",
+        help="fit nothing: print how well exactly known outlines foretell measurements",
     )
     return parser
 

@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Mapping
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,9 +13,18 @@ from fitter.parameters import Light
 from fitter.pipeline import fit
 from fitter.render.light import direction_to_light
 from fitter.render.rasterizer import render
-from fitter.request import Click, Cues, FitRequest, Gender, LightGuess
+from fitter.request import (
+    Click,
+    Cues,
+    FitRequest,
+    Gender,
+    KnownMeasurement,
+    LightGuess,
+    OutlineKind,
+)
 from fitter.result import FitResult
 from tests.evaluation.files import CaseFiles, encoded_mask, light_from_document, read_case
+from tests.evaluation.held_pose import held_at_true_pose
 from tests.evaluation.landmark_points import packaged_model
 from tests.evaluation.limbs_in_depth import wrong_limbs
 from tests.evaluation.people import load_person
@@ -34,12 +44,17 @@ class Told:
     """What a fit is told beyond its request: what the errors would be without that difficulty.
 
     ``mask`` the person as seen, in place of segmentation; ``light`` where the search for the light
-    begins; ``focal_length`` in pixels, where the picture does not give it.
+    begins; ``focal_length`` in pixels, where the picture does not give it; ``pose`` is held;
+    ``measurements`` are named and given as the caller of the service may give them; ``outline`` is
+    what the contour is to meet, in place of the default.
     """
 
     mask: bool = False
     light: bool = False
     focal_length: bool = False
+    pose: bool = False
+    measurements: tuple[str, ...] = ()
+    outline: OutlineKind | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -63,7 +78,7 @@ class Scored:
     errors
         Measured minus true by measurement, centimetres and kilograms.
     standard_errors
-        What the fit says of these errors; measurements without one are left out.
+        What the fit says of these errors; what was given and what has none are left out.
     vertex_mm, joint_mm
         Mean distances: of vertices in the canonical pose with both bodies' centres together, of
         joints in the camera frame with both root joints together.
@@ -100,17 +115,18 @@ class Scored:
 def fit_case(case: Case, cues: Cues, told: Told) -> Fitted:
     """Fit one picture with some cues."""
     files = read_case(case)
+    truth = true_body(load_person(PEOPLE[case.person]))
     request = told_request(files, fit_request(files, cues), told)
-    started = time.perf_counter()
-    result = fit(request)
-    return Fitted(
-        case=case,
-        cues=cues,
-        files=files,
-        result=result,
-        truth=true_body(load_person(PEOPLE[case.person])),
-        seconds=time.perf_counter() - started,
-    )
+    if told.measurements:
+        known = {
+            name: KnownMeasurement(value=truth.measurements[name]) for name in told.measurements
+        }
+        request = replace(request, measurements=known)
+    with held_at_true_pose(case) if told.pose else nullcontext():
+        started = time.perf_counter()
+        result = fit(request)
+        seconds = time.perf_counter() - started
+    return Fitted(case=case, cues=cues, files=files, result=result, truth=truth, seconds=seconds)
 
 
 def score(fitted: Fitted) -> Scored:
@@ -128,7 +144,7 @@ def score(fitted: Fitted) -> Scored:
         standard_errors={
             name: each.standard_error
             for name, each in found.items()
-            if each.standard_error is not None
+            if each.standard_error is not None and name not in result.given
         },
         vertex_mm=_vertex_error_mm(result.canonical_vertices, truth.canonical),
         joint_mm=_joint_error_mm(joints, true_joints),
@@ -163,6 +179,8 @@ def told_request(files: CaseFiles, request: FitRequest, told: Told) -> FitReques
     """A request with what is told beside."""
     if told.mask:
         request = replace(request, mask=encoded_mask(files.person_mask))
+    if told.outline is not None:
+        request = replace(request, outline=told.outline)
     if told.focal_length:
         request = replace(request, focal_length_px=files.scene["focal_length_px"])
     if told.light:

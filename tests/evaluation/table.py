@@ -65,6 +65,17 @@ def summary_lines(scored: Sequence[Scored]) -> list[str]:
     return lines
 
 
+def worst_lines(scored: Sequence[Scored], count: int = 5) -> list[str]:
+    """The fits by SES whose girths are farthest from the truth on the mean."""
+    girths = [key for _, key, unit in MEASUREMENTS if unit == "cm"]
+
+    def distance(each: Scored) -> float:
+        return float(np.mean([abs(each.errors[key]) for key in girths]))
+
+    shaded = sorted((each for each in scored if each.cues is Cues.SES), key=distance)
+    return ["worst", *(_case_line(each) for each in shaded[::-1][:count])] if shaded else []
+
+
 def _shares(scored: Sequence[Scored]) -> list[tuple[str, dict[Cues, list[bool]]]]:
     """Yes or no of every fit: whether intervals hold the truth, whether the pose failed."""
     of = {cues: [each for each in scored if each.cues is cues] for cues in Cues}
@@ -118,6 +129,17 @@ def limit_lines(limits: Mapping[str, ShapeLimit]) -> list[str]:
     for name, limit in limits.items():
         errors = "".join(f"{limit.errors[key]:+10.1f}" for _, key, _ in MEASUREMENTS)
         lines.append(f"{name:28s}{errors}{limit.rest_mm:9.1f}{limit.length:9.1f}")
+    return lines
+
+
+def outline_lines(limits: Mapping[str, Mapping[str, Mapping[str, float]]]) -> list[str]:
+    """What exactly known outlines leave of each gender's measurements, mean absolute errors."""
+    columns = "".join(f"{f'{name} {unit}':>11s}" for name, _, unit in MEASUREMENTS)
+    lines = [f"{'outline from':28s}{columns}"]
+    for gender, views in limits.items():
+        for view, errors in views.items():
+            values = "".join(f"{errors[key]:11.2f}" for _, key, _ in MEASUREMENTS)
+            lines.append(f"{f'{view}, {gender}':28s}{values}")
     return lines
 
 

@@ -2,13 +2,16 @@
 
 from dataclasses import replace
 
+import cv2
 import numpy as np
 import pytest
+from scipy.spatial import KDTree
 
 from fitter.body.model import SparseRows
 from fitter.body.scape import increment
 from fitter.body.skeleton import regress
 from fitter.camera import Camera
+from fitter.energies._silhouette_kernels import nearest_within
 from fitter.energies.clicks import ClickEvidence, click_energy, click_evidence, click_rows
 from fitter.energies.edges import edge_energy, edge_rows
 from fitter.energies.penetration import (
@@ -31,7 +34,7 @@ from fitter.evidence.intensity import IntensityMap
 from fitter.evidence.silhouette_evidence import silhouette_evidence
 from fitter.fittable import packaged_body
 from fitter.numerics.mesh_topology import mesh_topology
-from fitter.numerics.normals import normal_derivative_to_vertices
+from fitter.numerics.normals import add_normal_derivative
 from fitter.numerics.rotations import compose
 from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
 from fitter.render.contours import model_edges
@@ -106,6 +109,34 @@ class TestSilhouette:
         assert silhouette_energy(away, evidence, SCALES) > 0.0
         assert silhouette_overlap(away, evidence) == 0.0
         assert all(len(r.residuals) == 0 for r in silhouette_rows(away, edges, evidence, SCALES))
+
+    def test_the_energy_is_that_of_whole_distance_maps(self):
+        """Against the plain sum with an exact distance to the model at every pixel."""
+        truth, _ = rendered(60, 120)
+        mask = truth.silhouette.copy()
+        mask[:, 150:190] = True
+        mask[5:60, 80:90] = True
+        evidence = silhouette_evidence(mask)
+        moved, _ = rendered(50, 110, 4.0)
+        model = moved.silhouette
+        to_model = cv2.distanceTransform(
+            (~model).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE
+        )
+        distance = np.where(model, evidence.signed_distance, to_model)[model != mask]
+        eta = SCALES.silhouette_eta
+        cost = distance / (1.0 + (distance / eta) ** 2) ** 2
+        cost = np.where(distance > eta, np.maximum(cost, 0.1 * eta), cost)
+        expected = cost.sum() / (SCALES.silhouette_sigma**2 * SCALES.correlation_length)
+        assert silhouette_energy(moved, evidence, SCALES) == pytest.approx(expected, rel=1e-4)
+
+    def test_outline_points_are_matched_as_a_tree_of_position_and_normal_matches_them(self):
+        rng = np.random.default_rng(3)
+        keys, queries = 40.0 * rng.random((300, 4)), 40.0 * rng.random((200, 4))
+        keys = keys[np.argsort(keys[:, 0])]
+        distance, nearest = KDTree(keys).query(queries, distance_upper_bound=5.0)
+        expected = np.where(np.isfinite(distance), nearest, -1)
+        assert 0 < np.count_nonzero(expected < 0) < len(queries)
+        np.testing.assert_array_equal(nearest_within(keys, queries, 5.0), expected)
 
 
 class TestEdges:
@@ -266,7 +297,7 @@ def lit():
             ambient=0.05,
             specular_exponent=10.0,
         ),
-        vertex_areas=instruments.vertex_areas,
+        vertex_areas=instruments.shaded.areas,
         shadowed=np.zeros(len(rendering.vertices), dtype=bool),
         eta=0.1,
     )
@@ -294,16 +325,19 @@ class TestShading:
         steady = np.logical_and.reduce(
             [usable_vertices(each, evidence) for each in (behind, rendering, ahead)]
         )
-        behind, here, ahead = (
-            replace(each, vertex_visible=steady) for each in (behind, rendering, ahead)
-        )
-        rows = shading_rows(here, evidence, SCALES)
+        evidence = replace(evidence, shadowed=~steady)
+        rows = shading_rows(rendering, evidence, SCALES)
         force = (rows.weights * rows.residuals)[:, None]
         pull = np.zeros_like(rendering.vertices)
         pull[rows.vertices] = force * rows.position_derivatives
-        by_normal = np.zeros_like(pull)
-        by_normal[rows.vertices] = force * rows.normal_derivatives
-        pull += normal_derivative_to_vertices(rendering.vertices, triangles, by_normal)
+        add_normal_derivative(
+            rendering.vertices,
+            triangles,
+            instruments.rings,
+            rows.vertices,
+            force * rows.normal_derivatives,
+            pull,
+        )
         gained = shading_energy(ahead, evidence, SCALES) - shading_energy(behind, evidence, SCALES)
         assert (pull * direction).sum() == pytest.approx(gained / (2 * step), rel=0.02)
 

@@ -26,24 +26,24 @@ AGAIN = "run python -m tests.evaluation.generate --documents"
 PEOPLE_CASES = [case for case in CASES.values() if case.series is Series.PEOPLE]
 
 
-def test_both_halves_have_three_women_and_three_men_of_every_build():
+def test_both_halves_have_six_women_and_six_men_of_every_build():
     people = {case.person: PEOPLE[case.person] for case in PEOPLE_CASES}
     for half in Half:
         of_half = [person for person in people.values() if person.half is half]
-        assert Counter(person.gender for person in of_half) == dict.fromkeys(Gender, 3)
+        assert Counter(person.gender for person in of_half) == dict.fromkeys(Gender, 6)
         assert {person.name.split("_")[-1] for person in of_half} == {"thin", "middling", "heavy"}
 
 
 def test_everybody_is_shown_in_every_kind_of_stance_and_no_two_stances_are_alike():
     shown = Counter((case.person, case.name.rsplit("_", 1)[1]) for case in PEOPLE_CASES)
-    assert len(shown) == 12 * len(Kind)
+    assert len(shown) == 24 * len(Kind)
     assert set(shown.values()) == {1}
     assert len({repr(case.stance) for case in PEOPLE_CASES}) == len(PEOPLE_CASES)
 
 
 def test_half_of_the_pictures_come_with_a_focal_length_a_quarter_with_exif_a_quarter_without():
     count = Counter(case.focal_length for case in PEOPLE_CASES)
-    assert count == {FocalLength.GIVEN: 18, FocalLength.EXIF: 9, FocalLength.MISSING: 9}
+    assert count == {FocalLength.GIVEN: 36, FocalLength.EXIF: 18, FocalLength.MISSING: 18}
 
 
 def test_the_lights_show_people_of_the_tuning_half_alone():

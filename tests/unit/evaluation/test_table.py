@@ -4,7 +4,7 @@ from fitter.request import Cues
 from tests.evaluation.cases import CASES, DEMO
 from tests.evaluation.scene import Case, Half
 from tests.evaluation.suite import Scored, resampled
-from tests.evaluation.table import MEASUREMENTS, case_lines, summary_lines
+from tests.evaluation.table import MEASUREMENTS, case_lines, summary_lines, worst_lines
 
 
 def _scored(
@@ -77,3 +77,11 @@ def test_a_mask_at_half_size_covers_the_same_share_at_full_size():
     assert full.shape == (20, 16)
     assert full.mean() == half.mean()
     assert full[6:14, 4:12].all()
+
+
+def test_the_worst_fits_by_ses_are_named_worst_first():
+    scored = [_scored(Cues.SE, 9.0)]
+    scored += [_scored(Cues.SES, error) for error in (1.0, -6.0, 3.0)]
+    title, *lines = worst_lines(scored, count=2)
+    assert title == "worst"
+    assert ["-6.0" in lines[0], "+3.0" in lines[1], len(lines)] == [True, True, 2]

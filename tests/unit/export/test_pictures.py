@@ -8,6 +8,7 @@ from fitter.export.display import block_means, finer, png
 from fitter.export.pictures import (
     INNER_COLOUR,
     OUTER_COLOUR,
+    SUPERSAMPLING,
     drawing_camera,
     drawing_picture,
     mask_levels,
@@ -110,21 +111,19 @@ def test_a_ball_before_a_ball_has_an_inner_edge_of_another_colour(ball):
 def test_a_value_on_vertices_is_shown_in_display_levels_on_white(ball):
     vertices, triangles = ball
     half = np.full(len(vertices), 0.5)
-    picture = vertex_value_picture(half, vertices, triangles, CAMERA)
+    rendering = render(vertices, triangles, finer(CAMERA, SUPERSAMPLING))
+    picture = vertex_value_picture(half, rendering)
     x, y = CAMERA.project(vertices.mean(axis=0)).astype(int)
     assert picture[y, x].tolist() == [188, 188, 188]
     assert picture[5, 5].tolist() == [255, 255, 255]
     colours = np.tile([0.5, 0.0, 2.0], (len(vertices), 1))
-    assert vertex_value_picture(colours, vertices, triangles, CAMERA)[y, x].tolist() == [
-        188,
-        0,
-        255,
-    ]
+    assert vertex_value_picture(colours, rendering)[y, x].tolist() == [188, 0, 255]
 
 
 def test_rims_are_anti_aliased(ball):
     vertices, triangles = ball
-    picture = vertex_value_picture(np.zeros(len(vertices)), vertices, triangles, CAMERA)
+    rendering = render(vertices, triangles, finer(CAMERA, SUPERSAMPLING))
+    picture = vertex_value_picture(np.zeros(len(vertices)), rendering)
     between = (picture[..., 0] > 0) & (picture[..., 0] < 255)
     assert between.sum() > 200
 

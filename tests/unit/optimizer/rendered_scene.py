@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fitter.arrays import Image
 from fitter.body.pose_prior import mean_pose
 from fitter.body.scape import increment
 from fitter.body.skeleton import regress
@@ -46,6 +47,7 @@ class RenderedScene:
     instruments: BodyInstruments
     objective: Objective
     intensity: IntensityMap
+    display: Image
 
     def posed_error_mm(self, parameters: BodyParameters) -> float:
         """Mean distance of vertices from the truth, with the depth of the whole body left out."""
@@ -116,4 +118,5 @@ def rendered_scene(seed: int) -> RenderedScene:
         instruments=instruments,
         objective=objective,
         intensity=intensity_map(luminance.astype(np.float32), display, mask),
+        display=display,
     )

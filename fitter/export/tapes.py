@@ -1,0 +1,28 @@
+"""Where each measurement is taken, to be drawn on ``body_canonical.glb``."""
+
+import json
+
+from fitter.measurement.anthropometry import MeasuringBody, tape_lines
+from fitter.result import FitResult
+
+DECIMALS = 4
+"""Of a metre: a tenth of a millimetre."""
+
+
+def tapes_json(result: FitResult, measuring: MeasuringBody) -> bytes:
+    """Lines by the measurements' names, in the frame of ``body_canonical.glb`` (feet on y = 0).
+
+    Parameters
+    ----------
+    result
+        Of the fit.
+    measuring
+        The body it was measured with.
+    """
+    lowest = float(result.canonical_vertices[:, 1].min())
+    lines = {
+        name: (line - [0.0, lowest, 0.0]).round(DECIMALS).tolist()
+        for name, line in tape_lines(measuring, result.body.shape).items()
+    }
+    document = {"frame": "metres, +y up", "lines": lines}
+    return json.dumps(document, separators=(",", ":")).encode()

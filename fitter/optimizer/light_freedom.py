@@ -1,0 +1,65 @@
+"""What shading no longer says of the body once the light may follow it.
+
+A body a little flatter under a light a little farther aside shows the same brightness. With the
+light held, the information matrix M of the body claims to tell the two apart. With body and light
+as one vector, marginalising the light leaves M - C L⁻¹ Cᵀ (Schur), where L is the light's own
+block and C the mixed one.
+"""
+
+import numpy as np
+from jaxtyping import Float, Integer
+
+from fitter.body.tangent import linearise
+from fitter.energies.objective import Candidate, Objective
+from fitter.energies.shading import ShadingEvidence, shading_rows, thinned_shading
+from fitter.optimizer.light_solve import DISTANCE_SPREAD, light_columns
+from fitter.optimizer.normal_equations import MATRIX_SHADING_ROWS
+from fitter.optimizer.row_jacobians import shading_row_jacobian
+from fitter.render.rasterizer import Rendering
+from fitter.render.reflectance import shade_with_derivatives
+
+_RIDGE = 1e-6
+
+
+def information_lost_to_light(
+    objective: Objective, candidate: Candidate, evidence: ShadingEvidence
+) -> Float[np.ndarray, "columns columns"]:
+    """C L⁻¹ Cᵀ over the full parameter vector, in nats.
+
+    The light's direction and distance, the ambient light and one scale each for albedo and
+    specularity are free, as in :mod:`fitter.optimizer.light_solve`; the rows are those of the
+    normal equations, so that the difference stays positive semidefinite.
+    """
+    rows = shading_rows(candidate.rendering, evidence, objective.scales)
+    rows = thinned_shading(rows, MATRIX_SHADING_ROWS)
+    frame = linearise(objective.instruments.tangent, candidate.parameters)
+    body = shading_row_jacobian(rows, frame, objective.instruments, candidate)
+    light = np.sqrt(rows.weights)[:, None] * light_slopes(
+        candidate.rendering, evidence, rows.vertices
+    )
+    own = light.T @ light
+    # A directional light has no distance: its column is zero and the prior keeps it apart.
+    own[2, 2] += 1.0 / DISTANCE_SPREAD**2
+    own += np.diag(_RIDGE * (own.diagonal() + 1.0))
+    mixed = body.T @ light
+    return mixed @ np.linalg.solve(own, mixed.T)
+
+
+def light_slopes(
+    rendering: Rendering, evidence: ShadingEvidence, vertices: Integer[np.ndarray, " k"]
+) -> Float[np.ndarray, "k 6"]:
+    """Derivatives of Eq. 1 at vertices, in the columns of :func:`light_columns`."""
+    reflectance = evidence.reflectance_of(vertices)
+    slopes = shade_with_derivatives(
+        rendering.vertices[vertices],
+        rendering.vertex_normals[vertices],
+        light=evidence.light,
+        body_centre=evidence.body_centre,
+        reflectance=reflectance,
+    )
+    return light_columns(
+        slopes,
+        evidence.light,
+        albedo=reflectance.albedo,
+        specularity=reflectance.specularity,
+    )

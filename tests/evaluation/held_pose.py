@@ -1,0 +1,75 @@
+"""Fits whose pose is held at the truth: what is left is place, shape and light.
+
+The fitter has no such option, and needs none: here its pose prior is narrowed about the true pose
+to half a degree a joint, and the search begins there. Where the root joint lies, and with it how
+large the body appears, stays to be found.
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import Any
+from unittest.mock import patch
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from fitter import pipeline
+from fitter.arrays import Pose
+from fitter.body.pose_prior import PosePrior, joint_angles
+from fitter.fittable import FittableBody
+from fitter.pose_init.initial_pose import InitialPose, PoseHypothesis
+from tests.evaluation.people import load_person
+from tests.evaluation.people_table import PEOPLE
+from tests.evaluation.scene import Case
+from tests.evaluation.staging import Staged, root_joint, stage
+
+HELD_WITHIN_RADIANS = np.radians(0.5)
+
+_BODY_TO_CAMERA_AXES = np.diag([1.0, -1.0, -1.0])
+
+
+def true_pose(staged: Staged) -> Pose:
+    """(p, 3) the stance as the fitter writes it: the root turns the body before the camera."""
+    pose = staged.pose.copy()
+    turned = _BODY_TO_CAMERA_AXES @ staged.to_camera @ Rotation.from_rotvec(pose[0]).as_matrix()
+    pose[0] = Rotation.from_matrix(turned).as_rotvec()
+    return pose
+
+
+@contextmanager
+def held_at_true_pose(case: Case) -> Iterator[None]:
+    """Within it, :func:`fitter.pipeline.fit` holds the pose of this case's person."""
+    staged = stage(load_person(PEOPLE[case.person]), case)
+    pose, place = true_pose(staged), staged.in_camera(root_joint(staged))
+    find_body, find_pose = pipeline.fittable_body, pipeline.initialize_pose
+
+    def body(*arguments: Any, **options: Any) -> FittableBody:
+        found = find_body(*arguments, **options)
+        narrow = narrowed(found.instruments.pose_prior, pose)
+        return replace(found, instruments=replace(found.instruments, pose_prior=narrow))
+
+    def initial(*arguments: Any, **options: Any) -> InitialPose:
+        found = find_pose(*arguments, **options)
+        parameters = replace(found.parameters, pose=pose, translation=place)
+        only: PoseHypothesis = replace(found.hypotheses[0], parameters=parameters)
+        return replace(
+            found, parameters=parameters, hypotheses=(only,), root_depth_m=float(place[2])
+        )
+
+    with (
+        patch.object(pipeline, "fittable_body", body),
+        patch.object(pipeline, "initialize_pose", initial),
+    ):
+        yield
+
+
+def narrowed(prior: PosePrior, pose: Pose) -> PosePrior:
+    """A prior that expects this pose of every joint, the root too, and knows no limits."""
+    return replace(
+        prior,
+        mean=joint_angles(prior, pose),
+        precision=np.full_like(prior.precision, 1.0 / HELD_WITHIN_RADIANS),
+        lower=np.full_like(prior.lower, -np.inf),
+        upper=np.full_like(prior.upper, np.inf),
+    )

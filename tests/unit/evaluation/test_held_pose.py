@@ -1,0 +1,42 @@
+import numpy as np
+import pytest
+
+from fitter.body.pose_prior import prior_residuals
+from fitter.energies.instruments import body_instruments
+from fitter.fittable import packaged_body
+from fitter.parameters import BodyParameters
+from tests.evaluation.cases import CASES, DEMO
+from tests.evaluation.held_pose import HELD_WITHIN_RADIANS, narrowed, true_pose
+from tests.evaluation.people import load_person
+from tests.evaluation.people_table import PEOPLE
+from tests.evaluation.shape_limit import nearest_shape
+from tests.evaluation.staging import root_joint, stage
+from tests.unit.training.makehuman_data import needs_makehuman
+
+pytestmark = needs_makehuman
+
+
+@pytest.mark.parametrize("name", ["demo", "woman_old_heavy_turned", "man_young_thin_occluded"])
+def test_the_fitters_body_in_the_true_pose_lies_on_the_true_body(name):
+    case = DEMO if name == "demo" else CASES[name]
+    person = load_person(PEOPLE[case.person])
+    staged = stage(person, case)
+    parameters = BodyParameters(
+        pose=true_pose(staged),
+        translation=staged.in_camera(root_joint(staged)),
+        shape=nearest_shape(person),
+    )
+    vertices = packaged_body(person.gender).instruments.evaluator.vertices(parameters)
+    away = vertices - staged.in_camera(staged.body)
+    # The root joints of rig and model are a centimetre or two apart; fingers are not posed alike.
+    assert np.median(np.linalg.norm(away - np.median(away, axis=0), axis=1)) < 0.01
+
+
+def test_a_narrowed_prior_expects_one_pose_of_every_joint():
+    prior = body_instruments(packaged_body(PEOPLE[DEMO.person].gender).instruments.model).pose_prior
+    pose = np.random.default_rng(0).normal(scale=0.4, size=prior.mean.shape)
+    narrow = narrowed(prior, pose)
+    assert np.allclose(prior_residuals(narrow, pose), 0.0)
+    turned = pose.copy()
+    turned[0, 1] += HELD_WITHIN_RADIANS
+    assert np.linalg.norm(prior_residuals(narrow, turned)) == pytest.approx(1.0)

@@ -1,0 +1,96 @@
+"""Searches whose lines follow the body, on a person before a wall whose mask is faulty."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+from fitter.arrays import Image, Mask
+from fitter.evidence.silhouette_evidence import silhouette_evidence
+from fitter.optimizer.gauss_newton import Minimum
+from fitter.optimizer.renewed_lines import renewing_lines, with_lines_about
+from fitter.optimizer.search import body_search
+from fitter.request import OptimizerKind
+from tests.unit.optimizer.rendered_scene import RenderedScene, rendered_scene
+
+WALL = np.array([0.15, 0.3, 0.45])
+KEPT_PX = 6
+"""Of wall, beside the person's whole right side."""
+
+
+def ignore(_):
+    """Observe nothing."""
+
+
+SEARCH = body_search(OptimizerKind.GAUSS_NEWTON, 30, ignore)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Misled:
+    """A scene with a faulty mask, what the search made of it, and what is to be seen."""
+
+    scene: RenderedScene
+    minimum: Minimum
+    person: Mask
+    display: Image
+
+    def overlap(self, found: Minimum) -> float:
+        """Intersection over union with the person."""
+        body = found.candidate.rendering.silhouette
+        return float((body & self.person).sum() / (body | self.person).sum())
+
+
+@pytest.fixture(scope="module")
+def misled() -> Misled:
+    sound = rendered_scene(3)
+    evidence = sound.objective.evidence
+    person = evidence.silhouette.mask
+    mask = person.copy()
+    for row in range(len(mask)):
+        columns = np.flatnonzero(mask[row])
+        if len(columns):
+            mask[row, columns[-1] : columns[-1] + KEPT_PX] = True
+    shown = np.where(person[..., None], 0.25 + 0.7 * sound.display, WALL)
+    noise = np.random.default_rng(0).standard_normal(shown.shape)
+    faulty = replace(evidence, silhouette=silhouette_evidence(mask))
+    scene = replace(sound, objective=replace(sound.objective, evidence=faulty))
+    return Misled(
+        scene=scene,
+        minimum=SEARCH(scene.objective, scene.start),
+        person=person,
+        display=(shown + 0.01 * noise).astype(np.float32),
+    )
+
+
+def test_lines_find_the_person_where_the_mask_has_kept_the_wall(misled):
+    start = misled.minimum.candidate.parameters
+    found = renewing_lines([SEARCH, SEARCH], misled.display)(misled.scene.objective, start)
+    assert misled.overlap(misled.minimum) < 0.94
+    assert misled.overlap(found) > 0.97
+
+
+def test_lines_are_laid_out_about_the_body_each_search_starts_from(misled):
+    objective, seen = misled.scene.objective, []
+
+    def looking(lined, start):
+        seen.append((lined.evidence.lines, start))
+        return SEARCH(lined, start)
+
+    start = misled.minimum.candidate.parameters
+    minimum = renewing_lines([looking, looking], misled.display)(objective, start)
+    assert seen[0][1] is start
+    assert seen[1][1] is not start
+    assert minimum.evaluations > 2
+    for lines, body in seen:
+        projected = objective.evaluate(body).rendering.projected
+        np.testing.assert_allclose(lines.centres, projected[lines.points].mean(axis=1))
+
+
+def test_lines_take_the_place_of_the_region(misled):
+    objective, truth = misled.scene.objective, misled.scene.truth
+    lined = with_lines_about(objective, truth, misled.display)
+    by_region, by_lines = (
+        each.evaluate(truth).energies["silhouette"] for each in (objective, lined)
+    )
+    # To the lines the true body is right; to the faulty mask it is not.
+    assert by_lines < 0.1 * by_region
