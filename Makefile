@@ -6,7 +6,7 @@ VENV := .venv
 STAMP := $(VENV)/.installed
 SINGLE_THREADED := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
 
-.PHONY: demo test lint serve train report openapi lock clean
+.PHONY: demo test lint serve train report openapi page lock clean
 
 demo: $(STAMP)
 	$(VENV)/bin/maquette demo
@@ -31,6 +31,10 @@ report: $(STAMP)
 
 openapi: $(STAMP)
 	$(VENV)/bin/maquette openapi --output api_schemas/openapi.json
+
+# The page's sources are TypeScript: this needs Node.js and npm. Its bundle is committed.
+page:
+	cd service/page && npm ci && npm run check && npm test && npm run build
 
 lock:
 	$(VENV)/bin/pip install -q pip-tools

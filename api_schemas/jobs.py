@@ -26,10 +26,33 @@ class JobLinks(WireModel):
 
     self: str
     events: str
+    image: str = Field(description="The picture it was made of.")
+    request: str = Field(description="What was asked for.")
     cancel: str | None = Field(default=None, description="While the job has not ended.")
     retry: str | None = Field(default=None, description="Once the job has ended.")
     result: str | None = None
     artifacts: dict[str, str] = Field(default_factory=dict[str, str])
+
+
+class WebhookState(StrEnum):
+    """Where the notice of a job's end stands."""
+
+    WAITING = "waiting"
+    DUE = "due"
+    DELIVERED = "delivered"
+    GIVEN_UP = "given_up"
+
+
+class WebhookDelivery(WireModel):
+    """What became of the notice of a job's end."""
+
+    state: WebhookState = Field(
+        description="`waiting` for the job's end; `due` until the receiver has accepted it."
+    )
+    attempts: int = Field(ge=0, description="How many times it was sent, or tried to be.")
+    last_status: int | None = Field(description="What the receiver last answered.")
+    last_error: str | None = Field(description="Why the last attempt failed.")
+    next_attempt_at: datetime | None = Field(description="Null unless it is `due`.")
 
 
 class Job(WireModel):
@@ -48,6 +71,9 @@ class Job(WireModel):
         default=None, description="When the job is erased with its picture; null if it is kept."
     )
     problem: Problem | None = Field(description="Why the job has no result; null unless it failed.")
+    webhook: WebhookDelivery | None = Field(
+        default=None, description="The notice of its end; null unless the request asked for one."
+    )
     links: JobLinks
 
 

@@ -20,12 +20,15 @@ _OTHER_UNITS: Final = (
     (0.3048, "feet"),
     (0.0254, "inches"),
 )
+_LARGEST_NUMBER: Final = MAX_HEIGHT_M / min(factor for factor, _ in _OTHER_UNITS)
+"""A height in the smallest of these units. Beyond it nothing is converted: a whole number of JSON
+may be too large for a float."""
 
 
 def _metres(value: object) -> object:
     """Name the unit a height was probably given in; other faults are told as usual."""
     if isinstance(value, int | float) and not isinstance(value, bool):
-        for factor, unit in _OTHER_UNITS if not MIN_HEIGHT_M <= value <= MAX_HEIGHT_M else ():
+        for factor, unit in _OTHER_UNITS if MAX_HEIGHT_M < value <= _LARGEST_NUMBER else ():
             if MIN_HEIGHT_M <= value * factor <= MAX_HEIGHT_M:
                 raise refusal(
                     code="out-of-range",

@@ -177,6 +177,12 @@ _TYPES: Final = (
         status=504,
         description="The fit was stopped at this service's time limit.",
     ),
+    ProblemType(
+        slug="quota-exceeded",
+        title="There is no room for more of your pictures",
+        status=507,
+        description="As many uploaded pictures, or bytes of them, are kept as one tenant may have.",
+    ),
 )
 
 PROBLEM_TYPES: Final[Mapping[str, ProblemType]] = {kind.slug: kind for kind in _TYPES}

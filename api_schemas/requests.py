@@ -132,8 +132,14 @@ class FitRequest(FitOptions):
 
     webhook: WebhookTarget | None = None
 
+    def options(self) -> FitOptions:
+        """The fit alone, without what concerns only the submission."""
+        return FitOptions.model_construct(
+            **{name: getattr(self, name) for name in FitOptions.model_fields}
+        )
 
-class FitOfImage(FitOptions):
+
+class FitOfImage(FitRequest):
     """A submission whose picture was uploaded before."""
 
     image_id: ImageId

@@ -5,7 +5,6 @@ import binascii
 from datetime import datetime
 from enum import StrEnum
 from typing import Annotated, Final
-from uuid import UUID
 
 from pydantic import AfterValidator, Field
 
@@ -50,7 +49,8 @@ class WebhookTarget(WireModel):
     """Where to send the notice of the job's end.
 
     The address must be public: private, loopback and link-local ones are refused, and redirects are
-    not followed. Without a ``secret`` the service's own signs the notice, where it has one.
+    not followed. Without a ``secret`` the service's own signs the notice; where it has none, a
+    secret is needed.
     """
 
     url: str = Field(
@@ -78,30 +78,12 @@ class WebhookEventType(StrEnum):
 
 
 class WebhookEvent(WireModel):
-    """The body of a notice; the job is as ``GET /v1/fits/{id}`` answers it."""
+    """The body of a notice.
+
+    ``data`` is the job as ``GET /v1/fits/{id}`` answers it, but for ``webhook``, which is null: the
+    body is the same at every attempt. ``timestamp`` is when the job ended.
+    """
 
     type: WebhookEventType
     timestamp: datetime
     data: Job
-
-
-class WebhookState(StrEnum):
-    """Where a notice stands."""
-
-    WAITING = "waiting"
-    DUE = "due"
-    DELIVERED = "delivered"
-    GIVEN_UP = "given_up"
-
-
-class WebhookDelivery(WireModel):
-    """What became of a job's notice."""
-
-    fit_id: UUID
-    state: WebhookState = Field(
-        description="`waiting` for the job's end; `due` until the receiver has accepted it."
-    )
-    attempts: int = Field(ge=0)
-    last_status: int | None = Field(description="What the receiver last answered.")
-    last_error: str | None = Field(description="Why the last attempt failed.")
-    next_attempt_at: datetime | None

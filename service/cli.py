@@ -1,4 +1,4 @@
-"""``maquette serve | worker | keys | health | fit | demo | warm-up | openapi``.
+"""``maquette serve | worker | prepare | keys | health | fit | demo | warm-up | openapi``.
 
 Every command imports what it needs itself: ``maquette --help`` and the processes forked by a worker
 load this module and nothing heavy with it.
@@ -42,6 +42,11 @@ def _parser() -> argparse.ArgumentParser:
 
     worker = commands.add_parser("worker", help="run fits for the API of the same database")
     worker.set_defaults(command=_worker)
+
+    prepare = commands.add_parser(
+        "prepare", help="make tables and bucket, where they are not there yet"
+    )
+    prepare.set_defaults(command=_prepare)
 
     keys = commands.add_parser("keys", help="make, list and revoke API keys")
     actions = keys.add_subparsers(required=True, dest="action", metavar="ACTION")
@@ -155,6 +160,15 @@ def _worker(_: argparse.Namespace) -> int:
     return _told("worker", lambda: run_worker(settings, follow_stdin=False))
 
 
+def _prepare(_: argparse.Namespace) -> int:
+    from service.logs import configure_logging
+    from service.prepare_command import prepare
+
+    settings = _settings("prepare")
+    configure_logging(settings.log_level, settings.log_format)
+    return _told("prepare", lambda: prepare(settings))
+
+
 def _keys(parsed: argparse.Namespace) -> int:
     from service import key_commands
     from service.engine.keys import Role
@@ -171,11 +185,14 @@ def _keys(parsed: argparse.Namespace) -> int:
 
 
 def _health(parsed: argparse.Namespace) -> int:
-    from service.health_command import api_health, worker_health
-
     settings = _settings("health")
-    check = worker_health if parsed.worker else api_health
-    return _told("health", lambda: check(settings))
+    if parsed.worker:
+        from service.worker_health import worker_health
+
+        return worker_health(settings)
+    from service.api_health import api_health
+
+    return api_health(settings)
 
 
 def _settings(command: str, **given: object) -> "Settings":

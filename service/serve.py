@@ -69,8 +69,12 @@ def serve(
     from service.blobs import open_blob_store
     from service.engine.database import open_database, prepare_database
     from service.engine.dbos_jobs import DbosJobEngine
+    from service.engine.image_port import ImageQuota
     from service.engine.keys import KeyRing
+    from service.engine.webhooks import WebhookLedger
     from service.tracing import start_tracing
+    from service.webhooks.delivery import Deliverer
+    from service.webhooks.sending import Sender
 
     tracing = start_tracing(settings, role="api")
     prepare_database(settings.system_database_url)
@@ -81,10 +85,22 @@ def serve(
         blobs,
         max_queued=settings.max_queued,
         max_queued_per_tenant=settings.tenant_queue_limit,
+        image_quota=ImageQuota(
+            images=settings.max_images_per_tenant, size=settings.max_image_bytes_per_tenant
+        ),
         retention_s=settings.retention_s,
         sweep_interval_s=settings.sweep_interval_s,
         heartbeat_s=settings.heartbeat_s,
         dead_after_s=settings.dead_after_s,
+    )
+    webhooks = Deliverer(
+        WebhookLedger(database, time_limit_s=settings.webhook_time_limit_s),
+        Sender(
+            allowed_hosts=settings.allowed_webhook_hosts,
+            time_limit_s=settings.webhook_time_limit_s,
+        ),
+        secret=settings.webhook_secret,
+        pauses_s=settings.webhook_schedule_s,
     )
     draining = threading.Event()
     app = create_app(
@@ -105,12 +121,14 @@ def serve(
     host, port = listener.getsockname()[:2]
     announce(f"Maquette listens on http://{host}:{port}, documented at /docs.")
     engine.start()
+    webhooks.start()
     try:
         server.run(sockets=[listener])
     finally:
         if worker is not None:
             worker.stop()
         estimators.stop()
+        webhooks.stop()
         engine.close()
         tracing.stop()
 

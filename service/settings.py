@@ -2,12 +2,15 @@
 
 import ipaddress
 import os
+import re
 from pathlib import Path
 from typing import Final, Literal
 from urllib.parse import urlsplit
 
 from pydantic import Field, ValidationInfo, field_validator
 from pydantic_settings import BaseSettings, SettingsConfigDict
+
+from api_schemas.webhooks import secret_key
 
 PREFIX: Final = "MAQUETTE_"
 
@@ -80,6 +83,16 @@ class Settings(BaseSettings):
         ge=1,
         description="Jobs of one tenant that may wait before its new ones are refused (429).",
     )
+    max_images_per_tenant: int = Field(
+        default=1_000,
+        ge=1,
+        description="Uploaded pictures kept for one tenant before more are refused (507).",
+    )
+    max_image_bytes_per_tenant: int = Field(
+        default=5_000_000_000,
+        ge=1,
+        description="Bytes of uploaded pictures kept for one tenant before more are refused (507).",
+    )
     requests_per_minute: int = Field(
         default=1_200,
         ge=1,
@@ -92,6 +105,31 @@ class Settings(BaseSettings):
     )
     sweep_interval_s: float = Field(
         default=60.0, gt=0.0, description="How often what has expired is looked for and erased."
+    )
+    webhook_secret: str | None = Field(
+        default=None,
+        repr=False,
+        description=(
+            "`whsec_` and the base64 of 24 to 64 random bytes: signs the notices of fits that "
+            "bring no secret of their own; those are refused if unset."
+        ),
+    )
+    webhook_hosts: str = Field(
+        default="",
+        description=(
+            "Hosts, separated by commas, that notices may be sent to even if their addresses are "
+            "not public: for development and for receivers on the same network."
+        ),
+    )
+    webhook_time_limit_s: float = Field(
+        default=15.0, gt=0.0, description="How long one attempt to send a notice may take."
+    )
+    webhook_pauses_s: str = Field(
+        default="5,300,1800,7200,18000,36000,50400,72000,86400",
+        description=(
+            "Seconds between the attempts to send a notice, separated by commas; after the last "
+            "attempt it is given up."
+        ),
     )
     worker_processes: int = Field(
         default_factory=lambda: os.cpu_count() or 1,
@@ -173,6 +211,21 @@ class Settings(BaseSettings):
             raise ValueError(message)
         return authentication
 
+    @field_validator("webhook_secret")
+    @classmethod
+    def _is_a_usable_secret(cls, secret: str | None) -> str | None:
+        if secret is not None:
+            secret_key(secret)
+        return secret
+
+    @field_validator("webhook_pauses_s")
+    @classmethod
+    def _are_pauses(cls, pauses: str) -> str:
+        if not all(re.fullmatch(r"\s*\d{1,6}(\.\d+)?\s*", each) for each in pauses.split(",")):
+            message = "write seconds separated by commas, as in 5,300,1800"
+            raise ValueError(message)
+        return pauses
+
     @field_validator("blob_url")
     @classmethod
     def _is_a_bucket(cls, url: str | None) -> str | None:
@@ -184,7 +237,7 @@ class Settings(BaseSettings):
     @field_validator("cors_origins")
     @classmethod
     def _are_origins(cls, origins: str) -> str:
-        for origin in split_origins(origins):
+        for origin in split_list(origins):
             parts = urlsplit(origin)
             if (
                 parts.scheme not in ("http", "https")
@@ -213,7 +266,17 @@ class Settings(BaseSettings):
     @property
     def allowed_origins(self) -> tuple[str, ...]:
         """Origins of other sites whose pages may call the API."""
-        return split_origins(self.cors_origins)
+        return split_list(self.cors_origins)
+
+    @property
+    def allowed_webhook_hosts(self) -> tuple[str, ...]:
+        """Hosts that notices may be sent to wherever they are."""
+        return split_list(self.webhook_hosts.lower())
+
+    @property
+    def webhook_schedule_s(self) -> tuple[float, ...]:
+        """The pauses between the attempts to send a notice."""
+        return tuple(float(pause) for pause in split_list(self.webhook_pauses_s))
 
     @property
     def tenant_queue_limit(self) -> int:
@@ -244,6 +307,6 @@ def is_loopback(host: str) -> bool:
         return host == "localhost"
 
 
-def split_origins(text: str) -> tuple[str, ...]:
-    """Read the list of origins."""
-    return tuple(origin.strip() for origin in text.split(",") if origin.strip())
+def split_list(text: str) -> tuple[str, ...]:
+    """Read a list separated by commas."""
+    return tuple(each.strip() for each in text.split(",") if each.strip())

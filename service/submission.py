@@ -9,7 +9,8 @@ from typing import Final
 
 from api_schemas.points import PointsFormat
 from api_schemas.problems import FieldProblem
-from api_schemas.requests import FitOptions
+from api_schemas.requests import FitOptions, FitRequest
+from api_schemas.webhooks import WebhookTarget
 from service.image_header import (
     DamagedImageError,
     ImageHeader,
@@ -25,9 +26,13 @@ ACCEPTED_KINDS: Final = "JPEG, PNG or WebP"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CheckedSubmission:
-    """Options whose points are named pixels inside the picture, and the pictures' kinds."""
+    """Options whose points are named pixels inside the picture, and the pictures' kinds.
+
+    ``webhook`` is as it was sent: whether a notice may go there is for the service to say.
+    """
 
     options: FitOptions
+    webhook: WebhookTarget | None
     image_media_type: str
     mask_media_type: str | None
 
@@ -40,7 +45,7 @@ def check_submission(
     Parameters
     ----------
     request
-        The JSON text of :class:`~api_schemas.requests.FitOptions`.
+        The JSON text of a :class:`~api_schemas.requests.FitRequest`.
     image, mask
         The encoded pictures.
     max_pixels
@@ -52,7 +57,7 @@ def check_submission(
         With the problem to answer.
     """
     return check_parts(
-        parsed(FitOptions, request, whole="request", called="the part 'request'"),
+        parsed(FitRequest, request, whole="request", called="the part 'request'"),
         image=image,
         mask=mask,
         max_pixels=max_pixels,
@@ -60,9 +65,9 @@ def check_submission(
 
 
 def check_parts(
-    options: FitOptions, *, image: bytes, mask: bytes | None, max_pixels: int
+    asked: FitRequest, *, image: bytes, mask: bytes | None, max_pixels: int
 ) -> CheckedSubmission:
-    """Check options and encoded pictures against each other, as :func:`check_submission` does.
+    """Check a request and encoded pictures against each other, as :func:`check_submission` does.
 
     Raises
     ------
@@ -75,11 +80,10 @@ def check_parts(
         mask_header = check_picture("mask", mask, max_pixels=max_pixels)
         _check_same_size(header, mask_header)
         mask_media_type = mask_header.media_type
-    points = checked_points(
-        options.points, options.format, width=header.width, height=header.height
-    )
+    points = checked_points(asked.points, asked.format, width=header.width, height=header.height)
     return CheckedSubmission(
-        options=options.model_copy(update={"points": points, "format": PointsFormat.NAMED}),
+        options=asked.options().model_copy(update={"points": points, "format": PointsFormat.NAMED}),
+        webhook=asked.webhook,
         image_media_type=header.media_type,
         mask_media_type=mask_media_type,
     )

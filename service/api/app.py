@@ -15,13 +15,16 @@ from service.api import (
     body_models,
     documentation,
     events,
+    fit_inputs,
     fits,
     health,
     images,
     initial_poses,
     metrics,
+    page,
     problem_types,
     results,
+    retries,
     submissions,
 )
 from service.api.authentication import Authentication, KeySource, KnownKeys
@@ -99,7 +102,7 @@ def create_app(
         settings=settings,
         engine=engine,
         blobs=blobs,
-        estimates=Estimates(estimator),
+        estimates=Estimates(estimator, figures),
         feed=feed,
         figures=figures,
         draining=draining,
@@ -155,6 +158,8 @@ def _resources(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]] 
         fits,
         events,
         results,
+        retries,
+        fit_inputs,
         images,
         initial_poses,
         bodies,
@@ -163,6 +168,7 @@ def _resources(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]] 
         metrics,
         problem_types,
         documentation,
+        page,
     ):
         app.include_router(resource.ROUTER)
     generate = app.openapi

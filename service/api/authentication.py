@@ -16,8 +16,11 @@ from service.api.rate_limit import RateLimit
 from service.engine.keys import ApiKey, Role, hash_key
 from service.engine.port import EngineUnavailableError
 
-OPEN: Final = ("/healthz/", "/problems/", "/docs", "/openapi.json")
+OPEN: Final = ("/healthz/", "/problems/", "/docs", "/openapi.json", "/page/")
 """What anybody may ask, by the beginning of its path: nothing of a tenant's is there."""
+
+ROOT: Final = "/"
+"""The page, which asks for a key itself."""
 
 METRICS_PATH: Final = "/metrics"
 
@@ -106,7 +109,8 @@ class Authentication:
         await self._app(scope, receive, send)
 
     async def _tenant(self, request: Request) -> str:
-        if self._keys is None or request.url.path.startswith(OPEN):
+        path = request.url.path
+        if self._keys is None or path == ROOT or path.startswith(OPEN):
             return SOLE_TENANT
         scheme, _, presented = request.headers.get("authorization", "").partition(" ")
         if scheme.lower() != "bearer" or not presented.strip():
@@ -117,7 +121,7 @@ class Authentication:
             raise _not_ready() from error
         if key is None:
             raise _unauthorized(UNKNOWN_KEY)
-        for_metrics = request.url.path == METRICS_PATH
+        for_metrics = path == METRICS_PATH
         if (key.role is Role.METRICS) != for_metrics:
             raise _forbidden(key)
         retry_after_s = self._rate_limit.take(key.id)

@@ -8,7 +8,6 @@ from fastapi import APIRouter, Header, Request, Response
 from api_schemas.bodies import BodyEstimate, BodyRequest
 from service.api.context import Context
 from service.api.estimates import ESTIMATE_PROBLEMS
-from service.api.examples import BODY_ANSWER, BODY_REQUESTS
 from service.api.json_bodies import JSON, json_body, json_content, read_json
 from service.api.problems import documented
 from service.estimates.messages import BodyTask
@@ -21,7 +20,7 @@ _ANSWER: Final[dict[int | str, dict[str, Any]]] = {
     200: {
         "description": "The most probable body; as a GLB file if `Accept` asks for one.",
         "content": {
-            JSON: json_content(BodyEstimate, {"from-height-and-weight": BODY_ANSWER}),
+            JSON: json_content(BodyEstimate),
             GLB: {"schema": {"type": "string", "format": "binary"}},
         },
     }
@@ -32,11 +31,14 @@ _ANSWER: Final[dict[int | str, dict[str, Any]]] = {
     "",
     response_class=Response,
     summary="Estimate a body from measurements",
-    openapi_extra=json_body(BodyRequest, BODY_REQUESTS),
+    openapi_extra=json_body(BodyRequest),
     responses=_ANSWER | documented(*ESTIMATE_PROBLEMS),
 )
 async def estimate_body(
-    request: Request, context: Context, accept: Annotated[str | None, Header()] = None
+    request: Request,
+    context: Context,
+    # Of headers of this name OpenAPI takes the answers' media types to say enough.
+    accept: Annotated[str | None, Header(include_in_schema=False)] = None,
 ) -> Response:
     """Return the most probable body of a gender and of any known measurements.
 

@@ -10,7 +10,8 @@ from service.api.estimates import Estimates
 from service.api.event_feed import EventFeed
 from service.api.figures import Figures
 from service.blobs import BlobStore
-from service.engine.port import JobEngine, TenantImages, TenantJobs
+from service.engine.image_port import TenantImages
+from service.engine.port import JobEngine, TenantJobs
 from service.settings import Settings
 
 SOLE_TENANT: Final = "default"

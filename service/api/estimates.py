@@ -1,6 +1,7 @@
 """The estimator as the resources ask it: in threads of its own, its troubles told as problems."""
 
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Final, TypeVar
 
@@ -8,6 +9,7 @@ from anyio import CapacityLimiter, to_thread
 
 from api_schemas.initial_poses import InitialPose
 from api_schemas.problems import problem
+from service.api.figures import Figures
 from service.api.problems import ProblemError
 from service.estimates.messages import BodyTask, InitialPoseTask
 from service.estimates.port import (
@@ -17,6 +19,7 @@ from service.estimates.port import (
     EstimatorTimeoutError,
     EstimatorUnavailableError,
 )
+from service.refusal import RefusedError
 
 SPARE_THREADS: Final = 4
 """Beyond what the estimator takes at once: in these, one too many is turned away at once."""
@@ -35,6 +38,13 @@ ESTIMATE_PROBLEMS: Final = (
 )
 """What may be wrong with a question, or with the estimator."""
 
+OUTCOMES: Final[Mapping[type[Exception], str]] = {
+    RefusedError: "refused",
+    EstimatorUnavailableError: "unavailable",
+    EstimatorTimeoutError: "timed_out",
+}
+"""How figures call what a question ended with; all else is called failed."""
+
 Answer = TypeVar("Answer")
 
 
@@ -45,8 +55,9 @@ class Estimates:
     held up.
     """
 
-    def __init__(self, estimator: Estimator) -> None:
+    def __init__(self, estimator: Estimator, figures: Figures) -> None:
         self._estimator = estimator
+        self._figures = figures
         self._threads = CapacityLimiter(estimator.capacity + SPARE_THREADS)
 
     async def body(self, task: BodyTask) -> EstimatedBody:
@@ -59,11 +70,11 @@ class Estimates:
         ProblemError
             503 if there is no answer now, 500 if the question met a fault.
         """
-        return await self._answer(partial(self._estimator.body, task))
+        return await self._answer("body", partial(self._estimator.body, task))
 
     async def initial_pose(self, task: InitialPoseTask) -> InitialPose:
         """Pose the mean person by clicks; raises as :meth:`body` does."""
-        return await self._answer(partial(self._estimator.initial_pose, task))
+        return await self._answer("initial_pose", partial(self._estimator.initial_pose, task))
 
     async def refuse_nobody(self, task: BodyTask) -> None:
         """Raise :class:`service.refusal.RefusedError` if nobody has what is known.
@@ -71,13 +82,15 @@ class Estimates:
         Where the estimator is not at hand nothing is said: whoever asks finds out later.
         """
         try:
-            await self._in_thread(partial(self._estimator.body, task, patient=False))
+            await self._in_thread(
+                "known_person", partial(self._estimator.body, task, patient=False)
+            )
         except (EstimatorUnavailableError, EstimatorFailedError):
             return
 
-    async def _answer(self, question: Callable[[], Answer]) -> Answer:
+    async def _answer(self, name: str, question: Callable[[], Answer]) -> Answer:
         try:
-            return await self._in_thread(question)
+            return await self._in_thread(name, question)
         except EstimatorUnavailableError as error:
             raise _not_now(
                 code="estimator-unavailable",
@@ -98,8 +111,18 @@ class Estimates:
                 )
             ) from error
 
-    async def _in_thread(self, question: Callable[[], Answer]) -> Answer:
-        return await to_thread.run_sync(question, limiter=self._threads)
+    async def _in_thread(self, name: str, question: Callable[[], Answer]) -> Answer:
+        started = time.monotonic()
+        outcome = "answered"
+        try:
+            return await to_thread.run_sync(question, limiter=self._threads)
+        except Exception as error:
+            outcome = OUTCOMES.get(type(error), "failed")
+            raise
+        finally:
+            self._figures.count_estimate(
+                question=name, outcome=outcome, seconds=time.monotonic() - started
+            )
 
 
 def _not_now(*, code: str, detail: str) -> ProblemError:

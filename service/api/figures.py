@@ -17,7 +17,7 @@ from prometheus_client.core import (
 from prometheus_client.exposition import generate_latest
 from prometheus_client.registry import Collector
 
-from api_schemas.jobs import JobState
+from api_schemas.jobs import JobState, WebhookState
 from service.engine.port import JobEngine
 from service.engine.statistics import BOUNDS_S
 from service.jobs import TERMINAL
@@ -44,6 +44,25 @@ class Figures:
             buckets=REQUEST_BOUNDS_S,
             registry=self._registry,
         )
+
+        self._estimates = Counter(
+            "maquette_estimates",
+            "Questions to the estimators of this process, by how they ended.",
+            ["question", "outcome"],
+            registry=self._registry,
+        )
+        self._estimate_seconds = Histogram(
+            "maquette_estimate_seconds",
+            "How long these questions took, waiting for an estimator included.",
+            ["question"],
+            buckets=REQUEST_BOUNDS_S,
+            registry=self._registry,
+        )
+
+    def count_estimate(self, *, question: str, outcome: str, seconds: float) -> None:
+        """Count a question to an estimator."""
+        self._estimates.labels(question, outcome).inc()
+        self._estimate_seconds.labels(question).observe(seconds)
 
     def count(self, *, method: str, route: str, status: int, seconds: float) -> None:
         """Count an answered request; ``route`` is the template, never the path."""
@@ -92,6 +111,12 @@ class _EngineCollector(Collector):
         for state in sorted(TERMINAL):
             outcomes.add_metric([JobState(state).value], statistics.outcomes.get(state, 0))
         yield outcomes
+        webhooks = GaugeMetricFamily(
+            "maquette_webhooks", "Notices of the jobs that are kept, by state.", labels=["state"]
+        )
+        for state in WebhookState:
+            webhooks.add_metric([state.value], statistics.webhooks.get(state, 0))
+        yield webhooks
         durations = HistogramMetricFamily(
             "maquette_job_seconds",
             "How long jobs waited, ran, and spent in each stage of the fit.",

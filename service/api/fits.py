@@ -1,7 +1,6 @@
 """Fits as jobs: list, look at, cancel, erase."""
 
-import base64
-import binascii
+import re
 from typing import Annotated, Any, Final
 from uuid import UUID
 
@@ -19,6 +18,11 @@ ROUTER: Final = APIRouter(prefix="/v1/fits", tags=["fits"])
 
 MAX_PAGE: Final = 200
 
+CURSOR: Final = re.compile(
+    r"^([0-9]{1,12}(?:\.[0-9]{1,9})?)-([0-9a-f]{8}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{12})$"
+)
+"""When the last job of a page was accepted, in epoch seconds, and its id."""
+
 
 @ROUTER.get(
     "",
@@ -30,7 +34,13 @@ def list_fits(
     response: Response,
     context: Context,
     limit: Annotated[int, Query(ge=1, le=MAX_PAGE)] = 50,
-    cursor: Annotated[str | None, Query(description="From `next` of the page before.")] = None,
+    cursor: Annotated[
+        str | None,
+        Query(
+            description="From `next` of the page before.",
+            json_schema_extra={"pattern": CURSOR.pattern},
+        ),
+    ] = None,
     state: Annotated[JobState | None, Query()] = None,
 ) -> JobPage:
     """List jobs; `next` and the Link header lead to the following page."""
@@ -60,7 +70,7 @@ def get_fit(
 ) -> Any:
     """Return where the job stands."""
     record = find(context, fit_id)
-    tag = f'W/"{record.last_event}-{int(record.cancel_requested)}"'
+    tag = _tag(record)
     if if_none_match is not None and tag in if_none_match:
         return Response(status_code=304, headers={"ETag": tag})
     response.headers["ETag"] = tag
@@ -107,6 +117,14 @@ def erase(fit_id: UUID, context: Context) -> Response:
     return Response(status_code=204)
 
 
+def _tag(record: JobRecord) -> str:
+    """An entity tag that changes with whatever is shown of the job."""
+    parts = [record.last_event, int(record.cancel_requested)]
+    if record.webhook is not None:
+        parts += [record.webhook.state, record.webhook.attempts]
+    return f'W/"{"-".join(map(str, parts))}"'
+
+
 def find(context: ApiContext, fit_id: UUID) -> JobRecord:
     """Return the job or raise a 404."""
     record = context.jobs.job(str(fit_id))
@@ -116,14 +134,12 @@ def find(context: ApiContext, fit_id: UUID) -> JobRecord:
 
 
 def _cursor(record: JobRecord) -> str:
-    return base64.urlsafe_b64encode(f"{record.created_at!r}/{record.id}".encode()).decode()
+    return f"{record.created_at!r}-{record.id}"
 
 
 def _read_cursor(cursor: str) -> tuple[float, str]:
-    try:
-        created_at, _, job_id = base64.urlsafe_b64decode(cursor.encode()).decode().partition("/")
-        return float(created_at), str(UUID(job_id))
-    except (ValueError, binascii.Error) as error:
+    found = CURSOR.fullmatch(cursor)
+    if found is None:
         raise ProblemError(
             field_problem(
                 "invalid-request",
@@ -134,4 +150,5 @@ def _read_cursor(cursor: str) -> tuple[float, str]:
                     remedy="Follow 'next' of a page, or leave the cursor out.",
                 ),
             )
-        ) from error
+        )
+    return float(found[1]), found[2]

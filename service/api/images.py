@@ -12,12 +12,11 @@ from starlette.concurrency import run_in_threadpool
 from api_schemas.images import ImageId, UploadedImage
 from api_schemas.problems import FieldProblem, problem
 from service.api.context import ApiContext, Context
-from service.api.examples import UPLOADED_IMAGE
 from service.api.json_bodies import JSON, json_content
 from service.api.problems import ProblemError, documented, not_found
 from service.api.uploads import read_image
 from service.blobs import BlobMissingError, BlobsUnavailableError
-from service.engine.port import ImageRecord, KeptImage, NewImage
+from service.engine.image_port import ImageQuotaError, ImageRecord, KeptImage, NewImage
 from service.refusal import RefusedError, refused
 from service.submission import check_picture
 
@@ -45,7 +44,7 @@ _UPLOAD: Final[dict[str, Any]] = {
         },
     }
 }
-_CONTENT: Final = {JSON: json_content(UploadedImage, {"photograph": UPLOADED_IMAGE})}
+_CONTENT: Final = {JSON: json_content(UploadedImage)}
 _LOCATION: Final = {
     "Location": {"description": "Path of the picture.", "schema": {"type": "string"}}
 }
@@ -70,6 +69,7 @@ _LOCATION: Final = {
         "payload-too-large",
         "unsupported-media-type",
         "invalid-request",
+        "quota-exceeded",
         "not-ready",
         "internal-error",
     ),
@@ -162,7 +162,17 @@ def _keep(context: ApiContext, content: bytes) -> KeptImage:
         return KeptImage(record=earlier, is_new=False)
     scope = str(uuid4())
     # From here on the scope is erased by itself unless the picture is kept.
-    context.images.reserve(scope)
+    try:
+        context.images.reserve(scope, size=len(content))
+    except ImageQuotaError as error:
+        raise ProblemError(
+            problem(
+                "quota-exceeded",
+                detail=str(error),
+                remedy="Erase pictures you need no more by DELETE /v1/images/{id}, or wait until "
+                "they expire; a fit can also bring its picture along.",
+            )
+        ) from error
     try:
         context.blobs.put(scope, content)
     except BlobsUnavailableError:

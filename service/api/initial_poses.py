@@ -10,7 +10,6 @@ from api_schemas.points import PointsFormat
 from api_schemas.problems import FieldProblem
 from service.api.context import ApiContext, Context
 from service.api.estimates import ESTIMATE_PROBLEMS
-from service.api.examples import INITIAL_POSE_ANSWER, INITIAL_POSE_REQUESTS
 from service.api.images import known_image
 from service.api.json_bodies import JSON, json_body, json_content, read_json
 from service.api.problems import documented
@@ -23,7 +22,7 @@ ROUTER: Final = APIRouter(prefix="/v1/initial-poses", tags=["estimates"])
 _ANSWER: Final[dict[int | str, dict[str, Any]]] = {
     200: {
         "description": "The initial body, seen by its camera.",
-        "content": {JSON: json_content(InitialPose, {"standing": INITIAL_POSE_ANSWER})},
+        "content": {JSON: json_content(InitialPose)},
     }
 }
 
@@ -32,7 +31,7 @@ _ANSWER: Final[dict[int | str, dict[str, Any]]] = {
     "",
     response_class=Response,
     summary="Pose a body by clicks alone",
-    openapi_extra=json_body(InitialPoseRequest, INITIAL_POSE_REQUESTS),
+    openapi_extra=json_body(InitialPoseRequest),
     responses=_ANSWER | documented(*ESTIMATE_PROBLEMS),
 )
 async def initial_pose(request: Request, context: Context) -> Response:

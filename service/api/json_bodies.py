@@ -69,19 +69,16 @@ async def read_json(request: Request, kind: type[Model]) -> Model:
     return parsed(kind, await read_json_text(request), whole="body", called="the body")
 
 
-def json_body(kind: type[BaseModel], examples: dict[str, Any]) -> dict[str, Any]:
-    """Describe such a body for the OpenAPI document; ``examples`` by their names."""
+def json_body(kind: type[BaseModel]) -> dict[str, Any]:
+    """Describe such a body for the OpenAPI document."""
     return {
         "requestBody": {
             "required": True,
-            "content": {JSON: json_content(kind, examples)},
+            "content": {JSON: json_content(kind)},
         }
     }
 
 
-def json_content(kind: type[BaseModel], examples: dict[str, Any]) -> dict[str, Any]:
+def json_content(kind: type[BaseModel]) -> dict[str, Any]:
     """Describe JSON of a wire type, in a body or an answer."""
-    return {
-        "schema": {"$ref": f"#/components/schemas/{kind.__name__}"},
-        "examples": {name: {"value": value} for name, value in examples.items()},
-    }
+    return {"schema": {"$ref": f"#/components/schemas/{kind.__name__}"}}

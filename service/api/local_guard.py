@@ -7,7 +7,7 @@ header, the second in Origin.
 """
 
 from typing import Final
-from urllib.parse import urlsplit
+from urllib.parse import SplitResult, urlsplit
 
 from starlette.requests import Request
 from starlette.types import ASGIApp, Receive, Scope, Send
@@ -39,7 +39,7 @@ class LocalGuard:
 
     def _objection(self, request: Request) -> Problem | None:
         host = request.headers.get("host", "")
-        if not is_loopback(urlsplit(f"//{host}").hostname or ""):
+        if not is_loopback(_split(f"//{host}").hostname or ""):
             return problem(
                 "forbidden",
                 code="host-not-allowed",
@@ -50,7 +50,7 @@ class LocalGuard:
         origin = request.headers.get("origin")
         if request.method in HARMLESS or origin is None or origin in self._allowed_origins:
             return None
-        if urlsplit(origin).netloc == host:
+        if _split(origin).netloc == host:
             return None
         return problem(
             "forbidden",
@@ -59,3 +59,11 @@ class LocalGuard:
             remedy="Name its origin in MAQUETTE_CORS_ORIGINS if it is yours.",
             field="Origin",
         )
+
+
+def _split(address: str) -> SplitResult:
+    """Split an address; what is none, an unclosed bracket for one, has no parts."""
+    try:
+        return urlsplit(address)
+    except ValueError:
+        return urlsplit("")

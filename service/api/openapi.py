@@ -1,5 +1,6 @@
 """Complete the generated OpenAPI document: what FastAPI cannot know of our types."""
 
+from collections.abc import Iterator
 from typing import Any
 
 from pydantic.json_schema import models_json_schema
@@ -10,7 +11,11 @@ from api_schemas.images import UploadedImage
 from api_schemas.initial_poses import InitialPose, InitialPoseRequest
 from api_schemas.jobs import EventData
 from api_schemas.problems import PROBLEM_MEDIA_TYPE, Problem
-from api_schemas.requests import FitOfImage, FitOptions
+from api_schemas.requests import FitOfImage, FitOptions, FitRequest
+from api_schemas.webhooks import WebhookEvent
+from service.api.examples import ANSWERS, NOTICE, REQUESTS, Examples
+from service.api.json_bodies import JSON, json_body
+from service.api.links import LINKS
 from service.api.problems import documented
 
 _ANSWERED_EVERYWHERE = {
@@ -33,6 +38,46 @@ _SECURITY: dict[str, Any] = {
 }
 
 
+_WEBHOOKS: dict[str, Any] = {
+    "fit-ended": {
+        "post": {
+            "summary": "A job has ended",
+            "description": (
+                "Sent where the request's `webhook` says, signed as Standard Webhooks has it: "
+                "`webhook-signature` is `v1,` and the base64 HMAC-SHA256 of "
+                "`{webhook-id}.{webhook-timestamp}.{body}` by the secret's bytes. It is sent again "
+                "until it is accepted, always with the same id and body: whoever receives it may "
+                "get it more than once."
+            ),
+            "operationId": "fit_ended",
+            "parameters": [
+                {
+                    "name": name,
+                    "in": "header",
+                    "required": True,
+                    "description": description,
+                    "schema": {"type": "string"},
+                }
+                for name, description in (
+                    ("webhook-id", "The job's id."),
+                    ("webhook-timestamp", "When this attempt was made, in epoch seconds."),
+                    ("webhook-signature", "Signatures, separated by spaces."),
+                )
+            ],
+            **json_body(WebhookEvent),
+            "responses": {
+                "2XX": {"description": "Accepted."},
+                "410": {"description": "Not wanted: given up at once."},
+                "default": {"description": "Sent again later; redirects are not followed."},
+            },
+        }
+    }
+}
+_WEBHOOKS["fit-ended"]["post"]["requestBody"]["content"][JSON]["examples"] = {
+    "succeeded": {"value": NOTICE}
+}
+
+
 def complete_openapi(document: dict[str, Any]) -> dict[str, Any]:
     """Add the types that are only referred to, and drop FastAPI's own error format."""
     schemas: dict[str, Any] = document.setdefault("components", {}).setdefault("schemas", {})
@@ -45,9 +90,8 @@ def complete_openapi(document: dict[str, Any]) -> dict[str, Any]:
             schemas.setdefault(name, schema)
     for path in document["paths"].values():
         for operation in path.values():
-            if _is_fastapi_error(operation):
-                del operation["responses"]["422"]
-            operation["responses"] = _ANSWERED_EVERYWHERE | operation["responses"]
+            _complete_operation(operation)
+    document["webhooks"] = _WEBHOOKS
     for name in ("HTTPValidationError", "ValidationError"):
         schemas.pop(name, None)
     document["components"]["schemas"] = dict(sorted(schemas.items()))
@@ -57,10 +101,42 @@ def complete_openapi(document: dict[str, Any]) -> dict[str, Any]:
     return document
 
 
+def _complete_operation(operation: dict[str, Any]) -> None:
+    name: str = operation["operationId"]
+    if _is_fastapi_error(operation):
+        del operation["responses"]["422"]
+    for parameter in operation.get("parameters", ()):
+        _drop_null(parameter["schema"])
+    for examples, content in _with_examples(operation):
+        content["examples"] = {each: {"value": value} for each, value in examples.items()}
+    for status, answer in operation["responses"].items():
+        if (name, status) in LINKS:
+            answer["links"] = LINKS[name, status]
+    operation["responses"] = _ANSWERED_EVERYWHERE | operation["responses"]
+
+
+def _with_examples(operation: dict[str, Any]) -> Iterator[tuple[Examples, dict[str, Any]]]:
+    """The operation's examples, each with the media type it is to stand at."""
+    name: str = operation["operationId"]
+    if name in REQUESTS:
+        yield REQUESTS[name], operation["requestBody"]["content"][JSON]
+    for status, examples in ANSWERS.get(name, {}).items():
+        content: dict[str, Any] = operation["responses"][str(status)]["content"]
+        yield examples, content[JSON] if JSON in content else next(iter(content.values()))
+
+
+def _drop_null(schema: dict[str, Any]) -> None:
+    """Say that a parameter may be left out, not that it may be null: there is no null in a URL."""
+    kinds = [kind for kind in schema.get("anyOf", ()) if kind != {"type": "null"}]
+    if len(kinds) == 1:
+        del schema["anyOf"]
+        schema |= kinds[0]
+
+
 def _models(mode: str) -> tuple[type[WireModel], ...]:
     if mode == "validation":
-        return (FitOptions, FitOfImage, BodyRequest, InitialPoseRequest)
-    return (Problem, EventData, BodyEstimate, InitialPose, UploadedImage)
+        return (FitOptions, FitRequest, FitOfImage, BodyRequest, InitialPoseRequest)
+    return (Problem, EventData, BodyEstimate, InitialPose, UploadedImage, WebhookEvent)
 
 
 def _is_fastapi_error(operation: dict[str, Any]) -> bool:

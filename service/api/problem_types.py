@@ -1,8 +1,8 @@
 """What the ``type`` of a problem refers to."""
 
-from typing import Final
+from typing import Annotated, Final
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Path
 
 from api_schemas.problems import PROBLEM_TYPES, ProblemType
 from service.api.problems import documented, not_found
@@ -16,7 +16,9 @@ ROUTER: Final = APIRouter(prefix="/problems", tags=["problems"])
     summary="What a problem type means",
     responses=documented("not-found"),
 )
-def problem_type(slug: str) -> ProblemType:
+def problem_type(
+    slug: Annotated[str, Path(json_schema_extra={"enum": list(PROBLEM_TYPES)})],
+) -> ProblemType:
     """Describe a problem type."""
     if slug not in PROBLEM_TYPES:
         raise not_found(what="such problem type")

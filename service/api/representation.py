@@ -4,8 +4,8 @@ from datetime import UTC, datetime
 from typing import Final
 from uuid import UUID
 
-from api_schemas.jobs import Job, JobLinks, JobState
-from service.engine.port import JobRecord
+from api_schemas.jobs import Job, JobLinks, JobState, WebhookDelivery
+from service.engine.port import JobRecord, WebhookRecord
 from service.jobs import ACTIVE
 
 POLL_AFTER_S: Final = 1
@@ -33,15 +33,31 @@ def represent(record: JobRecord) -> Job:
         finished_at=None if record.finished_at is None else _moment(record.finished_at),
         expires_at=None if record.expires_at is None else _moment(record.expires_at),
         problem=record.problem,
+        webhook=None if record.webhook is None else _delivery(record.webhook),
         links=JobLinks(
             self=path,
             events=f"{path}/events",
+            image=f"{path}/image",
+            request=f"{path}/request",
             cancel=f"{path}/cancel" if active else None,
+            retry=None if active else f"{path}/retry",
             result=f"{path}/result" if record.state is JobState.SUCCEEDED else None,
             artifacts={
                 artifact.name: f"{path}/artifacts/{artifact.name}" for artifact in record.artifacts
             },
         ),
+    )
+
+
+def _delivery(webhook: WebhookRecord) -> WebhookDelivery:
+    return WebhookDelivery(
+        state=webhook.state,
+        attempts=webhook.attempts,
+        last_status=webhook.last_status,
+        last_error=webhook.last_error,
+        next_attempt_at=None
+        if webhook.next_attempt_at is None
+        else _moment(webhook.next_attempt_at),
     )
 
 

@@ -21,6 +21,7 @@ ROUTER: Final = APIRouter(prefix="/v1/fits", tags=["results"])
 RESULT_NAME: Final = "result.json"
 
 _BINARY: Final = {"schema": {"type": "string", "format": "binary"}}
+_FILES: Final = {"model/gltf-binary": _BINARY, "image/png": _BINARY}
 _NOT_MODIFIED: Final[dict[int | str, dict[str, Any]]] = {
     304: {"description": "Not changed since the given ETag."}
 }
@@ -52,13 +53,13 @@ def result(
     responses={
         200: {
             "description": "The whole file.",
-            "content": {
-                "model/gltf-binary": _BINARY,
-                "image/png": _BINARY,
-                "application/json": {"schema": {"type": "object"}},
-            },
+            "content": _FILES | {"application/json": {"schema": {"type": "object"}}},
         },
-        206: {"description": "The part asked for.", "content": {"model/gltf-binary": _BINARY}},
+        206: {
+            "description": "The part asked for.",
+            # Part of a JSON file is not JSON.
+            "content": _FILES | {"application/json": _BINARY},
+        },
     }
     | _NOT_MODIFIED
     | documented(

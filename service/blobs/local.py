@@ -1,7 +1,7 @@
 """Blobs as files below a folder, for one machine or a file system that several share.
 
-A blob is written to a temporary file, flushed to the disk and renamed; a reader sees all of it or
-nothing, and whatever was stored survives a crash.
+A blob is written to a file without a name, flushed to the disk and then named; a reader sees all of
+it or nothing, whatever was stored survives a crash, and a writer that is killed leaves nothing.
 """
 
 import contextlib
@@ -13,11 +13,14 @@ import tempfile
 import uuid
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Final
+from typing import BinaryIO, Final
 
 from service.blobs.port import BlobMissingError, BlobsUnavailableError, StorageFullError
 
 FULL: Final = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
+
+NAMELESS_UNKNOWN: Final = frozenset({errno.EOPNOTSUPP, errno.EISDIR, errno.EINVAL})
+"""What file systems without nameless files answer, NFS among them."""
 
 
 class LocalBlobStore:
@@ -25,6 +28,11 @@ class LocalBlobStore:
 
     def __init__(self, root: Path) -> None:
         self.root = root
+
+    def prepare(self) -> None:
+        """Make the folder, unless it is there."""
+        with _told():
+            self.root.mkdir(parents=True, exist_ok=True)
 
     def put(self, scope: str, content: bytes) -> str:
         """Store ``content`` and return its SHA-256, its name in the scope.
@@ -100,22 +108,43 @@ def _told() -> Iterator[None]:
 
 def _write(path: Path, content: bytes) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        handle = os.open(path.parent, os.O_TMPFILE | os.O_WRONLY, 0o600)
+    except OSError as error:
+        if error.errno not in NAMELESS_UNKNOWN:
+            raise
+        _write_named(path, content)
+    else:
+        with os.fdopen(handle, "wb") as stream:
+            _flush(stream, content)
+            # What is there already has the same content.
+            with contextlib.suppress(FileExistsError):
+                # Naming a folder, though the path needs none, makes this follow the link in /proc.
+                os.link(f"/proc/self/fd/{handle}", path, src_dir_fd=handle)
+    _sync_folder(path.parent)
+
+
+def _write_named(path: Path, content: bytes) -> None:
+    """Where a file must have a name: whoever dies here leaves it, until its scope is erased."""
     handle, name = tempfile.mkstemp(dir=path.parent, prefix=".new-")
     temporary = Path(name)
     try:
         with os.fdopen(handle, "wb") as stream:
-            stream.write(content)
-            stream.flush()
-            os.fsync(stream.fileno())
+            _flush(stream, content)
         temporary.rename(path)
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
-    _sync_folder(path.parent)
+
+
+def _flush(stream: BinaryIO, content: bytes) -> None:
+    stream.write(content)
+    stream.flush()
+    os.fsync(stream.fileno())
 
 
 def _sync_folder(folder: Path) -> None:
-    # The rename itself must reach the disk, not only the file's content.
+    # The name itself must reach the disk, not only the file's content.
     handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
     try:
         os.fsync(handle)

@@ -22,6 +22,10 @@ class BlobStore(Protocol):
     and what ``put`` has returned for survives a crash of this process and of its machine.
     """
 
+    def prepare(self) -> None:
+        """Make the folder or bucket that the blobs are to lie in, unless it is there."""
+        ...
+
     def put(self, scope: str, content: bytes) -> str:
         """Store ``content`` and return its SHA-256, its name in the scope."""
         ...

@@ -21,6 +21,12 @@ FULL: Final = frozenset({"XMinioStorageFull", "QuotaExceeded", "InsufficientStor
 UNVERSIONED: Final = frozenset({"NotImplemented", "MethodNotAllowed"})
 """What servers without versions answer when asked for them."""
 
+UNNAMED_REGIONS: Final = frozenset({None, "us-east-1", "aws-global"})
+"""Where a new bucket lies that names no region; naming this one is refused."""
+
+LISTED_AT_ONCE: Final = 1000
+"""Objects a page of a listing holds: as many as any server gives."""
+
 CONNECTIONS: Final = 32
 CONNECT_TIMEOUT_S: Final = 3
 READ_TIMEOUT_S: Final = 20
@@ -52,6 +58,17 @@ class S3BlobStore:
             ),
         )
 
+    def prepare(self) -> None:
+        """Make the bucket, unless it is there; it is private, as every new bucket is."""
+        region = self._client.meta.region_name
+        place = {} if region in UNNAMED_REGIONS else {"LocationConstraint": region}
+        options = {"CreateBucketConfiguration": place} if place else {}
+        with (
+            _told(self._bucket),
+            contextlib.suppress(self._client.exceptions.BucketAlreadyOwnedByYou),
+        ):
+            self._client.create_bucket(Bucket=self._bucket, **options)
+
     def put(self, scope: str, content: bytes) -> str:
         """Store ``content`` and return its SHA-256, its name in the scope."""
         digest = hashlib.sha256(content).hexdigest()
@@ -80,8 +97,9 @@ class S3BlobStore:
     def erase(self, scope: str) -> None:
         """Remove everything in a scope, in every version a bucket with versioning kept."""
         with _told(scope):
-            # One by one: deletion in batches needs a checksum that not every server accepts.
-            for version in self._versions(f"{self._prefix}{scope}/"):
+            # Listed to the end first: not every server goes on behind an object that is gone. And
+            # deleted one by one: batches need a checksum that not every server accepts.
+            for version in list(self._versions(f"{self._prefix}{scope}/")):
                 self._client.delete_object(Bucket=self._bucket, **version)
 
     def check_writable(self) -> None:
@@ -107,7 +125,8 @@ class S3BlobStore:
 
     def _listed(self, operation: str, prefix: str) -> Iterator[dict[str, str]]:
         pages = self._client.get_paginator(operation)
-        for page in pages.paginate(Bucket=self._bucket, Prefix=prefix):
+        size = {"PageSize": LISTED_AT_ONCE}
+        for page in pages.paginate(Bucket=self._bucket, Prefix=prefix, PaginationConfig=size):
             for kind in ("Versions", "DeleteMarkers", "Contents"):
                 for entry in page.get(kind, ()):
                     version = {"Key": entry["Key"]}

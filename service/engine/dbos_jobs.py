@@ -10,9 +10,10 @@ import sqlalchemy as sa
 from dbos import DBOSClient, DBOSPortableJSONSerializer
 
 from api_schemas.body_models import BodyModels
-from api_schemas.jobs import JobState
+from api_schemas.jobs import JobState, WebhookState
 from service.blobs import BlobStore
 from service.engine.availability import available
+from service.engine.image_port import ImageQuota
 from service.engine.images import StoredImages
 from service.engine.liveness import WorkerWatch
 from service.engine.port import EngineStatistics, EngineUnavailableError, WorkerStatus
@@ -41,6 +42,7 @@ class DbosJobEngine:
         *,
         max_queued: int,
         max_queued_per_tenant: int,
+        image_quota: ImageQuota,
         retention_s: float,
         sweep_interval_s: float,
         heartbeat_s: float,
@@ -49,6 +51,7 @@ class DbosJobEngine:
         self._database = database
         self._max_queued = max_queued
         self._max_queued_per_tenant = max_queued_per_tenant
+        self._image_quota = image_quota
         self._retention_s = retention_s
         self._heartbeat_s = heartbeat_s
         self._client = DBOSClient(
@@ -88,7 +91,12 @@ class DbosJobEngine:
 
     def images_of(self, tenant: str) -> StoredImages:
         """Return the uploaded pictures of a tenant."""
-        return StoredImages(tenant, database=self._database, retention_s=self._retention_s)
+        return StoredImages(
+            tenant,
+            database=self._database,
+            retention_s=self._retention_s,
+            quota=self._image_quota,
+        )
 
     @available
     def last_events(self, job_ids: Sequence[str]) -> dict[str, int]:
@@ -129,6 +137,14 @@ class DbosJobEngine:
             }
             outcomes = read_outcomes(connection)
             durations = read_durations(connection)
+            webhooks = {
+                WebhookState(row.webhook_state): row.jobs
+                for row in connection.execute(
+                    sa.select(JOBS.c.webhook_state, sa.func.count().label("jobs"))
+                    .where(JOBS.c.webhook_state.is_not(None))
+                    .group_by(JOBS.c.webhook_state)
+                )
+            }
         queued = active.get(JobState.QUEUED.value)
         running = active.get(JobState.RUNNING.value)
         return EngineStatistics(
@@ -137,6 +153,7 @@ class DbosJobEngine:
             oldest_queued_s=max(0.0, time.time() - queued.oldest) if queued else 0.0,
             outcomes=outcomes,
             durations=durations,
+            webhooks=webhooks,
         )
 
     @available

@@ -13,17 +13,20 @@ from sqlalchemy.exc import IntegrityError
 
 from service.engine.availability import available
 from service.engine.expiry import ABANDONED_AFTER_S, enter_erasures, take_out
-from service.engine.port import ImageRecord, KeptImage, NewImage
+from service.engine.image_port import ImageQuota, ImageQuotaError, ImageRecord, KeptImage, NewImage
 from service.engine.tables import IMAGES
 
 
 class StoredImages:
     """Keep, look up and forget pictures; see :class:`service.engine.port.TenantImages`."""
 
-    def __init__(self, tenant: str, *, database: sa.Engine, retention_s: float) -> None:
+    def __init__(
+        self, tenant: str, *, database: sa.Engine, retention_s: float, quota: ImageQuota
+    ) -> None:
         self._tenant = tenant
         self._database = database
         self._retention_s = retention_s
+        self._quota = quota
 
     @available
     def find(self, image_id: str) -> ImageRecord | None:
@@ -38,9 +41,10 @@ class StoredImages:
             return self._renew(connection, image_id)
 
     @available
-    def reserve(self, scope: str) -> None:
+    def reserve(self, scope: str, *, size: int) -> None:
         """Enter the scope among those to be erased, until the picture is kept."""
         with self._database.begin() as connection:
+            self._check_room(connection, size)
             enter_erasures(connection, [scope], due_at=time.time() + ABANDONED_AFTER_S)
 
     @available
@@ -69,6 +73,23 @@ class StoredImages:
 
     def _own(self, image_id: str) -> tuple[sa.ColumnElement[bool], ...]:
         return (IMAGES.c.id == image_id, IMAGES.c.tenant == self._tenant)
+
+    def _check_room(self, connection: sa.Connection, size: int) -> None:
+        """Raise :class:`ImageQuotaError` unless one more picture of this size is within the quota.
+
+        Uploads at the same moment may exceed it, by as many as there are.
+        """
+        images, total = connection.execute(
+            sa.select(sa.func.count(), sa.func.coalesce(sa.func.sum(IMAGES.c.size), 0)).where(
+                IMAGES.c.tenant == self._tenant, IMAGES.c.expires_at > time.time()
+            )
+        ).one()
+        if images >= self._quota.images or total + size > self._quota.size:
+            message = (
+                f"{images} pictures of {total} bytes are kept for you; at most "
+                f"{self._quota.images} pictures and {self._quota.size} bytes may be."
+            )
+            raise ImageQuotaError(message)
 
     def _find(self, connection: sa.Connection, image_id: str) -> ImageRecord | None:
         query = sa.select(IMAGES).where(*self._own(image_id), IMAGES.c.expires_at > time.time())

@@ -6,9 +6,11 @@ from enum import StrEnum
 from typing import Protocol
 
 from api_schemas.body_models import BodyModels
-from api_schemas.jobs import EventData, EventKind, JobState
+from api_schemas.jobs import EventData, EventKind, JobState, WebhookState
 from api_schemas.problems import Problem
 from api_schemas.results import Artifact
+from api_schemas.webhooks import WebhookTarget
+from service.engine.image_port import TenantImages
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -31,7 +33,8 @@ class Idempotency:
 class NewJob:
     """A job to accept; its blobs are stored already, ``options`` being the request as JSON.
 
-    ``request_id`` and ``traceparent`` name the HTTP request it came with, in logs and traces.
+    ``request_id`` and ``traceparent`` name the HTTP request it came with, in logs and traces;
+    ``webhook`` is whom to tell of its end.
     """
 
     id: str
@@ -41,6 +44,18 @@ class NewJob:
     idempotency: Idempotency | None = None
     request_id: str | None = None
     traceparent: str | None = None
+    webhook: WebhookTarget | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WebhookRecord:
+    """Where the notice of a job's end stands; times are seconds since the epoch."""
+
+    state: WebhookState
+    attempts: int
+    last_status: int | None
+    last_error: str | None
+    next_attempt_at: float | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,6 +82,7 @@ class JobRecord:
     last_event: int
     request_id: str | None
     traceparent: str | None
+    webhook: WebhookRecord | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -153,76 +169,12 @@ class TenantJobs(Protocol):
         """
         ...
 
+    def webhook_target(self, job_id: str) -> WebhookTarget | None:
+        """Return whom to tell of the job's end; None if nobody, or if there is no such job."""
+        ...
+
     def events(self, job_id: str, *, after: int) -> Sequence[JobEvent]:
         """Return the events numbered above ``after``."""
-        ...
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class NewImage:
-    """An uploaded picture to keep; its blob, named ``id``, is in ``scope`` already.
-
-    ``width`` and ``height`` are those of the upright picture.
-    """
-
-    id: str
-    scope: str
-    media_type: str
-    width: int
-    height: int
-    size: int
-    focal_length_35mm: float | None
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ImageRecord(NewImage):
-    """A picture as kept; times are seconds since the epoch."""
-
-    created_at: float
-    expires_at: float
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class KeptImage:
-    """The picture, and whether it is the one just brought or was there already."""
-
-    record: ImageRecord
-    is_new: bool
-
-
-class TenantImages(Protocol):
-    """The uploaded pictures of one tenant: no other's can be seen or touched through it.
-
-    Every method may raise :class:`EngineUnavailableError`.
-    """
-
-    def find(self, image_id: str) -> ImageRecord | None:
-        """Return the picture, or None if there is none or its time is over."""
-        ...
-
-    def renew(self, image_id: str) -> ImageRecord | None:
-        """Begin the picture's time anew, if there is such a picture."""
-        ...
-
-    def reserve(self, scope: str) -> None:
-        """Say that a picture is about to be stored in a scope.
-
-        Should nothing come of it, the scope is erased after an hour.
-        """
-        ...
-
-    def keep(self, image: NewImage) -> KeptImage | None:
-        """Keep a picture whose scope was reserved, or return the same one kept before.
-
-        None if its scope was taken for abandoned and erased meanwhile.
-        """
-        ...
-
-    def erase(self, image_id: str) -> str | None:
-        """Forget the picture; returns its scope, which is the caller's to erase, if there was one.
-
-        Should the caller not come to it, the sweep does.
-        """
         ...
 
 
@@ -249,13 +201,14 @@ class DurationHistogram:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EngineStatistics:
-    """The queue now, and everything that ever ended."""
+    """The queue now, everything that ever ended, and the notices of the jobs that are kept."""
 
     queued: int
     running: int
     oldest_queued_s: float
     outcomes: Mapping[JobState, int]
     durations: tuple[DurationHistogram, ...]
+    webhooks: Mapping[WebhookState, int]
 
 
 class JobEngine(Protocol):

@@ -8,10 +8,10 @@ from typing import Any, Final
 import sqlalchemy as sa
 from pydantic import TypeAdapter
 
-from api_schemas.jobs import EventData, EventKind, JobState
+from api_schemas.jobs import EventData, EventKind, JobState, WebhookState
 from api_schemas.problems import Problem
 from api_schemas.results import Artifact
-from service.engine.port import JobRecord, StoredBlob
+from service.engine.port import JobRecord, StoredBlob, WebhookRecord
 from service.engine.statistics import count_ending
 from service.engine.tables import EVENTS, JOBS
 from service.jobs import may_become
@@ -47,6 +47,15 @@ def job_record(values: sa.RowMapping) -> JobRecord:
         request_id=values["request_id"],
         traceparent=values["traceparent"],
         last_event=values["last_event"],
+        webhook=None
+        if values["webhook_state"] is None
+        else WebhookRecord(
+            state=WebhookState(values["webhook_state"]),
+            attempts=values["webhook_attempts"],
+            last_status=values["webhook_status"],
+            last_error=values["webhook_error"],
+            next_attempt_at=values["webhook_due_at"],
+        ),
     )
 
 
@@ -106,9 +115,21 @@ def end_job(
     retention_s: float,
     values: Mapping[str, object] | None = None,
 ) -> JobRecord | None:
-    """End a job as :func:`move_job` moves one; it expires ``retention_s`` from now."""
+    """End a job as :func:`move_job` moves one; it expires ``retention_s`` from now.
+
+    Or from its creation, should that be later: a clock that was set back since is not to make the
+    job expire the moment it is set right. Whoever is to be told of its end is to be told from now
+    on.
+    """
     now = time.time()
-    changes = {"finished_at": now, "expires_at": now + retention_s}
+    latest = sa.case((JOBS.c.created_at > now, JOBS.c.created_at), else_=now)
+    awaited = JOBS.c.webhook_state == WebhookState.WAITING.value
+    changes = {
+        "finished_at": now,
+        "expires_at": latest + retention_s,
+        "webhook_due_at": sa.case((awaited, now)),
+        "webhook_state": sa.case((awaited, WebhookState.DUE.value)),
+    }
     job = _change(connection, job_id, *conditions, state=state, values=changes | dict(values or {}))
     if job is not None:
         append_event(connection, job, EventKind.END)

@@ -32,10 +32,18 @@ JOBS = sa.Table(
     sa.Column("request_id", sa.String(64)),
     sa.Column("traceparent", sa.String(64)),
     sa.Column("last_event", sa.Integer, nullable=False),
+    sa.Column("webhook_url", sa.Text),
+    sa.Column("webhook_secret", sa.String(128)),
+    sa.Column("webhook_state", sa.String(16)),
+    sa.Column("webhook_due_at", sa.Double),
+    sa.Column("webhook_attempts", sa.Integer, nullable=False, default=0),
+    sa.Column("webhook_status", sa.Integer),
+    sa.Column("webhook_error", sa.Text),
     sa.UniqueConstraint("tenant", "idempotency_key", name="maquette_jobs_key"),
     sa.Index("maquette_jobs_newest", "tenant", "created_at", "id"),
     sa.Index("maquette_jobs_state", "state", "created_at"),
     sa.Index("maquette_jobs_expiry", "expires_at"),
+    sa.Index("maquette_jobs_webhooks", "webhook_due_at"),
 )
 
 EVENTS = sa.Table(

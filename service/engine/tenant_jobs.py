@@ -7,7 +7,8 @@ import sqlalchemy as sa
 from dbos import DBOSClient, EnqueueOptions
 from sqlalchemy.exc import IntegrityError
 
-from api_schemas.jobs import EventData, EventKind, JobState
+from api_schemas.jobs import EventData, EventKind, JobState, WebhookState
+from api_schemas.webhooks import WebhookTarget
 from service.engine.availability import available
 from service.engine.expiry import (
     ABANDONED_AFTER_S,
@@ -161,6 +162,16 @@ class DbosTenantJobs:
         return found
 
     @available
+    def webhook_target(self, job_id: str) -> WebhookTarget | None:
+        """Return whom to tell of the job's end."""
+        query = sa.select(JOBS.c.webhook_url, JOBS.c.webhook_secret).where(*self._own(job_id))
+        with self._database.connect() as connection:
+            row = connection.execute(query).one_or_none()
+        if row is None or row.webhook_url is None:
+            return None
+        return WebhookTarget(url=row.webhook_url, secret=row.webhook_secret)
+
+    @available
     def events(self, job_id: str, *, after: int) -> Sequence[JobEvent]:
         """Return the events numbered above ``after``."""
         query = (
@@ -267,6 +278,9 @@ class DbosTenantJobs:
                     request_id=job.request_id,
                     traceparent=job.traceparent,
                     last_event=1,
+                    webhook_url=job.webhook.url if job.webhook else None,
+                    webhook_secret=job.webhook.secret if job.webhook else None,
+                    webhook_state=WebhookState.WAITING.value if job.webhook else None,
                 )
                 .returning(JOBS)
             )

@@ -2,26 +2,25 @@
 
 import contextlib
 import logging
-import threading
 import time
 from collections.abc import Iterator, Mapping
-from multiprocessing import forkserver, get_context
 from multiprocessing.connection import Connection
-from multiprocessing.context import ForkServerContext, ForkServerProcess
+from multiprocessing.context import ForkServerProcess
 from typing import Final
 
 from pydantic import ValidationError
 
 from api_schemas.body_models import BodyModels
-from api_schemas.problems import Problem, problem
 from api_schemas.results import Artifact
-from service.blobs import BlobMissingError, BlobStore, BlobsUnavailableError, StorageFullError
+from service.blobs import BlobMissingError, BlobStore, BlobsUnavailableError
 from service.engine.port import Attempt, AttemptResult, Directive, Ending, JobRecord, Report
 from service.logs import current_log_context
 from service.settings import Settings
 from service.tracing import StageSpans, span
 from service.worker import child
 from service.worker.artifacts import describe_artifact
+from service.worker.endings import input_gone, no_process, no_storage, too_slow
+from service.worker.forking import ForkedProcesses, NoProcessError, end, killed_in_time
 from service.worker.messages import (
     MESSAGES,
     DescriptionMessage,
@@ -44,6 +43,9 @@ WATCHDOG_S: Final = 1.0
 JOIN_S: Final = 1.0
 """How long the exit code of a child that has closed its pipe is waited for."""
 
+DESCRIPTIONS: Final = 3
+"""How often the body models are asked for: whoever reads them may be killed for other reasons."""
+
 STOPPED: Final = {
     Directive.CANCELED: AttemptResult(ending=Ending.CANCELED),
     Directive.SUPERSEDED: AttemptResult(ending=Ending.SUPERSEDED),
@@ -51,11 +53,7 @@ STOPPED: Final = {
 
 
 class ChildRunner:
-    """Runs attempts in child processes, forked from a server that has the numerics loaded.
-
-    A fork takes 0.02 s where a fresh interpreter takes most of a second, and the server itself
-    stays without threads, which is what makes forking safe.
-    """
+    """Runs attempts in child processes, forked from a server that has the numerics loaded."""
 
     def __init__(
         self, settings: Settings, blobs: BlobStore, *, pipeline: str, preload: str
@@ -63,12 +61,11 @@ class ChildRunner:
         self._settings = settings
         self._blobs = blobs
         self._pipeline = pipeline
-        self._context: ForkServerContext = get_context("forkserver")
-        self._context.set_forkserver_preload([preload])
+        self._processes = ForkedProcesses(preload)
 
     def begin_preloading(self) -> None:
-        """Start the fork server, which loads the numerics by itself."""
-        forkserver.ensure_running()
+        """Let the numerics be loaded; returns at once."""
+        self._processes.begin_preloading()
 
     def describe(self) -> BodyModels:
         """Ask a child which body models there are.
@@ -78,35 +75,45 @@ class ChildRunner:
         RuntimeError
             If they cannot be used; the child's log says why.
         """
-        connection, process = self._start_describing()
-        try:
-            message = MESSAGES.validate_json(connection.recv_bytes())
-        except EOFError as error:
-            message = "The body models cannot be used; the line above says why."
-            raise RuntimeError(message) from error
-        finally:
-            _end(connection, process)
-        assert isinstance(message, DescriptionMessage)
-        return message.body_models
+        for _ in range(DESCRIPTIONS):
+            connection, process = self._processes.start(
+                child.describe, self._pipeline, self._settings.models_dir
+            )
+            try:
+                message = MESSAGES.validate_json(connection.recv_bytes())
+            except (EOFError, OSError):
+                process.join(JOIN_S)
+                if process.exitcode == 0:
+                    break
+                LOG.warning("Reading the body models died, exit code %s.", process.exitcode)
+            else:
+                assert isinstance(message, DescriptionMessage)
+                return message.body_models
+            finally:
+                end(connection, process)
+        message = "The body models cannot be used; the line above says why."
+        raise RuntimeError(message)
 
     def run(self, attempt: Attempt) -> AttemptResult:
         """Run one attempt to its end: done, failed, canceled, out of time or crashed."""
         try:
             return self._run(attempt)
         except BlobMissingError:
-            # The job was erased under the attempt, or somebody emptied the storage by hand.
             LOG.warning("The input of the fit is gone.")
-            return AttemptResult(ending=Ending.FAILED, problem=_input_gone())
+            return AttemptResult(ending=Ending.FAILED, problem=input_gone())
         except BlobsUnavailableError as error:
             LOG.error("The storage did not come back (%s).", error)
-            return AttemptResult(ending=Ending.FAILED, problem=_no_storage(error))
+            return AttemptResult(ending=Ending.FAILED, problem=no_storage(error))
+        except NoProcessError as error:
+            LOG.error("No process can be started (%s).", error)
+            return AttemptResult(ending=Ending.FAILED, problem=no_process())
 
     def _run(self, attempt: Attempt) -> AttemptResult:
         connection, process = self._start_fit(has_mask=attempt.job.mask is not None)
         deadline = time.monotonic() + self._settings.job_time_limit_s
         try:
             with (
-                _killed_in_time(process, self._settings.job_time_limit_s + WATCHDOG_S),
+                killed_in_time(process, self._settings.job_time_limit_s + WATCHDOG_S),
                 contextlib.closing(StageSpans()) as spans,
             ):
                 for part in self._input(attempt.job):
@@ -120,7 +127,7 @@ class ChildRunner:
             LOG.warning("The process of the fit died, exit code %s.", process.exitcode)
             return AttemptResult(ending=Ending.CRASHED)
         finally:
-            _end(connection, process)
+            end(connection, process)
 
     def _input(self, job: JobRecord) -> Iterator[bytes]:
         read = patient_with_storage(self._blobs.get)
@@ -130,17 +137,8 @@ class ChildRunner:
 
     def _timed_out(self) -> AttemptResult:
         return AttemptResult(
-            ending=Ending.TIMED_OUT, problem=_too_slow(self._settings.job_time_limit_s)
+            ending=Ending.TIMED_OUT, problem=too_slow(self._settings.job_time_limit_s)
         )
-
-    def _start_describing(self) -> tuple[Connection, ForkServerProcess]:
-        ours, theirs = self._context.Pipe()
-        process = self._context.Process(
-            target=child.describe, args=(self._pipeline, self._settings.models_dir, theirs)
-        )
-        process.start()
-        theirs.close()
-        return ours, process
 
     def _start_fit(self, *, has_mask: bool) -> tuple[Connection, ForkServerProcess]:
         task = child.ChildTask(
@@ -153,11 +151,7 @@ class ChildRunner:
             log_format=self._settings.log_format,
             log_context=dict(current_log_context()),
         )
-        ours, theirs = self._context.Pipe()
-        process = self._context.Process(target=child.fit, args=(task, theirs))
-        process.start()
-        theirs.close()
-        return ours, process
+        return self._processes.start(child.fit, task)
 
     def _follow(
         self, attempt: Attempt, connection: Connection, spans: StageSpans, *, deadline: float
@@ -230,57 +224,7 @@ class _ThrottledProgress:
         self._due = now + self._interval_s
 
 
-@contextlib.contextmanager
-def _killed_in_time(process: ForkServerProcess, limit_s: float) -> Iterator[None]:
-    def kill() -> None:
-        # Closed by now if it ended in this very moment.
-        with contextlib.suppress(ValueError):
-            process.kill()
-
-    watchdog = threading.Timer(limit_s, kill)
-    watchdog.daemon = True
-    watchdog.start()
-    try:
-        yield
-    finally:
-        watchdog.cancel()
-
-
 def _receive(connection: Connection, *, timeout_s: float) -> Message | None:
     if not connection.poll(timeout_s):
         return None
     return MESSAGES.validate_json(connection.recv_bytes())
-
-
-def _end(connection: Connection, process: ForkServerProcess) -> None:
-    connection.close()
-    process.kill()
-    process.join()
-    process.close()
-
-
-def _input_gone() -> Problem:
-    return problem(
-        "fit-failed",
-        code="input-gone",
-        detail="The stored picture is gone.",
-        remedy="Post the picture again.",
-    )
-
-
-def _no_storage(error: BlobsUnavailableError) -> Problem:
-    full = isinstance(error, StorageFullError)
-    return problem(
-        "fit-failed",
-        code="storage-full" if full else "storage-unavailable",
-        detail="The result could not be stored.",
-        remedy="Post the picture again once the service reports itself ready.",
-    )
-
-
-def _too_slow(limit_s: float) -> Problem:
-    return problem(
-        "time-limit-exceeded",
-        detail=f"The fit was stopped after {limit_s:g} s.",
-        remedy="Send a smaller picture, or choose the optimizer gauss_newton.",
-    )

@@ -7,7 +7,7 @@ from api_schemas.body_models import BodyModelInfo, BodyModels
 from api_schemas.requests import Gender
 from fitter import request as fitter_request
 from fitter.errors import InvalidInputError
-from fitter.export import artifacts
+from fitter.export import artifacts, tapes_json
 from fitter.fittable import fittable_body
 from fitter.observation.subject import MEAN_HEIGHT_M
 from fitter.pipeline import fit
@@ -27,8 +27,10 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
             models=job.models,
             observer=lambda progress: observe(translate.report(progress)),
         )
-        model = fittable_body(result.gender, models=job.models).instruments.model
+        body = fittable_body(result.gender, models=job.models)
+        model = body.instruments.model
         files = artifacts(result, model=model, image=job.image)
+        files["tapes.json"] = tapes_json(result, body.measuring)
     except InvalidInputError as error:
         raise UnusableInputError(translate.field_problem(error)) from error
     return PipelineOutput(

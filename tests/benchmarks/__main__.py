@@ -1,4 +1,4 @@
-"""``python -m tests.benchmarks``: what a fit takes. Figures are printed, none is asserted."""
+"""``python -m tests.benchmarks``: what a fit and the service take. Printed, never asserted."""
 
 import argparse
 import importlib
@@ -11,8 +11,21 @@ from collections.abc import Sequence
 for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ[_variable] = "1"
 
-FITS = {"stages": 20, "simplex": 3, "memory": 1, "throughput": 10, "scaling": 5, "upload": 5}
-"""The parts, each a module of this package, and how many fits each makes unless told otherwise."""
+FITS = {
+    "stages": 20,
+    "simplex": 3,
+    "memory": 1,
+    "throughput": 10,
+    "scaling": 5,
+    "upload": 5,
+    "load": 1_000,
+    "overhead": 20,
+    "workers": 20,
+    "cancel": 20,
+    "soak": 10,
+}
+"""The parts, each a module of this package, and how many fits each makes unless told otherwise:
+of ``load`` jobs that wait, of ``soak`` minutes."""
 
 
 def main(arguments: Sequence[str]) -> int:

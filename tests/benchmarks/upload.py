@@ -1,6 +1,5 @@
 """A photograph of twelve megapixels through the real service: from upload to result."""
 
-import json
 import os
 import tempfile
 import time
@@ -15,6 +14,7 @@ from fitter.training.text_tables import note_lines, table_lines
 from tests.benchmarks.requests import suite_requests
 from tests.benchmarks.spent import late, median
 from tests.e2e.service import running_service
+from tests.submissions import submission
 
 SIZE = (3000, 4000)
 _WARMING = 1
@@ -51,13 +51,7 @@ def lines(count: int) -> Iterator[str]:
 
 def _posted(client: httpx.Client, request: FitRequest) -> dict[str, float]:
     began = time.perf_counter()
-    response = client.post(
-        "/v1/fits",
-        files={
-            "image": ("photograph.jpg", request.image, "image/jpeg"),
-            "request": ("request.json", _options(request), "application/json"),
-        },
-    ).raise_for_status()
+    response = client.post("/v1/fits", files=submission(request).files).raise_for_status()
     job = response.json()
     accepted = time.perf_counter() - began
     with client.stream("GET", job["links"]["events"], timeout=None) as events:
@@ -74,17 +68,3 @@ def _posted(client: httpx.Client, request: FitRequest) -> dict[str, float]:
         "result there": done,
         "everything fetched": time.perf_counter() - began,
     } | dict(result["stage_seconds"])
-
-
-def _options(request: FitRequest) -> str:
-    options: dict[str, object] = {
-        "gender": request.gender.value,
-        "height_m": request.height_m,
-        "points": {
-            name: {"x": click.x, "y": click.y, "visibility": 1 if click.occluded else 2}
-            for name, click in request.clicks.items()
-        },
-    }
-    if request.focal_length_px is not None:
-        options["focal_length_px"] = request.focal_length_px
-    return json.dumps(options)

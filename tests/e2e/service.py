@@ -53,6 +53,18 @@ def wait_until_ready(client: httpx.Client) -> None:
     raise AssertionError(message)
 
 
+def wait_for_estimator(client: httpx.Client) -> None:
+    """Wait for what answers bodies and initial poses."""
+    deadline = time.monotonic() + READY_WITHIN_S
+    while time.monotonic() < deadline:
+        with contextlib.suppress(httpx.TransportError):
+            if client.post("/v1/bodies", json={"gender": "male"}).status_code == httpx.codes.OK:
+                return
+        time.sleep(0.1)
+    message = "the estimator did not get ready"
+    raise AssertionError(message)
+
+
 def ended_job(client: httpx.Client, response: httpx.Response) -> dict:
     """Poll an accepted job to its end."""
     assert response.status_code == httpx.codes.ACCEPTED, response.text

@@ -1,28 +1,15 @@
 """What is answered at once, by the service as a user starts it."""
 
-import contextlib
 import json
-import time
 from pathlib import Path
 
 import httpx
 import trimesh
 
 from service.demo_sample import load_sample
-from tests.e2e.service import READY_WITHIN_S, running_service
+from tests.e2e.service import running_service, wait_for_estimator
 
 STOUT = {"weight_kg": 70.0, "measurements": {"waist_girth_navel": 160.0}}
-
-
-def wait_for_estimator(client: httpx.Client) -> None:
-    deadline = time.monotonic() + READY_WITHIN_S
-    while time.monotonic() < deadline:
-        with contextlib.suppress(httpx.TransportError):
-            if client.post("/v1/bodies", json={"gender": "male"}).status_code == httpx.codes.OK:
-                return
-        time.sleep(0.1)
-    message = "the estimator did not get ready"
-    raise AssertionError(message)
 
 
 def test_bodies_poses_and_contradictions_are_answered_at_once(tmp_path: Path):

@@ -1,8 +1,6 @@
 """Khronos' own validator reads every GLB we write without an error or a warning."""
 
 import json
-import os
-import shutil
 import subprocess
 from pathlib import Path
 
@@ -10,6 +8,7 @@ import numpy as np
 import pytest
 
 from fitter.export.gltf import body_canonical_glb, body_posed_glb
+from tests.npm_packages import installed
 from tests.unit.body.synthetic_model import bar_model
 from tests.unit.export.results import SUN, reflectance_of, result_of
 
@@ -18,19 +17,11 @@ TOOL = Path(__file__).parent.parent / "gltf_validator"
 
 @pytest.fixture(scope="module")
 def validator():
-    node, npm = shutil.which("node"), shutil.which("npm")
-    if node is None or npm is None:
-        pytest.skip("node and npm are not installed")
-    if not (TOOL / "node_modules" / "gltf-validator").exists():
-        done = subprocess.run([npm, "ci"], cwd=TOOL, capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            if os.environ.get("CI"):
-                pytest.fail(done.stderr)
-            pytest.skip(f"npm cannot install the validator here: {done.stderr.strip()[-200:]}")
+    installed(TOOL)
 
     def validate(content: bytes) -> dict:
         done = subprocess.run(
-            [node, "validate.js"], input=content, cwd=TOOL, capture_output=True, check=True
+            ["node", "validate.js"], input=content, cwd=TOOL, capture_output=True, check=True
         )
         return json.loads(done.stdout)
 

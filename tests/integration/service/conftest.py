@@ -1,25 +1,12 @@
+import contextlib
 from collections.abc import Iterator
 from pathlib import Path
 
 import psycopg
 import pytest
-from psycopg import sql
 
-from tests.integration.service.harness import Machine, Service, new_name, running_service
-
-POSTGRES = "postgresql://postgres@127.0.0.1:5432"
-
-
-def _fresh_postgres() -> Iterator[str]:
-    name = new_name("maquette_test")
-    try:
-        connection = psycopg.connect(f"{POSTGRES}/postgres", autocommit=True, connect_timeout=3)
-    except psycopg.OperationalError as error:
-        pytest.skip(f"no Postgres answers at 127.0.0.1:5432 ({error})")
-    with connection:
-        connection.execute(sql.SQL("CREATE DATABASE {}").format(sql.Identifier(name)))
-        yield f"{POSTGRES}/{name}"
-        connection.execute(sql.SQL("DROP DATABASE {} WITH (FORCE)").format(sql.Identifier(name)))
+from tests.integration.service.harness import Machine, Service, running_service
+from tests.postgres import fresh_database
 
 
 @pytest.fixture(params=["sqlite", "postgres"])
@@ -28,7 +15,11 @@ def machine(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Machine]
     if request.param == "sqlite":
         yield Machine(tmp_path)
     else:
-        for url in _fresh_postgres():
+        with contextlib.ExitStack() as stack:
+            try:
+                url = stack.enter_context(fresh_database())
+            except psycopg.OperationalError as error:
+                pytest.skip(f"no Postgres answers at 127.0.0.1:5432 ({error})")
             yield Machine(tmp_path, database_url=url)
 
 

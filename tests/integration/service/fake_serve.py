@@ -1,21 +1,27 @@
-"""The service with the fake pipeline; with ``--no-worker`` its workers are run by the test."""
+"""The service with the fake pipeline; with ``--no-worker`` its workers are run by the test.
+
+Its estimators answer what they are told, are ``broken``, or are the ``real`` ones.
+"""
 
 import argparse
 import sys
 from pathlib import Path
 
 from service.logs import configure_logging
-from service.serve import listen, serve
+from service.serve import ESTIMATOR_COMMAND, listen, serve
 from service.settings import Settings
 
-FAKE_ESTIMATOR = (sys.executable, "-m", "tests.integration.service.fake_estimator")
-BROKEN_ESTIMATOR = (sys.executable, "-c", "import sys; sys.exit(1)")
+ESTIMATORS = {
+    "fake": (sys.executable, "-m", "tests.integration.service.fake_estimator"),
+    "broken": (sys.executable, "-c", "import sys; sys.exit(1)"),
+    "real": ESTIMATOR_COMMAND,
+}
 FAKE_WORKER = (sys.executable, "-m", "tests.integration.service.fake_worker")
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()
     parser.add_argument("--no-worker", action="store_true")
-    parser.add_argument("--broken-estimator", action="store_true")
+    parser.add_argument("--estimator", choices=ESTIMATORS, default="fake")
     parser.add_argument("--data-dir", type=Path)
     parsed = parser.parse_args()
     given = {} if parsed.data_dir is None else {"data_dir": parsed.data_dir, "port": 0}
@@ -25,6 +31,6 @@ if __name__ == "__main__":
         settings,
         listen(settings),
         worker_command=None if parsed.no_worker else FAKE_WORKER,
-        estimator_command=BROKEN_ESTIMATOR if parsed.broken_estimator else FAKE_ESTIMATOR,
+        estimator_command=ESTIMATORS[parsed.estimator],
         announce=lambda text: print(text, flush=True),
     )

@@ -8,7 +8,6 @@ import signal
 import subprocess
 import sys
 import time
-import uuid
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -172,16 +171,16 @@ class Service:
 
 @contextlib.contextmanager
 def running_service(
-    machine: Machine, *, api_only: bool = False, broken_estimator: bool = False
+    machine: Machine, *, api_only: bool = False, estimator: str = "fake"
 ) -> Iterator[Service]:
     """Start the service and, unless ``api_only``, wait until its worker is alive.
 
-    A ``broken_estimator`` ends as soon as it is started.
+    A ``broken`` estimator ends as soon as it is started; a ``real`` one is the service's own.
     """
     process = machine.start(
         "fake_serve",
         *(["--no-worker"] if api_only else []),
-        *(["--broken-estimator"] if broken_estimator else []),
+        *("--estimator", estimator),
         stdout=subprocess.PIPE,
     )
     try:
@@ -205,8 +204,3 @@ def _answers(client: httpx.Client, path: str) -> bool:
         return client.get(path).status_code == 200
     except httpx.TransportError:
         return False
-
-
-def new_name(prefix: str) -> str:
-    """A name nothing else has."""
-    return f"{prefix}_{uuid.uuid4().hex[:12]}"

@@ -55,6 +55,7 @@ def test_a_bad_picture_is_refused_at_once(service: Service, image, status, code)
     [
         ({"height_m": 1.1}, "height_m", "out-of-range"),
         ({"height_m": 2.4}, "height_m", "out-of-range"),
+        ({"height_m": 10**400}, "height_m", "wrong-kind"),
         ({"measurements": {"stature": 180}}, "height_m", "two-heights"),
         ({"measurements": {"inseam": 0}}, "measurements.inseam", "out-of-range"),
         ({"gender": "other"}, "gender", "unknown-value"),
@@ -129,7 +130,7 @@ def test_nothing_bad_was_kept(service: Service):
 @pytest.mark.parametrize(
     ("method", "path", "status"),
     [
-        ("GET", "/", 404),
+        ("GET", "/nothing", 404),
         ("GET", "/v1/nothing", 404),
         ("GET", UNKNOWN, 404),
         ("GET", f"{UNKNOWN}/events", 404),
@@ -157,6 +158,14 @@ def test_every_other_error_is_a_problem_too(service: Service, method, path, stat
 @pytest.mark.parametrize(("path", "allowed"), [("/v1/fits", "GET, POST"), (UNKNOWN, "DELETE, GET")])
 def test_a_wrong_method_is_told_all_the_right_ones(service: Service, path, allowed):
     assert service.client.put(path).headers["Allow"] == allowed
+
+
+@pytest.mark.parametrize(
+    ("name", "value"), [("Origin", "http://[::1"), ("Origin", "null"), ("Host", "[::1")]
+)
+def test_an_address_that_is_none_comes_from_elsewhere(service: Service, name, value):
+    problem = checked(service.client.post("/v1/bodies", json={}, headers={name: value}), 403)
+    assert problem.field == name
 
 
 def test_an_upload_above_the_limit_is_refused_declared_or_not(tmp_path):

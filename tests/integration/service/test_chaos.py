@@ -1,52 +1,55 @@
-"""Random kills of workers and fits: every accepted job ends once, with its result."""
+"""Random kill -9 of everything: every accepted job ends once, with its result, nothing is left.
 
-import contextlib
-import os
-import random
-import signal
-import subprocess
-import time
-from pathlib import Path
+The fake pipeline, so that it takes seconds; ``python -m tests.chaos`` does the same with real fits.
+"""
 
-from tests.integration.service.harness import (
-    Machine,
-    is_running,
-    pids_noted,
-    running_service,
-    running_worker,
+import json
+import sys
+
+from tests.chaos.reference import references
+from tests.chaos.run import Plan, disturb
+from tests.chaos.verdict import verdict
+from tests.deployment import Commands, Deployment, Kind
+from tests.integration.service.fake_pipeline import scripted_image
+from tests.integration.service.harness import QUICK, REQUEST, Machine
+from tests.submissions import Submission
+
+COMMANDS = Commands(
+    serve=(sys.executable, "-m", "tests.integration.service.fake_serve"),
+    worker=(sys.executable, "-m", "tests.integration.service.fake_worker"),
+)
+PICTURES = 3
+PLAN = Plan(
+    jobs=24,
+    kills={Kind.API: 2, Kind.WORKER: 3, Kind.FIT: 3, Kind.FORK_SERVER: 1},
+    seed=20090929,
 )
 
-JOBS = 16
-KILLS = 6
-WORKERS = 2
 
-
-def test_every_job_ends_once_whoever_is_killed(machine: Machine, tmp_path: Path):
-    chance = random.Random(20090929)
-    note = tmp_path / "pids"
-    with contextlib.ExitStack() as stack:
-        service = stack.enter_context(running_service(machine, api_only=True))
-        script = {"seconds": 0.5, "note_pid": str(note)}
-        paths = [service.submit(script | {"number": number}) for number in range(JOBS)]
-        workers: list[subprocess.Popen[str]] = []
-        for kill in range(KILLS + 1):
-            while len(workers) < WORKERS:
-                workers.append(stack.enter_context(running_worker(machine)))
-            if kill == KILLS:
-                break
-            time.sleep(chance.uniform(0.5, 1.5))
-            fits = [pid for pid in pids_noted(note) if is_running(pid)]
-            # A fit killed three times would be given up: most kills go to workers.
-            if fits and chance.random() < 0.3:
-                with contextlib.suppress(ProcessLookupError):
-                    os.kill(chance.choice(fits), signal.SIGKILL)
-            else:
-                victim = workers.pop(chance.randrange(len(workers)))
-                victim.kill()
-                victim.wait()
-        jobs = [service.ended(path, within_s=60.0) for path in paths]
-        assert [job["state"] for job in jobs] == ["succeeded"] * JOBS
-        assert sum(job["attempt"] for job in jobs) > JOBS, "no kill has hit a fit"
-        for path, job in zip(paths, jobs, strict=True):
-            assert [event["event"] for event in service.events(path)].count("end") == 1
-            assert service.client.get(job["links"]["result"]).status_code == 200
+def test_whoever_is_killed_every_job_ends_once_with_its_result(machine: Machine):
+    submissions = [
+        Submission(
+            image=scripted_image({"seconds": 0.4, "number": number}), request=json.dumps(REQUEST)
+        )
+        for number in range(PICTURES)
+    ]
+    settings = {**QUICK, "worker_processes": 1, "max_crashes": 1_000}
+    expected = references(
+        Deployment(folder=machine.data_dir / "undisturbed", commands=COMMANDS), submissions
+    )
+    deployment = Deployment(
+        folder=machine.data_dir / "disturbed",
+        commands=COMMANDS,
+        database_url=machine.database_url,
+        settings=settings,
+    )
+    try:
+        deployment.start()
+        judged = verdict(deployment, disturb(deployment, submissions, PLAN), expected)
+    finally:
+        deployment.end()
+    assert judged.faults == {}, (judged, deployment.log.read_text()[-10_000:])
+    assert judged.jobs == PLAN.jobs
+    assert judged.kills == PLAN.kills
+    assert judged.further_attempts > 0, "no kill has hit a fit"
+    assert judged.identical == PLAN.jobs

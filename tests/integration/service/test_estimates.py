@@ -124,10 +124,14 @@ def test_a_fault_and_a_crash_are_told_and_leave_the_service_up(service: Service)
         lambda: service.client.post("/v1/bodies", json={"gender": "male"}).status_code == 200,
         what="the next estimator answers",
     )
+    figures = service.client.get("/metrics").text
+    assert 'maquette_estimates_total{outcome="failed",question="body"} 2.0' in figures
+    assert 'maquette_estimates_total{outcome="answered",question="body"}' in figures
+    assert 'maquette_estimate_seconds_count{question="body"}' in figures
 
 
 def test_without_an_estimator_the_service_says_so_and_takes_fits(tmp_path):
-    with running_service(Machine(tmp_path), api_only=True, broken_estimator=True) as service:
+    with running_service(Machine(tmp_path), api_only=True, estimator="broken") as service:
         answer = service.client.post("/v1/bodies", json={"gender": "male"})
         assert checked(answer, 503).code == "estimator-unavailable"
         assert int(answer.headers["Retry-After"]) > 0

@@ -99,7 +99,7 @@ def test_a_fit_past_its_time_limit_is_stopped(tmp_path: Path):
     machine = Machine(tmp_path / "data", settings={"job_time_limit_s": 0.5})
     with running_service(machine) as service:
         script = {"seconds": 60, "burn": True, "note_pid": str(note)}
-        job = service.ended(service.submit(script), within_s=5.0)
+        job = service.ended(service.submit(script))
         assert job["state"] == "timed_out"
         assert job["problem"]["type"] == "/problems/time-limit-exceeded"
         assert not any(is_running(pid) for pid in pids_noted(note))
@@ -113,7 +113,7 @@ def test_a_killed_workers_fit_is_run_again_by_another(machine: Machine, tmp_path
             (pid,) = eventually(lambda: pids_noted(note), what="the fit runs")
             first.kill()
             first.wait()
-        eventually(lambda: not is_running(pid), within_s=1.0, what="the fit dies with its worker")
+        eventually(lambda: not is_running(pid), what="the fit dies with its worker")
         with running_worker(machine):
             job = service.ended(path)
             assert job["state"] == "succeeded"
@@ -144,8 +144,8 @@ def test_killing_the_service_ends_its_worker_and_the_fit(embedded: Machine, tmp_
         worker = _worker_of(service.process.pid)
         service.process.kill()
         service.process.wait()
-        eventually(lambda: not is_running(worker), within_s=5.0, what="the worker ends")
-        eventually(lambda: not is_running(pid), within_s=1.0, what="the fit ends")
+        eventually(lambda: not is_running(worker), what="the worker ends")
+        eventually(lambda: not is_running(pid), what="the fit ends")
     with running_service(machine) as service:
         eventually(lambda: len(pids_noted(note)) == 2, what="the fit runs again")
         assert service.client.post(f"{path}/cancel").status_code == 202
@@ -186,7 +186,7 @@ def test_a_stopping_worker_hands_back_what_it_cannot_finish(embedded: Machine, t
             worker.send_signal(signal.SIGTERM)
             assert worker.wait(timeout=60.0) == 0
         assert service.state(path) == "queued"
-        eventually(lambda: not is_running(pid), within_s=1.0, what="the fit ends")
+        eventually(lambda: not is_running(pid), what="the fit ends")
         with running_worker(embedded):
             assert service.ended(path)["state"] == "succeeded"
 

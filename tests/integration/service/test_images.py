@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -9,7 +10,7 @@ import pytest
 from api_schemas.images import UploadedImage
 from service.engine.database import open_database, prepare_database
 from service.engine.dbos_jobs import DbosJobEngine
-from service.engine.port import NewImage
+from service.engine.image_port import ImageQuota, NewImage
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
     REQUEST,
@@ -93,6 +94,28 @@ def test_an_upload_beyond_the_limit_is_refused_before_it_is_read(tmp_path: Path)
         answer = upload(service, scripted_image({"filling": "x" * 3_000_000}))
         checked(answer, 413)
         assert not blobs_below(tmp_path)
+
+
+def test_more_pictures_than_a_tenant_may_have_are_refused_until_some_are_erased(machine: Machine):
+    settings = {"max_images_per_tenant": 2}
+    with running_service(replace(machine, settings=settings), api_only=True) as service:
+        first, _ = (uploaded(service, scripted_image({"n": n})) for n in range(2))
+        problem = checked(upload(service, scripted_image({"n": 2})), 507)
+        assert problem.code == "quota-exceeded"
+        assert "at most 2 pictures" in problem.detail
+        assert len(blobs_below(machine.data_dir)) == 2
+        assert upload(service, scripted_image({"n": 1})).status_code == 200
+        service.client.delete(f"/v1/images/{first.id}")
+        assert upload(service, scripted_image({"n": 2})).status_code == 201
+
+
+def test_more_bytes_of_pictures_than_a_tenant_may_have_are_refused(tmp_path: Path):
+    machine = Machine(tmp_path, settings={"max_image_bytes_per_tenant": 1_000})
+    with running_service(machine, api_only=True) as service:
+        uploaded(service, scripted_image({"filling": "x" * 500}))
+        problem = checked(upload(service, scripted_image({"filling": "y" * 500})), 507)
+        assert "1000 bytes" in problem.detail
+        uploaded(service, scripted_image())
 
 
 def test_an_erased_picture_is_gone_with_its_file(tmp_path: Path):
@@ -189,6 +212,7 @@ def engine_of(machine: Machine) -> DbosJobEngine:
         blobs=None,  # pyright: ignore[reportArgumentType]
         max_queued=10,
         max_queued_per_tenant=10,
+        image_quota=ImageQuota(images=10, size=10_000),
         retention_s=100.0,
         sweep_interval_s=60.0,
         heartbeat_s=1.0,
@@ -212,14 +236,14 @@ def test_a_tenant_s_pictures_are_its_own(machine: Machine):
     engine = engine_of(machine)
     try:
         ours, theirs = engine.images_of("ours"), engine.images_of("theirs")
-        ours.reserve("one")
+        ours.reserve("one", size=1)
         kept = ours.keep(new_image("one"))
         assert kept is not None
         assert kept.is_new
         assert theirs.find("a" * 64) is None
         assert theirs.renew("a" * 64) is None
         assert theirs.erase("a" * 64) is None
-        theirs.reserve("two")
+        theirs.reserve("two", size=1)
         also = theirs.keep(new_image("two"))
         assert also is not None
         assert (also.is_new, also.record.scope) == (True, "two")
@@ -233,8 +257,8 @@ def test_a_picture_stored_twice_at_once_is_kept_once_and_a_lost_one_not_at_all(m
     engine = engine_of(machine)
     try:
         images = engine.images_of("ours")
-        images.reserve("one")
-        images.reserve("two")
+        images.reserve("one", size=1)
+        images.reserve("two", size=1)
         first, second = images.keep(new_image("one")), images.keep(new_image("two"))
         assert first is not None
         assert second is not None

@@ -3,7 +3,14 @@ import pytest
 
 from fitter.measurement.definitions import Girth, Orientation, Selection
 from fitter.measurement.plane_cut import whole_mesh
-from fitter.measurement.tape import back_contour_m, girth_at_m, girth_placement, path_length_m
+from fitter.measurement.tape import (
+    back_contour,
+    back_contour_m,
+    girth_at_m,
+    girth_loop,
+    girth_placement,
+    path_length_m,
+)
 from tests.unit.measurement.made_up import about
 from tests.unit.measurement.solids import lathe, prism, tube
 
@@ -102,3 +109,22 @@ def test_the_back_tape_follows_a_round_back():
     top, bottom = np.array([0.0, 0.15, -0.2]), np.array([0.0, -0.15, 0.2])
     measured = back_contour_m(whole_mesh(triangles), vertices, top, bottom)
     assert measured == pytest.approx(0.3 * 2 * np.arcsin(0.5), rel=1e-3)
+
+
+def test_a_tapes_line_closes_lies_in_its_plane_and_has_the_length_that_is_measured():
+    vertices, triangles = vase()
+    region, definition = whole_mesh(triangles), girth()
+    loop = girth_loop(definition, region, vertices, BOTTOM, TOP, 0.25)
+    assert np.array_equal(loop[0], loop[-1])
+    assert loop[:, 1] == pytest.approx(0.25)
+    measured = girth_at_m(definition, region, vertices, BOTTOM, TOP, 0.25)
+    assert path_length_m(loop) == pytest.approx(measured, rel=1e-12)
+
+
+def test_a_tape_that_meets_nothing_has_no_line():
+    vertices, triangles = vase()
+    region = whole_mesh(triangles)
+    assert len(girth_loop(girth(), region, vertices, BOTTOM, TOP, 3.0)) == 0
+    aside = np.array([5.0, 0.9, 0.0])
+    assert len(back_contour(region, vertices, aside, aside - [0.0, 0.5, 0.0])) == 0
+    assert np.isnan(back_contour_m(region, vertices, aside, aside - [0.0, 0.5, 0.0]))

@@ -13,6 +13,7 @@ from fitter.measurement.anthropometry import (
     measurement_jacobian,
     measurement_values,
     measuring_body,
+    tape_lines,
 )
 from fitter.measurement.mesh_measurement import in_body_frame, mesh_measurement_values
 from fitter.measurement.plane_cut import Plane, closed_length, hull_of, in_plane, plane_section
@@ -127,6 +128,18 @@ def test_a_girth_is_the_same_wherever_the_body_stands(trained, mean_shape):
 
     turned = vertices @ rotation.T + [1.0, 2.0, 3.0]
     assert girth(turned, moved) == pytest.approx(girth(vertices, level), abs=1e-7)
+
+
+def test_the_lines_of_tapes_are_as_long_as_what_is_measured(trained, some_shape):
+    """Heights stand apart: they are taken in the standing pose, whose legs are straight down."""
+    _, _, body = trained
+    measured = by_name(body, measurement_values(body, some_shape))
+    lines = tape_lines(body, some_shape)
+    assert set(lines) == set(measured) - {"weight"}
+    for name, line in lines.items():
+        length_cm = 100.0 * np.linalg.norm(np.diff(line, axis=0), axis=1).sum()
+        tolerance = 1.5 if name in {"stature", "inseam"} else 1e-6
+        assert length_cm == pytest.approx(measured[name], abs=tolerance), name
 
 
 @pytest.mark.parametrize("name", ["chest_girth", "waist_girth_navel", "hip_girth"])

@@ -1,3 +1,5 @@
+import time
+
 import pytest
 import sqlalchemy as sa
 
@@ -68,6 +70,15 @@ def test_an_attempt_runs_and_ends(database):
     assert ended.progress == 1.0
     assert ended.artifacts == (ARTIFACT,)
     assert ended.finished_at is not None
+
+
+def test_a_job_that_ends_by_a_clock_set_back_does_not_expire_before_its_time(database):
+    in_an_hour = time.time() + 3_600.0
+    change(database, created_at=in_an_hour)
+    log(database).begin(JOB)
+    ended = log(database).end(JOB, 1, SUCCESS)
+    assert ended is not None
+    assert ended.expires_at == pytest.approx(in_an_hour + 60.0)
 
 
 def test_an_ended_job_is_not_begun_again(database):

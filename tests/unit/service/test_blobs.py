@@ -1,9 +1,27 @@
 import hashlib
+import os
+import signal
+import subprocess
+import sys
 
 import pytest
 
 from service.blobs import BlobMissingError, StorageFullError
 from service.blobs.local import LocalBlobStore
+
+KILLED_WHILE_WRITING = """
+import os, pathlib, signal, sys
+from service.blobs.local import LocalBlobStore
+os.fsync = lambda _: os.kill(os.getpid(), signal.SIGKILL)
+LocalBlobStore(pathlib.Path(sys.argv[1])).put("job-1", b"picture")
+"""
+
+
+@pytest.fixture(params=["nameless files", "named ones"], autouse=True)
+def file_system(request, monkeypatch):
+    """Once as most file systems are, once as one without nameless files answers."""
+    if request.param == "named ones":
+        monkeypatch.setattr("os.O_TMPFILE", os.O_DIRECTORY)
 
 
 def test_a_blob_is_named_by_its_content_and_read_back(tmp_path):
@@ -41,4 +59,10 @@ def test_a_failed_write_leaves_no_temporary_file(tmp_path, monkeypatch):
     monkeypatch.setattr("os.fsync", full_disk)
     with pytest.raises(StorageFullError, match="No space"):
         LocalBlobStore(tmp_path).put("job-1", b"picture")
+    assert list((tmp_path / "jo" / "job-1").iterdir()) == []
+
+
+def test_a_writer_that_is_killed_leaves_nothing(tmp_path):
+    process = subprocess.run([sys.executable, "-c", KILLED_WHILE_WRITING, str(tmp_path)])
+    assert process.returncode == -signal.SIGKILL
     assert list((tmp_path / "jo" / "job-1").iterdir()) == []

@@ -1,30 +1,245 @@
+import json
+import os
 import re
+import subprocess
+import sys
+import tomllib
 from pathlib import Path
+from typing import Any
 
 import pytest
 import yaml
 
+from service.cli import _parser
 from service.settings import PREFIX, Settings
 
-DOCKER = Path(__file__).parents[3] / "docker"
+REPOSITORY = Path(__file__).parents[3]
+DOCKER = REPOSITORY / "docker"
+OURS = ("api", "worker", "prepare")
+RUNNING = ("api", "worker", "database", "storage")
+SECRETS = {"POSTGRES_PASSWORD": "a-password", "STORAGE_SECRET_KEY": "a-secret-key"}
 
 
-@pytest.mark.parametrize("name", ["Dockerfile", "compose.yaml"])
-def test_every_variable_of_ours_is_a_setting(name):
-    variables = set(re.findall(rf"\b{PREFIX}(\w+)", (DOCKER / name).read_text()))
-    assert variables
-    assert {variable.lower() for variable in variables} <= set(Settings.model_fields)
+def instructions() -> list[tuple[str, str]]:
+    """The Dockerfile's instructions, each with what follows it."""
+    text = re.sub(r"^#.*\n", "", (DOCKER / "Dockerfile").read_text(), flags=re.MULTILINE)
+    lines = re.sub(r"\\\n\s*", " ", text).splitlines()
+    return [(line.split()[0], line.split(maxsplit=1)[1]) for line in lines if line.strip()]
 
 
-def test_no_container_of_ours_may_write_outside_its_volumes_or_gain_rights():
-    services = yaml.safe_load((DOCKER / "compose.yaml").read_text())["services"]
+def of_the_image(kind: str) -> list[str]:
+    """The operands of one kind of instruction in the last stage, which is the image."""
+    all_of_them = instructions()
+    start = max(place for place, (name, _) in enumerate(all_of_them) if name == "FROM")
+    return [operand for name, operand in all_of_them[start:] if name == kind]
+
+
+def image_environment() -> dict[str, str]:
+    return dict(pair.split("=", 1) for operand in of_the_image("ENV") for pair in operand.split())
+
+
+def compose() -> dict[str, Any]:
+    """The compose file with the variables it asks for."""
+    text = (DOCKER / "compose.yaml").read_text()
+    asked = set(re.findall(r"\$\{(\w+):\?", text))
+    assert asked == set(SECRETS)
+    return yaml.safe_load(re.sub(r"\$\{(\w+):\?[^}]*\}", lambda found: SECRETS[found[1]], text))
+
+
+SERVICES = compose()["services"]
+
+
+def accept(command: list[str]) -> None:
+    """Parse a command as `maquette` would, which ends with status 2 if there is no such."""
+    assert command[0] == "maquette"
+    _parser().parse_args(command[1:])
+
+
+@pytest.mark.parametrize("service", [None, *OURS])
+def test_every_variable_of_ours_is_a_setting_of_a_value_that_can_be_followed(service, monkeypatch):
+    variables = image_environment() | (SERVICES[service]["environment"] if service else {})
+    ours = {name: value for name, value in variables.items() if name.startswith(PREFIX)}
+    assert {name.removeprefix(PREFIX).lower() for name in ours} <= set(Settings.model_fields)
+    assert all(isinstance(value, str) for value in ours.values())
+    for name in list(os.environ):
+        if name.startswith(PREFIX):
+            monkeypatch.delenv(name)
+    for name, value in ours.items():
+        monkeypatch.setenv(name, value)
+    settings = Settings()
+    assert settings.authentication == "keys"
+    assert settings.host == "0.0.0.0"
+
+
+def test_every_command_is_one_of_ours():
+    (default,) = of_the_image("CMD")
+    accept(json.loads(default))
+    (health,) = of_the_image("HEALTHCHECK")
+    accept(json.loads(health[health.index("[") :]))
+    for name in OURS:
+        accept(SERVICES[name]["command"])
     for name in ("api", "worker"):
-        assert services[name]["read_only"]
-        assert services[name]["cap_drop"] == ["ALL"]
-        assert services[name]["security_opt"] == ["no-new-privileges:true"]
+        kind, *command = SERVICES[name]["healthcheck"]["test"]
+        assert kind == "CMD"
+        accept(command)
 
 
-def test_the_image_does_not_run_as_root():
-    instructions = (DOCKER / "Dockerfile").read_text().splitlines()
-    users = [line.split()[1] for line in instructions if line.startswith("USER ")]
-    assert users[-1] != "root"
+@pytest.mark.parametrize("name", SERVICES)
+def test_no_container_may_write_outside_its_volumes_or_gain_rights(name):
+    service = SERVICES[name]
+    assert service["read_only"] is True
+    assert service["cap_drop"] == ["ALL"]
+    assert service["security_opt"] == ["no-new-privileges:true"]
+    assert service["tmpfs"]
+    assert service["user"]
+    assert "privileged" not in service
+    assert "cap_add" not in service
+    assert not any(volume.startswith(("/", ".")) for volume in service.get("volumes", []))
+
+
+@pytest.mark.parametrize("name", SERVICES)
+def test_every_container_has_limits(name):
+    limits = SERVICES[name]["deploy"]["resources"]["limits"]
+    assert set(limits) == {"memory", "pids"}
+
+
+def test_every_service_that_stays_is_asked_for_its_health_and_what_it_needs_comes_first():
+    assert set(SERVICES) == {*RUNNING, "prepare"}
+    for name in RUNNING:
+        assert SERVICES[name]["healthcheck"]["test"][0] == "CMD"
+        assert SERVICES[name]["restart"] == "unless-stopped"
+    for name in ("api", "worker"):
+        assert SERVICES[name]["depends_on"] == {
+            "prepare": {"condition": "service_completed_successfully"}
+        }
+    assert SERVICES["prepare"]["depends_on"] == {
+        name: {"condition": "service_healthy"} for name in ("database", "storage")
+    }
+
+
+def test_only_the_api_is_published_and_only_on_this_host():
+    published = {name: service["ports"] for name, service in SERVICES.items() if "ports" in service}
+    assert published == {"api": ["127.0.0.1:8000:8000"]}
+    assert compose()["networks"]["inside"]["internal"] is True
+    assert all(SERVICES[name]["networks"] == ["inside"] for name in ("database", "storage"))
+
+
+def test_secrets_come_from_outside_and_both_ends_are_told_the_same():
+    api, database, storage = (SERVICES[name]["environment"] for name in ("api", *RUNNING[2:]))
+    assert api["PGPASSWORD"] == database["POSTGRES_PASSWORD"] == SECRETS["POSTGRES_PASSWORD"]
+    assert api["AWS_ACCESS_KEY_ID"] == storage["ROOT_ACCESS_KEY_ID"]
+    assert (
+        api["AWS_SECRET_ACCESS_KEY"]
+        == storage["ROOT_SECRET_ACCESS_KEY"]
+        == SECRETS["STORAGE_SECRET_KEY"]
+    )
+    assert api["MAQUETTE_DATABASE_URL"] == (
+        f"postgresql://{database['POSTGRES_USER']}@database/{database['POSTGRES_DB']}"
+    )
+
+
+def test_a_worker_is_given_longer_than_it_takes_to_stop():
+    environment = SERVICES["worker"]["environment"]
+    drain_s = float(environment.get("MAQUETTE_DRAIN_S", Settings.model_fields["drain_s"].default))
+    assert float(SERVICES["worker"]["stop_grace_period"].removesuffix("s")) >= drain_s + 5.0
+
+
+def test_other_peoples_images_are_named_with_their_version():
+    for name in ("database", "storage"):
+        assert re.fullmatch(r"[\w./-]+:v?\d+[\w.-]*", SERVICES[name]["image"])
+
+
+def test_the_base_can_be_chosen_and_names_python_and_debian():
+    (base,) = (operand for name, operand in instructions() if name == "ARG" and "BASE" in operand)
+    found = re.fullmatch(r"BASE_IMAGE=python:3\.(\d+)-slim-\w+", base)
+    assert found
+    required = tomllib.loads((REPOSITORY / "pyproject.toml").read_text())["project"]
+    assert f">=3.{min(int(found[1]), 11)}" == required["requires-python"]
+    stages = [operand for name, operand in instructions() if name == "FROM"]
+    assert all(stage.startswith("${BASE_IMAGE}") for stage in stages)
+
+
+def test_the_image_runs_as_a_user_who_owns_the_data_folder_alone():
+    (user,) = of_the_image("USER")
+    assert re.fullmatch(r"[1-9]\d*:[1-9]\d*", user)
+    assert all(SERVICES[name]["user"] == user for name in OURS)
+    assert not any("--chown" in operand for operand in of_the_image("COPY"))
+    (made,) = of_the_image("RUN")
+    assert re.findall(r"install -d -o maquette -g maquette (.*)", made) == ["/data"]
+    assert image_environment()["MAQUETTE_DATA_DIR"] == "/data"
+
+
+def test_kernels_are_compiled_for_the_processor_they_are_run_for():
+    built = [operand for name, operand in instructions() if name == "ENV"][1]
+    kind = ["NUMBA_CPU_NAME=${KERNEL_CPU}", "NUMBA_CPU_FEATURES="]
+    assert built.split()[:2] == kind
+    assert all(pair in of_the_image("ENV")[0].split() for pair in kind)
+    defaults = [operand for name, operand in instructions() if operand.startswith("KERNEL_CPU=")]
+    assert len(defaults) == 2
+    assert len(set(defaults)) == 1
+
+
+def test_what_is_copied_exists_and_is_let_through():
+    let_through = {
+        line.removeprefix("!")
+        for line in (DOCKER / "Dockerfile.dockerignore").read_text().splitlines()
+        if line.startswith("!")
+    }
+    copied = {
+        source
+        for name, operand in instructions()
+        if name == "COPY" and "--from" not in operand
+        for source in operand.split()[:-1]
+        if not source.startswith("--")
+    }
+    # Of the page only what is served, not what it is built from.
+    assert copied == let_through - {"service/page/dist"}
+    assert all((REPOSITORY / name).exists() for name in let_through)
+    packages = tomllib.loads((REPOSITORY / "pyproject.toml").read_text())["tool"]["hatch"]
+    assert set(packages["build"]["targets"]["wheel"]["packages"]) <= copied
+
+
+def test_versions_come_from_the_lock_file_which_names_no_place():
+    assert any(
+        name == "RUN" and "install -c requirements.lock -r runtime.txt" in operand
+        for name, operand in instructions()
+    )
+    lock = (REPOSITORY / "requirements.lock").read_text()
+    assert "://" not in lock
+    lines = [line for line in lock.splitlines() if line and not line.lstrip().startswith("#")]
+    assert all(re.fullmatch(r"[\w.-]+==[\w.]+( ; .+)?", line) for line in lines)
+
+
+def test_the_image_gets_what_the_service_runs_on_and_no_tools():
+    printed = subprocess.run(
+        [sys.executable, DOCKER / "runtime_requirements.py", REPOSITORY / "pyproject.toml"],
+        check=True,
+        capture_output=True,
+        text=True,
+    ).stdout.split()
+    names = {re.split(r"[\[<>=]", line)[0] for line in printed}
+    assert {"dbos", "numba", "boto3", "opentelemetry-sdk"} <= names
+    assert names.isdisjoint({"pytest", "ruff", "pyright", "moto", "mitsuba"})
+
+
+def test_the_entrypoint_links_the_kernels_and_becomes_the_command(tmp_path):
+    kernels, cache = tmp_path / "kernels", tmp_path / "cache"
+    (kernels / "body").mkdir(parents=True)
+    (kernels / "body" / "solve.nbi").write_text("compiled")
+    script = (DOCKER / "entrypoint.sh").read_text()
+    assert "/opt/maquette/kernels" in script
+    script = script.replace("/opt/maquette/kernels", str(kernels))
+    for _ in range(2):  # as when a container is started again
+        process = subprocess.Popen(
+            ["sh", "-c", script, "entrypoint", "sh", "-c", "echo $$"],
+            env={**os.environ, "NUMBA_CACHE_DIR": str(cache)},
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        printed, _ = process.communicate()
+        assert int(printed) == process.pid
+    link = cache / "body" / "solve.nbi"
+    assert link.is_symlink()
+    assert link.read_text() == "compiled"
+    (cache / "body" / "new").write_text("compiled later")
+    assert [path.name for path in (kernels / "body").iterdir()] == ["solve.nbi"]

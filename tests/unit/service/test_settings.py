@@ -81,3 +81,17 @@ def test_object_storage_is_named_by_bucket():
 def test_a_senseless_setting_is_refused(name, value):
     with pytest.raises(ValidationError, match=name):
         Settings(**{name: value})
+
+
+def test_the_pauses_between_notices_are_seconds():
+    assert Settings(webhook_pauses_s="5, 300,0.5").webhook_schedule_s == (5.0, 300.0, 0.5)
+    for pauses in ("", "5,,6", "soon", "-1", "5;6"):
+        with pytest.raises(ValidationError, match="seconds"):
+            Settings(webhook_pauses_s=pauses)
+
+
+def test_the_secret_of_notices_is_checked_and_not_shown():
+    with pytest.raises(ValidationError, match="whsec_"):
+        Settings(webhook_secret="secret")
+    secret = "whsec_C2FVsBQIhrscChlQIMV+b5sSYspob7oD"
+    assert secret not in repr(Settings(webhook_secret=secret))

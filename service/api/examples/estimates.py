@@ -1,4 +1,4 @@
-"""Requests and answers for the OpenAPI document; long lists are cut short."""
+"""Examples of what needs no job: uploaded pictures, initial poses, bodies."""
 
 from typing import Any, Final
 
@@ -28,15 +28,6 @@ POINTS: Final[dict[str, Any]] = {
     "right_knee": [295, 658],
     "left_ankle": [398, 822],
     "right_ankle": [296, 830],
-}
-
-FIT_OF_IMAGE: Final[dict[str, Any]] = {
-    "uploaded-picture": {
-        "image_id": PICTURE_ID,
-        "gender": "male",
-        "height_m": 1.8,
-        "points": POINTS,
-    }
 }
 
 INITIAL_POSE_REQUESTS: Final[dict[str, Any]] = {

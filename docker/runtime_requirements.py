@@ -1,0 +1,13 @@
+"""Print what the service in a container needs: the dependencies, and the extras it is run with."""
+
+import sys
+import tomllib
+from pathlib import Path
+
+EXTRAS = ("s3", "tracing")
+
+project = tomllib.loads(Path(sys.argv[1]).read_text())["project"]
+wanted = [*project["dependencies"]]
+for extra in EXTRAS:
+    wanted += project["optional-dependencies"][extra]
+print(*wanted, sep="\n")

@@ -1,0 +1,231 @@
+"""From checked inputs to an accepted job: its blobs stored, its record written, its end awaited."""
+
+import contextlib
+import hashlib
+import re
+import time
+from collections.abc import Awaitable, Callable
+from dataclasses import dataclass
+from typing import Annotated, Any, Final
+from uuid import uuid4
+
+from fastapi import Header, Response
+from starlette.concurrency import run_in_threadpool
+
+from api_schemas.jobs import Job
+from api_schemas.problems import problem
+from api_schemas.webhooks import WebhookTarget
+from service.api.context import ApiContext
+from service.api.problems import ProblemError, not_found
+from service.api.representation import POLL_AFTER_S, job_path, represent
+from service.blobs import BlobsUnavailableError
+from service.engine.port import (
+    Idempotency,
+    JobRecord,
+    NewJob,
+    StoredBlob,
+    Submission,
+    SubmitOutcome,
+)
+from service.jobs import ACTIVE
+from service.tracing import current_traceparent
+
+MAX_WAIT_S: Final = 60
+
+ACCEPTED: Final[dict[int | str, dict[str, Any]]] = {
+    200: {"model": Job, "description": "Ended within the time of `Prefer: wait`."},
+    202: {
+        "description": "Accepted.",
+        "headers": {
+            "Location": {"description": "Path of the job.", "schema": {"type": "string"}},
+            "Retry-After": {"description": "Seconds to wait.", "schema": {"type": "integer"}},
+        },
+    },
+}
+"""The answers to whoever has a job accepted, for the OpenAPI document."""
+
+ACCEPTANCE_PROBLEMS: Final = (
+    "idempotency-key-reused",
+    "invalid-request",
+    "too-many-requests",
+    "queue-full",
+    "not-ready",
+    "internal-error",
+)
+"""What may keep checked inputs from being accepted."""
+
+
+IdempotencyKey = Annotated[
+    str | None,
+    Header(
+        min_length=1,
+        max_length=255,
+        description="The same key with the same content answers with the earlier job.",
+    ),
+]
+Prefer = Annotated[str | None, Header(description="`respond-async` or `wait=N`.")]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class File:
+    """Bytes to keep for a job."""
+
+    content: bytes
+    media_type: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Inputs:
+    """What a job is made of; ``options`` is the request as JSON."""
+
+    options: bytes
+    image: File
+    mask: File | None
+    webhook: WebhookTarget | None
+
+
+async def accept(
+    context: ApiContext,
+    inputs: Inputs,
+    *,
+    key: Idempotency | None,
+    check: Callable[[], Awaitable[None]] | None = None,
+) -> JobRecord:
+    """Have a job accepted, or return the earlier one of the same key.
+
+    ``check`` is made only where a new job is about to be accepted.
+
+    Raises
+    ------
+    ProblemError
+        If the job is not accepted.
+    """
+    job_id = str(uuid4())
+    # From here on the job's scope is erased by itself unless the job is accepted.
+    submission = await run_in_threadpool(context.jobs.reserve, job_id, key)
+    if submission.outcome is SubmitOutcome.ACCEPTED:
+        if check is not None:
+            await check()
+        submission = await run_in_threadpool(_store, context, job_id, inputs, key)
+    return _accepted(submission)
+
+
+def idempotency(key: str | None, *parts: bytes) -> Idempotency | None:
+    """Hash a caller's key, and the parts of the request it came with."""
+    if key is None:
+        return None
+    digest = hashlib.sha256()
+    for part in parts:
+        digest.update(hashlib.sha256(part).digest())
+    return Idempotency(key=hashlib.sha256(key.encode()).hexdigest(), fingerprint=digest.hexdigest())
+
+
+async def answer(
+    context: ApiContext, response: Response, job: JobRecord, *, prefer: str | None
+) -> Job:
+    """Answer with an accepted job, after its end if the caller prefers to wait for it."""
+    wait_s = _preferred_wait_s(prefer)
+    if wait_s > 0:
+        job = await _wait_for_end(context, job, wait_s)
+        response.headers["Preference-Applied"] = f"wait={wait_s}"
+    response.headers["Location"] = job_path(job.id)
+    if job.state in ACTIVE:
+        response.headers["Retry-After"] = str(POLL_AFTER_S)
+    elif wait_s > 0:
+        response.status_code = 200
+    return represent(job)
+
+
+def _store(context: ApiContext, job_id: str, inputs: Inputs, key: Idempotency | None) -> Submission:
+    try:
+        job = _stored(context, job_id, inputs, key)
+    except BlobsUnavailableError:
+        _erase_at_once(context, job_id)
+        raise
+    # Should the database go away before it answers, it may have said yes: the blobs stay then.
+    submission = context.jobs.submit(job)
+    if submission.outcome is not SubmitOutcome.ACCEPTED:
+        _erase_at_once(context, job_id)
+    return submission
+
+
+def _stored(context: ApiContext, job_id: str, inputs: Inputs, key: Idempotency | None) -> NewJob:
+    def stored(file: File) -> StoredBlob:
+        digest = context.blobs.put(job_id, file.content)
+        return StoredBlob(digest=digest, media_type=file.media_type)
+
+    return NewJob(
+        id=job_id,
+        options=stored(File(content=inputs.options, media_type="application/json")),
+        image=stored(inputs.image),
+        mask=None if inputs.mask is None else stored(inputs.mask),
+        idempotency=key,
+        request_id=context.request_id,
+        traceparent=current_traceparent(),
+        webhook=inputs.webhook,
+    )
+
+
+def _erase_at_once(context: ApiContext, job_id: str) -> None:
+    # If this fails too, the sweep comes to it.
+    with contextlib.suppress(BlobsUnavailableError):
+        context.blobs.erase(job_id)
+
+
+def _accepted(submission: Submission) -> JobRecord:
+    if submission.outcome is SubmitOutcome.QUEUE_FULL:
+        raise ProblemError(
+            problem(
+                "queue-full",
+                detail="The queue of waiting jobs is full.",
+                remedy="Try again after the time in Retry-After.",
+            )
+        )
+    if submission.outcome is SubmitOutcome.TENANT_FULL:
+        raise ProblemError(
+            problem(
+                "too-many-requests",
+                code="too-many-waiting",
+                detail="Too many of your jobs are waiting already.",
+                remedy="Try again when some of them have ended.",
+            )
+        )
+    if submission.outcome is SubmitOutcome.LOST:
+        raise ProblemError(
+            problem(
+                "not-ready",
+                code="submission-lost",
+                detail="The upload took too long and was given up.",
+                remedy="Post the picture again.",
+            )
+        )
+    if submission.job is None:
+        raise ProblemError(
+            problem(
+                "idempotency-key-reused",
+                detail="This Idempotency-Key came earlier with another request.",
+                remedy="Use a new key for every new request.",
+                field="Idempotency-Key",
+            )
+        )
+    return submission.job
+
+
+def _preferred_wait_s(prefer: str | None) -> int:
+    found = re.search(r"(?:^|[,;\s])wait\s*=\s*(\d{1,6})", prefer or "")
+    return min(int(found[1]), MAX_WAIT_S) if found else 0
+
+
+async def _wait_for_end(context: ApiContext, job: JobRecord, wait_s: int) -> JobRecord:
+    deadline = time.monotonic() + wait_s
+    while (
+        job.state in ACTIVE
+        and not context.feed.is_ending
+        and (remaining_s := deadline - time.monotonic()) > 0
+    ):
+        await context.feed.wait_beyond(job.id, job.last_event, timeout_s=remaining_s)
+        latest = await run_in_threadpool(context.jobs.job, job.id)
+        if latest is None:
+            raise not_found(what="such job any more")
+        job = latest
+    return job

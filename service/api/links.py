@@ -1,0 +1,35 @@
+"""OpenAPI links: how the operations lead from one to another."""
+
+from collections.abc import Mapping
+from typing import Any, Final
+
+_FIT: Final = ("get_fit", "follow", "cancel", "erase", "fit_image", "fit_request")
+_ENDED_FIT: Final = (*_FIT, "retry", "result")
+
+_FROM_JOB: Final = {"fit_id": "$response.body#/id"}
+_SAME_FIT: Final = {"fit_id": "$request.path.fit_id"}
+_FROM_IMAGE: Final = {"image_id": "$response.body#/id"}
+_SAME_IMAGE: Final = {"image_id": "$request.path.image_id"}
+
+
+def _links(parameters: Mapping[str, str], *operations: str) -> dict[str, Any]:
+    return {
+        operation: {"operationId": operation, "parameters": dict(parameters)}
+        for operation in operations
+    }
+
+
+LINKS: Final[Mapping[tuple[str, str], dict[str, Any]]] = {
+    ("submit", "202"): _links(_FROM_JOB, *_FIT),
+    ("submit", "200"): _links(_FROM_JOB, *_ENDED_FIT),
+    ("retry", "202"): _links(_FROM_JOB, *_FIT),
+    ("retry", "200"): _links(_FROM_JOB, *_ENDED_FIT),
+    ("get_fit", "200"): _links(_SAME_FIT, *_ENDED_FIT),
+    ("cancel", "200"): _links(_SAME_FIT, "get_fit", "retry", "erase"),
+    ("cancel", "202"): _links(_SAME_FIT, "get_fit", "follow", "erase"),
+    ("result", "200"): _links(_SAME_FIT | {"name": "$response.body#/artifacts/0/name"}, "artifact"),
+    ("upload_image", "200"): _links(_FROM_IMAGE, "get_image", "erase_image"),
+    ("upload_image", "201"): _links(_FROM_IMAGE, "get_image", "erase_image"),
+    ("get_image", "200"): _links(_SAME_IMAGE, "erase_image"),
+}
+"""By operation and status."""

@@ -1,0 +1,110 @@
+"""The page at ``/`` and its files: built beforehand (``service/page``), served as they are."""
+
+import gzip
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+from typing import Annotated, Final
+
+from fastapi import APIRouter, Header, Request, Response
+
+from api_schemas.index import ServiceIndex
+from service.api.problems import not_found
+from service.api.security_headers import OWN_FILES
+
+ROUTER: Final = APIRouter(include_in_schema=False)
+
+LINKS: Final = {
+    "fits": "/v1/fits",
+    "images": "/v1/images",
+    "initial_poses": "/v1/initial-poses",
+    "bodies": "/v1/bodies",
+    "body_models": "/v1/body-models",
+    "openapi": "/openapi.json",
+    "docs": "/docs",
+    "ready": "/healthz/ready",
+}
+
+_TEXT_TYPES: Final = {
+    "css": "text/css",
+    "html": "text/html",
+    "js": "text/javascript",
+    "json": "application/json",
+    "txt": "text/plain",
+}
+_PACKED_TYPES: Final = {"jpg": "image/jpeg", "woff2": "font/woff2"}
+"""Compressed already."""
+
+_UNCHANGING: Final = "public, max-age=31536000, immutable"
+"""Of files whose names carry a hash of their content."""
+
+_FOR_A_DAY: Final = "public, max-age=86400"
+
+
+@dataclass(frozen=True, slots=True)
+class PageFile:
+    """A file of the page; ``compressed`` where compressing it is worth while."""
+
+    content: bytes
+    compressed: bytes | None
+    media_type: str
+
+
+@ROUTER.get("/")
+def page(
+    request: Request,
+    accept: Annotated[str, Header()] = "*/*",
+    accept_encoding: Annotated[str, Header()] = "",
+) -> Response:
+    """Return the page to browsers, and the ways in to programs that ask for JSON."""
+    headers = {"Cache-Control": "no-cache", "Vary": "Accept, Accept-Encoding"}
+    if "text/html" not in accept:
+        index = ServiceIndex(name=request.app.title, version=request.app.version, links=LINKS)
+        return Response(index.model_dump_json(), media_type="application/json", headers=headers)
+    headers["Content-Security-Policy"] = OWN_FILES
+    return _answer(_page_files()["index.html"], accept_encoding, headers)
+
+
+@ROUTER.get("/page/{name}")
+def page_file(name: str, accept_encoding: Annotated[str, Header()] = "") -> Response:
+    """Return a script, a style, a font or a sample of the page."""
+    found = _page_files().get(name)
+    if found is None or name == "index.html":
+        raise not_found(what="such file")
+    hashed = name.count(".") >= 2
+    headers = {
+        "Cache-Control": _UNCHANGING if hashed else _FOR_A_DAY,
+        "Vary": "Accept-Encoding",
+    }
+    return _answer(found, accept_encoding, headers)
+
+
+def _answer(file: PageFile, accept_encoding: str, headers: dict[str, str]) -> Response:
+    if file.compressed is not None and "gzip" in accept_encoding:
+        return Response(
+            file.compressed,
+            media_type=file.media_type,
+            headers=headers | {"Content-Encoding": "gzip"},
+        )
+    return Response(file.content, media_type=file.media_type, headers=headers)
+
+
+@cache
+def _page_files() -> dict[str, PageFile]:
+    """All files by name; only these are served, whatever a path says."""
+    package = files("service")
+    found = {each.name: _read(each) for each in (package / "page" / "dist").iterdir()}
+    samples = package / "demo_data"
+    return found | {
+        "sample.jpg": _read(samples / "sample.jpg"),
+        "sample.json": _read(samples / "request.json"),
+    }
+
+
+def _read(file: Traversable) -> PageFile:
+    content = file.read_bytes()
+    suffix = file.name.rpartition(".")[2]
+    if suffix in _PACKED_TYPES:
+        return PageFile(content, None, _PACKED_TYPES[suffix])
+    return PageFile(content, gzip.compress(content, 9, mtime=0), _TEXT_TYPES[suffix])

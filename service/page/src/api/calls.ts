@@ -1,0 +1,42 @@
+// The calls this page makes, one function each.
+import { jsonBody, request, requestJson } from "./client";
+import type { FitOfImage, FitOptions, FitResult, InitialPose, InitialPoseRequest, Job, UploadedImage } from "./types";
+
+export function uploadImage(file: Blob, signal: AbortSignal): Promise<UploadedImage> {
+  const form = new FormData();
+  form.append("image", file, "picture");
+  return requestJson("/v1/images", { method: "POST", body: form, signal });
+}
+
+export function initialPose(asked: InitialPoseRequest, signal: AbortSignal): Promise<InitialPose> {
+  return requestJson("/v1/initial-poses", { ...jsonBody(asked), signal });
+}
+
+export function submitFit(asked: FitOfImage): Promise<Job> {
+  return requestJson("/v1/fits", jsonBody(asked));
+}
+
+export function getFit(id: string): Promise<Job> {
+  return requestJson(`/v1/fits/${id}`);
+}
+
+export function getResult(job: Job): Promise<FitResult> {
+  return requestJson(job.links.result ?? `/v1/fits/${job.id}/result`);
+}
+
+export function getRequest(job: Job): Promise<FitOptions> {
+  return requestJson(job.links.request);
+}
+
+export function cancelFit(id: string): Promise<Job> {
+  return requestJson(`/v1/fits/${id}/cancel`, { method: "POST" });
+}
+
+export async function eraseFit(id: string): Promise<void> {
+  await request(`/v1/fits/${id}`, { method: "DELETE" });
+}
+
+/** A file by its link: by fetch, not by an element's address, since a key may be needed. */
+export async function getFile(path: string): Promise<Blob> {
+  return (await request(path)).blob();
+}

@@ -1,0 +1,23 @@
+// The wire types, by short names; schema.d.ts is made from the service's own openapi.json.
+import type { components } from "./schema";
+
+type Schemas = components["schemas"];
+
+export type Job = Schemas["Job"];
+export type JobState = Schemas["JobState"];
+export type Problem = Schemas["Problem"];
+export type FitResult = Schemas["FitResult"];
+export type Stage = Schemas["Stage"];
+export type Measurement = Schemas["Measurement"];
+export type UploadedImage = Schemas["UploadedImage"];
+export type InitialPose = Schemas["InitialPose"];
+export type InitialPoseRequest = Schemas["InitialPoseRequest"];
+export type FitOfImage = Schemas["FitOfImage"];
+export type FitOptions = Schemas["FitOptions"];
+export type Gender = Schemas["Gender"];
+export type Cues = Schemas["Cues"];
+export type LightGuess = Schemas["LightGuess"];
+export type Limb = Schemas["Limb"];
+export type Facing = Schemas["Facing"];
+export type EventData = Schemas["EventData"];
+export type CameraResult = Schemas["CameraResult"];

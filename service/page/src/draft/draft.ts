@@ -1,0 +1,57 @@
+// The fit that is being prepared: a few signals, and what follows from them.
+import { computed, signal } from "@preact/signals";
+import type { Cues, Facing, Limb, LightGuess, UploadedImage } from "../api/types";
+import type { PointName } from "../points/catalogue";
+import { NO_POINTS, isEnough, nextPoint } from "../points/placed";
+import type { Points } from "../points/placed";
+import { advance, amend, begin } from "../points/timeline";
+import { NOBODY, heightFault, weightFault } from "./person";
+import type { Person } from "./person";
+import type { Picture } from "./picture";
+
+export const picture = signal<Picture | null>(null);
+export const uploaded = signal<UploadedImage | null>(null);
+
+export const timeline = signal(begin<Points>(NO_POINTS));
+export const points = computed(() => timeline.value.present);
+export const upcoming = computed(() => nextPoint(points.value));
+/** The point that keys move, hide and delete. */
+export const selected = signal<PointName | null>(null);
+
+export const person = signal<Person>(NOBODY);
+/** 35 mm equivalent chosen by eye; null leaves it to the picture's own data, or to be assumed. */
+export const focalLength = signal<number | null>(null);
+/** The light shown on the ball; null leaves it to the fit. */
+export const light = signal<LightGuess | null>(null);
+export const facing = signal<Readonly<Partial<Record<Limb, Facing>>>>({});
+export const cues = signal<Cues>("SES");
+
+export function change(next: Points): void {
+  timeline.value = advance(timeline.value, next);
+}
+
+export function adjust(next: Points): void {
+  timeline.value = amend(timeline.value, next);
+}
+
+/** Everything about another picture begins anew; what is known of the person stays. */
+export function usePicture(next: Picture): void {
+  if (picture.value) URL.revokeObjectURL(picture.value.url);
+  picture.value = next;
+  uploaded.value = null;
+  timeline.value = begin<Points>(NO_POINTS);
+  selected.value = null;
+  facing.value = {};
+  focalLength.value = null;
+  light.value = null;
+}
+
+/** Why there can be no fit yet, as a thing to do; null when there can. */
+export const todo = computed<string | null>(() => {
+  if (!picture.value) return "Choose a picture";
+  if (person.value.gender === null) return "Choose female or male";
+  if (heightFault(person.value) !== null) return "Correct the height";
+  if (weightFault(person.value) !== null) return "Correct the weight";
+  if (!isEnough(points.value)) return "Click more points";
+  return null;
+});

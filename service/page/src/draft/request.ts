@@ -1,0 +1,61 @@
+// The draft as the API wants it, and back.
+import type { FitOptions, Gender, InitialPoseRequest } from "../api/types";
+import { namedPoints } from "../points/coco";
+import type { Points } from "../points/placed";
+import { begin } from "../points/timeline";
+import { cues, facing, focalLength, light, person, points, selected, timeline } from "./draft";
+import { NOBODY, heightM, heightTexts, weightKg, weightText } from "./person";
+import type { Person } from "./person";
+
+type Subject = Pick<FitOptions, "gender" | "height_m" | "weight_kg" | "points" | "focal_length_35mm" | "limb_facing">;
+
+export function subjectOf(
+  gender: Gender,
+  known: Person,
+  clicked: Points,
+  lens: number | null,
+  facings: FitOptions["limb_facing"],
+): Subject {
+  const height = heightM(known);
+  const weight = weightKg(known);
+  return {
+    gender,
+    ...(height === null ? {} : { height_m: height }),
+    ...(weight === null ? {} : { weight_kg: weight }),
+    ...(lens === null ? {} : { focal_length_35mm: lens }),
+    points: Object.fromEntries(
+      Object.entries(clicked.placed).map(([name, { x, y, hidden }]) => [name, { x, y, visibility: hidden ? 1 : 2 }]),
+    ) as FitOptions["points"],
+    limb_facing: facings,
+  };
+}
+
+export function draftedSubject(): Subject | null {
+  const { gender } = person.value;
+  if (gender === null) return null;
+  return subjectOf(gender, person.value, points.value, focalLength.value, facing.value);
+}
+
+export function draftedInitialPose(subject: Subject, width: number, height: number, imageId: string | null): InitialPoseRequest {
+  const where = imageId === null ? { image_size: { width, height } } : { image_id: imageId };
+  return { ...subject, ...where };
+}
+
+/** Take up what an earlier fit was asked for. */
+export function useRequest(asked: FitOptions): void {
+  const units = person.value.units;
+  person.value = {
+    ...NOBODY,
+    gender: asked.gender,
+    units,
+    ...heightTexts(asked.height_m ?? null, units),
+    weight: weightText(asked.weight_kg ?? null, units),
+  };
+  const placed = Array.isArray(asked.points) ? {} : namedPoints(asked.points);
+  timeline.value = begin<Points>({ placed, skipped: [], asked: null });
+  selected.value = null;
+  focalLength.value = asked.focal_length_35mm ?? null;
+  facing.value = asked.limb_facing ?? {};
+  cues.value = asked.cues ?? "SES";
+  light.value = asked.light?.azimuth_deg != null ? asked.light : null;
+}

@@ -1,0 +1,127 @@
+// One fit: on its way, ended without a result, or its result.
+import { useSignal } from "@preact/signals";
+import { useEffect } from "preact/hooks";
+import { cancelFit, getFile, getRequest } from "../api/calls";
+import { problemFrom } from "../api/client";
+import type { Job, Problem } from "../api/types";
+import { entries, forget, jobs, remember, seen, thumbnailOf } from "../history/store";
+import { openPicture } from "../draft/picture";
+import type { Picture } from "../draft/picture";
+import { openAgain } from "../panel/open";
+import { ResultView } from "../result/ResultView";
+import { go } from "../route";
+import { ProblemNote } from "../ui/ProblemNote";
+import { Progress } from "./Progress";
+import { isActive, watch } from "./watch";
+
+export function FitView({ id }: { id: string }) {
+  const problem = useSignal<Problem | null>(null);
+  const picture = useSignal<Picture | null>(null);
+  const job = jobs.value[id];
+
+  useEffect(() => {
+    const leaving = new AbortController();
+    problem.value = null;
+    watch(id, leaving.signal).catch((error) => (problem.value = problemFrom(error)));
+    return () => leaving.abort();
+  }, [id]);
+
+  const image = job?.links.image;
+  useEffect(() => {
+    if (!image) return undefined;
+    let gone = false;
+    let opened: Picture | null = null;
+    getFile(image)
+      .then((file) => openPicture(file, entries.value.find((entry) => entry.id === id)?.name ?? "picture"))
+      .then((shown) => {
+        opened = shown;
+        if (gone) return URL.revokeObjectURL(shown.url);
+        picture.value = shown;
+        // Opened by its link: from now on this browser knows it as well.
+        remember({ id, name: shown.name, startedAt: job.created_at, thumbnail: thumbnailOf(shown.element) });
+      })
+      .catch((error) => (problem.value = problemFrom(error)));
+    return () => {
+      gone = true;
+      picture.value = null;
+      if (opened) URL.revokeObjectURL(opened.url);
+    };
+  }, [image]);
+
+  if (problem.value) return <Trouble id={id} problem={problem.value} />;
+  if (!job) return <main class="waiting" aria-busy="true" />;
+  if (job.state === "succeeded") return <ResultView job={job} picture={picture.value} />;
+  if (isActive(job)) {
+    return <Progress job={job} picture={picture.value} onCancel={() => void cancel(job, (found) => (problem.value = found))} />;
+  }
+  return <Ended job={job} picture={picture.value} />;
+}
+
+async function cancel(job: Job, fail: (problem: Problem | null) => void): Promise<void> {
+  try {
+    seen(await cancelFit(job.id));
+  } catch (error) {
+    fail(problemFrom(error));
+  }
+}
+
+function Trouble({ id, problem }: { id: string; problem: Problem }) {
+  const gone = problem.status === 404 || problem.status === 410;
+  return (
+    <main class="ended">
+      <h1>{gone ? "This fit is gone" : "This fit cannot be shown"}</h1>
+      <ProblemNote problem={problem} />
+      <div class="row">
+        <button class="button is-primary" type="button" onClick={() => go("#/")}>
+          Start another
+        </button>
+        {gone ? (
+          <button
+            class="button"
+            type="button"
+            onClick={() => {
+              forget(id);
+              go("#/");
+            }}
+          >
+            Forget it here
+          </button>
+        ) : (
+          <button class="button" type="button" onClick={() => location.reload()}>
+            Try again
+          </button>
+        )}
+      </div>
+    </main>
+  );
+}
+
+const ENDINGS: Readonly<Record<string, string>> = {
+  failed: "No body was found",
+  canceled: "The fit was canceled",
+  timed_out: "The fit took too long",
+};
+
+function Ended({ job, picture }: { job: Job; picture: Picture | null }) {
+  return (
+    <main class="ended">
+      {picture && <img class="ended-picture" src={picture.url} alt="The picture of this fit" />}
+      <h1>{ENDINGS[job.state]}</h1>
+      {job.problem && <ProblemNote problem={job.problem} />}
+      <div class="row">
+        {picture && (
+          <button
+            class="button is-primary"
+            type="button"
+            onClick={async () => openAgain(picture, await getRequest(job))}
+          >
+            Change the points and try again
+          </button>
+        )}
+        <button class="button" type="button" onClick={() => go("#/")}>
+          Start another
+        </button>
+      </div>
+    </main>
+  );
+}

@@ -1,0 +1,64 @@
+// The fits this browser has started or opened: ids and a thumbnail, nothing else.
+import { signal } from "@preact/signals";
+import type { Job } from "../api/types";
+import type { Assumptions } from "../ui/AssumptionNotes";
+
+export interface Entry {
+  readonly id: string;
+  readonly name: string;
+  readonly startedAt: string;
+  /** A small JPEG as a data address. */
+  readonly thumbnail: string;
+}
+
+const PLACE = "maquette.fits";
+const MOST = 60;
+const THUMBNAIL_PX = 96;
+
+export const entries = signal<readonly Entry[]>(load());
+
+/** Jobs as last seen, by id. */
+export const jobs = signal<Readonly<Record<string, Job>>>({});
+
+/** What was assumed of fits begun on this page, by id, as the initial body already told. */
+export const assumed = signal<Readonly<Record<string, Assumptions>>>({});
+
+export function remember(entry: Entry): void {
+  if (entries.value.some((each) => each.id === entry.id)) return;
+  keep([entry, ...entries.value].slice(0, MOST));
+}
+
+export function forget(id: string): void {
+  keep(entries.value.filter((each) => each.id !== id));
+}
+
+export function seen(job: Job): void {
+  jobs.value = { ...jobs.value, [job.id]: job };
+}
+
+export function thumbnailOf(element: HTMLImageElement): string {
+  const scale = THUMBNAIL_PX / Math.max(element.naturalWidth, element.naturalHeight);
+  const canvas = document.createElement("canvas");
+  canvas.width = Math.max(1, Math.round(element.naturalWidth * scale));
+  canvas.height = Math.max(1, Math.round(element.naturalHeight * scale));
+  canvas.getContext("2d")!.drawImage(element, 0, 0, canvas.width, canvas.height);
+  return canvas.toDataURL("image/jpeg", 0.7);
+}
+
+function keep(list: readonly Entry[]): void {
+  entries.value = list;
+  try {
+    localStorage.setItem(PLACE, JSON.stringify(list));
+  } catch {
+    // A full or forbidden storage: the list lives as long as the page.
+  }
+}
+
+function load(): readonly Entry[] {
+  try {
+    const kept: unknown = JSON.parse(localStorage.getItem(PLACE) ?? "[]");
+    return Array.isArray(kept) ? (kept as Entry[]).filter((each) => typeof each?.id === "string") : [];
+  } catch {
+    return [];
+  }
+}

@@ -1,0 +1,217 @@
+// Which point comes next, what it means, and what can be done with those there are.
+import { useSignal } from "@preact/signals";
+import { change, picture, points, selected, timeline, upcoming } from "../draft/draft";
+import { liveBody, liveProblem } from "../draft/live";
+import { POINTS, pointOf, sideOf } from "../points/catalogue";
+import type { PointName } from "../points/catalogue";
+import { cocoFile, readPoints } from "../points/coco";
+import { NO_POINTS, ask, missing, remove, skip, skipRest, swapSides, toggleHidden } from "../points/placed";
+import { redo, undo } from "../points/timeline";
+import { IconButton } from "../ui/IconButton";
+import { ProblemNote } from "../ui/ProblemNote";
+import { saveFile } from "../ui/save";
+import { Guide } from "./Guide";
+
+const FAR_OFF_SHARE = 0.03;
+
+export function PointsPanel() {
+  const next = upcoming.value;
+  const placed = points.value.placed;
+  const count = Object.keys(placed).length;
+  return (
+    <section class="section" aria-labelledby="points-title">
+      <header class="section-head">
+        <h2 id="points-title">Points</h2>
+        <span class="count">{count} placed</span>
+        <IconButton icon="undo" label="Undo" disabled={timeline.value.past.length === 0} onClick={() => (timeline.value = undo(timeline.value))} />
+        <IconButton icon="redo" label="Redo" disabled={timeline.value.future.length === 0} onClick={() => (timeline.value = redo(timeline.value))} />
+        <IconButton icon="swap" label="Swap left and right" disabled={count === 0} onClick={() => change(swapSides(points.value))} />
+      </header>
+      <div class="next">
+        <Guide next={next} points={points.value} />
+        <div class="next-text">
+          {next ? <Next name={next} /> : <Complete />}
+        </div>
+      </div>
+      {liveProblem.value && <ProblemNote problem={liveProblem.value} />}
+      <Doubts />
+      <PointList />
+      <Files />
+    </section>
+  );
+}
+
+function Next({ name }: { name: PointName }) {
+  const side = sideOf(name);
+  const { limbs, trunk } = missing(points.value);
+  return (
+    <>
+      <p class="next-kicker">Click next</p>
+      <p class={`next-name is-${side}`}>{pointOf(name).label}</p>
+      <p class="next-help">{pointOf(name).help}</p>
+      {side !== "middle" && (
+        <p class="fine">The person’s own {side}: the {side === "left" ? "right" : "left"} of the picture if they face you.</p>
+      )}
+      <p class="fine">{needed(limbs, trunk)}</p>
+      <div class="row">
+        <button class="button is-small" type="button" onClick={() => change(skip(points.value, name))}>
+          Skip
+        </button>
+        {limbs === 0 && trunk === 0 && (
+          <button class="button is-small" type="button" onClick={() => change(skipRest(points.value))}>
+            That is enough
+          </button>
+        )}
+      </div>
+    </>
+  );
+}
+
+/** The next point in one line above the picture, where the panel is out of sight: on phones. */
+export function NextLine() {
+  const name = upcoming.value;
+  return (
+    <p class={`next-line ${name ? `is-${sideOf(name)}` : ""}`} aria-hidden="true">
+      <b>{name ? pointOf(name).label : "All points done"}</b> {name && pointOf(name).help}
+    </p>
+  );
+}
+
+function needed(limbs: number, trunk: number): string {
+  if (limbs === 0 && trunk === 0) return "There are enough; more make the body better.";
+  if (limbs === 0) return `${trunk} more of the shoulders and hips needed.`;
+  return `${limbs} more needed. Guess what is covered, skip what is outside the picture.`;
+}
+
+function Complete() {
+  return (
+    <>
+      <p class="next-kicker">Points</p>
+      <p class="next-name">All done</p>
+      <p class="next-help">Drag a point to move it, or choose one below.</p>
+    </>
+  );
+}
+
+/** Points that lie far from where the body can have them. */
+function Doubts() {
+  const body = liveBody.value;
+  const shown = picture.value;
+  if (!body || !shown) return null;
+  const limit = FAR_OFF_SHARE * Math.hypot(shown.width, shown.height);
+  const far = (Object.entries(body.residual_px) as [PointName, number][]).filter(([, pixels]) => pixels > limit);
+  const warnings = body.warnings ?? [];
+  if (far.length === 0 && warnings.length === 0) return null;
+  return (
+    <div class="note" role="status">
+      {warnings.map((warning) => (
+        <p key={warning.code}>{warning.message}</p>
+      ))}
+      {far.length > 0 && (
+        <p>
+          No body reaches {far.map(([name]) => pointOf(name).label.toLowerCase()).join(", ")}. Look whether they are where
+          they should be, and on the right side.
+        </p>
+      )}
+    </div>
+  );
+}
+
+function PointList() {
+  return (
+    <details class="fold">
+      <summary>All points</summary>
+      <ul class="point-list">
+        {POINTS.map(({ name, label }) => {
+          const where = points.value.placed[name];
+          const skipped = points.value.skipped.includes(name);
+          const state = where ? (where.hidden ? "hidden" : "placed") : skipped ? "skipped" : "open";
+          return (
+            <li key={name} class={selected.value === name ? "is-selected" : ""}>
+              <button
+                type="button"
+                class={`point-name is-${sideOf(name)}`}
+                aria-pressed={selected.value === name}
+                onClick={() => {
+                  if (where) selected.value = selected.value === name ? null : name;
+                  else change(ask(points.value, name));
+                }}
+              >
+                <i class={`dot is-${state}`} />
+                {label}
+                <small>{state === "open" ? "" : state}</small>
+              </button>
+              {where && (
+                <>
+                  <IconButton icon="hidden" label={`${label} is hidden behind something`} pressed={where.hidden} onClick={() => change(toggleHidden(points.value, name))} />
+                  <IconButton icon="trash" label={`Remove ${label}`} onClick={() => change(remove(points.value, name))} />
+                </>
+              )}
+              {!where && !skipped && <IconButton icon="skip" label={`Skip ${label}`} onClick={() => change(skip(points.value, name))} />}
+            </li>
+          );
+        })}
+      </ul>
+    </details>
+  );
+}
+
+function Files() {
+  const fault = useSignal<string | null>(null);
+  const count = Object.keys(points.value.placed).length;
+  return (
+    <details class="fold">
+      <summary>Points from and to files</summary>
+      <div class="row">
+        <label class="button is-small">
+          Read points
+          <input
+            class="unseen"
+            type="file"
+            accept=".json,application/json"
+            aria-label="Read points from a COCO JSON file"
+            onChange={async (event) => {
+              const input = event.currentTarget;
+              const file = input.files?.[0];
+              if (!file) return;
+              try {
+                change(readPoints(await file.text()));
+                selected.value = null;
+                fault.value = null;
+              } catch (error) {
+                fault.value = (error as Error).message;
+              }
+              input.value = "";
+            }}
+          />
+        </label>
+        <button
+          class="button is-small"
+          type="button"
+          disabled={count === 0}
+          onClick={() => saveFile("points.json", new Blob([cocoFile(points.value, picture.value!)], { type: "application/json" }))}
+        >
+          Save as COCO
+        </button>
+        <button
+          class="button is-small"
+          type="button"
+          disabled={count === 0}
+          onClick={() => {
+            change(NO_POINTS);
+            selected.value = null;
+          }}
+        >
+          Clear
+        </button>
+      </div>
+      <p class="fine">COCO keypoints (17), or points by name as the API takes them, in pixels of the picture.</p>
+      {fault.value && (
+        <p class="note is-problem" role="alert">
+          {fault.value}
+        </p>
+      )}
+    </details>
+  );
+}
+

@@ -1,0 +1,40 @@
+// How a picture gets in.
+import { signal } from "@preact/signals";
+import type { FitOptions } from "../api/types";
+import { usePicture } from "../draft/draft";
+import { openPicture } from "../draft/picture";
+import type { Picture } from "../draft/picture";
+import { useRequest } from "../draft/request";
+import { go } from "../route";
+
+export const openProblem = signal<string | null>(null);
+
+export async function openFile(file: Blob, name = file instanceof File ? file.name : "picture"): Promise<void> {
+  openProblem.value = null;
+  try {
+    usePicture(await openPicture(file, name));
+    go("#/");
+  } catch (error) {
+    openProblem.value = error instanceof Error ? error.message : String(error);
+  }
+}
+
+/** The sample, with its points or to be clicked. */
+export async function trySample(withPoints: boolean): Promise<void> {
+  const file = await (await fetch("/page/sample.jpg")).blob();
+  await openFile(file, "sample.jpg");
+  if (withPoints) useRequest((await (await fetch("/page/sample.json")).json()) as FitOptions);
+}
+
+/** A fit's picture and request, to be changed and sent again. */
+export async function openAgain(picture: Picture, asked: FitOptions): Promise<void> {
+  await openFile(picture.file, picture.name);
+  useRequest(asked);
+}
+
+export function listenForPaste(): void {
+  addEventListener("paste", (event) => {
+    const file = [...(event.clipboardData?.files ?? [])].find((each) => each.type.startsWith("image/"));
+    if (file) void openFile(file, "pasted picture");
+  });
+}

@@ -1,0 +1,66 @@
+// What a result view needs of the service, fetched together.
+import { useEffect, useState } from "preact/hooks";
+import { getFile, getResult } from "../api/calls";
+import { problemFrom } from "../api/client";
+import type { FitResult, Job, Problem } from "../api/types";
+import { readGlb } from "../viewer/glb";
+import type { GlbBody } from "../viewer/glb";
+import type { TapeLines } from "../viewer/Tapes";
+
+export interface ResultFiles {
+  readonly result: FitResult;
+  readonly posed: GlbBody;
+  readonly canonical: GlbBody | null;
+  /** Where measurements are taken on the canonical body. */
+  readonly tapes: TapeLines;
+}
+
+export function useResultFiles(job: Job): { files: ResultFiles | null; problem: Problem | null } {
+  const [files, setFiles] = useState<ResultFiles | null>(null);
+  const [problem, setProblem] = useState<Problem | null>(null);
+  useEffect(() => {
+    let gone = false;
+    setFiles(null);
+    const bodyOf = async (name: string) => {
+      const path = job.links.artifacts?.[name];
+      return path ? readGlb(await (await getFile(path)).arrayBuffer()) : null;
+    };
+    const tapesOf = async () => {
+      const path = job.links.artifacts?.["tapes.json"];
+      return path ? (JSON.parse(await (await getFile(path)).text()) as { lines: TapeLines }).lines : {};
+    };
+    Promise.all([getResult(job), bodyOf("body_posed.glb"), bodyOf("body_canonical.glb"), tapesOf()]).then(
+      ([result, posed, canonical, tapes]) => gone || setFiles({ result, posed: posed!, canonical, tapes }),
+      (error) => gone || setProblem(problemFrom(error)),
+    );
+    return () => {
+      gone = true;
+    };
+  }, [job.id]);
+  return { files, problem };
+}
+
+/** A picture of the result as an address for an element; null until it is there. */
+export function usePictureOf(job: Job, name: string, wanted: boolean): string | null {
+  const [url, setUrl] = useState<string | null>(null);
+  const path = job.links.artifacts?.[name];
+  useEffect(() => {
+    if (!wanted || !path) return undefined;
+    let made: string | null = null;
+    let gone = false;
+    getFile(path).then(
+      (file) => {
+        if (gone) return;
+        made = URL.createObjectURL(file);
+        setUrl(made);
+      },
+      () => undefined,
+    );
+    return () => {
+      gone = true;
+      if (made) URL.revokeObjectURL(made);
+      setUrl(null);
+    };
+  }, [path, wanted]);
+  return url;
+}

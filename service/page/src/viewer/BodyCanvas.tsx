@@ -1,0 +1,81 @@
+// The WebGL canvas as a component; three.js is loaded with it, not with the page.
+import { useEffect, useRef } from "preact/hooks";
+import type { BodyScene, Placement } from "./BodyScene";
+import type { GlbBody } from "./glb";
+import type { Surface } from "./surface";
+import type { TapeLines } from "./Tapes";
+
+const TURN = 0.12;
+const TURNS: Readonly<Record<string, readonly [number, number]>> = {
+  ArrowLeft: [-TURN, 0],
+  ArrowRight: [TURN, 0],
+  ArrowUp: [0, -TURN],
+  ArrowDown: [0, TURN],
+};
+
+interface Props {
+  readonly posed: GlbBody;
+  readonly canonical: GlbBody | null;
+  readonly picture: HTMLImageElement;
+  readonly tapes: TapeLines;
+  /** The measurement whose tape stands out. */
+  readonly marked: string | null;
+  readonly placement: Placement;
+  readonly surface: Surface;
+  readonly opacity: number;
+  readonly onFailure: () => void;
+}
+
+export function BodyCanvas({ posed, canonical, picture, tapes, marked, placement, surface, opacity, onFailure }: Props) {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const scene = useRef<BodyScene | null>(null);
+  const wanted = useRef({ placement, surface });
+  wanted.current = { placement, surface };
+
+  useEffect(() => {
+    const target = canvas.current!;
+    let gone = false;
+    const observer = new ResizeObserver(([entry]) => {
+      scene.current?.resize(entry!.contentRect.width, entry!.contentRect.height);
+    });
+    void import("./BodyScene").then(({ BodyScene }) => {
+      if (gone) return;
+      try {
+        scene.current = new BodyScene(target, posed, canonical, picture, tapes);
+      } catch {
+        return onFailure();
+      }
+      scene.current.place(wanted.current.placement);
+      scene.current.surface(wanted.current.surface);
+      observer.observe(target);
+    }, onFailure);
+    return () => {
+      gone = true;
+      observer.disconnect();
+      scene.current?.dispose();
+      scene.current = null;
+    };
+  }, [posed, canonical, picture, tapes]);
+
+  useEffect(() => scene.current?.place(placement), [placement]);
+  useEffect(() => scene.current?.surface(surface), [surface]);
+  useEffect(() => scene.current?.mark(marked), [marked]);
+
+  const turned = placement !== "picture";
+  return (
+    <canvas
+      ref={canvas}
+      class="body-canvas"
+      style={{ opacity }}
+      tabIndex={turned ? 0 : -1}
+      role="img"
+      aria-label={turned ? "The body in 3D; arrow keys turn it" : "The body over the picture"}
+      onKeyDown={(event) => {
+        const turn = TURNS[event.key];
+        if (!turn) return;
+        event.preventDefault();
+        scene.current?.turn(...turn);
+      }}
+    />
+  );
+}

@@ -1,0 +1,220 @@
+// The body in WebGL: over its picture by the fitted camera, or turned freely.
+import {
+  BufferAttribute,
+  BufferGeometry,
+  LinearFilter,
+  Mesh,
+  NoColorSpace,
+  PerspectiveCamera,
+  Scene,
+  ShaderMaterial,
+  Texture,
+  Vector3,
+  WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import type { GlbBody } from "./glb";
+import { SURFACES, surfaceMaterial } from "./surface";
+import type { Surface } from "./surface";
+import { Tapes } from "./Tapes";
+import type { TapeLines } from "./Tapes";
+
+export type Placement = "picture" | "turned" | "canonical";
+
+const TURNED_FOV_DEG = 30;
+const MARGIN = 1.24;
+
+interface Part {
+  readonly mesh: Mesh<BufferGeometry, ShaderMaterial>;
+  readonly centre: Vector3;
+  readonly height: number;
+}
+
+export class BodyScene {
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly camera = new PerspectiveCamera(TURNED_FOV_DEG, 1, 0.02, 100);
+  private readonly controls: OrbitControls;
+  private readonly posed: Part;
+  private readonly canonical: Part | null;
+  private readonly texture: Texture;
+  private readonly tapes: Tapes;
+  private placement: Placement = "picture";
+  private scheduled = 0;
+
+  constructor(
+    canvas: HTMLCanvasElement,
+    private readonly body: GlbBody,
+    canonical: GlbBody | null,
+    picture: HTMLImageElement,
+    tapes: TapeLines,
+  ) {
+    this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: true });
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+    this.renderer.setClearColor(0, 0);
+    this.texture = new Texture(picture);
+    this.texture.colorSpace = NoColorSpace;
+    this.texture.generateMipmaps = false;
+    this.texture.minFilter = LinearFilter;
+    this.texture.needsUpdate = true;
+    this.posed = part(body, body, this.texture);
+    this.canonical = canonical && part(canonical, body, this.texture);
+    this.scene.add(this.posed.mesh);
+    if (this.canonical) this.scene.add(this.canonical.mesh);
+    this.tapes = new Tapes(tapes);
+    this.scene.add(this.tapes.group);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enablePan = false;
+    this.controls.addEventListener("change", () => this.draw());
+    this.place("picture");
+  }
+
+  /** Where the body stands, and whence it is looked at. */
+  place(placement: Placement): void {
+    this.placement = placement;
+    const shown = this.shown();
+    this.posed.mesh.visible = shown === this.posed;
+    if (this.canonical) this.canonical.mesh.visible = shown === this.canonical;
+    this.tapes.group.visible = shown === this.canonical;
+    this.controls.enabled = placement !== "picture";
+    // Over the picture there is nothing to turn, and a finger may scroll the page.
+    this.renderer.domElement.style.touchAction = placement === "picture" ? "auto" : "none";
+    if (placement !== "picture") this.lookFrom(placement === "canonical" ? 0.35 : 0);
+    this.draw();
+  }
+
+  surface(kind: Surface): void {
+    for (const each of [this.posed, this.canonical]) {
+      if (each) each.mesh.material.uniforms.surface!.value = SURFACES.indexOf(kind);
+    }
+    this.draw();
+  }
+
+  /** Let the tape of a measurement stand out. */
+  mark(measurement: string | null): void {
+    this.tapes.mark(measurement);
+    this.draw();
+  }
+
+  resize(width: number, height: number): void {
+    if (width === 0 || height === 0) return;
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.draw();
+  }
+
+  /** Turn by keys, radians. */
+  turn(azimuth: number, elevation: number): void {
+    if (this.placement === "picture") return;
+    const { centre } = this.shown();
+    const offset = this.camera.position.clone().sub(centre);
+    const side = new Vector3().crossVectors(this.camera.up, offset).normalize();
+    offset.applyAxisAngle(this.camera.up, azimuth).applyAxisAngle(side, elevation);
+    if (Math.abs(offset.clone().normalize().y) > 0.98) return;
+    this.camera.position.copy(centre).add(offset);
+    this.controls.update();
+    this.draw();
+  }
+
+  dispose(): void {
+    cancelAnimationFrame(this.scheduled);
+    this.controls.dispose();
+    this.texture.dispose();
+    this.tapes.dispose();
+    for (const each of [this.posed, this.canonical]) {
+      each?.mesh.geometry.dispose();
+      each?.mesh.material.dispose();
+    }
+    this.renderer.dispose();
+  }
+
+  private shown(): Part {
+    return this.placement === "canonical" && this.canonical ? this.canonical : this.posed;
+  }
+
+  private lookFrom(azimuth: number): void {
+    const { centre, height } = this.shown();
+    const half = Math.tan((TURNED_FOV_DEG * Math.PI) / 360);
+    const distance = (MARGIN * height) / 2 / half;
+    this.camera.position.set(centre.x + distance * Math.sin(azimuth), centre.y, centre.z + distance * Math.cos(azimuth));
+    this.controls.target.copy(centre);
+    this.controls.minDistance = 0.2 * distance;
+    this.controls.maxDistance = 3 * distance;
+    this.controls.update();
+  }
+
+  private draw(): void {
+    cancelAnimationFrame(this.scheduled);
+    this.scheduled = requestAnimationFrame(() => this.render());
+  }
+
+  private render(): void {
+    const { mesh } = this.shown();
+    if (this.placement === "picture") this.useFittedCamera();
+    else this.useFreeCamera();
+    mesh.material.uniforms.eye!.value.copy(this.camera.position);
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  private useFreeCamera(): void {
+    this.camera.fov = TURNED_FOV_DEG;
+    this.camera.updateProjectionMatrix();
+  }
+
+  /** The pinhole of the fit: at the origin, along -z, its centre where the picture's is. */
+  private useFittedCamera(): void {
+    const { camera } = this.body;
+    if (!camera) return;
+    const near = 0.02;
+    const far = 100;
+    this.camera.position.set(0, 0, 0);
+    this.camera.quaternion.identity();
+    this.camera.updateMatrixWorld();
+    this.camera.projectionMatrix.makePerspective(
+      (-camera.cx / camera.fx) * near,
+      ((camera.width - camera.cx) / camera.fx) * near,
+      (camera.cy / camera.fx) * near,
+      (-(camera.height - camera.cy) / camera.fx) * near,
+      near,
+      far,
+    );
+    this.camera.projectionMatrixInverse.copy(this.camera.projectionMatrix).invert();
+  }
+}
+
+/** A mesh of the body as it is shown, with the posed one beside it for what the picture says. */
+function part(shown: GlbBody, posed: GlbBody, texture: Texture): Part {
+  const count = shown.positions.length / 3;
+  const grey = (value: number, width: number) => new Float32Array(width * count).fill(value);
+  const geometry = new BufferGeometry();
+  const add = (name: string, values: Float32Array, width: number) =>
+    geometry.setAttribute(name, new BufferAttribute(values, width));
+  add("position", shown.positions, 3);
+  add("normal", shown.normals, 3);
+  add("posed", posed.positions, 3);
+  add("posedNormal", posed.normals, 3);
+  add("tint", scaled(shown.colours, posed.light?.colourScale ?? 1) ?? grey(0.6, 3), 3);
+  add("albedo", shown.albedo ?? grey(0.6, 1), 1);
+  add("specularity", shown.specularity ?? grey(0, 1), 1);
+  geometry.setIndex(new BufferAttribute(shown.triangles, 1));
+  geometry.computeBoundingBox();
+  const box = geometry.boundingBox!;
+  const centre = box.getCenter(new Vector3());
+  const material = surfaceMaterial(posed, texture);
+  if (shown !== posed && posed.light) moveLight(material, posed, centre);
+  return { mesh: new Mesh(geometry, material), centre, height: box.max.y - box.min.y };
+}
+
+/** The light stands to the canonical body as it stood to the posed one. */
+function moveLight(material: ShaderMaterial, posed: GlbBody, centre: Vector3): void {
+  if (posed.light!.kind !== "point") return;
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(posed.positions, 3));
+  geometry.computeBoundingBox();
+  const old = geometry.boundingBox!.getCenter(new Vector3());
+  material.uniforms.lightVector!.value.sub(old).add(centre);
+}
+
+function scaled(values: Float32Array | null, factor: number): Float32Array | null {
+  return values && values.map((value) => value * factor);
+}

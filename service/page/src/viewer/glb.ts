@@ -1,0 +1,110 @@
+// Reads the service's GLB files (glTF 2.0 binary, one mesh, one buffer): arrays, camera, light.
+
+export interface GlbCamera {
+  readonly fx: number;
+  readonly cx: number;
+  readonly cy: number;
+  readonly width: number;
+  readonly height: number;
+}
+
+export interface GlbLight {
+  readonly kind: "point" | "directional";
+  /** Where a point light stands; toward a directional one. */
+  readonly vector: readonly [number, number, number];
+  /** From the body's centre; 0 of a directional light. */
+  readonly distance: number;
+  readonly ambient: number;
+  readonly exponent: number;
+  /** By what vertex colours are to be multiplied to be albedo. */
+  readonly colourScale: number;
+}
+
+export interface GlbBody {
+  readonly positions: Float32Array;
+  readonly normals: Float32Array;
+  readonly triangles: Uint16Array | Uint32Array;
+  readonly colours: Float32Array | null;
+  readonly albedo: Float32Array | null;
+  readonly specularity: Float32Array | null;
+  readonly camera: GlbCamera | null;
+  readonly light: GlbLight | null;
+}
+
+interface Document {
+  accessors: { bufferView: number; componentType: number; count: number; type: string; byteOffset?: number }[];
+  bufferViews: { byteOffset?: number; byteLength: number }[];
+  meshes: { primitives: { attributes: Record<string, number>; indices: number }[] }[];
+  nodes: { name?: string; translation?: [number, number, number]; rotation?: [number, number, number, number] }[];
+  cameras?: { extras: Record<string, number> }[];
+  extensions?: { KHR_lights_punctual?: { lights: { type: GlbLight["kind"]; extras: Record<string, number> }[] } };
+}
+
+const MAGIC = 0x46546c67;
+const FLOAT = 5126;
+const UNSIGNED_SHORT = 5123;
+const WIDTHS: Readonly<Record<string, number>> = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4 };
+
+export function readGlb(content: ArrayBuffer): GlbBody {
+  const header = new DataView(content);
+  if (header.getUint32(0, true) !== MAGIC) throw new Error("This is no GLB file.");
+  const jsonLength = header.getUint32(12, true);
+  const document = JSON.parse(new TextDecoder().decode(new Uint8Array(content, 20, jsonLength))) as Document;
+  const binary = 20 + jsonLength + 8;
+  const primitive = document.meshes[0]!.primitives[0]!;
+
+  const array = (index: number) => {
+    const accessor = document.accessors[index]!;
+    const start = binary + (document.bufferViews[accessor.bufferView]!.byteOffset ?? 0) + (accessor.byteOffset ?? 0);
+    const length = accessor.count * WIDTHS[accessor.type]!;
+    if (accessor.componentType === FLOAT) return new Float32Array(content.slice(start, start + 4 * length));
+    if (accessor.componentType === UNSIGNED_SHORT) return new Uint16Array(content.slice(start, start + 2 * length));
+    return new Uint32Array(content.slice(start, start + 4 * length));
+  };
+  const floats = (name: string) => {
+    const index = primitive.attributes[name];
+    return index === undefined ? null : (array(index) as Float32Array);
+  };
+  return {
+    positions: floats("POSITION")!,
+    normals: floats("NORMAL")!,
+    triangles: array(primitive.indices) as Uint16Array | Uint32Array,
+    colours: floats("COLOR_0"),
+    albedo: floats("_ALBEDO"),
+    specularity: floats("_SPECULARITY"),
+    camera: cameraOf(document),
+    light: lightOf(document),
+  };
+}
+
+function cameraOf(document: Document): GlbCamera | null {
+  const extras = document.cameras?.[0]?.extras;
+  if (!extras) return null;
+  return {
+    fx: extras.fx_px!,
+    cx: extras.cx_px!,
+    cy: extras.cy_px!,
+    width: extras.width_px!,
+    height: extras.height_px!,
+  };
+}
+
+function lightOf(document: Document): GlbLight | null {
+  const light = document.extensions?.KHR_lights_punctual?.lights[0];
+  const node = document.nodes.find((each) => each.name === "light");
+  if (!light || !node) return null;
+  const { ambient, specular_exponent, colour_scale, distance_m } = light.extras;
+  return {
+    kind: light.type,
+    vector: node.translation ?? turnedZ(node.rotation ?? [0, 0, 0, 1]),
+    distance: distance_m ?? 0,
+    ambient: ambient!,
+    exponent: specular_exponent!,
+    colourScale: colour_scale!,
+  };
+}
+
+/** Where a rotation takes +z: glTF's lights shine along -z, so this is toward the light. */
+function turnedZ([x, y, z, w]: [number, number, number, number]): [number, number, number] {
+  return [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)];
+}

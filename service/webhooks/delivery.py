@@ -1,0 +1,157 @@
+"""A thread that sends what is due, and sends again what was not accepted."""
+
+import asyncio
+import logging
+import random
+import threading
+import time
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from typing import Final
+
+from api_schemas.jobs import JobState, WebhookState
+from api_schemas.webhooks import WebhookEvent, WebhookEventType
+from service.api.representation import represent
+from service.engine.port import EngineUnavailableError, JobRecord
+from service.engine.webhooks import DueWebhook, WebhookLedger
+from service.logs import fields
+from service.webhooks.sending import Answer, Sender
+from service.webhooks.signing import signed_headers
+
+LOG: Final = logging.getLogger(__name__)
+
+POLL_S: Final = 0.5
+AT_ONCE: Final = 16
+"""Attempts under way at a time, of one process."""
+
+JITTER: Final = 0.1
+"""Pauses are longer by up to this share, so that what failed together is not repeated together."""
+
+LONGEST_PAUSE_S: Final = 86_400.0
+USER_AGENT: Final = "Maquette (Standard Webhooks)"
+
+EVENT_TYPES: Final = {
+    JobState.SUCCEEDED: WebhookEventType.SUCCEEDED,
+    JobState.FAILED: WebhookEventType.FAILED,
+    JobState.CANCELED: WebhookEventType.CANCELED,
+    JobState.TIMED_OUT: WebhookEventType.TIMED_OUT,
+}
+
+
+def notice(job: JobRecord) -> bytes:
+    """Write the body of the notice of an ended job; the same at every attempt."""
+    ended_at = datetime.fromtimestamp(job.finished_at or 0.0, UTC)
+    event = WebhookEvent(
+        type=EVENT_TYPES[job.state],
+        timestamp=ended_at,
+        data=represent(job).model_copy(update={"webhook": None}),
+    )
+    return event.model_dump_json().encode()
+
+
+class Deliverer:
+    """Delivers at least once: who dies over an attempt leaves it due again after its lease.
+
+    Several processes may do so on one database. ``pauses_s`` are those between the attempts, after
+    which a notice is given up; ``secret`` signs where the caller brought none.
+    """
+
+    def __init__(
+        self,
+        ledger: WebhookLedger,
+        sender: Sender,
+        *,
+        secret: str | None,
+        pauses_s: Sequence[float],
+    ) -> None:
+        self._ledger = ledger
+        self._sender = sender
+        self._secret = secret
+        self._pauses_s = pauses_s
+        self._stopped = threading.Event()
+        self._thread = threading.Thread(
+            target=lambda: asyncio.run(self._deliver()), name="webhooks", daemon=True
+        )
+
+    def start(self) -> None:
+        """Begin."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Break off the attempts under way; they are due at once, wherever it goes on."""
+        self._stopped.set()
+        if self._thread.is_alive():
+            self._thread.join()
+
+    async def _deliver(self) -> None:
+        under_way: set[asyncio.Task[None]] = set()
+        while not self._stopped.is_set():
+            for due in await self._claimed(AT_ONCE - len(under_way)):
+                attempt = asyncio.create_task(self._attempt(due))
+                under_way.add(attempt)
+                attempt.add_done_callback(under_way.discard)
+            await asyncio.sleep(POLL_S)
+        for attempt in under_way:
+            attempt.cancel()
+        await asyncio.gather(*under_way, return_exceptions=True)
+
+    async def _claimed(self, limit: int) -> Sequence[DueWebhook]:
+        if limit == 0:
+            return ()
+        try:
+            return await asyncio.to_thread(self._ledger.claim, limit)
+        except EngineUnavailableError:
+            LOG.warning("The database is not available; no notices are sent.")
+        except Exception:
+            LOG.exception("Looking for notices to send failed.")
+        return ()
+
+    async def _attempt(self, due: DueWebhook) -> None:
+        try:
+            try:
+                answer = await self._send(due)
+            except asyncio.CancelledError:
+                await asyncio.to_thread(self._ledger.hand_back, due)
+                raise
+            await asyncio.to_thread(self._settle, due, answer)
+        except EngineUnavailableError:
+            LOG.warning("The database is not available; a notice may be sent again.")
+        except Exception:
+            LOG.exception("Sending a notice failed.", extra=fields(job=due.job.id))
+
+    async def _send(self, due: DueWebhook) -> Answer:
+        secret = due.secret or self._secret
+        if secret is None:
+            return Answer(error="The service has no secret any more to sign with.")
+        body = notice(due.job)
+        headers = signed_headers(
+            notice_id=due.job.id, timestamp=int(time.time()), body=body, secret=secret
+        )
+        return await self._sender.post(
+            due.url,
+            headers={"content-type": "application/json", "user-agent": USER_AGENT, **headers},
+            body=body,
+        )
+
+    def _settle(self, due: DueWebhook, answer: Answer) -> None:
+        again_in_s = self._pause_s(due.attempt, answer)
+        if again_in_s is not None:
+            state = WebhookState.DUE
+        else:
+            state = WebhookState.DELIVERED if answer.is_accepted else WebhookState.GIVEN_UP
+        self._ledger.settle(
+            due, state=state, status=answer.status, error=answer.error, again_in_s=again_in_s
+        )
+        LOG.log(
+            logging.INFO if answer.is_accepted else logging.WARNING,
+            "A notice was sent." if answer.is_accepted else "A notice was not accepted.",
+            # Its address may hold a secret of the receiver's.
+            extra=fields(job=due.job.id, attempt=due.attempt, webhook=state, error=answer.error),
+        )
+
+    def _pause_s(self, attempt: int, answer: Answer) -> float | None:
+        """How long to wait after this attempt; None if there is to be no other."""
+        if answer.is_accepted or answer.is_unwanted or attempt > len(self._pauses_s):
+            return None
+        planned_s = self._pauses_s[attempt - 1] * random.uniform(1.0, 1.0 + JITTER)
+        return min(max(planned_s, answer.retry_after_s or 0.0), LONGEST_PAUSE_S * (1.0 + JITTER))

@@ -1,0 +1,107 @@
+"""One attempt to hand a notice to its receiver."""
+
+import asyncio
+import ssl
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from typing import Final
+
+import httpx
+
+from service.webhooks.addresses import AddressRefusedError, IPAddress, resolve
+
+CONNECT_WITHIN_S: Final = 5.0
+DEFAULT_PORTS: Final = {"http": 80, "https": 443}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Answer:
+    """What came of an attempt: the receiver's status, or the reason why there is none.
+
+    ``retry_after_s`` is what the receiver asked for, if it did.
+    """
+
+    status: int | None = None
+    error: str | None = None
+    retry_after_s: float | None = None
+
+    @property
+    def is_accepted(self) -> bool:
+        """Whether the receiver has the notice."""
+        return self.status is not None and httpx.codes.is_success(self.status)
+
+    @property
+    def is_unwanted(self) -> bool:
+        """Whether the receiver wants no more of it."""
+        return self.status == httpx.codes.GONE
+
+
+class Sender:
+    """Posts to public addresses, and to ``allowed_hosts`` wherever they are.
+
+    Nothing of this process goes along: no proxy, no cookies, no credentials. Redirects are not
+    followed, and of the answer only the head is read.
+    """
+
+    def __init__(
+        self,
+        *,
+        allowed_hosts: Collection[str],
+        time_limit_s: float,
+        tls: ssl.SSLContext | None = None,
+    ) -> None:
+        self._allowed_hosts = allowed_hosts
+        self._time_limit_s = time_limit_s
+        self._tls = tls or httpx.create_ssl_context()
+
+    async def post(self, url: str, *, headers: Mapping[str, str], body: bytes) -> Answer:
+        """Send; never raises for what the receiver or the way to it does."""
+        try:
+            async with asyncio.timeout(self._time_limit_s):
+                return await self._post(httpx.URL(url), headers, body)
+        except TimeoutError:
+            return Answer(error=f"No answer within {self._time_limit_s:g} s.")
+        except AddressRefusedError as error:
+            return Answer(error=str(error))
+        except (httpx.HTTPError, httpx.InvalidURL, ssl.SSLError) as error:
+            # By kind alone: the message may quote the address, or what is there.
+            return Answer(error=f"No connection, or none that lasted ({type(error).__name__}).")
+
+    async def _post(self, url: httpx.URL, headers: Mapping[str, str], body: bytes) -> Answer:
+        port = url.port or DEFAULT_PORTS[url.scheme]
+        addresses = await resolve(url.raw_host.decode(), port, self._allowed_hosts)
+        for address in addresses[:-1]:
+            try:
+                return await self._post_to(address, url, headers, body)
+            except (httpx.ConnectError, httpx.ConnectTimeout):
+                continue
+        return await self._post_to(addresses[-1], url, headers, body)
+
+    async def _post_to(
+        self, address: IPAddress, url: httpx.URL, headers: Mapping[str, str], body: bytes
+    ) -> Answer:
+        async with (
+            httpx.AsyncClient(
+                verify=self._tls,
+                trust_env=False,
+                timeout=httpx.Timeout(self._time_limit_s, connect=CONNECT_WITHIN_S),
+            ) as client,
+            client.stream(
+                "POST",
+                url.copy_with(host=str(address)),
+                content=body,
+                headers={"host": url.netloc.decode(), **headers},
+                # The certificate is to be the name's, not the address's.
+                extensions={"sni_hostname": url.raw_host.decode()},
+            ) as response,
+        ):
+            accepted = response.is_success
+            return Answer(
+                status=response.status_code,
+                error=None if accepted else f"The receiver answered {response.status_code}.",
+                retry_after_s=_seconds(response.headers.get("retry-after", "")),
+            )
+
+
+def _seconds(retry_after: str) -> float | None:
+    return float(retry_after) if retry_after.isdecimal() and len(retry_after) <= 6 else None

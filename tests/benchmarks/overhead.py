@@ -1,0 +1,136 @@
+"""What the service takes beside the fits: the same fits through it and in a bare loop, in turns."""
+
+import tempfile
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from multiprocessing import get_context
+from multiprocessing.connection import Connection
+from pathlib import Path
+
+import httpx
+
+from fitter.training.text_tables import note_lines, table_lines
+from tests.benchmarks.served import NO_WORKER, ready, running
+from tests.deployment import Deployment, Kind
+from tests.process_table import processor_s
+from tests.submissions import Submission, small_submissions
+
+ROUNDS = 3
+PICTURES = 4
+
+
+def lines(count: int) -> Iterator[str]:
+    """``count`` fits each way, in each of three rounds; one fit at a time."""
+    submissions = small_submissions(count)
+    ours, theirs = get_context("spawn").Pipe()
+    loop = get_context("spawn").Process(target=_loop, args=(theirs,))
+    loop.start()
+    ours.send(submissions[:PICTURES])
+    ours.recv()
+    bare: list[_Taken] = []
+    served: list[_Taken] = []
+    with tempfile.TemporaryDirectory(prefix="maquette-benchmark-") as folder:
+        deployment = Deployment(folder=Path(folder), commands=NO_WORKER, workers=1)
+        with running(deployment), httpx.Client(base_url=deployment.address, timeout=120) as client:
+            ready(client)
+            _serve(deployment, client, submissions[:PICTURES])
+            for _ in range(ROUNDS):
+                ours.send(submissions)
+                bare.append(ours.recv())
+                served.append(_serve(deployment, client, submissions))
+    ours.send([])
+    loop.join()
+    rows = [
+        (f"round {number}", *_cells(count, *each))
+        for number, each in enumerate(zip(bare, served, strict=True), start=1)
+    ]
+    yield from table_lines(
+        f"{count} small fits by silhouette and edges, with their files, one at a time",
+        (
+            "",
+            "bare, fits a s",
+            "served",
+            "share",
+            "bare, processor s a fit",
+            "served: the fit",
+            "worker",
+            "API",
+        ),
+        rows,
+    )
+    yield from note_lines(
+        "Bare: a loop over the worker's own pipeline in one process. Served: from the first POST "
+        "to the last result, the queue never empty. Worker and API look at the database ten times "
+        "a second, so that a busy machine, on which a fit takes longer, charges them more."
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Taken:
+    """Wall seconds, and processor seconds by who used them."""
+
+    wall_s: float
+    fits_s: float
+    worker_s: float = 0.0
+    api_s: float = 0.0
+
+
+def _cells(count: int, bare: _Taken, served: _Taken) -> tuple[str, ...]:
+    return (
+        f"{count / bare.wall_s:.2f}",
+        f"{count / served.wall_s:.2f}",
+        f"{100 * bare.wall_s / served.wall_s:.0f} %",
+        f"{bare.fits_s / count:.3f}",
+        f"{served.fits_s / count:.3f}",
+        f"{served.worker_s / count:.3f}",
+        f"{served.api_s / count:.3f}",
+    )
+
+
+def _serve(deployment: Deployment, client: httpx.Client, submissions: list[Submission]) -> _Taken:
+    used, began = _used(deployment), time.monotonic()
+    paths = [
+        client.post("/v1/fits", files=each.files).raise_for_status().headers["Location"]
+        for each in submissions
+    ]
+    for path in paths:
+        with client.stream("GET", f"{path}/events", timeout=None) as events:
+            assert any('"state":"succeeded"' in line for line in list(events.iter_lines()))
+    wall_s, end = time.monotonic() - began, _used(deployment)
+    fits_s, worker_s, api_s = (after - before for after, before in zip(end, used, strict=True))
+    return _Taken(wall_s=wall_s, fits_s=fits_s, worker_s=worker_s, api_s=api_s)
+
+
+def _used(deployment: Deployment) -> list[float]:
+    return [
+        sum(
+            processor_s(process.pid, with_ended_children=kind is Kind.FORK_SERVER)
+            for process in deployment.of_kind(kind)
+        )
+        for kind in (Kind.FORK_SERVER, Kind.WORKER, Kind.API)
+    ]
+
+
+def _loop(answer: Connection) -> None:
+    from api_schemas.requests import FitOptions
+    from service.submission import check_submission
+    from service.worker import pipeline
+    from service.worker.artifacts import with_result_document
+    from service.worker.pipeline_port import PipelineInput
+
+    while submissions := answer.recv():
+        used, began = time.process_time(), time.monotonic()
+        for each in submissions:
+            checked = check_submission(
+                request=each.request.encode(), image=each.image, mask=None, max_pixels=10**7
+            )
+            options = FitOptions.model_validate_json(checked.options.model_dump_json())
+            output = pipeline.run(
+                PipelineInput(
+                    options=options, image=each.image, mask=None, max_pixels=10**7, models=None
+                ),
+                lambda _: None,
+            )
+            with_result_document(output.result, output.artifacts)
+        answer.send(_Taken(wall_s=time.monotonic() - began, fits_s=time.process_time() - used))

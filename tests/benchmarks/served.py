@@ -1,0 +1,45 @@
+"""The service as benchmarks run it, and what its processes use."""
+
+import contextlib
+import time
+from collections.abc import Iterator, Sequence
+
+import httpx
+
+from tests.deployment import REAL, Commands, Deployment
+
+NO_WORKER = Commands(serve=(*REAL.serve, "--no-worker"), worker=REAL.worker)
+READY_WITHIN_S = 300.0
+
+
+@contextlib.contextmanager
+def running(deployment: Deployment) -> Iterator[Deployment]:
+    """Start a service, and end it afterwards."""
+    try:
+        deployment.start()
+        yield deployment
+    finally:
+        deployment.end()
+
+
+def ready(client: httpx.Client, probe: str = "/healthz/ready") -> None:
+    """Wait until the service says that it is."""
+    deadline = time.monotonic() + READY_WITHIN_S
+    while time.monotonic() < deadline:
+        with contextlib.suppress(httpx.TransportError):
+            if client.get(probe).status_code == httpx.codes.OK:
+                return
+        time.sleep(0.2)
+    message = f"{probe} did not answer with 200 within {READY_WITHIN_S:g} s"
+    raise TimeoutError(message)
+
+
+def all_ended(client: httpx.Client, paths: Sequence[str]) -> None:
+    """Wait for the ends of jobs, which all succeed."""
+    for path in paths:
+        while (state := client.get(path).raise_for_status().json()["state"]) in (
+            "queued",
+            "running",
+        ):
+            time.sleep(0.05)
+        assert state == "succeeded", f"{path} {state}"

@@ -1,0 +1,90 @@
+"""A caller who does not give up: asks again, under the same key, until there is an answer."""
+
+import contextlib
+import time
+from collections.abc import Iterator
+from typing import Any
+
+import httpx
+
+from tests.submissions import Submission
+
+PATIENCE_S = 180.0
+PAUSE_S = 0.1
+ACTIVE = frozenset({"queued", "running"})
+
+
+class NoAnswerError(Exception):
+    """The service did not answer for minutes."""
+
+
+class Caller:
+    """One caller with connections of its own."""
+
+    def __init__(self, address: str) -> None:
+        self._client = httpx.Client(base_url=address, timeout=30.0)
+        self.is_posting = False
+        self.repeated_posts = 0
+        self.longest_wait_s = 0.0
+
+    def close(self) -> None:
+        """Release the connections."""
+        self._client.close()
+
+    def post(self, submission: Submission, *, key: str) -> str:
+        """Submit, however often it takes; returns the job's path."""
+        headers = {"Idempotency-Key": key}
+        for attempt in self._attempts():
+            self.repeated_posts += attempt > 0
+            self.is_posting = True
+            try:
+                answer = self._client.post("/v1/fits", files=submission.files, headers=headers)
+            except httpx.TransportError:
+                continue
+            finally:
+                self.is_posting = False
+            if answer.status_code != httpx.codes.SERVICE_UNAVAILABLE:
+                assert answer.status_code == httpx.codes.ACCEPTED, answer.text
+                return answer.headers["Location"]
+        raise NoAnswerError
+
+    def get(self, path: str) -> httpx.Response:
+        """Get, however often it takes."""
+        for _ in self._attempts():
+            with contextlib.suppress(httpx.TransportError):
+                answer = self._client.get(path)
+                if answer.status_code != httpx.codes.SERVICE_UNAVAILABLE:
+                    return answer
+        raise NoAnswerError
+
+    def job(self, path: str) -> dict[str, Any]:
+        """The job as it stands."""
+        return self.get(path).raise_for_status().json()
+
+    def ended(self, path: str, *, within_s: float) -> dict[str, Any] | None:
+        """Wait for the job's end; None if it does not come."""
+        deadline = time.monotonic() + within_s
+        while (job := self.job(path))["state"] in ACTIVE:
+            if time.monotonic() > deadline:
+                return None
+            time.sleep(PAUSE_S)
+        return job
+
+    def jobs(self) -> list[dict[str, Any]]:
+        """All jobs there are."""
+        found: list[dict[str, Any]] = []
+        following: str | None = "/v1/fits?limit=200"
+        while following is not None:
+            page = self.get(following).raise_for_status().json()
+            found += page["jobs"]
+            following = page["next"]
+        return found
+
+    def _attempts(self) -> Iterator[int]:
+        began = time.monotonic()
+        attempt = 0
+        while time.monotonic() - began < PATIENCE_S:
+            yield attempt
+            attempt += 1
+            self.longest_wait_s = max(self.longest_wait_s, time.monotonic() - began)
+            time.sleep(PAUSE_S)

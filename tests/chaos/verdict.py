@@ -1,0 +1,216 @@
+"""Was anything lost, done twice, done wrongly or left behind?"""
+
+import json
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+import sqlalchemy as sa
+
+from service.engine.database import open_database
+from service.engine.heartbeat import executions_table
+from service.engine.tables import ERASURES, JOBS
+from tests.chaos.caller import ACTIVE, Caller
+from tests.chaos.reference import Outcome, outcome
+from tests.chaos.run import Accepted, Course
+from tests.deployment import Deployment, Kind, wait_for
+
+SETTLED_WITHIN_S = 60.0
+LEFT_WITHIN_S = 5.0
+OPEN_EXECUTIONS = ("PENDING", "ENQUEUED", "DELAYED")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Verdict:
+    """The figures of a run; those of the second group are to be nothing."""
+
+    jobs: int
+    kills: Mapping[Kind, int]
+    repeated_posts: int
+    interrupted_jobs: int
+    further_attempts: int
+    longest_pause_s: float
+    longest_wait_s: float
+    seconds: float
+    identical: int
+
+    lost: int
+    duplicated: int
+    not_ended_once: int
+    wrong: int
+    ended_otherwise: Mapping[str, int]
+    ended_unasked: int
+    open_executions: int
+    processes_left: int
+    temporary_files: int
+    unknown_scopes: int
+
+    @property
+    def faults(self) -> dict[str, object]:
+        """What went wrong."""
+        names = tuple(Verdict.__slots__)
+        return {
+            name: value
+            for name in names[names.index("lost") :]
+            if (value := getattr(self, name)) not in (0, {})
+        }
+
+    def lines(self) -> Iterator[str]:
+        """The figures for people."""
+        kills = ", ".join(f"{count} {kind.value}" for kind, count in self.kills.items())
+        yield f"jobs accepted                    {self.jobs}"
+        yield f"kill -9                          {sum(self.kills.values())} ({kills})"
+        yield f"submissions repeated (same key)  {self.repeated_posts}"
+        yield f"jobs interrupted                 {self.interrupted_jobs}"
+        yield f"further attempts                 {self.further_attempts}"
+        yield f"longest pause between attempts   {self.longest_pause_s:.1f} s"
+        yield f"longest wait for an answer       {self.longest_wait_s:.1f} s"
+        yield f"the run took                     {self.seconds:.0f} s"
+        yield f"identical to the undisturbed one {self.identical} (all files, to the last byte)"
+        yield f"lost                             {self.lost}"
+        yield f"duplicated                       {self.duplicated}"
+        yield f"not ended exactly once           {self.not_ended_once}"
+        yield f"other result than undisturbed    {self.wrong}"
+        yield f"ended without success            {dict(self.ended_otherwise) or 0}"
+        yield f"processes that ended unasked     {self.ended_unasked}"
+        yield f"executions still open            {self.open_executions}"
+        yield f"processes left                   {self.processes_left}"
+        yield f"temporary files left             {self.temporary_files}"
+        yield f"folders of no known job          {self.unknown_scopes}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Examined:
+    ends: int
+    attempts: int
+    pause_s: float
+    state: str
+    outcome: Outcome | None
+    expected: Outcome
+
+    @property
+    def is_wrong(self) -> bool:
+        return self.outcome is not None and not self.outcome.agrees_with(self.expected)
+
+    @property
+    def is_identical(self) -> bool:
+        return self.outcome == self.expected
+
+
+def verdict(deployment: Deployment, course: Course, expected: Sequence[Outcome]) -> Verdict:
+    """Ask the service, stop it, and look at what is left."""
+    caller = Caller(deployment.address)
+    try:
+        listed = caller.jobs()
+        examined = [_examined(caller, each, expected) for each in course.accepted]
+    finally:
+        caller.close()
+    database = open_database(_database_url(deployment), connections=2)
+    wait_for(lambda: _open_executions(database) == 0, within_s=SETTLED_WITHIN_S)
+    deployment.stop()
+    # Helpers of processes that were killed notice it by a pipe that ends.
+    wait_for(lambda: not deployment.processes(), within_s=LEFT_WITHIN_S)
+    found = [each for each in examined if each is not None]
+    states = Counter(each.state for each in found)
+    result = Verdict(
+        jobs=len(course.accepted),
+        kills=dict(course.kills),
+        repeated_posts=course.repeated_posts,
+        interrupted_jobs=sum(each.attempts > 1 for each in found),
+        further_attempts=sum(each.attempts - 1 for each in found),
+        longest_pause_s=max(each.pause_s for each in found),
+        longest_wait_s=course.longest_wait_s,
+        seconds=course.seconds,
+        identical=sum(each.is_identical for each in found),
+        lost=sum(each is None or each.state in ACTIVE for each in examined),
+        duplicated=len(listed) - len({each.path for each in course.accepted}),
+        not_ended_once=sum(each.ends != 1 for each in found),
+        wrong=sum(each.is_wrong for each in found),
+        ended_otherwise={state: count for state, count in states.items() if state != "succeeded"},
+        ended_unasked=deployment.ended_unasked,
+        open_executions=_open_executions(database),
+        processes_left=len(deployment.processes()),
+        temporary_files=len(list(_blobs(deployment).rglob(".*"))),
+        unknown_scopes=len(_scopes(deployment) - _known_scopes(database)),
+    )
+    database.dispose()
+    return result
+
+
+def _examined(caller: Caller, accepted: Accepted, expected: Sequence[Outcome]) -> _Examined | None:
+    answer = caller.get(accepted.path)
+    if answer.status_code != 200:
+        return None
+    job = answer.json()
+    events = _events(caller.get(f"{accepted.path}/events").text) if _has_ended(job) else []
+    is_last = [kind == "end" for kind, _ in events]
+    return _Examined(
+        # An end that is not the last event would be followed by more.
+        ends=sum(is_last) if is_last and is_last[-1] else 0,
+        attempts=job["attempt"],
+        pause_s=_longest_pause_s(events),
+        state=job["state"],
+        outcome=outcome(caller, job) if job["state"] == "succeeded" else None,
+        expected=expected[accepted.which],
+    )
+
+
+def _has_ended(job: Mapping[str, Any]) -> bool:
+    return job["state"] not in ACTIVE
+
+
+def _events(text: str) -> list[tuple[str, dict[str, Any]]]:
+    """Kind and data of each event of a stream."""
+    events: list[tuple[str, dict[str, Any]]] = []
+    for block in text.split("\n\n"):
+        fields = dict(line.split(": ", 1) for line in block.splitlines() if ": " in line)
+        if "data" in fields:
+            events.append((fields["event"], json.loads(fields["data"])))
+    return events
+
+
+def _longest_pause_s(events: Sequence[tuple[str, Mapping[str, Any]]]) -> float:
+    """How long the job stood still before an attempt other than its first began."""
+    begins = [
+        index
+        for index, (kind, data) in enumerate(events)
+        if kind == "state" and data["state"] == "running"
+    ]
+    moments = [datetime.fromisoformat(data["at"]) for _, data in events]
+    pauses = [(moments[index] - moments[index - 1]).total_seconds() for index in begins[1:]]
+    return max(pauses, default=0.0)
+
+
+def _database_url(deployment: Deployment) -> str:
+    return deployment.database_url or f"sqlite:///{deployment.folder / 'maquette.sqlite'}"
+
+
+def _open_executions(database: sa.Engine) -> int:
+    executions = executions_table(database)
+    query = (
+        sa.select(sa.func.count())
+        .select_from(executions)
+        .where(executions.c.status.in_(OPEN_EXECUTIONS))
+    )
+    with database.connect() as connection:
+        return connection.execute(query).scalar_one()
+
+
+def _blobs(deployment: Deployment) -> Path:
+    return deployment.folder / "blobs"
+
+
+def _scopes(deployment: Deployment) -> set[str]:
+    return {folder.name for folder in _blobs(deployment).glob("*/*")}
+
+
+def _known_scopes(database: sa.Engine) -> set[str]:
+    """Scopes of jobs, and of submissions that came to nothing and wait for their erasure."""
+    with database.connect() as connection:
+        return {
+            *connection.execute(sa.select(JOBS.c.id)).scalars(),
+            *connection.execute(sa.select(ERASURES.c.scope)).scalars(),
+        }

@@ -1,0 +1,120 @@
+"""The OpenAPI document says everything, and what it says by example is true."""
+
+import copy
+import json
+
+import jsonschema_rs
+import pytest
+
+from api_schemas.jobs import EventData
+from tests.contract.document import exported, media_types, operations, validator
+
+DOCUMENT = exported()
+OPERATIONS = list(operations(DOCUMENT))
+BODIES = [
+    (where, content)
+    for section in ("paths", "webhooks")
+    for operation in operations(DOCUMENT, section)
+    for where, content in media_types(operation)
+]
+EXAMPLES = [
+    pytest.param(content["schema"], example["value"], id=f"{where} {name}")
+    for where, content in BODIES
+    if "schema" in content
+    for name, example in content.get("examples", {}).items()
+]
+BINARY = {"type": "string", "format": "binary"}
+
+
+@pytest.mark.parametrize(("schema", "value"), EXAMPLES)
+def test_every_example_is_of_its_schema(schema, value):
+    errors = [error.message for error in validator(schema, DOCUMENT).iter_errors(value)]
+    assert errors == []
+
+
+def test_every_example_in_a_type_is_of_that_type():
+    def examples(schema, where):
+        if isinstance(schema, dict):
+            for value in schema.get("examples", ()) if "type" in schema else ():
+                yield where, schema, value
+            for name, part in schema.items():
+                yield from examples(part, f"{where}.{name}")
+
+    found = list(examples(DOCUMENT["components"]["schemas"], "schemas"))
+    assert found
+    wrong = [
+        (where, value)
+        for where, schema, value in found
+        if not validator(schema, DOCUMENT).is_valid(value)
+    ]
+    assert wrong == []
+
+
+def test_a_wrong_example_would_be_noticed():
+    schema, value = next(each.values for each in EXAMPLES if " request " in each.id)
+    broken = copy.deepcopy(value)
+    broken["points"]["left_shoulder"] = [1, 2, 3, 4, 5]
+    with pytest.raises(jsonschema_rs.ValidationError):
+        validator(schema, DOCUMENT).validate(broken)
+
+
+def test_every_body_has_an_example_but_those_that_are_no_text():
+    """A picture or a GLB file cannot be shown in a JSON document; a form holds one."""
+    silent = {
+        where
+        for where, content in BODIES
+        if not content.get("examples")
+        and content.get("schema") != BINARY
+        and not where.endswith("multipart/form-data")
+    }
+    assert silent == set()
+
+
+def test_the_example_of_the_event_stream_is_a_stream_of_events():
+    content = DOCUMENT["paths"]["/v1/fits/{fit_id}/events"]["get"]["responses"]["200"]["content"]
+    item = validator(content["text/event-stream"]["itemSchema"], DOCUMENT)
+    (example,) = content["text/event-stream"]["examples"].values()
+    _, *events = example["value"].rstrip("\n").split("\n\n")
+    for event in events:
+        fields = dict(line.split(": ", 1) for line in event.splitlines())
+        item.validate(fields)
+        EventData.model_validate_json(fields["data"])
+    assert events[-1].startswith("event: end")
+
+
+@pytest.mark.parametrize("operation", OPERATIONS, ids=str)
+def test_every_operation_says_how_it_ends(operation):
+    statuses = {int(status) for status in operation.content["responses"]}
+    assert any(status < 300 for status in statuses)
+    assert {401, 403, 405, 429} <= statuses
+    if "requestBody" in operation.content:
+        assert {400, 413, 415, 422} <= statuses
+    if "{" in operation.path:
+        assert 404 in statuses
+    if any(parameter["in"] != "header" for parameter in operation.content.get("parameters", ())):
+        assert {404, 422} & statuses
+    assert all(answer["description"] for answer in operation.content["responses"].values())
+    assert operation.content["summary"]
+    assert operation.content["description"]
+
+
+def test_every_link_leads_to_an_operation_and_gives_what_its_path_needs():
+    by_id = {operation.id: operation for operation in OPERATIONS}
+    links = [
+        (operation, link)
+        for operation in OPERATIONS
+        for answer in operation.content["responses"].values()
+        for link in answer.get("links", {}).values()
+    ]
+    for operation, link in links:
+        target = by_id[link["operationId"]]
+        needed = {p["name"] for p in target.content.get("parameters", ()) if p["in"] == "path"}
+        assert set(link["parameters"]) == needed, f"{operation} -> {target}"
+    reached = {link["operationId"] for _, link in links}
+    about_one = {operation.id for operation in OPERATIONS if "_id}" in operation.path}
+    assert about_one <= reached
+
+
+def test_parameters_are_left_out_and_never_null():
+    text = json.dumps([operation.content.get("parameters", []) for operation in OPERATIONS])
+    assert '"null"' not in text

@@ -1,0 +1,176 @@
+"""On a phone, by a screen reader, in the dark, with a key, and when something is wrong."""
+
+import io
+import subprocess
+import sys
+from pathlib import Path
+
+import httpx
+import pytest
+from PIL import Image
+from playwright.sync_api import Browser, Page, expect
+
+from tests.e2e.page.visitor import LIMBS, PHONE, Visitor
+from tests.e2e.service import REPOSITORY, running_service
+from tests.npm_packages import installed
+
+AXE = REPOSITORY / "service" / "page" / "node_modules" / "axe-core" / "axe.min.js"
+
+
+@pytest.fixture(scope="module")
+def axe() -> str:
+    installed(REPOSITORY / "service" / "page")
+    return AXE.read_text()
+
+
+def serious_findings(page: Page, axe: str) -> list[str]:
+    page.evaluate(axe)
+    found = page.evaluate("axe.run(document)")
+    return [
+        f"{finding['id']}: {node['html'][:200]}"
+        for finding in found["violations"]
+        if finding["impact"] in {"serious", "critical"}
+        for node in finding["nodes"]
+    ]
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_axe_finds_nothing_serious_from_start_to_result(
+    browser: Browser, service: httpx.Client, axe: str, scheme: str, finished_fit: str
+):
+    settled = {"color_scheme": scheme, "reduced_motion": "reduce"}
+    with Visitor.at(browser, str(service.base_url), **settled) as visitor:
+        page = visitor.page
+        expect(page.locator("html")).to_have_attribute("data-theme", scheme)
+        assert serious_findings(page, axe) == []
+        visitor.open_sample()
+        visitor.describe_person()
+        visitor.click_points(LIMBS)
+        page.get_by_text("All points").click()
+        page.get_by_role("heading", name="Lens and light").click()
+        expect(page.locator(".live-outline")).to_be_attached()
+        assert serious_findings(page, axe) == []
+        page.goto(f"{visitor.origin}/#/fits/{finished_fit}")
+        visitor.wait_for_result()
+        assert serious_findings(page, axe) == []
+        page.get_by_role("button", name="Fits").click()
+        expect(page.get_by_role("dialog")).to_be_visible()
+        assert serious_findings(page, axe) == []
+
+
+def test_a_phone_stacks_the_page_and_takes_touches(
+    browser: Browser, service: httpx.Client, finished_fit: str
+):
+    with Visitor.at(browser, str(service.base_url), PHONE) as visitor:
+        page = visitor.page
+        visitor.open_sample()
+        stage, panel = visitor.stage.bounding_box(), page.locator(".panel").bounding_box()
+        assert panel["y"] >= stage["y"] + stage["height"] - 1
+        assert stage["width"] == pytest.approx(390, abs=1)
+        visitor.click_points(LIMBS, touch=True)
+        page.get_by_role("radio", name="Male", exact=True).tap()
+        expect(page.locator(".live-outline")).to_be_attached()
+        assert not page.evaluate("document.documentElement.scrollWidth > innerWidth")
+        expect(page.get_by_role("button", name="Fit the body")).to_be_in_viewport()
+        page.goto(f"{visitor.origin}/#/fits/{finished_fit}")
+        visitor.wait_for_result()
+        assert not page.evaluate("document.documentElement.scrollWidth > innerWidth")
+
+
+def test_a_finger_aims_with_a_loupe_and_places_where_it_is_lifted(
+    browser: Browser, service: httpx.Client
+):
+    with Visitor.at(browser, str(service.base_url), PHONE) as visitor:
+        visitor.open_sample()
+        start, end = visitor.on_stage(300, 500), visitor.on_stage(360, 540)
+        session = visitor.page.context.new_cdp_session(visitor.page)
+
+        def touch(kind: str, *at: tuple[float, float]) -> None:
+            points = [{"x": x, "y": y} for x, y in at]
+            session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+        touch("touchStart", start)
+        touch("touchMove", end)
+        expect(visitor.page.locator(".loupe")).to_be_visible()
+        touch("touchEnd")
+        expect(visitor.points()).to_have_count(1)
+        box = visitor.stage.bounding_box()
+        x, y = visitor.place_of("left_shoulder")
+        assert (box["x"] + x, box["y"] + y) == pytest.approx(end, abs=1.0)
+
+        # Two fingers zoom and place nothing.
+        wide = visitor.page.locator(".stage-picture").bounding_box()["width"]
+        touch("touchStart", (150, 300))
+        touch("touchStart", (150, 300), (250, 300))
+        for apart in (30, 60, 90):
+            touch("touchMove", (150 - apart, 300), (250 + apart, 300))
+        touch("touchEnd")
+        assert visitor.page.locator(".stage-picture").bounding_box()["width"] > 1.5 * wide
+        expect(visitor.points()).to_have_count(1)
+
+
+def test_the_page_asks_for_the_key_the_service_wants(
+    browser: Browser, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setenv("MAQUETTE_AUTHENTICATION", "keys")
+    monkeypatch.setenv("MAQUETTE_DATA_DIR", str(tmp_path))
+    with running_service(tmp_path) as client:
+        made = subprocess.run(
+            [sys.executable, "-m", "service.cli", "keys", "create", "visitor"],
+            cwd=REPOSITORY,
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        key = made.stdout.strip()
+        with Visitor.at(browser, str(client.base_url)) as visitor:
+            page = visitor.page
+            visitor.open_sample(with_points=True)
+            dialog = page.get_by_role("dialog", name="This service asks for a key")
+            expect(dialog).to_be_visible()
+            page.get_by_label("API key").fill("mq_wrong")
+            page.get_by_role("button", name="Use this key").click()
+            expect(dialog).to_contain_text("unknown or revoked")
+            page.get_by_label("API key").fill(key)
+            page.get_by_role("button", name="Use this key").click()
+            expect(dialog).to_be_hidden()
+            expect(page.locator(".live-outline")).to_be_attached(timeout=60_000)
+            visitor.submit()
+            expect(page.get_by_role("button", name="Cancel")).to_be_visible()
+            page.get_by_role("button", name="Cancel").click()
+            expect(page.get_by_role("heading", name="The fit was canceled")).to_be_visible()
+
+
+def test_problems_are_told_where_they_arise(visitor: Visitor, tmp_path: Path):
+    page = visitor.page
+    text = tmp_path / "notes.txt"
+    text.write_text("no picture")
+    page.get_by_label("Choose a picture").set_input_files(text)
+    expect(page.get_by_role("alert")).to_contain_text("not a picture this browser can show")
+    visitor.open_sample()
+    visitor.describe_person("18")
+    expect(page.get_by_text("Between 120 and 230 cm")).to_be_visible()
+    expect(page.get_by_role("button", name="Correct the height")).to_be_disabled()
+    page.get_by_label("Height", exact=True).fill("180.4")
+    page.get_by_label("Weight", exact=True).fill("400")
+    visitor.click_points(LIMBS)
+    expect(page.get_by_role("alert").first).to_contain_text("eight")
+    page.goto(f"{visitor.origin}/#/fits/00000000-0000-0000-0000-000000000000")
+    expect(page.get_by_role("heading", name="This fit is gone")).to_be_visible()
+
+
+def test_another_picture_without_a_lens_in_it_is_said_so(visitor: Visitor, tmp_path: Path):
+    plain = io.BytesIO()
+    Image.new("RGB", (640, 480), (120, 90, 60)).save(plain, "PNG")
+    file = tmp_path / "plain.png"
+    file.write_bytes(plain.getvalue())
+    page = visitor.page
+    page.get_by_label("Choose a picture").set_input_files(file)
+    page.get_by_role("heading", name="Lens and light").click()
+    expect(page.get_by_text("The picture names none: 50 mm are assumed.")).to_be_visible()
+    page.get_by_label("Focal length, as on 35 mm film").fill("4.4")
+    expect(page.get_by_text("Chosen by eye.")).to_be_visible()
+    page.get_by_role("slider", name="Direction of the light").focus()
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("ArrowUp")
+    expect(page.get_by_text("5° from the right, 5° from above")).to_be_visible()

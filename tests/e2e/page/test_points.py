@@ -1,0 +1,143 @@
+"""Placing points: by mouse, by keys, from files; taking back what went wrong."""
+
+import json
+import math
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.e2e.page.visitor import LIMBS, Visitor
+
+
+@pytest.fixture
+def clicking(visitor: Visitor) -> Visitor:
+    visitor.open_sample()
+    visitor.describe_person()
+    return visitor
+
+
+def test_points_are_asked_for_one_after_the_other_and_the_body_follows(clicking: Visitor):
+    page = clicking.page
+    expect(page.locator(".next-name")).to_have_text("Left shoulder")
+    clicking.click_points(LIMBS[:6])
+    expect(page.locator(".next-name")).to_have_text("Left hip")
+    outline = page.locator(".live-outline")
+    expect(outline).to_be_attached()
+    before = outline.get_attribute("d")
+    page.mouse.click(*clicking.on_stage(380, 466))
+    expect(outline).not_to_have_attribute("d", before or "")
+
+
+def test_what_was_done_can_be_undone_and_done_again(clicking: Visitor):
+    page = clicking.page
+    clicking.click_points(LIMBS[:3])
+    page.keyboard.press("Control+z")
+    expect(clicking.points()).to_have_count(2)
+    expect(page.locator(".next-name")).to_have_text("Left elbow")
+    page.keyboard.press("Control+Shift+z")
+    expect(clicking.points()).to_have_count(3)
+    page.get_by_role("button", name="Undo").click()
+    expect(clicking.points()).to_have_count(2)
+
+
+def test_a_point_is_dragged_only_by_a_real_movement_and_nudged_by_keys(clicking: Visitor):
+    page = clicking.page
+    clicking.click_points(LIMBS[:2])
+    x, y = clicking.place_of("left_shoulder")
+    at = clicking.on_stage(438.3, 220.5)
+    # A press that hardly moves, near a point, places the next one and leaves that one alone.
+    page.mouse.move(at[0] + 2, at[1])
+    page.mouse.down()
+    page.mouse.move(at[0] + 4, at[1])
+    page.mouse.up()
+    assert clicking.place_of("left_shoulder") == (x, y)
+    expect(clicking.points()).to_have_count(3)
+
+    other = clicking.on_stage(251.4, 225.2)
+    before = clicking.place_of("right_shoulder")
+    page.mouse.move(*other)
+    page.mouse.down()
+    page.mouse.move(other[0] + 30, other[1] + 10, steps=4)
+    page.mouse.up()
+    after = clicking.place_of("right_shoulder")
+    assert math.dist(after, (before[0] + 30, before[1] + 10)) < 2.0
+    expect(clicking.points()).to_have_count(3)
+    page.keyboard.press("Shift+ArrowLeft")
+    assert clicking.place_of("right_shoulder")[0] < after[0] - 1.0
+    page.keyboard.press("Control+z")
+    page.keyboard.press("Control+z")
+    assert math.dist(clicking.place_of("right_shoulder"), before) < 0.01
+
+
+def test_points_can_be_skipped_hidden_removed_and_swapped(clicking: Visitor):
+    page = clicking.page
+    page.get_by_role("button", name="Skip", exact=True).click()
+    expect(page.locator(".next-name")).to_have_text("Right shoulder")
+    page.mouse.click(*clicking.on_stage(251.4, 225.2))
+    page.keyboard.press("h")
+    expect(page.locator('[data-point="right_shoulder"] .is-hidden')).to_be_attached()
+    page.get_by_role("button", name="Swap left and right").click()
+    expect(page.locator('[data-point="left_shoulder"] .is-hidden')).to_be_attached()
+    page.get_by_text("All points").click()
+    page.get_by_role("button", name="Remove Left shoulder").click()
+    expect(clicking.points()).to_have_count(0)
+
+
+def test_all_of_it_works_without_a_mouse(clicking: Visitor):
+    page = clicking.page
+    clicking.stage.focus()
+    for _ in range(3):
+        page.keyboard.press("Shift+ArrowUp")
+    page.keyboard.press("Enter")
+    expect(clicking.points()).to_have_count(1)
+    expect(page.locator(".loupe")).to_be_visible()
+    page.keyboard.press("s")
+    expect(page.locator(".next-name")).to_have_text("Left elbow")
+    width = page.locator(".stage-picture").bounding_box()["width"]
+    page.keyboard.press("+")
+    assert page.locator(".stage-picture").bounding_box()["width"] > 1.2 * width
+    page.keyboard.press("0")
+    assert page.locator(".stage-picture").bounding_box()["width"] == pytest.approx(width, abs=0.5)
+
+
+def test_the_picture_zooms_about_the_pointer_and_pans(clicking: Visitor):
+    page = clicking.page
+    at = clicking.on_stage(350, 480)
+    page.mouse.move(*at)
+    for _ in range(6):
+        page.mouse.wheel(0, -200)
+    wide = page.locator(".stage-picture").bounding_box()
+    page.mouse.click(*at)
+    box = clicking.stage.bounding_box()
+    x, y = clicking.place_of("left_shoulder")
+    assert math.dist((box["x"] + x, box["y"] + y), at) < 1.0
+    page.mouse.move(at[0] + 80, at[1] + 80)
+    page.mouse.down()
+    page.mouse.move(at[0] + 140, at[1] + 120, steps=5)
+    page.mouse.up()
+    moved = page.locator(".stage-picture").bounding_box()
+    assert moved["x"] == pytest.approx(wide["x"] + 60, abs=3)
+    expect(clicking.points()).to_have_count(1)
+
+
+def test_points_go_to_a_coco_file_and_come_back(clicking: Visitor, tmp_path):
+    page = clicking.page
+    clicking.click_points(LIMBS)
+    page.get_by_text("Points from and to files").click()
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Save as COCO").click()
+    file = tmp_path / "points.json"
+    download.value.save_as(file)
+    annotation = json.loads(file.read_text())["annotations"][0]
+    assert annotation["num_keypoints"] == len(LIMBS)
+    left_shoulder = annotation["keypoints"][15:18]
+    assert math.dist(left_shoulder[:2], (438.3, 220.5)) < 1.5
+    page.get_by_role("button", name="Clear").click()
+    expect(clicking.points()).to_have_count(0)
+    page.get_by_label("Read points from a COCO JSON file").set_input_files(file)
+    expect(clicking.points()).to_have_count(len(LIMBS))
+    bad = tmp_path / "bad.json"
+    bad.write_text("{}")
+    page.get_by_label("Read points from a COCO JSON file").set_input_files(bad)
+    expect(page.get_by_role("alert")).to_contain_text("neither COCO annotations")
+    expect(clicking.points()).to_have_count(len(LIMBS))

@@ -1,0 +1,106 @@
+"""From a picture to a body and its measurements by real clicks, in a real browser."""
+
+import re
+
+from playwright.sync_api import Browser, Route, expect
+
+from tests.e2e.page.visitor import LIMBS, Visitor
+from tests.unit.export.glb_reader import read_glb
+
+
+def test_the_sample_becomes_a_body_with_measurements_to_be_kept_and_erased(
+    visitor: Visitor, browser: Browser, tmp_path
+):
+    page = visitor.page
+    visitor.open_sample()
+    visitor.describe_person()
+    visitor.click_points(LIMBS)
+    expect(page.locator(".live-outline")).to_be_attached()
+    visitor.submit()
+    expect(page).to_have_url(re.compile(r"#/fits/[0-9a-f-]{36}$"))
+    expect(page.get_by_role("progressbar", name="Progress of the fit")).to_be_visible()
+    visitor.wait_for_result()
+
+    # The body is drawn over its picture, lit as the fit found it, and can be turned.
+    look = page.locator(".look-picture")
+    opacity = page.get_by_label("Opacity of the body")
+    opacity.fill("0")
+    bare = visitor.pixels(look)
+    opacity.fill("1")
+    covered = visitor.wait_for_change(look, bare, share=0.08)
+    visitor.choose("Residual")
+    visitor.wait_for_change(look, covered, share=0.08)
+    visitor.choose("Clay")
+    visitor.choose("Upright")
+    expect(page.locator(".look-free")).to_be_visible()
+    upright = visitor.wait_for_change(visitor.body, covered, share=0.05)
+    visitor.body.focus()
+    for _ in range(5):
+        page.keyboard.press("ArrowRight")
+    visitor.wait_for_change(visitor.body, upright, share=0.02)
+
+    # Measurements near those of the man the sample was rendered from.
+    row = page.get_by_role("row", name=re.compile("^Weight"))
+    weight = float(re.search(r"Weight\s+([\d.]+)", row.inner_text())[1])
+    assert 60.0 < weight < 95.0
+    expect(page.get_by_role("row", name=re.compile("^Height"))).to_contain_text("given")
+    page.get_by_label(re.compile("^Compare with the fit by outline alone")).check()
+    expect(row).to_contain_text(re.compile(r"\([+−]?[\d.]+\)"))
+
+    # Where a measurement is taken is drawn on the upright body.
+    visitor.choose("Over the picture")
+    page.get_by_role("button", name="Waist, at the navel").click()
+    expect(page.get_by_role("radio", name="Upright", exact=True)).to_be_checked()
+    marked = visitor.pixels(visitor.body)
+    page.get_by_role("button", name="Waist, at the navel").click()
+    page.get_by_role("heading", name="Measurements").hover()
+    visitor.wait_for_change(visitor.body, marked, share=0.0005)
+
+    page.get_by_text("Files", exact=True).click()
+    with page.expect_download() as download:
+        page.get_by_role("button", name=re.compile(r"body_posed\.glb")).click()
+    kept = tmp_path / "body.glb"
+    download.value.save_as(kept)
+    document = read_glb(kept.read_bytes()).document
+    assert document["scenes"][0]["name"] == "body_posed"
+
+    # Its link opens it in another browser, which can change it; erasing it is for all.
+    link = page.url
+    with Visitor.at(browser, visitor.origin) as other:
+        other.page.goto(link)
+        other.wait_for_result()
+        other.page.get_by_role("button", name="Change and fit again").click()
+        expect(other.points()).to_have_count(len(LIMBS))
+        expect(other.page.get_by_label("Height", exact=True)).to_have_value("180.4")
+    page.get_by_role("button", name="Delete this fit").click()
+    page.get_by_role("button", name="Delete", exact=True).click()
+    expect(visitor.stage).to_be_visible()
+    page.goto(link)
+    expect(page.get_by_role("heading", name="This fit is gone")).to_be_visible()
+
+
+def _by_the_simplex(route: Route) -> None:
+    """Ask for the paper's search: minutes, where the page's own choice ends in a second."""
+    if route.request.method != "POST":
+        route.continue_()
+        return
+    route.continue_(post_data={**route.request.post_data_json, "optimizer": "simplex"})
+
+
+def test_a_fit_can_be_canceled_and_another_begun_meanwhile(visitor: Visitor):
+    page = visitor.page
+    page.route("**/v1/fits", _by_the_simplex)
+    visitor.open_sample(with_points=True)
+    visitor.submit()
+    expect(page.get_by_role("progressbar", name="Progress of the fit")).to_be_visible()
+    page.get_by_role("link", name="New").click()
+    expect(visitor.stage).to_be_visible()
+    visitor.submit()
+    page.get_by_role("button", name="Cancel").click()
+    expect(page.get_by_role("heading", name="The fit was canceled")).to_be_visible()
+    page.get_by_role("button", name=re.compile("^Fits")).click()
+    expect(page.locator(".history li")).to_have_count(2)
+    expect(page.locator(".history")).to_contain_text("Canceled")
+    page.locator(".history a").last.click()
+    page.get_by_role("button", name="Cancel").click()
+    expect(page.get_by_role("heading", name="The fit was canceled")).to_be_visible()

@@ -1,0 +1,162 @@
+"""Someone who uses the page: what they do, and what they would complain of."""
+
+import contextlib
+import io
+import json
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+from urllib.parse import urlsplit
+
+import numpy as np
+from PIL import Image
+from playwright.sync_api import Browser, Locator, Page, expect
+
+from service.demo_sample import load_sample
+
+DESK = {"viewport": {"width": 1280, "height": 860}}
+PHONE = {
+    "viewport": {"width": 390, "height": 844},
+    "device_scale_factor": 2,
+    "has_touch": True,
+    "is_mobile": True,
+}
+SAMPLE_SIZE = (720, 960)
+STAGE_MARGIN = 16
+FIT_WITHIN_MS = 300_000
+CHANGE_WITHIN_S = 60.0
+VISIBLY = 12
+"""By so many of 255 levels a pixel has changed."""
+
+LIMBS = tuple(
+    f"{side}_{joint}"
+    for joint in ("shoulder", "elbow", "wrist", "hip", "knee", "ankle")
+    for side in ("left", "right")
+)
+"""In the order the page asks for them."""
+
+VIOLATIONS = """
+window.violations = [];
+document.addEventListener("securitypolicyviolation", (event) =>
+  window.violations.push(`${event.violatedDirective} ${event.blockedURI}`));
+"""
+
+
+@dataclass
+class Visitor:
+    page: Page
+    origin: str
+    complaints: list[str] = field(default_factory=list)
+    requests: list[str] = field(default_factory=list)
+
+    @classmethod
+    @contextlib.contextmanager
+    def at(
+        cls, browser: Browser, address: str, device: dict[str, Any] = DESK, **options: Any
+    ) -> Iterator["Visitor"]:
+        """Open the page in a profile of its own; at the end nothing may have gone wrong."""
+        context = browser.new_context(**device, **options)
+        context.add_init_script(VIOLATIONS)
+        someone = cls(context.new_page(), address.rstrip("/"))
+        someone.listen()
+        try:
+            someone.page.goto(someone.origin + "/")
+            yield someone
+            violations = someone.page.evaluate("window.violations")
+            assert violations == []
+            assert someone.complaints == []
+            assert someone.strangers() == []
+        finally:
+            context.close()
+
+    def listen(self) -> None:
+        self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
+        self.page.on("request", lambda request: self.requests.append(request.url))
+
+    def strangers(self) -> list[str]:
+        """Requests that left the service's origin."""
+        own = urlsplit(self.origin)
+        return [
+            url
+            for url in self.requests
+            if urlsplit(url).scheme not in {"blob", "data"} and urlsplit(url).netloc != own.netloc
+        ]
+
+    def open_sample(self, *, with_points: bool = False) -> None:
+        name = "Sample, points already placed" if with_points else "Try the sample"
+        self.page.get_by_role("button", name=name).click()
+        expect(self.stage).to_be_visible()
+
+    def describe_person(self, height_cm: str = "180.4") -> None:
+        self.page.get_by_role("radio", name="Male", exact=True).check()
+        self.page.get_by_label("Height", exact=True).fill(height_cm)
+
+    @property
+    def stage(self) -> Locator:
+        return self.page.locator(".stage")
+
+    def on_stage(self, x: float, y: float) -> tuple[float, float]:
+        """Where a pixel of the whole sample lies within the window."""
+        box = self.stage.bounding_box()
+        assert box is not None
+        width, height = SAMPLE_SIZE
+        scale = min(
+            (box["width"] - 2 * STAGE_MARGIN) / width, (box["height"] - 2 * STAGE_MARGIN) / height
+        )
+        return (
+            box["x"] + (box["width"] - scale * width) / 2 + scale * x,
+            box["y"] + (box["height"] - scale * height) / 2 + scale * y,
+        )
+
+    def click_points(self, names: Sequence[str] = LIMBS, *, touch: bool = False) -> None:
+        """Click points of the sample where its request has them."""
+        points = json.loads(load_sample().request)["points"]
+        for name in names:
+            at = self.on_stage(points[name]["x"], points[name]["y"])
+            if touch:
+                self.page.touchscreen.tap(*at)
+            else:
+                self.page.mouse.click(*at)
+        expect(self.points()).to_have_count(len(names))
+
+    def points(self) -> Locator:
+        return self.page.locator("[data-point]")
+
+    def place_of(self, name: str) -> tuple[float, float]:
+        """Where a point is drawn, within the stage."""
+        moved = self.page.locator(f'[data-point="{name}"]').get_attribute("transform")
+        assert moved is not None
+        x, y = moved.removeprefix("translate(").removesuffix(")").split()
+        return float(x), float(y)
+
+    def submit(self) -> None:
+        self.page.get_by_role("button", name="Fit the body").click()
+
+    def wait_for_result(self) -> None:
+        expect(self.body).to_be_visible(timeout=FIT_WITHIN_MS)
+
+    @property
+    def body(self) -> Locator:
+        return self.page.locator(".body-canvas")
+
+    def pixels(self, what: Locator) -> np.ndarray:
+        """What is seen of an element, (h, w, 3)."""
+        seen = Image.open(io.BytesIO(what.screenshot())).convert("RGB")
+        return np.asarray(seen).astype(np.int16)
+
+    def wait_for_change(self, what: Locator, before: np.ndarray, *, share: float) -> np.ndarray:
+        """Wait until this share of an element's pixels looks otherwise, and return what is seen."""
+        deadline = time.monotonic() + CHANGE_WITHIN_S
+        while time.monotonic() < deadline:
+            now = self.pixels(what)
+            if now.shape != before.shape:
+                return now
+            if (np.abs(now - before).max(axis=2) > VISIBLY).mean() >= share:
+                return now
+            self.page.wait_for_timeout(100)
+        message = f"less than {share:.0%} of the pixels changed"
+        raise AssertionError(message)
+
+    def choose(self, name: str) -> None:
+        self.page.get_by_role("radio", name=name, exact=True).check()

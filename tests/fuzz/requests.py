@@ -1,0 +1,211 @@
+"""Raw HTTP requests, damaged in one way each."""
+
+import json
+import random
+import string
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from tests.fuzz.mutations import damaged, damaged_document
+from tests.fuzz.pictures import black_mask, picture, sound_picture
+
+BOUNDARY = "limit"
+MULTIPART = f"multipart/form-data; boundary={BOUNDARY}"
+JSON = "application/json"
+UNKNOWN_ID = "00000000-0000-4000-8000-000000000000"
+DEEP = 5_000
+
+POINTS = {
+    "nose": [36, 12],
+    "left_shoulder": [46, 24],
+    "right_shoulder": [26, 24],
+    "left_elbow": [50, 38],
+    "right_elbow": [22, 38],
+    "left_hip": {"x": 42, "y": 50, "visibility": 2},
+    "right_hip": [30, 50],
+    "left_knee": [43, 70],
+    "right_knee": [29, 70],
+}
+SUBJECT = {
+    "gender": "female",
+    "points": POINTS,
+    "height_m": 1.7,
+    "weight_kg": 61.0,
+    "measurements": {"waist_girth_navel": {"value": 80, "standard_error": 1}},
+    "focal_length_px": 90.0,
+    "limb_facing": {"left_shin": "toward"},
+    "format": "named",
+}
+FIT = SUBJECT | {"cues": "SE", "optimizer": "gauss_newton", "light": {"kind": "point"}}
+DOCUMENTS: tuple[tuple[str, dict[str, Any]], ...] = (
+    ("/v1/bodies", {"gender": "male", "height_m": 1.8, "measurements": {"inseam": 80}}),
+    ("/v1/initial-poses", SUBJECT | {"image_size": {"width": 72, "height": 96}}),
+    ("/v1/fits", FIT | {"image_id": "0" * 64, "mask_id": "1" * 64}),
+)
+HEADERS = (
+    "Accept",
+    "Content-Length",
+    "Content-Type",
+    "Expect",
+    "Host",
+    "Idempotency-Key",
+    "If-None-Match",
+    "Last-Event-ID",
+    "Origin",
+    "Prefer",
+    "Range",
+    "Transfer-Encoding",
+    "X-Request-Id",
+    "traceparent",
+)
+HEADER_VALUES = (
+    b"",
+    b"*",
+    b"\xff\xfe",
+    b"a" * 3_000,
+    b"-1",
+    b"99999999999999999999999",
+    b"wait=1000000, wait=-1",
+    b"bytes=0-0,2-,-1,9-1",
+    b"bytes=-99999999999999999999",
+    b"chunked",
+    b"100-continue",
+    b"multipart/form-data",
+    b"multipart/form-data; boundary=" + b"x" * 300,
+    b"application/json; charset=utf-7",
+    b"null",
+    b"http://[::1",
+    b"00-" + b"0" * 32 + b"-" + b"0" * 16 + b"-01",
+    'W/"é"'.encode(),
+)
+PATHS = (
+    "/",
+    "/docs",
+    "/healthz/ready",
+    "/metrics",
+    "/openapi.json",
+    "/problems/unheard-of",
+    "/v1/body-models",
+    "/v1/fits",
+    f"/v1/fits/{UNKNOWN_ID}",
+    f"/v1/fits/{UNKNOWN_ID}/events",
+    f"/v1/fits/{UNKNOWN_ID}/result",
+    f"/v1/fits/{UNKNOWN_ID}/artifacts/overlay.png",
+    f"/v1/images/{'0' * 64}",
+)
+QUERIES = ("limit", "cursor", "state", "wait", "")
+PRINTABLE = string.ascii_letters + string.digits + string.punctuation
+METHODS = ("GET", "GET", "GET", "HEAD", "POST", "PUT", "DELETE", "OPTIONS", "PATCH", "BREW")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RawRequest:
+    """What goes over the wire; ``is_well_framed`` unless its end cannot be told from its head."""
+
+    content: bytes
+    is_well_framed: bool = True
+
+
+def uploaded_picture(chance: random.Random) -> RawRequest:
+    """A damaged picture to keep: the API looks at its header."""
+    return _posted("/v1/images", MULTIPART, _multipart({"image": picture(chance)}))
+
+
+def fitted_picture(chance: random.Random) -> RawRequest:
+    """A damaged picture or mask to fit: decoded in a process of its own."""
+    spoilt_mask = chance.random() < 0.3
+    parts = {
+        "image": sound_picture() if spoilt_mask else picture(chance),
+        "mask": picture(chance) if spoilt_mask else black_mask(),
+        "request": json.dumps(FIT | {"weight_kg": None, "measurements": {}}).encode(),
+    }
+    return _posted("/v1/fits", MULTIPART, _multipart(parts))
+
+
+def json_body(chance: random.Random) -> RawRequest:
+    """A damaged JSON document: its values, its nesting or its text."""
+    path, document = chance.choice(DOCUMENTS)
+    if chance.random() < 0.05:
+        text = b"[" * DEEP + b"]" * DEEP
+    elif chance.random() < 0.7:
+        text = json.dumps(damaged_document(document, chance)).encode()
+    else:
+        text = damaged(json.dumps(document).encode(), chance)
+    return _posted(path, JSON, text)
+
+
+def multipart_body(chance: random.Random) -> RawRequest:
+    """A damaged multipart body, or a sound one of damaged options."""
+    parts = {"image": sound_picture()[:200], "request": json.dumps(FIT).encode()}
+    if chance.random() < 0.4:
+        parts["request"] = json.dumps(damaged_document(FIT, chance)).encode()
+        return _posted("/v1/fits", MULTIPART, _multipart(parts))
+    return _posted(
+        chance.choice(("/v1/fits", "/v1/images")), MULTIPART, damaged(_multipart(parts), chance)
+    )
+
+
+def headers(chance: random.Random) -> RawRequest:
+    """A sound request with a few headers nobody sends."""
+    path = chance.choice(PATHS)
+    lines = [f"{chance.choice(METHODS)} {path} HTTP/1.1".encode(), b"Host: 127.0.0.1"]
+    for _ in range(chance.randint(1, 4)):
+        value = chance.choice(HEADER_VALUES)
+        if chance.random() < 0.3:
+            value = damaged(value, chance)
+        lines.append(chance.choice(HEADERS).encode() + b": " + value)
+    content = b"\r\n".join([*lines, b"Connection: close", b"", b""])
+    if chance.random() < 0.2:
+        content = damaged(content, chance)
+    return RawRequest(content=content, is_well_framed=False)
+
+
+def address(chance: random.Random) -> RawRequest:
+    """A path or a query that leads nowhere."""
+    target = chance.choice(PATHS)
+    if chance.random() < 0.5:
+        target = "".join(
+            chance.choice((character, character, character, _escaped(chance)))
+            for character in target
+        )
+    else:
+        value = "".join(_escaped(chance) for _ in range(chance.randint(0, 12)))
+        number = chance.choice(("-1", "0", "1e9", "9" * 30, "nan", "MS9h", ""))
+        target += f"?{chance.choice(QUERIES)}={chance.choice((value, number))}"
+    method = chance.choice(("GET", "POST", "DELETE"))
+    head = f"{method} {target} HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 0\r\n"
+    return RawRequest(content=f"{head}Connection: close\r\n\r\n".encode())
+
+
+KINDS: Mapping[str, tuple[Callable[[random.Random], RawRequest], float]] = {
+    "picture, uploaded": (uploaded_picture, 0.3),
+    "picture, fitted": (fitted_picture, 0.1),
+    "JSON body": (json_body, 0.25),
+    "multipart body": (multipart_body, 0.15),
+    "headers": (headers, 0.12),
+    "address": (address, 0.08),
+}
+"""Makers of requests, and their shares of all inputs."""
+
+
+def _posted(path: str, media_type: str, body: bytes) -> RawRequest:
+    head = (
+        f"POST {path} HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: {media_type}\r\n"
+        f"Content-Length: {len(body)}\r\nConnection: close\r\n\r\n"
+    )
+    return RawRequest(content=head.encode() + body)
+
+
+def _multipart(parts: Mapping[str, bytes]) -> bytes:
+    return b"".join([*(_part(*part) for part in parts.items()), f"--{BOUNDARY}--\r\n".encode()])
+
+
+def _part(name: str, content: bytes) -> bytes:
+    file = "" if name == "request" else '; filename="p"'
+    head = f'--{BOUNDARY}\r\nContent-Disposition: form-data; name="{name}"{file}\r\n\r\n'
+    return head.encode() + content + b"\r\n"
+
+
+def _escaped(chance: random.Random) -> str:
+    return chance.choice((f"%{chance.randrange(256):02X}", chance.choice(PRINTABLE), ".."))

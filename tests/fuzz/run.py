@@ -1,0 +1,158 @@
+"""Thousands of damaged inputs against a running service, and how it took them."""
+
+import itertools
+import random
+import threading
+import time
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+import httpx
+
+from tests.deployment import Deployment, Kind, wait_for
+from tests.fuzz.requests import KINDS, RawRequest
+from tests.fuzz.sending import Answer, send
+from tests.process_table import own_memory_mib
+
+SENDERS = 4
+LOOKS = 10
+"""How often the memory of the API is looked at."""
+
+READY_WITHIN_S = 300.0
+ENDED_WITHIN_S = 1_200.0
+MOST_FAULTS = 20
+
+
+@dataclass(slots=True, kw_only=True)
+class Harvest:
+    """What came back."""
+
+    statuses: dict[str, Counter[int]] = field(
+        default_factory=lambda: {kind: Counter() for kind in KINDS}
+    )
+    faults: list[str] = field(default_factory=list[str])
+    memory_mib: list[float] = field(default_factory=list[float])
+    jobs: Counter[str] = field(default_factory=Counter[str])
+    fits_left: int = 0
+    restarts: int = 0
+    seconds: float = 0.0
+
+    def lines(self) -> Iterator[str]:
+        """The figures for people."""
+        yield f"{'':18}  inputs  1-3xx    4xx    503  other 5xx  no answer due"
+        for kind, statuses in self.statuses.items():
+            groups = Counter[str]()
+            for status, count in statuses.items():
+                groups[_group(status)] += count
+            yield (
+                f"{kind:18} {statuses.total():7} {groups['fine']:6} {groups['4xx']:6} "
+                f"{groups['503']:6} {groups['5xx']:10} {groups['none']:14}"
+            )
+        yield f"in all {sum(each.total() for each in self.statuses.values())} inputs"
+        jobs = ", ".join(f"{count} {how}" for how, count in sorted(self.jobs.items()))
+        yield f"accepted fits, and how they ended: {jobs or 'none'}"
+        memory = " ".join(f"{each:.0f}" for each in self.memory_mib)
+        yield f"memory of the API alone, MiB, at every tenth: {memory}"
+        yield f"processes that ended unasked {self.restarts}, fits left {self.fits_left}"
+        yield f"{self.seconds:.0f} s; faults: {len(self.faults)}"
+        yield from self.faults[:MOST_FAULTS]
+
+
+def fuzz(deployment: Deployment, *, inputs: int, seed: int) -> Harvest:
+    """Start the service, send everything, wait for the fits it accepted."""
+    harvest = Harvest()
+    began = time.monotonic()
+    with httpx.Client(base_url=deployment.address, timeout=60.0) as client:
+        deployment.start()
+        assert wait_for(lambda: _is_ready(client), within_s=READY_WITHIN_S), "not ready"
+        before = {each.pid for each in deployment.processes()}
+        _send_all(deployment, harvest, inputs=inputs, seed=seed)
+        ended = wait_for(
+            lambda: (
+                client.get("/v1/fits?state=queued").json()["jobs"] == []
+                and client.get("/v1/fits?state=running").json()["jobs"] == []
+            ),
+            within_s=ENDED_WITHIN_S,
+        )
+        if not ended:
+            harvest.faults.append("not all accepted fits ended")
+        _account_for_fits(client, harvest)
+        wait_for(lambda: not deployment.of_kind(Kind.FIT), within_s=10.0)
+        harvest.fits_left = len(deployment.of_kind(Kind.FIT))
+        harvest.restarts = len(before - {each.pid for each in deployment.processes()})
+    deployment.stop()
+    harvest.seconds = time.monotonic() - began
+    return harvest
+
+
+def made(number: int, seed: int) -> tuple[str, RawRequest]:
+    """Input ``number`` of a seed: the same whoever makes it, and whenever."""
+    chance = random.Random(f"{seed}/{number}")
+    kind = chance.choices(list(KINDS), [share for _, share in KINDS.values()])[0]
+    return kind, KINDS[kind][0](chance)
+
+
+def _send_all(deployment: Deployment, harvest: Harvest, *, inputs: int, seed: int) -> None:
+    numbers = itertools.count()
+    lock = threading.Lock()
+    (api,) = deployment.of_kind(Kind.API)
+
+    def send_some() -> None:
+        while (number := next(numbers)) < inputs:
+            kind, request = made(number, seed)
+            answer = send(deployment.port, request)
+            with lock:
+                _note(harvest, number, kind, answer)
+                if number % max(1, inputs // LOOKS) == 0:
+                    harvest.memory_mib.append(own_memory_mib(api.pid))
+
+    threads = [threading.Thread(target=send_some) for _ in range(SENDERS)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    harvest.memory_mib.append(own_memory_mib(api.pid))
+
+
+def _note(harvest: Harvest, number: int, kind: str, answer: Answer) -> None:
+    harvest.statuses[kind][answer.status] += 1
+    if answer.fault is not None:
+        harvest.faults.append(f"input {number} ({kind}): {answer.fault}")
+
+
+def _account_for_fits(client: httpx.Client, harvest: Harvest) -> None:
+    following: str | None = "/v1/fits?limit=200"
+    while following is not None:
+        page = client.get(following).raise_for_status().json()
+        for job in page["jobs"]:
+            how = _how_it_ended(job)
+            harvest.jobs[how] += 1
+            # A fault of ours, or a picture that killed its process.
+            if how in ("failed: fit-failed", "failed: fit-crashed", "timed_out"):
+                harvest.faults.append(f"{job['links']['self']}: {job['problem']}")
+        following = page["next"]
+
+
+def _how_it_ended(job: dict[str, Any]) -> str:
+    problem = job["problem"]
+    if problem is None:
+        return job["state"]
+    name = problem["type"].removeprefix("/problems/")
+    return f"{job['state']}: {problem.get('code') or name}"
+
+
+def _is_ready(client: httpx.Client) -> bool:
+    try:
+        return client.get("/healthz/ready").status_code == httpx.codes.OK
+    except httpx.TransportError:
+        return False
+
+
+def _group(status: int) -> str:
+    if status == 0:
+        return "none"
+    if status == 503:
+        return "503"
+    return "fine" if status < 400 else "4xx" if status < 500 else "5xx"

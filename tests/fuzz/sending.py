@@ -1,0 +1,66 @@
+"""Put raw bytes on a connection and read what comes back."""
+
+import http.client
+import json
+import socket
+from dataclasses import dataclass
+
+from tests.fuzz.requests import RawRequest
+
+PATIENCE_S = 60.0
+IMPATIENCE_S = 0.3
+"""What the server waits for the rest of, it need not answer."""
+
+PROBLEM = "application/problem+json"
+SERVER_ITSELF = b"Invalid HTTP request received."
+"""The HTTP server's own answer to what is no HTTP: the application never sees it."""
+
+RETRY_LATER = 503
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Answer:
+    """Status, and what is wrong with the answer if anything is; status 0 if there was none."""
+
+    status: int
+    fault: str | None
+    location: str | None = None
+
+
+def send(port: int, request: RawRequest) -> Answer:
+    """Send a request on a connection of its own."""
+    patience_s = PATIENCE_S if request.is_well_framed else IMPATIENCE_S
+    with socket.create_connection(("127.0.0.1", port), timeout=patience_s) as connection:
+        try:
+            connection.sendall(request.content)
+            answer = http.client.HTTPResponse(connection)
+            answer.begin()
+            body = answer.read()
+        except (OSError, http.client.HTTPException) as error:
+            silent = f"no answer ({type(error).__name__})" if request.is_well_framed else None
+            return Answer(status=0, fault=silent)
+    return Answer(
+        status=answer.status,
+        fault=_fault(answer, body),
+        location=answer.headers.get("Location"),
+    )
+
+
+def _fault(answer: http.client.HTTPResponse, body: bytes) -> str | None:
+    if answer.status == RETRY_LATER:
+        return None if answer.headers.get("Retry-After") else "503 without Retry-After"
+    if answer.status >= 500:
+        return f"{answer.status}: {body[:300]!r}"
+    is_told = answer.headers.get_content_type() == PROBLEM or body == SERVER_ITSELF
+    # An answer to HEAD has no body to look at.
+    if answer.status >= 400 and body and not is_told:
+        return f"{answer.status} is no problem document: {body[:300]!r}"
+    if answer.status >= 400 and is_told and body != SERVER_ITSELF:
+        return _incomplete(body)
+    return None
+
+
+def _incomplete(body: bytes) -> str | None:
+    problem = json.loads(body)
+    missing = [name for name in ("type", "detail", "remedy") if not problem.get(name)]
+    return f"a problem without {', '.join(missing)}: {body[:300]!r}" if missing else None

@@ -1,0 +1,74 @@
+"""Nothing of a picture, its points or its result is left on the disk when its job is gone."""
+
+import hashlib
+from pathlib import Path
+
+from tests.integration.service.fake_pipeline import scripted_image
+from tests.integration.service.harness import (
+    REQUEST,
+    Machine,
+    Service,
+    eventually,
+    running_service,
+)
+
+SCRIPT = {"n": "the-picture-itself"}
+SECRET = "whsec_" + "eraseThisSecretAtTheEndX" * 2
+REMARKABLE = REQUEST | {
+    "weight_kg": 83.7654321,
+    "points": {**REQUEST["points"], "nose": [321.1234567, 61.7654321]},
+    "webhook": {"url": "http://127.0.0.1:9/erase-this-address", "secret": SECRET},
+}
+TRACES: dict[str, bytes] = {
+    "picture": b"the-picture-itself",
+    "picture's name": hashlib.sha256(scripted_image(SCRIPT)).hexdigest().encode(),
+    "points": b"321.1234567",
+    "weight, in request and result": b"83.7654321",
+    "result": b"The energy stopped decreasing.",
+    "receiver": b"erase-this-address",
+    "receiver's secret": SECRET.encode(),
+}
+
+
+def traces(folder: Path) -> set[str]:
+    """What is found in any file: blobs, the database, its write-ahead log."""
+    found: set[str] = set()
+    for path in folder.rglob("*"):
+        try:
+            content = path.read_bytes() if path.is_file() else b""
+        except FileNotFoundError:  # erased while we look
+            continue
+        found |= {name for name, trace in TRACES.items() if trace in content}
+    return found
+
+
+def fitted(service: Service) -> str:
+    """Have the remarkable picture fitted, and return the job's path."""
+    answer = service.post(SCRIPT, request=REMARKABLE)
+    assert answer.status_code == 202, answer.text
+    return answer.headers["Location"]
+
+
+def settings(**changes: object) -> dict[str, object]:
+    return {"webhook_hosts": "127.0.0.1", "sweep_interval_s": 0.3} | changes
+
+
+def test_after_delete_no_byte_is_left(tmp_path: Path):
+    with running_service(Machine(tmp_path, settings=settings())) as service:
+        path = fitted(service)
+        assert service.ended(path)["state"] == "succeeded"
+        picture = {"image": ("p.png", scripted_image(SCRIPT), "image/png")}
+        uploaded = service.client.post("/v1/images", files=picture).headers["Location"]
+        assert traces(tmp_path) == set(TRACES)
+        assert service.client.delete(path).status_code == 204
+        assert service.client.delete(uploaded).status_code == 204
+        eventually(lambda: not traces(tmp_path), within_s=30.0, what=str(traces(tmp_path)))
+
+
+def test_after_its_time_no_byte_is_left(tmp_path: Path):
+    retention = settings(retention_hours=3.0 / 3600)
+    with running_service(Machine(tmp_path, settings=retention)) as service:
+        path = fitted(service)
+        eventually(lambda: traces(tmp_path) == set(TRACES), what="the job was there")
+        eventually(lambda: service.client.get(path).status_code == 410, what="expired")
+        eventually(lambda: not traces(tmp_path), within_s=30.0, what=str(traces(tmp_path)))

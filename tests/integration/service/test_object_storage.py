@@ -1,0 +1,123 @@
+"""Blobs in S3-compatible storage, over real HTTP against an emulated server."""
+
+import hashlib
+from collections.abc import Iterator
+
+import pytest
+
+from service.blobs import BlobMissingError, BlobStore, BlobsUnavailableError, open_blob_store
+from service.cli import main
+from service.settings import Settings
+from tests.object_storage import CREDENTIALS, REGION, ObjectStorage, running_object_storage
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[ObjectStorage]:
+    with running_object_storage() as running:
+        yield running
+
+
+@pytest.fixture
+def _credentials(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name, value in CREDENTIALS.items():
+        monkeypatch.setenv(name, value)
+
+
+@pytest.fixture
+def storage(server: ObjectStorage, request: pytest.FixtureRequest) -> ObjectStorage:
+    """The server with a bucket for this test alone, not made yet."""
+    name = hashlib.sha256(request.node.nodeid.encode()).hexdigest()[:12]
+    return ObjectStorage(server.endpoint_url, f"test-{name}")
+
+
+@pytest.fixture
+def blobs(storage: ObjectStorage, _credentials: None) -> BlobStore:
+    store = open_blob_store(Settings(**storage.settings))
+    store.prepare()
+    return store
+
+
+def test_a_blob_is_an_object_below_the_prefix_named_by_its_content(blobs, storage):
+    digest = blobs.put("job-1", b"picture")
+    assert digest == hashlib.sha256(b"picture").hexdigest()
+    assert blobs.get("job-1", digest) == b"picture"
+    assert storage.object_names() == [f"blobs/job-1/{digest}"]
+
+
+def test_erasing_a_scope_leaves_its_neighbours(blobs, storage):
+    digest = blobs.put("job-1", b"picture")
+    blobs.put("job-1", b"result")
+    blobs.put("job-10", b"picture")
+    blobs.erase("job-1")
+    with pytest.raises(BlobMissingError):
+        blobs.get("job-1", digest)
+    assert storage.object_names() == [f"blobs/job-10/{digest}"]
+
+
+def test_more_objects_than_one_listing_holds_are_erased(blobs, storage, monkeypatch):
+    monkeypatch.setattr("service.blobs.s3.LISTED_AT_ONCE", 2)
+    for number in range(5):
+        storage.client.put_object(Bucket=storage.bucket, Key=f"blobs/job-1/{number}", Body=b"")
+    blobs.erase("job-1")
+    assert storage.object_names() == []
+
+
+def test_erasing_leaves_no_version_where_the_bucket_keeps_them(blobs, storage):
+    storage.client.put_bucket_versioning(
+        Bucket=storage.bucket, VersioningConfiguration={"Status": "Enabled"}
+    )
+    for _ in range(2):
+        blobs.put("job-1", b"picture")
+    blobs.erase("job-1")
+    blobs.erase("job-1")
+    left = storage.client.list_object_versions(Bucket=storage.bucket)
+    assert "Versions" not in left
+    assert "DeleteMarkers" not in left
+
+
+def test_another_content_than_stored_is_not_taken_for_the_blob(blobs, storage):
+    digest = blobs.put("job-1", b"picture")
+    storage.client.put_object(Bucket=storage.bucket, Key=f"blobs/job-1/{digest}", Body=b"other")
+    with pytest.raises(BlobsUnavailableError, match="another content"):
+        blobs.get("job-1", digest)
+
+
+def test_looking_whether_it_can_be_written_leaves_nothing(blobs, storage):
+    blobs.check_writable()
+    assert storage.object_names() == []
+
+
+@pytest.mark.usefixtures("_credentials")
+def test_a_bucket_that_is_not_there_is_said_so(storage):
+    with pytest.raises(BlobsUnavailableError, match="NoSuchBucket"):
+        open_blob_store(Settings(**storage.settings)).check_writable()
+
+
+@pytest.mark.usefixtures("_credentials")
+def test_a_server_that_is_not_there_is_said_so(monkeypatch):
+    monkeypatch.setattr("service.blobs.s3.ATTEMPTS", 1)
+    nowhere = Settings(blob_url="s3://bucket", s3_endpoint_url="http://127.0.0.1:9", s3_region="x")
+    with pytest.raises(BlobsUnavailableError, match="cannot be reached"):
+        open_blob_store(nowhere).check_writable()
+
+
+@pytest.mark.usefixtures("_credentials")
+def test_preparing_makes_tables_and_bucket_and_may_be_repeated(storage, monkeypatch, tmp_path):
+    monkeypatch.setenv("MAQUETTE_DATA_DIR", str(tmp_path))
+    for name, value in storage.settings.items():
+        monkeypatch.setenv(f"MAQUETTE_{name.upper()}", value)
+    for _ in range(2):
+        with pytest.raises(SystemExit) as ended:
+            main(["prepare"])
+        assert ended.value.code == 0
+    place = storage.client.get_bucket_location(Bucket=storage.bucket)
+    assert place["LocationConstraint"] == REGION
+    assert (tmp_path / "maquette.sqlite").is_file()
+
+
+def test_preparing_without_a_bucket_makes_the_folder(monkeypatch, tmp_path):
+    monkeypatch.setenv("MAQUETTE_DATA_DIR", str(tmp_path / "data"))
+    with pytest.raises(SystemExit) as ended:
+        main(["prepare"])
+    assert ended.value.code == 0
+    assert (tmp_path / "data" / "blobs").is_dir()

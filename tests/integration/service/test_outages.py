@@ -1,0 +1,186 @@
+"""A disk that is full, a database that is locked or away, a clock that jumps: all is well again."""
+
+import contextlib
+import resource
+import sqlite3
+import threading
+import time
+from collections.abc import Callable, Iterator
+from email.utils import parsedate_to_datetime
+from pathlib import Path
+
+import httpx
+import pytest
+from psycopg import sql
+
+from tests.integration.service.harness import (
+    Machine,
+    Service,
+    eventually,
+    pids_noted,
+    running_service,
+)
+from tests.postgres import administration
+from tests.process_table import processes_with
+
+SHIFTED_CLOCK = Path(__file__).parent / "shifted_clock"
+OUTAGE_S = 10.0
+BEYOND_RETENTION_S = 30 * 86_400.0
+
+
+def test_what_is_accepted_survives_a_full_disk(embedded: Machine, tmp_path: Path):
+    note = tmp_path / "pids"
+    with running_service(embedded) as service:
+        path = service.submit({"seconds": 1.0, "note_pid": str(note)})
+        eventually(lambda: pids_noted(note), what="the fit runs")
+        with full_disk(embedded):
+            refused = [service.post({"number": number}) for number in range(3)]
+            time.sleep(2.0)
+        assert {answer.status_code for answer in refused} == {503}
+        assert all(answer.headers["Retry-After"] for answer in refused)
+        job = service.ended(path)
+        assert (job["state"], job["attempt"]) == ("succeeded", 1)
+        assert service.client.get(job["links"]["result"]).status_code == 200
+        assert service.ended(service.submit())["state"] == "succeeded"
+        assert len(service.client.get("/v1/fits").json()["jobs"]) == 2
+
+
+def test_a_locked_embedded_database_is_waited_for(embedded: Machine, tmp_path: Path):
+    note = tmp_path / "pids"
+    with running_service(embedded) as service:
+        path = service.submit({"seconds": 1.0, "note_pid": str(note)})
+        eventually(lambda: pids_noted(note), what="the fit runs")
+        with locked(embedded):
+            posted = in_background(lambda: service.post({"number": 1}))
+            time.sleep(OUTAGE_S)
+            assert service.client.get(path).status_code == 200
+        answer = posted()
+        assert answer.status_code == 202
+        assert service.ended(path)["attempt"] == 1
+        for each in (path, answer.headers["Location"]):
+            assert service.ended(each)["state"] == "succeeded"
+            assert [event["event"] for event in service.events(each)].count("end") == 1
+
+
+@pytest.mark.parametrize("machine", ["postgres"], indirect=True)
+def test_a_database_server_that_goes_away_is_waited_for(machine: Machine, tmp_path: Path):
+    note = tmp_path / "pids"
+    with running_service(machine) as service:
+        path = service.submit({"seconds": 2.0, "note_pid": str(note)})
+        waiting = [service.submit({"number": number}) for number in range(4)]
+        eventually(lambda: pids_noted(note), what="the fit runs")
+        with no_connections(machine):
+            assert_refused_for_now(service.post())
+            assert_refused_for_now(service.client.get(path))
+            time.sleep(OUTAGE_S)
+        for each in (path, *waiting):
+            job = service.ended(each)
+            assert (job["state"], job["attempt"]) == ("succeeded", 1)
+            assert [event["event"] for event in service.events(each)].count("end") == 1
+        assert service.ended(service.submit())["state"] == "succeeded"
+
+
+def test_a_clock_that_jumps_erases_nothing_and_kills_nobody(
+    machine: Machine, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    clock, note = tmp_path / "clock", tmp_path / "pids"
+    set_clock(clock, 0.0)
+    monkeypatch.setenv("SHIFTED_CLOCK", str(clock))
+    monkeypatch.setenv("PYTHONPATH", str(SHIFTED_CLOCK), prepend=":")
+    jumping = Machine(
+        machine.data_dir,
+        database_url=machine.database_url,
+        settings={"sweep_interval_s": 0.1},
+    )
+    with running_service(jumping) as service:
+        done = service.submit()
+        service.ended(done)
+        running = service.submit({"seconds": 2.0, "note_pid": str(note)})
+        eventually(lambda: pids_noted(note), what="the fit runs")
+        for jump in (BEYOND_RETENTION_S, -BEYOND_RETENTION_S, 0.0):
+            set_clock(clock, jump)
+            # The server renews its date about once a second.
+            eventually(lambda jump=jump: abs(clock_ahead_s(service) - jump) < 3_600.0)
+            time.sleep(1.0)
+        for path in (done, running):
+            job = service.ended(path)
+            assert (job["state"], job["attempt"]) == ("succeeded", 1)
+            assert service.client.get(job["links"]["result"]).status_code == 200
+        assert service.ended(service.submit())["state"] == "succeeded"
+
+
+def clock_ahead_s(service: Service) -> float:
+    """How far the API's clock is ahead of the true one."""
+    told = service.client.get("/healthz/live").headers["Date"]
+    return parsedate_to_datetime(told).timestamp() - time.time()
+
+
+def set_clock(clock: Path, offset_s: float) -> None:
+    """Set the clocks, which may be read at any moment."""
+    new = clock.with_suffix(".new")
+    new.write_text(str(offset_s))
+    new.rename(clock)
+
+
+@contextlib.contextmanager
+def full_disk(machine: Machine) -> Iterator[None]:
+    """Let none of the service's processes make a file any longer."""
+    processes = processes_with("MAQUETTE_DATA_DIR", machine.data_dir)
+    limits = {each.pid: resource.prlimit(each.pid, resource.RLIMIT_FSIZE) for each in processes}
+    for pid, (_, hard) in limits.items():
+        resource.prlimit(pid, resource.RLIMIT_FSIZE, (1, hard))
+    try:
+        yield
+    finally:
+        for pid, limit in limits.items():
+            with contextlib.suppress(ProcessLookupError):
+                resource.prlimit(pid, resource.RLIMIT_FSIZE, limit)
+
+
+@contextlib.contextmanager
+def locked(machine: Machine) -> Iterator[None]:
+    """Keep everybody else from writing the embedded database."""
+    connection = sqlite3.connect(machine.data_dir / "maquette.sqlite", isolation_level=None)
+    connection.execute("PRAGMA busy_timeout=30000")
+    connection.execute("BEGIN EXCLUSIVE")
+    try:
+        yield
+    finally:
+        connection.rollback()
+        connection.close()
+
+
+@contextlib.contextmanager
+def no_connections(machine: Machine) -> Iterator[None]:
+    """Close all connections to the machine's own database, and refuse new ones."""
+    assert machine.database_url is not None
+    name = machine.database_url.rpartition("/")[2]
+    allow = sql.SQL("ALTER DATABASE {} WITH ALLOW_CONNECTIONS {}")
+    with administration() as connection:
+        connection.execute(allow.format(sql.Identifier(name), sql.Literal(False)))
+        connection.execute(
+            "SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE datname = %s", [name]
+        )
+        try:
+            yield
+        finally:
+            connection.execute(allow.format(sql.Identifier(name), sql.Literal(True)))
+
+
+def in_background(post: Callable[[], httpx.Response]) -> Callable[[], httpx.Response]:
+    """Call in a thread; the function returned waits for the answer."""
+    answers: list[httpx.Response] = []
+    thread = threading.Thread(target=lambda: answers.append(post()))
+    thread.start()
+
+    def answer() -> httpx.Response:
+        thread.join()
+        return answers[0]
+
+    return answer
+
+
+def assert_refused_for_now(answer: httpx.Response) -> None:
+    assert answer.status_code == 503, answer.text
+    assert answer.headers["Retry-After"]
+    assert answer.json()["code"] == "database-unavailable"

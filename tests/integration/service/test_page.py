@@ -1,0 +1,74 @@
+"""The page's files over HTTP: to whom, how long kept, how packed."""
+
+import gzip
+import re
+
+import httpx
+import pytest
+
+from api_schemas.index import ServiceIndex
+from tests.integration.service.harness import Service
+
+BROWSER = {"Accept": "text/html,application/xhtml+xml,*/*;q=0.8"}
+
+
+def index_of(service: Service) -> httpx.Response:
+    return service.client.get("/", headers=BROWSER)
+
+
+def named_files(service: Service) -> list[str]:
+    return re.findall(r'(?:href|src)="(/page/[^"]+)"', index_of(service).text)
+
+
+def test_browsers_get_the_page_with_a_policy_that_allows_nothing_inline(service: Service):
+    page = index_of(service)
+    assert page.headers["content-type"].startswith("text/html")
+    assert page.headers["cache-control"] == "no-cache"
+    policy = page.headers["content-security-policy"]
+    assert "script-src 'self'" in policy
+    assert "unsafe" not in policy
+    assert not re.search(r"<script(?![^>]*\bsrc=)|<style|\sstyle=|\son\w+=", page.text)
+
+
+def test_programs_get_the_ways_in(service: Service):
+    answer = service.client.get("/")
+    index = ServiceIndex.model_validate_json(answer.content)
+    assert "Accept" in answer.headers["vary"]
+    paths = service.client.get("/openapi.json").json()["paths"]
+    described = {path for path in index.links.values() if path in paths}
+    assert described == set(index.links.values()) - {"/openapi.json", "/docs"}
+    assert index.version == service.client.get("/openapi.json").json()["info"]["version"]
+
+
+def test_files_with_a_hash_in_their_name_are_kept_for_ever_and_come_packed(service: Service):
+    names = named_files(service)
+    assert len(names) >= 3
+    for name in names:
+        file = service.client.get(name, headers={"Accept-Encoding": "gzip"})
+        assert file.status_code == 200
+        assert "immutable" in file.headers["cache-control"]
+        if name.endswith((".js", ".css")):
+            assert file.headers["content-encoding"] == "gzip"
+        plain = service.client.get(name, headers={"Accept-Encoding": "identity"})
+        assert "content-encoding" not in plain.headers
+        assert plain.content == file.content
+
+
+def test_the_sample_comes_with_its_points(service: Service):
+    assert service.client.get("/page/sample.jpg").headers["content-type"] == "image/jpeg"
+    assert "left_hip" in service.client.get("/page/sample.json").json()["points"]
+
+
+@pytest.mark.parametrize(
+    "name", ["nothing.js", "index.html", "..%2fbuild.mjs", "%2e%2e%2fpackage.json"]
+)
+def test_nothing_else_is_served(service: Service, name: str):
+    answer = service.client.get(f"/page/{name}")
+    assert answer.status_code == 404
+    assert answer.json()["code"] == "not-found"
+
+
+def test_the_page_itself_comes_packed(service: Service):
+    with service.client.stream("GET", "/", headers=BROWSER | {"Accept-Encoding": "gzip"}) as page:
+        raw = b"".join(page.iter_raw())
+    assert gzip.decompress(raw).startswith(b"<!doctype html>")

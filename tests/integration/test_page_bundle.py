@@ -1,0 +1,62 @@
+"""The committed bundle of the page is what its sources give, and its sources agree with the API."""
+
+import gzip
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tests.npm_packages import installed
+
+REPOSITORY = Path(__file__).parents[2]
+PAGE = REPOSITORY / "service" / "page"
+MAX_GZIPPED_BYTES = 300_000
+
+
+@pytest.fixture(scope="module")
+def page() -> Path:
+    return installed(PAGE)
+
+
+def run(page: Path, *command: str) -> None:
+    done = subprocess.run(command, cwd=page, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def content_of(folder: Path) -> dict[str, bytes]:
+    return {file.name: file.read_bytes() for file in folder.iterdir()}
+
+
+def test_the_committed_bundle_is_built_from_the_sources(page: Path, tmp_path: Path):
+    run(page, "node", "build.mjs", str(tmp_path / "dist"))
+    built, committed = content_of(tmp_path / "dist"), content_of(PAGE / "dist")
+    assert sorted(built) == sorted(committed), "run `npm run build` in service/page"
+    assert built == committed, "run `npm run build` in service/page"
+
+
+def test_the_sources_agree_with_the_types_of_the_exported_api(page: Path):
+    run(page, "npm", "run", "--silent", "check")
+
+
+def test_modules_of_the_page_do_what_their_tests_say(page: Path):
+    run(page, "npm", "run", "--silent", "test")
+
+
+def test_the_page_weighs_little():
+    files = content_of(PAGE / "dist")
+    weights = {
+        name: len(content) if name.endswith(".woff2") else len(gzip.compress(content, 9))
+        for name, content in files.items()
+        if not name.endswith(".txt")
+    }
+    assert sum(weights.values()) <= MAX_GZIPPED_BYTES, weights
+
+
+def test_licences_of_all_that_is_bundled_lie_beside_it():
+    text = (PAGE / "dist" / "THIRD_PARTY.txt").read_text()
+    for name in ("preact", "@preact/signals", "three", "ibm-plex-sans"):
+        assert name in text
+
+
+def test_the_lock_names_no_registry():
+    assert '"resolved"' not in (PAGE / "package-lock.json").read_text()

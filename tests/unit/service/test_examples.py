@@ -1,0 +1,62 @@
+"""The documented examples are of the wire types themselves, stricter than their schemas."""
+
+import json
+
+import pytest
+
+from api_schemas.bodies import BodyEstimate, BodyRequest
+from api_schemas.body_models import BodyModels
+from api_schemas.health import Live, Ready
+from api_schemas.images import UploadedImage
+from api_schemas.initial_poses import InitialPose, InitialPoseRequest
+from api_schemas.jobs import Job, JobPage
+from api_schemas.problems import ProblemType
+from api_schemas.requests import FitOfImage, FitOptions
+from api_schemas.results import FitResult
+from api_schemas.webhooks import WebhookEvent
+from service.api.examples import ANSWERS, NOTICE, REQUESTS
+
+KINDS = {
+    "submit": Job,
+    "retry": Job,
+    "list_fits": JobPage,
+    "get_fit": Job,
+    "cancel": Job,
+    "fit_request": FitOptions,
+    "result": FitResult,
+    "artifact": FitResult,
+    "upload_image": UploadedImage,
+    "get_image": UploadedImage,
+    "initial_pose": InitialPose,
+    "estimate_body": BodyEstimate,
+    "body_models": BodyModels,
+    "live": Live,
+    "ready": Ready,
+    "problem_type": ProblemType,
+}
+TEXTS = {"follow", "metrics"}
+
+
+@pytest.mark.parametrize("operation", sorted(ANSWERS))
+def test_examples_of_answers_are_of_their_types(operation):
+    for examples in ANSWERS[operation].values() if operation not in TEXTS else ():
+        for value in examples.values():
+            KINDS[operation].model_validate_json(json.dumps(value))
+    assert operation in KINDS.keys() | TEXTS
+
+
+@pytest.mark.parametrize(
+    ("operation", "kind"),
+    [
+        ("submit", FitOfImage),
+        ("initial_pose", InitialPoseRequest),
+        ("estimate_body", BodyRequest),
+    ],
+)
+def test_examples_of_requests_are_of_their_types(operation, kind):
+    for value in REQUESTS[operation].values():
+        kind.model_validate_json(json.dumps(value))
+
+
+def test_the_example_of_a_notice_is_one():
+    WebhookEvent.model_validate_json(json.dumps(NOTICE))

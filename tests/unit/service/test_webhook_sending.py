@@ -1,0 +1,112 @@
+"""Over TLS: the address is pinned, the certificate is the name's."""
+
+import asyncio
+import datetime
+import http.server
+import ssl
+import threading
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import pytest
+from cryptography import x509
+from cryptography.hazmat.primitives import hashes, serialization
+from cryptography.hazmat.primitives.asymmetric import ec
+from cryptography.x509.oid import NameOID
+
+from service.webhooks.sending import Answer, Sender
+
+NAME = "hooks.example"
+
+
+@dataclass
+class Server:
+    port: int
+    certificate: bytes
+    hosts: list[str]
+    lookups: int = 0
+
+
+@pytest.fixture
+def server(tmp_path) -> Iterator[Server]:
+    certificate, key = self_signed(NAME)
+    (tmp_path / "both.pem").write_bytes(certificate + key)
+    hosts: list[str] = []
+
+    class Handler(http.server.BaseHTTPRequestHandler):
+        def do_POST(self) -> None:
+            hosts.append(self.headers["host"])
+            self.send_response(200)
+            self.end_headers()
+
+        def log_message(self, *_: object) -> None:
+            return
+
+    listening = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+    context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+    context.load_cert_chain(tmp_path / "both.pem")
+    listening.socket = context.wrap_socket(listening.socket, server_side=True)
+    listening.handle_error = lambda *_: None  # a client that turns away is expected here
+    thread = threading.Thread(target=listening.serve_forever)
+    thread.start()
+    yield Server(port=listening.server_address[1], certificate=certificate, hosts=hosts)
+    listening.shutdown()
+    thread.join()
+    listening.server_close()
+
+
+def self_signed(name: str) -> tuple[bytes, bytes]:
+    key = ec.generate_private_key(ec.SECP256R1())
+    subject = x509.Name([x509.NameAttribute(NameOID.COMMON_NAME, name)])
+    now = datetime.datetime.now(datetime.UTC)
+    certificate = (
+        x509.CertificateBuilder()
+        .subject_name(subject)
+        .issuer_name(subject)
+        .public_key(key.public_key())
+        .serial_number(x509.random_serial_number())
+        .not_valid_before(now - datetime.timedelta(days=1))
+        .not_valid_after(now + datetime.timedelta(days=1))
+        .add_extension(x509.SubjectAlternativeName([x509.DNSName(name)]), critical=False)
+        .add_extension(x509.BasicConstraints(ca=True, path_length=None), critical=True)
+        .sign(key, hashes.SHA256())
+    )
+    return (
+        certificate.public_bytes(serialization.Encoding.PEM),
+        key.private_bytes(
+            serialization.Encoding.PEM,
+            serialization.PrivateFormat.PKCS8,
+            serialization.NoEncryption(),
+        ),
+    )
+
+
+def posted(server: Server, name: str, monkeypatch) -> Answer:
+    """Post to a name that stands for the loopback the first time it is looked up, and only then."""
+    trusting = ssl.create_default_context(cadata=server.certificate.decode())
+    sender = Sender(allowed_hosts=(name,), time_limit_s=10.0, tls=trusting)
+
+    async def lookup(host: str, port: int, **_: object) -> list[object]:
+        server.lookups += 1
+        address = "127.0.0.1" if (host, server.lookups) == (name, 1) else "192.0.2.1"
+        return [(2, 1, 6, "", (address, port))]
+
+    async def post() -> Answer:
+        monkeypatch.setattr(asyncio.get_running_loop(), "getaddrinfo", lookup)
+        return await sender.post(f"https://{name}:{server.port}/hook", headers={}, body=b"{}")
+
+    return asyncio.run(post())
+
+
+def test_the_name_is_looked_up_once_and_its_certificate_checked(server, monkeypatch):
+    assert posted(server, NAME, monkeypatch).is_accepted
+    assert server.hosts == [f"{NAME}:{server.port}"]
+
+
+def test_a_certificate_for_another_name_is_refused(server, monkeypatch):
+    answer = posted(server, "other.example", monkeypatch)
+    assert (answer.status, answer.error) == (
+        None,
+        "No connection, or none that lasted (ConnectError).",
+    )
+    assert server.hosts == []
