@@ -9,6 +9,7 @@ from scipy.special import ndtri
 
 from fitter.arrays import GreyImage, Mask, Points2D
 from fitter.evidence.sampling import sample
+from fitter.numerics.distance_map import exact_distances
 
 # Outline points are taken this far apart: denser ones repeat each other.
 _SPACING_PX = 3.0
@@ -84,8 +85,7 @@ def signed_distance(mask: Mask) -> GreyImage:
     OpenCV measures to the nearest centre of the other kind; the outline runs half a pixel nearer.
     """
     region = np.ascontiguousarray(mask).view(np.uint8)
-    outside = cv2.distanceTransform(1 - region, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
-    inside = cv2.distanceTransform(region, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
+    outside, inside = exact_distances(1 - region), exact_distances(region)
     return np.where(mask, 0.5 - inside, outside - 0.5).astype(np.float32)
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from jaxtyping import Float, UInt8
 
 from fitter.arrays import Image, Mask
+from fitter.numerics.distance_map import exact_distances
 
 BAND_SHARE_OF_WIDTH = 0.05
 """The paper's: erode and dilate by 5 % of the picture's width."""
@@ -108,4 +109,4 @@ def _distance_to(region: UInt8[np.ndarray, "h w"]) -> Float[np.ndarray, "h w"]:
     """Distance of each pixel to the nearest of the region, pixels; infinite if there is none."""
     if not region.any():
         return np.full(region.shape, np.inf, dtype=np.float32)
-    return cv2.distanceTransform(1 - region, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
+    return exact_distances(1 - region)
