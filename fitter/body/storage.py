@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from fitter.array_archive import read_arrays, write_arrays
 from fitter.body.model import BodyModel, SparseRows
 from fitter.body.model_checks import FIELDS, FORMAT_VERSION, model_faults
 from fitter.errors import ModelFileError
@@ -46,13 +47,7 @@ def save_body_model(
     encoded = np.frombuffer(json.dumps(full_header, sort_keys=True).encode(), dtype=np.uint8)
     members: dict[str, np.ndarray] = {_HEADER: encoded}
     members |= {name: np.ascontiguousarray(arrays[name]) for name in FIELDS}
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
-        for name, array in members.items():
-            # A fixed date: np.savez stamps the present one, and the bytes would never repeat.
-            entry = zipfile.ZipInfo(f"{name}.npy", date_time=(1980, 1, 1, 0, 0, 0))
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            with archive.open(entry, "w") as stream:
-                np.lib.format.write_array(stream, array, allow_pickle=False)
+    write_arrays(path, members, compression=zipfile.ZIP_DEFLATED)
 
 
 def load_body_model(path: Path, *, gender: str | None = None) -> BodyModel:
@@ -149,11 +144,9 @@ def _read(path: Path) -> dict[str, np.ndarray]:
         )
     try:
         # numpy leaves the file open when it finds no archive in it, so it is opened here.
-        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as archive:
-            return {name: archive[name] for name in archive.files}
+        with path.open("rb") as stream:
+            return read_arrays(stream)
     except Exception as error:
-        # Not a list of types: what numpy and zipfile raise on a cut, emptied, damaged or pickled
-        # file, or on a bare .npy, is nowhere promised.
         raise _unreadable(path, error) from error
 
 

@@ -21,7 +21,11 @@ ROUTER: Final = APIRouter(prefix="/v1/fits", tags=["results"])
 RESULT_NAME: Final = "result.json"
 
 _BINARY: Final = {"schema": {"type": "string", "format": "binary"}}
-_FILES: Final = {"model/gltf-binary": _BINARY, "image/png": _BINARY}
+_FILES: Final = {
+    "model/gltf-binary": _BINARY,
+    "image/png": _BINARY,
+    "application/zip": _BINARY,
+}
 _NOT_MODIFIED: Final[dict[int | str, dict[str, Any]]] = {
     304: {"description": "Not changed since the given ETag."}
 }

@@ -6,6 +6,7 @@ from pathlib import Path
 from api_schemas.body_models import BodyModelInfo, BodyModels
 from api_schemas.requests import Gender
 from fitter import request as fitter_request
+from fitter.applications.fitted_person import fitted_person
 from fitter.errors import InvalidInputError
 from fitter.export import artifacts, tapes_json
 from fitter.fittable import fittable_body
@@ -30,6 +31,7 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
         body = fittable_body(result.gender, models=job.models)
         model = body.instruments.model
         files = artifacts(result, model=model, image=job.image)
+        files["person.npz"] = fitted_person(result, model).to_bytes()
         files["tapes.json"] = tapes_json(result, body.measuring)
     except InvalidInputError as error:
         raise UnusableInputError(translate.field_problem(error)) from error
