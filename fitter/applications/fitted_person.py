@@ -112,7 +112,7 @@ class FittedPerson:
                 name: array if name == "header" else np.ascontiguousarray(array, dtype="<f8")
                 for name, array in arrays.items()
             },
-            # Deflated, a body of 12,440 vertices takes 452 kB instead of 499, and 16 ms instead of 1.
+            # Deflated, 12,440 vertices take 452 kB instead of 501, and 16 ms instead of 1.
             compression=zipfile.ZIP_STORED,
         )
         return stream.getvalue()
