@@ -3,9 +3,8 @@
 import hashlib
 from collections.abc import Mapping
 from pathlib import PurePath
-from typing import Final, TypeVar
+from typing import Final
 
-from api_schemas.derivations import DerivedFiles
 from api_schemas.results import Artifact, FitResult
 
 RESULT_NAME: Final = "result.json"
@@ -16,11 +15,7 @@ MEDIA_TYPES: Final[Mapping[str, str]] = {
     ".jpg": "image/jpeg",
     ".json": "application/json",
     ".npz": "application/zip",
-    ".html": "text/html",
-    ".pdf": "application/pdf",
 }
-
-Result = TypeVar("Result", FitResult, DerivedFiles)
 
 
 def describe_artifact(name: str, content: bytes) -> Artifact:
@@ -33,7 +28,7 @@ def describe_artifact(name: str, content: bytes) -> Artifact:
     )
 
 
-def with_result_document(result: Result, artifacts: Mapping[str, bytes]) -> dict[str, bytes]:
+def with_result_document(result: FitResult, artifacts: Mapping[str, bytes]) -> dict[str, bytes]:
     """Add ``result.json``, which lists all the other files."""
     listed = result.model_copy(
         update={
