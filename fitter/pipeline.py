@@ -139,6 +139,7 @@ def fit(
             final.candidate.parameters.shape,
             shape_covariance=covariance,
             given=person.given,
+            held=person.held,
         )
         first = objective.evaluate(hypotheses[0].parameters)
         stages = [_stage(body, objective, "initial", first)]

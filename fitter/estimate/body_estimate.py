@@ -15,7 +15,6 @@ from fitter.request import KnownMeasurement
 
 INTERVAL_PROBABILITY = 0.95
 _INTERVAL_SD = 1.959964
-_ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -76,19 +75,24 @@ def estimate_body(
         If a name is not measured, or nobody has such measurements.
     """
     conditioned = conditioned_population(population, known)
-    variances = np.einsum(
-        "kn,nj,kj->k", conditioned.jacobian, conditioned.covariance, conditioned.jacobian
-    )
-    # Rounding leaves what is held exactly with a millionth of a unit, of either sign.
-    spreads = np.where(variances > _ROUNDING, np.sqrt(np.maximum(variances, 0.0)), 0.0)
+    # What is held exactly has no spread; rounding would leave it a millionth of a unit.
+    held = {name for name, each in known.items() if not each.standard_error}
+    spreads = {
+        name: 0.0 if name in held else float(np.sqrt(max(variance, 0.0)))
+        for name, variance in zip(
+            population.names,
+            np.einsum(
+                "kn,nj,kj->k", conditioned.jacobian, conditioned.covariance, conditioned.jacobian
+            ),
+            strict=True,
+        )
+    }
     return BodyEstimate(
         shape=conditioned.shape,
         canonical_vertices=population.body.canonical.at(conditioned.shape),
         measurements=tuple(
-            _estimated(each, float(spread), given=each.name in known)
-            for each, spread in zip(
-                measure(population.body, conditioned.shape), spreads, strict=True
-            )
+            _estimated(each, spreads[each.name], given=each.name in known)
+            for each in measure(population.body, conditioned.shape)
         ),
         plausibility=float(chdtrc(len(known), conditioned.squared_distance)) if known else 1.0,
     )

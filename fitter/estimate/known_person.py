@@ -35,6 +35,8 @@ class KnownPerson:
         What is known beside the height.
     given
         Names of all that the caller gave, the height as stature.
+    held
+        Names of those given without an error: every body of the fit has them.
     assumptions
         The height, where nobody gave it.
     """
@@ -44,6 +46,7 @@ class KnownPerson:
     shape: Shape
     attributes: KnownAttributes
     given: tuple[str, ...]
+    held: tuple[str, ...]
     assumptions: tuple[Assumption, ...]
 
 
@@ -63,12 +66,14 @@ def known_person(
     """
     if not request.measurements:
         height_m, assumptions = subject_height(request)
+        given = () if assumptions else (STATURE,)
         return KnownPerson(
             height_m=height_m,
             height_variance=1.0 if assumptions else 0.0,
             shape=shape_for_height(evaluator, height_m),
             attributes=NOTHING_KNOWN,
-            given=() if assumptions else (STATURE,),
+            given=given,
+            held=given,
             assumptions=assumptions,
         )
     known = _height_of(request) | dict(request.measurements)
@@ -82,6 +87,7 @@ def known_person(
         shape=held_shape(attributes.held, shape),
         attributes=attributes,
         given=tuple(known),
+        held=tuple(name for name, each in known.items() if not each.standard_error),
         assumptions=assumptions,
     )
 

@@ -145,6 +145,7 @@ def measure(
     *,
     shape_covariance: Float[np.ndarray, "n n"] | None = None,
     given: Collection[str] = (),
+    held: Collection[str] = (),
 ) -> tuple[Measurement, ...]:
     """All measurements of the body of this shape.
 
@@ -159,6 +160,9 @@ def measure(
         and what the shapes leave unexplained besides.
     given
         Names of measurements that were told and not inferred: nothing of them is unexplained.
+    held
+        Names of measurements that every body under consideration has exactly: they do not vary.
+        J Σ Jᵀ would leave them what rounding leaves of the directions that keep them.
 
     Raises
     ------
@@ -178,6 +182,7 @@ def measure(
         variances = np.einsum("kn,nj,kj->k", jacobian, shape_covariance, jacobian)
         inferred = [each.about.name not in given for each in body.definitions]
         variances += np.where(inferred, body.unexplained**2, 0.0)
+        variances[[each.about.name in held for each in body.definitions]] = 0.0
         errors = [float(e) for e in np.sqrt(np.maximum(variances, 0.0))]
     return tuple(
         Measurement(

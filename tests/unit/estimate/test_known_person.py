@@ -54,14 +54,14 @@ def test_a_height_alone_is_the_mean_person_of_section_3_1(gender):
     evaluator = packaged_body(gender).instruments.evaluator
     np.testing.assert_array_equal(found.shape, shape_for_height(evaluator, 1.71))
     assert (found.height_m, found.height_variance) == (1.71, 0.0)
-    assert (found.given, found.assumptions) == (("stature",), ())
+    assert (found.given, found.held, found.assumptions) == (("stature",), ("stature",), ())
 
 
 @GENDERS
 def test_nothing_known_is_the_mean_height_and_says_so(gender):
     found = person(gender, None)
     assert found.height_m == MEAN_HEIGHT_M[gender]
-    assert (found.height_variance, found.given) == (1.0, ())
+    assert (found.height_variance, found.given, found.held) == (1.0, (), ())
     assert [each.quantity for each in found.assumptions] == ["height_m"]
 
 
@@ -73,7 +73,7 @@ def test_what_is_given_is_had_from_the_beginning(gender):
     values = measured(gender, found)
     for name in ("stature", *names):
         assert values[name] == pytest.approx(truth[name], abs=2e-3)
-    assert found.given == ("stature", *names)
+    assert found.given == found.held == ("stature", *names)
     assert found.attributes.held.values.tolist() == [truth[name] for name in names]
     assert not len(found.attributes.standard_errors)
 
@@ -111,7 +111,7 @@ def test_an_uncertain_stature_is_drawn_toward_and_stays_uncertain(gender):
     found = person(gender, None, stature=(mean + 10.0, 5.0))
     assert mean + 3.0 < 100 * found.height_m < mean + 10.0
     assert 0.1 < found.height_variance < 0.9
-    assert (found.assumptions, found.given) == ((), ("stature",))
+    assert (found.assumptions, found.given, found.held) == ((), ("stature",), ())
 
 
 @GENDERS

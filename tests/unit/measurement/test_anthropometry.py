@@ -121,6 +121,16 @@ def test_without_a_covariance_no_standard_error_is_claimed(body):
     assert all(m.standard_error is None for m in measure(body, SHAPE))
 
 
+def test_what_is_held_does_not_vary_and_the_others_vary_as_before(body):
+    spread = np.array([[0.09, 0.01], [0.01, 0.04]])
+    unsure = replace(body, unexplained=np.full(len(body.definitions), 2.0))
+    free = measure(unsure, SHAPE, shape_covariance=spread)
+    first, *others = measure(unsure, SHAPE, shape_covariance=spread, held=(free[0].name,))
+    assert free[0].standard_error
+    assert first.standard_error == 0.0
+    assert others == list(free[1:])
+
+
 def test_a_tape_that_misses_the_body_is_an_error_that_names_it(bar, evaluator):
     missing = (*DEFINITIONS, bar_girth("beyond", fractions=(1.5, 1.5)))
     with pytest.raises(NumericalError, match="Not finite: beyond"):
