@@ -16,7 +16,7 @@ _BINARY_CHUNK = 0x004E4942
 _ALIGNMENT = 4
 
 _COMPONENT_TYPES = {"<f4": 5126, "<u2": 5123, "<u4": 5125}
-_SHAPE_TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
+_SHAPE_TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
 
 
 class Target(IntEnum):
@@ -34,10 +34,12 @@ class BinaryChunk:
         self.accessors: list[dict[str, object]] = []
         self.buffer_views: list[dict[str, object]] = []
 
-    def add(self, array: np.ndarray, *, target: Target, bounds: bool = False) -> int:
+    def add(self, array: np.ndarray, *, target: Target | None, bounds: bool = False) -> int:
         """Append a (k,) or (k, d) array of float32, uint16 or uint32; return its accessor.
 
-        ``bounds`` writes ``min`` and ``max``, which glTF demands of positions.
+        Sixteen columns are a matrix, column after column. ``target`` is None for what belongs to no
+        vertex and no triangle, as an animation's samples. ``bounds`` writes ``min`` and ``max``,
+        which glTF demands of positions and of the times of an animation.
         """
         stored = np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("<"))
         columns = stored.reshape(len(stored), -1)
@@ -52,14 +54,14 @@ class BinaryChunk:
             # Widening float32 to JSON's double keeps the bounds equal to the stored numbers.
             accessor["min"] = columns.min(axis=0).tolist()
             accessor["max"] = columns.max(axis=0).tolist()
-        self.buffer_views.append(
-            {
-                "buffer": 0,
-                "byteOffset": len(self._bytes),
-                "byteLength": len(raw),
-                "target": int(target),
-            }
-        )
+        view: dict[str, object] = {
+            "buffer": 0,
+            "byteOffset": len(self._bytes),
+            "byteLength": len(raw),
+        }
+        if target is not None:
+            view["target"] = int(target)
+        self.buffer_views.append(view)
         self.accessors.append(accessor)
         self._bytes += raw + b"\0" * (-len(raw) % _ALIGNMENT)
         return len(self.accessors) - 1

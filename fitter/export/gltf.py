@@ -12,7 +12,7 @@ from importlib.metadata import PackageNotFoundError, version
 import numpy as np
 from jaxtyping import Float
 
-from fitter.arrays import Triangles, Vector3, Vertices
+from fitter.arrays import Normals, Triangles, Vector3, Vertices
 from fitter.body.model import BodyModel
 from fitter.body.scape import CAMERA_AXES
 from fitter.camera import Camera
@@ -60,7 +60,6 @@ def body_posed_glb(result: FitResult, model: BodyModel) -> bytes:
         vertices=result.posed_vertices * CAMERA_AXES,
         triangles=model.triangles,
         result=result,
-        colour_scale=colour_scale,
     )
 
 
@@ -73,7 +72,6 @@ def body_canonical_glb(result: FitResult, model: BodyModel) -> bytes:
         vertices=result.canonical_vertices - np.array([0.0, lowest, 0.0]),
         triangles=model.triangles,
         result=result,
-        colour_scale=_colour_scale(result.reflectance, result.albedo_rgb),
     )
 
 
@@ -144,40 +142,79 @@ def _with_body(
     vertices: Vertices,
     triangles: Triangles,
     result: FitResult,
-    colour_scale: float,
 ) -> bytes:
     binary = BinaryChunk()
-    sums = summed_cross_products(np.ascontiguousarray(vertices), triangles)
-    lengths = np.linalg.norm(sums, axis=1, keepdims=True)
+    add_body_mesh(
+        document,
+        binary,
+        vertices=vertices,
+        triangles=triangles,
+        reflectance=result.reflectance,
+        albedo_rgb=result.albedo_rgb,
+    )
+    document["nodes"] = nodes
+    return pack_glb(document, binary)
+
+
+def add_body_mesh(
+    document: dict[str, object],
+    binary: BinaryChunk,
+    *,
+    vertices: Vertices,
+    triangles: Triangles,
+    reflectance: Reflectance | None,
+    albedo_rgb: Vertices | None,
+) -> dict[str, object]:
+    """Give a document its one mesh, of the body, and its material.
+
+    Parameters
+    ----------
+    document
+        Gets ``meshes``, ``materials`` and ``extensionsUsed``.
+    binary
+        Gets the arrays.
+    vertices, triangles
+        The body, in the axes of the file.
+    reflectance, albedo_rgb
+        Per vertex; a neutral colour where there is none.
+
+    Returns
+    -------
+    dict
+        The mesh's primitive as it stands in the document, to be added to.
+    """
 
     def attribute(values: np.ndarray, *, bounds: bool = False) -> int:
         return binary.add(values.astype(np.float32), target=Target.VERTEX_ATTRIBUTE, bounds=bounds)
 
+    scale = _colour_scale(reflectance, albedo_rgb)
     attributes = {
         "POSITION": attribute(vertices, bounds=True),
-        "NORMAL": attribute(np.where(lengths > 0.0, sums / np.maximum(lengths, 1e-30), [0, 0, 1])),
+        "NORMAL": attribute(unit_normals(vertices, triangles)),
     }
-    if result.reflectance is not None:
-        colours = _colours(result.reflectance, result.albedo_rgb)
-        attributes["COLOR_0"] = attribute(np.clip(colours / colour_scale, 0.0, 1.0))
-        attributes["_ALBEDO"] = attribute(result.reflectance.albedo)
-        attributes["_SPECULARITY"] = attribute(result.reflectance.specularity)
+    if reflectance is not None:
+        colours = _colours(reflectance, albedo_rgb)
+        attributes["COLOR_0"] = attribute(np.clip(colours / scale, 0.0, 1.0))
+        attributes["_ALBEDO"] = attribute(reflectance.albedo)
+        attributes["_SPECULARITY"] = attribute(reflectance.specularity)
     index_type = np.uint16 if len(vertices) < np.iinfo(np.uint16).max else np.uint32
     indices = binary.add(triangles.ravel().astype(index_type), target=Target.TRIANGLE_INDICES)
-    material, extensions = _material(result.reflectance, colour_scale)
+    material, extensions = _material(reflectance, scale)
     if "extensions" in document:
         extensions = ["KHR_lights_punctual", *extensions]
     if extensions:
         document["extensionsUsed"] = sorted(extensions)
     document["materials"] = [material]
-    document["meshes"] = [
-        {
-            "name": "body",
-            "primitives": [{"attributes": attributes, "indices": indices, "material": 0}],
-        }
-    ]
-    document["nodes"] = nodes
-    return pack_glb(document, binary)
+    primitive: dict[str, object] = {"attributes": attributes, "indices": indices, "material": 0}
+    document["meshes"] = [{"name": "body", "primitives": [primitive]}]
+    return primitive
+
+
+def unit_normals(vertices: Vertices, triangles: Triangles) -> Normals:
+    """Area-weighted unit normals; +z where the triangles round a vertex have none."""
+    sums = summed_cross_products(np.ascontiguousarray(vertices), triangles)
+    lengths = np.linalg.norm(sums, axis=1, keepdims=True)
+    return np.where(lengths > 0.0, sums / np.maximum(lengths, 1e-30), [0.0, 0.0, 1.0])
 
 
 def _document(result: FitResult, model: BodyModel, *, name: str) -> dict[str, object]:

@@ -10,8 +10,7 @@ import numpy as np
 from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
 from fitter.export.glb import BinaryChunk, Target, pack_glb
-from fitter.export.gltf import NEUTRAL_ALBEDO, NEUTRAL_ROUGHNESS, generator_name
-from fitter.numerics.normals import summed_cross_products
+from fitter.export.gltf import NEUTRAL_ALBEDO, NEUTRAL_ROUGHNESS, generator_name, unit_normals
 
 
 def plain_glb(
@@ -32,9 +31,7 @@ def plain_glb(
     """
     standing = vertices - np.array([0.0, vertices[:, 1].min(), 0.0])
     binary = BinaryChunk()
-    sums = summed_cross_products(np.ascontiguousarray(standing), model.triangles)
-    lengths = np.linalg.norm(sums, axis=1, keepdims=True)
-    normals = np.where(lengths > 0.0, sums / np.maximum(lengths, 1e-30), [0.0, 0.0, 1.0])
+    normals = unit_normals(standing, model.triangles)
     attributes = {
         "POSITION": binary.add(
             standing.astype(np.float32), target=Target.VERTEX_ATTRIBUTE, bounds=True
