@@ -170,7 +170,7 @@ def fit(
             shaded.reflectance.albedo,
             observation.linear_rgb,
             intensity,
-            body.instruments.topology,
+            shaded.hidden,
         ),
         energies=final.candidate.energies,
         evaluations=nearer.evaluations

@@ -16,7 +16,7 @@ from fitter.energies.shading import ShadingEvidence, seen_vertices, usable_verti
 from fitter.evidence.intensity import IntensityMap
 from fitter.numerics.mesh_parts import grown, mesh_part
 from fitter.optimizer.gauss_newton import Minimum
-from fitter.optimizer.hidden_reflectance import filled_in
+from fitter.optimizer.hidden_reflectance import HiddenVertices
 from fitter.optimizer.light_solve import (
     LightEstimate,
     LitSurface,
@@ -82,6 +82,8 @@ class ShadedFit:
         The body and the energies that were minimised, those of ``evidence``.
     light, reflectance
         In coordinates about the final body's centre, where the light's intensity is 1.
+    hidden
+        The vertices whose reflectance was not observed but continued.
     evidence
         The shading term of the last round; its light still refers to the centre where the
         alternation began, and its reflectance is smoother than the one reported.
@@ -92,6 +94,7 @@ class ShadedFit:
     minimum: Minimum
     light: Light
     reflectance: Reflectance
+    hidden: HiddenVertices
     evidence: ShadingEvidence
     evaluations: int
 
@@ -143,12 +146,18 @@ def fit_shading(
     assert minimum is not None
     # The reflectance of the final body: what is drawn must be what was found.
     reported = _with_new_reflectance(objective, now, state, REPORTED_SMOOTHNESS, GRADUATION)
-    reported = _everywhere(objective, now, reported)
+    hidden = _hidden(objective, now, reported)
+    reflectance = replace(
+        reported.reflectance,
+        albedo=hidden.filled(reported.reflectance.albedo),
+        specularity=hidden.filled(reported.reflectance.specularity),
+    )
     light = light_about(state.light, old_centre=centre, new_centre=now.parameters.translation)
     return ShadedFit(
         minimum=minimum,
         light=light,
-        reflectance=_at_distance(reported.reflectance, state.light, light),
+        reflectance=_at_distance(reflectance, state.light, light),
+        hidden=hidden,
         evidence=state,
         evaluations=evaluations,
     )
@@ -309,20 +318,11 @@ def _with_new_reflectance(
     )
 
 
-def _everywhere(
-    objective: Objective, candidate: Candidate, state: ShadingEvidence
-) -> ShadingEvidence:
-    """Reflectance of all vertices from that of the seen ones that took part."""
+def _hidden(objective: Objective, candidate: Candidate, state: ShadingEvidence) -> HiddenVertices:
+    """The vertices that took no part in the search for the reflectance."""
     edges = objective.instruments.topology.edges
-    albedo, specularity = filled_in(
-        (state.reflectance.albedo, state.reflectance.specularity),
-        usable_vertices(candidate.rendering, state),
-        edges,
-        _edge_lengths(candidate.vertices, edges),
-    )
-    return replace(
-        state, reflectance=replace(state.reflectance, albedo=albedo, specularity=specularity)
-    )
+    lengths = _edge_lengths(candidate.vertices, edges)
+    return HiddenVertices.of(usable_vertices(candidate.rendering, state), edges, lengths)
 
 
 def _edge_lengths(vertices: Vertices, edges: Integer[np.ndarray, "e 2"]) -> Float[np.ndarray, " e"]:

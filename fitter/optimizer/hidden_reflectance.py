@@ -4,7 +4,8 @@ Eq. 2 asks nothing of a hidden vertex but that it be like its neighbours, so hid
 no part in the search for the reflectance of the others; they are filled in once, at the end.
 """
 
-from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 import qdldl
@@ -17,50 +18,76 @@ from fitter.arrays import PerVertex
 _RIDGE = 1e-6
 
 
-def filled_in(
-    fields: Sequence[PerVertex],
-    known: Bool[np.ndarray, " m"],
-    edges: Integer[np.ndarray, "e 2"],
-    edge_lengths: Float[np.ndarray, " e"],
-) -> list[PerVertex]:
-    """Fields whose unknown values are replaced by those that minimise Σ (v_i - v_j)² / d_ij.
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class HiddenVertices:
+    """The smoothest continuation onto some vertices, ready for any field.
 
-    Parameters
+    Attributes
     ----------
-    fields, known
-        Each one value a vertex, and which vertices keep theirs; some must.
-    edges, edge_lengths
-        The mesh's edges and their lengths d.
+    known, unknown
+        (m,) which vertices keep their value, and (u,) the ids of the others.
+    border
+        (u, m) stiffness of the edges from unknown vertices to known ones.
+    solver
+        Of the unknown vertices' own matrix; None where there are none.
     """
-    unknown = np.flatnonzero(~known)
-    if not len(unknown):
-        return list(fields)
-    place = np.full(len(known), -1)
-    place[unknown] = np.arange(len(unknown))
-    stiffness = 1.0 / edge_lengths
-    diagonal = np.full(len(unknown), _RIDGE)
-    pulls = [np.full(len(unknown), _RIDGE * values[known].mean()) for values in fields]
-    for start, end in (edges.T, edges.T[::-1]):
-        here = ~known[start]
-        np.add.at(diagonal, place[start[here]], stiffness[here])
-        given = here & known[end]
-        for pull, values in zip(pulls, fields, strict=True):
-            np.add.at(pull, place[start[given]], stiffness[given] * values[end[given]])
-    between = ~known[edges].any(axis=1)
-    ends = np.sort(place[edges[between]], axis=1)
-    size = len(unknown)
-    upper = sparse.coo_array(
-        (
-            np.concatenate([diagonal, -stiffness[between]]),
+
+    known: Bool[np.ndarray, " m"]
+    unknown: Integer[np.ndarray, " u"]
+    border: sparse.csr_array
+    solver: qdldl.Solver | None
+
+    @classmethod
+    def of(
+        cls,
+        known: Bool[np.ndarray, " m"],
+        edges: Integer[np.ndarray, "e 2"],
+        edge_lengths: Float[np.ndarray, " e"],
+    ) -> Self:
+        """Factorise Σ (v_i - v_j)² / d_ij over the edges and their lengths d.
+
+        Parameters
+        ----------
+        known
+            Which vertices keep their values; some must.
+        """
+        unknown = np.flatnonzero(~known)
+        count = len(unknown)
+        place = np.full(len(known), -1)
+        place[unknown] = np.arange(count)
+        # Every edge from both of its ends.
+        here, there = np.concatenate([edges, edges[:, ::-1]]).T
+        stiffness = np.concatenate([1.0 / edge_lengths] * 2)
+        of_unknown = ~known[here]
+        here, there, stiffness = place[here[of_unknown]], there[of_unknown], stiffness[of_unknown]
+        given = known[there]
+        border = sparse.coo_array(
+            (stiffness[given], (here[given], there[given])), shape=(count, len(known))
+        )
+        upper = here < place[there]
+        diagonal = _RIDGE + np.bincount(here, stiffness, count)
+        matrix = sparse.coo_array(
             (
-                np.concatenate([np.arange(size), ends[:, 0]]),
-                np.concatenate([np.arange(size), ends[:, 1]]),
+                np.concatenate([diagonal, -stiffness[upper]]),
+                (
+                    np.concatenate([np.arange(count), here[upper]]),
+                    np.concatenate([np.arange(count), place[there[upper]]]),
+                ),
             ),
-        ),
-        shape=(size, size),
-    )
-    solver = qdldl.Solver(sparse.csc_matrix(upper), upper=True)
-    filled = [values.copy() for values in fields]
-    for values, pull in zip(filled, pulls, strict=True):
-        values[unknown] = solver.solve(pull)
-    return filled
+            shape=(count, count),
+        )
+        return cls(
+            known=known,
+            unknown=unknown,
+            border=border.tocsr(),
+            solver=qdldl.Solver(sparse.csc_matrix(matrix), upper=True) if count else None,
+        )
+
+    def filled(self, values: PerVertex) -> PerVertex:
+        """Values (m,) of which the unknown ones are replaced."""
+        if self.solver is None:
+            return values.copy()
+        kept = np.where(self.known, values, 0.0)
+        pull = self.border @ kept + _RIDGE * values[self.known].mean()
+        kept[self.unknown] = self.solver.solve(pull)
+        return kept
