@@ -63,8 +63,8 @@ class MeasuringBody:
         (f, 3) of the mesh.
     regions
         Where the tape of each measurement with parts may run, by its name.
-    canonical, standing
-        The body in the canonical and in the standing pose.
+    canonical
+        The body in the canonical pose.
     points
         Rows of landmarks, then of joints, which have a prefix to their names.
     canonical_points, standing_points
@@ -78,7 +78,6 @@ class MeasuringBody:
     triangles: Triangles
     regions: Mapping[str, Region]
     canonical: AffineBody
-    standing: AffineBody
     points: SparseRows
     canonical_points: AffineBody
     standing_points: AffineBody
@@ -109,7 +108,6 @@ def measuring_body(
     definitions = load_definitions() if definitions is None else tuple(definitions)
     check_against_model(definitions, model)
     canonical = affine_body(evaluator, model.canonical_pose)
-    standing = affine_body(evaluator, model.standing_pose)
     everything = whole_mesh(model.triangles)
     regions = {
         definition.about.name: restricted(everything, _part_shares(model, definition.parts))
@@ -122,10 +120,9 @@ def measuring_body(
         triangles=model.triangles,
         regions=regions,
         canonical=canonical,
-        standing=standing,
         points=points,
         canonical_points=_points(points, canonical),
-        standing_points=_points(points, standing),
+        standing_points=_points(points, affine_body(evaluator, model.standing_pose)),
         unexplained=_unexplained(model, definitions),
     )
 

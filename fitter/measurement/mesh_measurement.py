@@ -56,7 +56,7 @@ def in_body_frame(posed: AffineBody, body: MeasuringBody, vertices: Vertices) ->
     Parameters
     ----------
     posed
-        The model in the pose of the mesh: ``body.canonical`` or ``body.standing``.
+        The model in the pose of the mesh.
     body
         Gives the mesh's triangles.
     vertices

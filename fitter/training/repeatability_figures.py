@@ -8,6 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from fitter.body.model import BodyModel
 from fitter.body.scape import ScapeEvaluator
+from fitter.measurement.affine_body import affine_body
 from fitter.measurement.anthropometry import measurement_values, measuring_body
 from fitter.measurement.mesh_measurement import in_body_frame, mesh_measurement_values
 from fitter.training.reported import Reported
@@ -41,13 +42,15 @@ def repeatability_figures(
     model: BodyModel, rng: np.random.Generator, *, bodies: int = BODIES
 ) -> RepeatabilityFigures:
     """Change the meshes of random bodies of a model and measure them again."""
-    body = measuring_body(model, ScapeEvaluator(model))
+    evaluator = ScapeEvaluator(model)
+    body = measuring_body(model, evaluator)
+    poses = (body.canonical, affine_body(evaluator, model.standing_pose))
     largest = np.zeros((3, len(body.definitions)))
     for rotation in Rotation.random(bodies, rng).as_matrix():
         shape = rng.normal(size=len(model.shape_basis))
         shift = rng.uniform(-SHIFT_M, SHIFT_M, 3)
         before = measurement_values(body, shape)
-        meshes = [(posed, posed.at(shape)) for posed in (body.canonical, body.standing)]
+        meshes = [(posed, posed.at(shape)) for posed in poses]
         moved = [in_body_frame(posed, body, mesh @ rotation.T + shift) for posed, mesh in meshes]
         mirrored = [(mesh * [-1.0, 1.0, 1.0])[model.mirror] for _, mesh in meshes]
         noisy = [mesh + rng.normal(scale=NOISE_M, size=mesh.shape) for _, mesh in meshes]
