@@ -28,6 +28,9 @@ class JobLinks(WireModel):
     events: str
     image: str = Field(description="The picture it was made of.")
     request: str = Field(description="What was asked for.")
+    derivations: str | None = Field(
+        default=None, description="What was derived from the fit; once it has succeeded."
+    )
     cancel: str | None = Field(default=None, description="While the job has not ended.")
     retry: str | None = Field(default=None, description="Once the job has ended.")
     result: str | None = None
@@ -55,25 +58,30 @@ class WebhookDelivery(WireModel):
     next_attempt_at: datetime | None = Field(description="Null unless it is `due`.")
 
 
-class Job(WireModel):
-    """One accepted fit."""
+class JobStanding(WireModel):
+    """Where an accepted job stands."""
 
     id: UUID
     state: JobState
-    stage: str | None = Field(description="The stage of the fit last reported.")
-    progress: float = Field(ge=0.0, le=1.0, description="The share of the fit that is done.")
-    attempt: int = Field(ge=0, description="How many times the fit was started.")
+    stage: str | None = Field(description="The stage last reported.")
+    progress: float = Field(ge=0.0, le=1.0, description="The share of the work that is done.")
+    attempt: int = Field(ge=0, description="How many times the work was started.")
     cancel_requested: bool
     created_at: datetime
     started_at: datetime | None
     finished_at: datetime | None
     expires_at: datetime | None = Field(
-        default=None, description="When the job is erased with its picture; null if it is kept."
+        default=None, description="When the job is erased with all it holds; null if it is kept."
     )
     problem: Problem | None = Field(description="Why the job has no result; null unless it failed.")
     webhook: WebhookDelivery | None = Field(
         default=None, description="The notice of its end; null unless the request asked for one."
     )
+
+
+class Job(JobStanding):
+    """One accepted fit."""
+
     links: JobLinks
 
 

@@ -23,6 +23,14 @@ SUPERSAMPLING = 2
 CANONICAL_DISTANCE_M = 6.0
 """From where the canonical body is seen: far enough that near parts do not swell."""
 
+SIDES_DEGREES = {
+    "from the camera": 0.0,
+    "from the right of the picture": 90.0,
+    "from behind": 180.0,
+    "from the left of the picture": 270.0,
+}
+"""How far an onlooker has walked to the right round the body."""
+
 TO_LIGHT = np.array([-0.45, -0.60, -0.66])
 """Unit direction toward the light, camera frame: over the onlooker's left shoulder."""
 
@@ -63,8 +71,32 @@ def views_picture(
         "canonical, side": turned_about_vertical(canonical, there, 90.0),
     }
     return np.concatenate(
-        [_panel(vertices, triangles, label) for label, vertices in panels.items()], axis=1
+        [
+            clay_panel(vertices, triangles, label, _panel_camera(vertices))
+            for label, vertices in panels.items()
+        ],
+        axis=1,
     )
+
+
+def sides_pictures(
+    posed_vertices: Vertices, root: Vector3, triangles: Triangles
+) -> dict[str, UInt8[np.ndarray, "h w 3"]]:
+    """The posed body from the camera and from its three other sides, by name, in one scale.
+
+    Parameters
+    ----------
+    posed_vertices
+        (m, 3) camera frame, metres.
+    root
+        Position of the root joint in the camera frame: the onlooker walks round its vertical.
+    """
+    turned = {
+        side: turned_about_vertical(posed_vertices, root, degrees)
+        for side, degrees in SIDES_DEGREES.items()
+    }
+    camera = _panel_camera(np.concatenate(list(turned.values())))
+    return {side: clay_picture(vertices, triangles, camera) for side, vertices in turned.items()}
 
 
 def turned_about_vertical(vertices: Vertices, centre: Vector3, degrees: float) -> Vertices:
@@ -102,16 +134,39 @@ def framing_camera(vertices: Vertices, *, width: int, height: int) -> Camera:
     )
 
 
-def _panel(vertices: Vertices, triangles: Triangles, label: str) -> UInt8[np.ndarray, "h w 3"]:
-    camera = framing_camera(vertices, width=PANEL_WIDTH_PX, height=PANEL_HEIGHT_PX)
+def _panel_camera(vertices: Vertices) -> Camera:
+    return framing_camera(vertices, width=PANEL_WIDTH_PX, height=PANEL_HEIGHT_PX)
+
+
+def clay_panel(
+    vertices: Vertices, triangles: Triangles, label: str, camera: Camera
+) -> UInt8[np.ndarray, "h w 3"]:
+    """A body of clay before white paper, labelled.
+
+    Parameters
+    ----------
+    vertices, triangles
+        The body, camera frame, metres.
+    label
+        Written into the upper left corner.
+    camera
+        Whose picture the panel is.
+    """
+    levels = clay_picture(vertices, triangles, camera)
+    cv2.putText(
+        levels, label, (12, 24), cv2.FONT_HERSHEY_SIMPLEX, 0.55, LABEL_COLOUR, 1, cv2.LINE_AA
+    )
+    return levels
+
+
+def clay_picture(
+    vertices: Vertices, triangles: Triangles, camera: Camera
+) -> UInt8[np.ndarray, "h w 3"]:
+    """A body of clay before white paper; the vertices in the camera's frame, metres."""
     rendering = render(vertices, triangles, finer(camera, SUPERSAMPLING))
     lit = np.clip(rendering.vertex_normals @ TO_LIGHT, 0.0, 1.0)
     # Nothing lies outside the body, so both means are weighted by the pixel's coverage.
     grey = block_means(shade_image(rendering, FILL_LIGHT + (1.0 - FILL_LIGHT) * lit), SUPERSAMPLING)
     coverage = block_means(rendering.silhouette.astype(np.float32), SUPERSAMPLING)
     linear = grey[..., None] * CLAY + PAPER * (1.0 - coverage[..., None])
-    levels = to_levels(display_from_linear(linear))
-    cv2.putText(
-        levels, label, (12, 24), cv2.FONT_HERSHEY_SIMPLEX, 0.55, LABEL_COLOUR, 1, cv2.LINE_AA
-    )
-    return levels
+    return to_levels(display_from_linear(linear))

@@ -4,7 +4,7 @@ import contextlib
 import hashlib
 import re
 import time
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, Final
 from uuid import uuid4
@@ -12,37 +12,42 @@ from uuid import uuid4
 from fastapi import Header, Response
 from starlette.concurrency import run_in_threadpool
 
-from api_schemas.jobs import Job
+from api_schemas.jobs import JobStanding
 from api_schemas.problems import problem
 from api_schemas.webhooks import WebhookTarget
 from service.api.context import ApiContext
 from service.api.problems import ProblemError, not_found
-from service.api.representation import POLL_AFTER_S, job_path, represent
+from service.api.representation import POLL_AFTER_S, job_path
 from service.blobs import BlobsUnavailableError
 from service.engine.port import (
+    FIT,
     Idempotency,
     JobRecord,
     NewJob,
     StoredBlob,
     Submission,
     SubmitOutcome,
+    TenantJobs,
 )
 from service.jobs import ACTIVE
 from service.tracing import current_traceparent
 
 MAX_WAIT_S: Final = 60
 
-ACCEPTED: Final[dict[int | str, dict[str, Any]]] = {
-    200: {"model": Job, "description": "Ended within the time of `Prefer: wait`."},
-    202: {
-        "description": "Accepted.",
-        "headers": {
-            "Location": {"description": "Path of the job.", "schema": {"type": "string"}},
-            "Retry-After": {"description": "Seconds to wait.", "schema": {"type": "integer"}},
+
+def accepted(kind: type[JobStanding]) -> dict[int | str, dict[str, Any]]:
+    """Describe the answers to whoever has a job accepted, for the OpenAPI document."""
+    return {
+        200: {"model": kind, "description": "Ended within the time of `Prefer: wait`."},
+        202: {
+            "description": "Accepted.",
+            "headers": {
+                "Location": {"description": "Path of the job.", "schema": {"type": "string"}},
+                "Retry-After": {"description": "Seconds to wait.", "schema": {"type": "integer"}},
+            },
         },
-    },
-}
-"""The answers to whoever has a job accepted, for the OpenAPI document."""
+    }
+
 
 ACCEPTANCE_PROBLEMS: Final = (
     "idempotency-key-reused",
@@ -76,16 +81,17 @@ class File:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Inputs:
-    """What a job is made of; ``options`` is the request as JSON."""
+    """What a job of a kind is made of; ``options`` is the request as JSON."""
 
+    kind: str = FIT
     options: bytes
-    image: File
-    mask: File | None
+    files: Mapping[str, File]
     webhook: WebhookTarget | None
 
 
 async def accept(
     context: ApiContext,
+    jobs: TenantJobs,
     inputs: Inputs,
     *,
     key: Idempotency | None,
@@ -102,11 +108,11 @@ async def accept(
     """
     job_id = str(uuid4())
     # From here on the job's scope is erased by itself unless the job is accepted.
-    submission = await run_in_threadpool(context.jobs.reserve, job_id, key)
+    submission = await run_in_threadpool(jobs.reserve, job_id, key)
     if submission.outcome is SubmitOutcome.ACCEPTED:
         if check is not None:
             await check()
-        submission = await run_in_threadpool(_store, context, job_id, inputs, key)
+        submission = await run_in_threadpool(_store, context, jobs, job_id, inputs, key)
     return _accepted(submission)
 
 
@@ -121,29 +127,43 @@ def idempotency(key: str | None, *parts: bytes) -> Idempotency | None:
 
 
 async def answer(
-    context: ApiContext, response: Response, job: JobRecord, *, prefer: str | None
-) -> Job:
-    """Answer with an accepted job, after its end if the caller prefers to wait for it."""
+    context: ApiContext,
+    jobs: TenantJobs,
+    response: Response,
+    job: JobRecord,
+    *,
+    prefer: str | None,
+) -> JobRecord:
+    """Complete the answer with an accepted job, after its end if the caller prefers to wait.
+
+    Returns the job as it is by then.
+    """
     wait_s = _preferred_wait_s(prefer)
     if wait_s > 0:
-        job = await _wait_for_end(context, job, wait_s)
+        job = await _wait_for_end(context, jobs, job, wait_s)
         response.headers["Preference-Applied"] = f"wait={wait_s}"
-    response.headers["Location"] = job_path(job.id)
+    response.headers["Location"] = job_path(job)
     if job.state in ACTIVE:
         response.headers["Retry-After"] = str(POLL_AFTER_S)
     elif wait_s > 0:
         response.status_code = 200
-    return represent(job)
+    return job
 
 
-def _store(context: ApiContext, job_id: str, inputs: Inputs, key: Idempotency | None) -> Submission:
+def _store(
+    context: ApiContext,
+    jobs: TenantJobs,
+    job_id: str,
+    inputs: Inputs,
+    key: Idempotency | None,
+) -> Submission:
     try:
         job = _stored(context, job_id, inputs, key)
     except BlobsUnavailableError:
         _erase_at_once(context, job_id)
         raise
     # Should the database go away before it answers, it may have said yes: the blobs stay then.
-    submission = context.jobs.submit(job)
+    submission = jobs.submit(job)
     if submission.outcome is not SubmitOutcome.ACCEPTED:
         _erase_at_once(context, job_id)
     return submission
@@ -156,9 +176,9 @@ def _stored(context: ApiContext, job_id: str, inputs: Inputs, key: Idempotency |
 
     return NewJob(
         id=job_id,
+        kind=inputs.kind,
         options=stored(File(content=inputs.options, media_type="application/json")),
-        image=stored(inputs.image),
-        mask=None if inputs.mask is None else stored(inputs.mask),
+        inputs={name: stored(file) for name, file in inputs.files.items()},
         idempotency=key,
         request_id=context.request_id,
         traceparent=current_traceparent(),
@@ -196,9 +216,11 @@ def _accepted(submission: Submission) -> JobRecord:
                 "not-ready",
                 code="submission-lost",
                 detail="The upload took too long and was given up.",
-                remedy="Post the picture again.",
+                remedy="Post it again.",
             )
         )
+    if submission.outcome is SubmitOutcome.PARENT_GONE:
+        raise not_found(what="such fit any more")
     if submission.job is None:
         raise ProblemError(
             problem(
@@ -216,7 +238,9 @@ def _preferred_wait_s(prefer: str | None) -> int:
     return min(int(found[1]), MAX_WAIT_S) if found else 0
 
 
-async def _wait_for_end(context: ApiContext, job: JobRecord, wait_s: int) -> JobRecord:
+async def _wait_for_end(
+    context: ApiContext, jobs: TenantJobs, job: JobRecord, wait_s: int
+) -> JobRecord:
     deadline = time.monotonic() + wait_s
     while (
         job.state in ACTIVE
@@ -224,7 +248,7 @@ async def _wait_for_end(context: ApiContext, job: JobRecord, wait_s: int) -> Job
         and (remaining_s := deadline - time.monotonic()) > 0
     ):
         await context.feed.wait_beyond(job.id, job.last_event, timeout_s=remaining_s)
-        latest = await run_in_threadpool(context.jobs.job, job.id)
+        latest = await run_in_threadpool(jobs.job, job.id)
         if latest is None:
             raise not_found(what="such job any more")
         job = latest

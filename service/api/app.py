@@ -13,6 +13,7 @@ from starlette.middleware.cors import CORSMiddleware
 from service.api import (
     bodies,
     body_models,
+    derivations,
     documentation,
     events,
     fit_inputs,
@@ -160,6 +161,7 @@ def _resources(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]] 
         results,
         retries,
         fit_inputs,
+        derivations,
         images,
         initial_poses,
         bodies,

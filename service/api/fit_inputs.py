@@ -1,22 +1,20 @@
 """What a job was made of: its picture and its request, for whoever looks at it again later."""
 
-from typing import Annotated, Final
+from typing import Final
 from uuid import UUID
 
-from fastapi import APIRouter, Header, Response
+from fastapi import APIRouter, Response
 
 from service.api.context import ApiContext, Context
-from service.api.fits import find
+from service.api.job_routes import JOB_PROBLEMS, NOT_MODIFIED, IfNoneMatch, find
 from service.api.json_bodies import JSON
 from service.api.problems import documented, not_found
 from service.blobs import BlobMissingError
 from service.engine.port import JobRecord, StoredBlob
+from service.inputs import IMAGE
 
 ROUTER: Final = APIRouter(prefix="/v1/fits", tags=["fits"])
 
-_PROBLEMS: Final = documented(
-    "not-found", "fit-expired", "invalid-request", "not-ready", "internal-error"
-)
 _BINARY: Final = {"schema": {"type": "string", "format": "binary"}}
 
 
@@ -29,16 +27,14 @@ _BINARY: Final = {"schema": {"type": "string", "format": "binary"}}
             "description": "The file as it was sent.",
             "content": {"image/jpeg": _BINARY, "image/png": _BINARY, "image/webp": _BINARY},
         },
-        304: {"description": "Not changed since the given ETag."},
     }
-    | _PROBLEMS,
+    | NOT_MODIFIED
+    | documented(*JOB_PROBLEMS),
 )
-def fit_image(
-    fit_id: UUID, context: Context, if_none_match: Annotated[str | None, Header()] = None
-) -> Response:
+def fit_image(fit_id: UUID, context: Context, if_none_match: IfNoneMatch = None) -> Response:
     """Return the picture as it was sent; it is erased with the job."""
-    record = find(context, fit_id)
-    return _serve(context, record, record.image, if_none_match)
+    record = find(context.jobs, fit_id)
+    return serve_blob(context, record, record.inputs[IMAGE], if_none_match)
 
 
 @ROUTER.get(
@@ -50,21 +46,20 @@ def fit_image(
             "description": "As it was understood, defaults included.",
             "content": {JSON: {"schema": {"$ref": "#/components/schemas/FitOptions"}}},
         },
-        304: {"description": "Not changed since the given ETag."},
     }
-    | _PROBLEMS,
+    | NOT_MODIFIED
+    | documented(*JOB_PROBLEMS),
 )
-def fit_request(
-    fit_id: UUID, context: Context, if_none_match: Annotated[str | None, Header()] = None
-) -> Response:
+def fit_request(fit_id: UUID, context: Context, if_none_match: IfNoneMatch = None) -> Response:
     """Return what was asked for, points by name: to be changed and sent again."""
-    record = find(context, fit_id)
-    return _serve(context, record, record.options, if_none_match)
+    record = find(context.jobs, fit_id)
+    return serve_blob(context, record, record.options, if_none_match)
 
 
-def _serve(
+def serve_blob(
     context: ApiContext, record: JobRecord, blob: StoredBlob, if_none_match: str | None
 ) -> Response:
+    """Answer with what a job was made of."""
     headers = {
         "ETag": f'"{blob.digest}"',
         "Cache-Control": "private, immutable, max-age=31536000",

@@ -1,27 +1,29 @@
 """Fits as jobs: list, look at, cancel, erase."""
 
-import re
-from typing import Annotated, Any, Final
+from typing import Any, Final
 from uuid import UUID
 
-from fastapi import APIRouter, Header, Query, Response
+from fastapi import APIRouter, Response
 
-from api_schemas.jobs import Job, JobPage, JobState
-from api_schemas.problems import FieldProblem, field_problem
-from service.api.context import ApiContext, Context
-from service.api.problems import ProblemError, documented, not_found
-from service.api.representation import POLL_AFTER_S, represent
-from service.engine.port import JobRecord
-from service.jobs import ACTIVE, TERMINAL
+from api_schemas.jobs import Job, JobPage
+from service.api.context import Context
+from service.api.job_routes import (
+    JOB_PROBLEMS,
+    NOT_MODIFIED,
+    Cursor,
+    IfNoneMatch,
+    Limit,
+    State,
+    cancel_job,
+    erase_job,
+    find,
+    not_modified,
+    page_of,
+)
+from service.api.problems import documented
+from service.api.representation import represent
 
 ROUTER: Final = APIRouter(prefix="/v1/fits", tags=["fits"])
-
-MAX_PAGE: Final = 200
-
-CURSOR: Final = re.compile(
-    r"^([0-9]{1,12}(?:\.[0-9]{1,9})?)-([0-9a-f]{8}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{12})$"
-)
-"""When the last job of a page was accepted, in epoch seconds, and its id."""
 
 
 @ROUTER.get(
@@ -33,25 +35,14 @@ CURSOR: Final = re.compile(
 def list_fits(
     response: Response,
     context: Context,
-    limit: Annotated[int, Query(ge=1, le=MAX_PAGE)] = 50,
-    cursor: Annotated[
-        str | None,
-        Query(
-            description="From `next` of the page before.",
-            json_schema_extra={"pattern": CURSOR.pattern},
-        ),
-    ] = None,
-    state: Annotated[JobState | None, Query()] = None,
+    limit: Limit = 50,
+    cursor: Cursor = None,
+    state: State = None,
 ) -> JobPage:
     """List jobs; `next` and the Link header lead to the following page."""
-    before = None if cursor is None else _read_cursor(cursor)
-    records = context.jobs.jobs(limit=limit + 1, before=before, state=state)
-    page = records[:limit]
-    following = None
-    if len(records) > limit:
-        following = f"/v1/fits?limit={limit}&cursor={_cursor(page[-1])}"
-        following += f"&state={state}" if state else ""
-        response.headers["Link"] = f'<{following}>; rel="next"'
+    page, following = page_of(
+        context.jobs, response, path="/v1/fits", limit=limit, cursor=cursor, state=state
+    )
     return JobPage(jobs=tuple(represent(record) for record in page), next=following)
 
 
@@ -59,25 +50,14 @@ def list_fits(
     "/{fit_id}",
     response_model=Job,
     summary="Look at a job",
-    responses={304: {"description": "Not changed since the given ETag."}}
-    | documented("not-found", "fit-expired", "invalid-request", "not-ready", "internal-error"),
+    responses=NOT_MODIFIED | documented(*JOB_PROBLEMS),
 )
 def get_fit(
-    fit_id: UUID,
-    response: Response,
-    context: Context,
-    if_none_match: Annotated[str | None, Header()] = None,
+    fit_id: UUID, response: Response, context: Context, if_none_match: IfNoneMatch = None
 ) -> Any:
     """Return where the job stands."""
-    record = find(context, fit_id)
-    tag = _tag(record)
-    if if_none_match is not None and tag in if_none_match:
-        return Response(status_code=304, headers={"ETag": tag})
-    response.headers["ETag"] = tag
-    response.headers["Cache-Control"] = "no-cache"
-    if record.state in ACTIVE:
-        response.headers["Retry-After"] = str(POLL_AFTER_S)
-    return represent(record)
+    record = find(context.jobs, fit_id)
+    return not_modified(record, response, if_none_match) or represent(record)
 
 
 @ROUTER.post(
@@ -89,66 +69,22 @@ def get_fit(
         200: {"model": Job, "description": "The job has ended."},
         202: {"description": "The job is being stopped."},
     }
-    | documented("not-found", "fit-expired", "invalid-request", "not-ready", "internal-error"),
+    | documented(*JOB_PROBLEMS),
 )
 def cancel(fit_id: UUID, response: Response, context: Context) -> Job:
     """Stop a job; canceling again, or canceling what has ended, changes nothing."""
-    record = context.jobs.cancel(str(fit_id))
-    if record is None:
-        raise not_found(what="such job")
-    if record.state in TERMINAL:
-        response.status_code = 200
-    return represent(record)
+    return represent(cancel_job(context.jobs, fit_id, response))
 
 
 @ROUTER.delete(
     "/{fit_id}",
     status_code=204,
     summary="Erase a job",
-    responses=documented(
-        "not-found", "fit-expired", "invalid-request", "not-ready", "internal-error"
-    ),
+    responses=documented(*JOB_PROBLEMS),
 )
 def erase(fit_id: UUID, context: Context) -> Response:
-    """Stop the job if it runs, and erase its picture, intermediate files and results."""
-    if not context.jobs.erase(str(fit_id)):
-        raise not_found(what="such job")
-    context.blobs.erase(str(fit_id))
-    return Response(status_code=204)
+    """Stop the job if it runs, and erase its picture, intermediate files and results.
 
-
-def _tag(record: JobRecord) -> str:
-    """An entity tag that changes with whatever is shown of the job."""
-    parts = [record.last_event, int(record.cancel_requested)]
-    if record.webhook is not None:
-        parts += [record.webhook.state, record.webhook.attempts]
-    return f'W/"{"-".join(map(str, parts))}"'
-
-
-def find(context: ApiContext, fit_id: UUID) -> JobRecord:
-    """Return the job or raise a 404."""
-    record = context.jobs.job(str(fit_id))
-    if record is None:
-        raise not_found(what="such job")
-    return record
-
-
-def _cursor(record: JobRecord) -> str:
-    return f"{record.created_at!r}-{record.id}"
-
-
-def _read_cursor(cursor: str) -> tuple[float, str]:
-    found = CURSOR.fullmatch(cursor)
-    if found is None:
-        raise ProblemError(
-            field_problem(
-                "invalid-request",
-                FieldProblem(
-                    field="cursor",
-                    code="unknown-cursor",
-                    reason="This is no cursor of this service.",
-                    remedy="Follow 'next' of a page, or leave the cursor out.",
-                ),
-            )
-        )
-    return float(found[1]), found[2]
+    What was derived from it is stopped and erased too.
+    """
+    return erase_job(context, context.jobs, fit_id)

@@ -4,10 +4,23 @@ from collections.abc import Mapping
 from typing import Any, Final
 
 _FIT: Final = ("get_fit", "follow", "cancel", "erase", "fit_image", "fit_request")
-_ENDED_FIT: Final = (*_FIT, "retry", "result")
+_ENDED_FIT: Final = (*_FIT, "retry", "result", "derive", "list_derivations")
+_DERIVATION: Final = (
+    "get_derivation",
+    "follow_derivation",
+    "cancel_derivation",
+    "erase_derivation",
+    "derivation_request",
+)
+_ENDED_DERIVATION: Final = (*_DERIVATION, "derivation_result")
 
 _FROM_JOB: Final = {"fit_id": "$response.body#/id"}
 _SAME_FIT: Final = {"fit_id": "$request.path.fit_id"}
+_FROM_DERIVATION: Final = {
+    "fit_id": "$response.body#/fit_id",
+    "derivation_id": "$response.body#/id",
+}
+_SAME_DERIVATION: Final = _SAME_FIT | {"derivation_id": "$request.path.derivation_id"}
 _FROM_IMAGE: Final = {"image_id": "$response.body#/id"}
 _SAME_IMAGE: Final = {"image_id": "$request.path.image_id"}
 
@@ -28,6 +41,14 @@ LINKS: Final[Mapping[tuple[str, str], dict[str, Any]]] = {
     ("cancel", "200"): _links(_SAME_FIT, "get_fit", "retry", "erase"),
     ("cancel", "202"): _links(_SAME_FIT, "get_fit", "follow", "erase"),
     ("result", "200"): _links(_SAME_FIT | {"name": "$response.body#/artifacts/0/name"}, "artifact"),
+    ("derive", "202"): _links(_FROM_DERIVATION, *_DERIVATION),
+    ("derive", "200"): _links(_FROM_DERIVATION, *_ENDED_DERIVATION),
+    ("get_derivation", "200"): _links(_SAME_DERIVATION, *_ENDED_DERIVATION),
+    ("cancel_derivation", "200"): _links(_SAME_DERIVATION, "get_derivation", "erase_derivation"),
+    ("cancel_derivation", "202"): _links(_SAME_DERIVATION, "get_derivation", "erase_derivation"),
+    ("derivation_result", "200"): _links(
+        _SAME_DERIVATION | {"name": "$response.body#/artifacts/0/name"}, "derivation_artifact"
+    ),
     ("upload_image", "200"): _links(_FROM_IMAGE, "get_image", "erase_image"),
     ("upload_image", "201"): _links(_FROM_IMAGE, "get_image", "erase_image"),
     ("get_image", "200"): _links(_SAME_IMAGE, "erase_image"),

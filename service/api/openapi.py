@@ -1,20 +1,21 @@
 """Complete the generated OpenAPI document: what FastAPI cannot know of our types."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
+from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 
-from api_schemas.base import WireModel
 from api_schemas.bodies import BodyEstimate, BodyRequest
+from api_schemas.derivations import DerivationEvent, DerivationRequest, DerivationResult
 from api_schemas.images import UploadedImage
 from api_schemas.initial_poses import InitialPose, InitialPoseRequest
 from api_schemas.jobs import EventData
 from api_schemas.problems import PROBLEM_MEDIA_TYPE, Problem
 from api_schemas.requests import FitOfImage, FitOptions, FitRequest
 from api_schemas.webhooks import WebhookEvent
-from service.api.examples import ANSWERS, NOTICE, REQUESTS, Examples
-from service.api.json_bodies import JSON, json_body
+from service.api.examples import ANSWERS, DERIVATION_NOTICE, NOTICE, REQUESTS, Examples
+from service.api.json_bodies import JSON, json_content
 from service.api.links import LINKS
 from service.api.problems import documented
 
@@ -38,10 +39,14 @@ _SECURITY: dict[str, Any] = {
 }
 
 
-_WEBHOOKS: dict[str, Any] = {
-    "fit-ended": {
+def _notice(
+    event: type[BaseModel], *, name: str, summary: str, example: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Describe the notice of the end of a job."""
+    content = {JSON: json_content(event) | {"examples": {"succeeded": {"value": example}}}}
+    return {
         "post": {
-            "summary": "A job has ended",
+            "summary": summary,
             "description": (
                 "Sent where the request's `webhook` says, signed as Standard Webhooks has it: "
                 "`webhook-signature` is `v1,` and the base64 HMAC-SHA256 of "
@@ -49,7 +54,7 @@ _WEBHOOKS: dict[str, Any] = {
                 "until it is accepted, always with the same id and body: whoever receives it may "
                 "get it more than once."
             ),
-            "operationId": "fit_ended",
+            "operationId": name,
             "parameters": [
                 {
                     "name": name,
@@ -64,7 +69,7 @@ _WEBHOOKS: dict[str, Any] = {
                     ("webhook-signature", "Signatures, separated by spaces."),
                 )
             ],
-            **json_body(WebhookEvent),
+            "requestBody": {"required": True, "content": content},
             "responses": {
                 "2XX": {"description": "Accepted."},
                 "410": {"description": "Not wanted: given up at once."},
@@ -72,9 +77,16 @@ _WEBHOOKS: dict[str, Any] = {
             },
         }
     }
-}
-_WEBHOOKS["fit-ended"]["post"]["requestBody"]["content"][JSON]["examples"] = {
-    "succeeded": {"value": NOTICE}
+
+
+_WEBHOOKS: dict[str, Any] = {
+    "fit-ended": _notice(WebhookEvent, name="fit_ended", summary="A job has ended", example=NOTICE),
+    "derivation-ended": _notice(
+        DerivationEvent,
+        name="derivation_ended",
+        summary="A derivation has ended",
+        example=DERIVATION_NOTICE,
+    ),
 }
 
 
@@ -133,10 +145,26 @@ def _drop_null(schema: dict[str, Any]) -> None:
         schema |= kinds[0]
 
 
-def _models(mode: str) -> tuple[type[WireModel], ...]:
+def _models(mode: str) -> tuple[type[BaseModel], ...]:
     if mode == "validation":
-        return (FitOptions, FitRequest, FitOfImage, BodyRequest, InitialPoseRequest)
-    return (Problem, EventData, BodyEstimate, InitialPose, UploadedImage, WebhookEvent)
+        return (
+            FitOptions,
+            FitRequest,
+            FitOfImage,
+            BodyRequest,
+            InitialPoseRequest,
+            DerivationRequest,
+        )
+    return (
+        Problem,
+        EventData,
+        BodyEstimate,
+        InitialPose,
+        UploadedImage,
+        WebhookEvent,
+        DerivationEvent,
+        DerivationResult,
+    )
 
 
 def _is_fastapi_error(operation: dict[str, Any]) -> bool:

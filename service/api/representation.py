@@ -1,9 +1,10 @@
 """Job records as callers see them."""
 
 from datetime import UTC, datetime
-from typing import Final
+from typing import Any, Final
 from uuid import UUID
 
+from api_schemas.derivations import Derivation, DerivationKind, DerivationLinks
 from api_schemas.jobs import Job, JobLinks, JobState, WebhookDelivery
 from service.engine.port import JobRecord, WebhookRecord
 from service.jobs import ACTIVE
@@ -12,41 +13,82 @@ POLL_AFTER_S: Final = 1
 """What Retry-After says of a job that has not ended."""
 
 
-def job_path(job_id: str) -> str:
+def derivations_path(fit_id: str) -> str:
+    """Path of what is derived from a fit, below the service's root."""
+    return f"/v1/fits/{fit_id}/derivations"
+
+
+def job_path(record: JobRecord) -> str:
     """Path of a job below the service's root."""
-    return f"/v1/fits/{job_id}"
+    if record.parent is None:
+        return f"/v1/fits/{record.id}"
+    return f"{derivations_path(record.parent)}/{record.id}"
 
 
 def represent(record: JobRecord) -> Job:
-    """Translate a record."""
-    path = job_path(record.id)
+    """Translate the record of a fit."""
+    path = job_path(record)
     active = record.state in ACTIVE
+    succeeded = record.state is JobState.SUCCEEDED
     return Job(
-        id=UUID(record.id),
-        state=record.state,
-        stage=record.stage,
-        progress=record.progress,
-        attempt=record.attempt,
-        cancel_requested=record.cancel_requested,
-        created_at=_moment(record.created_at),
-        started_at=None if record.started_at is None else _moment(record.started_at),
-        finished_at=None if record.finished_at is None else _moment(record.finished_at),
-        expires_at=None if record.expires_at is None else _moment(record.expires_at),
-        problem=record.problem,
-        webhook=None if record.webhook is None else _delivery(record.webhook),
+        **_standing(record),
         links=JobLinks(
-            self=path,
-            events=f"{path}/events",
+            **_links(record),
             image=f"{path}/image",
-            request=f"{path}/request",
-            cancel=f"{path}/cancel" if active else None,
+            derivations=derivations_path(record.id) if succeeded else None,
             retry=None if active else f"{path}/retry",
-            result=f"{path}/result" if record.state is JobState.SUCCEEDED else None,
-            artifacts={
-                artifact.name: f"{path}/artifacts/{artifact.name}" for artifact in record.artifacts
-            },
         ),
     )
+
+
+def represent_derivation(record: JobRecord) -> Derivation:
+    """Translate the record of a derivation.
+
+    Raises
+    ------
+    ValueError
+        If it is the record of a fit.
+    """
+    if record.parent is None:
+        message = f"job {record.id} is derived from nothing"
+        raise ValueError(message)
+    return Derivation(
+        **_standing(record),
+        kind=DerivationKind(record.kind),
+        fit_id=UUID(record.parent),
+        links=DerivationLinks(**_links(record), fit=f"/v1/fits/{record.parent}"),
+    )
+
+
+def _standing(record: JobRecord) -> dict[str, Any]:
+    return {
+        "id": UUID(record.id),
+        "state": record.state,
+        "stage": record.stage,
+        "progress": record.progress,
+        "attempt": record.attempt,
+        "cancel_requested": record.cancel_requested,
+        "created_at": _moment(record.created_at),
+        "started_at": None if record.started_at is None else _moment(record.started_at),
+        "finished_at": None if record.finished_at is None else _moment(record.finished_at),
+        "expires_at": None if record.expires_at is None else _moment(record.expires_at),
+        "problem": record.problem,
+        "webhook": None if record.webhook is None else _delivery(record.webhook),
+    }
+
+
+def _links(record: JobRecord) -> dict[str, Any]:
+    path = job_path(record)
+    return {
+        "self": path,
+        "events": f"{path}/events",
+        "request": f"{path}/request",
+        "cancel": f"{path}/cancel" if record.state in ACTIVE else None,
+        "result": f"{path}/result" if record.state is JobState.SUCCEEDED else None,
+        "artifacts": {
+            artifact.name: f"{path}/artifacts/{artifact.name}" for artifact in record.artifacts
+        },
+    }
 
 
 def _delivery(webhook: WebhookRecord) -> WebhookDelivery:

@@ -8,83 +8,70 @@ from uuid import UUID
 from fastapi import APIRouter, Header, Response
 
 from api_schemas.jobs import JobState
-from api_schemas.problems import problem
+from api_schemas.problems import Problem, problem
 from api_schemas.results import Artifact, FitResult
 from service.api.context import ApiContext, Context
-from service.api.fits import find
+from service.api.job_routes import JOB_PROBLEMS, NOT_MODIFIED, IfNoneMatch, find
 from service.api.problems import ProblemError, documented, not_found
+from service.api.security_headers import STAND_ALONE
 from service.blobs import BlobMissingError
 from service.engine.port import JobRecord
+from service.inputs import RESULT
 
 ROUTER: Final = APIRouter(prefix="/v1/fits", tags=["results"])
 
-RESULT_NAME: Final = "result.json"
-
+HTML: Final = "text/html"
 _BINARY: Final = {"schema": {"type": "string", "format": "binary"}}
-_FILES: Final = {
-    "model/gltf-binary": _BINARY,
-    "image/png": _BINARY,
-    "application/zip": _BINARY,
-}
-_NOT_MODIFIED: Final[dict[int | str, dict[str, Any]]] = {
-    304: {"description": "Not changed since the given ETag."}
-}
+
+RangeHeader = Annotated[str | None, Header(alias="Range")]
+
+
+def file_answers(*media_types: str) -> dict[int | str, dict[str, Any]]:
+    """Describe the answers to whoever asks for a file of these types, or of JSON."""
+    files = dict.fromkeys(media_types, _BINARY)
+    return (
+        {
+            200: {
+                "description": "The whole file.",
+                "content": files | {"application/json": {"schema": {"type": "object"}}},
+            },
+            206: {
+                "description": "The part asked for.",
+                # Part of a JSON file is not JSON.
+                "content": files | {"application/json": _BINARY},
+            },
+        }
+        | NOT_MODIFIED
+        | documented("range-not-satisfiable", *JOB_PROBLEMS)
+    )
 
 
 @ROUTER.get(
     "/{fit_id}/result",
     summary="The result document",
-    responses={200: {"model": FitResult}}
-    | _NOT_MODIFIED
-    | documented(
-        "not-found", "fit-expired", "no-result", "invalid-request", "not-ready", "internal-error"
-    ),
+    responses={200: {"model": FitResult}} | NOT_MODIFIED | documented("no-result", *JOB_PROBLEMS),
 )
-def result(
-    fit_id: UUID, context: Context, if_none_match: Annotated[str | None, Header()] = None
-) -> Response:
+def result(fit_id: UUID, context: Context, if_none_match: IfNoneMatch = None) -> Response:
     """Return camera, pose, shape, light, measurements, what was assumed, and the files' names."""
-    record = find(context, fit_id)
-    if record.state is not JobState.SUCCEEDED:
-        raise ProblemError(_no_result(record))
-    return _serve(context, record, RESULT_NAME, range_header=None, if_none_match=if_none_match)
+    return serve_result(context, find(context.jobs, fit_id), if_none_match=if_none_match)
 
 
 @ROUTER.get(
     "/{fit_id}/artifacts/{name}",
     summary="A file of the result",
     response_class=Response,
-    responses={
-        200: {
-            "description": "The whole file.",
-            "content": _FILES | {"application/json": {"schema": {"type": "object"}}},
-        },
-        206: {
-            "description": "The part asked for.",
-            # Part of a JSON file is not JSON.
-            "content": _FILES | {"application/json": _BINARY},
-        },
-    }
-    | _NOT_MODIFIED
-    | documented(
-        "not-found",
-        "fit-expired",
-        "range-not-satisfiable",
-        "invalid-request",
-        "not-ready",
-        "internal-error",
-    ),
+    responses=file_answers("model/gltf-binary", "image/png", "application/zip"),
 )
 def artifact(
     fit_id: UUID,
     name: str,
     context: Context,
-    if_none_match: Annotated[str | None, Header()] = None,
-    range_header: Annotated[str | None, Header(alias="Range")] = None,
+    if_none_match: IfNoneMatch = None,
+    range_header: RangeHeader = None,
 ) -> Response:
     """Return a file: `body_posed.glb`, `overlay.png` and so on, as the job's links name them."""
-    record = find(context, fit_id)
-    return _serve(context, record, name, range_header=range_header, if_none_match=if_none_match)
+    record = find(context.jobs, fit_id)
+    return serve_file(context, record, name, range_header=range_header, if_none_match=if_none_match)
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,7 +109,14 @@ def parse_range(header: str, size: int) -> ByteRange | None:
     return ByteRange(first, last)
 
 
-def _serve(
+def serve_result(context: ApiContext, record: JobRecord, *, if_none_match: str | None) -> Response:
+    """Answer with the result document; 409 if the job has none."""
+    if record.state is not JobState.SUCCEEDED:
+        raise ProblemError(no_result(record))
+    return serve_file(context, record, RESULT, range_header=None, if_none_match=if_none_match)
+
+
+def serve_file(
     context: ApiContext,
     record: JobRecord,
     name: str,
@@ -130,12 +124,15 @@ def _serve(
     range_header: str | None,
     if_none_match: str | None,
 ) -> Response:
+    """Answer with a file of a job's result, or a part of it; 404 if there is no such file."""
     listed = _listed(record, name)
     headers = {
         "ETag": f'"{listed.sha256}"',
         "Cache-Control": "private, immutable, max-age=31536000",
         "Accept-Ranges": "bytes",
     }
+    if listed.media_type == HTML:
+        headers["Content-Security-Policy"] = STAND_ALONE
     if if_none_match is not None and (listed.sha256 in if_none_match or if_none_match == "*"):
         return Response(status_code=304, headers=headers)
     try:
@@ -174,7 +171,8 @@ def _listed(record: JobRecord, name: str) -> Artifact:
     raise not_found(what=f"artifact '{name}' of this job")
 
 
-def _no_result(record: JobRecord) -> Any:
+def no_result(record: JobRecord) -> Problem:
+    """Say why a job has no result."""
     if record.problem is not None:
         return problem(
             "no-result",
@@ -187,7 +185,5 @@ def _no_result(record: JobRecord) -> Any:
     return problem(
         "no-result",
         detail=f"The job is {record.state}.",
-        remedy="Send the picture again."
-        if canceled
-        else "Wait until it has succeeded; follow its events.",
+        remedy="Send it again." if canceled else "Wait until it has succeeded; follow its events.",
     )

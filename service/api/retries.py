@@ -10,18 +10,19 @@ from api_schemas.jobs import Job
 from api_schemas.problems import problem
 from service.api.acceptance import (
     ACCEPTANCE_PROBLEMS,
-    ACCEPTED,
     File,
     IdempotencyKey,
     Inputs,
     Prefer,
     accept,
+    accepted,
     answer,
     idempotency,
 )
 from service.api.context import ApiContext, Context
-from service.api.fits import find
+from service.api.job_routes import find
 from service.api.problems import ProblemError, documented, not_found
+from service.api.representation import represent
 from service.blobs import BlobMissingError
 from service.engine.port import StoredBlob
 from service.jobs import ACTIVE
@@ -34,7 +35,8 @@ ROUTER: Final = APIRouter(prefix="/v1/fits", tags=["fits"])
     status_code=202,
     response_model=Job,
     summary="Fit the same picture again",
-    responses=ACCEPTED | documented("not-found", "fit-expired", "not-ended", *ACCEPTANCE_PROBLEMS),
+    responses=accepted(Job)
+    | documented("not-found", "fit-expired", "not-ended", *ACCEPTANCE_PROBLEMS),
 )
 async def retry(
     fit_id: UUID,
@@ -49,12 +51,12 @@ async def retry(
     """
     inputs = await run_in_threadpool(_inputs, context, fit_id)
     key = idempotency(idempotency_key, b"retry", str(fit_id).encode())
-    job = await accept(context, inputs, key=key)
-    return await answer(context, response, job, prefer=prefer)
+    job = await accept(context, context.jobs, inputs, key=key)
+    return represent(await answer(context, context.jobs, response, job, prefer=prefer))
 
 
 def _inputs(context: ApiContext, fit_id: UUID) -> Inputs:
-    record = find(context, fit_id)
+    record = find(context.jobs, fit_id)
     if record.state in ACTIVE:
         raise ProblemError(
             problem(
@@ -70,8 +72,7 @@ def _inputs(context: ApiContext, fit_id: UUID) -> Inputs:
     try:
         return Inputs(
             options=file(record.options).content,
-            image=file(record.image),
-            mask=None if record.mask is None else file(record.mask),
+            files={name: file(blob) for name, blob in record.inputs.items()},
             webhook=context.jobs.webhook_target(record.id),
         )
     except BlobMissingError as error:

@@ -11,12 +11,12 @@ from api_schemas.jobs import Job
 from api_schemas.requests import FitOfImage, FitOptions
 from service.api.acceptance import (
     ACCEPTANCE_PROBLEMS,
-    ACCEPTED,
     File,
     IdempotencyKey,
     Inputs,
     Prefer,
     accept,
+    accepted,
     answer,
     idempotency,
 )
@@ -24,8 +24,10 @@ from service.api.context import ApiContext, Context
 from service.api.images import image_content
 from service.api.json_bodies import JSON, json_content, media_type, read_json_text
 from service.api.problems import documented
+from service.api.representation import represent
 from service.api.uploads import Upload, read_upload
 from service.estimates.messages import BodyTask
+from service.inputs import IMAGE, MASK
 from service.submission import CheckedSubmission, check_parts, check_submission
 from service.validation import parsed
 from service.webhooks.targets import check_webhook
@@ -76,7 +78,7 @@ _SUBMISSION: Final[dict[str, Any]] = {
     response_model=Job,
     summary="Submit a picture",
     openapi_extra=_SUBMISSION,
-    responses=ACCEPTED
+    responses=accepted(Job)
     | documented(
         "malformed-request",
         "payload-too-large",
@@ -106,21 +108,22 @@ async def submit(
     else:
         upload = await read_upload(request)
         checked = await run_in_threadpool(_check, context, upload)
+    files = {IMAGE: File(content=upload.image, media_type=checked.image_media_type)}
+    if upload.mask is not None and checked.mask_media_type is not None:
+        files[MASK] = File(content=upload.mask, media_type=checked.mask_media_type)
     inputs = Inputs(
         options=checked.options.model_dump_json().encode(),
-        image=File(content=upload.image, media_type=checked.image_media_type),
-        mask=None
-        if upload.mask is None or checked.mask_media_type is None
-        else File(content=upload.mask, media_type=checked.mask_media_type),
+        files=files,
         webhook=checked.webhook,
     )
     job = await accept(
         context,
+        context.jobs,
         inputs,
         key=idempotency(idempotency_key, upload.request, upload.image, upload.mask or b""),
         check=partial(_refuse_nobody, context, checked.options),
     )
-    return await answer(context, response, job, prefer=prefer)
+    return represent(await answer(context, context.jobs, response, job, prefer=prefer))
 
 
 def _check(context: ApiContext, upload: Upload) -> CheckedSubmission:

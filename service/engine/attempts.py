@@ -128,7 +128,7 @@ class AttemptLog:
                 retention_s=self._retention_s,
                 values={
                     "problem": given_up(
-                        f"The process fitting this picture died {self._max_crashes} times."
+                        f"The process of this job died {self._max_crashes} times."
                     ).model_dump_json()
                 },
             )

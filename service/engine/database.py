@@ -17,7 +17,7 @@ MIGRATION_LOCK: Final = 0x6D617175
 """Key of the Postgres advisory lock held while tables are created."""
 
 
-SCHEMA_VERSION: Final = "3"
+SCHEMA_VERSION: Final = "4"
 SCHEMA_FACT: Final = "schema_version"
 
 POSTGRES_CONNECTION: Final = {

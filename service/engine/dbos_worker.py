@@ -167,17 +167,18 @@ class DbosWorkerEngine:
                     job=job_id, attempt=str(attempt.job.attempt), request=attempt.job.request_id
                 ),
                 span(
-                    "fit",
+                    attempt.job.kind,
                     parent=attempt.job.traceparent,
                     kind=SpanKind.CONSUMER,
                     attributes={"maquette.job": job_id, "maquette.attempt": attempt.job.attempt},
                 ) as current,
             ):
-                LOG.info("The fit begins.")
+                LOG.info("The %s begins.", attempt.job.kind)
                 result = handler(attempt)
                 current.set_attribute("maquette.ending", result.ending.value)
                 LOG.info(
-                    "The fit ended.",
+                    "The %s ended.",
+                    attempt.job.kind,
                     extra=fields(ending=result.ending, seconds=f"{time.monotonic() - started:.2f}"),
                 )
             if self._handing_back.is_set():

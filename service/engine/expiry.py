@@ -8,7 +8,7 @@ before it stores the first byte and takes it out when the job is accepted.
 
 import logging
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Final
 
 import sqlalchemy as sa
@@ -81,17 +81,30 @@ def take_out(connection: sa.Connection, scope: str) -> bool:
     return connection.execute(sa.delete(ERASURES).where(ERASURES.c.scope == scope)).rowcount > 0
 
 
-def forget_job(connection: sa.Connection, job_id: str, *conditions: sa.ColumnElement[bool]) -> bool:
-    """Delete a job with its events, and write down its scope; say whether there was one."""
-    state = connection.execute(
-        sa.delete(JOBS).where(JOBS.c.id == job_id, *conditions).returning(JOBS.c.state)
-    ).scalar_one_or_none()
-    if state is None:
-        return False
+def forget_job(
+    connection: sa.Connection, job_id: str, *conditions: sa.ColumnElement[bool]
+) -> Sequence[str]:
+    """Delete a job and what is derived from it, with their events, and write down their scopes.
+
+    Returns the scopes; none if there was no such job.
+    """
+    forgotten = sa.delete(JOBS).returning(JOBS.c.id, JOBS.c.state)
+    rows = connection.execute(forgotten.where(JOBS.c.id == job_id, *conditions)).all()
+    if not rows:
+        return ()
+    # After its fit: a derivation that was being accepted is there by now, or never will be.
+    derived = connection.execute(forgotten.where(JOBS.c.parent_id == job_id)).all()
+    states = {row.id: row.state for row in (*rows, *derived)}
+    _enter_forgotten(connection, states)
+    return list(states)
+
+
+def _enter_forgotten(connection: sa.Connection, states: Mapping[str, str]) -> None:
+    """Write down the scopes of jobs that were deleted in these states, by their ids."""
     now = time.time()
-    due_at = now + LATE_WRITES_S if state == JobState.RUNNING.value else now
-    enter_erasures(connection, [job_id], due_at=due_at)
-    return True
+    running = [each for each, state in states.items() if state == JobState.RUNNING.value]
+    enter_erasures(connection, running, due_at=now + LATE_WRITES_S)
+    enter_erasures(connection, [each for each in states if each not in running], due_at=now)
 
 
 def expire_jobs(connection: sa.Connection) -> int:
@@ -111,13 +124,22 @@ def expire_jobs(connection: sa.Connection) -> int:
     rows = connection.execute(
         sa.delete(JOBS)
         .where(JOBS.c.id.in_(ids))
-        .returning(JOBS.c.id, JOBS.c.tenant, JOBS.c.expires_at)
+        .returning(JOBS.c.id, JOBS.c.tenant, JOBS.c.parent_id, JOBS.c.expires_at, JOBS.c.state)
     ).all()
     connection.execute(
         sa.insert(TOMBSTONES),
-        [{"id": row.id, "tenant": row.tenant, "expired_at": row.expires_at} for row in rows],
+        [
+            {
+                "id": row.id,
+                "tenant": row.tenant,
+                "parent_id": row.parent_id,
+                "expired_at": row.expires_at,
+            }
+            for row in rows
+        ],
     )
-    enter_erasures(connection, [row.id for row in rows], due_at=now)
+    # A derivation may still run when the time of its fit is over.
+    _enter_forgotten(connection, {row.id: row.state for row in rows})
     return len(rows)
 
 

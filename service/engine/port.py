@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Protocol
+from typing import Final, Protocol
 
 from api_schemas.body_models import BodyModels
 from api_schemas.jobs import EventData, EventKind, JobState, WebhookState
@@ -11,6 +11,9 @@ from api_schemas.problems import Problem
 from api_schemas.results import Artifact
 from api_schemas.webhooks import WebhookTarget
 from service.engine.image_port import TenantImages
+
+FIT: Final = "fit"
+"""The kind of a job that is no derivation."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,14 +36,14 @@ class Idempotency:
 class NewJob:
     """A job to accept; its blobs are stored already, ``options`` being the request as JSON.
 
-    ``request_id`` and ``traceparent`` name the HTTP request it came with, in logs and traces;
-    ``webhook`` is whom to tell of its end.
+    ``inputs`` is what else it needs, by name. ``request_id`` and ``traceparent`` name the HTTP
+    request it came with, in logs and traces; ``webhook`` is whom to tell of its end.
     """
 
     id: str
+    kind: str
     options: StoredBlob
-    image: StoredBlob
-    mask: StoredBlob | None = None
+    inputs: Mapping[str, StoredBlob]
     idempotency: Idempotency | None = None
     request_id: str | None = None
     traceparent: str | None = None
@@ -60,10 +63,15 @@ class WebhookRecord:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class JobRecord:
-    """A job as stored; times are seconds since the epoch."""
+    """A job as stored; times are seconds since the epoch.
+
+    ``parent`` is the fit it is derived from, None for a fit.
+    """
 
     id: str
     tenant: str
+    kind: str
+    parent: str | None
     state: JobState
     stage: str | None
     progress: float
@@ -75,8 +83,7 @@ class JobRecord:
     expires_at: float | None
     problem: Problem | None
     options: StoredBlob
-    image: StoredBlob
-    mask: StoredBlob | None
+    inputs: Mapping[str, StoredBlob]
     artifacts: tuple[Artifact, ...]
     fingerprint: str | None
     last_event: int
@@ -110,7 +117,8 @@ class SubmitOutcome(StrEnum):
     """How a submission ended.
 
     ``TENANT_FULL``: too many jobs of this tenant are waiting. ``LOST``: the blobs of the job were
-    taken for abandoned and erased before it was submitted.
+    taken for abandoned and erased before it was submitted. ``PARENT_GONE``: the fit it is derived
+    from was erased meanwhile.
     """
 
     ACCEPTED = "accepted"
@@ -119,6 +127,7 @@ class SubmitOutcome(StrEnum):
     QUEUE_FULL = "queue_full"
     TENANT_FULL = "tenant_full"
     LOST = "lost"
+    PARENT_GONE = "parent_gone"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -130,11 +139,16 @@ class Submission:
 
 
 class TenantJobs(Protocol):
-    """The jobs of one tenant: no other's can be seen or touched through it.
+    """The fits of one tenant, or what is derived from one of them.
 
-    Every method may raise :class:`EngineUnavailableError`; those that name a job raise
-    :class:`JobExpiredError` when its time is over.
+    No other job can be seen or touched through it. Every method but ``derivations`` may raise
+    :class:`EngineUnavailableError`; those that name a job raise :class:`JobExpiredError` when its
+    time is over.
     """
+
+    def derivations(self, fit_id: str) -> "TenantJobs":
+        """Return the jobs derived from a fit of this tenant; they end with it."""
+        ...
 
     def reserve(self, job_id: str, idempotency: Idempotency | None) -> Submission:
         """Say that blobs are about to be stored for a job: ``ACCEPTED``, yet without a job, if so.
@@ -161,11 +175,11 @@ class TenantJobs(Protocol):
         """Stop a job: at once if queued, within moments if running; no effect if terminal."""
         ...
 
-    def erase(self, job_id: str) -> bool:
-        """Stop a job and forget it, with its events; say whether there was one.
+    def erase(self, job_id: str) -> Sequence[str]:
+        """Stop a job, what is derived from it too, and forget them with their events.
 
-        Its blobs are the caller's to erase; should the caller not come to it, they are erased by
-        the sweep.
+        Returns the scopes of their blobs, none if there was no such job. They are the caller's to
+        erase; should the caller not come to it, they are erased by the sweep.
         """
         ...
 

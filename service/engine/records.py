@@ -18,6 +18,7 @@ from service.jobs import may_become
 
 OPTIONS_MEDIA_TYPE: Final = "application/json"
 ARTIFACTS: Final = TypeAdapter(tuple[Artifact, ...])
+INPUTS: Final = TypeAdapter(dict[str, StoredBlob])
 
 
 def job_record(values: sa.RowMapping) -> JobRecord:
@@ -25,6 +26,8 @@ def job_record(values: sa.RowMapping) -> JobRecord:
     return JobRecord(
         id=values["id"],
         tenant=values["tenant"],
+        kind=values["kind"],
+        parent=values["parent_id"],
         state=JobState(values["state"]),
         stage=values["stage"],
         progress=values["progress"],
@@ -38,10 +41,7 @@ def job_record(values: sa.RowMapping) -> JobRecord:
         if values["problem"] is None
         else Problem.model_validate_json(values["problem"]),
         options=StoredBlob(digest=values["options_digest"], media_type=OPTIONS_MEDIA_TYPE),
-        image=StoredBlob(digest=values["image_digest"], media_type=values["image_media_type"]),
-        mask=None
-        if values["mask_digest"] is None
-        else StoredBlob(digest=values["mask_digest"], media_type=values["mask_media_type"]),
+        inputs=INPUTS.validate_json(values["inputs"]),
         artifacts=ARTIFACTS.validate_json(values["artifacts"]),
         fingerprint=values["fingerprint"],
         request_id=values["request_id"],
@@ -118,15 +118,15 @@ def end_job(
     """End a job as :func:`move_job` moves one; it expires ``retention_s`` from now.
 
     Or from its creation, should that be later: a clock that was set back since is not to make the
-    job expire the moment it is set right. Whoever is to be told of its end is to be told from now
-    on.
+    job expire the moment it is set right. A derivation expires when its fit does, as was written
+    down when it was accepted. Whoever is to be told of its end is to be told from now on.
     """
     now = time.time()
     latest = sa.case((JOBS.c.created_at > now, JOBS.c.created_at), else_=now)
     awaited = JOBS.c.webhook_state == WebhookState.WAITING.value
     changes = {
         "finished_at": now,
-        "expires_at": latest + retention_s,
+        "expires_at": sa.func.coalesce(JOBS.c.expires_at, latest + retention_s),
         "webhook_due_at": sa.case((awaited, now)),
         "webhook_state": sa.case((awaited, WebhookState.DUE.value)),
     }

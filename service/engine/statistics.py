@@ -12,7 +12,7 @@ import sqlalchemy as sa
 from sqlalchemy.dialects import postgresql, sqlite
 
 from api_schemas.jobs import JobState
-from service.engine.port import DurationHistogram, JobRecord
+from service.engine.port import FIT, DurationHistogram, JobRecord
 from service.engine.tables import DURATIONS, OUTCOMES
 
 BOUNDS_S: Final = (0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 5.0, 10.0, 30.0, 60.0, 300.0, 1800.0, 1e9)
@@ -23,19 +23,23 @@ RUNNING: Final = "running"
 
 
 def count_ending(connection: sa.Connection, job: JobRecord) -> None:
-    """Count a job that has just ended, and how long it waited and ran."""
+    """Count a job that has just ended, and how long it waited and ran.
+
+    How long derivations ran is counted by their kinds, beside the fits.
+    """
     insert = _insert(connection, OUTCOMES).values(state=job.state.value, jobs=1)
     connection.execute(
         insert.on_conflict_do_update(
             index_elements=[OUTCOMES.c.state], set_={"jobs": OUTCOMES.c.jobs + 1}
         )
     )
+    running = RUNNING if job.kind == FIT else f"{RUNNING}.{job.kind}"
     if job.started_at is not None and job.finished_at is not None:
         count_durations(
             connection,
             {
                 WAITING: job.started_at - job.created_at,
-                RUNNING: job.finished_at - job.started_at,
+                running: job.finished_at - job.started_at,
             },
         )
 

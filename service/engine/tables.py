@@ -9,6 +9,8 @@ JOBS = sa.Table(
     METADATA,
     sa.Column("id", sa.String(36), primary_key=True),
     sa.Column("tenant", sa.String(64), nullable=False),
+    sa.Column("kind", sa.String(32), nullable=False),
+    sa.Column("parent_id", sa.String(36)),
     sa.Column("state", sa.String(16), nullable=False),
     sa.Column("stage", sa.String(64)),
     sa.Column("progress", sa.Double, nullable=False),
@@ -21,10 +23,7 @@ JOBS = sa.Table(
     sa.Column("finished_at", sa.Double),
     sa.Column("expires_at", sa.Double),
     sa.Column("options_digest", sa.String(64), nullable=False),
-    sa.Column("image_digest", sa.String(64), nullable=False),
-    sa.Column("image_media_type", sa.String(64), nullable=False),
-    sa.Column("mask_digest", sa.String(64)),
-    sa.Column("mask_media_type", sa.String(64)),
+    sa.Column("inputs", sa.Text, nullable=False),
     sa.Column("artifacts", sa.Text, nullable=False),
     sa.Column("problem", sa.Text),
     sa.Column("idempotency_key", sa.String(64)),
@@ -40,11 +39,14 @@ JOBS = sa.Table(
     sa.Column("webhook_status", sa.Integer),
     sa.Column("webhook_error", sa.Text),
     sa.UniqueConstraint("tenant", "idempotency_key", name="maquette_jobs_key"),
-    sa.Index("maquette_jobs_newest", "tenant", "created_at", "id"),
+    sa.Index("maquette_jobs_newest", "tenant", "parent_id", "created_at", "id"),
+    sa.Index("maquette_jobs_parent", "parent_id"),
     sa.Index("maquette_jobs_state", "state", "created_at"),
     sa.Index("maquette_jobs_expiry", "expires_at"),
     sa.Index("maquette_jobs_webhooks", "webhook_due_at"),
 )
+"""Fits, and what is derived from them: these name their fit as ``parent_id``. ``inputs`` are blobs
+in the job's own scope, by name, as JSON."""
 
 EVENTS = sa.Table(
     "maquette_events",
@@ -93,6 +95,7 @@ TOMBSTONES = sa.Table(
     METADATA,
     sa.Column("id", sa.String(36), primary_key=True),
     sa.Column("tenant", sa.String(64), nullable=False),
+    sa.Column("parent_id", sa.String(36)),
     sa.Column("expired_at", sa.Double, nullable=False),
     sa.Index("maquette_tombstones_age", "expired_at"),
 )

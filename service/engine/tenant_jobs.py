@@ -27,7 +27,7 @@ from service.engine.port import (
     SubmitOutcome,
 )
 from service.engine.queue import EXECUTION_VERSION, QUEUE, WORKFLOW
-from service.engine.records import append_event, end_job, job_record
+from service.engine.records import INPUTS, append_event, end_job, job_record
 from service.engine.tables import EVENTS, JOBS, TOMBSTONES
 
 
@@ -43,13 +43,27 @@ class DbosTenantJobs:
         max_queued: int,
         max_queued_per_tenant: int,
         retention_s: float,
+        parent: str | None = None,
     ) -> None:
         self._tenant = tenant
+        self._parent = parent
         self._database = database
         self._client = client
         self._max_queued = max_queued
         self._max_queued_per_tenant = max_queued_per_tenant
         self._retention_s = retention_s
+
+    def derivations(self, fit_id: str) -> "DbosTenantJobs":
+        """Return the jobs derived from a fit of this tenant."""
+        return DbosTenantJobs(
+            self._tenant,
+            database=self._database,
+            client=self._client,
+            max_queued=self._max_queued,
+            max_queued_per_tenant=self._max_queued_per_tenant,
+            retention_s=self._retention_s,
+            parent=fit_id,
+        )
 
     @available
     def reserve(self, job_id: str, idempotency: Idempotency | None) -> Submission:
@@ -69,9 +83,12 @@ class DbosTenantJobs:
                 answered = self._answered(connection, job.idempotency)
                 if answered is not None:
                     return answered
+                expires_at = self._parents_end(connection)
+                if self._parent is not None and expires_at is None:
+                    return Submission(outcome=SubmitOutcome.PARENT_GONE, job=None)
                 if not take_out(connection, job.id):
                     return Submission(outcome=SubmitOutcome.LOST, job=None)
-                record = self._insert(connection, job)
+                record = self._insert(connection, job, expires_at=expires_at)
                 options: EnqueueOptions = {
                     "workflow_name": WORKFLOW,
                     "queue_name": QUEUE,
@@ -102,7 +119,7 @@ class DbosTenantJobs:
         query = (
             sa.select(JOBS)
             .where(
-                JOBS.c.tenant == self._tenant,
+                *self._ours(),
                 sa.or_(JOBS.c.expires_at.is_(None), JOBS.c.expires_at > time.time()),
             )
             .order_by(JOBS.c.created_at.desc(), JOBS.c.id.desc())
@@ -132,7 +149,7 @@ class DbosTenantJobs:
             canceled = end_job(
                 connection,
                 job_id,
-                JOBS.c.tenant == self._tenant,
+                *self._ours(),
                 JOBS.c.state == JobState.QUEUED.value,
                 state=JobState.CANCELED,
                 retention_s=self._retention_s,
@@ -149,17 +166,18 @@ class DbosTenantJobs:
         return canceled
 
     @available
-    def erase(self, job_id: str) -> bool:
-        """Delete record, events and queue entry; a running attempt finds itself superseded."""
+    def erase(self, job_id: str) -> Sequence[str]:
+        """Delete records, events and queue entries; a running attempt finds itself superseded."""
         with self._database.begin() as connection:
-            found = forget_job(connection, job_id, JOBS.c.tenant == self._tenant)
-            if not found:
+            forgotten = forget_job(connection, job_id, *self._ours())
+            if not forgotten:
                 self._find(connection, job_id)
-        if found:
-            self._client.cancel_workflow(job_id)
-            self._client.delete_workflow(job_id)
+        for each in forgotten:
+            self._client.cancel_workflow(each)
+            self._client.delete_workflow(each)
+        if forgotten:
             forget_pages(self._database)
-        return found
+        return forgotten
 
     @available
     def webhook_target(self, job_id: str) -> WebhookTarget | None:
@@ -190,8 +208,28 @@ class DbosTenantJobs:
                 for row in connection.execute(query)
             ]
 
+    def _ours(self) -> tuple[sa.ColumnElement[bool], ...]:
+        return (JOBS.c.tenant == self._tenant, JOBS.c.parent_id == self._parent)
+
     def _own(self, job_id: str) -> tuple[sa.ColumnElement[bool], ...]:
-        return (JOBS.c.id == job_id, JOBS.c.tenant == self._tenant)
+        return (JOBS.c.id == job_id, *self._ours())
+
+    def _parents_end(self, connection: sa.Connection) -> float | None:
+        """When the fit to derive from expires; None if it is gone, or there is none to be.
+
+        Its record is held until the transaction ends, so that it cannot be erased meanwhile.
+        """
+        if self._parent is None:
+            return None
+        return connection.execute(
+            sa.select(JOBS.c.expires_at)
+            .where(
+                JOBS.c.id == self._parent,
+                JOBS.c.tenant == self._tenant,
+                JOBS.c.expires_at > time.time(),
+            )
+            .with_for_update()
+        ).scalar_one_or_none()
 
     def _find(self, connection: sa.Connection, job_id: str) -> JobRecord | None:
         row = connection.execute(sa.select(JOBS).where(*self._own(job_id))).mappings().one_or_none()
@@ -202,7 +240,9 @@ class DbosTenantJobs:
             return record
         expired_at = connection.execute(
             sa.select(TOMBSTONES.c.expired_at).where(
-                TOMBSTONES.c.id == job_id, TOMBSTONES.c.tenant == self._tenant
+                TOMBSTONES.c.id == job_id,
+                TOMBSTONES.c.tenant == self._tenant,
+                TOMBSTONES.c.parent_id == self._parent,
             )
         ).scalar_one_or_none()
         if expired_at is not None:
@@ -254,24 +294,26 @@ class DbosTenantJobs:
             return Submission(outcome=SubmitOutcome.KEY_REUSED, job=None)
         return Submission(outcome=SubmitOutcome.REPEATED, job=earlier)
 
-    def _insert(self, connection: sa.Connection, job: NewJob) -> JobRecord:
+    def _insert(
+        self, connection: sa.Connection, job: NewJob, *, expires_at: float | None
+    ) -> JobRecord:
         row = (
             connection.execute(
                 sa.insert(JOBS)
                 .values(
                     id=job.id,
                     tenant=self._tenant,
+                    kind=job.kind,
+                    parent_id=self._parent,
                     state=JobState.QUEUED.value,
                     progress=0.0,
                     attempt=0,
                     crashes=0,
                     cancel_requested=False,
                     created_at=time.time(),
+                    expires_at=expires_at,
                     options_digest=job.options.digest,
-                    image_digest=job.image.digest,
-                    image_media_type=job.image.media_type,
-                    mask_digest=job.mask.digest if job.mask else None,
-                    mask_media_type=job.mask.media_type if job.mask else None,
+                    inputs=INPUTS.dump_json(dict(job.inputs)).decode(),
                     artifacts="[]",
                     idempotency_key=job.idempotency.key if job.idempotency else None,
                     fingerprint=job.idempotency.fingerprint if job.idempotency else None,

@@ -9,9 +9,10 @@ from collections.abc import Sequence
 from datetime import UTC, datetime
 from typing import Final
 
-from api_schemas.jobs import JobState, WebhookState
+from api_schemas.derivations import DerivationEvent, DerivationEventType
+from api_schemas.jobs import WebhookState
 from api_schemas.webhooks import WebhookEvent, WebhookEventType
-from service.api.representation import represent
+from service.api.representation import represent, represent_derivation
 from service.engine.port import EngineUnavailableError, JobRecord
 from service.engine.webhooks import DueWebhook, WebhookLedger
 from service.logs import fields
@@ -30,22 +31,23 @@ JITTER: Final = 0.1
 LONGEST_PAUSE_S: Final = 86_400.0
 USER_AGENT: Final = "Maquette (Standard Webhooks)"
 
-EVENT_TYPES: Final = {
-    JobState.SUCCEEDED: WebhookEventType.SUCCEEDED,
-    JobState.FAILED: WebhookEventType.FAILED,
-    JobState.CANCELED: WebhookEventType.CANCELED,
-    JobState.TIMED_OUT: WebhookEventType.TIMED_OUT,
-}
-
 
 def notice(job: JobRecord) -> bytes:
     """Write the body of the notice of an ended job; the same at every attempt."""
     ended_at = datetime.fromtimestamp(job.finished_at or 0.0, UTC)
-    event = WebhookEvent(
-        type=EVENT_TYPES[job.state],
-        timestamp=ended_at,
-        data=represent(job).model_copy(update={"webhook": None}),
-    )
+    unsent = {"webhook": None}
+    if job.parent is None:
+        event = WebhookEvent(
+            type=WebhookEventType(f"fit.{job.state}"),
+            timestamp=ended_at,
+            data=represent(job).model_copy(update=unsent),
+        )
+    else:
+        event = DerivationEvent(
+            type=DerivationEventType(f"derivation.{job.state}"),
+            timestamp=ended_at,
+            data=represent_derivation(job).model_copy(update=unsent),
+        )
     return event.model_dump_json().encode()
 
 

@@ -3,11 +3,11 @@
 import hashlib
 from collections.abc import Mapping
 from pathlib import PurePath
-from typing import Final
+from typing import Final, TypeVar
 
+from api_schemas.derivations import DerivedFiles
 from api_schemas.results import Artifact, FitResult
-
-RESULT_NAME: Final = "result.json"
+from service.inputs import RESULT
 
 MEDIA_TYPES: Final[Mapping[str, str]] = {
     ".glb": "model/gltf-binary",
@@ -15,7 +15,11 @@ MEDIA_TYPES: Final[Mapping[str, str]] = {
     ".jpg": "image/jpeg",
     ".json": "application/json",
     ".npz": "application/zip",
+    ".html": "text/html",
+    ".pdf": "application/pdf",
 }
+
+Result = TypeVar("Result", FitResult, DerivedFiles)
 
 
 def describe_artifact(name: str, content: bytes) -> Artifact:
@@ -28,7 +32,7 @@ def describe_artifact(name: str, content: bytes) -> Artifact:
     )
 
 
-def with_result_document(result: FitResult, artifacts: Mapping[str, bytes]) -> dict[str, bytes]:
+def with_result_document(result: Result, artifacts: Mapping[str, bytes]) -> dict[str, bytes]:
     """Add ``result.json``, which lists all the other files."""
     listed = result.model_copy(
         update={
@@ -38,4 +42,4 @@ def with_result_document(result: FitResult, artifacts: Mapping[str, bytes]) -> d
         }
     )
     document = listed.model_dump_json(indent=1).encode()
-    return dict(artifacts) | {RESULT_NAME: document}
+    return dict(artifacts) | {RESULT: document}

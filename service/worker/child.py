@@ -1,6 +1,6 @@
 """Inside the child process: the only place where a caller's picture is decoded.
 
-One process a fit. Input and files of the result go through the pipe to its worker, so it needs
+One process a job. Input and files of the result go through the pipe to its worker, so it needs
 neither database nor storage. It dies with its worker: once it has its input, a thread reads the
 pipe, on which the worker says nothing more, and the end of the pipe is the end of the worker (a
 signal on the parent's death does not serve, the parent being the fork server).
@@ -12,16 +12,18 @@ import os
 import resource
 import signal
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Final
 
+from api_schemas.derivations import DerivationRequest
 from api_schemas.problems import Problem, field_problem, problem
 from api_schemas.requests import FitOptions
 from fitter.errors import ModelFileError
-from service.engine.port import Report
+from service.engine.port import FIT, Report
+from service.inputs import IMAGE, MASK
 from service.logs import LogContext, configure_logging, log_context
 from service.worker.artifacts import with_result_document
 from service.worker.messages import (
@@ -33,7 +35,12 @@ from service.worker.messages import (
     ProblemMessage,
     ProgressMessage,
 )
-from service.worker.pipeline_port import PipelineInput, UnusableInputError, load_pipeline
+from service.worker.pipeline_port import (
+    DerivationInput,
+    PipelineInput,
+    UnusableInputError,
+    load_pipeline,
+)
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -46,10 +53,11 @@ OOM_SCORE: Final = 500
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ChildTask:
-    """What the worker tells the child to begin with; options, image and mask follow as bytes."""
+    """What the worker tells the child to begin with; options and named inputs follow as bytes."""
 
     pipeline: str
-    has_mask: bool
+    kind: str
+    inputs: tuple[str, ...]
     max_pixels: int
     models: Path | None
     memory_mb: int
@@ -58,19 +66,18 @@ class ChildTask:
     log_context: LogContext
 
 
-def fit(task: ChildTask, connection: Connection) -> None:
-    """Run one fit and tell the worker how it went."""
+def work(task: ChildTask, connection: Connection) -> None:
+    """Run one job and tell the worker how it went."""
     _configure_logging(task)
     _limit(task.memory_mb)
     try:
         options = connection.recv_bytes()
-        image = connection.recv_bytes()
-        mask = connection.recv_bytes() if task.has_mask else None
+        inputs = {name: connection.recv_bytes() for name in task.inputs}
     except EOFError:
         os._exit(1)
     _follow_worker(connection)
     with log_context(**task.log_context):
-        _answer(connection, lambda: _fit(task, options, image, mask, connection))
+        _answer(connection, lambda: _work(task, options, inputs, connection))
 
 
 def describe(pipeline: str, models: Path | None, connection: Connection) -> None:
@@ -84,23 +91,47 @@ def describe(pipeline: str, models: Path | None, connection: Connection) -> None
     _send(connection, DescriptionMessage(body_models=description))
 
 
-def _fit(
-    task: ChildTask, options: bytes, image: bytes, mask: bytes | None, connection: Connection
+def _work(
+    task: ChildTask, options: bytes, inputs: Mapping[str, bytes], connection: Connection
 ) -> Message:
-    output = load_pipeline(task.pipeline).run(
-        PipelineInput(
-            options=FitOptions.model_validate_json(options),
-            image=image,
-            mask=mask,
-            max_pixels=task.max_pixels,
-            models=task.models,
-        ),
-        lambda report: _send(connection, _progress(report)),
-    )
-    for name, content in with_result_document(output.result, output.artifacts).items():
+    pipeline = load_pipeline(task.pipeline)
+
+    def observe(report: Report) -> None:
+        _send(connection, _progress(report))
+
+    if task.kind == FIT:
+        fitted = pipeline.run(_fit_input(task, options, inputs), observe)
+        files = with_result_document(fitted.result, fitted.artifacts)
+        stage_seconds = fitted.result.stage_seconds
+    else:
+        derived = pipeline.derive(_derivation_input(task, options, inputs), observe)
+        files = with_result_document(derived.result, derived.artifacts)
+        stage_seconds = {}
+    for name, content in files.items():
         _send(connection, FileMessage(name=name))
         connection.send_bytes(content)
-    return DoneMessage(stage_seconds=output.result.stage_seconds)
+    return DoneMessage(stage_seconds=stage_seconds)
+
+
+def _fit_input(task: ChildTask, options: bytes, inputs: Mapping[str, bytes]) -> PipelineInput:
+    return PipelineInput(
+        options=FitOptions.model_validate_json(options),
+        image=inputs[IMAGE],
+        mask=inputs.get(MASK),
+        max_pixels=task.max_pixels,
+        models=task.models,
+    )
+
+
+def _derivation_input(
+    task: ChildTask, options: bytes, inputs: Mapping[str, bytes]
+) -> DerivationInput:
+    return DerivationInput(
+        options=DerivationRequest.model_validate_json(options).root,
+        inputs=inputs,
+        max_pixels=task.max_pixels,
+        models=task.models,
+    )
 
 
 def _answer(connection: Connection, work: Callable[[], Message]) -> None:
@@ -111,7 +142,7 @@ def _answer(connection: Connection, work: Callable[[], Message]) -> None:
     except MemoryError:
         message = ProblemMessage(problem=_out_of_memory())
     except Exception:
-        LOG.exception("The fit failed.")
+        LOG.exception("The job failed.")
         message = ProblemMessage(problem=_fault())
     _send(connection, message)
 
@@ -127,8 +158,8 @@ def _send(connection: Connection, message: Message) -> None:
 def _fault() -> Problem:
     return problem(
         "fit-failed",
-        detail="An unexpected fault ended the fit.",
-        remedy="Report it with the job's id; other pictures are not affected.",
+        detail="An unexpected fault ended the job.",
+        remedy="Report it with the job's id; other jobs are not affected.",
     )
 
 
@@ -136,8 +167,8 @@ def _out_of_memory() -> Problem:
     return problem(
         "fit-failed",
         code="out-of-memory",
-        detail="The fit needed more memory than one fit may have.",
-        remedy="Send a smaller picture.",
+        detail="The job needed more memory than one job may have.",
+        remedy="Send a smaller picture, or ask for less at once.",
     )
 
 

@@ -99,7 +99,7 @@ class ChildRunner:
         try:
             return self._run(attempt)
         except BlobMissingError:
-            LOG.warning("The input of the fit is gone.")
+            LOG.warning("The input of the job is gone.")
             return AttemptResult(ending=Ending.FAILED, problem=input_gone())
         except BlobsUnavailableError as error:
             LOG.error("The storage did not come back (%s).", error)
@@ -109,7 +109,7 @@ class ChildRunner:
             return AttemptResult(ending=Ending.FAILED, problem=no_process())
 
     def _run(self, attempt: Attempt) -> AttemptResult:
-        connection, process = self._start_fit(has_mask=attempt.job.mask is not None)
+        connection, process = self._start(attempt.job)
         deadline = time.monotonic() + self._settings.job_time_limit_s
         try:
             with (
@@ -124,26 +124,26 @@ class ChildRunner:
             if time.monotonic() >= deadline:
                 return self._timed_out()
             process.join(JOIN_S)
-            LOG.warning("The process of the fit died, exit code %s.", process.exitcode)
+            LOG.warning("The process of the job died, exit code %s.", process.exitcode)
             return AttemptResult(ending=Ending.CRASHED)
         finally:
             end(connection, process)
 
     def _input(self, job: JobRecord) -> Iterator[bytes]:
         read = patient_with_storage(self._blobs.get)
-        for part in (job.options, job.image, job.mask):
-            if part is not None:
-                yield read(job.id, part.digest)
+        for part in (job.options, *job.inputs.values()):
+            yield read(job.id, part.digest)
 
     def _timed_out(self) -> AttemptResult:
         return AttemptResult(
             ending=Ending.TIMED_OUT, problem=too_slow(self._settings.job_time_limit_s)
         )
 
-    def _start_fit(self, *, has_mask: bool) -> tuple[Connection, ForkServerProcess]:
+    def _start(self, job: JobRecord) -> tuple[Connection, ForkServerProcess]:
         task = child.ChildTask(
             pipeline=self._pipeline,
-            has_mask=has_mask,
+            kind=job.kind,
+            inputs=tuple(job.inputs),
             max_pixels=self._settings.max_pixels,
             models=self._settings.models_dir,
             memory_mb=self._settings.child_memory_mb,
@@ -151,7 +151,7 @@ class ChildRunner:
             log_format=self._settings.log_format,
             log_context=dict(current_log_context()),
         )
-        return self._processes.start(child.fit, task)
+        return self._processes.start(child.work, task)
 
     def _follow(
         self, attempt: Attempt, connection: Connection, spans: StageSpans, *, deadline: float

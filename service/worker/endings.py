@@ -9,8 +9,8 @@ def input_gone() -> Problem:
     return problem(
         "fit-failed",
         code="input-gone",
-        detail="The stored picture is gone.",
-        remedy="Post the picture again.",
+        detail="What the job was made of is gone.",
+        remedy="Post it again.",
     )
 
 
@@ -21,7 +21,7 @@ def no_storage(error: BlobsUnavailableError) -> Problem:
         "fit-failed",
         code="storage-full" if full else "storage-unavailable",
         detail="The result could not be stored.",
-        remedy="Post the picture again once the service reports itself ready.",
+        remedy="Post it again once the service reports itself ready.",
     )
 
 
@@ -30,15 +30,15 @@ def no_process() -> Problem:
     return problem(
         "fit-failed",
         code="no-process",
-        detail="No process could be started for the fit.",
-        remedy="Post the picture again once the service reports itself ready.",
+        detail="No process could be started for the job.",
+        remedy="Post it again once the service reports itself ready.",
     )
 
 
 def too_slow(limit_s: float) -> Problem:
-    """The fit took longer than a fit may."""
+    """The job took longer than a job may."""
     return problem(
         "time-limit-exceeded",
-        detail=f"The fit was stopped after {limit_s:g} s.",
-        remedy="Send a smaller picture, or choose the optimizer gauss_newton.",
+        detail=f"The job was stopped after {limit_s:g} s.",
+        remedy="Send a smaller picture, choose the optimizer gauss_newton, or ask for less.",
     )

@@ -10,7 +10,7 @@ from api_schemas.problems import Problem
 
 
 class ProgressMessage(WireModel):
-    """The fit goes on."""
+    """The job goes on."""
 
     kind: Literal["progress"] = "progress"
     stage: str
@@ -26,14 +26,14 @@ class FileMessage(WireModel):
 
 
 class DoneMessage(WireModel):
-    """The fit is done; all its files were sent."""
+    """The job is done; all its files were sent."""
 
     kind: Literal["done"] = "done"
     stage_seconds: dict[str, float]
 
 
 class ProblemMessage(WireModel):
-    """The fit ended without a result."""
+    """The job ended without a result."""
 
     kind: Literal["problem"] = "problem"
     problem: Problem

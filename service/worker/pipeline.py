@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from api_schemas.body_models import BodyModelInfo, BodyModels
+from api_schemas.derivations import DerivationKind
 from api_schemas.requests import Gender
 from fitter import request as fitter_request
 from fitter.applications.fitted_person import fitted_person
@@ -14,7 +15,14 @@ from fitter.observation.subject import MEAN_HEIGHT_M
 from fitter.pipeline import fit
 from service.engine.port import Report
 from service.worker import translate
-from service.worker.pipeline_port import PipelineInput, PipelineOutput, UnusableInputError
+from service.worker.derivers import load_deriver
+from service.worker.pipeline_port import (
+    DerivationInput,
+    DerivationOutput,
+    PipelineInput,
+    PipelineOutput,
+    UnusableInputError,
+)
 
 
 def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput:
@@ -38,6 +46,14 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
     return PipelineOutput(
         result=translate.fit_result(result, part_names=model.part_names), artifacts=files
     )
+
+
+def derive(job: DerivationInput, observe: Callable[[Report], None]) -> DerivationOutput:
+    """Derive something from a fit; see :class:`service.worker.pipeline_port.Pipeline`."""
+    try:
+        return load_deriver(DerivationKind(job.options.kind)).derive(job, observe)
+    except InvalidInputError as error:
+        raise UnusableInputError(translate.field_problem(error)) from error
 
 
 def describe(models: Path | None) -> BodyModels:

@@ -1,5 +1,7 @@
 """What a child process runs: a pipeline from a request to a result and its files.
 
+A fit goes through ``run``, what is derived from one through ``derive``.
+
 The real one is :mod:`service.worker.pipeline`. It is handed around by its dotted name, because it
 is imported in the child process only: the worker itself loads no numerics.
 """
@@ -11,6 +13,7 @@ from pathlib import Path
 from typing import Protocol, cast
 
 from api_schemas.body_models import BodyModels
+from api_schemas.derivations import AnyDerivationOptions, DerivedFiles
 from api_schemas.problems import FieldProblem
 from api_schemas.requests import FitOptions
 from api_schemas.results import FitResult
@@ -39,6 +42,24 @@ class PipelineOutput:
     artifacts: Mapping[str, bytes]
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DerivationInput:
+    """What is to be derived, and the inputs of that kind, by the names of :mod:`service.inputs`."""
+
+    options: AnyDerivationOptions
+    inputs: Mapping[str, bytes]
+    max_pixels: int
+    models: Path | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DerivationOutput:
+    """The result, whose list of artifacts is still empty, and the artifacts by file name."""
+
+    result: DerivedFiles
+    artifacts: Mapping[str, bytes]
+
+
 class UnusableInputError(Exception):
     """The pipeline cannot use what the caller sent."""
 
@@ -48,7 +69,7 @@ class UnusableInputError(Exception):
 
 
 class Pipeline(Protocol):
-    """A module with these two functions."""
+    """A module with these three functions."""
 
     def run(self, job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput:
         """Fit.
@@ -58,6 +79,10 @@ class Pipeline(Protocol):
         UnusableInputError
             If the input is at fault.
         """
+        ...
+
+    def derive(self, job: DerivationInput, observe: Callable[[Report], None]) -> DerivationOutput:
+        """Derive something from a fit; raises as ``run`` does."""
         ...
 
     def describe(self, models: Path | None) -> BodyModels:

@@ -7,7 +7,7 @@ they belong. Problems have theirs where they are documented.
 from collections.abc import Mapping
 from typing import Any, Final
 
-from service.api.examples import estimates, jobs, results, whole_service
+from service.api.examples import derivations, estimates, jobs, results, whole_service
 
 Examples = Mapping[str, Any]
 """Values by their names."""
@@ -16,6 +16,7 @@ UPLOADED: Final = {"photograph": estimates.UPLOADED_IMAGE}
 
 REQUESTS: Final[Mapping[str, Examples]] = {
     "submit": jobs.SUBMISSIONS,
+    "derive": derivations.REQUESTS,
     "initial_pose": estimates.INITIAL_POSE_REQUESTS,
     "estimate_body": estimates.BODY_REQUESTS,
 }
@@ -30,6 +31,17 @@ ANSWERS: Final[Mapping[str, Mapping[int, Examples]]] = {
     "fit_request": {200: {"as-understood": jobs.OPTIONS}},
     "result": {200: {"man-by-point-light": results.RESULT}},
     "artifact": {200: {"result.json": results.RESULT}},
+    "derive": {200: derivations.ENDED, 202: derivations.ACCEPTED},
+    "list_derivations": {200: {"only-page": derivations.PAGE}},
+    "get_derivation": {200: derivations.ACCEPTED | derivations.ENDED},
+    "cancel_derivation": {
+        200: {"canceled": derivations.CANCELED},
+        202: {"stopping": derivations.STOPPING},
+    },
+    "follow_derivation": {200: {"report": jobs.EVENTS}},
+    "derivation_request": {200: derivations.UNDERSTOOD},
+    "derivation_result": {200: {"report": derivations.REPORT_RESULT}},
+    "derivation_artifact": {200: {"result.json": derivations.REPORT_RESULT}},
     "upload_image": {200: UPLOADED, 201: UPLOADED},
     "get_image": {200: UPLOADED},
     "initial_pose": {200: {"standing": estimates.INITIAL_POSE_ANSWER}},
@@ -42,3 +54,4 @@ ANSWERS: Final[Mapping[str, Mapping[int, Examples]]] = {
 }
 
 NOTICE: Final = jobs.NOTICE
+DERIVATION_NOTICE: Final = derivations.NOTICE

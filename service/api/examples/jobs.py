@@ -54,6 +54,7 @@ def _job(state: str, *, links: dict[str, Any] | None = None, **changes: Any) -> 
             "events": f"{_PATH}/events",
             "image": f"{_PATH}/image",
             "request": f"{_PATH}/request",
+            "derivations": None,
             "cancel": f"{_PATH}/cancel",
             "retry": None,
             "result": None,
@@ -85,6 +86,7 @@ SUCCEEDED: Final = _job(
     },
     links=_LINKS_WHEN_OVER
     | {
+        "derivations": f"{_PATH}/derivations",
         "result": f"{_PATH}/result",
         "artifacts": {
             name: f"{_PATH}/artifacts/{name}"

@@ -8,8 +8,10 @@ import time
 import zlib
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from api_schemas.body_models import BodyModelInfo, BodyModels
+from api_schemas.derivations import ReportResult
 from api_schemas.known import UncertainMeasurement
 from api_schemas.problems import FieldProblem
 from api_schemas.requests import FitOptions, Gender
@@ -24,7 +26,14 @@ from api_schemas.results import (
     PartRotation,
 )
 from service.engine.port import Report
-from service.worker.pipeline_port import PipelineInput, PipelineOutput, UnusableInputError
+from service.inputs import RESULT
+from service.worker.pipeline_port import (
+    DerivationInput,
+    DerivationOutput,
+    PipelineInput,
+    PipelineOutput,
+    UnusableInputError,
+)
 
 STAGES = ("observation", "initial_pose", "segmentation", "silhouette_and_edges", "measurement")
 SCRIPT_MARK = b"#script:"
@@ -47,9 +56,7 @@ def scripted_image(
 
 def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput:
     script = json.loads(job.image.partition(SCRIPT_MARK)[2])
-    if "note_pid" in script:
-        with Path(script["note_pid"]).open("a") as stream:
-            stream.write(f"{os.getpid()}\n")
+    _begin(script)
     for step, stage in enumerate(STAGES):
         observe(Report(stage=stage, progress=step / len(STAGES), energies={"total": 10.0 - step}))
         _work(script.get("seconds", 0.0) / len(STAGES), burn=script.get("burn", False))
@@ -71,6 +78,34 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
                 remedy="Leave out the least certain.",
             )
         )
+    _go_on({name: value for name, value in script.items() if name != "seconds"})
+    return PipelineOutput(
+        result=_result(job),
+        artifacts={"body_posed.glb": b"glTF" + bytes(range(256)), "overlay.png": job.image},
+    )
+
+
+def derive(job: DerivationInput, observe: Callable[[Report], None]) -> DerivationOutput:
+    """Do what the fit's picture said under ``derivation``; the overlay is that picture."""
+    script = json.loads(job.inputs["overlay.png"].partition(SCRIPT_MARK)[2]).get("derivation", {})
+    _begin(script)
+    observe(Report(stage=job.options.kind, progress=0.5))
+    _go_on(script)
+    FitResult.model_validate_json(job.inputs[RESULT])
+    return DerivationOutput(
+        result=ReportResult(artifacts=()),
+        artifacts={"report.html": b"<!doctype html><p>A report.", "report.pdf": b"%PDF-1.4"},
+    )
+
+
+def _begin(script: dict[str, Any]) -> None:
+    if "note_pid" in script:
+        with Path(script["note_pid"]).open("a") as stream:
+            stream.write(f"{os.getpid()}\n")
+
+
+def _go_on(script: dict[str, Any]) -> None:
+    _work(script.get("seconds", 0.0), burn=script.get("burn", False))
     if script.get("fault"):
         message = "a fault in the fake"
         raise RuntimeError(message)
@@ -78,10 +113,6 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
         raise MemoryError
     if script.get("segfault"):
         ctypes.string_at(0)
-    return PipelineOutput(
-        result=_result(job),
-        artifacts={"body_posed.glb": b"glTF" + bytes(range(256)), "overlay.png": job.image},
-    )
 
 
 def describe(models: Path | None) -> BodyModels:

@@ -33,8 +33,8 @@ def database(tmp_path):
                 cancel_requested=False,
                 created_at=1.0,
                 options_digest="0" * 64,
-                image_digest="0" * 64,
-                image_media_type="image/png",
+                kind="fit",
+                inputs="{}",
                 artifacts="[]",
                 last_event=0,
             )

@@ -6,6 +6,13 @@ import pytest
 
 from api_schemas.bodies import BodyEstimate, BodyRequest
 from api_schemas.body_models import BodyModels
+from api_schemas.derivations import (
+    Derivation,
+    DerivationEvent,
+    DerivationPage,
+    DerivationRequest,
+    DerivationResult,
+)
 from api_schemas.health import Live, Ready
 from api_schemas.images import UploadedImage
 from api_schemas.initial_poses import InitialPose, InitialPoseRequest
@@ -14,7 +21,7 @@ from api_schemas.problems import ProblemType
 from api_schemas.requests import FitOfImage, FitOptions
 from api_schemas.results import FitResult
 from api_schemas.webhooks import WebhookEvent
-from service.api.examples import ANSWERS, NOTICE, REQUESTS
+from service.api.examples import ANSWERS, DERIVATION_NOTICE, NOTICE, REQUESTS
 
 KINDS = {
     "submit": Job,
@@ -25,6 +32,13 @@ KINDS = {
     "fit_request": FitOptions,
     "result": FitResult,
     "artifact": FitResult,
+    "derive": Derivation,
+    "list_derivations": DerivationPage,
+    "get_derivation": Derivation,
+    "cancel_derivation": Derivation,
+    "derivation_request": DerivationRequest,
+    "derivation_result": DerivationResult,
+    "derivation_artifact": DerivationResult,
     "upload_image": UploadedImage,
     "get_image": UploadedImage,
     "initial_pose": InitialPose,
@@ -34,7 +48,7 @@ KINDS = {
     "ready": Ready,
     "problem_type": ProblemType,
 }
-TEXTS = {"follow", "metrics"}
+TEXTS = {"follow", "follow_derivation", "metrics"}
 
 
 @pytest.mark.parametrize("operation", sorted(ANSWERS))
@@ -49,6 +63,7 @@ def test_examples_of_answers_are_of_their_types(operation):
     ("operation", "kind"),
     [
         ("submit", FitOfImage),
+        ("derive", DerivationRequest),
         ("initial_pose", InitialPoseRequest),
         ("estimate_body", BodyRequest),
     ],
@@ -60,3 +75,4 @@ def test_examples_of_requests_are_of_their_types(operation, kind):
 
 def test_the_example_of_a_notice_is_one():
     WebhookEvent.model_validate_json(json.dumps(NOTICE))
+    DerivationEvent.model_validate_json(json.dumps(DERIVATION_NOTICE))

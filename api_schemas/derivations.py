@@ -1,0 +1,126 @@
+"""What is derived from a finished fit: a job of its own, by its kind."""
+
+from datetime import datetime
+from enum import StrEnum
+from typing import Annotated, Any, Final, Literal, cast
+from uuid import UUID
+
+from pydantic import ConfigDict, Discriminator, Field, RootModel, Tag
+
+from api_schemas.base import WireModel
+from api_schemas.jobs import JobStanding
+from api_schemas.results import Artifact
+from api_schemas.webhooks import WebhookTarget
+
+
+class DerivationKind(StrEnum):
+    """What can be made of a fit."""
+
+    REPORT = "report"
+
+
+class DerivationOptions(WireModel):
+    """What all requests for a derivation have in common."""
+
+    webhook: WebhookTarget | None = None
+
+
+class ReportOptions(DerivationOptions):
+    """One page for people, as HTML and as PDF."""
+
+    kind: Literal["report"]
+
+
+def _kind(value: Any) -> str | None:
+    # In brackets, by which field names of problems leave the alternative out.
+    is_object = isinstance(value, dict)
+    kind = cast("dict[str, Any]", value).get("kind") if is_object else getattr(value, "kind", None)
+    return f"[{kind}]" if isinstance(kind, str) else None
+
+
+_KINDS: Final = ", ".join(f"'{kind}'" for kind in DerivationKind)
+_BY_KIND: Final = Discriminator(
+    _kind,
+    custom_error_type="unknown-value",
+    custom_error_message="{reason}",
+    custom_error_context={
+        "field": "kind",
+        "reason": "The request does not say what is to be derived.",
+        "remedy": f"Send as kind one of {_KINDS}.",
+    },
+)
+
+
+AnyDerivationOptions = Annotated[ReportOptions, Tag("[report]")]
+
+
+class DerivationRequest(RootModel[Annotated[AnyDerivationOptions, _BY_KIND]]):
+    """What to derive from a fit; ``kind`` says which fields there are."""
+
+    model_config = ConfigDict(frozen=True, strict=True, hide_input_in_errors=True)
+
+
+class DerivationLinks(WireModel):
+    """Paths of a derivation's resources below this service's root; absent ones are not (yet)."""
+
+    self: str
+    fit: str = Field(description="The fit it is derived from.")
+    events: str
+    request: str = Field(description="What was asked for.")
+    cancel: str | None = Field(default=None, description="While the job has not ended.")
+    result: str | None = None
+    artifacts: dict[str, str] = Field(default_factory=dict[str, str])
+
+
+class Derivation(JobStanding):
+    """One accepted derivation; it is erased with its fit, and expires when the fit does."""
+
+    kind: DerivationKind
+    fit_id: UUID
+    links: DerivationLinks
+
+
+class DerivationPage(WireModel):
+    """Derivations of a fit, newest first; ``next`` is the path of the following page."""
+
+    derivations: tuple[Derivation, ...]
+    next: str | None
+
+
+class DerivedFiles(WireModel):
+    """What all results of derivations have in common."""
+
+    artifacts: tuple[Artifact, ...]
+
+
+class ReportResult(DerivedFiles):
+    """``report.html`` and ``report.pdf``, the same page; both stand alone."""
+
+    kind: Literal["report"] = "report"
+
+
+class DerivationResult(RootModel[Annotated[Annotated[ReportResult, Tag("[report]")], _BY_KIND]]):
+    """``result.json`` of a derivation; ``kind`` says which fields there are."""
+
+    model_config = ConfigDict(frozen=True, strict=True)
+
+
+class DerivationEventType(StrEnum):
+    """How the job ended."""
+
+    SUCCEEDED = "derivation.succeeded"
+    FAILED = "derivation.failed"
+    CANCELED = "derivation.canceled"
+    TIMED_OUT = "derivation.timed_out"
+
+
+class DerivationEvent(WireModel):
+    """The body of a notice.
+
+    ``data`` is the derivation as its own path answers it, but for ``webhook``, which is null.
+    ``timestamp`` is when the job ended.
+    """
+
+    type: DerivationEventType
+    timestamp: datetime
+    data: Derivation

@@ -1,0 +1,84 @@
+"""Examples of derivations: what is asked for, where they stand, what they give."""
+
+from typing import Any, Final
+
+from service.api.examples import jobs
+
+_FIT_PATH: Final = f"/v1/fits/{jobs.FIT_ID}"
+DERIVATION_ID: Final = "5f1c2a34-8b1e-4c57-9a1d-0c6f3f0f9b21"
+_PATH: Final = f"{_FIT_PATH}/derivations/{DERIVATION_ID}"
+
+REQUESTS: Final[dict[str, Any]] = {
+    "report": {"kind": "report"},
+    "told-of-its-end": {
+        "kind": "report",
+        "webhook": {"url": "https://example.org/hooks/maquette"},
+    },
+}
+
+UNDERSTOOD: Final[dict[str, Any]] = {"report": {"kind": "report"}}
+
+
+def _derivation(fit: dict[str, Any], **changes: Any) -> dict[str, Any]:
+    """A derivation that stands where a fit does."""
+    standing = {name: value for name, value in fit.items() if name != "links"}
+    links = {
+        "self": _PATH,
+        "fit": _FIT_PATH,
+        "events": f"{_PATH}/events",
+        "request": f"{_PATH}/request",
+        "cancel": f"{_PATH}/cancel" if fit["links"]["cancel"] else None,
+        "result": None,
+        "artifacts": {},
+    }
+    mine = {
+        "id": DERIVATION_ID,
+        "kind": "report",
+        "fit_id": jobs.FIT_ID,
+        "expires_at": jobs.SUCCEEDED["expires_at"],
+        "webhook": None,
+        "links": links | changes.pop("links", {}),
+    }
+    return standing | mine | changes
+
+
+QUEUED: Final = _derivation(jobs.QUEUED)
+STOPPING: Final = _derivation(jobs.STOPPING, stage="report", progress=0.5)
+CANCELED: Final = _derivation(jobs.CANCELED)
+SUCCEEDED: Final = _derivation(
+    jobs.SUCCEEDED,
+    stage="report",
+    links={
+        "result": f"{_PATH}/result",
+        "artifacts": {
+            name: f"{_PATH}/artifacts/{name}"
+            for name in ("report.html", "report.pdf", "result.json")
+        },
+    },
+)
+
+ACCEPTED: Final = {"queued": QUEUED}
+ENDED: Final = {"succeeded": SUCCEEDED}
+PAGE: Final[dict[str, Any]] = {"derivations": [SUCCEEDED], "next": None}
+
+REPORT_RESULT: Final[dict[str, Any]] = {
+    "artifacts": [
+        {
+            "name": name,
+            "media_type": media_type,
+            "size": size,
+            "sha256": "d749f854970d25e805a6f10b7ec3a75d2b0060b9eb3333653b6c95baa7a1608c",
+        }
+        for name, media_type, size in (
+            ("report.html", "text/html", 612345),
+            ("report.pdf", "application/pdf", 298765),
+        )
+    ],
+    "kind": "report",
+}
+
+NOTICE: Final[dict[str, Any]] = {
+    "type": "derivation.succeeded",
+    "timestamp": SUCCEEDED["finished_at"],
+    "data": SUCCEEDED,
+}

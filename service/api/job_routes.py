@@ -1,0 +1,139 @@
+"""What routes of fits and of derivations have in common: find, show, list, cancel and erase."""
+
+import re
+from collections.abc import Sequence
+from typing import Annotated, Any, Final
+from uuid import UUID
+
+from fastapi import Header, Query, Response
+
+from api_schemas.jobs import JobState
+from api_schemas.problems import FieldProblem, field_problem
+from service.api.context import ApiContext
+from service.api.problems import ProblemError, not_found
+from service.api.representation import POLL_AFTER_S
+from service.engine.port import JobRecord, TenantJobs
+from service.jobs import ACTIVE, TERMINAL
+
+MAX_PAGE: Final = 200
+
+CURSOR: Final = re.compile(
+    r"^([0-9]{1,12}(?:\.[0-9]{1,9})?)-([0-9a-f]{8}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{12})$"
+)
+"""When the last job of a page was accepted, in epoch seconds, and its id."""
+
+JOB_PROBLEMS: Final = (
+    "not-found",
+    "fit-expired",
+    "invalid-request",
+    "not-ready",
+    "internal-error",
+)
+"""What may keep a caller from a job."""
+
+NOT_MODIFIED: Final[dict[int | str, dict[str, Any]]] = {
+    304: {"description": "Not changed since the given ETag."}
+}
+
+Limit = Annotated[int, Query(ge=1, le=MAX_PAGE)]
+Cursor = Annotated[
+    str | None,
+    Query(
+        description="From `next` of the page before.",
+        json_schema_extra={"pattern": CURSOR.pattern},
+    ),
+]
+State = Annotated[JobState | None, Query()]
+IfNoneMatch = Annotated[str | None, Header()]
+
+
+def find(jobs: TenantJobs, job_id: UUID) -> JobRecord:
+    """Return the job or raise a 404."""
+    record = jobs.job(str(job_id))
+    if record is None:
+        raise not_found(what="such job")
+    return record
+
+
+def not_modified(
+    record: JobRecord, response: Response, if_none_match: str | None
+) -> Response | None:
+    """Return a 304 to who has seen the job as it is; else complete the headers of the answer."""
+    tag = _tag(record)
+    if if_none_match is not None and tag in if_none_match:
+        return Response(status_code=304, headers={"ETag": tag})
+    response.headers["ETag"] = tag
+    response.headers["Cache-Control"] = "no-cache"
+    if record.state in ACTIVE:
+        response.headers["Retry-After"] = str(POLL_AFTER_S)
+    return None
+
+
+def page_of(
+    jobs: TenantJobs,
+    response: Response,
+    *,
+    path: str,
+    limit: int,
+    cursor: str | None,
+    state: JobState | None,
+) -> tuple[Sequence[JobRecord], str | None]:
+    """Return a page of jobs, newest first, and the path of the next, which is below ``path``."""
+    before = None if cursor is None else _read_cursor(cursor)
+    records = jobs.jobs(limit=limit + 1, before=before, state=state)
+    page = records[:limit]
+    if len(records) <= limit:
+        return page, None
+    following = f"{path}?limit={limit}&cursor={_cursor(page[-1])}"
+    following += f"&state={state}" if state else ""
+    response.headers["Link"] = f'<{following}>; rel="next"'
+    return page, following
+
+
+def cancel_job(jobs: TenantJobs, job_id: UUID, response: Response) -> JobRecord:
+    """Stop a job; 200 once it has ended."""
+    record = jobs.cancel(str(job_id))
+    if record is None:
+        raise not_found(what="such job")
+    if record.state in TERMINAL:
+        response.status_code = 200
+    return record
+
+
+def erase_job(context: ApiContext, jobs: TenantJobs, job_id: UUID) -> Response:
+    """Stop a job if it runs, and erase it with whatever it holds."""
+    scopes = jobs.erase(str(job_id))
+    if not scopes:
+        raise not_found(what="such job")
+    for scope in scopes:
+        context.blobs.erase(scope)
+    return Response(status_code=204)
+
+
+def _tag(record: JobRecord) -> str:
+    """An entity tag that changes with whatever is shown of the job."""
+    parts = [record.last_event, int(record.cancel_requested)]
+    if record.webhook is not None:
+        parts += [record.webhook.state, record.webhook.attempts]
+    return f'W/"{"-".join(map(str, parts))}"'
+
+
+def _cursor(record: JobRecord) -> str:
+    return f"{record.created_at!r}-{record.id}"
+
+
+def _read_cursor(cursor: str) -> tuple[float, str]:
+    found = CURSOR.fullmatch(cursor)
+    if found is None:
+        raise ProblemError(
+            field_problem(
+                "invalid-request",
+                FieldProblem(
+                    field="cursor",
+                    code="unknown-cursor",
+                    reason="This is no cursor of this service.",
+                    remedy="Follow 'next' of a page, or leave the cursor out.",
+                ),
+            )
+        )
+    return float(found[1]), found[2]

@@ -1,0 +1,36 @@
+"""Which module derives what.
+
+They are imported where a job asks for them: what they load no fit needs, and every process forked
+for a fit would carry it along.
+"""
+
+import importlib
+from collections.abc import Callable, Mapping
+from typing import Final, Protocol, cast
+
+from api_schemas.derivations import DerivationKind
+from service.engine.port import Report
+from service.worker.pipeline_port import DerivationInput, DerivationOutput
+
+MODULES: Final[Mapping[DerivationKind, str]] = {
+    DerivationKind.REPORT: "service.worker.report",
+}
+
+
+class Deriver(Protocol):
+    """A module with this function."""
+
+    def derive(self, job: DerivationInput, observe: Callable[[Report], None]) -> DerivationOutput:
+        """Derive something from a fit.
+
+        Raises
+        ------
+        InvalidInputError
+            If the request is at fault.
+        """
+        ...
+
+
+def load_deriver(kind: DerivationKind) -> Deriver:
+    """Import what derives this kind."""
+    return cast("Deriver", importlib.import_module(MODULES[kind]))

@@ -1,0 +1,169 @@
+"""What the report says, in words: the numbers, units and names of ``result.json``."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from api_schemas.requests import Cues
+from api_schemas.results import (
+    Assumption,
+    CameraResult,
+    FitResult,
+    FocalLengthSource,
+    LightResult,
+    Measurement,
+    ReflectanceResult,
+)
+
+WITHIN_95: Final = 1.96
+"""Standard errors on either side of a value within which 95 % of truths lie."""
+
+DIAGONAL_35MM: Final = 43.27
+"""Of the 24 x 36 mm frame, to which the 35 mm equivalent of a focal length refers."""
+
+TITLE: Final = "Body, pose and light from one picture"
+
+FOOTNOTE: Final = (
+    "Measured in the canonical pose, right limbs; every definition and its source is in the fit's "
+    "result.json. Intervals are 1.96 standard errors of the fit on either side. This is no medical "
+    "device."
+)
+
+_CUES: Final = {
+    Cues.SE: "silhouette and edges (SE)",
+    Cues.SES: "silhouette, edges and shading (SES)",
+}
+_LENS: Final = {
+    FocalLengthSource.CALLER: "given",
+    FocalLengthSource.EXIF_35MM: "from the picture's EXIF data",
+    FocalLengthSource.EXIF_SENSOR: "from the picture's EXIF data",
+    FocalLengthSource.ASSUMED: "assumed",
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MeasurementRow:
+    """A measurement as it is printed; ``interval`` may say that the value was given."""
+
+    name: str
+    value: str
+    unit: str
+    interval: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Section:
+    """A heading with facts, each a label and what there is to say, and remarks."""
+
+    heading: str
+    facts: tuple[tuple[str, str], ...] = ()
+    remarks: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ReportContent:
+    """The page without its pictures; plain text throughout."""
+
+    subtitle: str
+    measurements: tuple[MeasurementRow, ...]
+    sections: tuple[Section, ...]
+
+
+def report_content(result: FitResult) -> ReportContent:
+    """Put a result into words."""
+    return ReportContent(
+        subtitle=f"{result.gender.capitalize()}, {result.height_m:.3f} m, by {_CUES[result.cues]}",
+        measurements=tuple(_row(each) for each in result.measurements),
+        sections=(
+            _light_and_skin(result.light, result.reflectance),
+            _fit(result),
+            _assumed(result.assumptions),
+            Section(
+                heading="Warnings",
+                remarks=tuple(each.message for each in result.warnings) or ("None.",),
+            ),
+        ),
+    )
+
+
+def _row(measurement: Measurement) -> MeasurementRow:
+    value, error = measurement.value, measurement.standard_error
+    if error is None:
+        interval = "not known"
+    elif error == 0.0:
+        interval = "given" if measurement.given else "exact"
+    else:
+        low, high = value - WITHIN_95 * error, value + WITHIN_95 * error
+        interval = f"{low:.1f} – {high:.1f}"
+    return MeasurementRow(
+        name=_words(measurement.name),
+        value=f"{value:.1f}",
+        unit=measurement.unit,
+        interval=interval,
+    )
+
+
+def _light_and_skin(light: LightResult | None, reflectance: ReflectanceResult | None) -> Section:
+    heading = "Light and reflectance"
+    if light is None or reflectance is None:
+        return Section(
+            heading=heading,
+            remarks=("Not estimated: the fit was made by silhouette and edges alone.",),
+        )
+    across = (
+        f"{abs(light.azimuth_deg):.0f}° from the {'right' if light.azimuth_deg > 0 else 'left'}"
+    )
+    along = (
+        f"{abs(light.elevation_deg):.0f}° from {'above' if light.elevation_deg > 0 else 'below'}"
+    )
+    away = "far away" if light.distance_m is None else f"{light.distance_m:.2f} m away"
+    return Section(
+        heading=heading,
+        facts=(
+            (f"{_words(light.kind).capitalize()} light", f"{across}, {along}, {away}"),
+            ("Mean albedo", f"{reflectance.mean_albedo:.3f}"),
+            ("Mean specularity", f"{reflectance.mean_specularity:.3f}"),
+            ("Specular exponent", f"{reflectance.specular_exponent:.0f}"),
+            ("Ambient", f"{reflectance.ambient:.3f}"),
+        ),
+    )
+
+
+def _fit(result: FitResult) -> Section:
+    return Section(
+        heading="The fit",
+        facts=(
+            ("Outcome", f"{_words(result.outcome)}. {result.outcome_explanation}"),
+            ("Overlap with the silhouette", f"{100.0 * result.silhouette_overlap:.1f} %"),
+            ("Focal length", _lens(result.image_camera, result.focal_length_source)),
+            ("Picture", f"{result.image_camera.width} × {result.image_camera.height} pixels"),
+        ),
+    )
+
+
+def _lens(camera: CameraResult, source: FocalLengthSource) -> str:
+    equivalent_mm = camera.focal_length_px * DIAGONAL_35MM / math.hypot(camera.width, camera.height)
+    return f"{camera.focal_length_px:.0f} px ({equivalent_mm:.0f} mm equivalent), {_LENS[source]}"
+
+
+def _assumed(assumptions: Sequence[Assumption]) -> Section:
+    heading = "What was assumed"
+    if not assumptions:
+        return Section(heading=heading, remarks=("Nothing.",))
+    return Section(
+        heading=heading,
+        facts=tuple(
+            (_words(each.quantity).capitalize(), f"{_assumed_value(each)}. {each.reason}")
+            for each in assumptions
+        ),
+    )
+
+
+def _assumed_value(assumption: Assumption) -> str:
+    value = assumption.value
+    return value if isinstance(value, str) else f"{value:.4g}"
+
+
+def _words(name: str) -> str:
+    return name.replace("_", " ")

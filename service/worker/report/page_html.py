@@ -1,0 +1,123 @@
+"""The report as one HTML file: styles and pictures inside, no scripts, one A4 page in print."""
+
+import base64
+from html import escape
+from typing import Final
+
+from service.worker.report.content import FOOTNOTE, TITLE, MeasurementRow, ReportContent, Section
+from service.worker.report.pictures import Picture, ReportPictures
+
+STYLE: Final = """
+@page { size: A4; margin: 12mm 14mm; }
+* { box-sizing: border-box; }
+body { margin: 0 auto; padding: 24px; max-width: 860px; background: #fff; color: #1c1c1c;
+  font: 13px/1.4 "IBM Plex Sans", "Helvetica Neue", Arial, sans-serif; }
+header { border-bottom: 2px solid #1c1c1c; margin-bottom: 14px; padding-bottom: 6px; }
+h1 { font-size: 22px; font-weight: 600; margin: 0; }
+header p { color: #555; margin: 2px 0 0; }
+h2 { font-size: 13px; font-weight: 600; margin: 0 0 4px; }
+.top { display: grid; gap: 18px; grid-template-columns: 41fr 59fr; }
+.notes { display: grid; gap: 12px 24px; grid-template-columns: 1fr 1fr; margin-top: 12px; }
+figure { margin: 0; }
+figure img { display: block; width: 100%; height: auto; max-height: 420px; object-fit: contain;
+  object-position: left top; }
+figcaption, footer { color: #555; font-size: 11px; }
+.sides { display: grid; gap: 6px; grid-template-columns: repeat(4, 1fr); margin-top: 12px; }
+.skin { display: flex; gap: 8px; margin: 6px 0; }
+.skin figure { width: 42%; }
+.skin img { max-height: 150px; object-position: left top; }
+table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
+th, td { border-bottom: 1px solid #ddd; padding: 2px 0 2px 8px; text-align: right; }
+th:first-child { padding-left: 0; text-align: left; font-weight: 400; }
+thead th { border-bottom: 1px solid #888; color: #555; font-weight: 400; font-size: 11px; }
+td.interval { color: #555; }
+dl { display: grid; gap: 0 10px; grid-template-columns: max-content 1fr; margin: 0; }
+dt { color: #555; max-width: 150px; }
+dd { margin: 0; }
+section { break-inside: avoid; }
+section { margin-bottom: 8px; }
+section p { margin: 0 0 3px; }
+footer { border-top: 1px solid #ddd; margin-top: 12px; padding-top: 5px; }
+@media (max-width: 640px) { .top, .notes { grid-template-columns: 1fr; } }
+@media print {
+  body { font-size: 8.5pt; line-height: 1.3; max-width: none; padding: 0; }
+  h1 { font-size: 15pt; } h2 { font-size: 9pt; }
+  figcaption, footer, thead th { font-size: 7pt; }
+  .top, .notes { gap: 4mm; } .top { grid-template-columns: 41fr 59fr; }
+  .notes { grid-template-columns: 1fr 1fr; }
+  figure img { max-height: 92mm; } .skin img { max-height: 32mm; }
+  .sides img { max-height: 66mm; } th, td { padding: 0.35mm 0 0.35mm 2mm; }
+  dt { max-width: 32mm; }
+}
+"""
+
+
+def report_html(content: ReportContent, pictures: ReportPictures) -> bytes:
+    """Write the page; the same report gives the same bytes."""
+    light, *others = content.sections
+    body = f"""<header><h1>{escape(TITLE)}</h1><p>{escape(content.subtitle)}</p></header>
+<main>
+<div class="top">
+{_figure(pictures.overlay)}
+{_measurements(content.measurements)}
+</div>
+<div class="sides">{"".join(_figure(each) for each in pictures.sides)}</div>
+<div class="notes">
+{_section(light, "".join(_figure(each) for each in pictures.skin))}
+<div>
+{"".join(_section(each) for each in others)}
+</div>
+</div>
+</main>
+<footer>{escape(FOOTNOTE)}</footer>"""
+    page = f"""<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{escape(TITLE)}</title>
+<style>{STYLE}</style>
+</head>
+<body>
+{body}
+</body>
+</html>
+"""
+    return page.encode()
+
+
+def _figure(picture: Picture) -> str:
+    encoded = base64.b64encode(picture.content).decode()
+    caption = escape(picture.caption)
+    return (
+        f'<figure><img src="data:{picture.media_type};base64,{encoded}" alt="{caption}" '
+        f'width="{picture.width}" height="{picture.height}">'
+        f"<figcaption>{caption}</figcaption></figure>"
+    )
+
+
+def _measurements(rows: tuple[MeasurementRow, ...]) -> str:
+    lines = "\n".join(
+        f'<tr><th scope="row">{escape(row.name)}</th><td>{escape(row.value)}</td>'
+        f'<td>{escape(row.unit)}</td><td class="interval">{escape(row.interval)}</td></tr>'
+        for row in rows
+    )
+    return f"""<section><table>
+<thead><tr><th scope="col">Measurement</th><th scope="col">Value</th><th scope="col">Unit</th>\
+<th scope="col">95 % interval</th></tr></thead>
+<tbody>
+{lines}
+</tbody></table></section>"""
+
+
+def _section(section: Section, figures: str = "") -> str:
+    facts = "".join(
+        f"<dt>{escape(label)}</dt><dd>{escape(text)}</dd>" for label, text in section.facts
+    )
+    remarks = "".join(f"<p>{escape(remark)}</p>" for remark in section.remarks)
+    return (
+        f"<section><h2>{escape(section.heading)}</h2>"
+        + (f'<div class="skin">{figures}</div>' if figures else "")
+        + (f"<dl>{facts}</dl>" if facts else "")
+        + f"{remarks}</section>\n"
+    )

@@ -1,0 +1,205 @@
+"""The report as one A4 page of PDF, drawn with the fonts every reader has."""
+
+import io
+from html import escape
+from typing import Final
+
+from reportlab.lib.colors import HexColor
+from reportlab.lib.pagesizes import A4
+from reportlab.lib.styles import ParagraphStyle
+from reportlab.lib.units import mm
+from reportlab.lib.utils import ImageReader
+from reportlab.pdfgen.canvas import Canvas
+from reportlab.platypus import Flowable, Frame, KeepInFrame, Paragraph, Spacer, Table
+
+from service.worker.report.content import FOOTNOTE, TITLE, MeasurementRow, ReportContent, Section
+from service.worker.report.pictures import Picture, ReportPictures
+
+PAGE_WIDTH, PAGE_HEIGHT = A4
+MARGIN: Final = 14 * mm
+WIDTH: Final = PAGE_WIDTH - 2 * MARGIN
+GUTTER: Final = 5 * mm
+
+HEADER_BASELINE: Final = PAGE_HEIGHT - MARGIN - 5 * mm
+TOP: Final = HEADER_BASELINE - 10 * mm
+TOP_HEIGHT: Final = 96 * mm
+SIDES_HEIGHT: Final = 68 * mm
+SKIN_HEIGHT: Final = 42 * mm
+CAPTION_HEIGHT: Final = 4.5 * mm
+FOOTER_HEIGHT: Final = 10 * mm
+
+INK: Final = HexColor("#1c1c1c")
+GREY: Final = HexColor("#555555")
+RULE: Final = HexColor("#dddddd")
+
+TEXT: Final = ParagraphStyle(
+    "text", fontName="Helvetica", fontSize=8, leading=10, textColor=INK, spaceAfter=1
+)
+LABEL: Final = ParagraphStyle("label", parent=TEXT, textColor=GREY)
+HEADING: Final = ParagraphStyle(
+    "heading", parent=TEXT, fontName="Helvetica-Bold", fontSize=9, leading=12, spaceBefore=3
+)
+SMALL: Final = ParagraphStyle("small", parent=LABEL, fontSize=6.5, leading=8)
+
+FONT_ENCODING: Final = "cp1252"
+"""What the built-in fonts can show; anything else becomes a question mark."""
+
+
+def report_pdf(content: ReportContent, pictures: ReportPictures) -> bytes:
+    """Draw the page; the same report gives the same bytes."""
+    stream = io.BytesIO()
+    canvas = Canvas(stream, pagesize=A4, invariant=True, pageCompression=True)
+    canvas.setTitle(TITLE)
+    canvas.setAuthor("Maquette")
+    _header(canvas, content.subtitle)
+
+    left = 0.41 * (WIDTH - GUTTER)
+    _picture(canvas, pictures.overlay, MARGIN, TOP, left, TOP_HEIGHT)
+    table_left = MARGIN + left + GUTTER
+    _fill(
+        canvas,
+        [_measurements(content.measurements, WIDTH - left - GUTTER)],
+        (table_left, TOP - TOP_HEIGHT, WIDTH - left - GUTTER, TOP_HEIGHT),
+    )
+
+    sides_top = TOP - TOP_HEIGHT - 3 * mm
+    _row(canvas, pictures.sides, MARGIN, sides_top, WIDTH, SIDES_HEIGHT)
+
+    notes_top = sides_top - SIDES_HEIGHT - 2 * mm
+    notes_bottom = MARGIN + FOOTER_HEIGHT
+    half = (WIDTH - GUTTER) / 2
+    light, *others = content.sections
+    skin_height = SKIN_HEIGHT if pictures.skin else 0.0
+    skin_top = notes_bottom + skin_height
+    _row(canvas, pictures.skin, MARGIN, skin_top, half, skin_height)
+    _fill(canvas, _section(light, half), (MARGIN, skin_top, half, notes_top - skin_top))
+    _fill(
+        canvas,
+        [part for section in others for part in _section(section, half)],
+        (MARGIN + half + GUTTER, notes_bottom, half, notes_top - notes_bottom),
+    )
+    _fill(canvas, [Paragraph(_text(FOOTNOTE), SMALL)], (MARGIN, MARGIN, WIDTH, FOOTER_HEIGHT))
+    canvas.showPage()
+    canvas.save()
+    return stream.getvalue()
+
+
+def _header(canvas: Canvas, subtitle: str) -> None:
+    canvas.setFillColor(INK)
+    canvas.setFont("Helvetica-Bold", 15)
+    canvas.drawString(MARGIN, HEADER_BASELINE, TITLE)
+    canvas.setFillColor(GREY)
+    canvas.setFont("Helvetica", 9)
+    canvas.drawString(MARGIN, HEADER_BASELINE - 5 * mm, _shown(subtitle))
+    canvas.setStrokeColor(INK)
+    canvas.setLineWidth(1)
+    canvas.line(MARGIN, HEADER_BASELINE - 7 * mm, MARGIN + WIDTH, HEADER_BASELINE - 7 * mm)
+
+
+def _row(
+    canvas: Canvas,
+    pictures: tuple[Picture, ...],
+    left: float,
+    top: float,
+    width: float,
+    height: float,
+) -> None:
+    """Draw pictures side by side."""
+    for number, picture in enumerate(pictures):
+        step = width / len(pictures)
+        _picture(canvas, picture, left + number * step, top, step - 1 * mm, height)
+
+
+def _picture(
+    canvas: Canvas, picture: Picture, left: float, top: float, width: float, height: float
+) -> None:
+    """Draw a picture as large as the box allows, its caption below, at the box's top left."""
+    room = height - CAPTION_HEIGHT
+    scale = min(width / picture.width, room / picture.height)
+    drawn_width, drawn_height = scale * picture.width, scale * picture.height
+    canvas.drawImage(
+        ImageReader(io.BytesIO(picture.content)),
+        left,
+        top - drawn_height,
+        width=drawn_width,
+        height=drawn_height,
+    )
+    canvas.setFillColor(GREY)
+    canvas.setFont("Helvetica", 7)
+    canvas.drawString(left, top - drawn_height - 3.2 * mm, _shown(picture.caption))
+
+
+def _fill(
+    canvas: Canvas, flowables: list[Flowable], box: tuple[float, float, float, float]
+) -> None:
+    """Fill a box (left, bottom, width, height) from its top; what is too long is made smaller."""
+    left, bottom, width, height = box
+    frame = Frame(
+        left,
+        bottom,
+        width,
+        height,
+        leftPadding=0,
+        rightPadding=0,
+        topPadding=0,
+        bottomPadding=0,
+    )
+    frame.add(KeepInFrame(width, height, flowables, mode="shrink"), canvas)
+
+
+def _measurements(rows: tuple[MeasurementRow, ...], width: float) -> Table:
+    cells = [["Measurement", "Value", "Unit", "95 % interval"]]
+    cells += [
+        [_shown(text) for text in (row.name, row.value, row.unit, row.interval)] for row in rows
+    ]
+    shares = (0.42, 0.17, 0.11, 0.30)
+    return Table(
+        cells,
+        colWidths=[share * width for share in shares],
+        style=[
+            ("FONT", (0, 0), (-1, -1), "Helvetica", 8),
+            ("FONTSIZE", (0, 0), (-1, 0), 7),
+            ("TEXTCOLOR", (0, 0), (-1, -1), INK),
+            ("TEXTCOLOR", (0, 0), (-1, 0), GREY),
+            ("TEXTCOLOR", (3, 1), (3, -1), GREY),
+            ("ALIGN", (1, 0), (-1, -1), "RIGHT"),
+            ("LINEBELOW", (0, 0), (-1, -1), 0.4, RULE),
+            ("LEFTPADDING", (0, 0), (-1, -1), 0),
+            ("RIGHTPADDING", (0, 0), (-1, -1), 2),
+            ("TOPPADDING", (0, 0), (-1, -1), 1.2),
+            ("BOTTOMPADDING", (0, 0), (-1, -1), 1.8),
+        ],
+    )
+
+
+def _section(section: Section, width: float) -> list[Flowable]:
+    parts: list[Flowable] = [Paragraph(_text(section.heading), HEADING)]
+    if section.facts:
+        parts.append(
+            Table(
+                [
+                    [Paragraph(_text(label), LABEL), Paragraph(_text(text), TEXT)]
+                    for label, text in section.facts
+                ],
+                colWidths=[0.34 * width, 0.66 * width],
+                style=[
+                    ("VALIGN", (0, 0), (-1, -1), "TOP"),
+                    ("LEFTPADDING", (0, 0), (-1, -1), 0),
+                    ("RIGHTPADDING", (0, 0), (-1, -1), 3),
+                    ("TOPPADDING", (0, 0), (-1, -1), 0),
+                    ("BOTTOMPADDING", (0, 0), (-1, -1), 0.5),
+                ],
+            )
+        )
+    parts += [Paragraph(_text(remark), TEXT) for remark in section.remarks]
+    parts.append(Spacer(width, 1.5 * mm))
+    return parts
+
+
+def _text(text: str) -> str:
+    """Escape text for a paragraph, whose markup looks like HTML."""
+    return escape(_shown(text))
+
+
+def _shown(text: str) -> str:
+    return text.encode(FONT_ENCODING, "replace").decode(FONT_ENCODING)

@@ -1,0 +1,108 @@
+"""The pictures of the report: copies of the fit's own, and the body from four sides."""
+
+import io
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from PIL import Image
+
+from fitter.applications.fitted_person import FittedPerson, require_model
+from fitter.export.display import png
+from fitter.export.views import sides_pictures
+from fitter.fittable import fittable_body
+from service.inputs import PERSON
+
+OVERLAY: Final = "overlay.png"
+SKIN: Final[Mapping[str, str]] = {"albedo.png": "Albedo", "shading.png": "Shading"}
+"""What there is after a fit by shading."""
+
+LONGEST_SIDE_PX: Final = 1_400
+"""Of the photograph: 300 dots an inch on the page, and a file one can send."""
+
+JPEG_QUALITY: Final = 88
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Picture:
+    """An encoded picture and what it shows."""
+
+    caption: str
+    media_type: str
+    content: bytes
+    width: int
+    height: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ReportPictures:
+    """All pictures of the page; ``skin`` is empty after SE."""
+
+    overlay: Picture
+    sides: tuple[Picture, ...]
+    skin: tuple[Picture, ...]
+
+
+def report_pictures(inputs: Mapping[str, bytes], *, models: Path | None) -> ReportPictures:
+    """Collect the pictures from the fit's files.
+
+    Parameters
+    ----------
+    inputs
+        The derivation's inputs by name.
+    models
+        Folder of the body models, None for those shipped with the package.
+
+    Raises
+    ------
+    InvalidInputError
+        If the person was fitted with another body model than there is now.
+    """
+    return ReportPictures(
+        overlay=_photograph(inputs[OVERLAY], "The body over the picture"),
+        sides=_sides(inputs[PERSON], models),
+        skin=tuple(
+            _drawing(inputs[name], caption) for name, caption in SKIN.items() if name in inputs
+        ),
+    )
+
+
+def _sides(person_file: bytes, models: Path | None) -> tuple[Picture, ...]:
+    person = FittedPerson.from_bytes(person_file)
+    instruments = fittable_body(person.gender, models=models).instruments
+    require_model(person, instruments.model)
+    sides = sides_pictures(
+        instruments.evaluator.vertices(person.body),
+        person.body.translation,
+        instruments.model.triangles,
+    )
+    return tuple(_drawing(png(levels), side.capitalize()) for side, levels in sides.items())
+
+
+def _drawing(content: bytes, caption: str) -> Picture:
+    """A PNG packed as small as it gets: the fit's own are packed quickly."""
+    with Image.open(io.BytesIO(content)) as opened:
+        stream = io.BytesIO()
+        opened.save(stream, "PNG", optimize=True)
+        return _picture(stream, caption, "image/png", opened.size)
+
+
+def _photograph(content: bytes, caption: str) -> Picture:
+    with Image.open(io.BytesIO(content)) as opened:
+        shown = opened.convert("RGB")
+    shown.thumbnail((LONGEST_SIDE_PX, LONGEST_SIDE_PX))
+    stream = io.BytesIO()
+    shown.save(stream, "JPEG", quality=JPEG_QUALITY, optimize=True)
+    return _picture(stream, caption, "image/jpeg", shown.size)
+
+
+def _picture(stream: io.BytesIO, caption: str, media_type: str, size: tuple[int, int]) -> Picture:
+    width, height = size
+    return Picture(
+        caption=caption,
+        media_type=media_type,
+        content=stream.getvalue(),
+        width=width,
+        height=height,
+    )
