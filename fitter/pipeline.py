@@ -283,6 +283,8 @@ def _stage(body: FittableBody, objective: Objective, name: str, candidate: Candi
     return StageBody(
         name=name,
         body=candidate.parameters,
+        posed_vertices=candidate.vertices,
+        canonical_vertices=body.measuring.canonical.at(candidate.parameters.shape),
         energies=candidate.energies,
         silhouette_overlap=objective.overlap(candidate),
         measurements=measure(body.measuring, candidate.parameters.shape),

@@ -1,7 +1,7 @@
 """What a fit gives back."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from fitter.arrays import Image, Mask, Vertices
@@ -59,10 +59,15 @@ class LimbFacing:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class StageBody:
-    """The body at the end of a stage: ``initial``, ``SE`` or ``SES``."""
+    """The body at the end of a stage: ``initial``, ``SE`` or ``SES``.
+
+    Vertices are in the camera frame (posed) and the body frame (canonical), metres.
+    """
 
     name: str
     body: BodyParameters
+    posed_vertices: Vertices
+    canonical_vertices: Vertices
     energies: Mapping[str, float]
     silhouette_overlap: float
     measurements: tuple[Measurement, ...]
@@ -116,3 +121,29 @@ class FitResult:
     warnings: tuple[FitWarning, ...]
     stage_seconds: Mapping[str, float]
     pictures: Pictures
+
+
+def before_shading(result: FitResult) -> FitResult | None:
+    """The same fit as silhouette and edges left it, before shading moved the body (E1, not E2).
+
+    None where shading was not used, so that this is the result itself. What is not of the body
+    (evaluations, times, warnings) stays that of the whole fit.
+    """
+    if result.reflectance is None:
+        return None
+    stage = next((stage for stage in result.stages if stage.name == "SE"), None)
+    if stage is None:
+        return None
+    return replace(
+        result,
+        cues=Cues.SE,
+        body=stage.body,
+        posed_vertices=stage.posed_vertices,
+        canonical_vertices=stage.canonical_vertices,
+        light=None,
+        reflectance=None,
+        albedo_rgb=None,
+        energies=stage.energies,
+        silhouette_overlap=stage.silhouette_overlap,
+        measurements=stage.measurements,
+    )

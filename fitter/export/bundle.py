@@ -17,7 +17,7 @@ from fitter.observation.decoding import decode_picture
 from fitter.parameters import Reflectance
 from fitter.render.rasterizer import render
 from fitter.render.reflectance import shading_terms
-from fitter.result import FitResult
+from fitter.result import FitResult, before_shading
 
 
 def artifacts(result: FitResult, *, model: BodyModel, image: bytes) -> dict[str, bytes]:
@@ -25,7 +25,8 @@ def artifacts(result: FitResult, *, model: BodyModel, image: bytes) -> dict[str,
 
     Always ``body_posed.glb``, ``body_canonical.glb``, ``segmentation.png``, ``overlay.png`` and
     ``views.png``; ``trimap.png`` where the caller sent no mask; ``albedo.png``, ``shading.png``
-    and ``shading_lambertian.png`` where shading was used (Fig. 7).
+    and ``shading_lambertian.png`` where shading was used (Fig. 7), and then the bodies before it,
+    ``body_posed_se.glb`` and ``body_canonical_se.glb``, to compare SE with SES (section 6).
 
     Parameters
     ----------
@@ -61,6 +62,10 @@ def artifacts(result: FitResult, *, model: BodyModel, image: bytes) -> dict[str,
         files["trimap.png"] = png(trimap_levels(result.pictures.trimap, result.camera, camera))
     if result.reflectance is not None:
         files |= _reflectance_pictures(result, result.reflectance, model)
+    outlined = before_shading(result)
+    if outlined is not None:
+        files["body_posed_se.glb"] = body_posed_glb(outlined, model)
+        files["body_canonical_se.glb"] = body_canonical_glb(outlined, model)
     return files
 
 

@@ -16,8 +16,10 @@ ALWAYS = {
     "overlay.png",
     "views.png",
 }
-WITH_SHADING = {"albedo.png", "shading.png", "shading_lambertian.png"}
-ON_THE_PICTURE = {"segmentation.png", "trimap.png", "overlay.png"} | WITH_SHADING
+REFLECTANCE = {"albedo.png", "shading.png", "shading_lambertian.png"}
+BEFORE_SHADING = {"body_posed_se.glb", "body_canonical_se.glb"}
+WITH_SHADING = REFLECTANCE | BEFORE_SHADING
+ON_THE_PICTURE = {"segmentation.png", "trimap.png", "overlay.png"} | REFLECTANCE
 
 
 @pytest.fixture(scope="module")
@@ -55,6 +57,20 @@ def test_pictures_lie_on_the_originals_pixels(files):
 def test_models_are_binary_gltf(files, model):
     for name in ("body_posed.glb", "body_canonical.glb"):
         assert len(read_glb(files[name]).attribute("POSITION")) == len(model.mean_vertices)
+
+
+def test_the_body_before_shading_lies_beside_the_final_one(files, model):
+    for name, moved in (
+        ("posed", lambda vertices: vertices - np.array([0.0, 0.0, 0.05])),
+        ("canonical", lambda vertices: vertices * np.array([0.98, 1.0, 1.0])),
+    ):
+        final = read_glb(files[f"body_{name}.glb"])
+        outlined = read_glb(files[f"body_{name}_se.glb"])
+        np.testing.assert_allclose(
+            outlined.attribute("POSITION"), moved(final.attribute("POSITION")), atol=1e-6
+        )
+        assert outlined.document["asset"]["extras"]["cues"] == "SE"
+        assert "COLOR_0" not in outlined.document["meshes"][0]["primitives"][0]["attributes"]
 
 
 def test_the_highlight_is_what_distinguishes_blinn_phong_from_lambert(files):

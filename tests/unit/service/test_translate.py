@@ -190,6 +190,8 @@ def result(*, light: Light | None) -> fitter_result.FitResult:
             fitter_result.StageBody(
                 name="SE",
                 body=body,
+                posed_vertices=np.zeros((3, 3)),
+                canonical_vertices=np.zeros((3, 3)),
                 energies={"silhouette": 2.5},
                 silhouette_overlap=0.9,
                 measurements=(measurement,),
