@@ -12,6 +12,8 @@ RESULT: Final = "result.json"
 PERSON: Final = "person.npz"
 
 OF_ITS_FIT: Final[Mapping[DerivationKind, tuple[str, ...]]] = {
+    DerivationKind.CARICATURE: (PERSON,),
+    DerivationKind.POSE: (PERSON,),
     DerivationKind.REPORT: (RESULT, PERSON, "overlay.png", "albedo.png", "shading.png"),
 }
 """Which files of the fit's result a derivation has copies of, so far as the fit has them."""

@@ -1,4 +1,4 @@
-"""A body without picture, camera or reflectance as a glTF 2.0 binary file.
+"""A body without picture and camera as a glTF 2.0 binary file.
 
 Body frame (y up, facing +z), metres, feet on y = 0; vertex order is the body model's.
 """
@@ -9,14 +9,21 @@ import numpy as np
 
 from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
-from fitter.export.glb import BinaryChunk, Target, pack_glb
-from fitter.export.gltf import NEUTRAL_ALBEDO, NEUTRAL_ROUGHNESS, generator_name, unit_normals
+from fitter.export.glb import BinaryChunk, pack_glb
+from fitter.export.gltf import add_body_mesh, generator_name
+from fitter.parameters import Reflectance
 
 
 def plain_glb(
-    vertices: Vertices, model: BodyModel, *, name: str, extras: Mapping[str, object]
+    vertices: Vertices,
+    model: BodyModel,
+    *,
+    name: str,
+    extras: Mapping[str, object],
+    reflectance: Reflectance | None = None,
+    albedo_rgb: Vertices | None = None,
 ) -> bytes:
-    """The mesh in a neutral colour.
+    """The mesh in the colours of its skin, a neutral one where they are not known.
 
     Parameters
     ----------
@@ -28,18 +35,10 @@ def plain_glb(
         Of the scene.
     extras
         What else is said of the body, beside its provenance; JSON values.
+    reflectance, albedo_rgb
+        Per vertex.
     """
     standing = vertices - np.array([0.0, vertices[:, 1].min(), 0.0])
-    binary = BinaryChunk()
-    normals = unit_normals(standing, model.triangles)
-    attributes = {
-        "POSITION": binary.add(
-            standing.astype(np.float32), target=Target.VERTEX_ATTRIBUTE, bounds=True
-        ),
-        "NORMAL": binary.add(normals.astype(np.float32), target=Target.VERTEX_ATTRIBUTE),
-    }
-    index_type = np.uint16 if len(vertices) < np.iinfo(np.uint16).max else np.uint32
-    indices = binary.add(model.triangles.ravel().astype(index_type), target=Target.TRIANGLE_INDICES)
     provenance = {
         "generator": generator_name(),
         "gender": model.gender,
@@ -51,29 +50,20 @@ def plain_glb(
         },
         **extras,
     }
-    return pack_glb(
-        {
-            # Blender keeps the scene's extras but drops the asset's, so both carry them.
-            "asset": {"version": "2.0", "generator": generator_name(), "extras": provenance},
-            "scene": 0,
-            "scenes": [{"name": name, "nodes": [0], "extras": provenance}],
-            "nodes": [{"mesh": 0, "name": "body"}],
-            "meshes": [
-                {
-                    "name": "body",
-                    "primitives": [{"attributes": attributes, "indices": indices, "material": 0}],
-                }
-            ],
-            "materials": [
-                {
-                    "name": "neutral",
-                    "pbrMetallicRoughness": {
-                        "baseColorFactor": [NEUTRAL_ALBEDO] * 3 + [1.0],
-                        "metallicFactor": 0.0,
-                        "roughnessFactor": NEUTRAL_ROUGHNESS,
-                    },
-                }
-            ],
-        },
+    document: dict[str, object] = {
+        # Blender keeps the scene's extras but drops the asset's, so both carry them.
+        "asset": {"version": "2.0", "generator": generator_name(), "extras": provenance},
+        "scene": 0,
+        "scenes": [{"name": name, "nodes": [0], "extras": provenance}],
+        "nodes": [{"mesh": 0, "name": "body"}],
+    }
+    binary = BinaryChunk()
+    add_body_mesh(
+        document,
         binary,
+        vertices=standing,
+        triangles=model.triangles,
+        reflectance=reflectance,
+        albedo_rgb=albedo_rgb,
     )
+    return pack_glb(document, binary)

@@ -236,7 +236,7 @@ def derivation_result(
     "/{derivation_id}/artifacts/{name}",
     summary="A file of a derivation",
     response_class=Response,
-    responses=file_answers("text/html", "application/pdf"),
+    responses=file_answers("text/html", "application/pdf", "model/gltf-binary", "image/png"),
 )
 def derivation_artifact(
     fit_id: UUID,

@@ -13,6 +13,8 @@ from service.engine.port import Report
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 
 MODULES: Final[Mapping[DerivationKind, str]] = {
+    DerivationKind.CARICATURE: "service.worker.derived.caricature",
+    DerivationKind.POSE: "service.worker.derived.pose",
     DerivationKind.REPORT: "service.worker.report",
 }
 

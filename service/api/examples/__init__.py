@@ -40,7 +40,7 @@ ANSWERS: Final[Mapping[str, Mapping[int, Examples]]] = {
     },
     "follow_derivation": {200: {"report": jobs.EVENTS}},
     "derivation_request": {200: derivations.UNDERSTOOD},
-    "derivation_result": {200: {"report": derivations.REPORT_RESULT}},
+    "derivation_result": {200: derivations.RESULTS},
     "derivation_artifact": {200: {"result.json": derivations.REPORT_RESULT}},
     "upload_image": {200: UPLOADED, 201: UPLOADED},
     "get_image": {200: UPLOADED},

@@ -10,13 +10,22 @@ _PATH: Final = f"{_FIT_PATH}/derivations/{DERIVATION_ID}"
 
 REQUESTS: Final[dict[str, Any]] = {
     "report": {"kind": "report"},
+    "caricature": {"kind": "caricature", "factor": 2.5},
+    "pose": {
+        "kind": "pose",
+        "pose": "standing",
+        "rotations": {"head": [0.0, 0.35, 0.0], "left_forearm": [0.0, 0.0, 0.0, 1.0]},
+    },
     "told-of-its-end": {
         "kind": "report",
         "webhook": {"url": "https://example.org/hooks/maquette"},
     },
 }
 
-UNDERSTOOD: Final[dict[str, Any]] = {"report": {"kind": "report"}}
+UNDERSTOOD: Final[dict[str, Any]] = {
+    "report": {"kind": "report"},
+    "pose": {"kind": "pose", "pose": "sitting", "rotations": {}},
+}
 
 
 def _derivation(fit: dict[str, Any], **changes: Any) -> dict[str, Any]:
@@ -61,20 +70,52 @@ ACCEPTED: Final = {"queued": QUEUED}
 ENDED: Final = {"succeeded": SUCCEEDED}
 PAGE: Final[dict[str, Any]] = {"derivations": [SUCCEEDED], "next": None}
 
-REPORT_RESULT: Final[dict[str, Any]] = {
-    "artifacts": [
+
+def _files(**sizes: int) -> list[dict[str, Any]]:
+    """Files by their names, ``__`` standing for the dot."""
+    return [
         {
-            "name": name,
-            "media_type": media_type,
+            "name": name.replace("__", "."),
+            "media_type": MEDIA_TYPES[name.rpartition("__")[2]],
             "size": size,
             "sha256": "d749f854970d25e805a6f10b7ec3a75d2b0060b9eb3333653b6c95baa7a1608c",
         }
-        for name, media_type, size in (
-            ("report.html", "text/html", 612345),
-            ("report.pdf", "application/pdf", 298765),
-        )
-    ],
+        for name, size in sizes.items()
+    ]
+
+
+MEDIA_TYPES: Final = {
+    "glb": "model/gltf-binary",
+    "html": "text/html",
+    "pdf": "application/pdf",
+    "png": "image/png",
+}
+
+REPORT_RESULT: Final[dict[str, Any]] = {
+    "artifacts": _files(report__html=653350, report__pdf=786326),
     "kind": "report",
+}
+
+RESULTS: Final[dict[str, Any]] = {
+    "report": REPORT_RESULT,
+    "caricature": {
+        "artifacts": _files(body_caricature__glb=699740, caricature__png=238067),
+        "kind": "caricature",
+        "factor": 2.5,
+        "coefficient": 2,
+        "before": -1.711,
+        "after": -4.278,
+        "height_m": 1.804,
+        "shape": [0.813, -1.386, -4.278],
+    },
+    "pose": {
+        "artifacts": _files(body_reposed__glb=699656, pose__png=160197),
+        "kind": "pose",
+        "pose": [
+            {"part": "pelvis", "rotation": [0.0, 0.0, 0.0]},
+            {"part": "spine", "rotation": [0.105, 0.0, 0.0]},
+        ],
+    },
 }
 
 NOTICE: Final[dict[str, Any]] = {

@@ -8,11 +8,10 @@ from typing import Final
 
 from PIL import Image
 
-from fitter.applications.fitted_person import FittedPerson, require_model
 from fitter.export.display import png
 from fitter.export.views import sides_pictures
-from fitter.fittable import fittable_body
 from service.inputs import PERSON
+from service.worker.derived.person import person_and_instruments
 
 OVERLAY: Final = "overlay.png"
 SKIN: Final[Mapping[str, str]] = {"albedo.png": "Albedo", "shading.png": "Shading"}
@@ -69,9 +68,7 @@ def report_pictures(inputs: Mapping[str, bytes], *, models: Path | None) -> Repo
 
 
 def _sides(person_file: bytes, models: Path | None) -> tuple[Picture, ...]:
-    person = FittedPerson.from_bytes(person_file)
-    instruments = fittable_body(person.gender, models=models).instruments
-    require_model(person, instruments.model)
+    person, instruments = person_and_instruments(person_file, models)
     sides = sides_pictures(
         instruments.evaluator.vertices(person.body),
         person.body.translation,

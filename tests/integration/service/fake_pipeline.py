@@ -11,7 +11,13 @@ from pathlib import Path
 from typing import Any
 
 from api_schemas.body_models import BodyModelInfo, BodyModels
-from api_schemas.derivations import ReportResult
+from api_schemas.derivations import (
+    CaricatureOptions,
+    CaricatureResult,
+    PoseOptions,
+    PoseResult,
+    ReportResult,
+)
 from api_schemas.known import UncertainMeasurement
 from api_schemas.problems import FieldProblem
 from api_schemas.requests import FitOptions, Gender
@@ -26,7 +32,7 @@ from api_schemas.results import (
     PartRotation,
 )
 from service.engine.port import Report
-from service.inputs import RESULT
+from service.inputs import PERSON, RESULT
 from service.worker.pipeline_port import (
     DerivationInput,
     DerivationOutput,
@@ -40,6 +46,9 @@ SCRIPT_MARK = b"#script:"
 
 NOBODYS_WEIGHT_KG = 33.0
 """Contradicts whatever else is given, as the estimator says too."""
+
+LARGEST_FACTOR = 6.0
+"""Of a caricature."""
 
 UNNOTICED_WEIGHT_KG = 34.0
 """As well, but the estimator has nothing against it."""
@@ -81,21 +90,54 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
     _go_on({name: value for name, value in script.items() if name != "seconds"})
     return PipelineOutput(
         result=_result(job),
-        artifacts={"body_posed.glb": b"glTF" + bytes(range(256)), "overlay.png": job.image},
+        artifacts={
+            "body_posed.glb": b"glTF" + bytes(range(256)),
+            "overlay.png": job.image,
+            "person.npz": job.image,
+        },
     )
 
 
 def derive(job: DerivationInput, observe: Callable[[Report], None]) -> DerivationOutput:
-    """Do what the fit's picture said under ``derivation``; the overlay is that picture."""
-    script = json.loads(job.inputs["overlay.png"].partition(SCRIPT_MARK)[2]).get("derivation", {})
+    """Do what the fit's picture said under ``derivation``; the person is that picture."""
+    script = json.loads(job.inputs[PERSON].partition(SCRIPT_MARK)[2]).get("derivation", {})
     _begin(script)
     observe(Report(stage=job.options.kind, progress=0.5))
     _go_on(script)
-    FitResult.model_validate_json(job.inputs[RESULT])
-    return DerivationOutput(
-        result=ReportResult(artifacts=()),
-        artifacts={"report.html": b"<!doctype html><p>A report.", "report.pdf": b"%PDF-1.4"},
-    )
+    return _derived(job)
+
+
+def _derived(job: DerivationInput) -> DerivationOutput:
+    options = job.options
+    if isinstance(options, CaricatureOptions):
+        if options.factor > LARGEST_FACTOR:
+            raise UnusableInputError(
+                FieldProblem(
+                    field="factor",
+                    code="factor-unusable",
+                    reason="The surface turns inside out.",
+                    remedy=f"Send a factor from 0 to {LARGEST_FACTOR}.",
+                )
+            )
+        result = CaricatureResult(
+            factor=options.factor,
+            coefficient=1,
+            before=1.5,
+            after=1.5 * options.factor,
+            height_m=1.8,
+            shape=(0.0, 1.5 * options.factor),
+            artifacts=(),
+        )
+        files = {"body_caricature.glb": b"glTF", "caricature.png": b"PNG"}
+    elif isinstance(options, PoseOptions):
+        rotations = (PartRotation(part="pelvis", rotation=(0.0, 0.0, 0.0)),)
+        result = PoseResult(pose=rotations, artifacts=())
+        files = {"body_reposed.glb": b"glTF", "pose.png": b"PNG"}
+    else:
+        FitResult.model_validate_json(job.inputs[RESULT])
+        result = ReportResult(artifacts=())
+        files = {"report.html": b"<!doctype html><p>A report.", "report.pdf": b"%PDF-1.4"}
+    return DerivationOutput(result=result, artifacts=files)
 
 
 def _begin(script: dict[str, Any]) -> None:

@@ -37,7 +37,8 @@ def test_a_picture_goes_in_and_a_result_with_its_files_comes_out(machine: Machin
         document = service.client.get(job["links"]["result"])
         result = FitResult.model_validate_json(document.content)
         assert result.height_m == REQUEST["height_m"]
-        assert {artifact.name for artifact in result.artifacts} == {"body_posed.glb", "overlay.png"}
+        names = {artifact.name for artifact in result.artifacts}
+        assert names == {"body_posed.glb", "overlay.png", "person.npz"}
         for artifact in result.artifacts:
             file = service.client.get(job["links"]["artifacts"][artifact.name])
             assert file.headers["content-type"] == artifact.media_type

@@ -1,6 +1,7 @@
 import numpy as np
 
 from fitter.export.plain_gltf import plain_glb
+from fitter.parameters import Reflectance
 from tests.unit.body.synthetic_model import bar_model
 from tests.unit.export.glb_reader import read_glb
 
@@ -42,3 +43,18 @@ def test_the_same_body_gives_the_same_bytes():
         plain_glb(model.mean_vertices, model, name="body", extras={}) for _ in range(2)
     )
     assert first == second
+
+
+def test_the_colours_of_the_skin_are_given_where_they_are_known():
+    model = bar_model()
+    count = len(model.mean_vertices)
+    skin = Reflectance(
+        ambient=0.1,
+        specular_exponent=20.0,
+        albedo=np.linspace(0.2, 0.6, count),
+        specularity=np.full(count, 0.1),
+    )
+    glb = read_glb(plain_glb(model.mean_vertices, model, name="body", extras={}, reflectance=skin))
+    assert np.abs(glb.attribute("_ALBEDO").ravel() - skin.albedo).max() < 1e-6
+    plain = read_glb(plain_glb(model.mean_vertices, model, name="body", extras={}))
+    assert "COLOR_0" not in plain.document["meshes"][0]["primitives"][0]["attributes"]

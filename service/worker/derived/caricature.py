@@ -1,0 +1,65 @@
+"""A caricature of the fitted body."""
+
+import dataclasses
+from collections.abc import Callable
+from typing import cast
+
+from api_schemas.derivations import CaricatureOptions, CaricatureResult, DerivationKind
+from fitter.applications.caricature import caricature
+from fitter.applications.previews import View, preview
+from fitter.export.display import png
+from fitter.export.plain_gltf import plain_glb
+from service.engine.port import Report
+from service.inputs import PERSON
+from service.worker.derived.person import person_and_instruments
+from service.worker.pipeline_port import DerivationInput, DerivationOutput
+
+STAGE = DerivationKind.CARICATURE.value
+
+
+def derive(job: DerivationInput, observe: Callable[[Report], None]) -> DerivationOutput:
+    """Exaggerate; see :class:`service.worker.derivers.Deriver`."""
+    observe(Report(stage=STAGE, progress=0.0))
+    options = cast("CaricatureOptions", job.options)
+    person, instruments = person_and_instruments(job.inputs[PERSON], job.models)
+    model, evaluator = instruments.model, instruments.evaluator
+    found = caricature(evaluator, person.body.shape, options.factor)
+    observe(Report(stage=STAGE, progress=0.7))
+    fitted = evaluator.body_frame_vertices(person.body)
+    exaggerated = evaluator.body_frame_vertices(dataclasses.replace(person.body, shape=found.shape))
+    result = CaricatureResult(
+        factor=found.factor,
+        coefficient=found.coefficient,
+        before=found.before,
+        after=found.after,
+        height_m=found.height_m,
+        shape=tuple(found.shape.tolist()),
+        artifacts=(),
+    )
+    picture = preview(
+        [
+            View(label="fitted", vertices=fitted),
+            View(label=f"times {found.factor:g}", vertices=exaggerated),
+            View(label="fitted, side", vertices=fitted, degrees=90.0),
+            View(label=f"times {found.factor:g}, side", vertices=exaggerated, degrees=90.0),
+        ],
+        model.triangles,
+    )
+    return DerivationOutput(
+        result=result,
+        artifacts={
+            "body_caricature.glb": plain_glb(
+                exaggerated,
+                model,
+                name="body_caricature",
+                extras={
+                    "factor": found.factor,
+                    "coefficient": found.coefficient,
+                    "height_m": found.height_m,
+                },
+                reflectance=person.reflectance,
+                albedo_rgb=person.albedo_rgb,
+            ),
+            "caricature.png": png(picture),
+        },
+    )

@@ -1,0 +1,53 @@
+"""The fitted body in another pose."""
+
+from collections.abc import Callable
+from typing import cast
+
+import numpy as np
+
+from api_schemas.derivations import DerivationKind, NamedPose, PoseOptions, PoseResult
+from fitter.applications.poses import named_pose, spelled_pose
+from fitter.applications.previews import View, preview
+from fitter.applications.rig import rig_of
+from fitter.export.display import png
+from fitter.export.plain_gltf import plain_glb
+from fitter.parameters import BodyParameters
+from service.engine.port import Report
+from service.inputs import PERSON
+from service.worker import translate
+from service.worker.derived.person import person_and_instruments
+from service.worker.pipeline_port import DerivationInput, DerivationOutput
+
+STAGE = DerivationKind.POSE.value
+
+
+def derive(job: DerivationInput, observe: Callable[[Report], None]) -> DerivationOutput:
+    """Pose anew; see :class:`service.worker.derivers.Deriver`."""
+    observe(Report(stage=STAGE, progress=0.0))
+    options = cast("PoseOptions", job.options)
+    person, instruments = person_and_instruments(job.inputs[PERSON], job.models)
+    model = instruments.model
+    rig = rig_of(model, person.body.shape)
+    named = None if options.pose is NamedPose.REST else named_pose(rig, options.pose.value)
+    pose = spelled_pose(rig, options.rotations, beginning=named)
+    body = BodyParameters(pose=pose, translation=np.zeros(3), shape=person.body.shape)
+    vertices = instruments.evaluator.body_frame_vertices(body)
+    observe(Report(stage=STAGE, progress=0.5))
+    views = [
+        View(label=label, vertices=vertices, degrees=degrees)
+        for label, degrees in (("front", 0.0), ("side", 90.0))
+    ]
+    return DerivationOutput(
+        result=PoseResult(pose=translate.body_result(body, model.part_names).pose, artifacts=()),
+        artifacts={
+            "body_reposed.glb": plain_glb(
+                vertices,
+                model,
+                name="body_reposed",
+                extras={"pose": options.pose.value},
+                reflectance=person.reflectance,
+                albedo_rgb=person.albedo_rgb,
+            ),
+            "pose.png": png(preview(views, model.triangles)),
+        },
+    )

@@ -1,0 +1,124 @@
+"""Every kind has what derives it, and says on the wire what the fitter knows."""
+
+import io
+import json
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from api_schemas.derivations import DerivationKind, DerivationRequest, DerivationResult, NamedPose
+from fitter.applications.fitted_person import FittedPerson
+from fitter.applications.poses import NAMED_POSES, REST
+from fitter.body.storage import load_body_model, packaged_model_path
+from fitter.camera import Camera
+from fitter.parameters import BodyParameters
+from fitter.request import Gender
+from service.inputs import OF_ITS_FIT, PERSON, RESULT
+from service.worker.artifacts import MEDIA_TYPES, with_result_document
+from service.worker.derivers import MODULES
+from service.worker.pipeline import derive
+from service.worker.pipeline_port import DerivationInput, DerivationOutput, UnusableInputError
+from tests.unit.export.glb_reader import read_glb
+from tests.unit.service.fit_results import fit_result
+
+
+def png(width: int = 40, height: int = 60) -> bytes:
+    stream = io.BytesIO()
+    Image.new("RGB", (width, height), (90, 90, 90)).save(stream, "PNG")
+    return stream.getvalue()
+
+
+def person() -> FittedPerson:
+    model = load_body_model(packaged_model_path("female"))
+    shape = np.zeros(len(model.shape_basis))
+    shape[2] = 1.0
+    return FittedPerson(
+        gender=Gender.FEMALE,
+        model_checksum=str(model.header["checksum"]),
+        body=BodyParameters(
+            pose=np.zeros((len(model.part_names), 3)),
+            translation=np.array([0.0, 0.0, 3.0]),
+            shape=shape,
+        ),
+        camera=Camera(focal_length_px=700.0, centre_x=20.0, centre_y=30.0, width=40, height=60),
+        light=None,
+        reflectance=None,
+        albedo_rgb=None,
+    )
+
+
+INPUTS = {
+    PERSON: person().to_bytes(),
+    RESULT: fit_result(light=None, reflectance=None).model_dump_json().encode(),
+    "overlay.png": png(),
+}
+
+
+def derived(**request: object) -> DerivationOutput:
+    options = DerivationRequest.model_validate_json(json.dumps(request)).root
+    stages: list[str] = []
+    output = derive(
+        DerivationInput(options=options, inputs=INPUTS, max_pixels=10_000),
+        lambda report: stages.append(report.stage),
+    )
+    assert stages
+    return output
+
+
+def test_every_kind_has_a_module_and_inputs():
+    assert set(MODULES) == set(OF_ITS_FIT) == set(DerivationKind)
+
+
+def test_the_named_poses_of_the_wire_are_the_fitter_s():
+    assert {pose.value for pose in NamedPose} == {REST, *NAMED_POSES}
+
+
+@pytest.mark.parametrize("kind", ["report", "caricature", "pose"])
+def test_a_derivation_s_document_lists_its_files_and_is_of_its_type(kind):
+    output = derived(kind=kind)
+    assert {f".{name.rpartition('.')[2]}" for name in output.artifacts} <= set(MEDIA_TYPES)
+    files = with_result_document(output.result, output.artifacts)
+    document = DerivationResult.model_validate_json(files[RESULT]).root
+    assert document.kind == kind
+    assert {each.name for each in document.artifacts} == set(output.artifacts)
+
+
+def test_the_same_derivation_gives_the_same_bytes():
+    assert derived(kind="report").artifacts == derived(kind="report").artifacts
+
+
+def test_a_caricature_says_what_was_exaggerated():
+    output = derived(kind="caricature", factor=1.5)
+    result = output.result.model_dump()
+    assert (result["coefficient"], result["before"], result["after"]) == (2, 1.0, 1.5)
+    glb = read_glb(output.artifacts["body_caricature.glb"])
+    positions = glb.attribute("POSITION")
+    assert positions[:, 1].min() == pytest.approx(0.0, abs=1e-6)
+    assert glb.document["asset"]["extras"]["factor"] == 1.5
+
+
+def test_a_named_pose_departs_where_it_is_told_to():
+    standing = derived(kind="pose", pose="standing").result.model_dump()["pose"]
+    turned = derived(kind="pose", pose="standing", rotations={"head": [0.0, 0.3, 0.0]})
+    changed = [
+        (one["part"], other["rotation"])
+        for one, other in zip(standing, turned.result.model_dump()["pose"], strict=True)
+        if one["rotation"] != pytest.approx(other["rotation"], abs=1e-9)
+    ]
+    assert changed == [("head", pytest.approx((0.0, 0.3, 0.0)))]
+
+
+@pytest.mark.parametrize(
+    ("request_", "field"),
+    [
+        ({"kind": "caricature", "factor": 99.0}, "factor"),
+        ({"kind": "pose", "rotations": {"tail": [0.0, 0.0, 1.0]}}, "rotations.tail"),
+        ({"kind": "pose", "rotations": {"left_shin": [3.0, 0.0, 0.0]}}, "rotations.left_shin"),
+    ],
+)
+def test_what_cannot_be_made_is_refused_with_the_field_and_what_to_do(request_, field):
+    with pytest.raises(UnusableInputError) as caught:
+        derived(**request_)
+    assert caught.value.error.field == field
+    assert caught.value.error.remedy

@@ -1,0 +1,158 @@
+"""The report says what the result says, on one page that stands alone."""
+
+import io
+import re
+from html.parser import HTMLParser
+
+import pytest
+from PIL import Image
+
+from service.worker.report.content import report_content
+from service.worker.report.page_html import report_html
+from service.worker.report.page_pdf import report_pdf
+from service.worker.report.pictures import Picture, ReportPictures
+from tests.unit.service.fit_results import fit_result, measurement
+
+
+def picture(caption: str, *, width: int = 60, height: int = 80) -> Picture:
+    stream = io.BytesIO()
+    Image.new("RGB", (width, height), (200, 120, 40)).save(stream, "PNG")
+    return Picture(
+        caption=caption,
+        media_type="image/png",
+        content=stream.getvalue(),
+        width=width,
+        height=height,
+    )
+
+
+PICTURES = ReportPictures(
+    overlay=picture("The body over the picture"),
+    sides=tuple(picture(f"Side {number}") for number in range(4)),
+    skin=(picture("Albedo"), picture("Shading")),
+)
+
+
+class Elements(HTMLParser):
+    """All elements of a page with their attributes, and its text."""
+
+    def __init__(self, page: bytes) -> None:
+        super().__init__()
+        self.found: list[tuple[str, dict[str, str | None]]] = []
+        self.text = ""
+        self.feed(page.decode())
+
+    def handle_starttag(self, tag, attrs):
+        self.found.append((tag, dict(attrs)))
+
+    def handle_data(self, data):
+        self.text += data
+
+
+def rows(**measurements):
+    result = fit_result(
+        measurements=[measurement(name, **each) for name, each in measurements.items()]
+    )
+    return {row.name: row for row in report_content(result).measurements}
+
+
+def test_an_interval_is_196_standard_errors_on_either_side_in_the_api_s_unit():
+    row = rows(waist_girth_navel={"value": 80.0, "standard_error": 2.0, "unit": "cm"})
+    assert row["waist girth navel"].value == "80.0"
+    assert row["waist girth navel"].unit == "cm"
+    assert row["waist girth navel"].interval == "76.1 – 83.9"
+
+
+def test_what_was_given_exactly_and_what_is_unknown_have_no_interval():
+    found = rows(
+        stature={"standard_error": 0.0, "given": True},
+        weight={"standard_error": None},
+        hip_girth={"value": 98.0, "standard_error": 1.0, "given": True},
+    )
+    assert found["stature"].interval == "given"
+    assert found["weight"].interval == "not known"
+    assert found["hip girth"].interval == "96.0 – 100.0"
+
+
+def section(result, heading):
+    (found,) = (each for each in report_content(result).sections if each.heading == heading)
+    return found
+
+
+def test_light_and_reflectance_are_in_words_and_missing_after_silhouettes_alone():
+    light = {"kind": "point", "azimuth_deg": -35.7, "elevation_deg": 30.4, "distance_m": 2.91}
+    facts = dict(section(fit_result(light=light), "Light and reflectance").facts)
+    assert facts["Point light"] == "36° from the left, 30° from above, 2.91 m away"
+    assert facts["Mean albedo"] == "0.408"
+    far = light | {"kind": "directional", "azimuth_deg": 12.0, "elevation_deg": -5.0}
+    facts = dict(
+        section(fit_result(light=far | {"distance_m": None}), "Light and reflectance").facts
+    )
+    assert facts["Directional light"] == "12° from the right, 5° from below, far away"
+    unknown = section(fit_result(light=None, reflectance=None), "Light and reflectance")
+    assert unknown.facts == ()
+    assert "Not estimated" in unknown.remarks[0]
+
+
+def test_what_was_assumed_and_what_to_look_at_are_listed_or_said_to_be_nothing():
+    assumed = section(fit_result(), "What was assumed")
+    assert assumed.facts[0][0] == "Focal length 35mm"
+    assert assumed.facts[0][1].startswith("50. Neither the request")
+    assert section(fit_result(assumptions=[]), "What was assumed").remarks == ("Nothing.",)
+    assert section(fit_result(warnings=[]), "Warnings").remarks == ("None.",)
+
+
+def test_the_page_stands_alone_and_runs_nothing():
+    page = report_html(report_content(fit_result()), PICTURES)
+    elements = Elements(page)
+    tags = {tag for tag, _ in elements.found}
+    assert not tags & {"script", "link", "iframe", "object", "a", "form"}
+    sources = [attributes["src"] for tag, attributes in elements.found if tag == "img"]
+    assert len(sources) == 7
+    assert all(source.startswith("data:image/") for source in sources)
+    assert all(attributes["alt"] for tag, attributes in elements.found if tag == "img")
+    assert not re.search(rb"url\(|@import|https?:", page)
+    assert "74.9" in elements.text
+
+
+def test_whatever_the_result_says_is_text_on_the_page():
+    hostile = '<img src=x onerror="alert(1)"> & </style><script>'
+    warning = {"code": "odd", "message": hostile}
+    content = report_content(fit_result(warnings=[warning]))
+    elements = Elements(report_html(content, PICTURES))
+    assert hostile in elements.text
+    assert all("onerror" not in attributes for _, attributes in elements.found)
+    assert report_pdf(content, PICTURES).startswith(b"%PDF")
+
+
+@pytest.mark.parametrize("write", [report_html, report_pdf])
+def test_the_same_result_gives_the_same_bytes(write):
+    content = report_content(fit_result())
+    assert write(content, PICTURES) == write(content, PICTURES)
+
+
+def pages(pdf: bytes) -> int:
+    return len(re.findall(rb"/Type /Page\b(?!s)", pdf))
+
+
+def test_the_pdf_is_one_a4_page_however_much_there_is_to_say():
+    long = [{"code": f"w{number}", "message": "Look at this. " * 20} for number in range(12)]
+    plain = report_pdf(report_content(fit_result()), PICTURES)
+    crowded = report_pdf(report_content(fit_result(warnings=long)), PICTURES)
+    for pdf in (plain, crowded):
+        assert pages(pdf) == 1
+        assert b"/MediaBox [ 0 0 595.2756 841.8898 ]" in pdf
+
+
+def test_signs_the_pdf_s_fonts_lack_do_not_end_it():
+    warning = {"code": "odd", "message": "σ ≥ 3 – 身長"}
+    pdf = report_pdf(report_content(fit_result(warnings=[warning])), PICTURES)
+    assert pages(pdf) == 1
+
+
+def test_a_report_of_a_fit_without_shading_has_no_pictures_of_skin():
+    without = ReportPictures(overlay=PICTURES.overlay, sides=PICTURES.sides, skin=())
+    content = report_content(fit_result(light=None, reflectance=None))
+    images = [tag for tag, _ in Elements(report_html(content, without)).found if tag == "img"]
+    assert len(images) == 5
+    assert pages(report_pdf(content, without)) == 1
