@@ -1,11 +1,19 @@
 """Imported once by the fork server: what is loaded here is shared by every fit it forks."""
 
+import gc
 from contextlib import suppress
 
 from fitter.errors import ModelFileError
 from service.settings import Settings
 from service.worker import pipeline
+from service.worker.rehearsal import rehearse
 
 # The worker asks for the same at once, and is told what is wrong with a model.
 with suppress(ModelFileError):
-    pipeline.describe(Settings().models_dir)
+    models = Settings().models_dir
+    pipeline.describe(models)
+    rehearse(models)
+
+# What is here by now stays: the collector of a fork that looked through it would copy its pages.
+gc.collect()
+gc.freeze()

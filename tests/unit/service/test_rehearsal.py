@@ -1,0 +1,76 @@
+"""The fit that a fork server makes before it forks any."""
+
+import json
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from fitter.errors import ModelFileError
+from service.submission import check_submission
+from service.worker import pipeline, rehearsal
+from service.worker.main import THREAD_LIMITS
+from service.worker.pipeline_port import PipelineInput, PipelineOutput
+from service.worker.rehearsal import rehearse
+from tests.submissions import small_submissions
+
+REPOSITORY = Path(__file__).parents[3]
+
+
+def fitted() -> PipelineOutput:
+    (submission,) = small_submissions(1)
+    checked = check_submission(
+        request=submission.request.encode(), image=submission.image, mask=None, max_pixels=10**6
+    )
+    return pipeline.run(
+        PipelineInput(
+            options=checked.options,
+            image=submission.image,
+            mask=None,
+            max_pixels=10**6,
+            models=None,
+        ),
+        lambda _: None,
+    )
+
+
+def test_later_fits_are_what_they_would_have_been_without_it():
+    before = fitted()
+    rehearse(None)
+    after = fitted()
+    assert dict(after.artifacts) == dict(before.artifacts)
+    unclocked = {"stage_seconds": {}}
+    assert after.result.model_copy(update=unclocked) == before.result.model_copy(update=unclocked)
+
+
+@pytest.mark.slow
+def test_the_fork_server_has_fitted_and_has_no_threads_that_a_fork_would_lose():
+    counted = (
+        "import os\nimport service.worker.preload\nprint(len(os.listdir('/proc/self/task')))\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", counted],
+        cwd=REPOSITORY,
+        env=os.environ | dict.fromkeys(THREAD_LIMITS, "1"),
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert int(done.stdout) == 1
+    assert "could not be fitted" not in done.stderr
+
+
+def test_a_sample_that_cannot_be_fitted_is_told_and_no_more(monkeypatch, caplog):
+    sample = rehearsal.load_sample()
+    request = json.dumps(json.loads(sample.request) | {"height_m": 2.3, "weight_kg": 30.0})
+    monkeypatch.setattr(rehearsal, "load_sample", lambda: replace(sample, request=request.encode()))
+    rehearse(None)
+    assert "could not be fitted" in caplog.text
+
+
+def test_a_missing_model_is_an_error_of_its_own(tmp_path):
+    with pytest.raises(ModelFileError):
+        rehearse(tmp_path)
