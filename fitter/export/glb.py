@@ -66,6 +66,14 @@ class BinaryChunk:
         self._bytes += raw + b"\0" * (-len(raw) % _ALIGNMENT)
         return len(self.accessors) - 1
 
+    def add_file(self, content: bytes) -> int:
+        """Append a file as it is, as a picture of a texture; return its buffer view."""
+        self.buffer_views.append(
+            {"buffer": 0, "byteOffset": len(self._bytes), "byteLength": len(content)}
+        )
+        self._bytes += content + b"\0" * (-len(content) % _ALIGNMENT)
+        return len(self.buffer_views) - 1
+
     def content(self) -> bytes:
         """Everything appended so far, padded to four bytes."""
         return bytes(self._bytes)

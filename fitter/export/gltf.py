@@ -237,11 +237,16 @@ def _provenance(result: FitResult, model: BodyModel) -> dict[str, object]:
         "cues": result.cues.value,
         "outcome": result.outcome.value,
         "frame": "metres, +y up",
-        "body_model": {
-            "checksum": str(model.header.get("checksum", "")),
-            "sources": model.header.get("sources", ""),
-            "licences": model.header.get("licences", ""),
-        },
+        "body_model": model_provenance(model),
+    }
+
+
+def model_provenance(model: BodyModel) -> dict[str, object]:
+    """Which body model it is, and from what it was made under which licences."""
+    return {
+        "checksum": str(model.header.get("checksum", "")),
+        "sources": model.header.get("sources", ""),
+        "licences": model.header.get("licences", ""),
     }
 
 

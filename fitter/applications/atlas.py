@@ -1,0 +1,98 @@
+"""The texture atlas: which point of the body's surface each texel shows.
+
+Texture coordinates are the body model's (MakeHuman's layout), from the atlas' lower left corner;
+rows of a picture count from its top, so that texel (row, column) has its centre at
+((column + 0.5) / size, 1 - (row + 0.5) / size).
+"""
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from jaxtyping import Bool, Float, Integer, UInt8
+
+from fitter.body.model import BodyModel
+from fitter.camera import Camera
+from fitter.render.rasterizer import render
+
+MARGIN_SHARE = 16 / 1024
+"""Of the side: how far colours go on beyond an island, so that a renderer that averages texels
+(four levels of mipmaps) meets no seam."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Atlas:
+    """The texels that lie on the body.
+
+    Attributes
+    ----------
+    size
+        Side of the square atlas, texels.
+    inside
+        (size, size) which texels lie on the body.
+    triangles
+        (t,) the triangle each of those lies on, in reading order.
+    weights
+        (t, 3) its barycentric coordinates there.
+    """
+
+    size: int
+    inside: Bool[np.ndarray, "n n"]
+    triangles: Integer[np.ndarray, " t"]
+    weights: Float[np.ndarray, "t 3"]
+
+
+def atlas_of(model: BodyModel, size: int) -> Atlas:
+    """The atlas of a body model, ``size`` texels wide and high."""
+    corners = np.stack([size * model.uv[:, 0], size * (1.0 - model.uv[:, 1])], axis=1)
+    # A flat mesh one metre before a camera of one pixel a metre is its own picture.
+    flat = np.column_stack([corners, np.ones(len(corners))])
+    camera = Camera(focal_length_px=1.0, centre_x=0.0, centre_y=0.0, width=size, height=size)
+    ids = render(flat, model.uv_triangles, camera).face_ids
+    inside = ids >= 0
+    triangles = ids[inside]
+    rows, columns = np.nonzero(inside)
+    texels = np.stack([columns + 0.5, rows + 0.5], axis=1)
+    return Atlas(
+        size=size,
+        inside=inside,
+        triangles=triangles,
+        weights=_barycentric(texels, corners[model.uv_triangles[triangles]]),
+    )
+
+
+def drawn_on(
+    atlas: Atlas, levels: UInt8[np.ndarray, "t ..."], *, empty: int = 0
+) -> UInt8[np.ndarray, "n n ..."]:
+    """A picture of the atlas from its texels' levels, each island drawn on into its margin."""
+    picture = np.full((atlas.size, atlas.size, *levels.shape[1:]), empty, dtype=np.uint8)
+    picture[atlas.inside] = levels
+    outside = (~atlas.inside).astype(np.uint8)
+    distance, labels = cv2.distanceTransformWithLabels(
+        outside, cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
+    )
+    nearest = np.asarray(labels, dtype=np.intp)
+    # Labels number the texels inside: which number is whose is told by these texels themselves.
+    of_label = np.zeros(int(nearest.max()) + 1, dtype=np.intp)
+    of_label[nearest[atlas.inside]] = np.arange(len(levels))
+    margin = (outside > 0) & (distance <= MARGIN_SHARE * atlas.size)
+    picture[margin] = levels[of_label[nearest[margin]]]
+    return picture
+
+
+def _barycentric(
+    points: Float[np.ndarray, "t 2"], corners: Float[np.ndarray, "t 3 2"]
+) -> Float[np.ndarray, "t 3"]:
+    """Coordinates of points within their triangles; on an edge to rounding, never below zero."""
+    opposite = np.stack(
+        [_doubled_area(points, corners[:, k - 2], corners[:, k - 1]) for k in range(3)], axis=1
+    )
+    weights = np.maximum(opposite * np.sign(opposite.sum(axis=1, keepdims=True)), 0.0)
+    return weights / weights.sum(axis=1, keepdims=True)
+
+
+def _doubled_area(
+    a: Float[np.ndarray, "t 2"], b: Float[np.ndarray, "t 2"], c: Float[np.ndarray, "t 2"]
+) -> Float[np.ndarray, " t"]:
+    (bx, by), (cx, cy) = (b - a).T, (c - a).T
+    return bx * cy - by * cx
