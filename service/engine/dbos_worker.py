@@ -6,7 +6,6 @@ import os
 import threading
 import time
 import uuid
-from collections.abc import Collection
 from typing import Any, Final
 
 import sqlalchemy as sa
@@ -18,6 +17,7 @@ from service.blobs import BlobStore, BlobsUnavailableError
 from service.engine.attempts import AttemptLog, result_from_json, result_to_json
 from service.engine.dbos_jobs import BODY_MODELS_FACT
 from service.engine.heartbeat import Heartbeat, executions_table
+from service.engine.places import Places
 from service.engine.port import AttemptHandler, Ending
 from service.engine.queue import APPLICATION, EXECUTION_VERSION, QUEUE, WORKFLOW
 from service.engine.tables import FACTS
@@ -29,6 +29,9 @@ LOG: Final = logging.getLogger(__name__)
 MAX_RECOVERIES: Final = 10
 """How many workers may die over one job. Larger than the limit on crashes of the fit's own process,
 because a worker dies for reasons that are not the picture's: restarts, machines, chaos tests."""
+
+LOOK_S: Final = 0.01
+"""How long DBOS itself pauses between two looks for jobs: what paces it are the places."""
 
 OUTCOME_WAIT_S: Final = 2.0
 OUTCOME_POLL_S: Final = 0.02
@@ -53,8 +56,8 @@ class DbosWorkerEngine:
         self.executor_id = f"{os.uname().nodename[:20]}-{uuid.uuid4().hex}"
         self._database = database
         self._blobs = blobs
-        self._processes = processes
         self._queue_poll_s = queue_poll_s
+        self._places = Places(processes, poll_s=queue_poll_s)
         self._attempts = AttemptLog(
             database,
             executor_id=self.executor_id,
@@ -70,10 +73,8 @@ class DbosWorkerEngine:
             # Private, but the public resume_workflow forgets how often a job was recovered.
             recover=lambda dead: DBOS._recover_pending_workflows(dead),  # noqa: SLF001
             put_back=lambda job_id: DBOS.resume_workflow(job_id, queue_name=QUEUE),
-            holds=self._held,
+            holds=self._places.held,
         )
-        self._running: set[str] = set()
-        self._idle = threading.Condition()
         self._handing_back = threading.Event()
         self._dbos: DBOS | None = None
 
@@ -95,7 +96,7 @@ class DbosWorkerEngine:
         self._store_body_models(body_models)
         self._heartbeat.register()
         DBOS.launch()
-        self._limit_own_concurrency(self._dbos)
+        self._take_over_pace(self._dbos)
         self._heartbeat.start()
 
     def stop(self, *, drain_s: float) -> None:
@@ -108,18 +109,13 @@ class DbosWorkerEngine:
             return
         for stop in self._dbos.background_thread_stop_events:
             stop.set()
-        with self._idle:
-            drained = self._idle.wait_for(lambda: not self._running, timeout=drain_s)
-        if not drained:
+        self._places.close()
+        if not self._places.all_left(within_s=drain_s):
             self._handing_back.set()
             self._attempts.hand_back()
         else:
             self._wait_for_outcomes()
         self._heartbeat.stop()
-
-    def _held(self) -> Collection[str]:
-        with self._idle:
-            return tuple(self._running)
 
     def _wait_for_outcomes(self) -> None:
         # DBOS notes the end of a workflow after the workflow has returned. Were the process to end
@@ -146,16 +142,10 @@ class DbosWorkerEngine:
 
         @DBOS.workflow(name=WORKFLOW, max_recovery_attempts=MAX_RECOVERIES)
         def fit(job_id: str) -> None:
-            with self._idle:
-                self._running.add(job_id)
-            try:
+            with self._places.taken_by(job_id):
                 result = run(job_id)
                 if result is not None:
                     publish(job_id, result)
-            finally:
-                with self._idle:
-                    self._running.discard(job_id)
-                    self._idle.notify_all()
 
         self._workflow = fit
 
@@ -216,19 +206,23 @@ class DbosWorkerEngine:
             polling_interval_sec=self._queue_poll_s,
         )
 
-    def _limit_own_concurrency(self, dbos: DBOS) -> None:
-        # DBOS keeps the limit in the database, one for all workers; ours is each machine's own.
+    def _take_over_pace(self, dbos: DBOS) -> None:
+        # DBOS keeps limit and pace in the database, one for all workers, and asks for them before
+        # each look for jobs; ours are each machine's own, and it is kept waiting for its turn here.
         # What stands there is the floor, should this private way in ever be gone.
         system_database = dbos._sys_db  # noqa: SLF001
         get_queue = system_database.get_queue
 
-        def get_queue_with_own_limit(name: str, **options: Any) -> Queue | None:
+        def get_queue_in_turn(name: str, **options: Any) -> Queue | None:
+            if name == QUEUE:
+                self._places.await_turn()
             queue = get_queue(name, **options)
             if queue is not None and queue.name == QUEUE:
-                queue._worker_concurrency = self._processes  # noqa: SLF001
+                queue._worker_concurrency = self._places.count  # noqa: SLF001
+                queue._polling_interval_sec = LOOK_S  # noqa: SLF001
             return queue
 
-        system_database.get_queue = get_queue_with_own_limit
+        system_database.get_queue = get_queue_in_turn
 
     def _store_body_models(self, body_models: BodyModels) -> None:
         with self._database.begin() as connection:
