@@ -51,7 +51,7 @@ def test_some_time_after_an_end_the_pace_is_kept_again():
     places = Places(1, poll_s=LONG_S, monotonic=lambda: now)
     with places.taken_by("one"):
         pass
-    now += SETTLING_S
+    now += 2.0 * SETTLING_S
     with waiting(places) as waiter:
         assert is_waiting(waiter)
         places.close()
