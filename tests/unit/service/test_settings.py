@@ -6,7 +6,7 @@ from pydantic import ValidationError
 
 from service.settings import PREFIX, Settings
 
-SETTINGS_PAGE = Path(__file__).parents[3] / "SETTINGS.md"
+README = Path(__file__).parents[3] / "README.md"
 
 
 def test_settings_survive_the_way_through_the_environment(monkeypatch):
@@ -35,11 +35,11 @@ def test_the_database_is_embedded_unless_one_is_named(tmp_path):
     assert named.system_database_url == "postgresql://host/name"
 
 
-def test_every_setting_is_listed_with_default_and_meaning_and_no_other_is():
+def test_the_readme_lists_every_setting_with_default_and_meaning_and_no_other():
     listed = {
         name: (default, meaning)
         for name, default, meaning in re.findall(
-            rf"^\| `({PREFIX}\w+)` \| (.*?) \| (.*) \|$", SETTINGS_PAGE.read_text(), re.MULTILINE
+            rf"^\| `({PREFIX}\w+)` \| (.*?) \| (.*) \|$", README.read_text(), re.MULTILINE
         )
     }
     assert list(listed) == [PREFIX + name.upper() for name in Settings.model_fields]
