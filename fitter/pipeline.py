@@ -159,6 +159,7 @@ def fit(
         image_camera=observation.image_camera,
         focal_length_source=observation.focal_length_source,
         body=final.candidate.parameters,
+        shape_covariance=covariance,
         posed_vertices=final.candidate.vertices,
         canonical_vertices=body.measuring.canonical.at(final.candidate.parameters.shape),
         light=None if shaded is None else shaded.light,

@@ -4,6 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
+import numpy as np
+from jaxtyping import Float
+
 from fitter.arrays import Image, Mask, Vertices
 from fitter.camera import Camera, FocalLengthSource
 from fitter.measurement.quantity import Measurement
@@ -92,8 +95,9 @@ class FitResult:
 
     ``given`` names the measurements the request gave, its height as stature. ``light`` and
     ``reflectance`` are None for SE, which does not estimate them. ``camera`` refers
-    to the working picture, ``image_camera`` to the upright original. ``stage_seconds`` is wall
-    time by stage name.
+    to the working picture, ``image_camera`` to the upright original. ``shape_covariance`` is that
+    of the body's shape coefficients, zero along what was given. ``stage_seconds`` is wall time by
+    stage name.
     """
 
     gender: Gender
@@ -106,6 +110,7 @@ class FitResult:
     image_camera: Camera
     focal_length_source: FocalLengthSource
     body: BodyParameters
+    shape_covariance: Float[np.ndarray, "n n"] | None
     posed_vertices: Vertices
     canonical_vertices: Vertices
     light: Light | None
@@ -138,6 +143,7 @@ def before_shading(result: FitResult) -> FitResult | None:
         result,
         cues=Cues.SE,
         body=stage.body,
+        shape_covariance=None,
         posed_vertices=stage.posed_vertices,
         canonical_vertices=stage.canonical_vertices,
         light=None,

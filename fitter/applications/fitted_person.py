@@ -2,19 +2,20 @@
 
 ``person.npz`` holds a JSON header and arrays in double precision, without pickle. Its fields:
 
-==================  ==========  ==================================================================
-``header``          bytes       format version, gender, checksum of the body model, kind of light
-``pose``            (p, 3)      as in :class:`~fitter.parameters.BodyParameters`
-``translation``     (3,)        root joint, camera frame, metres
-``shape``           (n,)        standard deviations
-``camera``          (5,)        focal length, principal point (x, y), width, height; pixels
-``light``           (3,)        azimuth, elevation (radians), distance (metres, infinite for a
-                                directional light); SES only, as all that follows
-``eq_1``            (2,)        ambient, specular exponent
-``albedo``          (m,)        of luminance
-``specularity``     (m,)
-``albedo_rgb``      (m, 3)      where colour was estimated
-==================  ==========  ==================================================================
+====================  ==========  ==================================================================
+``header``            bytes       format version, gender, checksum of the body model, kind of light
+``pose``              (p, 3)      as in :class:`~fitter.parameters.BodyParameters`
+``translation``       (3,)        root joint, camera frame, metres
+``shape``             (n,)        standard deviations
+``shape_covariance``  (n, n)      of ``shape``; where it is known
+``camera``            (5,)        focal length, principal point (x, y), width, height; pixels
+``light``             (3,)        azimuth, elevation (radians), distance (metres, infinite for a
+                                  directional light); SES only, as all that follows
+``eq_1``              (2,)        ambient, specular exponent
+``albedo``            (m,)        of luminance
+``specularity``       (m,)
+``albedo_rgb``        (m, 3)      where colour was estimated
+====================  ==========  ==================================================================
 """
 
 import io
@@ -24,6 +25,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from jaxtyping import Float
 
 from fitter.array_archive import read_arrays, write_arrays
 from fitter.arrays import Vertices
@@ -43,6 +45,7 @@ _LARGEST_TURN = 2.0 * np.pi
 """Of a part; a rotation vector longer than a whole turn was never fitted."""
 
 _BODY = {"pose": (-1, 3), "translation": (3,), "shape": (-1,), "camera": (5,)}
+_CERTAINTY = {"shape_covariance": (-1, -1)}
 _SHADING = {"light": (3,), "eq_1": (2,), "albedo": (-1,), "specularity": (-1,)}
 _COLOUR = {"albedo_rgb": (-1, 3)}
 
@@ -63,6 +66,8 @@ class FittedPerson:
         Θ_L and Θ_R of section 5; both None after a fit by silhouettes and edges alone.
     albedo_rgb
         (m, 3) linear red, green and blue albedo; None where no colour was estimated.
+    shape_covariance
+        (n, n) of the shape's coefficients; None for a body whose certainty is not known.
     """
 
     gender: Gender
@@ -72,6 +77,7 @@ class FittedPerson:
     light: Light | None
     reflectance: Reflectance | None
     albedo_rgb: Vertices | None
+    shape_covariance: Float[np.ndarray, "n n"] | None = None
 
     def to_bytes(self) -> bytes:
         """The file; the same person gives the same bytes."""
@@ -96,6 +102,8 @@ class FittedPerson:
                 dtype=np.float64,
             ),
         }
+        if self.shape_covariance is not None:
+            arrays["shape_covariance"] = self.shape_covariance
         if light is not None and reflectance is not None:
             arrays |= {
                 "light": np.array([light.azimuth, light.elevation, light.distance]),
@@ -147,6 +155,7 @@ class FittedPerson:
             light=_light(header["light"], arrays),
             reflectance=_reflectance(arrays) if header["light"] is not None else None,
             albedo_rgb=arrays.get("albedo_rgb"),
+            shape_covariance=arrays.get("shape_covariance"),
         )
 
 
@@ -169,6 +178,7 @@ def fitted_person(result: FitResult, model: BodyModel) -> FittedPerson:
         light=result.light if shaded else None,
         reflectance=result.reflectance if shaded else None,
         albedo_rgb=result.albedo_rgb if shaded else None,
+        shape_covariance=result.shape_covariance,
     )
 
 
@@ -241,7 +251,7 @@ def _header(encoded: np.ndarray | None) -> dict[str, object]:
 
 def _require_fields(arrays: Mapping[str, np.ndarray], *, shaded: bool) -> None:
     required = _BODY | (_SHADING if shaded else {})
-    allowed = required | (_COLOUR if shaded else {})
+    allowed = required | _CERTAINTY | (_COLOUR if shaded else {})
     for field in required.keys() - arrays.keys():
         raise _unusable(field=field, reason="is missing")
     for field in arrays.keys() - allowed.keys():
@@ -266,11 +276,22 @@ def _require_fields(arrays: Mapping[str, np.ndarray], *, shaded: bool) -> None:
             )
 
 
+def _require_covariance(covariance: np.ndarray, n: int) -> None:
+    if covariance.shape != (n, n):
+        raise _unusable(
+            field="shape_covariance", reason=f"is of shape {covariance.shape}, not ({n}, {n})"
+        )
+    if not np.allclose(covariance, covariance.T, atol=1e-9):
+        raise _unusable(field="shape_covariance", reason="is not symmetric")
+
+
 def _require_values(arrays: Mapping[str, np.ndarray]) -> None:
     for field, array in arrays.items():
         finite = array[:2] if field == "light" else array
         if not np.isfinite(finite).all():
             raise _unusable(field=field, reason="holds a number that is not finite")
+    if "shape_covariance" in arrays:
+        _require_covariance(arrays["shape_covariance"], len(arrays["shape"]))
     if np.linalg.norm(arrays["pose"], axis=1).max() > _LARGEST_TURN:
         raise _unusable(field="pose", reason="turns a part by more than a whole turn")
     if arrays["translation"][2] <= 0.0:

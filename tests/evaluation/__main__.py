@@ -12,6 +12,7 @@ from tests.evaluation.page import write_page
 from tests.evaluation.people import load_person
 from tests.evaluation.runs import Run, score_all
 from tests.evaluation.scene import Case, Half, Series
+from tests.evaluation.several import several_pictures
 from tests.evaluation.shape_limit import shape_limit
 from tests.evaluation.suite import Scored, Told
 from tests.evaluation.table import (
@@ -19,6 +20,7 @@ from tests.evaluation.table import (
     case_lines,
     limit_lines,
     outline_lines,
+    several_lines,
     summary_lines,
     worst_lines,
 )
@@ -35,6 +37,15 @@ def main(arguments: Sequence[str]) -> int:
         return 0
     if options.outline_limit:
         print("\n".join(outline_lines({each.value: outline_limit(each) for each in Gender})))
+        return 0
+    if options.several:
+        names = [key for _, key, _ in MEASUREMENTS]
+        for half in Half:
+            people = [case for case in chosen if case.series is Series.PEOPLE]
+            of_half = [case for case in people if PEOPLE[case.person].half is half]
+            if of_half:
+                print(f"\n{half.value} half")
+                print("\n".join(several_lines(list(several_pictures(of_half, names)))))
         return 0
     run = Run(
         told=Told(
@@ -142,6 +153,11 @@ def _parser() -> argparse.ArgumentParser:
         "--outline-limit",
         action="store_true",
         help="fit nothing: print how well exactly known outlines foretell measurements",
+    )
+    parser.add_argument(
+        "--several",
+        action="store_true",
+        help="combine one, two and three pictures of each person: how measurements tighten",
     )
     return parser
 

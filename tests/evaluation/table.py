@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from fitter.request import Cues
+from tests.evaluation.several import SeveralPictures
 from tests.evaluation.shape_limit import ShapeLimit
 from tests.evaluation.suite import Scored
 
@@ -151,3 +152,22 @@ def _case_line(scored: Scored) -> str:
     light = "-" if scored.light_degrees is None else f"{scored.light_degrees:.1f}"
     failed = " failed " + " ".join(scored.wrong_limbs) if scored.failed else ""
     return f"{line}{light:>8s}{scored.seconds:6.1f}{failed}".rstrip()
+
+
+def several_lines(found: Sequence[SeveralPictures]) -> list[str]:
+    """Mean (median) errors, mean standard errors and coverage by the number of pictures."""
+    heading = f"{'pictures':>8s}{'choices':>9s}" + "".join(
+        f"{f'{name} {unit}':>16s}{'s.e.':>6s}" for name, _, unit in MEASUREMENTS
+    )
+    lines = [heading + f"{'95 % hold':>11s}"]
+    for count in sorted({each.pictures for each in found}):
+        these = [each for each in found if each.pictures == count]
+        by_name = {key: [e for e in these if e.name == key] for _, key, _ in MEASUREMENTS}
+        line = f"{count:8d}{len(these) // len(by_name):9d}"
+        for mine in by_name.values():
+            away = np.abs([each.error for each in mine])
+            certain = np.mean([each.standard_error for each in mine])
+            line += f"{f'{away.mean():.2f} ({np.median(away):.2f})':>16s}{certain:6.2f}"
+        within = [abs(each.error) <= INTERVALS[1][1] * each.standard_error for each in these]
+        lines.append(line + f"{100.0 * np.mean(within):10.0f}%")
+    return lines

@@ -66,6 +66,7 @@ def result_of(
         image_camera=CAMERA,
         focal_length_source=FocalLengthSource.CALLER,
         body=body,
+        shape_covariance=np.diag([0.0, 0.04]),
         posed_vertices=posed,
         canonical_vertices=model.mean_vertices,
         light=light,

@@ -171,6 +171,7 @@ def result(*, light: Light | None) -> fitter_result.FitResult:
         image_camera=camera.scaled(2.0, width=128, height=96),
         focal_length_source=FocalLengthSource.ASSUMED,
         body=body,
+        shape_covariance=None,
         posed_vertices=np.zeros((3, 3)),
         canonical_vertices=np.zeros((3, 3)),
         light=light,

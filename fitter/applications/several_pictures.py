@@ -1,0 +1,192 @@
+"""One shape from several pictures of one person, each with its own pose and light (section 7).
+
+Near its minimum the energy of picture k is a paraboloid over the shape β, once pose, place and
+light have been minimised out: ½ (β - β_k)ᵀ H_k (β - β_k), the prior ½ |β|² included. The person's
+energy is the sum of the pictures' and of one prior, and its minimum a linear solve. What pictures
+of one person err in alike (shapes the model does not have, cloth, a prior about how people stand)
+more of them do not mend, so that they count as fewer than they are.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+from scipy.stats import chi2
+
+from fitter.applications.fitted_person import FittedPerson
+from fitter.arrays import Shape
+from fitter.errors import InvalidInputError
+
+SHARED_ERROR = 0.4
+"""Correlation of the errors of two pictures of one person, by which k pictures count as
+k / (1 + (k - 1) 0.4). On the evaluation's tuning half 95 % intervals then hold 92 and 91 % from two
+and three pictures, as they do 91 % from one; without it 88 and 85 %."""
+
+MOST_PICTURES = 12
+
+SAME_PERSON_PROBABILITY = 0.01
+"""Shapes that differ so much that pictures of one person would do so more rarely than this."""
+
+_GIVEN_VARIANCE = 1e-9
+"""Along what was given the shape does not vary."""
+
+
+_LEAST_VARIANCE = 0.05
+"""Directions in which two pictures cannot differ by more than this say nothing."""
+
+_LONGER_TAILS = 1.3
+"""Errors of a fit vary by so much more than its matrix knows: of 95 % intervals 91 % hold."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class CombinedShape:
+    """The shape of one person.
+
+    Attributes
+    ----------
+    shape, covariance
+        (n,), (n, n) coefficients and how certain they are.
+    agreement
+        Probability that shapes fitted to pictures of one person differ as much as these, for the
+        picture that differs most.
+    differing
+        Which picture that is.
+    """
+
+    shape: Shape
+    covariance: Float[np.ndarray, "n n"]
+    agreement: float
+    differing: int
+
+    @property
+    def doubtful(self) -> bool:
+        """Whether the pictures seem to show different people."""
+        return self.agreement < SAME_PERSON_PROBABILITY
+
+
+def combined_shape(people: Sequence[FittedPerson]) -> CombinedShape:
+    """The most probable shape of a person of whom several pictures were fitted.
+
+    Parameters
+    ----------
+    people
+        The fits, two at least, of one gender, model and height.
+
+    Raises
+    ------
+    InvalidInputError
+        If they are too few or too many, were fitted with different models, or were told different
+        things of the person.
+    """
+    _check_kinds(people)
+    origin = people[0].body.shape
+    directions = _free_directions(people)
+    steps = [directions.T @ (person.body.shape - origin) for person in people]
+    for index, (person, step) in enumerate(zip(people, steps, strict=True)):
+        beside = person.body.shape - origin - directions @ step
+        if np.abs(beside).max() > 0.01:
+            raise _unusable(
+                index,
+                "The fits were told different heights or other measurements of the person.",
+                "Fit every picture with the same height and the same known measurements.",
+            )
+    count = len(people)
+    weight = 1.0 / (1.0 + (count - 1) * SHARED_ERROR)
+    prior_step = -directions.T @ origin
+    matrix, pull = np.eye(len(prior_step)), prior_step.copy()
+    informations = [_information(person, directions) for person in people]
+    for information, step in zip(informations, steps, strict=True):
+        # What the picture says, without the prior: H_k - I, at whose minimum lies H_k t_k - t_0.
+        matrix += weight * (information - np.eye(len(matrix)))
+        pull += weight * (information @ step - prior_step)
+    covariance = np.linalg.inv(matrix)
+    step = covariance @ pull
+    agreements = [
+        _agreement(index, informations, steps, prior_step) for index in range(len(people))
+    ]
+    return CombinedShape(
+        shape=origin + directions @ step,
+        covariance=directions @ covariance @ directions.T,
+        agreement=min(agreements),
+        differing=int(np.argmin(agreements)),
+    )
+
+
+def _agreement(
+    index: int,
+    informations: Sequence[Float[np.ndarray, "d d"]],
+    steps: Sequence[Float[np.ndarray, " d"]],
+    prior_step: Float[np.ndarray, " d"],
+) -> float:
+    """How probable so large a difference between one picture and the others together is."""
+    count, identity = len(steps), np.eye(len(prior_step))
+    weight = 1.0 / (1.0 + max(count - 2, 0) * SHARED_ERROR)
+    matrix, pull = identity.copy(), prior_step.copy()
+    for other in range(count):
+        if other != index:
+            matrix = matrix + weight * (informations[other] - identity)
+            pull = pull + weight * (informations[other] @ steps[other] - prior_step)
+    rest = np.linalg.solve(matrix, pull)
+    # Each posterior's mean keeps M = H⁻¹ (H - I) of the truth, the rest is the prior's: their
+    # difference varies by the noise of both, M H⁻¹, and by the truth that one keeps more of.
+    own, others = np.linalg.inv(informations[index]), np.linalg.inv(matrix)
+    kept, kept_by_others = identity - own, identity - others
+    unlike = kept - kept_by_others
+    spread = kept @ own + kept_by_others @ others + unlike @ unlike.T
+    values, vectors = np.linalg.eigh(0.5 * (spread + spread.T))
+    told = values > _LEAST_VARIANCE
+    if not told.any():
+        return 1.0
+    along = vectors[:, told].T @ (steps[index] - rest)
+    distance = float((along**2 / values[told]).sum())
+    return float(chi2.sf(distance / _LONGER_TAILS, int(told.sum())))
+
+
+def _free_directions(people: Sequence[FittedPerson]) -> Float[np.ndarray, "n d"]:
+    """Orthonormal directions of the shape that were not given."""
+    covariance = people[0].shape_covariance
+    assert covariance is not None
+    values, vectors = np.linalg.eigh(covariance)
+    return vectors[:, values > _GIVEN_VARIANCE]
+
+
+def _information(
+    person: FittedPerson, directions: Float[np.ndarray, "n d"]
+) -> Float[np.ndarray, "d d"]:
+    covariance = person.shape_covariance
+    assert covariance is not None
+    return np.linalg.inv(directions.T @ covariance @ directions)
+
+
+def _check_kinds(people: Sequence[FittedPerson]) -> None:
+    if not 2 <= len(people) <= MOST_PICTURES:
+        raise _unusable(
+            None,
+            f"One person is combined from 2 to {MOST_PICTURES} fits, not from {len(people)}.",
+            "Name other finished fits of the same person.",
+        )
+    first = people[0]
+    for index, person in enumerate(people):
+        if person.shape_covariance is None:
+            raise _unusable(
+                index,
+                "The fit does not say how certain its shape is.",
+                "Fit the picture again.",
+            )
+        if (person.gender, person.model_checksum) != (first.gender, first.model_checksum):
+            raise _unusable(
+                index,
+                "The fits were made with different body models.",
+                "Fit every picture with the same gender and the same version of the service.",
+            )
+
+
+def _unusable(index: int | None, reason: str, remedy: str) -> InvalidInputError:
+    """``index`` is that of the fit at fault; None for all of them."""
+    return InvalidInputError(
+        code="fits-unusable",
+        field="fits" if index is None else f"fits.{index}",
+        reason=reason,
+        remedy=remedy,
+    )
