@@ -1,8 +1,9 @@
-"""Memory of API and worker while jobs come, are followed, fetched and erased for minutes."""
+"""Memory of API and worker, each alone, while jobs come, are followed, fetched and erased."""
 
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import httpx
@@ -11,7 +12,7 @@ from fitter.training.text_tables import note_lines, table_lines
 from tests.benchmarks.crowd import crowd
 from tests.benchmarks.served import NO_WORKER, ready, running
 from tests.deployment import Deployment, Kind
-from tests.process_table import own_memory_mib
+from tests.process_table import KIB_PER_MIB, own_memory_mib
 from tests.submissions import small_submissions
 
 PICTURES = 4
@@ -25,7 +26,7 @@ WATCHED = (Kind.API, Kind.WORKER, Kind.FORK_SERVER, Kind.ESTIMATOR)
 def lines(count: int) -> Iterator[str]:
     """``count`` minutes; all but the last jobs are erased."""
     submissions = small_submissions(PICTURES)
-    rows: list[tuple[str, ...]] = []
+    looks: list[_Look] = []
     with tempfile.TemporaryDirectory(prefix="maquette-benchmark-") as folder:
         deployment = Deployment(folder=Path(folder), commands=NO_WORKER, workers=1)
         with running(deployment), httpx.Client(base_url=deployment.address, timeout=120) as client:
@@ -33,7 +34,7 @@ def lines(count: int) -> Iterator[str]:
             kept: list[str] = []
             ended = 0
             for minute in range(count + 1):
-                rows.append(_row(minute, ended, deployment))
+                looks.append(_look(ended, deployment))
                 until = time.monotonic() + MINUTE_S
                 while minute < count and time.monotonic() < until:
                     while len(kept) < KEPT:
@@ -47,10 +48,15 @@ def lines(count: int) -> Iterator[str]:
     yield from table_lines(
         f"Soak of {count} minutes: {LISTENERS} listeners, {POLLERS} pollers, MiB of each alone",
         ("minute", "jobs ended", *(kind.value for kind in WATCHED)),
-        rows,
+        [
+            *((str(minute), *each.cells()) for minute, each in enumerate(looks)),
+            _growth(looks),
+        ],
     )
     yield from note_lines(
-        "Each job is followed to its end, all its files are fetched, it is erased."
+        "Each job is followed to its end, all its files are fetched, it is erased. The first "
+        "minutes fill what a process keeps: threads and their heaps, connections and their caches. "
+        "What it loses shows in the second half."
     )
 
 
@@ -69,8 +75,35 @@ def _fetched_and_erased(client: httpx.Client, kept: list[str]) -> int:
     return len(oldest)
 
 
-def _row(minute: int, ended: int, deployment: Deployment) -> tuple[str, ...]:
-    memory = (
-        sum(own_memory_mib(process.pid) for process in deployment.of_kind(kind)) for kind in WATCHED
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Look:
+    """Jobs that have ended so far, and the memory of each kind of process, MiB."""
+
+    ended: int
+    memory_mib: tuple[float, ...]
+
+    def cells(self) -> tuple[str, ...]:
+        return (str(self.ended), *(f"{each:.1f}" for each in self.memory_mib))
+
+
+def _look(ended: int, deployment: Deployment) -> _Look:
+    return _Look(
+        ended=ended,
+        memory_mib=tuple(
+            sum(own_memory_mib(process.pid) for process in deployment.of_kind(kind))
+            for kind in WATCHED
+        ),
     )
-    return (str(minute), str(ended), *(f"{each:.1f}" for each in memory))
+
+
+def _growth(looks: Sequence[_Look]) -> tuple[str, ...]:
+    middle, last = looks[len(looks) // 2], looks[-1]
+    jobs = max(last.ended - middle.ended, 1)
+    return (
+        "KiB a job, second half",
+        str(jobs),
+        *(
+            f"{KIB_PER_MIB * (after - before) / jobs:+.1f}"
+            for before, after in zip(middle.memory_mib, last.memory_mib, strict=True)
+        ),
+    )
