@@ -39,6 +39,34 @@ def plain_glb(
         Per vertex.
     """
     standing = vertices - np.array([0.0, vertices[:, 1].min(), 0.0])
+    document = plain_document(model, name=name, extras=extras)
+    document["nodes"] = [{"mesh": 0, "name": "body"}]
+    binary = BinaryChunk()
+    add_body_mesh(
+        document,
+        binary,
+        vertices=standing,
+        triangles=model.triangles,
+        reflectance=reflectance,
+        albedo_rgb=albedo_rgb,
+    )
+    return pack_glb(document, binary)
+
+
+def plain_document(
+    model: BodyModel, *, name: str, extras: Mapping[str, object]
+) -> dict[str, object]:
+    """A glTF document with its provenance, whose scene is node 0; still without nodes and mesh.
+
+    Parameters
+    ----------
+    model
+        Whose provenance.
+    name
+        Of the scene.
+    extras
+        What else is said of the body; JSON values.
+    """
     provenance = {
         "generator": generator_name(),
         "gender": model.gender,
@@ -50,20 +78,9 @@ def plain_glb(
         },
         **extras,
     }
-    document: dict[str, object] = {
+    return {
         # Blender keeps the scene's extras but drops the asset's, so both carry them.
         "asset": {"version": "2.0", "generator": generator_name(), "extras": provenance},
         "scene": 0,
         "scenes": [{"name": name, "nodes": [0], "extras": provenance}],
-        "nodes": [{"mesh": 0, "name": "body"}],
     }
-    binary = BinaryChunk()
-    add_body_mesh(
-        document,
-        binary,
-        vertices=standing,
-        triangles=model.triangles,
-        reflectance=reflectance,
-        albedo_rgb=albedo_rgb,
-    )
-    return pack_glb(document, binary)

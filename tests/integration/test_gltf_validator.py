@@ -7,6 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from fitter.applications.animated_glb import morphed_glb, skinned_glb
+from fitter.applications.motion import Motion, moving_body
+from fitter.applications.principal_frames import principal_frames
+from fitter.applications.skin import skin_of
+from fitter.body.scape import ScapeEvaluator
 from fitter.export.gltf import body_canonical_glb, body_posed_glb
 from tests.npm_packages import installed
 from tests.unit.body.synthetic_model import bar_model
@@ -54,6 +59,33 @@ def test_khronos_validator_has_no_complaint(validator, write, kind):
     assert complaints(report) == []
     assert report["info"]["totalVertexCount"] == len(model.mean_vertices)
     assert report["info"]["totalTriangleCount"] == len(model.triangles)
+
+
+def animated(model, *, skinned):
+    """A few frames of the bar bending."""
+    rng = np.random.default_rng(1)
+    motion = Motion(
+        frame_time_s=1 / 30,
+        poses=0.3 * rng.standard_normal((5, len(model.part_names), 3)),
+        roots=rng.standard_normal((5, 3)),
+        lifts_m=np.zeros(5),
+    )
+    body = moving_body(ScapeEvaluator(model), np.zeros(len(model.shape_basis)), motion)
+    reflectance = reflectance_of(model)
+    if skinned:
+        skin = skin_of(body, model)
+        return skinned_glb(body, skin, model, reflectance=reflectance, albedo_rgb=None)
+    frames = principal_frames(body.shapes)
+    return morphed_glb(body, frames, model, reflectance=reflectance, albedo_rgb=None)
+
+
+@pytest.mark.parametrize("skinned", [False, True])
+def test_khronos_validator_has_no_complaint_of_animations(validator, skinned):
+    report = validator(animated(bar_model(), skinned=skinned))
+    assert complaints(report) == []
+    assert report["info"]["animationCount"] == 1
+    assert report["info"]["hasMorphTargets"] is not skinned
+    assert report["info"]["hasSkins"] is skinned
 
 
 def test_the_validator_is_awake(validator):

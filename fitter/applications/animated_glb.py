@@ -1,0 +1,228 @@
+"""A moving body as glTF: exactly, by morph targets, or as a skin on bones.
+
+Body frame's axes (y up), metres, the ground at y = 0; vertex order is the body model's. Where the
+body is and which way it faces is animated on the node, so that the mesh itself stays in place.
+"""
+
+import numpy as np
+from jaxtyping import Float, Float32
+
+from fitter.applications.motion import MovingBody
+from fitter.applications.principal_frames import PrincipalFrames
+from fitter.applications.skin import Skin
+from fitter.arrays import Vertices
+from fitter.body.model import BodyModel
+from fitter.export.glb import BinaryChunk, Target, pack_glb
+from fitter.export.gltf import add_body_mesh, unit_normals
+from fitter.export.plain_gltf import plain_document
+from fitter.parameters import Reflectance
+
+
+def morphed_glb(
+    body: MovingBody,
+    frames: PrincipalFrames,
+    model: BodyModel,
+    *,
+    reflectance: Reflectance | None,
+    albedo_rgb: Vertices | None,
+) -> bytes:
+    """Exact SCAPE bodies as one mesh with morph targets, every frame with weights of its own."""
+    document = plain_document(
+        model,
+        name="body_animated",
+        extras={
+            "method": "exact SCAPE bodies in a basis of morph targets",
+            "morph_targets": len(frames.targets),
+            "largest_error_mm": 1e3 * frames.largest_error_m,
+            "mean_error_mm": 1e3 * frames.mean_error_m,
+        },
+    )
+    binary = BinaryChunk()
+    primitive = add_body_mesh(
+        document,
+        binary,
+        vertices=frames.base.astype(np.float64),
+        triangles=model.triangles,
+        reflectance=reflectance,
+        albedo_rgb=albedo_rgb,
+    )
+    primitive["targets"] = [
+        {
+            "POSITION": binary.add(target, target=Target.VERTEX_ATTRIBUTE, bounds=True),
+            "NORMAL": binary.add(normals, target=Target.VERTEX_ATTRIBUTE),
+        }
+        for target, normals in zip(
+            frames.targets, _normal_targets(body, frames, model), strict=True
+        )
+    ]
+    _first(document, "meshes")["weights"] = [0.0] * len(frames.targets)
+    animation = _Animation(binary, body)
+    animation.place(0)
+    animation.sampled(0, "weights", frames.weights.ravel())
+    document["nodes"] = [{"mesh": 0, "name": "body"} | _placement(body)]
+    document["animations"] = [animation.document("motion")]
+    return pack_glb(document, binary)
+
+
+def skinned_glb(
+    body: MovingBody,
+    skin: Skin,
+    model: BodyModel,
+    *,
+    reflectance: Reflectance | None,
+    albedo_rgb: Vertices | None,
+) -> bytes:
+    """The body as a skin on its bones, for programs that go on animating: approximate."""
+    document = plain_document(
+        model,
+        name="body_skinned",
+        extras={
+            "method": "linear blending on 17 bones: approximate, not SCAPE",
+            "bound_in_frame": skin.frame,
+            "largest_error_mm": 1e3 * skin.largest_error_m,
+            "mean_error_mm": 1e3 * skin.mean_error_m,
+        },
+    )
+    binary = BinaryChunk()
+    primitive = add_body_mesh(
+        document,
+        binary,
+        vertices=skin.vertices,
+        triangles=model.triangles,
+        reflectance=reflectance,
+        albedo_rgb=albedo_rgb,
+    )
+    attributes = primitive["attributes"]
+    assert isinstance(attributes, dict)
+    attributes["JOINTS_0"] = binary.add(
+        skin.parts.astype(np.uint16), target=Target.VERTEX_ATTRIBUTE
+    )
+    attributes["WEIGHTS_0"] = binary.add(
+        skin.weights.astype(np.float32), target=Target.VERTEX_ATTRIBUTE
+    )
+    matrices = skin.inverse_bind.transpose(0, 2, 1).reshape(-1, 16).astype(np.float32)
+    # Node 0 is the mesh, the bones follow: a skinned mesh below another node is not moved by it.
+    first = 1
+    bones = [first + part for part in range(len(model.part_names))]
+    document["skins"] = [
+        {
+            "name": "body",
+            "joints": bones,
+            "skeleton": bones[0],
+            "inverseBindMatrices": binary.add(matrices, target=None),
+        }
+    ]
+    _first(document, "scenes")["nodes"] = [0, bones[0]]
+    offsets = _bone_offsets(skin, model)
+    animation = _Animation(binary, body)
+    animation.place(bones[0])
+    for part, node in enumerate(bones[1:], start=1):
+        animation.sampled(node, "translation", offsets[:, part])
+        animation.rotated(node, body.motion.poses[:, part])
+    document["nodes"] = [
+        {"name": "body", "mesh": 0, "skin": 0},
+        *_bone_nodes(body, offsets[0], model, first),
+    ]
+    document["animations"] = [animation.document("motion")]
+    return pack_glb(document, binary)
+
+
+class _Animation:
+    """Channels of one animation while they grow, on one accessor of times."""
+
+    def __init__(self, binary: BinaryChunk, body: MovingBody) -> None:
+        self._binary = binary
+        self._body = body
+        times = np.arange(len(body.shapes)) * body.motion.frame_time_s
+        self._times = binary.add(times.astype(np.float32), target=None, bounds=True)
+        self._samplers: list[dict[str, object]] = []
+        self._channels: list[dict[str, object]] = []
+
+    def sampled(self, node: int, path: str, values: np.ndarray) -> None:
+        """A path of a node that is linear between frames."""
+        output = self._binary.add(values.astype(np.float32), target=None)
+        self._channels.append(
+            {"sampler": len(self._samplers), "target": {"node": node, "path": path}}
+        )
+        self._samplers.append({"input": self._times, "output": output, "interpolation": "LINEAR"})
+
+    def rotated(self, node: int, vectors: Float[np.ndarray, "t 3"]) -> None:
+        """Rotation of a node."""
+        self.sampled(node, "rotation", quaternions(vectors))
+
+    def place(self, node: int) -> None:
+        """Position and rotation of the whole body."""
+        self.sampled(node, "translation", self._body.roots)
+        self.rotated(node, self._body.motion.poses[:, 0])
+
+    def document(self, name: str) -> dict[str, object]:
+        """The animation as glTF has it."""
+        return {"name": name, "samplers": self._samplers, "channels": self._channels}
+
+
+def quaternions(vectors: Float[np.ndarray, "t 3"]) -> Float[np.ndarray, "t 4"]:
+    """Unit quaternions (x, y, z, w) of rotation vectors, each on the side of the one before.
+
+    A quaternion and its negative are the same rotation, but interpolation between them is not.
+    """
+    angles = np.linalg.norm(vectors, axis=1, keepdims=True)
+    axes = vectors / np.where(angles > 0.0, angles, 1.0)
+    result = np.concatenate([axes * np.sin(0.5 * angles), np.cos(0.5 * angles)], axis=1)
+    agree = np.einsum("ti,ti->t", result[1:], result[:-1]) >= 0.0
+    result[1:] *= np.cumprod(np.where(agree, 1.0, -1.0))[:, None]
+    return result
+
+
+def _normal_targets(
+    body: MovingBody, frames: PrincipalFrames, model: BodyModel
+) -> Float32[np.ndarray, "k m 3"]:
+    """Changes of the normals that come nearest to the true ones over all frames."""
+    base = unit_normals(frames.base.astype(np.float64), model.triangles)
+    # Least squares, normal by normal: pinv(W) (N_t - N_0), summed frame by frame to save memory.
+    inverse = np.linalg.pinv(frames.weights.astype(np.float64))
+    targets = np.zeros((len(frames.targets), *base.shape))
+    for frame, shape in enumerate(body.shapes):
+        change = unit_normals(shape.astype(np.float64), model.triangles) - base
+        targets += inverse[:, frame, None, None] * change
+    return targets.astype(np.float32)
+
+
+def _bone_offsets(skin: Skin, model: BodyModel) -> Float[np.ndarray, "t p 3"]:
+    """From the parent's joint to the part's, in the axes of the parent; the root's is unused."""
+    joints, rotations = skin.bones[:, :, :3, 3], skin.bones[:, :, :3, :3]
+    parents = np.maximum(model.part_parent, 0)
+    return np.einsum("tpji,tpj->tpi", rotations[:, parents], joints - joints[:, parents])
+
+
+def _bone_nodes(
+    body: MovingBody, offsets: Float[np.ndarray, "p 3"], model: BodyModel, first: int
+) -> list[dict[str, object]]:
+    """The bones in the first frame."""
+    nodes: list[dict[str, object]] = []
+    for part, name in enumerate(model.part_names):
+        children = [first + int(child) for child in np.flatnonzero(model.part_parent == part)]
+        node: dict[str, object] = {"name": name}
+        if children:
+            node["children"] = children
+        if model.part_parent[part] < 0:
+            node |= _placement(body)
+        else:
+            node["translation"] = offsets[part].tolist()
+            node["rotation"] = quaternions(body.motion.poses[:1, part])[0].tolist()
+        nodes.append(node)
+    return nodes
+
+
+def _placement(body: MovingBody) -> dict[str, object]:
+    """Position and rotation of the first frame."""
+    return {
+        "translation": body.roots[0].tolist(),
+        "rotation": quaternions(body.motion.poses[:1, 0])[0].tolist(),
+    }
+
+
+def _first(document: dict[str, object], kind: str) -> dict[str, object]:
+    """The only mesh or scene of a document."""
+    only = document[kind]
+    assert isinstance(only, list)
+    return only[0]

@@ -1,0 +1,168 @@
+"""A fitted person set in motion: by a BVH file, or by the walk that ships with the package."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from fitter.applications.animated_glb import morphed_glb, skinned_glb
+from fitter.applications.bvh import BvhClip
+from fitter.applications.filmstrip import film, strip
+from fitter.applications.fitted_person import FittedPerson
+from fitter.applications.grounding import grounded, sliding_m
+from fitter.applications.motion import Motion, moving_body
+from fitter.applications.principal_frames import principal_frames
+from fitter.applications.retarget import retarget
+from fitter.applications.rig import Rig
+from fitter.applications.skin import skin_of
+from fitter.body.scape import ScapeEvaluator
+from fitter.errors import InvalidInputError
+from fitter.export.display import png
+from fitter.remarks import FitWarning
+
+MOST_FRAMES = 360
+"""Of an animation: 12 s at 30 frames a second. Each is an exact body of 149 kB while it is made."""
+
+MOST_FRAMES_PER_SECOND = 30.0
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class ChosenMotion:
+    """A motion to animate a person with.
+
+    ``source`` says where it comes from, ``warnings`` what was left out of it.
+    """
+
+    motion: Motion
+    source: str
+    warnings: tuple[FitWarning, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Animation:
+    """A person in motion.
+
+    Attributes
+    ----------
+    files
+        ``body_animated.glb`` (exact bodies by morph targets), ``body_skinned.glb`` (linear
+        blending), ``animation.png`` (a strip of moments from the front and the side) and
+        ``animation.webp`` (the same, moving).
+    frames, frame_time_s
+        How many, and seconds from one to the next.
+    morph_targets
+        Of ``body_animated.glb``.
+    morph_largest_error_mm, morph_mean_error_mm
+        Distance of its vertices from exact SCAPE, over all frames.
+    skin_largest_error_mm, skin_mean_error_mm
+        The same of ``body_skinned.glb``.
+    sliding_mm
+        How far soles slide on the ground from frame to frame, mean.
+    travelled_m
+        From the first place to the last, along the ground.
+    """
+
+    files: Mapping[str, bytes]
+    frames: int
+    frame_time_s: float
+    morph_targets: int
+    morph_largest_error_mm: float
+    morph_mean_error_mm: float
+    skin_largest_error_mm: float
+    skin_mean_error_mm: float
+    sliding_mm: float
+    travelled_m: float
+
+
+def motion_of_clip(
+    clip: BvhClip, rig: Rig, *, start_s: float = 0.0, duration_s: float | None = None
+) -> ChosenMotion:
+    """A stretch of a BVH clip on a person's skeleton, thinned out to 30 frames a second at most.
+
+    Parameters
+    ----------
+    clip
+        The whole clip.
+    rig
+        The person's skeleton.
+    start_s, duration_s
+        Which stretch; None goes on to the clip's end. What is longer than there may be frames is
+        cut, with a warning.
+
+    Raises
+    ------
+    InvalidInputError
+        If the stretch begins after the clip's end, or the skeleton cannot be understood.
+    """
+    length_s = len(clip.numbers) * clip.frame_time_s
+    first = round(start_s / clip.frame_time_s)
+    if not start_s >= 0.0 or first >= len(clip.numbers):
+        raise InvalidInputError(
+            code="stretch-outside-clip",
+            field="start_s",
+            reason=f"The clip is {length_s:.2f} s long and {start_s:g} s is not within it.",
+            remedy="Begin within the clip.",
+        )
+    # Whole steps only: every frame that is shown is one that was recorded.
+    # Files round their frame times: 0.0083333 s is meant for 120 Hz.
+    step = max(1, math.ceil(1.0 / (clip.frame_time_s * MOST_FRAMES_PER_SECOND) - 0.01))
+    wanted = len(clip.numbers) - first
+    if duration_s is not None:
+        wanted = min(wanted, max(1, round(duration_s / clip.frame_time_s)))
+    frames = min((wanted + step - 1) // step, MOST_FRAMES)
+    retargeted = retarget(clip, rig, slice(first, first + frames * step, step))
+    warnings: tuple[FitWarning, ...] = ()
+    if frames * step < wanted:
+        shown_s = frames * step * clip.frame_time_s
+        warnings = (
+            FitWarning(
+                code="clip-cut",
+                message=(
+                    f"{shown_s:.2f} of {wanted * clip.frame_time_s:.2f} s are shown: an animation "
+                    f"has {MOST_FRAMES} frames at most. Ask for a later stretch to see the rest."
+                ),
+            ),
+        )
+    return ChosenMotion(
+        motion=retargeted.motion,
+        source=f"BVH with the names of {retargeted.naming}",
+        warnings=warnings,
+    )
+
+
+def animate(person: FittedPerson, evaluator: ScapeEvaluator, motion: Motion) -> Animation:
+    """Set a fitted person in motion, feet on the ground."""
+    model, shape = evaluator.model, person.body.shape
+    body = grounded(moving_body(evaluator, shape, motion), model)
+    exact = principal_frames(body.shapes)
+    skin = skin_of(body, model)
+    files = {
+        "body_animated.glb": morphed_glb(
+            body,
+            exact,
+            model,
+            reflectance=person.reflectance,
+            albedo_rgb=person.albedo_rgb,
+        ),
+        "body_skinned.glb": skinned_glb(
+            body,
+            skin,
+            model,
+            reflectance=person.reflectance,
+            albedo_rgb=person.albedo_rgb,
+        ),
+        "animation.png": png(strip(body, model.triangles)),
+        "animation.webp": film(body, model.triangles),
+    }
+    way = body.roots[-1] - body.roots[0]
+    return Animation(
+        files=files,
+        frames=len(body.shapes),
+        frame_time_s=motion.frame_time_s,
+        morph_targets=len(exact.targets),
+        morph_largest_error_mm=1e3 * exact.largest_error_m,
+        morph_mean_error_mm=1e3 * exact.mean_error_m,
+        skin_largest_error_mm=1e3 * skin.largest_error_m,
+        skin_mean_error_mm=1e3 * skin.mean_error_m,
+        sliding_mm=1e3 * sliding_m(body, model),
+        travelled_m=float((way[0] ** 2 + way[2] ** 2) ** 0.5),
+    )
