@@ -21,6 +21,7 @@ from fitter.errors import InvalidInputError
 from fitter.numerics.mesh_topology import mesh_topology
 from fitter.numerics.vectors import unit_vectors
 from fitter.observation.colour import display_from_linear, luminance_of
+from fitter.observation.resampling import linear_working_picture, working_size
 from fitter.optimizer.hidden_reflectance import HiddenVertices
 from fitter.parameters import Light, Reflectance
 from fitter.render.reflectance import shading_terms
@@ -35,6 +36,10 @@ BELIEVED = 0.5
 DIM, LIT = 0.1, 0.35
 """Shares of the lamp's light: below the first an albedo is noise divided by little, and the rest of
 the light is only roughly known; from the second on it is believed wholly."""
+
+PICTURE_PIXELS = 2_000_000
+"""Of the picture that is laid on the body: then a pixel of a standing person is a millimetre, as a
+texel of the largest atlas is."""
 
 _LEAST_LUMINANCE = 1e-3
 _CHUNK = 1 << 17
@@ -76,6 +81,13 @@ class Texture:
     mirrored_share: float
 
 
+def linear_picture(pixels: UInt8[np.ndarray, "h w 3"]) -> Image:
+    """An upright decoded picture in linear light, made smaller if it is larger than needed."""
+    height, width = pixels.shape[:2]
+    size = working_size(width=width, height=height, pixels=PICTURE_PIXELS)
+    return linear_working_picture(pixels, size)
+
+
 def picture_texture(
     person: FittedPerson,
     evaluator: ScapeEvaluator,
@@ -93,7 +105,7 @@ def picture_texture(
     evaluator
         Of the model it was fitted with.
     linear_rgb
-        (h, w, 3) the upright picture in linear light, at any scale.
+        (h, w, 3) the upright picture in linear light, at any scale: :func:`linear_picture`.
     mask
         (h, w) the person in it; without one the body's own outline must do.
     size

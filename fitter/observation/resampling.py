@@ -30,9 +30,9 @@ class WorkingSize:
     scale: float
 
 
-def working_size(*, width: int, height: int) -> WorkingSize:
-    """The size to work at; a picture is never enlarged."""
-    scale = min(1.0, (WORKING_PIXELS / (width * height)) ** 0.5)
+def working_size(*, width: int, height: int, pixels: int = WORKING_PIXELS) -> WorkingSize:
+    """The size to work at, of so many pixels at most; a picture is never enlarged."""
+    scale = min(1.0, (pixels / (width * height)) ** 0.5)
     return WorkingSize(width=int(width * scale), height=int(height * scale), scale=scale)
 
 

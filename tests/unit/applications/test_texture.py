@@ -12,6 +12,7 @@ from fitter.applications.texture import (
     TexelOrigin,
     Texture,
     albedo_texture,
+    linear_picture,
     picture_texture,
 )
 from fitter.applications.textured_glb import in_file_axes, textured_glb
@@ -187,6 +188,12 @@ def test_a_picture_of_another_scale_gives_the_same(sitter, texture):
     both = (found.coverage == TexelOrigin.SEEN) & (texture.coverage == TexelOrigin.SEEN)
     difference = np.abs(found.levels.astype(int) - texture.levels)[both]
     assert np.percentile(difference, 99) <= 4
+
+
+def test_a_large_picture_is_read_at_two_megapixels():
+    picture = linear_picture(np.full((3000, 4000, 3), 188, dtype=np.uint8))
+    assert picture.shape == (1224, 1632, 3)
+    np.testing.assert_allclose(picture, linear_from_display(np.array(188 / 255)), atol=1e-6)
 
 
 def test_a_fit_without_light_has_no_albedo_texture(sitter):
