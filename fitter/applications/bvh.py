@@ -85,7 +85,8 @@ class BvhClip:
                     place[:, axis] = values
                 else:
                     turns = np.zeros((len(values), 3))
-                    turns[:, axis] = np.radians(values)
+                    # Whole turns say nothing, and their squares may overflow.
+                    turns[:, axis] = np.radians(np.remainder(values, 360.0))
                     turn = turn @ rotation_matrices(turns)
             if parent < 0:
                 rotations[:, joint], positions[:, joint] = turn, place

@@ -24,6 +24,9 @@ REST = "rest"
 
 FULL_TURN = 2.0 * np.pi
 
+_OPPOSITE = 1e-9
+_NEARLY_ONE = 0.99
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Angles:
@@ -191,11 +194,18 @@ def _swung(rig: Rig, part: str, held: Angles) -> Vector3:
 
 
 def shortest_rotation(start: Vector3, end: Vector3) -> Float[np.ndarray, "3 3"]:
-    """The rotation by the least angle from one direction to another; not for opposite ones."""
+    """The rotation by the least angle from one direction to another.
+
+    Of opposite directions every axis across them will do: the one nearest to the body's z.
+    """
     first, second = unit_vectors(np.stack([start, end]))
     axis = cross_products(first, second)
     sine = float(np.linalg.norm(axis))
     angle = np.arctan2(sine, float(first @ second))
+    if sine < _OPPOSITE and angle > 1.0:
+        nearest = np.eye(3)[1 if abs(first[2]) > _NEARLY_ONE else 2]
+        axis = nearest - (nearest @ first) * first
+        sine = float(np.linalg.norm(axis))
     return rotation_matrices((axis * (angle / sine if sine > 0.0 else 0.0))[None])[0]
 
 

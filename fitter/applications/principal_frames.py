@@ -17,6 +17,9 @@ MOST_TARGETS = 64
 ERROR_GOAL_M = 0.003
 """In the worst vertex of the worst frame: as many targets are taken as it needs, up to the most."""
 
+_LEAST_SHARE = 1e-12
+"""Of the largest variance: what is smaller is rounding."""
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class PrincipalFrames:
@@ -47,10 +50,11 @@ def principal_frames(shapes: Float32[np.ndarray, "t m 3"]) -> PrincipalFrames:
     moves = (shapes - shapes[0]).reshape(frames, -1)
     variances, vectors = np.linalg.eigh(np.asarray(moves @ moves.T, dtype=np.float64))
     order = np.argsort(variances)[::-1]
-    order = order[variances[order] > 1e-12 * max(float(variances.max()), 1e-300)]
-    vectors = vectors[:, order[: min(MOST_TARGETS, frames)]].astype(np.float32)
+    # Of a body that does not move one target is left, which does nothing: there must be one.
+    order = order[: max(int((variances[order] > _LEAST_SHARE * variances.max()).sum()), 1)]
+    vectors = vectors[:, order[:MOST_TARGETS]].astype(np.float32)
     targets = vectors.T @ moves
-    few, many = 1, max(len(targets), 1)
+    few, many = 1, len(targets)
     # Errors fall with every target in the mean; in the worst vertex all but surely.
     while few < many:
         middle = (few + many) // 2
@@ -61,7 +65,7 @@ def principal_frames(shapes: Float32[np.ndarray, "t m 3"]) -> PrincipalFrames:
     errors = _errors(moves, vectors, targets, many)
     weights, chosen = vectors[:, :many], targets[:many]
     weights = weights - weights[:1]
-    largest = np.maximum(np.abs(weights).max(axis=0, initial=0.0), 1e-30).astype(np.float32)
+    largest = np.maximum(np.abs(weights).max(axis=0), 1e-30).astype(np.float32)
     return PrincipalFrames(
         base=shapes[0],
         targets=(chosen * largest[:, None]).reshape(-1, m, 3),

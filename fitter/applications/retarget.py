@@ -27,6 +27,9 @@ what goes beyond is taken for leaving the ground."""
 GROUND_PERCENTILE = 10.0
 """Of the lowest joint's height over the clip: the source's ground."""
 
+FARTHEST_M = 1000.0
+"""From where a clip begins; farther goes only a file whose positions are in another unit."""
+
 _TILTED_FOOT_DEG = 3.0
 """So near to the shin's lean, seen from the front, the bone to the toes leans with it. Those of
 CMU's skeletons agree to 0.1 degrees, with shins that lean by 20."""
@@ -78,6 +81,17 @@ def retarget(clip: BvhClip, rig: Rig, frames: slice, *, field: str = "bvh") -> R
     scale = _leg_length(rig) / _source_leg_length(rest, joints, field)
     poses = _poses(rig, clip, rest, joints, rotations, axes)
     roots = scale * positions[:, joints["pelvis"]]
+    farthest = float(np.linalg.norm(roots - roots[0], axis=1).max())
+    if not farthest <= FARTHEST_M:
+        raise InvalidInputError(
+            code="bvh-too-far",
+            field=field,
+            reason=(
+                f"The hips move {farthest:.3g} m away, by the length of the legs; more than "
+                f"{FARTHEST_M:g}."
+            ),
+            remedy="Export hips and offsets in the same unit.",
+        )
     ends = positions[:, clip.end_parent] + np.einsum(
         "teij,ej->tei", rotations[:, clip.end_parent], clip.ends @ axes.T
     )
@@ -140,8 +154,8 @@ def _source_leg_length(rest: Float[np.ndarray, "j 3"], joints: dict[str, int], f
             for upper, lower in (("thigh", "shin"), ("shin", "foot"))
         )
     )
-    if length <= 0.0:
-        raise _no_rest(field, "its legs have no length")
+    if not 0.0 < length < np.inf:
+        raise _no_rest(field, "its legs have no length, or none that is finite")
     return length
 
 

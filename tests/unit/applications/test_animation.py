@@ -95,9 +95,12 @@ def test_bodies_that_span_a_plane_need_two_targets():
 
 def test_a_body_that_does_not_move_has_no_error():
     shapes = np.repeat(np.random.default_rng(0).normal(size=(1, 20, 3)), 3, axis=0)
-    found = principal_frames(shapes.astype(np.float32))
-    assert found.largest_error_m == 0.0
-    assert np.isfinite(found.weights).all()
+    for frames in (1, 3):
+        found = principal_frames(shapes[:frames].astype(np.float32))
+        assert found.largest_error_m == 0.0
+        assert len(found.targets) == 1
+        np.testing.assert_array_equal(found.targets, 0.0)
+        assert np.isfinite(found.weights).all()
 
 
 def test_the_morphed_file_plays_the_exact_bodies(body, moving, exact):

@@ -60,6 +60,14 @@ def test_euler_angles_are_intrinsic_in_the_order_listed():
     np.testing.assert_array_equal(rotations[0], np.tile(np.eye(3), (2, 1, 1)))
 
 
+def test_whole_turns_make_no_difference_however_many():
+    turned = ARM.replace("10 20 30 40 50 60", "370 -340 36000030 40 50 6e300")
+    found, _ = parse_bvh(turned.encode()).motion(slice(1, 2))
+    expected, _ = parse_bvh(ARM.encode()).motion(slice(1, 2))
+    np.testing.assert_allclose(found[0, 0], expected[0, 0], atol=1e-7)
+    assert np.isfinite(found).all()
+
+
 @pytest.mark.parametrize("order", ["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"])
 def test_any_order_of_channels_is_understood(order):
     listed = " ".join(f"{axis}rotation" for axis in order)

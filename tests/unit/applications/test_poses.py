@@ -99,6 +99,14 @@ def test_shortest_rotation_leads_there_and_turns_about_the_common_normal():
     np.testing.assert_array_equal(shortest_rotation(start, start), np.eye(3))
 
 
+@pytest.mark.parametrize("direction", [[0, 0, 1], [0, 1, 0], [1, 0, 0], [0.6, -0.8, 0], [1, 2, 3]])
+def test_shortest_rotation_to_the_opposite_is_half_a_turn(direction):
+    turn = shortest_rotation(np.array(direction, float), -2.0 * np.array(direction, float))
+    np.testing.assert_allclose(turn @ direction, -np.array(direction), atol=1e-12)
+    assert np.trace(turn) == pytest.approx(-1.0)
+    assert np.linalg.det(turn) == pytest.approx(1.0)
+
+
 def test_rotation_vector_and_quaternion_of_the_same_turn_give_the_same_pose(body):
     half = np.radians(20.0)
     quaternion = [0.0, 0.0, np.sin(half), np.cos(half)]

@@ -184,6 +184,13 @@ def test_a_skeleton_that_lies_in_one_point_is_refused(body, poses, roots):
     assert caught.value.code == "bvh-skeleton-unknown"
 
 
+def test_hips_in_another_unit_than_the_bones_are_refused(body, poses, roots):
+    content = bvh_of(body.rig, names=MIXAMO, poses=poses, roots=1e4 * roots)
+    with pytest.raises(InvalidInputError) as caught:
+        retarget(parse_bvh(content), body.rig, slice(None))
+    assert caught.value.code == "bvh-too-far"
+
+
 @pytest.mark.skipif(not MOCAP.is_dir(), reason="the folder of motion-capture data is missing")
 def test_a_real_clip_moves_hands_and_feet_as_its_own_skeleton_does(body):
     """In lengths of a limb, ours are where the source's are, but for proportions."""
