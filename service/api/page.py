@@ -36,6 +36,13 @@ _TEXT_TYPES: Final = {
 _PACKED_TYPES: Final = {"jpg": "image/jpeg", "woff2": "font/woff2"}
 """Compressed already."""
 
+_SAMPLES: Final = {
+    "sample.jpg": "sample.jpg",
+    "sample.json": "request.json",
+    **{name: name for name in ("woman.jpg", "woman.json", "arm_across.jpg", "arm_across.json")},
+}
+"""Pictures to try without one of one's own, and their clicks: the file of each name."""
+
 _UNCHANGING: Final = "public, max-age=31536000, immutable"
 """Of files whose names carry a hash of their content."""
 
@@ -96,10 +103,7 @@ def _page_files() -> dict[str, PageFile]:
     package = files("service")
     found = {each.name: _read(each) for each in (package / "page" / "dist").iterdir()}
     samples = package / "demo_data"
-    return found | {
-        "sample.jpg": _read(samples / "sample.jpg"),
-        "sample.json": _read(samples / "request.json"),
-    }
+    return found | {name: _read(samples / file) for name, file in _SAMPLES.items()}
 
 
 def _read(file: Traversable) -> PageFile:

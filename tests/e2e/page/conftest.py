@@ -2,12 +2,15 @@ from collections.abc import Iterator
 
 import httpx
 import pytest
-from playwright.sync_api import Browser, sync_playwright
+from playwright.sync_api import Browser, expect, sync_playwright
 
 from service.demo_sample import load_sample
 from tests.e2e.page.browser import chromium
 from tests.e2e.page.visitor import Visitor
 from tests.e2e.service import ended_job, running_service, wait_for_estimator
+
+expect.set_options(timeout=30_000)
+"""For machines that are busy; what is there is not waited for."""
 
 
 @pytest.fixture(scope="package")

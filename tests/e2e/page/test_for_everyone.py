@@ -47,7 +47,10 @@ def test_axe_finds_nothing_serious_from_start_to_result(
         visitor.describe_person()
         visitor.click_points(LIMBS)
         page.get_by_text("All points").click()
+        page.get_by_text("Known measurements").click()
+        page.get_by_text("Keys and gestures").click()
         page.get_by_role("heading", name="Lens and light").click()
+        page.get_by_role("heading", name="What the fit goes by").click()
         expect(page.locator(".live-outline")).to_be_attached()
         assert serious_findings(page, axe) == []
         page.goto(f"{visitor.origin}/#/fits/{finished_fit}")
@@ -135,6 +138,7 @@ def test_the_page_asks_for_the_key_the_service_wants(
             page.get_by_role("button", name="Use this key").click()
             expect(dialog).to_be_hidden()
             expect(page.locator(".live-outline")).to_be_attached(timeout=60_000)
+            visitor.let_fits_take_minutes()
             visitor.submit()
             expect(page.get_by_role("button", name="Cancel")).to_be_visible()
             page.get_by_role("button", name="Cancel").click()

@@ -83,6 +83,25 @@ def test_points_can_be_skipped_hidden_removed_and_swapped(clicking: Visitor):
     expect(clicking.points()).to_have_count(0)
 
 
+def test_swapped_sides_are_asked_about_and_mended_by_one_click(clicking: Visitor):
+    page = clicking.page
+    # Left and right as one sees them, not as the person has them.
+    for x, y in ((251.4, 225.2), (438.3, 220.5)):
+        page.mouse.click(*clicking.on_stage(x, y))
+    question = page.get_by_text("this person turns their back to you")
+    expect(question).to_be_visible()
+    left, right = clicking.place_of("left_shoulder"), clicking.place_of("right_shoulder")
+    page.get_by_role("button", name="They face me: swap").click()
+    expect(question).to_be_hidden()
+    assert clicking.place_of("left_shoulder") == right
+    assert clicking.place_of("right_shoulder") == left
+    page.keyboard.press("Control+z")
+    expect(question).to_be_visible()
+    page.get_by_role("button", name="I see their back").click()
+    expect(question).to_be_hidden()
+    assert clicking.place_of("left_shoulder") == left
+
+
 def test_all_of_it_works_without_a_mouse(clicking: Visitor):
     page = clicking.page
     clicking.stage.focus()
@@ -103,9 +122,13 @@ def test_all_of_it_works_without_a_mouse(clicking: Visitor):
 def test_the_picture_zooms_about_the_pointer_and_pans(clicking: Visitor):
     page = clicking.page
     at = clicking.on_stage(350, 480)
+    whole = page.locator(".stage-picture").bounding_box()
     page.mouse.move(*at)
     for _ in range(6):
         page.mouse.wheel(0, -200)
+    # Six times exp(0.3).
+    expected_px = 5.9 * whole["width"]
+    clicking.wait_for_width(page.locator(".stage-picture"), expected_px)
     wide = page.locator(".stage-picture").bounding_box()
     page.mouse.click(*at)
     box = clicking.stage.bounding_box()

@@ -2,7 +2,7 @@
 
 import re
 
-from playwright.sync_api import Browser, Route, expect
+from playwright.sync_api import Browser, expect
 
 from tests.e2e.page.visitor import LIMBS, Visitor
 from tests.unit.export.glb_reader import read_glb
@@ -16,10 +16,12 @@ def test_the_sample_becomes_a_body_with_measurements_to_be_kept_and_erased(
     visitor.describe_person()
     visitor.click_points(LIMBS)
     expect(page.locator(".live-outline")).to_be_attached()
-    visitor.submit()
-    expect(page).to_have_url(re.compile(r"#/fits/[0-9a-f-]{36}$"))
-    expect(page.get_by_role("progressbar", name="Progress of the fit")).to_be_visible()
+    with visitor.without_news():
+        visitor.submit()
+        expect(page).to_have_url(re.compile(r"#/fits/[0-9a-f-]{36}$"))
+        expect(page.get_by_role("progressbar", name="Progress of the fit")).to_be_visible()
     visitor.wait_for_result()
+    visitor.wait_until_drawn(placement="picture")
 
     # The body is drawn over its picture, lit as the fit found it, and can be turned.
     look = page.locator(".look-picture")
@@ -33,7 +35,7 @@ def test_the_sample_becomes_a_body_with_measurements_to_be_kept_and_erased(
     visitor.choose("Clay")
     visitor.choose("Upright")
     expect(page.locator(".look-free")).to_be_visible()
-    upright = visitor.wait_for_change(visitor.body, covered, share=0.05)
+    upright = visitor.wait_until_drawn(placement="canonical")
     visitor.body.focus()
     for _ in range(5):
         page.keyboard.press("ArrowRight")
@@ -51,7 +53,7 @@ def test_the_sample_becomes_a_body_with_measurements_to_be_kept_and_erased(
     visitor.choose("Over the picture")
     page.get_by_role("button", name="Waist, at the navel").click()
     expect(page.get_by_role("radio", name="Upright", exact=True)).to_be_checked()
-    marked = visitor.pixels(visitor.body)
+    marked = visitor.wait_until_drawn(placement="canonical", marked="waist_girth_navel")
     page.get_by_role("button", name="Waist, at the navel").click()
     page.get_by_role("heading", name="Measurements").hover()
     visitor.wait_for_change(visitor.body, marked, share=0.0005)
@@ -79,17 +81,9 @@ def test_the_sample_becomes_a_body_with_measurements_to_be_kept_and_erased(
     expect(page.get_by_role("heading", name="This fit is gone")).to_be_visible()
 
 
-def _by_the_simplex(route: Route) -> None:
-    """Ask for the paper's search: minutes, where the page's own choice ends in a second."""
-    if route.request.method != "POST":
-        route.continue_()
-        return
-    route.continue_(post_data={**route.request.post_data_json, "optimizer": "simplex"})
-
-
 def test_a_fit_can_be_canceled_and_another_begun_meanwhile(visitor: Visitor):
     page = visitor.page
-    page.route("**/v1/fits", _by_the_simplex)
+    visitor.let_fits_take_minutes()
     visitor.open_sample(with_points=True)
     visitor.submit()
     expect(page.get_by_role("progressbar", name="Progress of the fit")).to_be_visible()

@@ -3,6 +3,7 @@
 import contextlib
 import io
 import json
+import re
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -11,7 +12,7 @@ from urllib.parse import urlsplit
 
 import numpy as np
 from PIL import Image
-from playwright.sync_api import Browser, Locator, Page, expect
+from playwright.sync_api import Browser, Locator, Page, Route, expect
 
 from service.demo_sample import load_sample
 
@@ -83,10 +84,34 @@ class Visitor:
             if urlsplit(url).scheme not in {"blob", "data"} and urlsplit(url).netloc != own.netloc
         ]
 
-    def open_sample(self, *, with_points: bool = False) -> None:
-        name = "Sample, points already placed" if with_points else "Try the sample"
+    def open_sample(self, *, name: str = "At ease", with_points: bool = False) -> None:
+        self.choose("With points placed" if with_points else "I click them")
         self.page.get_by_role("button", name=name).click()
         expect(self.stage).to_be_visible()
+
+    @contextlib.contextmanager
+    def without_news(self) -> Iterator[None]:
+        """Let the page hear nothing of fits meanwhile, however fast they end."""
+        held: list[Route] = []
+
+        def hold(route: Route) -> None:
+            if route.request.method == "GET":
+                held.append(route)
+            else:
+                route.continue_()
+
+        paths = re.compile(r"/v1/fits/[0-9a-f-]{36}(/events)?$")
+        self.page.route(paths, hold)
+        try:
+            yield
+        finally:
+            self.page.unroute(paths, hold)
+            for route in held:
+                route.continue_()
+
+    def let_fits_take_minutes(self) -> None:
+        """Ask for the paper's search, where the page's own choice ends in a second."""
+        self.page.route("**/v1/fits", _by_the_simplex)
 
     def describe_person(self, height_cm: str = "180.4") -> None:
         self.page.get_by_role("radio", name="Male", exact=True).check()
@@ -140,6 +165,20 @@ class Visitor:
     def body(self) -> Locator:
         return self.page.locator(".body-canvas")
 
+    def wait_until_drawn(
+        self, *, placement: str, surface: str = "clay", cues: str = "SES", marked: str = "none"
+    ) -> np.ndarray:
+        """Wait until the canvas shows this, and return what is seen."""
+        shows = f"{placement} {surface} {cues} {marked}"
+        expect(self.body).to_have_attribute("data-shows", shows)
+        return self.pixels(self.body)
+
+    def wait_for_width(self, what: Locator, least: float) -> None:
+        """Wait until an element is at least this wide: a wheel's turn is not waited for."""
+        handle = what.element_handle()
+        condition = "([e, least]) => e.getBoundingClientRect().width >= least"
+        self.page.wait_for_function(condition, arg=[handle, least])
+
     def pixels(self, what: Locator) -> np.ndarray:
         """What is seen of an element, (h, w, 3)."""
         seen = Image.open(io.BytesIO(what.screenshot())).convert("RGB")
@@ -160,3 +199,10 @@ class Visitor:
 
     def choose(self, name: str) -> None:
         self.page.get_by_role("radio", name=name, exact=True).check()
+
+
+def _by_the_simplex(route: Route) -> None:
+    if route.request.method != "POST":
+        route.continue_()
+        return
+    route.continue_(post_data={**route.request.post_data_json, "optimizer": "simplex"})

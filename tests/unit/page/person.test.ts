@@ -1,6 +1,16 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { NOBODY, heightFault, heightM, inUnits, weightFault, weightKg } from "../../../service/page/src/draft/person";
+import {
+  NOBODY,
+  heightFault,
+  heightM,
+  inUnits,
+  tapeFault,
+  tapeMeasurements,
+  tapeTexts,
+  weightFault,
+  weightKg,
+} from "../../../service/page/src/draft/person";
 
 const close = (value: number | null, expected: number) => assert.ok(Math.abs(value! - expected) < 1e-9, String(value));
 
@@ -30,4 +40,23 @@ test("changing units keeps the person, to a quarter of an inch and a tenth of a 
   assert.ok(Math.abs(heightM(imperial)! - 1.835) < 0.0032);
   assert.ok(Math.abs(weightKg(inUnits(imperial, "metric"))! - 82.4) < 0.06);
   assert.deepEqual(inUnits(metric, "metric"), metric);
+});
+
+test("what a tape says is trusted to a centimetre, in either unit, and survives the wire", () => {
+  const taped = { ...NOBODY, tape: { hip_girth: "98,5", inseam: " " } };
+  assert.deepEqual(tapeMeasurements(taped), { hip_girth: { value: 98.5, standard_error: 1 } });
+  assert.deepEqual(tapeTexts(tapeMeasurements(taped), "metric"), { hip_girth: "98.5" });
+  const inches = inUnits(taped, "imperial");
+  assert.equal(inches.tape.hip_girth, "38.8");
+  const back = tapeMeasurements(inches).hip_girth;
+  close(typeof back === "object" ? back.value : null, 38.8 * 2.54);
+  assert.deepEqual(tapeTexts({ hip_girth: 98 }, "metric"), { hip_girth: "98" });
+});
+
+test("a tape's value that nobody has, or that is no number, is a fault and is not sent as a number", () => {
+  assert.equal(tapeFault({ ...NOBODY, tape: { chest_girth: "99" } }), null);
+  assert.equal(tapeFault({ ...NOBODY, tape: { chest_girth: "0.99" } }), "chest_girth");
+  const word = { ...NOBODY, tape: { calf_girth: "thick" } };
+  assert.equal(tapeFault(word), "calf_girth");
+  assert.deepEqual(tapeMeasurements(word), {});
 });

@@ -13,6 +13,7 @@ export type UploadedImage = Schemas["UploadedImage"];
 export type InitialPose = Schemas["InitialPose"];
 export type InitialPoseRequest = Schemas["InitialPoseRequest"];
 export type FitOfImage = Schemas["FitOfImage"];
+export type KnownMeasurements = NonNullable<Schemas["FitOptions"]["measurements"]>;
 export type FitOptions = Schemas["FitOptions"];
 export type Gender = Schemas["Gender"];
 export type Cues = Schemas["Cues"];

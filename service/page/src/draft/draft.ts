@@ -5,7 +5,7 @@ import type { PointName } from "../points/catalogue";
 import { NO_POINTS, isEnough, nextPoint } from "../points/placed";
 import type { Points } from "../points/placed";
 import { advance, amend, begin } from "../points/timeline";
-import { NOBODY, heightFault, weightFault } from "./person";
+import { NOBODY, heightFault, tapeFault, weightFault } from "./person";
 import type { Person } from "./person";
 import type { Picture } from "./picture";
 
@@ -25,6 +25,10 @@ export const focalLength = signal<number | null>(null);
 export const light = signal<LightGuess | null>(null);
 export const facing = signal<Readonly<Partial<Record<Limb, Facing>>>>({});
 export const cues = signal<Cues>("SES");
+/** Who is the person and who is not, white on black; null leaves it to the fit. */
+export const mask = signal<Picture | null>(null);
+/** Somebody said that the person turns their back. */
+export const seenFromBehind = signal(false);
 
 export function change(next: Points): void {
   timeline.value = advance(timeline.value, next);
@@ -44,6 +48,13 @@ export function usePicture(next: Picture): void {
   facing.value = {};
   focalLength.value = null;
   light.value = null;
+  seenFromBehind.value = false;
+  useMask(null);
+}
+
+export function useMask(next: Picture | null): void {
+  if (mask.value) URL.revokeObjectURL(mask.value.url);
+  mask.value = next;
 }
 
 /** Why there can be no fit yet, as a thing to do; null when there can. */
@@ -52,6 +63,7 @@ export const todo = computed<string | null>(() => {
   if (person.value.gender === null) return "Choose female or male";
   if (heightFault(person.value) !== null) return "Correct the height";
   if (weightFault(person.value) !== null) return "Correct the weight";
+  if (tapeFault(person.value) !== null) return "Correct a measurement";
   if (!isEnough(points.value)) return "Click more points";
   return null;
 });

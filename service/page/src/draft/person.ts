@@ -1,5 +1,5 @@
 // What is known of the person, as typed; nothing typed means unknown.
-import type { Gender } from "../api/types";
+import type { Gender, KnownMeasurements } from "../api/types";
 
 export interface Person {
   readonly gender: Gender | null;
@@ -8,12 +8,32 @@ export interface Person {
   /** The inches beyond the feet. */
   readonly inches: string;
   readonly weight: string;
+  /** What a tape said, by the measurement's name. */
+  readonly tape: Readonly<Partial<Record<TapeName, string>>>;
 }
 
-export const NOBODY: Person = { gender: null, units: "metric", height: "", inches: "", weight: "" };
+/** What people know of themselves, in the order it is asked for. */
+export const TAPE_NAMES = [
+  "chest_girth",
+  "waist_girth_navel",
+  "hip_girth",
+  "thigh_girth",
+  "neck_girth",
+  "upper_arm_girth",
+  "calf_girth",
+  "inseam",
+] as const;
+export type TapeName = (typeof TAPE_NAMES)[number];
+
+export const NOBODY: Person = { gender: null, units: "metric", height: "", inches: "", weight: "", tape: {} };
+
+/** How far a tape errs: what it says is not held exactly. */
+const TAPE_ERROR_CM = 1;
+const TAPE_RANGE_CM = [10, 200] as const;
 
 export const HEIGHT_RANGE_M = [1.2, 2.3] as const;
 const INCH_M = 0.0254;
+const INCH_CM = 100 * INCH_M;
 const POUND_KG = 0.45359237;
 
 /** A number, null for nothing, NaN for what is no number. */
@@ -53,13 +73,54 @@ export function weightFault(person: Person): string | null {
   return "A weight above zero is needed here.";
 }
 
+function tapeCm(person: Person, name: TapeName): number | null {
+  const said = read(person.tape[name] ?? "");
+  return said === null || person.units === "metric" ? said : said * INCH_CM;
+}
+
+/** What the tape said as the API wants it; nothing of what is no number. */
+export function tapeMeasurements(person: Person): KnownMeasurements {
+  const known: KnownMeasurements = {};
+  for (const name of TAPE_NAMES) {
+    const value = tapeCm(person, name);
+    if (value !== null && !Number.isNaN(value)) known[name] = { value, standard_error: TAPE_ERROR_CM };
+  }
+  return known;
+}
+
+/** The first measurement that cannot be meant as typed; null if there is none. */
+export function tapeFault(person: Person): TapeName | null {
+  const [low, high] = TAPE_RANGE_CM;
+  const isFault = (name: TapeName) => {
+    const value = tapeCm(person, name);
+    return value !== null && !(value >= low && value <= high);
+  };
+  return TAPE_NAMES.find(isFault) ?? null;
+}
+
+export function tapeTexts(known: KnownMeasurements, units: Person["units"]): Person["tape"] {
+  const texts: Partial<Record<TapeName, string>> = {};
+  for (const name of TAPE_NAMES) {
+    const said = known[name];
+    if (said === undefined) continue;
+    const cm = typeof said === "number" ? said : said.value;
+    texts[name] = trimmed(units === "metric" ? cm : cm / INCH_CM, 1);
+  }
+  return texts;
+}
+
 /** The same person in the other units. */
 export function inUnits(person: Person, units: Person["units"]): Person {
   if (units === person.units) return person;
   const height = heightM(person);
   const weight = weightKg(person);
   const shown = { ...person, units };
-  return { ...shown, ...heightTexts(height, units), weight: weightText(weight, units) };
+  return {
+    ...shown,
+    ...heightTexts(height, units),
+    weight: weightText(weight, units),
+    tape: tapeTexts(tapeMeasurements(person), units),
+  };
 }
 
 export function heightTexts(height: number | null, units: Person["units"]): { height: string; inches: string } {

@@ -3,11 +3,17 @@ import type { FitOptions, Gender, InitialPoseRequest } from "../api/types";
 import { namedPoints } from "../points/coco";
 import type { Points } from "../points/placed";
 import { begin } from "../points/timeline";
-import { cues, facing, focalLength, light, person, points, selected, timeline } from "./draft";
-import { NOBODY, heightM, heightTexts, weightKg, weightText } from "./person";
+import { cues, facing, focalLength, light, person, picture, points, selected, timeline } from "./draft";
+import { NOBODY, heightM, heightTexts, tapeMeasurements, tapeTexts, weightKg, weightText } from "./person";
 import type { Person } from "./person";
 
-type Subject = Pick<FitOptions, "gender" | "height_m" | "weight_kg" | "points" | "focal_length_35mm" | "limb_facing">;
+type Subject = Pick<
+  FitOptions,
+  "gender" | "height_m" | "weight_kg" | "measurements" | "points" | "focal_length_35mm" | "limb_facing"
+>;
+
+/** The diagonal of 35 mm film, to which equivalent focal lengths refer. */
+const FILM_DIAGONAL_MM = 43.27;
 
 export function subjectOf(
   gender: Gender,
@@ -22,6 +28,7 @@ export function subjectOf(
     gender,
     ...(height === null ? {} : { height_m: height }),
     ...(weight === null ? {} : { weight_kg: weight }),
+    measurements: tapeMeasurements(known),
     ...(lens === null ? {} : { focal_length_35mm: lens }),
     points: Object.fromEntries(
       Object.entries(clicked.placed).map(([name, { x, y, hidden }]) => [name, { x, y, visibility: hidden ? 1 : 2 }]),
@@ -50,12 +57,20 @@ export function useRequest(asked: FitOptions): void {
     units,
     ...heightTexts(asked.height_m ?? null, units),
     weight: weightText(asked.weight_kg ?? null, units),
+    tape: tapeTexts(asked.measurements ?? {}, units),
   };
   const placed = Array.isArray(asked.points) ? {} : namedPoints(asked.points);
   timeline.value = begin<Points>({ placed, skipped: [], asked: null });
   selected.value = null;
-  focalLength.value = asked.focal_length_35mm ?? null;
+  focalLength.value = lensOf(asked);
   facing.value = asked.limb_facing ?? {};
   cues.value = asked.cues ?? "SES";
   light.value = asked.light?.azimuth_deg != null ? asked.light : null;
+}
+
+/** As on 35 mm film, whichever way it was said; null if it was not. */
+function lensOf(asked: FitOptions): number | null {
+  const shown = picture.value;
+  if (asked.focal_length_px == null || !shown) return asked.focal_length_35mm ?? null;
+  return (asked.focal_length_px * FILM_DIAGONAL_MM) / Math.hypot(shown.width, shown.height);
 }

@@ -1,6 +1,6 @@
 // Limbs of which the clicks do not say whether they come toward the camera.
 import type { Facing, Limb } from "../api/types";
-import { facing } from "../draft/draft";
+import { facing, upcoming } from "../draft/draft";
 import { liveBody } from "../draft/live";
 import { Choice } from "../ui/Choice";
 
@@ -11,11 +11,11 @@ export function FacingPanel() {
   if (open.length === 0) return null;
   const undecided = open.filter((limb) => !((limb.limb as Limb) in said)).length;
   return (
-    <details class="section fold-section">
+    <details class="section fold-section" open={upcoming.value === null && undecided > 0}>
       <summary>
         <h2>Toward you or away</h2> <span class="count">{undecided === 0 ? "all said" : `${undecided} undecided`}</span>
       </summary>
-      <p class="fine">A picture is flat: the far end of these limbs may be nearer to you, or farther. Say so if you see it.</p>
+      <p class="fine">A picture is flat: the hand’s or foot’s end of these limbs may be nearer to you than the other, or farther away. Say so if you see it; this is what goes wrong most often.</p>
       {open.map((limb) => (
         <Choice<Facing | "open">
           key={limb.limb}

@@ -1,7 +1,8 @@
 // Who is in the picture: gender, height, weight.
 import { person } from "../draft/draft";
 import { liveBody } from "../draft/live";
-import { heightFault, heightM, inUnits, weightFault } from "../draft/person";
+import { TAPE_NAMES, heightFault, heightM, inUnits, tapeFault, weightFault } from "../draft/person";
+import { measureLabel } from "../result/reading";
 import { Choice } from "../ui/Choice";
 
 export function PersonPanel() {
@@ -86,9 +87,10 @@ export function PersonPanel() {
       <p id="height-note" class={`fine ${faults.height ? "is-fault" : ""}`}>
         {faults.height ?? (heightM(known) === null ? assumedHeight() : "Height is held exactly as given.")}
       </p>
-      <p id="weight-note" class="fine is-fault">
-        {faults.weight}
+      <p id="weight-note" class={`fine ${faults.weight ? "is-fault" : ""}`}>
+        {faults.weight ?? "If you know it, the weight helps most: one view does not show how deep a body is."}
       </p>
+      <Tape />
     </section>
   );
 }
@@ -97,4 +99,42 @@ function assumedHeight(): string {
   const body = liveBody.value;
   if (!body) return "Without a height the mean of the gender is assumed.";
   return `Without a height ${(body.height_m * 100).toFixed(0)} cm are assumed.`;
+}
+
+/** What was measured with a tape. */
+function Tape() {
+  const known = person.value;
+  const fault = tapeFault(known);
+  const count = TAPE_NAMES.filter((name) => known.tape[name]?.trim()).length;
+  const unit = known.units === "metric" ? "cm" : "in";
+  return (
+    <details class="fold">
+      <summary>Known measurements {count > 0 && <span class="count">{count} given</span>}</summary>
+      <div class="fields">
+        {TAPE_NAMES.map((name) => (
+          <div class="field" key={name}>
+            <label for={`tape-${name}`}>{measureLabel(name)}</label>
+            <span class="unit-input">
+              <input
+                id={`tape-${name}`}
+                inputMode="decimal"
+                autocomplete="off"
+                placeholder="unknown"
+                value={known.tape[name] ?? ""}
+                aria-invalid={fault === name}
+                aria-describedby="tape-note"
+                onInput={(event) => (person.value = { ...known, tape: { ...known.tape, [name]: event.currentTarget.value } })}
+              />
+              <i>{unit}</i>
+            </span>
+          </div>
+        ))}
+      </div>
+      <p id="tape-note" class={`fine ${fault ? "is-fault" : ""}`}>
+        {fault
+          ? `${measureLabel(fault)}: between ${known.units === "metric" ? "10 and 200 cm" : "4 and 79 in"}, please.`
+          : "On bare skin or close to it. A tape is trusted to 1 cm."}
+      </p>
+    </details>
+  );
 }

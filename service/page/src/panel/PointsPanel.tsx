@@ -1,6 +1,6 @@
 // Which point comes next, what it means, and what can be done with those there are.
 import { useSignal } from "@preact/signals";
-import { change, picture, points, selected, timeline, upcoming } from "../draft/draft";
+import { change, picture, points, seenFromBehind, selected, timeline, todo, upcoming } from "../draft/draft";
 import { liveBody, liveProblem } from "../draft/live";
 import { POINTS, pointOf, sideOf } from "../points/catalogue";
 import type { PointName } from "../points/catalogue";
@@ -11,6 +11,7 @@ import { IconButton } from "../ui/IconButton";
 import { ProblemNote } from "../ui/ProblemNote";
 import { saveFile } from "../ui/save";
 import { Guide } from "./Guide";
+import { SideNote } from "./SideNote";
 
 const FAR_OFF_SHARE = 0.03;
 
@@ -33,10 +34,12 @@ export function PointsPanel() {
           {next ? <Next name={next} /> : <Complete />}
         </div>
       </div>
+      <SideNote />
       {liveProblem.value && <ProblemNote problem={liveProblem.value} />}
       <Doubts />
       <PointList />
       <Files />
+      <Ways />
     </section>
   );
 }
@@ -50,7 +53,7 @@ function Next({ name }: { name: PointName }) {
       <p class={`next-name is-${side}`}>{pointOf(name).label}</p>
       <p class="next-help">{pointOf(name).help}</p>
       {side !== "middle" && (
-        <p class="fine">The person’s own {side}: the {side === "left" ? "right" : "left"} of the picture if they face you.</p>
+        <p class="fine">{whichSide(side)}</p>
       )}
       <p class="fine">{needed(limbs, trunk)}</p>
       <div class="row">
@@ -67,12 +70,20 @@ function Next({ name }: { name: PointName }) {
   );
 }
 
-/** The next point in one line above the picture, where the panel is out of sight: on phones. */
+function whichSide(side: "left" | "right"): string {
+  if (seenFromBehind.value) return `The person’s own ${side}, which is yours too: you see their back.`;
+  return `The person’s own ${side}: the picture’s ${side === "left" ? "right" : "left"} if they face you.`;
+}
+
+/** The next point in two lines above the picture, where the panel is out of sight: on phones. */
 export function NextLine() {
   const name = upcoming.value;
+  const side = name && sideOf(name);
   return (
-    <p class={`next-line ${name ? `is-${sideOf(name)}` : ""}`} aria-hidden="true">
-      <b>{name ? pointOf(name).label : "All points done"}</b> {name && pointOf(name).help}
+    <p class={`next-line ${side ? `is-${side}` : ""}`} aria-hidden="true">
+      <b>{name ? pointOf(name).label : "All points done"}</b>
+      {name && pointOf(name).help}
+      {side && side !== "middle" && <span>{whichSide(side)}</span>}
     </p>
   );
 }
@@ -88,7 +99,9 @@ function Complete() {
     <>
       <p class="next-kicker">Points</p>
       <p class="next-name">All done</p>
-      <p class="next-help">Drag a point to move it, or choose one below.</p>
+      <p class="next-help">
+        Does the outline lie on the person? Drag a point to move it, or choose one below. Then fit the body.
+      </p>
     </>
   );
 }
@@ -97,6 +110,7 @@ function Complete() {
 function Doubts() {
   const body = liveBody.value;
   const shown = picture.value;
+  if (!body && todo.value === null && !liveProblem.value) return <p class="fine">The body follows in a moment.</p>;
   if (!body || !shown) return null;
   const limit = FAR_OFF_SHARE * Math.hypot(shown.width, shown.height);
   const far = (Object.entries(body.residual_px) as [PointName, number][]).filter(([, pixels]) => pixels > limit);
@@ -215,3 +229,31 @@ function Files() {
   );
 }
 
+
+const WAYS: readonly (readonly [string, string])[] = [
+  ["Wheel, pinch, + and −", "come nearer"],
+  ["Drag the picture, or its middle button", "move it"],
+  ["Drag a point, or arrow keys", "move a point; Shift by ten pixels"],
+  ["H", "it is hidden behind something"],
+  ["S", "skip the next point"],
+  ["Delete", "remove a point"],
+  ["Enter", "place the next point at the crosshair the arrow keys move"],
+  ["Control Z", "take back"],
+];
+
+/** What a mouse, fingers and keys do on the picture. */
+function Ways() {
+  return (
+    <details class="fold">
+      <summary>Keys and gestures</summary>
+      <dl class="ways">
+        {WAYS.map(([way, what]) => (
+          <>
+            <dt>{way}</dt>
+            <dd>{what}</dd>
+          </>
+        ))}
+      </dl>
+    </details>
+  );
+}

@@ -1,7 +1,14 @@
 // Before there is a picture: drop, paste, choose or take one, or try the sample.
 import { useSignal } from "@preact/signals";
+import { Choice } from "../ui/Choice";
 import { Icon } from "../ui/Icon";
 import { openFile, openProblem, trySample } from "./open";
+
+const SAMPLES: readonly { name: string; label: string; alt: string; width: number; height: number }[] = [
+  { name: "sample", label: "At ease", alt: "A man stands at ease, a hand on his hip, lit from the left", width: 720, height: 960 },
+  { name: "woman", label: "Upright", alt: "A woman stands upright, arms and legs apart", width: 480, height: 640 },
+  { name: "arm_across", label: "An arm across", alt: "A heavy man holds an arm before his belly", width: 480, height: 640 },
+];
 
 export function Start() {
   const over = useSignal(false);
@@ -42,9 +49,6 @@ export function Start() {
                 }}
               />
             </label>
-            <button class="button" type="button" onClick={() => void trySample(false)}>
-              Try the sample
-            </button>
           </div>
           <p class="fine">You can also drop a picture here, or paste one. On a phone the camera is offered.</p>
           {openProblem.value && (
@@ -53,12 +57,7 @@ export function Start() {
             </p>
           )}
         </div>
-        <figure class="start-sample">
-          <button type="button" onClick={() => void trySample(true)}>
-            <img src="/page/sample.jpg" alt="A man stands before a grey wall, lit from the left" width="720" height="960" />
-            <span>Sample, points already placed</span>
-          </button>
-        </figure>
+        <Samples />
       </div>
       <ol class="start-steps">
         <li>
@@ -72,5 +71,35 @@ export function Start() {
         </li>
       </ol>
     </main>
+  );
+}
+
+function Samples() {
+  const clicked = useSignal<"placed" | "open">("placed");
+  return (
+    <section class="samples" aria-labelledby="samples-title">
+      <h2 id="samples-title">No picture at hand? Try one of these</h2>
+      <ul>
+        {SAMPLES.map(({ name, label, alt, width, height }) => (
+          <li key={name}>
+            <button type="button" onClick={() => void trySample(name, clicked.value === "placed")}>
+              <img src={`/page/${name}.jpg`} alt={alt} width={width} height={height} />
+              <span>{label}</span>
+            </button>
+          </li>
+        ))}
+      </ul>
+      <Choice
+        name="sample-points"
+        legend="Points of the sample"
+        quiet
+        options={[
+          { value: "placed", label: "With points placed" },
+          { value: "open", label: "I click them" },
+        ]}
+        value={clicked.value}
+        onChange={(value) => (clicked.value = value)}
+      />
+    </section>
   );
 }

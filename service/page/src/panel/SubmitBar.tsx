@@ -3,12 +3,11 @@ import { useSignal } from "@preact/signals";
 import { submitFit, uploadImage } from "../api/calls";
 import { problemFrom } from "../api/client";
 import type { Problem } from "../api/types";
-import { cues, light, picture, todo, uploaded } from "../draft/draft";
+import { cues, light, mask, picture, todo, uploaded } from "../draft/draft";
 import { liveBody, uploadProblem } from "../draft/live";
 import { draftedSubject } from "../draft/request";
 import { assumed, remember, seen, thumbnailOf } from "../history/store";
 import { fitAddress, go } from "../route";
-import { Choice } from "../ui/Choice";
 import { ProblemNote } from "../ui/ProblemNote";
 
 export function SubmitBar() {
@@ -21,12 +20,15 @@ export function SubmitBar() {
     sending.value = true;
     problem.value = null;
     try {
-      const kept = uploaded.value ?? (await uploadImage(shown.file, new AbortController().signal));
+      const upload = (file: Blob) => uploadImage(file, new AbortController().signal);
+      const kept = uploaded.value ?? (await upload(shown.file));
+      const cut = mask.value && (await upload(mask.value.file));
       const job = await submitFit({
         ...subject,
         image_id: kept.id,
         cues: cues.value,
         ...(light.value ? { light: light.value } : {}),
+        ...(cut ? { mask_id: cut.id } : {}),
       });
       seen(job);
       assumed.value = { ...assumed.value, [job.id]: liveBody.value?.assumptions ?? [] };
@@ -44,22 +46,9 @@ export function SubmitBar() {
   return (
     <div class="submit">
       {fault && <ProblemNote problem={fault} />}
-      <div class="submit-row">
-        <Choice
-          name="cues"
-          legend="Evidence"
-          quiet
-          options={[
-            { value: "SES", label: "Shading", title: "Silhouette, edges and shading: better measurements, takes twice as long" },
-            { value: "SE", label: "Outline", title: "Silhouette and edges: for clothes, paintings and odd light" },
-          ]}
-          value={cues.value}
-          onChange={(value) => (cues.value = value)}
-        />
-        <button class="button is-primary is-wide" type="button" disabled={todo.value !== null || sending.value} onClick={send}>
-          {sending.value ? "Sending …" : (todo.value ?? "Fit the body")}
-        </button>
-      </div>
+      <button class="button is-primary is-wide" type="button" disabled={todo.value !== null || sending.value} onClick={send}>
+        {sending.value ? "Sending …" : (todo.value ?? "Fit the body")}
+      </button>
     </div>
   );
 }

@@ -1,10 +1,11 @@
 // Where a fit is prepared: the picture on the left, what is known on the right.
-import { picture } from "../draft/draft";
-import { timeTravel } from "../stage/keys";
+import { picture, upcoming } from "../draft/draft";
 import { Stage } from "../stage/Stage";
+import { EvidencePanel } from "./EvidencePanel";
 import { FacingPanel } from "./FacingPanel";
 import { LensPanel } from "./LensPanel";
 import { LightPanel } from "./LightPanel";
+import { MaskPanel } from "./MaskPanel";
 import { openFile, openProblem } from "./open";
 import { PersonPanel } from "./PersonPanel";
 import { NextLine, PointsPanel } from "./PointsPanel";
@@ -17,7 +18,6 @@ export function Workbench() {
   return (
     <main
       class="bench"
-      onKeyDown={timeTravel}
       onDragOver={(event) => event.preventDefault()}
       onDrop={(event) => {
         event.preventDefault();
@@ -26,7 +26,7 @@ export function Workbench() {
       }}
     >
       <h1 class="unseen">Prepare a fit</h1>
-      <div class="bench-stage">
+      <div class={`bench-stage ${upcoming.value ? "" : "is-settled"}`}>
         <NextLine />
         <Stage />
       </div>
@@ -64,10 +64,17 @@ export function Workbench() {
           <FacingPanel />
           <details class="section fold-section">
             <summary>
-              <h2>Lens and light</h2>
+              <h2>Lens and light</h2> <span class="count">optional</span>
             </summary>
             <LensPanel />
             <LightPanel />
+          </details>
+          <details class="section fold-section">
+            <summary>
+              <h2>What the fit goes by</h2> <span class="count">optional</span>
+            </summary>
+            <EvidencePanel />
+            <MaskPanel />
           </details>
         </div>
         <SubmitBar />

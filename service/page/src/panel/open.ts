@@ -1,10 +1,11 @@
 // How a picture gets in.
 import { signal } from "@preact/signals";
 import type { FitOptions } from "../api/types";
-import { usePicture } from "../draft/draft";
+import { change, points, usePicture } from "../draft/draft";
 import { openPicture } from "../draft/picture";
 import type { Picture } from "../draft/picture";
 import { useRequest } from "../draft/request";
+import { skipRest } from "../points/placed";
 import { go } from "../route";
 
 export const openProblem = signal<string | null>(null);
@@ -19,11 +20,15 @@ export async function openFile(file: Blob, name = file instanceof File ? file.na
   }
 }
 
-/** The sample, with its points or to be clicked. */
-export async function trySample(withPoints: boolean): Promise<void> {
-  const file = await (await fetch("/page/sample.jpg")).blob();
-  await openFile(file, "sample.jpg");
-  if (withPoints) useRequest((await (await fetch("/page/sample.json")).json()) as FitOptions);
+/** A sample by the name of its files, with its points or to be clicked. */
+export async function trySample(name: string, withPoints: boolean): Promise<void> {
+  const file = await (await fetch(`/page/${name}.jpg`)).blob();
+  await openFile(file, `${name}.jpg`);
+  if (!withPoints) return;
+  const asked = (await (await fetch(`/page/${name}.json`)).json()) as FitOptions;
+  useRequest(asked);
+  // Its points are all there are: none is asked for.
+  change(skipRest(points.value));
 }
 
 /** A fit's picture and request, to be changed and sent again. */

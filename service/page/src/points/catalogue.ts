@@ -1,14 +1,14 @@
 // The points a person clicks, in the order they are asked for, and what each one means.
 
 export const POINTS = [
-  { name: "left_shoulder", label: "Left shoulder", help: "The joint itself: about 4 cm below the top of the shoulder." },
-  { name: "right_shoulder", label: "Right shoulder", help: "The joint itself: about 4 cm below the top of the shoulder." },
+  { name: "left_shoulder", label: "Left shoulder", help: "Where the arm turns: three fingers below the top of the shoulder." },
+  { name: "right_shoulder", label: "Right shoulder", help: "Where the arm turns: three fingers below the top of the shoulder." },
   { name: "left_elbow", label: "Left elbow", help: "The middle of the elbow, between its inner and outer side." },
   { name: "right_elbow", label: "Right elbow", help: "The middle of the elbow, between its inner and outer side." },
   { name: "left_wrist", label: "Left wrist", help: "Where the hand begins, in the middle of the wrist." },
   { name: "right_wrist", label: "Right wrist", help: "Where the hand begins, in the middle of the wrist." },
-  { name: "left_hip", label: "Left hip", help: "The joint: at the height of the crotch fold, a hand's breadth from the middle." },
-  { name: "right_hip", label: "Right hip", help: "The joint: at the height of the crotch fold, a hand's breadth from the middle." },
+  { name: "left_hip", label: "Left hip", help: "Where the thigh turns: just above the crotch, halfway from the middle to the outer edge. Not the waist." },
+  { name: "right_hip", label: "Right hip", help: "Where the thigh turns: just above the crotch, halfway from the middle to the outer edge. Not the waist." },
   { name: "left_knee", label: "Left knee", help: "The middle of the knee cap." },
   { name: "right_knee", label: "Right knee", help: "The middle of the knee cap." },
   { name: "left_ankle", label: "Left ankle", help: "Between the two ankle bones." },

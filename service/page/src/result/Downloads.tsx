@@ -10,6 +10,8 @@ import { saveFile } from "../ui/save";
 const LABELS: Readonly<Record<string, string>> = {
   "body_posed.glb": "Posed body with camera, light and skin",
   "body_canonical.glb": "Upright body",
+  "body_posed_se.glb": "Posed body before shading refined it",
+  "body_canonical_se.glb": "Upright body before shading refined it",
   "tapes.json": "Where each measurement is taken",
   "result.json": "Everything found, as numbers",
   "overlay.png": "Outline over the picture",

@@ -10,23 +10,45 @@ const SOURCES: Readonly<Record<string, string>> = {
   assumed: "assumed",
 };
 
-/** How the service tells programs what people choose on this page. */
-const ASK_THE_CALLER = "Say which in limb_facing.";
+/** Of limbs that may slant either way this page tells by itself, with what can be done. */
+const OPEN_FACING = "ambiguous-limb-facing";
 
-export function Facts({ result }: { result: FitResult }) {
+/** The other way than the one found. */
+const SLANTS = { toward: "slanting away", away: "slanting toward you" } as const;
+
+interface Props {
+  readonly result: FitResult;
+  /** Take the fit up again, to say which way limbs slant; null until its picture is there. */
+  readonly onChange: (() => void) | null;
+}
+
+export function Facts({ result, onChange }: Props) {
   const { light, reflectance, image_camera: camera } = result;
   const mm = (camera.focal_length_px * 43.27) / Math.hypot(camera.width, camera.height);
-  const warnings = result.warnings ?? [];
+  const warnings = (result.warnings ?? []).filter((warning) => warning.code !== OPEN_FACING);
+  const open = result.limb_facing.filter((limb) => limb.ambiguous);
   return (
     <>
       <p class="fine">
-        {result.outcome_explanation} {result.cues === "SES" ? "Silhouette, edges and shading." : "Silhouette and edges."}
+        {result.outcome !== "converged" && `${result.outcome_explanation} `}
+        Found by {result.cues === "SES" ? "silhouette, edges and shading" : "silhouette and edges"}.
       </p>
       {warnings.map((warning) => (
         <p class="note" key={warning.code}>
-          {warning.message.replace(ASK_THE_CALLER, "If you see it, change the fit and say so.").replaceAll("_", " ")}
+          {warning.message.replaceAll("_", " ")}
         </p>
       ))}
+      {open.length > 0 && (
+        <p class="note">
+          The picture fits about as well with the {open.map((limb) => `${limb.limb.replaceAll("_", " ")} ${SLANTS[limb.facing]}`).join(", the ")}.
+          {onChange && " "}
+          {onChange && (
+            <button class="link" type="button" onClick={onChange}>
+              If you see which, say so and fit again
+            </button>
+          )}
+        </p>
+      )}
       <AssumptionNotes assumptions={result.assumptions} />
       <dl class="facts">
         <dt>Overlap with the silhouette</dt>

@@ -5,9 +5,10 @@ import type { Picture } from "../draft/picture";
 import { Choice } from "../ui/Choice";
 import { BodyCanvas } from "../viewer/BodyCanvas";
 import type { Placement } from "../viewer/BodyScene";
+import type { Cues } from "../api/types";
 import type { Surface } from "../viewer/surface";
-import { MaskOutline } from "./MaskOutline";
-import { usePictureOf } from "./files";
+import { MaskOutline } from "../ui/MaskOutline";
+import { useBodiesBeforeShading, usePictureOf } from "./files";
 import type { ResultFiles } from "./files";
 
 const PLACEMENTS: readonly { value: Placement; label: string; title: string }[] = [
@@ -23,6 +24,15 @@ const SURFACES: readonly { value: Surface; label: string; title: string }[] = [
   { value: "specularity", label: "Gloss", title: "Specularity: the share it mirrors" },
   { value: "shading", label: "Shading", title: "The light alone, on an even skin" },
   { value: "residual", label: "Residual", title: "Red: the picture is brighter than Eq. 1; blue: darker" },
+];
+const CHANGE: { value: Surface; label: string; title: string } = {
+  value: "change",
+  label: "Change",
+  title: "What shading changed of the outline's body. Red: outward, blue: inward; full colour at 2 cm",
+};
+const BODIES: readonly { value: Cues; label: string; title: string }[] = [
+  { value: "SES", label: "With shading", title: "SES: silhouette, edges and shading" },
+  { value: "SE", label: "Outline alone", title: "SE: silhouette and edges, before shading refined it" },
 ];
 
 interface Props {
@@ -41,6 +51,10 @@ export function Look({ job, files, picture, placement, onPlace, measure }: Props
   const [lines, setLines] = useState(false);
   const [mask, setMask] = useState(false);
   const [failed, setFailed] = useState(false);
+  const [body, setBody] = useState<Cues>("SES");
+  const comparable = job.links.artifacts?.["body_posed_se.glb"] !== undefined;
+  const outlined = useBodiesBeforeShading(job, comparable && (body === "SE" || surface === "change"));
+  const surfaces = !hasSkin || body === "SE" ? [CLAY] : comparable ? [...SURFACES, CHANGE] : SURFACES;
   const over = placement === "picture";
   const overlay = usePictureOf(job, "overlay.png", lines && over);
   const segmentation = usePictureOf(job, "segmentation.png", mask && over);
@@ -52,7 +66,7 @@ export function Look({ job, files, picture, placement, onPlace, measure }: Props
           name="surface"
           legend="Surface"
           quiet
-          options={hasSkin ? SURFACES : [CLAY]}
+          options={surfaces}
           value={surface}
           onChange={setSurface}
         />
@@ -70,6 +84,8 @@ export function Look({ job, files, picture, placement, onPlace, measure }: Props
           ) : (
             <BodyCanvas
               posed={files.posed}
+              outlined={outlined}
+              body={body}
               canonical={files.canonical}
               picture={picture.element}
               tapes={files.tapes}
@@ -80,40 +96,63 @@ export function Look({ job, files, picture, placement, onPlace, measure }: Props
               onFailure={() => setFailed(true)}
             />
           )}
-          {over && mask && segmentation && <MaskOutline url={segmentation} />}
+          {over && mask && segmentation && <MaskOutline url={segmentation} label="The silhouette found in the picture" />}
         </div>
         {!over && <p class="look-hint fine">Drag to turn · wheel or pinch to come nearer</p>}
       </div>
-      {over && (
+      {surface === "change" && (
+        <p class="look-legend fine">
+          What shading changed of the outline’s body: <b class="is-outward">outward</b>, <b class="is-inward">inward</b>; full
+          colour at 2 cm.
+        </p>
+      )}
+      {(comparable || over) && (
         <div class="look-bar">
-          <label class="slider">
-            <span>Body</span>
-            <input
-              type="range"
-              min="0"
-              max="1"
-              step="0.01"
-              value={opacity}
-              aria-label="Opacity of the body"
-              onInput={(event) => setOpacity(Number(event.currentTarget.value))}
-            />
-            <output>{Math.round(100 * opacity)} %</output>
-          </label>
-          <label class="check">
-            <input type="checkbox" checked={mask} onChange={(event) => setMask(event.currentTarget.checked)} />
-            Silhouette of the picture
-          </label>
-          <label class="check">
-            <input
-              type="checkbox"
-              checked={lines}
-              onChange={(event) => {
-                setLines(event.currentTarget.checked);
-                if (event.currentTarget.checked) setOpacity(0);
+          {comparable && (
+            <Choice
+              name="compared"
+              legend="Body found"
+              quiet
+              options={BODIES}
+              value={body}
+              onChange={(value) => {
+                setBody(value);
+                if (value === "SE") setSurface("clay");
               }}
             />
-            Outline and edges of the body
-          </label>
+          )}
+          {over && (
+            <>
+              <label class="slider">
+                <span>Body</span>
+                <input
+                  type="range"
+                  min="0"
+                  max="1"
+                  step="0.01"
+                  value={opacity}
+                  aria-label="Opacity of the body"
+                  onInput={(event) => setOpacity(Number(event.currentTarget.value))}
+                />
+                <output>{Math.round(100 * opacity)} %</output>
+              </label>
+              <label class="check">
+                <input type="checkbox" checked={mask} onChange={(event) => setMask(event.currentTarget.checked)} />
+                Silhouette of the picture
+              </label>
+              <label class="check">
+                <input
+                  type="checkbox"
+                  checked={lines}
+                  onChange={(event) => {
+                    setLines(event.currentTarget.checked);
+                    if (event.currentTarget.checked) setOpacity(0);
+                  }}
+                />
+                Outline and edges of the body
+              </label>
+            </>
+          )}
         </div>
       )}
     </div>

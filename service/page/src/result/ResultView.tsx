@@ -1,7 +1,9 @@
 // What came out: to look at on the left, to read on the right.
 import { useState } from "preact/hooks";
+import { getRequest } from "../api/calls";
 import type { Job } from "../api/types";
 import type { Picture } from "../draft/picture";
+import { openAgain } from "../panel/open";
 import { ProblemNote } from "../ui/ProblemNote";
 import { Actions } from "./Actions";
 import { Downloads } from "./Downloads";
@@ -40,7 +42,12 @@ export function ResultView({ job, picture }: { job: Job; picture: Picture | null
         <div class="panel-scroll">
           <section class="section">
             <h1 class="title">{files && files.result.outcome === "poor_fit" ? "A poor fit" : "The body"}</h1>
-            {files && <Facts result={files.result} />}
+            {files && (
+              <Facts
+                result={files.result}
+                onChange={picture && (() => void getRequest(job).then((asked) => openAgain(picture, asked)))}
+              />
+            )}
           </section>
           {files && (
             <Measures

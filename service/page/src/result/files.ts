@@ -4,6 +4,7 @@ import { getFile, getResult } from "../api/calls";
 import { problemFrom } from "../api/client";
 import type { FitResult, Job, Problem } from "../api/types";
 import { readGlb } from "../viewer/glb";
+import type { PosedAndUpright } from "../viewer/BodyScene";
 import type { GlbBody } from "../viewer/glb";
 import type { TapeLines } from "../viewer/Tapes";
 
@@ -21,15 +22,11 @@ export function useResultFiles(job: Job): { files: ResultFiles | null; problem: 
   useEffect(() => {
     let gone = false;
     setFiles(null);
-    const bodyOf = async (name: string) => {
-      const path = job.links.artifacts?.[name];
-      return path ? readGlb(await (await getFile(path)).arrayBuffer()) : null;
-    };
     const tapesOf = async () => {
       const path = job.links.artifacts?.["tapes.json"];
       return path ? (JSON.parse(await (await getFile(path)).text()) as { lines: TapeLines }).lines : {};
     };
-    Promise.all([getResult(job), bodyOf("body_posed.glb"), bodyOf("body_canonical.glb"), tapesOf()]).then(
+    Promise.all([getResult(job), bodyOf(job, "body_posed.glb"), bodyOf(job, "body_canonical.glb"), tapesOf()]).then(
       ([result, posed, canonical, tapes]) => gone || setFiles({ result, posed: posed!, canonical, tapes }),
       (error) => gone || setProblem(problemFrom(error)),
     );
@@ -38,6 +35,28 @@ export function useResultFiles(job: Job): { files: ResultFiles | null; problem: 
     };
   }, [job.id]);
   return { files, problem };
+}
+
+/** The bodies as silhouette and edges left them, before shading; null until they are there. */
+export function useBodiesBeforeShading(job: Job, wanted: boolean): PosedAndUpright | null {
+  const [bodies, setBodies] = useState<PosedAndUpright | null>(null);
+  useEffect(() => {
+    if (!wanted || bodies) return undefined;
+    let gone = false;
+    Promise.all([bodyOf(job, "body_posed_se.glb"), bodyOf(job, "body_canonical_se.glb")]).then(
+      ([posed, canonical]) => gone || setBodies(posed && { posed, canonical }),
+      () => undefined,
+    );
+    return () => {
+      gone = true;
+    };
+  }, [job.id, wanted]);
+  return bodies;
+}
+
+async function bodyOf(job: Job, name: string): Promise<GlbBody | null> {
+  const path = job.links.artifacts?.[name];
+  return path ? readGlb(await (await getFile(path)).arrayBuffer()) : null;
 }
 
 /** A picture of the result as an address for an element; null until it is there. */

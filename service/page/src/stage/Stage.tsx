@@ -1,15 +1,16 @@
 // The picture with its points: where a person clicks.
 import { useSignal, useSignalEffect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { adjust, picture, points, selected, timeline, upcoming } from "../draft/draft";
+import { adjust, change, mask, picture, points, selected, timeline, upcoming } from "../draft/draft";
 import { pointOf } from "../points/catalogue";
 import type { PointName } from "../points/catalogue";
-import { place } from "../points/placed";
+import { isEnough, place, skip, skipRest } from "../points/placed";
 import { advance, undo } from "../points/timeline";
 import { IconButton } from "../ui/IconButton";
+import { MaskOutline } from "../ui/MaskOutline";
 import { ClickLayer } from "./ClickLayer";
 import { listen } from "./gestures";
-import { stageKeys } from "./keys";
+import { stageKeys, timeTravel } from "./keys";
 import { Loupe } from "./Loupe";
 import { inside, nearest, tap } from "./placing";
 import { fitted, panned, toPicture, toStage, zoomed } from "./view";
@@ -70,6 +71,12 @@ export function Stage() {
     [shown],
   );
 
+  // Wherever the focus is: a button that mends something is gone once it has.
+  useEffect(() => {
+    addEventListener("keydown", timeTravel);
+    return () => removeEventListener("keydown", timeTravel);
+  }, []);
+
   // A point moved by keys stays in sight.
   useSignalEffect(() => {
     const where = selected.value && points.value.placed[selected.value];
@@ -102,6 +109,14 @@ export function Stage() {
         height={shown.height}
         style={{ transform: `translate(${x}px, ${y}px) scale(${scale})` }}
       />
+      {mask.value && (
+        <div
+          class="stage-picture"
+          style={{ width: shown.width, height: shown.height, transform: `translate(${x}px, ${y}px) scale(${scale})` }}
+        >
+          <MaskOutline url={mask.value.url} label="The border of the mask" />
+        </div>
+      )}
       <ClickLayer view={view.value} size={size.value} dragged={dragged.value} />
       {aim.value && (name !== null || dragged.value) && (
         <Loupe at={aim.value.at} touch={aim.value.touch} view={view.value} size={size.value} picture={shown} />
@@ -116,6 +131,10 @@ export function Stage() {
         <IconButton icon="minus" label="Zoom out" onClick={() => zoom(1 / BUTTON_ZOOM)} />
         <IconButton icon="frame" label="Show the whole picture" onClick={whole} />
         <IconButton icon="plus" label="Zoom in" onClick={() => zoom(BUTTON_ZOOM)} />
+        {name && <IconButton icon="skip" label={`Skip: ${pointOf(name).label}`} onClick={() => change(skip(points.value, name))} />}
+        {name && isEnough(points.value) && (
+          <IconButton icon="check" label="Enough points" onClick={() => change(skipRest(points.value))} />
+        )}
       </div>
       <p id="stage-keys" class="unseen">
         Arrow keys move the selected point, or the crosshair when none is selected; Shift moves ten pixels. Enter places

@@ -25,5 +25,5 @@ export function ProblemNote({ problem }: { problem: Problem }) {
 
 /** `points.left_hip` as a person says it. */
 function readable(field: string): string {
-  return field.replace(/^points\./, "").replaceAll("_", " ");
+  return field.replace(/^(points|measurements)\./, "").replaceAll("_", " ");
 }

@@ -1,6 +1,7 @@
 // The WebGL canvas as a component; three.js is loaded with it, not with the page.
 import { useEffect, useRef } from "preact/hooks";
-import type { BodyScene, Placement } from "./BodyScene";
+import type { Cues } from "../api/types";
+import type { BodyScene, Placement, PosedAndUpright } from "./BodyScene";
 import type { GlbBody } from "./glb";
 import type { Surface } from "./surface";
 import type { TapeLines } from "./Tapes";
@@ -16,6 +17,9 @@ const TURNS: Readonly<Record<string, readonly [number, number]>> = {
 interface Props {
   readonly posed: GlbBody;
   readonly canonical: GlbBody | null;
+  /** The same before shading, once there; shown where `body` is SE. */
+  readonly outlined: PosedAndUpright | null;
+  readonly body: Cues;
   readonly picture: HTMLImageElement;
   readonly tapes: TapeLines;
   /** The measurement whose tape stands out. */
@@ -26,11 +30,12 @@ interface Props {
   readonly onFailure: () => void;
 }
 
-export function BodyCanvas({ posed, canonical, picture, tapes, marked, placement, surface, opacity, onFailure }: Props) {
+export function BodyCanvas(props: Props) {
+  const { posed, canonical, outlined, body, picture, tapes, marked, placement, surface, opacity, onFailure } = props;
   const canvas = useRef<HTMLCanvasElement>(null);
   const scene = useRef<BodyScene | null>(null);
-  const wanted = useRef({ placement, surface });
-  wanted.current = { placement, surface };
+  const wanted = useRef({ placement, surface, outlined, body });
+  wanted.current = { placement, surface, outlined, body };
 
   useEffect(() => {
     const target = canvas.current!;
@@ -46,6 +51,8 @@ export function BodyCanvas({ posed, canonical, picture, tapes, marked, placement
         return onFailure();
       }
       scene.current.place(wanted.current.placement);
+      scene.current.compareWith(wanted.current.outlined);
+      scene.current.show(wanted.current.body);
       scene.current.surface(wanted.current.surface);
       observer.observe(target);
     }, onFailure);
@@ -58,7 +65,11 @@ export function BodyCanvas({ posed, canonical, picture, tapes, marked, placement
   }, [posed, canonical, picture, tapes]);
 
   useEffect(() => scene.current?.place(placement), [placement]);
-  useEffect(() => scene.current?.surface(surface), [surface]);
+  useEffect(() => {
+    scene.current?.compareWith(outlined);
+    scene.current?.show(body);
+    scene.current?.surface(surface);
+  }, [outlined, body, surface]);
   useEffect(() => scene.current?.mark(marked), [marked]);
 
   const turned = placement !== "picture";

@@ -13,6 +13,7 @@ import {
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import type { Cues } from "../api/types";
 import type { GlbBody } from "./glb";
 import { SURFACES, surfaceMaterial } from "./surface";
 import type { Surface } from "./surface";
@@ -21,8 +22,18 @@ import type { TapeLines } from "./Tapes";
 
 export type Placement = "picture" | "turned" | "canonical";
 
+export interface PosedAndUpright {
+  readonly posed: GlbBody;
+  readonly canonical: GlbBody | null;
+}
+
 const TURNED_FOV_DEG = 30;
 const MARGIN = 1.24;
+
+interface Parts {
+  readonly posed: Part;
+  readonly canonical: Part | null;
+}
 
 interface Part {
   readonly mesh: Mesh<BufferGeometry, ShaderMaterial>;
@@ -35,8 +46,12 @@ export class BodyScene {
   private readonly scene = new Scene();
   private readonly camera = new PerspectiveCamera(TURNED_FOV_DEG, 1, 0.02, 100);
   private readonly controls: OrbitControls;
-  private readonly posed: Part;
-  private readonly canonical: Part | null;
+  private readonly parts: Parts;
+  /** The body before shading, where it is to be compared. */
+  private outlined: Parts | null = null;
+  private cues: Cues = "SES";
+  private kind: Surface = "lit";
+  private marked: string | null = null;
   private readonly texture: Texture;
   private readonly tapes: Tapes;
   private placement: Placement = "picture";
@@ -45,7 +60,7 @@ export class BodyScene {
   constructor(
     canvas: HTMLCanvasElement,
     private readonly body: GlbBody,
-    canonical: GlbBody | null,
+    private readonly upright: GlbBody | null,
     picture: HTMLImageElement,
     tapes: TapeLines,
   ) {
@@ -57,10 +72,7 @@ export class BodyScene {
     this.texture.generateMipmaps = false;
     this.texture.minFilter = LinearFilter;
     this.texture.needsUpdate = true;
-    this.posed = part(body, body, this.texture);
-    this.canonical = canonical && part(canonical, body, this.texture);
-    this.scene.add(this.posed.mesh);
-    if (this.canonical) this.scene.add(this.canonical.mesh);
+    this.parts = this.added({ posed: body, canonical: upright });
     this.tapes = new Tapes(tapes);
     this.scene.add(this.tapes.group);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -72,10 +84,7 @@ export class BodyScene {
   /** Where the body stands, and whence it is looked at. */
   place(placement: Placement): void {
     this.placement = placement;
-    const shown = this.shown();
-    this.posed.mesh.visible = shown === this.posed;
-    if (this.canonical) this.canonical.mesh.visible = shown === this.canonical;
-    this.tapes.group.visible = shown === this.canonical;
+    this.reveal();
     this.controls.enabled = placement !== "picture";
     // Over the picture there is nothing to turn, and a finger may scroll the page.
     this.renderer.domElement.style.touchAction = placement === "picture" ? "auto" : "none";
@@ -84,14 +93,33 @@ export class BodyScene {
   }
 
   surface(kind: Surface): void {
-    for (const each of [this.posed, this.canonical]) {
-      if (each) each.mesh.material.uniforms.surface!.value = SURFACES.indexOf(kind);
+    this.kind = kind;
+    for (const each of this.all()) each.mesh.material.uniforms.surface!.value = SURFACES.indexOf(kind);
+    this.draw();
+  }
+
+  /** Take in the body before shading, and what shading changed of it. */
+  compareWith(outlined: PosedAndUpright | null): void {
+    if (!outlined || this.outlined) return;
+    this.outlined = this.added(outlined);
+    if (this.upright && outlined.canonical) {
+      const shift = new BufferAttribute(shiftAlongNormals(outlined.canonical, this.upright), 1);
+      for (const each of partsOf(this.parts)) each.mesh.geometry.setAttribute("shift", shift);
     }
+    this.reveal();
+    this.draw();
+  }
+
+  /** The body by all cues, or before shading; the view stays. */
+  show(cues: Cues): void {
+    this.cues = cues;
+    this.reveal();
     this.draw();
   }
 
   /** Let the tape of a measurement stand out. */
   mark(measurement: string | null): void {
+    this.marked = measurement;
     this.tapes.mark(measurement);
     this.draw();
   }
@@ -121,15 +149,36 @@ export class BodyScene {
     this.controls.dispose();
     this.texture.dispose();
     this.tapes.dispose();
-    for (const each of [this.posed, this.canonical]) {
-      each?.mesh.geometry.dispose();
-      each?.mesh.material.dispose();
+    for (const each of this.all()) {
+      each.mesh.geometry.dispose();
+      each.mesh.material.dispose();
     }
     this.renderer.dispose();
   }
 
   private shown(): Part {
-    return this.placement === "canonical" && this.canonical ? this.canonical : this.posed;
+    const { posed, canonical } = (this.cues === "SE" && this.outlined) || this.parts;
+    return this.placement === "canonical" && canonical ? canonical : posed;
+  }
+
+  private added({ posed, canonical }: PosedAndUpright): Parts {
+    const parts = {
+      posed: part(posed, posed, this.texture),
+      canonical: canonical && part(canonical, posed, this.texture),
+    };
+    for (const each of partsOf(parts)) this.scene.add(each.mesh);
+    return parts;
+  }
+
+  private all(): Part[] {
+    return [...partsOf(this.parts), ...(this.outlined ? partsOf(this.outlined) : [])];
+  }
+
+  private reveal(): void {
+    const shown = this.shown();
+    for (const each of this.all()) each.mesh.visible = each === shown;
+    // Tapes lie on the final body's skin.
+    this.tapes.group.visible = shown === this.parts.canonical;
   }
 
   private lookFrom(azimuth: number): void {
@@ -154,6 +203,9 @@ export class BodyScene {
     else this.useFreeCamera();
     mesh.material.uniforms.eye!.value.copy(this.camera.position);
     this.renderer.render(this.scene, this.camera);
+    // What is drawn, not what is wanted: the outlined body comes later than its choice.
+    const cues = this.cues === "SE" && this.outlined ? "SE" : "SES";
+    this.renderer.domElement.dataset.shows = [this.placement, this.kind, cues, this.marked ?? "none"].join(" ");
   }
 
   private useFreeCamera(): void {
@@ -182,6 +234,20 @@ export class BodyScene {
   }
 }
 
+function partsOf({ posed, canonical }: Parts): Part[] {
+  return canonical ? [posed, canonical] : [posed];
+}
+
+/** How far each vertex moved outward from one body to the other, along the latter's normals, metres. */
+function shiftAlongNormals(before: GlbBody, after: GlbBody): Float32Array {
+  const [from, to, normals] = [before.positions, after.positions, after.normals];
+  return Float32Array.from({ length: to.length / 3 }, (_, vertex) => {
+    let along = 0;
+    for (let i = 3 * vertex; i < 3 * vertex + 3; i++) along += (to[i]! - from[i]!) * normals[i]!;
+    return along;
+  });
+}
+
 /** A mesh of the body as it is shown, with the posed one beside it for what the picture says. */
 function part(shown: GlbBody, posed: GlbBody, texture: Texture): Part {
   const count = shown.positions.length / 3;
@@ -196,6 +262,7 @@ function part(shown: GlbBody, posed: GlbBody, texture: Texture): Part {
   add("tint", scaled(shown.colours, posed.light?.colourScale ?? 1) ?? grey(0.6, 3), 3);
   add("albedo", shown.albedo ?? grey(0.6, 1), 1);
   add("specularity", shown.specularity ?? grey(0, 1), 1);
+  add("shift", grey(0, 1), 1);
   geometry.setIndex(new BufferAttribute(shown.triangles, 1));
   geometry.computeBoundingBox();
   const box = geometry.boundingBox!;

@@ -2,7 +2,7 @@
 import { DoubleSide, GLSL3, ShaderMaterial, Texture, Vector2, Vector3 } from "three";
 import type { GlbBody, GlbCamera } from "./glb";
 
-export const SURFACES = ["lit", "clay", "albedo", "specularity", "shading", "residual"] as const;
+export const SURFACES = ["lit", "clay", "albedo", "specularity", "shading", "residual", "change"] as const;
 export type Surface = (typeof SURFACES)[number];
 
 const VERTEX = /* glsl */ `
@@ -11,12 +11,14 @@ const VERTEX = /* glsl */ `
   in float specularity;
   in vec3 posed;
   in vec3 posedNormal;
+  in float shift;
   out vec3 vPosition;
   out vec3 vNormal;
   out vec3 vTint;
   out vec2 vReflectance;
   out vec3 vPosed;
   out vec3 vPosedNormal;
+  out float vShift;
   void main() {
     vPosition = position;
     vNormal = normal;
@@ -24,6 +26,7 @@ const VERTEX = /* glsl */ `
     vReflectance = vec2(albedo, specularity);
     vPosed = posed;
     vPosedNormal = posedNormal;
+    vShift = shift;
     gl_Position = projectionMatrix * viewMatrix * vec4(position, 1.0);
   }
 `;
@@ -38,6 +41,7 @@ const FRAGMENT = /* glsl */ `
   in vec2 vReflectance;
   in vec3 vPosed;
   in vec3 vPosedNormal;
+  in float vShift;
   uniform int surface;
   uniform bool isPoint;
   uniform vec3 lightVector;
@@ -94,6 +98,14 @@ const FRAGMENT = /* glsl */ `
     return mix(vec3(0.78), hue, strength);
   }
 
+  // How far shading moved the surface, full colour at 2 cm, over a little clay for its form.
+  vec3 changeSurface(vec3 normal, vec3 toEye) {
+    float strength = clamp(abs(vShift) / 0.02, 0.0, 1.0);
+    vec3 hue = vShift > 0.0 ? vec3(0.80, 0.13, 0.02) : vec3(0.02, 0.18, 0.62);
+    float form = 0.45 + 0.55 * max(dot(normal, toEye), 0.0);
+    return form * mix(vec3(0.78), hue, strength);
+  }
+
   void main() {
     vec3 normal = normalize(vNormal);
     vec3 toEye = normalize(eye - vPosition);
@@ -105,6 +117,7 @@ const FRAGMENT = /* glsl */ `
     else if (surface == 3) linear = vec3(vReflectance.y);
     else if (surface == 4) linear = vec3(ambient + dot(vec2(0.5, 0.2), terms));
     else if (surface == 5) linear = residualSurface();
+    else if (surface == 6) linear = changeSurface(normal, toEye);
     else linear = ambient + vTint * terms.x + vReflectance.y * terms.y;
     colour = vec4(encoded(linear), 1.0);
   }

@@ -4,7 +4,7 @@ import { useEffect, useRef } from "preact/hooks";
 const INSIDE = 128;
 const COLOUR = [255, 196, 0, 255] as const;
 
-export function MaskOutline({ url }: { url: string }) {
+export function MaskOutline({ url, label }: { url: string; label: string }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   useEffect(() => {
     let gone = false;
@@ -18,7 +18,7 @@ export function MaskOutline({ url }: { url: string }) {
       gone = true;
     };
   }, [url]);
-  return <canvas class="mask-outline" ref={canvas} role="img" aria-label="The silhouette found in the picture" />;
+  return <canvas class="mask-outline" ref={canvas} role="img" aria-label={label} />;
 }
 
 function draw(canvas: HTMLCanvasElement, image: HTMLImageElement): void {

@@ -1,0 +1,25 @@
+// By what the body is found: by its outline alone, or by its shading as well.
+import { cues } from "../draft/draft";
+import { Choice } from "../ui/Choice";
+
+export function EvidencePanel() {
+  return (
+    <div class="subsection">
+      <Choice
+        name="cues"
+        legend="Evidence"
+        options={[
+          { value: "SES", label: "Outline and shading" },
+          { value: "SE", label: "Outline alone" },
+        ]}
+        value={cues.value}
+        onChange={(value) => (cues.value = value)}
+      />
+      <p class="fine">
+        {cues.value === "SES"
+          ? "Shading measures better where skin, or what clings to it, is seen in one light. It takes twice as long."
+          : "For loose clothes, paintings and light from everywhere. Nothing is said of light and skin then."}
+      </p>
+    </div>
+  );
+}

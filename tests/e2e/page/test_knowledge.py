@@ -1,0 +1,105 @@
+"""What is known beside the clicks: samples with theirs, a tape, a mask; and SE against SES."""
+
+import io
+import json
+from pathlib import Path
+
+import httpx
+import numpy as np
+import pytest
+from PIL import Image
+from playwright.sync_api import expect
+
+from service.demo_sample import FOLDER
+from tests.e2e.page.visitor import SAMPLE_SIZE, Visitor
+from tests.e2e.service import REPOSITORY
+
+MASK = REPOSITORY / "tests" / "evaluation" / "data" / "pictures" / "demo_person.png"
+
+
+@pytest.fixture
+def mask(tmp_path: Path) -> Path:
+    """White on the person, of the sample's size."""
+    with Image.open(MASK) as picture:
+        grey = picture.convert("L").resize(SAMPLE_SIZE)
+    path = tmp_path / "mask.png"
+    path.write_bytes(_png(np.where(np.asarray(grey) > 127, 255, 0).astype(np.uint8)))
+    return path
+
+
+def _png(levels: np.ndarray) -> bytes:
+    written = io.BytesIO()
+    Image.fromarray(levels).save(written, "PNG")
+    return written.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("name", "file"),
+    [("At ease", "request"), ("Upright", "woman"), ("An arm across", "arm_across")],
+)
+def test_every_sample_comes_with_its_clicks_and_a_body(visitor: Visitor, name: str, file: str):
+    asked = json.loads((FOLDER / f"{file}.json").read_text())
+    visitor.open_sample(name=name, with_points=True)
+    page = visitor.page
+    expect(visitor.points()).to_have_count(len(asked["points"]))
+    expect(page.get_by_label("Height", exact=True)).to_have_value(f"{100 * asked['height_m']:g}")
+    expect(page.locator(".live-outline")).to_be_attached()
+    expect(page.get_by_text("No body reaches")).to_be_hidden()
+    expect(page.get_by_text("may be swapped")).to_be_hidden()
+    expect(page.get_by_role("button", name="Fit the body")).to_be_enabled()
+
+
+def test_a_tape_and_a_mask_reach_the_fit_and_come_back_with_it(
+    visitor: Visitor, service: httpx.Client, mask: Path
+):
+    page = visitor.page
+    visitor.open_sample(with_points=True)
+    page.get_by_text("Known measurements").click()
+    page.get_by_label("Hip", exact=True).fill("9.8")
+    expect(page.get_by_text("Hip: between 10 and 200 cm")).to_be_visible()
+    expect(page.get_by_role("button", name="Correct a measurement")).to_be_disabled()
+    page.get_by_label("Hip", exact=True).fill("98")
+    page.get_by_role("heading", name="What the fit goes by").click()
+    small = mask.with_name("small.png")
+    small.write_bytes(_png(np.zeros((48, 64), np.uint8)))
+    page.get_by_label("Choose a mask").set_input_files(small)
+    expect(page.get_by_role("alert")).to_contain_text("64 × 48 pixels, the picture 720 × 960")
+    page.get_by_label("Choose a mask").set_input_files(mask)
+    expect(page.get_by_role("img", name="The border of the mask")).to_be_visible()
+    with page.expect_request(
+        lambda request: request.method == "POST" and request.url.endswith("/v1/fits")
+    ) as sent:
+        visitor.submit()
+    asked = sent.value.post_data_json
+    assert asked["measurements"] == {"hip_girth": {"value": 98, "standard_error": 1}}
+    assert len(asked["mask_id"]) == 64
+    visitor.wait_for_result()
+    job = service.get(f"/v1/fits/{page.url.rpartition('/')[2]}").json()
+    # With a mask there is nothing to segment.
+    assert "trimap.png" not in job["links"]["artifacts"]
+    result = service.get(job["links"]["result"]).json()
+    hip = next(each for each in result["measurements"] if each["name"] == "hip_girth")
+    assert abs(hip["value"] - 98.0) < 2.0
+    page.get_by_role("button", name="Change and fit again").click()
+    page.get_by_text("Known measurements").click()
+    expect(page.get_by_label("Hip", exact=True)).to_have_value("98")
+
+
+def test_the_body_before_shading_can_be_seen_in_its_place(visitor: Visitor, finished_fit: str):
+    page = visitor.page
+    page.goto(f"{visitor.origin}/#/fits/{finished_fit}")
+    visitor.wait_for_result()
+    visitor.choose("Upright")
+    final = visitor.wait_until_drawn(placement="canonical")
+    visitor.choose("Outline alone")
+    outlined = visitor.wait_until_drawn(placement="canonical", cues="SE")
+    assert (np.abs(outlined - final).max(axis=2) > 12).mean() > 0.001
+    # Nothing is known of the skin then.
+    expect(page.get_by_role("radio", name="Albedo", exact=True)).to_have_count(0)
+    visitor.choose("With shading")
+    again = visitor.wait_until_drawn(placement="canonical")
+    assert np.array_equal(again, final)
+    visitor.choose("Change")
+    changed = visitor.wait_until_drawn(placement="canonical", surface="change")
+    red, _, blue = np.moveaxis(changed, 2, 0)
+    assert (np.abs(red - blue) > 60).mean() > 0.001
