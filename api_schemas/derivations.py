@@ -5,15 +5,37 @@ from enum import StrEnum
 from typing import Annotated, Any, Final, Literal, cast
 from uuid import UUID
 
-from pydantic import ConfigDict, Discriminator, Field, RootModel, Tag
+from pydantic import (
+    AfterValidator,
+    ConfigDict,
+    Discriminator,
+    Field,
+    RootModel,
+    Tag,
+    WithJsonSchema,
+)
 
-from api_schemas.base import WireModel
+from api_schemas.base import WholeNumber, WireModel, refusal
 from api_schemas.jobs import JobStanding
-from api_schemas.results import Artifact, PartRotation
+from api_schemas.results import Artifact, FitWarning, PartRotation
 from api_schemas.webhooks import WebhookTarget
 
 FULL_TURN: Final = 6.2832
 """Radians, rounded up."""
+
+
+TEXTURE_SIZES: Final = (512, 1_024, 2_048)
+"""Sides a texture may have, texels."""
+
+
+def _texture_size(size: int) -> int:
+    if size in TEXTURE_SIZES:
+        return size
+    raise refusal(
+        code="unknown-value",
+        reason=f"A texture of {size} texels cannot be made.",
+        remedy=f"Use {', '.join(map(str, TEXTURE_SIZES[:-1]))} or {TEXTURE_SIZES[-1]}.",
+    )
 
 
 class DerivationKind(StrEnum):
@@ -22,6 +44,8 @@ class DerivationKind(StrEnum):
     REPORT = "report"
     CARICATURE = "caricature"
     POSE = "pose"
+    ANIMATION = "animation"
+    TEXTURE = "texture"
 
 
 class NamedPose(StrEnum):
@@ -94,6 +118,43 @@ class PoseOptions(DerivationOptions):
     )
 
 
+class AnimationOptions(DerivationOptions):
+    """The body in motion: by a BVH file that comes along, or walking."""
+
+    kind: Literal["animation"]
+    start_s: float = Field(
+        default=0.0, ge=0.0, le=3_600.0, description="Where the stretch of the file begins."
+    )
+    duration_s: float | None = Field(
+        default=None,
+        gt=0.0,
+        le=3_600.0,
+        description=(
+            "How long the stretch is; null goes on to the file's end. An animation has 30 frames a "
+            "second and 360 in all at most: what is longer is cut, with a warning."
+        ),
+    )
+
+
+class TextureColours(StrEnum):
+    """The picture as it is, with its light, or the albedo found in it, to be lit anew."""
+
+    PICTURE = "picture"
+    ALBEDO = "albedo"
+
+
+class TextureOptions(DerivationOptions):
+    """The picture laid on the body; the albedo needs a fit with shading."""
+
+    kind: Literal["texture"]
+    colours: TextureColours = TextureColours.PICTURE
+    size: Annotated[
+        WholeNumber,
+        AfterValidator(_texture_size),
+        WithJsonSchema({"type": "integer", "enum": list(TEXTURE_SIZES)}),
+    ] = Field(default=1_024, description="Side of the texture, texels.")
+
+
 def _kind(value: Any) -> str | None:
     # In brackets, by which field names of problems leave the alternative out.
     is_object = isinstance(value, dict)
@@ -118,6 +179,8 @@ AnyDerivationOptions = (
     Annotated[ReportOptions, Tag("[report]")]
     | Annotated[CaricatureOptions, Tag("[caricature]")]
     | Annotated[PoseOptions, Tag("[pose]")]
+    | Annotated[AnimationOptions, Tag("[animation]")]
+    | Annotated[TextureOptions, Tag("[texture]")]
 )
 
 
@@ -188,10 +251,51 @@ class PoseResult(DerivedFiles):
     pose: tuple[PartRotation, ...]
 
 
+class AnimationResult(DerivedFiles):
+    """``body_animated.glb``, ``body_skinned.glb``, ``animation.png`` and ``animation.webp``.
+
+    The first holds the bodies of SCAPE as morph targets, the second bones and a skin that follows
+    them linearly, which is only near to SCAPE; errors are distances of vertices from SCAPE's.
+    """
+
+    kind: Literal["animation"] = "animation"
+    source: str = Field(description="Where the motion comes from.")
+    frames: int
+    frame_time_s: float
+    morph_targets: int
+    morph_mean_error_mm: float
+    morph_largest_error_mm: float
+    skin_mean_error_mm: float
+    skin_largest_error_mm: float
+    sliding_mm: float = Field(
+        description="How far soles on the ground slide from frame to frame, on average."
+    )
+    travelled_m: float = Field(description="From the first place to the last, along the ground.")
+    warnings: tuple[FitWarning, ...]
+
+
+class TextureResult(DerivedFiles):
+    """``body_textured.glb``, in the fitted pose, ``texture.png`` and ``coverage.png``.
+
+    White texels of the last were seen in the picture, grey ones are taken from the other side of
+    the body, black ones continued from their surroundings: these two kinds are invented. An albedo
+    may exceed 1: it is the texture's linear value times ``scale``.
+    """
+
+    kind: Literal["texture"] = "texture"
+    colours: TextureColours
+    size: int
+    seen_share: float = Field(ge=0.0, le=1.0, description="Of the body's texels.")
+    mirrored_share: float = Field(ge=0.0, le=1.0, description="Of the body's texels.")
+    scale: float
+
+
 AnyDerivationResult = (
     Annotated[ReportResult, Tag("[report]")]
     | Annotated[CaricatureResult, Tag("[caricature]")]
     | Annotated[PoseResult, Tag("[pose]")]
+    | Annotated[AnimationResult, Tag("[animation]")]
+    | Annotated[TextureResult, Tag("[texture]")]
 )
 
 

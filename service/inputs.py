@@ -10,10 +10,15 @@ MASK: Final = "mask"
 
 RESULT: Final = "result.json"
 PERSON: Final = "person.npz"
+SEGMENTATION: Final = "segmentation.png"
+CLIP: Final = "bvh"
+"""A motion that came along with the request for a derivation."""
 
 OF_ITS_FIT: Final[Mapping[DerivationKind, tuple[str, ...]]] = {
+    DerivationKind.ANIMATION: (PERSON,),
     DerivationKind.CARICATURE: (PERSON,),
     DerivationKind.POSE: (PERSON,),
+    DerivationKind.TEXTURE: (PERSON, IMAGE, SEGMENTATION),
     DerivationKind.REPORT: (RESULT, PERSON, "overlay.png", "albedo.png", "shading.png"),
 }
-"""Which files of the fit's result a derivation has copies of, so far as the fit has them."""
+"""Of which of the fit's inputs and files a derivation has copies, so far as the fit has them."""

@@ -4,6 +4,8 @@ Their paths lie below the fit's, because a derivation has no life of its own: wh
 may see it, and where the fit is gone there is nothing.
 """
 
+import codecs
+from dataclasses import dataclass
 from typing import Any, Final
 from uuid import UUID
 
@@ -12,6 +14,8 @@ from fastapi.responses import StreamingResponse
 from starlette.concurrency import run_in_threadpool
 
 from api_schemas.derivations import (
+    AnimationOptions,
+    AnyDerivationOptions,
     Derivation,
     DerivationKind,
     DerivationPage,
@@ -19,6 +23,7 @@ from api_schemas.derivations import (
     DerivationResult,
 )
 from api_schemas.jobs import JobState
+from api_schemas.problems import FieldProblem, problem
 from service.api.acceptance import (
     ACCEPTANCE_PROBLEMS,
     File,
@@ -46,7 +51,13 @@ from service.api.job_routes import (
     not_modified,
     page_of,
 )
-from service.api.json_bodies import JSON, json_body, json_content, read_json_text
+from service.api.json_bodies import (
+    JSON,
+    json_content,
+    media_type,
+    read_json_text,
+    unsupported,
+)
 from service.api.problems import ProblemError, documented, not_found
 from service.api.representation import derivations_path, represent_derivation
 from service.api.results import (
@@ -56,13 +67,50 @@ from service.api.results import (
     serve_file,
     serve_result,
 )
+from service.api.uploads import MULTIPART, read_request_and_file
 from service.blobs import BlobMissingError
-from service.engine.port import JobRecord
-from service.inputs import OF_ITS_FIT
+from service.engine.port import JobRecord, StoredBlob
+from service.inputs import CLIP, OF_ITS_FIT
+from service.refusal import refused
 from service.validation import parsed
 from service.webhooks.targets import check_webhook
 
+MAX_CLIP_BYTES: Final = 32 * 1024 * 1024
+"""What the fitter reads at most; a minute of motion capture is a tenth of it."""
+
 ROUTER: Final = APIRouter(prefix="/v1/fits/{fit_id}/derivations", tags=["derivations"])
+
+
+_SUBMISSION: Final[dict[str, Any]] = {
+    "requestBody": {
+        "required": True,
+        "content": {
+            JSON: json_content(DerivationRequest),
+            MULTIPART: {
+                "schema": {
+                    "type": "object",
+                    "additionalProperties": False,
+                    "required": ["request", CLIP],
+                    "properties": {
+                        "request": {"$ref": "#/components/schemas/AnimationOptions"},
+                        CLIP: {
+                            "type": "string",
+                            "format": "binary",
+                            "description": (
+                                "A motion as a BVH file, of a skeleton with the joint names of "
+                                "CMU, Mixamo, Rokoko or Blender."
+                            ),
+                        },
+                    },
+                },
+                "encoding": {
+                    "request": {"contentType": JSON},
+                    CLIP: {"contentType": "text/plain, application/octet-stream"},
+                },
+            },
+        },
+    }
+}
 
 
 @ROUTER.post(
@@ -70,7 +118,7 @@ ROUTER: Final = APIRouter(prefix="/v1/fits/{fit_id}/derivations", tags=["derivat
     status_code=202,
     response_model=Derivation,
     summary="Derive something from a fit",
-    openapi_extra=json_body(DerivationRequest),
+    openapi_extra=_SUBMISSION,
     responses=accepted(Derivation)
     | documented(
         "malformed-request",
@@ -92,15 +140,19 @@ async def derive(
 ) -> Derivation:
     """Accept a job that makes something of a fit that has succeeded; `kind` says what.
 
-    It has copies of its own of what it needs of the fit; erasing the fit erases it too.
+    It has copies of its own of what it needs of the fit; erasing the fit erases it too. A motion
+    comes along as the part `bvh` of a form, whose part `request` is the JSON; without one an
+    animated body walks.
+
     `Idempotency-Key` and `Prefer` are as for fits.
     """
-    text = await read_json_text(request)
-    asked = parsed(DerivationRequest, text, whole="body", called="the body")
-    check_webhook(asked.root.webhook, context.settings)
-    inputs = await run_in_threadpool(_inputs, context, fit_id, asked)
+    asked, sent = await _asked(request)
+    check_webhook(asked.webhook, context.settings)
+    inputs = await run_in_threadpool(_inputs, context, fit_id, asked, sent.clip)
     jobs = context.jobs.derivations(str(fit_id))
-    key = idempotency(idempotency_key, b"derivation", str(fit_id).encode(), text)
+    key = idempotency(
+        idempotency_key, b"derivation", str(fit_id).encode(), sent.text, sent.clip or b""
+    )
     job = await accept(context, jobs, inputs, key=key)
     return represent_derivation(await answer(context, jobs, response, job, prefer=prefer))
 
@@ -236,7 +288,9 @@ def derivation_result(
     "/{derivation_id}/artifacts/{name}",
     summary="A file of a derivation",
     response_class=Response,
-    responses=file_answers("text/html", "application/pdf", "model/gltf-binary", "image/png"),
+    responses=file_answers(
+        "text/html", "application/pdf", "model/gltf-binary", "image/png", "image/webp"
+    ),
 )
 def derivation_artifact(
     fit_id: UUID,
@@ -255,22 +309,83 @@ def _find(context: ApiContext, fit_id: UUID, derivation_id: UUID) -> JobRecord:
     return find(context.jobs.derivations(str(fit_id)), derivation_id)
 
 
-def _inputs(context: ApiContext, fit_id: UUID, asked: DerivationRequest) -> Inputs:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Sent:
+    """The request as JSON text, and the motion that came along."""
+
+    text: bytes
+    clip: bytes | None
+
+
+async def _asked(request: Request) -> tuple[AnyDerivationOptions, _Sent]:
+    if media_type(request) == JSON:
+        text = await read_json_text(request)
+        asked = parsed(DerivationRequest, text, whole="body", called="the body")
+        return asked.root, _Sent(text=text, clip=None)
+    if media_type(request) != MULTIPART:
+        raise unsupported(
+            request,
+            remedy=f"Send {JSON}, or {MULTIPART} with the parts 'request' and '{CLIP}'.",
+            accepted=f"{JSON}, {MULTIPART}",
+        )
+    text, clip = await read_request_and_file(request, CLIP)
+    asked = parsed(DerivationRequest, text, whole="request", called="the part 'request'")
+    if not isinstance(asked.root, AnimationOptions):
+        raise refused(
+            FieldProblem(
+                field=CLIP,
+                code="unknown-field",
+                reason=f"A {asked.root.kind} takes no motion.",
+                remedy="Send the request alone, as JSON, or ask for an animation.",
+            )
+        )
+    _check_clip(clip)
+    return asked.root, _Sent(text=text, clip=clip)
+
+
+def _check_clip(clip: bytes) -> None:
+    """Check what can be told of a BVH file without reading it."""
+    if len(clip) > MAX_CLIP_BYTES:
+        raise ProblemError(
+            problem(
+                "payload-too-large",
+                field=CLIP,
+                detail=f"The motion has {len(clip)} bytes, more than {MAX_CLIP_BYTES}.",
+                remedy="Cut the clip, or lower its frame rate.",
+            )
+        )
+    if not clip.removeprefix(codecs.BOM_UTF8).lstrip()[:9].upper() == b"HIERARCHY":
+        raise refused(
+            FieldProblem(
+                field=CLIP,
+                code="not-a-bvh",
+                reason="The motion does not begin with HIERARCHY: it is no BVH file.",
+                remedy="Export the motion as BVH.",
+            )
+        )
+
+
+def _inputs(
+    context: ApiContext, fit_id: UUID, options: AnyDerivationOptions, clip: bytes | None
+) -> Inputs:
     fit = find(context.jobs, fit_id)
     if fit.state is not JobState.SUCCEEDED:
         raise ProblemError(no_result(fit))
-    options = asked.root
     needed = OF_ITS_FIT[DerivationKind(options.kind)]
+    kept = dict(fit.inputs) | {
+        artifact.name: StoredBlob(digest=artifact.sha256, media_type=artifact.media_type)
+        for artifact in fit.artifacts
+    }
     try:
         files = {
-            artifact.name: File(
-                content=context.blobs.get(fit.id, artifact.sha256), media_type=artifact.media_type
-            )
-            for artifact in fit.artifacts
-            if artifact.name in needed
+            name: File(content=context.blobs.get(fit.id, blob.digest), media_type=blob.media_type)
+            for name, blob in kept.items()
+            if name in needed
         }
     except BlobMissingError as error:
         raise not_found(what="such fit any more") from error
+    if clip is not None:
+        files[CLIP] = File(content=clip, media_type="text/plain")
     return Inputs(
         kind=options.kind,
         options=options.model_dump_json(exclude={"webhook"}).encode(),

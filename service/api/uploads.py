@@ -45,17 +45,8 @@ async def read_upload(request: Request) -> Upload:
             ),
             accepted=f"{MULTIPART}, application/json",
         )
-    form = await _form(request)
-    try:
-        _check_parts(form, needed=NEEDED_PARTS, known=PARTS)
-        mask = form.get("mask")
-        return Upload(
-            request=await _content(form["request"]),
-            image=await _content(form["image"]),
-            mask=None if mask is None else await _content(mask),
-        )
-    finally:
-        await form.close()
+    parts = await _parts(request, needed=NEEDED_PARTS, known=PARTS)
+    return Upload(request=parts["request"], image=parts["image"], mask=parts.get("mask"))
 
 
 async def read_image(request: Request) -> bytes:
@@ -70,15 +61,33 @@ async def read_image(request: Request) -> bytes:
         raise unsupported(
             request, remedy=f"Send {MULTIPART} with the part 'image'.", accepted=MULTIPART
         )
-    form = await _form(request)
+    return (await _parts(request, needed=("image",), known=("image",)))["image"]
+
+
+async def read_request_and_file(request: Request, name: str) -> tuple[bytes, bytes]:
+    """Read the parts ``request``, JSON as a string or as a file, and ``name``, a file.
+
+    Raises
+    ------
+    ProblemError
+        If a part is missing, unknown or doubled.
+    """
+    parts = await _parts(request, needed=("request", name), known=("request", name))
+    return parts["request"], parts[name]
+
+
+async def _parts(
+    request: Request, *, needed: Sequence[str], known: Sequence[str]
+) -> dict[str, bytes]:
+    form = await _form(request, known)
     try:
-        _check_parts(form, needed=("image",), known=("image",))
-        return await _content(form["image"])
+        _check_parts(form, needed=needed, known=known)
+        return {name: await _content(part) for name, part in form.items()}
     finally:
         await form.close()
 
 
-async def _form(request: Request) -> FormData:
+async def _form(request: Request, known: Sequence[str]) -> FormData:
     try:
         return await request.form(
             max_files=len(PARTS), max_fields=len(PARTS), max_part_size=MAX_REQUEST_PART_BYTES
@@ -88,7 +97,7 @@ async def _form(request: Request) -> FormData:
             problem(
                 "malformed-request",
                 detail=f"The multipart body cannot be read: {error.detail}",
-                remedy="Send the parts 'image' (a file), 'request' (JSON) and at most a 'mask'.",
+                remedy=f"Send these parts and no others: {', '.join(known)}.",
             )
         ) from error
 

@@ -17,6 +17,7 @@ MEDIA_TYPES: Final[Mapping[str, str]] = {
     ".npz": "application/zip",
     ".html": "text/html",
     ".pdf": "application/pdf",
+    ".webp": "image/webp",
 }
 
 Result = TypeVar("Result", FitResult, DerivedFiles)

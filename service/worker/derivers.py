@@ -13,8 +13,10 @@ from service.engine.port import Report
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 
 MODULES: Final[Mapping[DerivationKind, str]] = {
+    DerivationKind.ANIMATION: "service.worker.derived.animation",
     DerivationKind.CARICATURE: "service.worker.derived.caricature",
     DerivationKind.POSE: "service.worker.derived.pose",
+    DerivationKind.TEXTURE: "service.worker.derived.texture",
     DerivationKind.REPORT: "service.worker.report",
 }
 

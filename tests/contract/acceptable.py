@@ -6,6 +6,8 @@ module as its hooks.
 """
 
 import hashlib
+import os
+import re
 from typing import Any
 
 import schemathesis
@@ -37,26 +39,52 @@ ACCEPTED: dict[str, Any] = {
 }
 """Of what is related to something else, one value that goes with anything."""
 
+FIT = "CONTRACT_FIT"
+DERIVATION = "CONTRACT_DERIVATION"
+"""Variables with the ids of a fit that has succeeded and of a pose derived from it."""
+
+DERIVATIONS = "/v1/fits/{fit_id}/derivations"
+
 BY_ID = {"image_id": hashlib.sha256(UPLOADED).hexdigest(), "mask_id": None}
 
 
 @schemathesis.hook
 def before_call(context: HookContext, case: Case, kwargs: dict[str, Any]) -> None:
-    """Make a submission that is meant to be accepted acceptable."""
+    """Make what is meant to be accepted acceptable, and have what is meant to be found be there."""
     del context, kwargs
-    if (case.method, case.operation.path) != ("POST", "/v1/fits") or not _is_to_be_accepted(case):
+    if not _is_meant_well(case):
         return
-    # The same key with another body is refused, and rightly so.
+    # The same key with another request is refused, and rightly so.
     case.headers.pop("idempotency-key", None)
-    case.body = case.body | ACCEPTED | BY_ID
+    operation = (case.method, case.operation.path)
+    if operation == ("POST", DERIVATIONS):
+        case.path_parameters["fit_id"] = os.environ[FIT]
+    elif (
+        case.method == "GET"
+        and case.operation.path.startswith(DERIVATIONS)
+        and _phase(case) is not TestPhase.STATEFUL
+    ):
+        known = {"fit_id": os.environ[FIT], "derivation_id": os.environ[DERIVATION]}
+        case.path_parameters |= {name: known.get(name, "pose.png") for name in _named(case)}
+    if case.media_type != "application/json" or not isinstance(case.body, dict):
+        return
+    if operation in (("POST", "/v1/fits"), ("POST", DERIVATIONS)):
+        changes = ACCEPTED | BY_ID if case.operation.path == "/v1/fits" else {"webhook": None}
+        case.body = case.body | changes
 
 
-def _is_to_be_accepted(case: Case) -> bool:
+def _named(case: Case) -> list[str]:
+    return re.findall(r"{(\w+)}", case.operation.path)
+
+
+def _phase(case: Case) -> TestPhase | None:
+    return None if case.meta is None else case.meta.phase.name
+
+
+def _is_meant_well(case: Case) -> bool:
     meta = case.meta
     return (
         meta is not None
-        and case.media_type == "application/json"
-        and isinstance(case.body, dict)
         and meta.phase.name is not TestPhase.FUZZING
         and meta.generation.mode is GenerationMode.POSITIVE
         and all(part.mode is GenerationMode.POSITIVE for part in meta.components.values())

@@ -16,6 +16,8 @@ REQUESTS: Final[dict[str, Any]] = {
         "pose": "standing",
         "rotations": {"head": [0.0, 0.35, 0.0], "left_forearm": [0.0, 0.0, 0.0, 1.0]},
     },
+    "walk": {"kind": "animation"},
+    "texture": {"kind": "texture", "colours": "albedo", "size": 2048},
     "told-of-its-end": {
         "kind": "report",
         "webhook": {"url": "https://example.org/hooks/maquette"},
@@ -89,6 +91,7 @@ MEDIA_TYPES: Final = {
     "html": "text/html",
     "pdf": "application/pdf",
     "png": "image/png",
+    "webp": "image/webp",
 }
 
 REPORT_RESULT: Final[dict[str, Any]] = {
@@ -115,6 +118,30 @@ RESULTS: Final[dict[str, Any]] = {
             {"part": "pelvis", "rotation": [0.0, 0.0, 0.0]},
             {"part": "spine", "rotation": [0.105, 0.0, 0.0]},
         ],
+    },
+    "texture": {
+        "artifacts": _files(body_textured__glb=2874000, texture__png=1980000),
+        "kind": "texture",
+        "colours": "albedo",
+        "size": 2048,
+        "seen_share": 0.38,
+        "mirrored_share": 0.09,
+        "scale": 1.0,
+    },
+    "animation": {
+        "artifacts": _files(body_animated__glb=4321000, animation__webp=151000),
+        "kind": "animation",
+        "source": "the walk that ships with the package",
+        "frames": 99,
+        "frame_time_s": 0.0334,
+        "morph_targets": 12,
+        "morph_mean_error_mm": 0.4,
+        "morph_largest_error_mm": 2.9,
+        "skin_mean_error_mm": 3.1,
+        "skin_largest_error_mm": 41.0,
+        "sliding_mm": 0.6,
+        "travelled_m": 4.1,
+        "warnings": [],
     },
 }
 

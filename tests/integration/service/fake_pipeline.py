@@ -12,11 +12,15 @@ from typing import Any
 
 from api_schemas.body_models import BodyModelInfo, BodyModels
 from api_schemas.derivations import (
+    AnimationOptions,
+    AnimationResult,
     CaricatureOptions,
     CaricatureResult,
     PoseOptions,
     PoseResult,
     ReportResult,
+    TextureOptions,
+    TextureResult,
 )
 from api_schemas.known import UncertainMeasurement
 from api_schemas.problems import FieldProblem
@@ -32,7 +36,7 @@ from api_schemas.results import (
     PartRotation,
 )
 from service.engine.port import Report
-from service.inputs import PERSON, RESULT
+from service.inputs import CLIP, IMAGE, PERSON, RESULT
 from service.worker.pipeline_port import (
     DerivationInput,
     DerivationOutput,
@@ -133,6 +137,33 @@ def _derived(job: DerivationInput) -> DerivationOutput:
         rotations = (PartRotation(part="pelvis", rotation=(0.0, 0.0, 0.0)),)
         result = PoseResult(pose=rotations, artifacts=())
         files = {"body_reposed.glb": b"glTF", "pose.png": b"PNG"}
+    elif isinstance(options, TextureOptions):
+        assert job.inputs[IMAGE] == job.inputs[PERSON]
+        result = TextureResult(
+            colours=options.colours,
+            size=options.size,
+            seen_share=0.4,
+            mirrored_share=0.1,
+            scale=1.0,
+            artifacts=(),
+        )
+        files = {"body_textured.glb": b"glTF", "texture.png": b"PNG", "coverage.png": b"PNG"}
+    elif isinstance(options, AnimationOptions):
+        result = AnimationResult(
+            source=job.inputs.get(CLIP, b"a walk").decode()[:40],
+            frames=2,
+            frame_time_s=0.04,
+            morph_targets=1,
+            morph_mean_error_mm=0.0,
+            morph_largest_error_mm=0.0,
+            skin_mean_error_mm=0.0,
+            skin_largest_error_mm=0.0,
+            sliding_mm=0.0,
+            travelled_m=0.0,
+            warnings=(),
+            artifacts=(),
+        )
+        files = {"body_animated.glb": b"glTF", "animation.webp": b"RIFF"}
     else:
         FitResult.model_validate_json(job.inputs[RESULT])
         result = ReportResult(artifacts=())

@@ -15,6 +15,7 @@ from api_schemas.derivations import (
     DerivationPage,
     DerivationResult,
 )
+from service.api.derivations import MAX_CLIP_BYTES
 from service.engine.port import NewJob, StoredBlob, SubmitOutcome
 from tests.integration.service.harness import (
     REQUEST,
@@ -148,6 +149,11 @@ def test_nothing_is_derived_from_a_fit_that_has_not_succeeded(service: Service):
         ({"kind": "caricature", "factor": -1}, 422, "out-of-range", "factor"),
         ({"kind": "caricature", "factor": 1e9}, 422, "out-of-range", "factor"),
         ({"kind": "caricature", "factor": "2"}, 422, "wrong-kind", "factor"),
+        ({"kind": "animation", "start_s": -0.1}, 422, "out-of-range", "start_s"),
+        ({"kind": "animation", "duration_s": 0}, 422, "out-of-range", "duration_s"),
+        ({"kind": "texture", "size": 1000}, 422, "unknown-value", "size"),
+        ({"kind": "texture", "size": True}, 422, "wrong-kind", "size"),
+        ({"kind": "texture", "colours": "sepia"}, 422, "unknown-value", "colours"),
         ({"kind": "pose", "pose": "handstand"}, 422, "unknown-value", "pose"),
         (
             {"kind": "pose", "rotations": {"left_hand": [0.1, 0.2]}},
@@ -173,6 +179,67 @@ def test_a_request_at_fault_is_refused_with_the_field(
     service: Service, body: object, status: int, code: str, field: str
 ):
     assert problem(post(service, fitted(service), body)) == (status, code, field)
+
+
+BVH = "HIERARCHY\nROOT Hips\n"
+
+
+def post_motion(service: Service, fit: str, clip: str = BVH, **changes: Any) -> httpx.Response:
+    form: dict[str, Any] = {
+        "files": {"bvh": ("clip.bvh", clip, "text/plain")},
+        "data": {"request": '{"kind": "animation", "start_s": 1}'},
+    }
+    return service.client.post(f"{fit}/derivations", **form | changes)
+
+
+def test_a_motion_comes_along_with_the_request(service: Service):
+    fit = fitted(service)
+    answer = post_motion(service, fit, headers={"Prefer": "wait=30"})
+    assert (answer.status_code, answer.json()["state"]) == (200, "succeeded")
+    links = answer.json()["links"]
+    assert service.client.get(links["result"]).json()["source"] == BVH
+    asked = service.client.get(links["request"]).json()
+    assert asked == {"kind": "animation", "start_s": 1.0, "duration_s": None}
+    walking = post(service, fit, {"kind": "animation"}, Prefer="wait=30").json()
+    assert service.client.get(walking["links"]["result"]).json()["source"] == "a walk"
+
+
+def test_a_texture_is_made_of_the_fit_s_own_picture(service: Service):
+    asked = {"kind": "texture", "colours": "albedo", "size": 512.0}
+    job = post(service, fitted(service), asked, Prefer="wait=30").json()
+    assert job["state"] == "succeeded"
+    result = service.client.get(job["links"]["result"]).json()
+    assert (result["colours"], result["size"]) == ("albedo", 512)
+
+
+def test_the_same_key_with_another_motion_is_refused(service: Service):
+    fit = fitted(service)
+    key = {"headers": {"Idempotency-Key": "motion-1"}}
+    assert post_motion(service, fit, **key).status_code == 202
+    assert problem(post_motion(service, fit, BVH + "\n", **key))[1] == "idempotency-key-reused"
+
+
+def test_a_form_at_fault_is_refused_with_the_part(service: Service):
+    fit = fitted(service)
+    for clip in ("", "motion", '{"kind": "animation"}'):
+        assert problem(post_motion(service, fit, clip)) == (422, "not-a-bvh", "bvh")
+    assert post_motion(service, fit, "\ufeff\n hierarchy\n").status_code == 202
+    report = {"data": {"request": '{"kind": "report"}'}}
+    assert problem(post_motion(service, fit, **report)) == (422, "unknown-field", "bvh")
+    assert problem(post_motion(service, fit, data={})) == (422, "missing", "request")
+    extra = {"data": {"request": '{"kind": "animation"}', "mask": "x"}}
+    assert problem(post_motion(service, fit, **extra)) == (422, "unknown-field", "mask")
+    broken = {"data": {"request": '{"kind"'}}
+    assert problem(post_motion(service, fit, **broken)) == (400, "invalid-json", "request")
+
+
+def test_a_motion_that_is_too_large_is_refused(service: Service):
+    large = BVH + " " * MAX_CLIP_BYTES
+    assert problem(post_motion(service, fitted(service), large)) == (
+        413,
+        "payload-too-large",
+        "bvh",
+    )
 
 
 @pytest.mark.parametrize("number", ["NaN", "Infinity", "1e999"])

@@ -7,14 +7,21 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from api_schemas.derivations import DerivationKind, DerivationRequest, DerivationResult, NamedPose
+from api_schemas.derivations import (
+    TEXTURE_SIZES,
+    DerivationKind,
+    DerivationRequest,
+    DerivationResult,
+    NamedPose,
+)
 from fitter.applications.fitted_person import FittedPerson
 from fitter.applications.poses import NAMED_POSES, REST
+from fitter.applications.texture import SIZES
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.camera import Camera
 from fitter.parameters import BodyParameters
 from fitter.request import Gender
-from service.inputs import OF_ITS_FIT, PERSON, RESULT
+from service.inputs import CLIP, IMAGE, OF_ITS_FIT, PERSON, RESULT, SEGMENTATION
 from service.worker.artifacts import MEDIA_TYPES, with_result_document
 from service.worker.derivers import MODULES
 from service.worker.pipeline import derive
@@ -23,9 +30,9 @@ from tests.unit.export.glb_reader import read_glb
 from tests.unit.service.fit_results import fit_result
 
 
-def png(width: int = 40, height: int = 60) -> bytes:
+def png(width: int = 80, height: int = 120, *, level: int = 90) -> bytes:
     stream = io.BytesIO()
-    Image.new("RGB", (width, height), (90, 90, 90)).save(stream, "PNG")
+    Image.new("RGB", (width, height), (level, level, level)).save(stream, "PNG")
     return stream.getvalue()
 
 
@@ -41,7 +48,7 @@ def person() -> FittedPerson:
             translation=np.array([0.0, 0.0, 3.0]),
             shape=shape,
         ),
-        camera=Camera(focal_length_px=700.0, centre_x=20.0, centre_y=30.0, width=40, height=60),
+        camera=Camera(focal_length_px=150.0, centre_x=40.0, centre_y=60.0, width=80, height=120),
         light=None,
         reflectance=None,
         albedo_rgb=None,
@@ -51,15 +58,21 @@ def person() -> FittedPerson:
 INPUTS = {
     PERSON: person().to_bytes(),
     RESULT: fit_result(light=None, reflectance=None).model_dump_json().encode(),
+    IMAGE: png(),
+    SEGMENTATION: png(66, 99, level=255),
     "overlay.png": png(),
 }
 
 
-def derived(**request: object) -> DerivationOutput:
+def derived(*, clip: bytes | None = None, **request: object) -> DerivationOutput:
     options = DerivationRequest.model_validate_json(json.dumps(request)).root
     stages: list[str] = []
     output = derive(
-        DerivationInput(options=options, inputs=INPUTS, max_pixels=10_000),
+        DerivationInput(
+            options=options,
+            inputs=INPUTS | ({} if clip is None else {CLIP: clip}),
+            max_pixels=10_000,
+        ),
         lambda report: stages.append(report.stage),
     )
     assert stages
@@ -74,7 +87,7 @@ def test_the_named_poses_of_the_wire_are_the_fitter_s():
     assert {pose.value for pose in NamedPose} == {REST, *NAMED_POSES}
 
 
-@pytest.mark.parametrize("kind", ["report", "caricature", "pose"])
+@pytest.mark.parametrize("kind", list(DerivationKind))
 def test_a_derivation_s_document_lists_its_files_and_is_of_its_type(kind):
     output = derived(kind=kind)
     assert {f".{name.rpartition('.')[2]}" for name in output.artifacts} <= set(MEDIA_TYPES)
@@ -107,6 +120,22 @@ def test_a_named_pose_departs_where_it_is_told_to():
         if one["rotation"] != pytest.approx(other["rotation"], abs=1e-9)
     ]
     assert changed == [("head", pytest.approx((0.0, 0.3, 0.0)))]
+
+
+def test_a_texture_with_its_light_divided_out_needs_a_fit_with_shading():
+    with pytest.raises(UnusableInputError) as caught:
+        derived(kind="texture", colours="albedo")
+    assert caught.value.error.field == "colours"
+
+
+def test_the_sizes_of_textures_on_the_wire_are_the_fitter_s():
+    assert TEXTURE_SIZES == SIZES
+
+
+def test_a_clip_that_comes_along_is_what_moves_the_body_and_says_its_errors():
+    with pytest.raises(UnusableInputError) as caught:
+        derived(clip=b"HIERARCHY\nROOT Hips\n{\n}\n", kind="animation")
+    assert caught.value.error.field == "bvh"
 
 
 @pytest.mark.parametrize(

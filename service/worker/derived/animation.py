@@ -1,0 +1,57 @@
+"""The fitted body in motion: by a BVH file that came along, or walking."""
+
+from collections.abc import Callable
+from typing import cast
+
+from api_schemas.derivations import AnimationOptions, AnimationResult, DerivationKind
+from api_schemas.results import FitWarning
+from fitter.applications.animation import ChosenMotion, animate, motion_of_clip
+from fitter.applications.bvh import parse_bvh
+from fitter.applications.rig import Rig, rig_of
+from fitter.applications.walk import walk
+from service.engine.port import Report
+from service.inputs import CLIP, PERSON
+from service.worker.derived.person import person_and_instruments
+from service.worker.pipeline_port import DerivationInput, DerivationOutput
+
+STAGE = DerivationKind.ANIMATION.value
+
+
+def derive(job: DerivationInput, observe: Callable[[Report], None]) -> DerivationOutput:
+    """Set the body in motion; see :class:`service.worker.derivers.Deriver`."""
+    observe(Report(stage=STAGE, progress=0.0))
+    options = cast("AnimationOptions", job.options)
+    person, instruments = person_and_instruments(job.inputs[PERSON], job.models)
+    rig = rig_of(instruments.model, person.body.shape)
+    chosen = _chosen(job.inputs.get(CLIP), options, rig)
+    observe(Report(stage=STAGE, progress=0.1))
+    made = animate(person, instruments.evaluator, chosen.motion)
+    return DerivationOutput(
+        result=AnimationResult(
+            source=chosen.source,
+            frames=made.frames,
+            frame_time_s=made.frame_time_s,
+            morph_targets=made.morph_targets,
+            morph_mean_error_mm=made.morph_mean_error_mm,
+            morph_largest_error_mm=made.morph_largest_error_mm,
+            skin_mean_error_mm=made.skin_mean_error_mm,
+            skin_largest_error_mm=made.skin_largest_error_mm,
+            sliding_mm=made.sliding_mm,
+            travelled_m=made.travelled_m,
+            warnings=tuple(
+                FitWarning(code=each.code, message=each.message) for each in chosen.warnings
+            ),
+            artifacts=(),
+        ),
+        artifacts=dict(made.files),
+    )
+
+
+def _chosen(clip: bytes | None, options: AnimationOptions, rig: Rig) -> ChosenMotion:
+    if clip is None:
+        return ChosenMotion(
+            motion=walk(rig), source="the walk that ships with the package", warnings=()
+        )
+    return motion_of_clip(
+        parse_bvh(clip, field=CLIP), rig, start_s=options.start_s, duration_s=options.duration_s
+    )
