@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float, Integer
+from numpy.typing import ArrayLike
 
 from fitter.errors import InvalidInputError
 from fitter.numerics.rotations import rotation_matrices
@@ -20,6 +21,9 @@ MAX_FRAMES = 20_000
 
 MAX_JOINTS = 512
 MAX_FRAME_TIME_S = 10.0
+
+LARGEST_NUMBER = 1e9
+"""Beyond it no length and no angle is meant; far below where squares overflow."""
 
 _AXES = {"X": 0, "Y": 1, "Z": 2}
 _CHANNELS = tuple(f"{axis}{kind}" for kind in ("position", "rotation") for axis in _AXES)
@@ -85,8 +89,7 @@ class BvhClip:
                     place[:, axis] = values
                 else:
                     turns = np.zeros((len(values), 3))
-                    # Whole turns say nothing, and their squares may overflow.
-                    turns[:, axis] = np.radians(np.remainder(values, 360.0))
+                    turns[:, axis] = np.radians(values)
                     turn = turn @ rotation_matrices(turns)
             if parent < 0:
                 rotations[:, joint], positions[:, joint] = turn, place
@@ -247,8 +250,8 @@ def _offset(reader: _Reader) -> tuple[float, float, float]:
         x, y, z = (float(word) for word in words[1:])
     except ValueError:
         raise reader.expected(words, what="OFFSET and three numbers") from None
-    if not np.isfinite([x, y, z]).all():
-        raise reader.expected(words, what="finite numbers")
+    if not _meant([x, y, z]):
+        raise reader.expected(words, what="finite numbers, of 1e9 at most")
     return x, y, z
 
 
@@ -287,7 +290,7 @@ def _motion(reader: _Reader, channels: int) -> tuple[float, Float[np.ndarray, "t
             values = np.array(words, dtype=np.float64)
         except ValueError:
             values = np.empty(0)
-        if values.shape != (channels,) or not np.isfinite(values).all():
+        if values.shape != (channels,) or not _meant(values):
             raise reader.error(
                 code="bvh-unreadable",
                 reason=f"Line {number}: frame {found + 1} is not {channels} finite numbers, one a "
@@ -301,6 +304,11 @@ def _motion(reader: _Reader, channels: int) -> tuple[float, Float[np.ndarray, "t
             reason=f"The file ends after {found} of the {count} frames that were announced.",
         )
     return frame_time_s, numbers
+
+
+def _meant(numbers: ArrayLike) -> bool:
+    """Whether all are finite and of a size that may be meant."""
+    return bool((np.abs(numbers) <= LARGEST_NUMBER).all())
 
 
 def _error(*, field: str, code: str, reason: str) -> InvalidInputError:

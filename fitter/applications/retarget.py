@@ -81,22 +81,23 @@ def retarget(clip: BvhClip, rig: Rig, frames: slice, *, field: str = "bvh") -> R
     scale = _leg_length(rig) / _source_leg_length(rest, joints, field)
     poses = _poses(rig, clip, rest, joints, rotations, axes)
     roots = scale * positions[:, joints["pelvis"]]
-    farthest = float(np.linalg.norm(roots - roots[0], axis=1).max())
-    if not farthest <= FARTHEST_M:
-        raise InvalidInputError(
-            code="bvh-too-far",
-            field=field,
-            reason=(
-                f"The hips move {farthest:.3g} m away, by the length of the legs; more than "
-                f"{FARTHEST_M:g}."
-            ),
-            remedy="Export hips and offsets in the same unit.",
-        )
     ends = positions[:, clip.end_parent] + np.einsum(
         "teij,ej->tei", rotations[:, clip.end_parent], clip.ends @ axes.T
     )
     lowest = scale * np.concatenate([positions, ends], axis=1)[:, :, 1].min(axis=1)
     ground = float(np.percentile(lowest, GROUND_PERCENTILE))
+    lifts = np.maximum(lowest - ground - LIFT_DEAD_ZONE_M, 0.0)
+    farthest = max(float(np.linalg.norm(roots - roots[0], axis=1).max()), float(lifts.max()))
+    if not farthest <= FARTHEST_M:
+        raise InvalidInputError(
+            code="bvh-too-far",
+            field=field,
+            reason=(
+                f"The body moves {farthest:.3g} m away, by the length of the legs; more than "
+                f"{FARTHEST_M:g}."
+            ),
+            remedy="Export hips and offsets in the same unit.",
+        )
     facing = _facing_forward(rotations[0, joints["pelvis"]])
     poses[:, 0] = rotation_vectors(facing @ rotation_matrices(poses[:, 0]))
     step = frames.step or 1
@@ -105,7 +106,7 @@ def retarget(clip: BvhClip, rig: Rig, frames: slice, *, field: str = "bvh") -> R
             frame_time_s=clip.frame_time_s * step,
             poses=poses,
             roots=(roots - [roots[0, 0], ground, roots[0, 2]]) @ facing.T,
-            lifts_m=np.maximum(lowest - ground - LIFT_DEAD_ZONE_M, 0.0),
+            lifts_m=lifts,
         ),
         naming=naming,
         scale=scale,
