@@ -63,7 +63,8 @@ def _encoded(options: dict[str, Any], exif: bytes) -> bytes:
     kind, mode, rest = options["kind"], options["mode"], dict(options)
     del rest["kind"], rest["mode"]
     stream = io.BytesIO()
-    _pixels(mode).save(stream, kind, **rest, **({"exif": exif} if exif else {}))
+    # A copy: Pillow notes the encoder's settings on what it saves, and several senders save.
+    _pixels(mode).copy().save(stream, kind, **rest, **({"exif": exif} if exif else {}))
     return stream.getvalue()
 
 

@@ -6,6 +6,7 @@ import threading
 import time
 from collections import Counter
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -108,11 +109,10 @@ def _send_all(deployment: Deployment, harvest: Harvest, *, inputs: int, seed: in
                 if number % max(1, inputs // LOOKS) == 0:
                     harvest.memory_mib.append(own_memory_mib(api.pid))
 
-    threads = [threading.Thread(target=send_some) for _ in range(SENDERS)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    with ThreadPoolExecutor(SENDERS) as senders:
+        # A sender that fails is a run that fails: its inputs would not have been sent.
+        for sending in [senders.submit(send_some) for _ in range(SENDERS)]:
+            sending.result()
     harvest.memory_mib.append(own_memory_mib(api.pid))
 
 
