@@ -11,9 +11,8 @@ from pathlib import Path
 import httpx
 
 from fitter.training.text_tables import note_lines, table_lines
-from tests.benchmarks.served import NO_WORKER, ready, running
+from tests.benchmarks.served import NO_WORKER, ready, running, used_s
 from tests.deployment import Deployment, Kind
-from tests.process_table import processor_s
 from tests.submissions import Submission, small_submissions
 
 ROUNDS = 3
@@ -103,13 +102,7 @@ def _serve(deployment: Deployment, client: httpx.Client, submissions: list[Submi
 
 
 def _used(deployment: Deployment) -> list[float]:
-    return [
-        sum(
-            processor_s(process.pid, with_ended_children=kind is Kind.FORK_SERVER)
-            for process in deployment.of_kind(kind)
-        )
-        for kind in (Kind.FORK_SERVER, Kind.WORKER, Kind.API)
-    ]
+    return [used_s(deployment, kind) for kind in (Kind.FORK_SERVER, Kind.WORKER, Kind.API)]
 
 
 def _loop(answer: Connection) -> None:

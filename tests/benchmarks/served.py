@@ -6,7 +6,8 @@ from collections.abc import Iterator, Sequence
 
 import httpx
 
-from tests.deployment import REAL, Commands, Deployment
+from tests.deployment import REAL, Commands, Deployment, Kind
+from tests.process_table import processor_s
 
 NO_WORKER = Commands(serve=(*REAL.serve, "--no-worker"), worker=REAL.worker)
 READY_WITHIN_S = 300.0
@@ -32,6 +33,14 @@ def ready(client: httpx.Client, probe: str = "/healthz/ready") -> None:
         time.sleep(0.2)
     message = f"{probe} did not answer with 200 within {READY_WITHIN_S:g} s"
     raise TimeoutError(message)
+
+
+def used_s(deployment: Deployment, kind: Kind) -> float:
+    """Processor seconds that the processes of a kind have used; a fork server's with its fits."""
+    return sum(
+        processor_s(process.pid, with_ended_children=kind is Kind.FORK_SERVER)
+        for process in deployment.of_kind(kind)
+    )
 
 
 def all_ended(client: httpx.Client, paths: Sequence[str]) -> None:

@@ -6,13 +6,14 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
 import httpx
 
 from fitter.training.text_tables import note_lines, table_lines
-from tests.benchmarks.served import NO_WORKER, all_ended, ready, running
-from tests.deployment import Commands, Deployment
+from tests.benchmarks.served import NO_WORKER, all_ended, ready, running, used_s
+from tests.deployment import Commands, Deployment, Kind
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import REQUEST
 from tests.postgres import fresh_database
@@ -44,26 +45,43 @@ def lines(count: int) -> Iterator[str]:
         rows: list[tuple[str, ...]] = []
         first = 0.0
         for workers in WORKERS:
-            rate = _rate(
+            taken = _taken(
                 commands, submissions, workers=workers, places=places, jobs=count * workers
             )
-            first = first or rate
-            share = f"{rate / (workers * places / WAIT_S):.2f}" if commands is FAKED else ""
-            rows.append((str(workers), f"{rate:.2f}", f"{rate / first:.2f}", share))
+            first = first or taken.rate
+            share = f"{taken.rate / (workers * places / WAIT_S):.2f}" if commands is FAKED else ""
+            rows.append(
+                (
+                    str(workers),
+                    f"{taken.rate:.2f}",
+                    f"{taken.rate / first:.2f}",
+                    share,
+                    f"{taken.processors:.2f}",
+                )
+            )
         yield from table_lines(
             f"{title}, Postgres",
-            ("workers", "jobs a second", "times one", "of what waiting allows"),
+            ("workers", "jobs a second", "times one", "of what waiting allows", "processors"),
             rows,
         )
     yield from note_lines(
         "From the start of the first job to the end of the last. Real fits stop gaining at the "
-        "number of processors; the faked ones, which use none, show what the queue allows."
+        "number of processors; the faked ones, which use none, show what the queue allows. "
+        "Processors: how many of them API, workers and fits used; Postgres comes on top."
     )
 
 
-def _rate(
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Taken:
+    """Jobs a second, and the processors that API, workers and fits used for them."""
+
+    rate: float
+    processors: float
+
+
+def _taken(
     commands: Commands, submissions: list[Submission], *, workers: int, places: int, jobs: int
-) -> float:
+) -> _Taken:
     with contextlib.ExitStack() as stack:
         folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="maquette-benchmark-"))
         deployment = Deployment(
@@ -83,10 +101,18 @@ def _rate(
             .headers["Location"]
             for number in range(jobs)
         ]
-        began = time.monotonic()
+        began, used = time.monotonic(), _used_s(deployment)
         done_before = sum(_is_done(client, path) for path in paths)
         all_ended(client, paths)
-        return (jobs - done_before) / (time.monotonic() - began)
+        seconds = time.monotonic() - began
+        return _Taken(
+            rate=(jobs - done_before) / seconds,
+            processors=(_used_s(deployment) - used) / seconds,
+        )
+
+
+def _used_s(deployment: Deployment) -> float:
+    return sum(used_s(deployment, kind) for kind in (Kind.API, Kind.WORKER, Kind.FORK_SERVER))
 
 
 def _await_workers(client: httpx.Client, workers: int) -> None:
