@@ -21,7 +21,7 @@ from service.terminal import print_problem, print_result, stage_bars
 
 SERVE_COMMAND: Final = (sys.executable, "-m", "service.cli", "serve", "--port", "0")
 START_TIMEOUT_S: Final = 240.0
-"""A worker has fitted once before it is ready: where nothing is compiled yet, that takes a minute."""
+"""A worker has fitted once before it is ready: with nothing compiled yet, that takes a minute."""
 
 READY_POLL_S: Final = 0.05
 
