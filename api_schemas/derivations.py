@@ -46,6 +46,7 @@ class DerivationKind(StrEnum):
     POSE = "pose"
     ANIMATION = "animation"
     TEXTURE = "texture"
+    FIGURE = "figure"
 
 
 class NamedPose(StrEnum):
@@ -155,6 +156,19 @@ class TextureOptions(DerivationOptions):
     ] = Field(default=1_024, description="Side of the texture, texels.")
 
 
+class FigureOptions(DerivationOptions):
+    """Picture, overlay, recovered body and a new pose side by side, as in the paper's Fig. 10."""
+
+    kind: Literal["figure"]
+    pose: NamedPose = NamedPose.STANDING
+    degrees: float = Field(
+        default=0.0,
+        ge=-360.0,
+        le=360.0,
+        description="How far the onlooker of the two bodies has walked to the right round them.",
+    )
+
+
 def _kind(value: Any) -> str | None:
     # In brackets, by which field names of problems leave the alternative out.
     is_object = isinstance(value, dict)
@@ -181,6 +195,7 @@ AnyDerivationOptions = (
     | Annotated[PoseOptions, Tag("[pose]")]
     | Annotated[AnimationOptions, Tag("[animation]")]
     | Annotated[TextureOptions, Tag("[texture]")]
+    | Annotated[FigureOptions, Tag("[figure]")]
 )
 
 
@@ -290,12 +305,20 @@ class TextureResult(DerivedFiles):
     scale: float
 
 
+class FigureResult(DerivedFiles):
+    """``figure.png``."""
+
+    kind: Literal["figure"] = "figure"
+    pose: NamedPose
+
+
 AnyDerivationResult = (
     Annotated[ReportResult, Tag("[report]")]
     | Annotated[CaricatureResult, Tag("[caricature]")]
     | Annotated[PoseResult, Tag("[pose]")]
     | Annotated[AnimationResult, Tag("[animation]")]
     | Annotated[TextureResult, Tag("[texture]")]
+    | Annotated[FigureResult, Tag("[figure]")]
 )
 
 

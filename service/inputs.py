@@ -11,14 +11,16 @@ MASK: Final = "mask"
 RESULT: Final = "result.json"
 PERSON: Final = "person.npz"
 SEGMENTATION: Final = "segmentation.png"
+OVERLAY: Final = "overlay.png"
 CLIP: Final = "bvh"
 """A motion that came along with the request for a derivation."""
 
 OF_ITS_FIT: Final[Mapping[DerivationKind, tuple[str, ...]]] = {
     DerivationKind.ANIMATION: (PERSON,),
     DerivationKind.CARICATURE: (PERSON,),
+    DerivationKind.FIGURE: (PERSON, IMAGE, OVERLAY),
     DerivationKind.POSE: (PERSON,),
     DerivationKind.TEXTURE: (PERSON, IMAGE, SEGMENTATION),
-    DerivationKind.REPORT: (RESULT, PERSON, "overlay.png", "albedo.png", "shading.png"),
+    DerivationKind.REPORT: (RESULT, PERSON, OVERLAY, "albedo.png", "shading.png"),
 }
 """Of which of the fit's inputs and files a derivation has copies, so far as the fit has them."""

@@ -15,6 +15,7 @@ from service.worker.pipeline_port import DerivationInput, DerivationOutput
 MODULES: Final[Mapping[DerivationKind, str]] = {
     DerivationKind.ANIMATION: "service.worker.derived.animation",
     DerivationKind.CARICATURE: "service.worker.derived.caricature",
+    DerivationKind.FIGURE: "service.worker.derived.figure",
     DerivationKind.POSE: "service.worker.derived.pose",
     DerivationKind.TEXTURE: "service.worker.derived.texture",
     DerivationKind.REPORT: "service.worker.report",

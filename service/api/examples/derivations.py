@@ -17,6 +17,7 @@ REQUESTS: Final[dict[str, Any]] = {
         "rotations": {"head": [0.0, 0.35, 0.0], "left_forearm": [0.0, 0.0, 0.0, 1.0]},
     },
     "walk": {"kind": "animation"},
+    "figure": {"kind": "figure", "pose": "arms_raised", "degrees": 30},
     "texture": {"kind": "texture", "colours": "albedo", "size": 2048},
     "told-of-its-end": {
         "kind": "report",
@@ -118,6 +119,11 @@ RESULTS: Final[dict[str, Any]] = {
             {"part": "pelvis", "rotation": [0.0, 0.0, 0.0]},
             {"part": "spine", "rotation": [0.105, 0.0, 0.0]},
         ],
+    },
+    "figure": {
+        "artifacts": _files(figure__png=912000),
+        "kind": "figure",
+        "pose": "arms_raised",
     },
     "texture": {
         "artifacts": _files(body_textured__glb=2874000, texture__png=1980000),

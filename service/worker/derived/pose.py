@@ -8,7 +8,8 @@ import numpy as np
 from api_schemas.derivations import DerivationKind, NamedPose, PoseOptions, PoseResult
 from fitter.applications.poses import named_pose, spelled_pose
 from fitter.applications.previews import View, preview
-from fitter.applications.rig import rig_of
+from fitter.applications.rig import Rig, rig_of
+from fitter.arrays import Pose
 from fitter.export.display import png
 from fitter.export.plain_gltf import plain_glb
 from fitter.parameters import BodyParameters
@@ -21,6 +22,13 @@ from service.worker.pipeline_port import DerivationInput, DerivationOutput
 STAGE = DerivationKind.POSE.value
 
 
+def pose_named(rig: Rig, name: NamedPose) -> Pose:
+    """A pose of the wire for a person's skeleton."""
+    if name is NamedPose.REST:
+        return np.zeros((len(rig.part_names), 3))
+    return named_pose(rig, name.value)
+
+
 def derive(job: DerivationInput, observe: Callable[[Report], None]) -> DerivationOutput:
     """Pose anew; see :class:`service.worker.derivers.Deriver`."""
     observe(Report(stage=STAGE, progress=0.0))
@@ -28,8 +36,7 @@ def derive(job: DerivationInput, observe: Callable[[Report], None]) -> Derivatio
     person, instruments = person_and_instruments(job.inputs[PERSON], job.models)
     model = instruments.model
     rig = rig_of(model, person.body.shape)
-    named = None if options.pose is NamedPose.REST else named_pose(rig, options.pose.value)
-    pose = spelled_pose(rig, options.rotations, beginning=named)
+    pose = spelled_pose(rig, options.rotations, beginning=pose_named(rig, options.pose))
     body = BodyParameters(pose=pose, translation=np.zeros(3), shape=person.body.shape)
     vertices = instruments.evaluator.body_frame_vertices(body)
     observe(Report(stage=STAGE, progress=0.5))

@@ -10,10 +10,9 @@ from PIL import Image
 
 from fitter.export.display import png
 from fitter.export.views import sides_pictures
-from service.inputs import PERSON
+from service.inputs import OVERLAY, PERSON
 from service.worker.derived.person import person_and_instruments
 
-OVERLAY: Final = "overlay.png"
 SKIN: Final[Mapping[str, str]] = {"albedo.png": "Albedo", "shading.png": "Shading"}
 """What there is after a fit by shading."""
 

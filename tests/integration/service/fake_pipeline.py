@@ -16,6 +16,8 @@ from api_schemas.derivations import (
     AnimationResult,
     CaricatureOptions,
     CaricatureResult,
+    FigureOptions,
+    FigureResult,
     PoseOptions,
     PoseResult,
     ReportResult,
@@ -137,6 +139,9 @@ def _derived(job: DerivationInput) -> DerivationOutput:
         rotations = (PartRotation(part="pelvis", rotation=(0.0, 0.0, 0.0)),)
         result = PoseResult(pose=rotations, artifacts=())
         files = {"body_reposed.glb": b"glTF", "pose.png": b"PNG"}
+    elif isinstance(options, FigureOptions):
+        result = FigureResult(pose=options.pose, artifacts=())
+        files = {"figure.png": b"PNG"}
     elif isinstance(options, TextureOptions):
         assert job.inputs[IMAGE] == job.inputs[PERSON]
         result = TextureResult(

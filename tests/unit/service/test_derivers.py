@@ -21,7 +21,7 @@ from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.camera import Camera
 from fitter.parameters import BodyParameters
 from fitter.request import Gender
-from service.inputs import CLIP, IMAGE, OF_ITS_FIT, PERSON, RESULT, SEGMENTATION
+from service.inputs import CLIP, IMAGE, OF_ITS_FIT, OVERLAY, PERSON, RESULT, SEGMENTATION
 from service.worker.artifacts import MEDIA_TYPES, with_result_document
 from service.worker.derivers import MODULES
 from service.worker.pipeline import derive
@@ -60,7 +60,7 @@ INPUTS = {
     RESULT: fit_result(light=None, reflectance=None).model_dump_json().encode(),
     IMAGE: png(),
     SEGMENTATION: png(66, 99, level=255),
-    "overlay.png": png(),
+    OVERLAY: png(),
 }
 
 

@@ -1,0 +1,48 @@
+"""Picture, overlay, recovered body and a new pose as one picture, as in the paper's Fig. 10."""
+
+from collections.abc import Callable
+from typing import cast
+
+import numpy as np
+
+from api_schemas.derivations import DerivationKind, FigureOptions, FigureResult
+from fitter.applications.figure import figure_picture
+from fitter.applications.rig import rig_of
+from fitter.export.display import png
+from fitter.observation.decoding import decode_picture
+from fitter.parameters import BodyParameters
+from service.engine.port import Report
+from service.inputs import IMAGE, OVERLAY, PERSON
+from service.worker.derived.person import person_and_instruments
+from service.worker.derived.pose import pose_named
+from service.worker.pipeline_port import DerivationInput, DerivationOutput
+
+STAGE = DerivationKind.FIGURE.value
+
+
+def derive(job: DerivationInput, observe: Callable[[Report], None]) -> DerivationOutput:
+    """Draw the figure; see :class:`service.worker.derivers.Deriver`."""
+    observe(Report(stage=STAGE, progress=0.0))
+    options = cast("FigureOptions", job.options)
+    person, instruments = person_and_instruments(job.inputs[PERSON], job.models)
+    model, evaluator = instruments.model, instruments.evaluator
+    picture, overlay = (
+        decode_picture(job.inputs[name], field="image", max_pixels=job.max_pixels).pixels
+        for name in (IMAGE, OVERLAY)
+    )
+    shape = person.body.shape
+    pose = pose_named(rig_of(model, shape), options.pose)
+    reposed = BodyParameters(pose=pose, translation=np.zeros(3), shape=shape)
+    drawn = figure_picture(
+        picture,
+        overlay,
+        evaluator.body_frame_vertices(person.body),
+        evaluator.body_frame_vertices(reposed),
+        model.triangles,
+        degrees=options.degrees,
+        pose_name=options.pose.value.replace("_", " "),
+    )
+    return DerivationOutput(
+        result=FigureResult(pose=options.pose, artifacts=()),
+        artifacts={"figure.png": png(drawn)},
+    )
