@@ -8,16 +8,20 @@ from typing import Final
 
 from rich.console import Console
 
+from api_schemas.derivations import CaricatureOptions, DerivationKind
 from api_schemas.problems import Problem, field_problem, problem
 from api_schemas.requests import FitOptions
 from fitter.errors import ModelFileError
 from service.demo_sample import load_sample
+from service.inputs import PERSON
 from service.refusal import RefusedError
 from service.settings import Settings
 from service.submission import check_submission
 from service.terminal import print_problem, print_result, stage_bars
 from service.worker.artifacts import with_result_document
+from service.worker.derivers import load_deriver
 from service.worker.pipeline_port import (
+    DerivationInput,
     PipelineInput,
     PipelineOutput,
     UnusableInputError,
@@ -99,10 +103,10 @@ def fit_locally(arguments: FitArguments, *, pipeline: str = PIPELINE) -> int:
 
 
 def warm_up(*, pipeline: str = PIPELINE) -> int:
-    """Fit the sample once, so that whatever is compiled at first use is compiled and cached."""
+    """Fit the sample and exaggerate it, so that what is compiled at first use is compiled."""
     console = Console()
     sample = load_sample()
-    _fit(
+    output = _fit(
         console,
         request=sample.request,
         image=sample.image,
@@ -110,6 +114,18 @@ def warm_up(*, pipeline: str = PIPELINE) -> int:
         models=None,
         pipeline=pipeline,
     )
+    if PERSON in output.artifacts:
+        # A caricature asks where a surface runs through itself, which no fit does.
+        settings = Settings()
+        load_deriver(DerivationKind.CARICATURE).derive(
+            DerivationInput(
+                options=CaricatureOptions(kind="caricature", factor=1.1),
+                inputs={PERSON: output.artifacts[PERSON]},
+                max_pixels=settings.max_pixels,
+                models=settings.models_dir,
+            ),
+            lambda _: None,
+        )
     return 0
 
 
