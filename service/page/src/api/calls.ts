@@ -1,6 +1,6 @@
 // The calls this page makes, one function each.
 import { jsonBody, request, requestJson } from "./client";
-import type { FitOfImage, FitOptions, FitResult, InitialPose, InitialPoseRequest, Job, UploadedImage } from "./types";
+import type { Derivation, DerivationPage, DerivationRequest, FitOfImage, FitOptions, FitResult, InitialPose, InitialPoseRequest, Job, UploadedImage } from "./types";
 
 export function uploadImage(file: Blob, signal: AbortSignal): Promise<UploadedImage> {
   const form = new FormData();
@@ -34,6 +34,22 @@ export function cancelFit(id: string): Promise<Job> {
 
 export async function eraseFit(id: string): Promise<void> {
   await request(`/v1/fits/${id}`, { method: "DELETE" });
+}
+
+export async function listDerivations(fit: Job): Promise<readonly Derivation[]> {
+  return (await requestJson<DerivationPage>(`/v1/fits/${fit.id}/derivations`)).derivations;
+}
+
+export function derive(fit: Job, asked: DerivationRequest): Promise<Derivation> {
+  return requestJson(`/v1/fits/${fit.id}/derivations`, jsonBody(asked));
+}
+
+export function getDerivation(path: string): Promise<Derivation> {
+  return requestJson(path);
+}
+
+export async function eraseDerivation({ links }: Derivation): Promise<void> {
+  await request(links.self, { method: "DELETE" });
 }
 
 /** A file by its link: by fetch, not by an element's address, since a key may be needed. */

@@ -14,7 +14,7 @@ export interface Reading {
 
 const ACTIVE: readonly JobState[] = ["queued", "running"];
 
-export function isActive(job: Job): boolean {
+export function isActive(job: Pick<Job, "state">): boolean {
   return ACTIVE.includes(job.state);
 }
 

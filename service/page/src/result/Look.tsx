@@ -28,7 +28,7 @@ const SURFACES: readonly { value: Surface; label: string; title: string }[] = [
 const CHANGE: { value: Surface; label: string; title: string } = {
   value: "change",
   label: "Change",
-  title: "What shading changed of the outline's body. Red: outward, blue: inward; full colour at 2 cm",
+  title: "What shading changed of the outline's body. Red: outward, blue: inward; full colour at 1 cm",
 };
 const BODIES: readonly { value: Cues; label: string; title: string }[] = [
   { value: "SES", label: "With shading", title: "SES: silhouette, edges and shading" },
@@ -103,7 +103,7 @@ export function Look({ job, files, picture, placement, onPlace, measure }: Props
       {surface === "change" && (
         <p class="look-legend fine">
           What shading changed of the outline’s body: <b class="is-outward">outward</b>, <b class="is-inward">inward</b>; full
-          colour at 2 cm.
+          colour at 1 cm.
         </p>
       )}
       {(comparable || over) && (

@@ -2,6 +2,7 @@
 import { useState } from "preact/hooks";
 import { getRequest } from "../api/calls";
 import type { Job } from "../api/types";
+import { DerivedPanel } from "../derived/DerivedPanel";
 import type { Picture } from "../draft/picture";
 import { openAgain } from "../panel/open";
 import { ProblemNote } from "../ui/ProblemNote";
@@ -60,6 +61,7 @@ export function ResultView({ job, picture }: { job: Job; picture: Picture | null
               }}
             />
           )}
+          {files && <DerivedPanel fit={job} />}
           {files && <Downloads job={job} result={files.result} />}
         </div>
         <Actions job={job} picture={picture} />

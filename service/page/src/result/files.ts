@@ -60,7 +60,7 @@ async function bodyOf(job: Job, name: string): Promise<GlbBody | null> {
 }
 
 /** A picture of the result as an address for an element; null until it is there. */
-export function usePictureOf(job: Job, name: string, wanted: boolean): string | null {
+export function usePictureOf(job: { links: { artifacts?: Readonly<Record<string, string>> } }, name: string, wanted: boolean): string | null {
   const [url, setUrl] = useState<string | null>(null);
   const path = job.links.artifacts?.[name];
   useEffect(() => {

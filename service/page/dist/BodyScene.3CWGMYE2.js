@@ -4311,9 +4311,9 @@ void main() {
     return mix(vec3(0.78), hue, strength);
   }
 
-  // How far shading moved the surface, full colour at 2 cm, over a little clay for its form.
+  // How far shading moved the surface, full colour at 1 cm, over a little clay for its form.
   vec3 changeSurface(vec3 normal, vec3 toEye) {
-    float strength = clamp(abs(vShift) / 0.02, 0.0, 1.0);
+    float strength = clamp(abs(vShift) / 0.01, 0.0, 1.0);
     vec3 hue = vShift > 0.0 ? vec3(0.80, 0.13, 0.02) : vec3(0.02, 0.18, 0.62);
     float form = 0.45 + 0.55 * max(dot(normal, toEye), 0.0);
     return form * mix(vec3(0.78), hue, strength);

@@ -1,0 +1,59 @@
+// A fit's derivations, each followed to its end.
+import { useEffect, useState } from "preact/hooks";
+import { derive, eraseDerivation, getDerivation, listDerivations } from "../api/calls";
+import { problemFrom } from "../api/client";
+import { jobEvents } from "../api/events";
+import type { Derivation, DerivationRequest, Job, Problem } from "../api/types";
+import { isActive } from "../fit/watch";
+
+export interface Derived {
+  /** Newest first. */
+  readonly list: readonly Derivation[];
+  readonly problem: Problem | null;
+  readonly start: (asked: DerivationRequest) => Promise<void>;
+  readonly erase: (each: Derivation) => Promise<void>;
+}
+
+export function useDerivations(fit: Job): Derived {
+  const [list, setList] = useState<readonly Derivation[]>([]);
+  const [problem, setProblem] = useState<Problem | null>(null);
+  const [leaving] = useState(() => new AbortController());
+  const fail = (error: unknown) => !leaving.signal.aborted && setProblem(problemFrom(error));
+  const put = (seen: Derivation) =>
+    setList((old) => (old.some(({ id }) => id === seen.id) ? old.map((each) => (each.id === seen.id ? seen : each)) : [seen, ...old]));
+
+  const follow = async (each: Derivation) => {
+    for await (const { state, stage, progress } of jobEvents(each.links.events, leaving.signal)) {
+      if (isActive({ state })) put({ ...each, state, stage, progress });
+    }
+    put(await getDerivation(each.links.self));
+  };
+
+  useEffect(() => {
+    listDerivations(fit).then((found) => {
+      setList(found);
+      for (const each of found) if (isActive(each)) follow(each).catch(fail);
+    }, fail);
+    return () => leaving.abort();
+  }, []);
+
+  const attempt = async (what: () => Promise<void>) => {
+    setProblem(null);
+    await what().catch(fail);
+  };
+  return {
+    list,
+    problem,
+    start: (asked) =>
+      attempt(async () => {
+        const begun = await derive(fit, asked);
+        put(begun);
+        follow(begun).catch(fail);
+      }),
+    erase: (each) =>
+      attempt(async () => {
+        await eraseDerivation(each);
+        setList((old) => old.filter(({ id }) => id !== each.id));
+      }),
+  };
+}

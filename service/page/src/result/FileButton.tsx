@@ -1,0 +1,62 @@
+// A file of a result: what it is, and how to keep it.
+import { useSignal } from "@preact/signals";
+import { getFile } from "../api/calls";
+import { problemFrom } from "../api/client";
+import type { Problem } from "../api/types";
+import { Icon } from "../ui/Icon";
+import { ProblemNote } from "../ui/ProblemNote";
+import { saveFile } from "../ui/save";
+
+export const FILE_LABELS: Readonly<Record<string, string>> = {
+  "body_posed.glb": "Posed body with camera, light and skin",
+  "body_canonical.glb": "Upright body",
+  "body_posed_se.glb": "Posed body before shading refined it",
+  "body_canonical_se.glb": "Upright body before shading refined it",
+  "tapes.json": "Where each measurement is taken",
+  "result.json": "Everything found, as numbers",
+  "overlay.png": "Outline over the picture",
+  "views.png": "The body from other sides",
+  "segmentation.png": "What was taken for the person",
+  "trimap.png": "What that began with",
+  "albedo.png": "Albedo",
+  "shading.png": "Shading by Eq. 1",
+  "shading_lambertian.png": "Its diffuse part",
+  "report.html": "One page, to read",
+  "report.pdf": "The same, to print",
+  "body_caricature.glb": "The caricature in the picture’s pose",
+  "caricature.png": "Beside the fitted body",
+  "body_reposed.glb": "The body in this pose",
+  "pose.png": "Seen from other sides",
+};
+
+export function FileButton({ name, path, bytes }: { name: string; path: string; bytes?: number }) {
+  const problem = useSignal<Problem | null>(null);
+  return (
+    <>
+      <button
+        type="button"
+        onClick={async () => {
+          try {
+            saveFile(name, await getFile(path));
+            problem.value = null;
+          } catch (error) {
+            problem.value = problemFrom(error);
+          }
+        }}
+      >
+        <Icon name="download" />
+        <span>
+          {name}
+          <small>{FILE_LABELS[name]}</small>
+        </span>
+        <small>{sizeText(bytes)}</small>
+      </button>
+      {problem.value && <ProblemNote problem={problem.value} />}
+    </>
+  );
+}
+
+function sizeText(bytes: number | undefined): string {
+  if (bytes === undefined) return "";
+  return bytes < 1e6 ? `${Math.max(1, Math.round(bytes / 1e3))} kB` : `${(bytes / 1e6).toFixed(1)} MB`;
+}
