@@ -18,6 +18,7 @@ FITS = {
     "throughput": 10,
     "scaling": 5,
     "upload": 5,
+    "page": 10,
     "load": 1_000,
     "overhead": 20,
     "workers": 20,
@@ -25,7 +26,7 @@ FITS = {
     "soak": 10,
 }
 """The parts, each a module of this package, and how many fits each makes unless told otherwise:
-of ``load`` jobs that wait, of ``soak`` minutes."""
+of ``page`` visits, of ``load`` jobs that wait, of ``soak`` minutes."""
 
 
 def main(arguments: Sequence[str]) -> int:
