@@ -8,7 +8,7 @@ from typing import Final
 
 from rich.console import Console
 
-from api_schemas.derivations import CaricatureOptions, DerivationKind
+from api_schemas.derivations import CaricatureOptions
 from api_schemas.problems import Problem, field_problem, problem
 from api_schemas.requests import FitOptions
 from fitter.errors import ModelFileError
@@ -19,7 +19,6 @@ from service.settings import Settings
 from service.submission import check_submission
 from service.terminal import print_problem, print_result, stage_bars
 from service.worker.artifacts import with_result_document
-from service.worker.derivers import load_deriver
 from service.worker.pipeline_port import (
     DerivationInput,
     PipelineInput,
@@ -117,7 +116,7 @@ def warm_up(*, pipeline: str = PIPELINE) -> int:
     if PERSON in output.artifacts:
         # A caricature asks where a surface runs through itself, which no fit does.
         settings = Settings()
-        load_deriver(DerivationKind.CARICATURE).derive(
+        load_pipeline(pipeline).derive(
             DerivationInput(
                 options=CaricatureOptions(kind="caricature", factor=1.1),
                 inputs={PERSON: output.artifacts[PERSON]},
