@@ -17,7 +17,7 @@ from pydantic import (
 
 from api_schemas.base import WholeNumber, WireModel, refusal
 from api_schemas.jobs import JobStanding
-from api_schemas.results import Artifact, FitWarning, PartRotation
+from api_schemas.results import Artifact, FitWarning, Measurement, PartRotation
 from api_schemas.webhooks import WebhookTarget
 
 FULL_TURN: Final = 6.2832
@@ -26,6 +26,20 @@ FULL_TURN: Final = 6.2832
 
 TEXTURE_SIZES: Final = (512, 1_024, 2_048)
 """Sides a texture may have, texels."""
+
+
+MOST_OTHER_FITS: Final = 11
+"""Twelve pictures of one person in all."""
+
+
+def _each_once(fits: tuple[UUID, ...]) -> tuple[UUID, ...]:
+    if len(set(fits)) == len(fits):
+        return fits
+    raise refusal(
+        code="repeated",
+        reason="A fit is named twice.",
+        remedy="Name each of the other fits once.",
+    )
 
 
 def _texture_size(size: int) -> int:
@@ -47,6 +61,7 @@ class DerivationKind(StrEnum):
     ANIMATION = "animation"
     TEXTURE = "texture"
     FIGURE = "figure"
+    COMBINED = "combined"
 
 
 class NamedPose(StrEnum):
@@ -169,6 +184,21 @@ class FigureOptions(DerivationOptions):
     )
 
 
+class CombinedOptions(DerivationOptions):
+    """One person from several of their pictures: this fit and others of the same person."""
+
+    kind: Literal["combined"]
+    fits: Annotated[tuple[UUID, ...], AfterValidator(_each_once)] = Field(
+        min_length=1,
+        max_length=MOST_OTHER_FITS,
+        description=(
+            "Other fits that have succeeded, of the same person, with the same gender, height and "
+            "known measurements."
+        ),
+        json_schema_extra={"uniqueItems": True},
+    )
+
+
 def _kind(value: Any) -> str | None:
     # In brackets, by which field names of problems leave the alternative out.
     is_object = isinstance(value, dict)
@@ -196,6 +226,7 @@ AnyDerivationOptions = (
     | Annotated[AnimationOptions, Tag("[animation]")]
     | Annotated[TextureOptions, Tag("[texture]")]
     | Annotated[FigureOptions, Tag("[figure]")]
+    | Annotated[CombinedOptions, Tag("[combined]")]
 )
 
 
@@ -312,6 +343,24 @@ class FigureResult(DerivedFiles):
     pose: NamedPose
 
 
+class CombinedResult(DerivedFiles):
+    """``body_combined.glb``, in the canonical pose, and ``combined.png``, beside this fit alone."""
+
+    kind: Literal["combined"] = "combined"
+    pictures: int
+    shape: tuple[float, ...]
+    measurements: tuple[Measurement, ...]
+    agreement: float = Field(
+        ge=0.0,
+        le=1.0,
+        description=(
+            "How often pictures of one person give bodies that differ as much as these do; below "
+            "0.01 a warning names the fit that differs most."
+        ),
+    )
+    warnings: tuple[FitWarning, ...]
+
+
 AnyDerivationResult = (
     Annotated[ReportResult, Tag("[report]")]
     | Annotated[CaricatureResult, Tag("[caricature]")]
@@ -319,6 +368,7 @@ AnyDerivationResult = (
     | Annotated[AnimationResult, Tag("[animation]")]
     | Annotated[TextureResult, Tag("[texture]")]
     | Annotated[FigureResult, Tag("[figure]")]
+    | Annotated[CombinedResult, Tag("[combined]")]
 )
 
 

@@ -15,9 +15,16 @@ OVERLAY: Final = "overlay.png"
 CLIP: Final = "bvh"
 """A motion that came along with the request for a derivation."""
 
+
+def other_person(index: int) -> str:
+    """The person of another fit, by its place in the request for a derivation."""
+    return f"person.{index}.npz"
+
+
 OF_ITS_FIT: Final[Mapping[DerivationKind, tuple[str, ...]]] = {
     DerivationKind.ANIMATION: (PERSON,),
     DerivationKind.CARICATURE: (PERSON,),
+    DerivationKind.COMBINED: (PERSON, RESULT),
     DerivationKind.FIGURE: (PERSON, IMAGE, OVERLAY),
     DerivationKind.POSE: (PERSON,),
     DerivationKind.TEXTURE: (PERSON, IMAGE, SEGMENTATION),

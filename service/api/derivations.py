@@ -5,6 +5,7 @@ may see it, and where the fit is gone there is nothing.
 """
 
 import codecs
+from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Any, Final
 from uuid import UUID
@@ -16,6 +17,7 @@ from starlette.concurrency import run_in_threadpool
 from api_schemas.derivations import (
     AnimationOptions,
     AnyDerivationOptions,
+    CombinedOptions,
     Derivation,
     DerivationKind,
     DerivationPage,
@@ -70,7 +72,7 @@ from service.api.results import (
 from service.api.uploads import MULTIPART, read_request_and_file
 from service.blobs import BlobMissingError
 from service.engine.port import JobRecord, StoredBlob
-from service.inputs import CLIP, OF_ITS_FIT
+from service.inputs import CLIP, OF_ITS_FIT, PERSON, other_person
 from service.refusal import refused
 from service.validation import parsed
 from service.webhooks.targets import check_webhook
@@ -371,19 +373,11 @@ def _inputs(
     fit = find(context.jobs, fit_id)
     if fit.state is not JobState.SUCCEEDED:
         raise ProblemError(no_result(fit))
-    needed = OF_ITS_FIT[DerivationKind(options.kind)]
-    kept = dict(fit.inputs) | {
-        artifact.name: StoredBlob(digest=artifact.sha256, media_type=artifact.media_type)
-        for artifact in fit.artifacts
-    }
-    try:
-        files = {
-            name: File(content=context.blobs.get(fit.id, blob.digest), media_type=blob.media_type)
-            for name, blob in kept.items()
-            if name in needed
-        }
-    except BlobMissingError as error:
-        raise not_found(what="such fit any more") from error
+    files = _files_of(context, fit, OF_ITS_FIT[DerivationKind(options.kind)])
+    if isinstance(options, CombinedOptions):
+        for index, other in enumerate(options.fits):
+            person = _person_of_another(context, index, other, than=fit_id)
+            files[other_person(index)] = person
     if clip is not None:
         files[CLIP] = File(content=clip, media_type="text/plain")
     return Inputs(
@@ -392,3 +386,38 @@ def _inputs(
         files=files,
         webhook=options.webhook,
     )
+
+
+def _files_of(context: ApiContext, fit: JobRecord, needed: Collection[str]) -> dict[str, File]:
+    """Copies of a fit's inputs and files, so far as it has them."""
+    kept = dict(fit.inputs) | {
+        artifact.name: StoredBlob(digest=artifact.sha256, media_type=artifact.media_type)
+        for artifact in fit.artifacts
+    }
+    try:
+        return {
+            name: File(content=context.blobs.get(fit.id, blob.digest), media_type=blob.media_type)
+            for name, blob in kept.items()
+            if name in needed
+        }
+    except BlobMissingError as error:
+        raise not_found(what="such fit any more") from error
+
+
+def _person_of_another(context: ApiContext, index: int, other: UUID, *, than: UUID) -> File:
+    """The person of a fit that a request names beside its own."""
+    record = None if other == than else context.jobs.job(str(other))
+    person = None
+    if record is not None and record.state is JobState.SUCCEEDED:
+        person = _files_of(context, record, (PERSON,)).get(PERSON)
+    if person is None:
+        reason = "is the one it is derived from" if other == than else "has not succeeded here"
+        raise refused(
+            FieldProblem(
+                field=f"fits.{index}",
+                code="fits-unusable",
+                reason=f"The fit {other} {reason}.",
+                remedy="Name other fits of yours that have succeeded.",
+            )
+        )
+    return person

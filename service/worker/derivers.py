@@ -15,6 +15,7 @@ from service.worker.pipeline_port import DerivationInput, DerivationOutput
 MODULES: Final[Mapping[DerivationKind, str]] = {
     DerivationKind.ANIMATION: "service.worker.derived.animation",
     DerivationKind.CARICATURE: "service.worker.derived.caricature",
+    DerivationKind.COMBINED: "service.worker.derived.combined",
     DerivationKind.FIGURE: "service.worker.derived.figure",
     DerivationKind.POSE: "service.worker.derived.pose",
     DerivationKind.TEXTURE: "service.worker.derived.texture",

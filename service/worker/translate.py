@@ -113,7 +113,7 @@ def fit_result(result: FitResult, *, part_names: Sequence[str]) -> wire.FitResul
         energies=dict(result.energies),
         evaluations=result.evaluations,
         silhouette_overlap=result.silhouette_overlap,
-        measurements=_measurements(result.measurements, result.given),
+        measurements=measurement_results(result.measurements, result.given),
         stages=tuple(_stage(stage, part_names, result.given) for stage in result.stages),
         limb_facing=tuple(_limb_facing(facing) for facing in result.limb_facing),
         assumptions=tuple(
@@ -178,9 +178,10 @@ def _reflectance(reflectance: Reflectance) -> wire.ReflectanceResult:
     )
 
 
-def _measurements(
+def measurement_results(
     measurements: Sequence[Measurement], given: Sequence[str]
 ) -> tuple[wire.Measurement, ...]:
+    """Translate measurements; ``given`` names those the request gave."""
     return tuple(
         wire.Measurement(
             name=measurement.name,
@@ -201,7 +202,7 @@ def _stage(stage: StageBody, part_names: Sequence[str], given: Sequence[str]) ->
         energies=dict(stage.energies),
         silhouette_overlap=stage.silhouette_overlap,
         body=body_result(stage.body, part_names),
-        measurements=_measurements(stage.measurements, given),
+        measurements=measurement_results(stage.measurements, given),
     )
 
 

@@ -3,6 +3,7 @@
 from typing import Any, Final
 
 from service.api.examples import jobs
+from service.api.examples.results import RESULT
 
 _FIT_PATH: Final = f"/v1/fits/{jobs.FIT_ID}"
 DERIVATION_ID: Final = "5f1c2a34-8b1e-4c57-9a1d-0c6f3f0f9b21"
@@ -19,6 +20,7 @@ REQUESTS: Final[dict[str, Any]] = {
     "walk": {"kind": "animation"},
     "figure": {"kind": "figure", "pose": "arms_raised", "degrees": 30},
     "texture": {"kind": "texture", "colours": "albedo", "size": 2048},
+    "combined": {"kind": "combined", "fits": ["0d3c1b6e-52a4-4f0e-9e37-0a4f6c2f7d10"]},
     "told-of-its-end": {
         "kind": "report",
         "webhook": {"url": "https://example.org/hooks/maquette"},
@@ -119,6 +121,15 @@ RESULTS: Final[dict[str, Any]] = {
             {"part": "pelvis", "rotation": [0.0, 0.0, 0.0]},
             {"part": "spine", "rotation": [0.105, 0.0, 0.0]},
         ],
+    },
+    "combined": {
+        "artifacts": _files(body_combined__glb=699700, combined__png=160500),
+        "kind": "combined",
+        "pictures": 2,
+        "shape": [0.813, -1.386, -0.711],
+        "measurements": [RESULT["measurements"][-1]],
+        "agreement": 0.84,
+        "warnings": [],
     },
     "figure": {
         "artifacts": _files(figure__png=912000),

@@ -16,6 +16,8 @@ from api_schemas.derivations import (
     AnimationResult,
     CaricatureOptions,
     CaricatureResult,
+    CombinedOptions,
+    CombinedResult,
     FigureOptions,
     FigureResult,
     PoseOptions,
@@ -38,7 +40,7 @@ from api_schemas.results import (
     PartRotation,
 )
 from service.engine.port import Report
-from service.inputs import CLIP, IMAGE, PERSON, RESULT
+from service.inputs import CLIP, IMAGE, PERSON, RESULT, other_person
 from service.worker.pipeline_port import (
     DerivationInput,
     DerivationOutput,
@@ -139,6 +141,18 @@ def _derived(job: DerivationInput) -> DerivationOutput:
         rotations = (PartRotation(part="pelvis", rotation=(0.0, 0.0, 0.0)),)
         result = PoseResult(pose=rotations, artifacts=())
         files = {"body_reposed.glb": b"glTF", "pose.png": b"PNG"}
+    elif isinstance(options, CombinedOptions):
+        fit = FitResult.model_validate_json(job.inputs[RESULT])
+        assert all(job.inputs[other_person(index)] for index in range(len(options.fits)))
+        result = CombinedResult(
+            pictures=1 + len(options.fits),
+            shape=(0.0, 0.5),
+            measurements=fit.measurements,
+            agreement=0.5,
+            warnings=(),
+            artifacts=(),
+        )
+        files = {"body_combined.glb": b"glTF", "combined.png": b"PNG"}
     elif isinstance(options, FigureOptions):
         result = FigureResult(pose=options.pose, artifacts=())
         files = {"figure.png": b"PNG"}

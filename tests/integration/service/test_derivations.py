@@ -212,6 +212,30 @@ def test_a_texture_is_made_of_the_fit_s_own_picture(service: Service):
     assert (result["colours"], result["size"]) == ("albedo", 512)
 
 
+def test_fits_of_one_person_are_combined(machine: Machine):
+    with running_service(machine) as service:
+        one, other = fitted(service), fitted(service)
+        body = {"kind": "combined", "fits": [other.rpartition("/")[2]]}
+        job = service.ended(derived(service, one, body))
+        assert job["state"] == "succeeded"
+        result = service.client.get(job["links"]["result"]).json()
+        assert (result["kind"], result["pictures"]) == ("combined", 2)
+
+
+def test_only_other_fits_that_have_succeeded_are_combined(service: Service):
+    fit = fitted(service)
+    own, unknown = fit.rpartition("/")[2], "00000000-0000-4000-8000-000000000000"
+    failed = service.submit({"unusable": True})
+    service.ended(failed)
+    for other in (own, unknown, failed.rpartition("/")[2]):
+        answer = post(service, fit, {"kind": "combined", "fits": [other]})
+        assert answer.status_code == 422
+        assert answer.json()["errors"][0]["field"] == "fits.0"
+        assert other in answer.text
+    for fits in ([], [own] * 2, [unknown] * 12):
+        assert post(service, fit, {"kind": "combined", "fits": fits}).status_code == 422
+
+
 def test_the_same_key_with_another_motion_is_refused(service: Service):
     fit = fitted(service)
     key = {"headers": {"Idempotency-Key": "motion-1"}}

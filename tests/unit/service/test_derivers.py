@@ -2,6 +2,7 @@
 
 import io
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -21,7 +22,16 @@ from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.camera import Camera
 from fitter.parameters import BodyParameters
 from fitter.request import Gender
-from service.inputs import CLIP, IMAGE, OF_ITS_FIT, OVERLAY, PERSON, RESULT, SEGMENTATION
+from service.inputs import (
+    CLIP,
+    IMAGE,
+    OF_ITS_FIT,
+    OVERLAY,
+    PERSON,
+    RESULT,
+    SEGMENTATION,
+    other_person,
+)
 from service.worker.artifacts import MEDIA_TYPES, with_result_document
 from service.worker.derivers import MODULES
 from service.worker.pipeline import derive
@@ -55,13 +65,30 @@ def person() -> FittedPerson:
     )
 
 
+def with_certainty(**coefficients: float) -> bytes:
+    """The same person by another picture, which tells a coefficient otherwise."""
+    other = person()
+    shape = other.body.shape.copy()
+    for name, value in coefficients.items():
+        shape[int(name.removeprefix("c"))] = value
+    certain = np.diag(np.concatenate([[0.0], np.full(len(shape) - 1, 0.1)]))
+    body = replace(other.body, shape=shape)
+    return replace(other, body=body, shape_covariance=certain).to_bytes()
+
+
 INPUTS = {
-    PERSON: person().to_bytes(),
+    PERSON: with_certainty(),
+    other_person(0): with_certainty(c2=1.1, c3=0.2),
+    other_person(1): with_certainty(c2=-2.0, c3=3.0),
     RESULT: fit_result(light=None, reflectance=None).model_dump_json().encode(),
     IMAGE: png(),
     SEGMENTATION: png(66, 99, level=255),
     OVERLAY: png(),
 }
+
+
+NEEDED = {"combined": {"fits": ["0d3c1b6e-52a4-4f0e-9e37-0a4f6c2f7d10"]}}
+"""What kinds cannot do without."""
 
 
 def derived(*, clip: bytes | None = None, **request: object) -> DerivationOutput:
@@ -89,7 +116,7 @@ def test_the_named_poses_of_the_wire_are_the_fitter_s():
 
 @pytest.mark.parametrize("kind", list(DerivationKind))
 def test_a_derivation_s_document_lists_its_files_and_is_of_its_type(kind):
-    output = derived(kind=kind)
+    output = derived(kind=kind, **NEEDED.get(kind, {}))
     assert {f".{name.rpartition('.')[2]}" for name in output.artifacts} <= set(MEDIA_TYPES)
     files = with_result_document(output.result, output.artifacts)
     document = DerivationResult.model_validate_json(files[RESULT]).root
@@ -120,6 +147,24 @@ def test_a_named_pose_departs_where_it_is_told_to():
         if one["rotation"] != pytest.approx(other["rotation"], abs=1e-9)
     ]
     assert changed == [("head", pytest.approx((0.0, 0.3, 0.0)))]
+
+
+def test_the_combined_body_lies_between_those_of_the_fits():
+    result = derived(kind="combined", **NEEDED["combined"]).result.model_dump()
+    assert result["pictures"] == 2
+    assert 0.9 < result["shape"][2] < 1.1
+    assert 0.0 < result["shape"][3] < 0.2
+    assert result["agreement"] > 0.5
+    assert not result["warnings"]
+    waist = next(each for each in result["measurements"] if each["name"] == "waist_girth_navel")
+    assert waist["standard_error"] > 0.0
+
+
+def test_pictures_of_different_people_are_combined_with_a_warning_that_names_the_fit():
+    fits = [NEEDED["combined"]["fits"][0], "a2d6a7b0-3a0b-4a7c-8f9e-5f4f0d9f5b11"]
+    (warning,) = derived(kind="combined", fits=fits).result.model_dump()["warnings"]
+    assert warning["code"] == "different-people"
+    assert fits[1] in warning["message"]
 
 
 def test_a_texture_with_its_light_divided_out_needs_a_fit_with_shading():
