@@ -28,7 +28,14 @@ def main(arguments: Sequence[str]) -> int:
     print(f"seed {options.seed} (load averages before: {load})", flush=True)
     with tempfile.TemporaryDirectory(prefix="maquette-fuzz-") as folder:
         deployment = Deployment(
-            folder=Path(folder), workers=0, settings={"max_crashes": 3, "worker_processes": 2}
+            folder=Path(folder),
+            workers=0,
+            settings={
+                "max_crashes": 3,
+                "worker_processes": 2,
+                # Room for every picture: what the quota turns away is not looked at.
+                "max_images_per_tenant": options.inputs,
+            },
         )
         try:
             harvest = fuzz(deployment, inputs=options.inputs, seed=options.seed)
