@@ -58,6 +58,14 @@ def test_the_curl_example_brings_a_result_and_a_body(address: str, clean_root: P
     assert (clean_root / "body_posed.glb").read_bytes()[:4] == b"glTF"
 
 
+def test_something_is_made_of_the_fit_of_the_curl_example(address: str, clean_root: Path):
+    commands = block("curl") + block("derivation")
+    done = run(["bash", "-euo", "pipefail", "-c", commands], SERVICE=address)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.count("event: end") == 2
+    assert (clean_root / "body_textured.glb").read_bytes()[:4] == b"glTF"
+
+
 @pytest.mark.skipif(shutil.which("node") is None, reason="no Node.js to run the fetch example")
 def test_the_fetch_example_prints_measurements(address: str):
     done = run(["node", "--input-type=module", "-e", block("fetch")], SERVICE=address)
