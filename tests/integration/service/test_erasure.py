@@ -57,6 +57,11 @@ def test_after_delete_no_byte_is_left(tmp_path: Path):
     with running_service(Machine(tmp_path, settings=settings())) as service:
         path = fitted(service)
         assert service.ended(path)["state"] == "succeeded"
+        patiently = {"Prefer": "wait=30"}
+        for kind in ("report", "texture"):
+            asked = {"kind": kind, "webhook": REMARKABLE["webhook"]}
+            derived = service.client.post(f"{path}/derivations", json=asked, headers=patiently)
+            assert derived.json()["state"] == "succeeded"
         picture = {"image": ("p.png", scripted_image(SCRIPT), "image/png")}
         uploaded = service.client.post("/v1/images", files=picture).headers["Location"]
         assert traces(tmp_path) == set(TRACES)
