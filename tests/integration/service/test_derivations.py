@@ -15,7 +15,7 @@ from api_schemas.derivations import (
     DerivationPage,
     DerivationResult,
 )
-from service.api.derivations import MAX_CLIP_BYTES
+from service.api.derivation_inputs import MAX_CLIP_BYTES
 from service.engine.port import NewJob, StoredBlob, SubmitOutcome
 from tests.integration.service.harness import (
     REQUEST,
