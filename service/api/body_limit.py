@@ -12,6 +12,9 @@ from service.api.problems import ProblemError, problem_response
 DISCARDED_BYTES: Final = 10_000_000
 """How much of a body is read and thrown away before it is refused unread."""
 
+REFUSALS: Final = 400
+"""Statuses from here on are no success, and may come before a body was read."""
+
 
 class BodyLimit:
     """ASGI middleware: a declared or counted body above the limit is answered with 413."""
@@ -32,16 +35,26 @@ class BodyLimit:
             await refuse(answer, scope, receive, send, discard_bytes=2 * self._max_bytes)
             return
         received = 0
+        # A request without a body is asked for none: who else waits for its end is not disturbed.
+        is_whole = declared in ("", "0") and "transfer-encoding" not in request.headers
 
         async def counted() -> Message:
-            nonlocal received
+            nonlocal received, is_whole
             message = await receive()
             received += len(message.get("body", b""))
+            is_whole = not _goes_on(message)
             if received > self._max_bytes:
                 raise ProblemError(self._too_large())
             return message
 
-        await self._app(scope, counted, send)
+        async def after_the_body(message: Message) -> None:
+            begins = message["type"] == "http.response.start"
+            if begins and message["status"] >= REFUSALS and not is_whole:
+                # Refused before it was read: closing now would take the answer from its reader.
+                await _discard(receive, 2 * self._max_bytes)
+            await send(message)
+
+        await self._app(scope, counted, after_the_body)
 
     def _too_large(self) -> Problem:
         return problem(
@@ -63,10 +76,19 @@ async def refuse(
 
     Most clients read an answer only after they have sent their body: let them, within reason.
     """
+    await _discard(receive, discard_bytes)
+    await answer(scope, receive, send)
+
+
+async def _discard(receive: Receive, most_bytes: int) -> None:
+    """Read what is left of the body and throw it away."""
     discarded = 0
-    while discarded <= discard_bytes:
+    while discarded <= most_bytes:
         message = await receive()
         discarded += len(message.get("body", b""))
-        if message["type"] != "http.request" or not message.get("more_body", False):
-            break
-    await answer(scope, receive, send)
+        if not _goes_on(message):
+            return
+
+
+def _goes_on(message: Message) -> bool:
+    return message["type"] == "http.request" and message.get("more_body", False)

@@ -6,6 +6,8 @@ import httpx
 import pytest
 
 from api_schemas.problems import PROBLEM_MEDIA_TYPE, PROBLEM_TYPES, Problem
+from tests.fuzz.requests import RawRequest
+from tests.fuzz.sending import send
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import POINTS, REQUEST, Machine, Service, running_service
 
@@ -177,6 +179,23 @@ def test_an_upload_above_the_limit_is_refused_declared_or_not(tmp_path):
         headers = {"Content-Type": "multipart/form-data; boundary=x"}
         response = service.client.post("/v1/fits", content=chunks, headers=headers)
         checked(response, 413)
+
+
+def test_who_is_still_sending_what_is_refused_already_reads_why(service: Service):
+    # Sends all before it reads, as httpx does not.
+    body = (
+        b'--limit\r\nContent-Disposition: form-data; name="request"\r\n\r\n'
+        + bytes(50_000_000)
+        + b"\r\n--limit--\r\n"
+    )
+    head = (
+        "POST /v1/fits HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n"
+        "Content-Type: multipart/form-data; boundary=limit\r\n"
+        f"Content-Length: {len(body)}\r\n\r\n"
+    ).encode()
+    assert service.client.base_url.port is not None
+    answer = send(service.client.base_url.port, RawRequest(content=head + body))
+    assert (answer.status, answer.fault) == (400, None)
 
 
 def test_every_problem_type_is_described_where_it_points(service: Service):
