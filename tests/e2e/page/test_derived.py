@@ -1,9 +1,15 @@
 """What is made of a finished fit: asked for, looked at, kept, erased."""
 
+import json
+
+import httpx
+import numpy as np
 import pytest
 from playwright.sync_api import expect
 
+from service.demo_sample import load_sample
 from tests.e2e.page.visitor import FIT_WITHIN_MS, Visitor
+from tests.e2e.service import ended_job
 
 
 @pytest.fixture
@@ -49,3 +55,92 @@ def test_another_pose_and_a_caricature_are_shown_and_what_cannot_be_is_told(look
         timeout=FIT_WITHIN_MS
     )
     expect(page.locator(".derived > li")).to_have_count(2)
+
+
+def test_an_animation_plays_until_it_is_held_still(looking: Visitor):
+    page = looking.page
+    looking.choose("Animation")
+    page.get_by_label("Choose a BVH file").set_input_files(
+        {"name": "dance.bvh", "mimeType": "text/plain", "buffer": b"no motion"}
+    )
+    expect(page.get_by_text("It moves as dance.bvh says.")).to_be_visible()
+    page.get_by_role("button", name="Make the animation").click()
+    expect(page.get_by_role("alert")).to_contain_text("does not begin with HIERARCHY")
+    page.get_by_role("button", name="Let it walk").click()
+    page.get_by_role("button", name="Make the animation").click()
+    moving = page.get_by_role("img", name="The body in motion")
+    expect(moving).to_be_visible(timeout=FIT_WITHIN_MS)
+    looking.wait_for_change(moving, looking.pixels(moving), share=0.002)
+    made = page.locator(".derived > li").first
+    expect(made).to_contain_text("the walk that ships with the package")
+    playing = moving.get_attribute("src")
+    assert playing
+    page.get_by_role("button", name="Hold still").click()
+    expect(page.get_by_role("button", name="Play")).to_be_visible()
+    expect(moving).not_to_have_attribute("src", playing)
+    still = looking.pixels(moving)
+    page.wait_for_timeout(500)
+    np.testing.assert_array_equal(looking.pixels(moving), still)
+    with page.expect_download() as download:
+        made.get_by_role("button", name="body_skinned.glb").click()
+    assert download.value.path().read_bytes()[:4] == b"glTF"
+
+
+def test_a_texture_is_shown_with_where_it_comes_from(looking: Visitor):
+    page = looking.page
+    looking.choose("Texture")
+    looking.choose("Without the light")
+    page.get_by_label("Size").select_option("512")
+    page.get_by_role("button", name="Make the texture").click()
+    texture = page.get_by_role("img", name="Texture of the body")
+    expect(texture).to_be_visible(timeout=FIT_WITHIN_MS)
+    assert texture.evaluate("image => image.decode().then(() => image.naturalWidth)") == 512
+    made = page.locator(".derived > li").first
+    expect(made.get_by_role("img", name="Where the texture comes from")).to_be_visible()
+    expect(made).to_contain_text("white was seen in the picture, grey is mirrored")
+    expect(made).to_contain_text("% of the body was seen")
+    with page.expect_download() as download:
+        made.get_by_role("button", name="body_textured.glb").click()
+    assert download.value.path().read_bytes()[:4] == b"glTF"
+
+
+def test_fits_of_one_person_are_offered_and_combined(looking: Visitor, service: httpx.Client):
+    """Of the fits this browser knows: one told the same of the person, one another height."""
+    page = looking.page
+    for height_m in (1.804, 1.7):
+        told = json.loads(load_sample().request) | {"height_m": height_m, "cues": "SE"}
+        files = {
+            "image": ("sample.jpg", load_sample().image, "image/jpeg"),
+            "request": ("request.json", json.dumps(told), "application/json"),
+        }
+        job = ended_job(service, service.post("/v1/fits", files=files))
+        assert job["state"] == "succeeded"
+        page.goto(f"{looking.origin}/#/fits/{job['id']}")
+        looking.wait_for_result()
+        expect(page.locator(".badge")).to_have_text("2" if height_m == 1.804 else "3")
+    page.go_back()
+    page.go_back()
+    looking.wait_for_result()
+    looking.choose("Combined body")
+    others = page.get_by_role("group", name="Other pictures of this person")
+    expect(others).to_have_attribute("aria-busy", "false")
+    expect(others.get_by_role("checkbox")).to_have_count(1)
+    make = page.get_by_role("button", name="Make the combined body")
+    expect(make).to_be_disabled()
+    others.get_by_role("checkbox").check()
+    make.click()
+    table = page.get_by_role("table", name="Measurements of the combined body")
+    expect(table).to_be_visible(timeout=FIT_WITHIN_MS)
+    expect(table.get_by_role("row").filter(has_text="Hip")).to_contain_text("–")
+    expect(page.locator(".derived > li").first).to_contain_text("From 2 pictures.")
+
+
+def test_a_figure_is_drawn_from_where_one_wants(looking: Visitor):
+    page = looking.page
+    looking.choose("Figure")
+    page.get_by_label("Seen from").fill("45")
+    expect(page.get_by_text("45° right")).to_be_visible()
+    page.get_by_role("button", name="Make the figure").click()
+    expect(page.get_by_role("img", name="Picture, overlay, body and new pose")).to_be_visible(
+        timeout=FIT_WITHIN_MS
+    )

@@ -1,6 +1,6 @@
 // The calls this page makes, one function each.
 import { jsonBody, request, requestJson } from "./client";
-import type { Derivation, DerivationPage, DerivationRequest, FitOfImage, FitOptions, FitResult, InitialPose, InitialPoseRequest, Job, UploadedImage } from "./types";
+import type { Derivation, DerivationPage, DerivationRequest, DerivationResult, FitOfImage, FitOptions, FitResult, InitialPose, InitialPoseRequest, Job, UploadedImage } from "./types";
 
 export function uploadImage(file: Blob, signal: AbortSignal): Promise<UploadedImage> {
   const form = new FormData();
@@ -40,12 +40,22 @@ export async function listDerivations(fit: Job): Promise<readonly Derivation[]> 
   return (await requestJson<DerivationPage>(`/v1/fits/${fit.id}/derivations`)).derivations;
 }
 
-export function derive(fit: Job, asked: DerivationRequest): Promise<Derivation> {
-  return requestJson(`/v1/fits/${fit.id}/derivations`, jsonBody(asked));
+/** Ask for a derivation; `motion` is the BVH file an animation goes by. */
+export function derive(fit: Job, asked: DerivationRequest, motion: File | null): Promise<Derivation> {
+  const path = `/v1/fits/${fit.id}/derivations`;
+  if (!motion) return requestJson(path, jsonBody(asked));
+  const form = new FormData();
+  form.append("request", new Blob([JSON.stringify(asked)], { type: "application/json" }), "request.json");
+  form.append("bvh", motion, "motion.bvh");
+  return requestJson(path, { method: "POST", body: form });
 }
 
 export function getDerivation(path: string): Promise<Derivation> {
   return requestJson(path);
+}
+
+export function getDerivationResult({ links }: Derivation): Promise<DerivationResult> {
+  return requestJson(links.result ?? `${links.self}/result`);
 }
 
 export async function eraseDerivation({ links }: Derivation): Promise<void> {

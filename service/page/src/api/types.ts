@@ -27,3 +27,7 @@ export type DerivationPage = Schemas["DerivationPage"];
 export type DerivationKind = Schemas["DerivationKind"];
 export type DerivationRequest = Schemas["DerivationRequest"];
 export type NamedPose = Schemas["NamedPose"];
+export type TextureColours = Schemas["TextureColours"];
+export type TextureSize = NonNullable<Schemas["TextureOptions"]["size"]>;
+export type DerivationResult = Schemas["DerivationResult"];
+export type CombinedResult = Schemas["CombinedResult"];

@@ -1,21 +1,26 @@
 // What can be made of a finished fit: asked for, followed, looked at and kept.
 import { useState } from "preact/hooks";
-import type { Derivation, DerivationKind, Job, NamedPose } from "../api/types";
-import { isActive } from "../fit/watch";
-import { usePictureOf } from "../result/files";
-import { FileButton } from "../result/FileButton";
+import type { DerivationKind, Job } from "../api/types";
 import { Choice } from "../ui/Choice";
-import { IconButton } from "../ui/IconButton";
 import { ProblemNote } from "../ui/ProblemNote";
-import { FACTORS, FIRST_WISHES, KINDS, POSES, kindLabel } from "./kinds";
+import { FIRST_WISHES, KINDS, kindLabel } from "./kinds";
 import { useDerivations } from "./follow";
+import { Made } from "./Made";
+import { OPTIONS } from "./Options";
 
-export function DerivedPanel({ fit }: { fit: Job }) {
+interface Props {
+  readonly fit: Job;
+  readonly hasLight: boolean;
+}
+
+export function DerivedPanel({ fit, hasLight }: Props) {
   const { list, problem, start, erase } = useDerivations(fit);
   const [kind, setKind] = useState<DerivationKind>("report");
   const [wishes, wish] = useState(FIRST_WISHES);
   const [asking, setAsking] = useState(false);
-  const chosen = KINDS[kind]!;
+  const chosen = KINDS[kind];
+  const lack = chosen.lacks?.(wishes) ?? null;
+  const Options = OPTIONS[kind];
   return (
     <section class="section" aria-labelledby="derived-title">
       <h2 id="derived-title">Make something of it</h2>
@@ -28,43 +33,15 @@ export function DerivedPanel({ fit }: { fit: Job }) {
         onChange={setKind}
       />
       <p class="fine">{chosen.help}</p>
-      {kind === "caricature" && (
-        <label class="slider">
-          <span>Times</span>
-          <input
-            type="range"
-            min={FACTORS.least}
-            max={FACTORS.most}
-            step={FACTORS.step}
-            value={wishes.factor}
-            onInput={(event) => wish({ ...wishes, factor: Number(event.currentTarget.value) })}
-          />
-          <output>{wishes.factor}</output>
-        </label>
-      )}
-      {kind === "pose" && (
-        <div class="field">
-          <label for="pose">Pose</label>
-          <select
-            id="pose"
-            value={wishes.pose}
-            onChange={(event) => wish({ ...wishes, pose: event.currentTarget.value as NamedPose })}
-          >
-            {POSES.map(({ value, label }) => (
-              <option key={value} value={value}>
-                {label}
-              </option>
-            ))}
-          </select>
-        </div>
-      )}
+      {Options && <Options fit={fit} hasLight={hasLight} wishes={wishes} onWish={(changed) => wish({ ...wishes, ...changed })} />}
       <button
         class="button"
         type="button"
-        disabled={asking}
+        disabled={asking || lack !== null}
+        title={lack ?? undefined}
         onClick={() => {
           setAsking(true);
-          void start(chosen.request(wishes)).finally(() => setAsking(false));
+          void start(chosen.request(wishes), chosen.motion?.(wishes) ?? null).finally(() => setAsking(false));
         }}
       >
         Make the {chosen.label.toLowerCase()}
@@ -76,32 +53,5 @@ export function DerivedPanel({ fit }: { fit: Job }) {
         ))}
       </ul>
     </section>
-  );
-}
-
-function Made({ made, onErase }: { made: Derivation; onErase: () => void }) {
-  const label = kindLabel(made.kind);
-  const shows = KINDS[made.kind]?.picture ?? null;
-  const picture = usePictureOf(made, shows ?? "", shows !== null && made.state === "succeeded");
-  const files = Object.entries(made.links.artifacts ?? {}).filter(([name]) => name !== "result.json");
-  return (
-    <li>
-      <header class="section-head">
-        <h3>{label}</h3>
-        <IconButton icon="trash" label={`Delete: ${label.toLowerCase()}`} onClick={onErase} />
-      </header>
-      {isActive(made) && <progress class="bar" max={1} value={made.progress} aria-label={`Progress: ${label.toLowerCase()}`} />}
-      {made.problem && <ProblemNote problem={made.problem} />}
-      {picture && <img src={picture} alt={`${label} of the body`} />}
-      {files.length > 0 && (
-        <ul class="downloads">
-          {files.map(([name, path]) => (
-            <li key={name}>
-              <FileButton name={name} path={path} />
-            </li>
-          ))}
-        </ul>
-      )}
-    </li>
   );
 }

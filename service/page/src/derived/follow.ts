@@ -10,7 +10,8 @@ export interface Derived {
   /** Newest first. */
   readonly list: readonly Derivation[];
   readonly problem: Problem | null;
-  readonly start: (asked: DerivationRequest) => Promise<void>;
+  /** With the file that comes along, if any. */
+  readonly start: (asked: DerivationRequest, motion: File | null) => Promise<void>;
   readonly erase: (each: Derivation) => Promise<void>;
 }
 
@@ -44,9 +45,9 @@ export function useDerivations(fit: Job): Derived {
   return {
     list,
     problem,
-    start: (asked) =>
+    start: (asked, motion) =>
       attempt(async () => {
-        const begun = await derive(fit, asked);
+        const begun = await derive(fit, asked, motion);
         put(begun);
         follow(begun).catch(fail);
       }),

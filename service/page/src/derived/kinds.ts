@@ -1,14 +1,33 @@
 // What can be made of a finished fit, as a person reads it.
-import type { DerivationKind, DerivationRequest, NamedPose } from "../api/types";
+import type { DerivationKind, DerivationRequest, NamedPose, TextureColours, TextureSize } from "../api/types";
 
 /** What is chosen of every kind, whichever is shown. */
 export interface Wishes {
   readonly factor: number;
   readonly pose: NamedPose;
+  readonly degrees: number;
+  readonly colours: TextureColours;
+  readonly size: TextureSize;
+  /** A BVH file; without one the body walks. */
+  readonly motion: File | null;
+  /** Other fits of the same person, by id. */
+  readonly fits: readonly string[];
 }
 
-export const FIRST_WISHES: Wishes = { factor: 2, pose: "standing" };
+export const FIRST_WISHES: Wishes = {
+  factor: 2,
+  pose: "standing",
+  degrees: 0,
+  colours: "picture",
+  size: 1024,
+  motion: null,
+  fits: [],
+};
 export const FACTORS = { least: 0, most: 5, step: 0.25 } as const;
+export const DEGREES = { least: -180, most: 180, step: 15 } as const;
+export const TEXTURE_SIZES: readonly TextureSize[] = [512, 1024, 2048];
+/** Twelve pictures of one person in all. */
+export const MOST_OTHER_FITS = 11;
 
 export const POSES: readonly { value: NamedPose; label: string }[] = [
   { value: "standing", label: "Standing" },
@@ -21,36 +40,86 @@ export const POSES: readonly { value: NamedPose; label: string }[] = [
   { value: "rest", label: "The model’s own" },
 ];
 
+/** A picture that shows what came out. */
+export interface Shows {
+  readonly file: string;
+  readonly alt: string;
+  /** The same standing still, where the file moves. */
+  readonly still?: string;
+  readonly caption?: string;
+}
+
 interface Kind {
   readonly label: string;
   readonly help: string;
   readonly request: (wishes: Wishes) => DerivationRequest;
-  /** The picture that shows what came out, if any. */
-  readonly picture: string | null;
+  readonly pictures: readonly Shows[];
+  /** A file that comes along with the request, if one was chosen. */
+  readonly motion?: (wishes: Wishes) => File | null;
+  /** What has yet to be chosen before it can be made; null if nothing has. */
+  readonly lacks?: (wishes: Wishes) => string | null;
 }
 
-/** Those this page can ask for; a service may know more. */
-export const KINDS: Readonly<Partial<Record<DerivationKind, Kind>>> = {
+/** In the order they are offered. */
+export const KINDS: Readonly<Record<DerivationKind, Kind>> = {
   report: {
     label: "Report",
     help: "One page to read and to print: pictures, measurements, light.",
     request: () => ({ kind: "report" }),
-    picture: null,
+    pictures: [],
+  },
+  figure: {
+    label: "Figure",
+    help: "Picture, overlay, body and a new pose side by side, as in the paper’s Fig. 10.",
+    request: ({ pose, degrees }) => ({ kind: "figure", pose, degrees }),
+    pictures: [{ file: "figure.png", alt: "Picture, overlay, body and new pose" }],
   },
   pose: {
     label: "Other pose",
     help: "The same body held otherwise, as a mesh.",
     request: ({ pose }) => ({ kind: "pose", pose }),
-    picture: "pose.png",
+    pictures: [{ file: "pose.png", alt: "Other pose of the body" }],
+  },
+  animation: {
+    label: "Animation",
+    help: "The body in motion: walking, or as a BVH file of motion capture says.",
+    request: () => ({ kind: "animation" }),
+    motion: ({ motion }) => motion,
+    pictures: [{ file: "animation.webp", still: "animation.png", alt: "The body in motion" }],
+  },
+  texture: {
+    label: "Texture",
+    help: "The picture laid on the body. What it does not show is made up.",
+    request: ({ colours, size }) => ({ kind: "texture", colours, size }),
+    pictures: [
+      { file: "texture.png", alt: "Texture of the body" },
+      {
+        file: "coverage.png",
+        alt: "Where the texture comes from",
+        caption: "Where it comes from: white was seen in the picture, grey is mirrored from the other side of the body, black is continued from its surroundings.",
+      },
+    ],
   },
   caricature: {
     label: "Caricature",
     help: "What is most unusual of this body, exaggerated; as tall as it is.",
     request: ({ factor }) => ({ kind: "caricature", factor }),
-    picture: "caricature.png",
+    pictures: [{ file: "caricature.png", alt: "Caricature of the body" }],
+  },
+  combined: {
+    label: "Combined body",
+    help: "One body from several pictures of the same person: narrower intervals than any picture alone gives.",
+    request: ({ fits }) => ({ kind: "combined", fits: [...fits] }),
+    lacks: ({ fits }) => (fits.length === 0 ? "Choose at least one other fit of this person." : null),
+    pictures: [{ file: "combined.png", alt: "Combined body beside this fit alone" }],
   },
 };
 
+/** Of a kind that this page may not know yet, too. */
+export function kindOf(kind: string): Kind | null {
+  return KINDS[kind as DerivationKind] ?? null;
+}
+
 export function kindLabel(kind: string): string {
-  return KINDS[kind as DerivationKind]?.label ?? kind.charAt(0).toUpperCase() + kind.slice(1);
+  return kindOf(kind)?.label ?? kind.charAt(0).toUpperCase() + kind.slice(1);
 }

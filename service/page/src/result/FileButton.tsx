@@ -14,6 +14,7 @@ export const FILE_LABELS: Readonly<Record<string, string>> = {
   "body_canonical_se.glb": "Upright body before shading refined it",
   "tapes.json": "Where each measurement is taken",
   "result.json": "Everything found, as numbers",
+  "person.npz": "The person as fitted, to make more of",
   "overlay.png": "Outline over the picture",
   "views.png": "The body from other sides",
   "segmentation.png": "What was taken for the person",
@@ -27,6 +28,16 @@ export const FILE_LABELS: Readonly<Record<string, string>> = {
   "caricature.png": "Beside the fitted body",
   "body_reposed.glb": "The body in this pose",
   "pose.png": "Seen from other sides",
+  "body_animated.glb": "Moving exactly, as morph targets",
+  "body_skinned.glb": "Moving by bones and skin, for game engines",
+  "animation.webp": "The motion as a moving picture",
+  "animation.png": "Moments of it, from the front and the side",
+  "body_textured.glb": "The body with the texture",
+  "texture.png": "The texture alone",
+  "coverage.png": "What of it was seen, mirrored, continued",
+  "figure.png": "As in the paper’s Fig. 10",
+  "body_combined.glb": "The body the pictures agree on, upright",
+  "combined.png": "Beside the body by this fit alone",
 };
 
 export function FileButton({ name, path, bytes }: { name: string; path: string; bytes?: number }) {

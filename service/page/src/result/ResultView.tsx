@@ -61,7 +61,7 @@ export function ResultView({ job, picture }: { job: Job; picture: Picture | null
               }}
             />
           )}
-          {files && <DerivedPanel fit={job} />}
+          {files && <DerivedPanel fit={job} hasLight={files.result.light !== null} />}
           {files && <Downloads job={job} result={files.result} />}
         </div>
         <Actions job={job} picture={picture} />

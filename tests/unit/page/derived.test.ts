@@ -1,0 +1,30 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { FIRST_WISHES, KINDS, kindLabel, kindOf } from "../../../service/page/src/derived/kinds";
+import { toldAlike } from "../../../service/page/src/derived/sameperson";
+
+test("fits are of one person only with the same gender and height", () => {
+  assert.ok(toldAlike({ gender: "male", height_m: 1.804 }, { gender: "male", height_m: 1.8040001 }));
+  assert.ok(toldAlike({ gender: "female" }, { gender: "female", height_m: null }));
+  assert.ok(!toldAlike({ gender: "male", height_m: 1.804 }, { gender: "female", height_m: 1.804 }));
+  assert.ok(!toldAlike({ gender: "male", height_m: 1.804 }, { gender: "male", height_m: 1.806 }));
+  assert.ok(!toldAlike({ gender: "male", height_m: 1.804 }, { gender: "male" }));
+});
+
+test("a request says only what its kind knows", () => {
+  const wishes = { ...FIRST_WISHES, fits: ["one"], degrees: 45, size: 512 as const };
+  assert.deepEqual(KINDS.texture.request(wishes), { kind: "texture", colours: "picture", size: 512 });
+  assert.deepEqual(KINDS.figure.request(wishes), { kind: "figure", pose: "standing", degrees: 45 });
+  assert.deepEqual(KINDS.combined.request(wishes), { kind: "combined", fits: ["one"] });
+  assert.deepEqual(KINDS.animation.request(wishes), { kind: "animation" });
+});
+
+test("nothing is combined before another fit is chosen", () => {
+  assert.match(KINDS.combined.lacks!(FIRST_WISHES)!, /at least one/);
+  assert.equal(KINDS.combined.lacks!({ ...FIRST_WISHES, fits: ["one"] }), null);
+});
+
+test("a kind this page does not know yet has a name all the same", () => {
+  assert.equal(kindOf("hologram"), null);
+  assert.equal(kindLabel("hologram"), "Hologram");
+});
