@@ -20,7 +20,7 @@ from fitter.errors import InvalidInputError
 
 SHARED_ERROR = 0.4
 """Correlation of the errors of two pictures of one person, by which k pictures count as
-k / (1 + (k - 1) 0.4). On the evaluation's tuning half 95 % intervals then hold 92 and 91 % from two
+k / (1 + (k - 1) 0.4). On the evaluation's tuning half 95 % intervals then hold 92 and 92 % from two
 and three pictures, as they do 91 % from one; without it 88 and 85 %."""
 
 MOST_PICTURES = 12
