@@ -5,6 +5,8 @@ PYTHON ?= python3
 VENV := .venv
 STAMP := $(VENV)/.installed
 SINGLE_THREADED := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
+# Tests of one file share services and fits, so whole files are dealt out; long ones come first.
+SIDE_BY_SIDE := --numprocesses 2 --dist loadfile --no-loadscope-reorder
 
 .PHONY: demo test lint serve train report openapi page lock clean
 
@@ -12,7 +14,7 @@ demo: $(STAMP)
 	$(VENV)/bin/maquette demo
 
 test: $(STAMP)
-	$(SINGLE_THREADED) $(VENV)/bin/python -m pytest
+	$(SINGLE_THREADED) $(VENV)/bin/python -m pytest $(SIDE_BY_SIDE)
 
 lint: $(STAMP)
 	$(VENV)/bin/ruff check .

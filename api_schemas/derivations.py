@@ -17,7 +17,6 @@ from pydantic import (
 
 from api_schemas.base import WholeNumber, WireModel, refusal
 from api_schemas.jobs import JobStanding
-from api_schemas.results import Artifact, FitWarning, Measurement, PartRotation
 from api_schemas.webhooks import WebhookTarget
 
 FULL_TURN: Final = 6.2832
@@ -26,6 +25,9 @@ FULL_TURN: Final = 6.2832
 
 TEXTURE_SIZES: Final = (512, 1_024, 2_048)
 """Sides a texture may have, texels."""
+
+LEAST_OWN_TEXTURE: Final = 64
+"""Side of the smallest texture that may be sent; the largest is the last of those above."""
 
 
 MOST_OTHER_FITS: Final = 11
@@ -153,14 +155,19 @@ class AnimationOptions(DerivationOptions):
 
 
 class TextureColours(StrEnum):
-    """The picture as it is, with its light, or the albedo found in it, to be lit anew."""
+    """The picture as it is, with its light, or the albedo found in it, to be lit anew.
+
+    ``own`` are those of a painted atlas that comes along as the form's part ``texture``; they are
+    taken for albedo.
+    """
 
     PICTURE = "picture"
     ALBEDO = "albedo"
+    OWN = "own"
 
 
 class TextureOptions(DerivationOptions):
-    """The picture laid on the body; the albedo needs a fit with shading."""
+    """The picture, or a texture of one's own, laid on the body; albedo needs a fit with shading."""
 
     kind: Literal["texture"]
     colours: TextureColours = TextureColours.PICTURE
@@ -168,7 +175,9 @@ class TextureOptions(DerivationOptions):
         WholeNumber,
         AfterValidator(_texture_size),
         WithJsonSchema({"type": "integer", "enum": list(TEXTURE_SIZES)}),
-    ] = Field(default=1_024, description="Side of the texture, texels.")
+    ] = Field(
+        default=1_024, description="Side of the texture, texels; one's own keeps the side it has."
+    )
 
 
 class FigureOptions(DerivationOptions):
@@ -193,7 +202,8 @@ class CombinedOptions(DerivationOptions):
         max_length=MOST_OTHER_FITS,
         description=(
             "Other fits that have succeeded, of the same person, with the same gender, height and "
-            "known measurements."
+            "known measurements. What is made of several fits is erased with any of them, and "
+            "expires with the first."
         ),
         json_schema_extra={"uniqueItems": True},
     )
@@ -207,7 +217,7 @@ def _kind(value: Any) -> str | None:
 
 
 _KINDS: Final = ", ".join(f"'{kind}'" for kind in DerivationKind)
-_BY_KIND: Final = Discriminator(
+BY_KIND: Final = Discriminator(
     _kind,
     custom_error_type="unknown-value",
     custom_error_message="{reason}",
@@ -230,7 +240,7 @@ AnyDerivationOptions = (
 )
 
 
-class DerivationRequest(RootModel[Annotated[AnyDerivationOptions, _BY_KIND]]):
+class DerivationRequest(RootModel[Annotated[AnyDerivationOptions, BY_KIND]]):
     """What to derive from a fit; ``kind`` says which fields there are."""
 
     model_config = ConfigDict(frozen=True, strict=True, hide_input_in_errors=True)
@@ -244,6 +254,7 @@ class DerivationLinks(WireModel):
     events: str
     request: str = Field(description="What was asked for.")
     cancel: str | None = Field(default=None, description="While the job has not ended.")
+    retry: str | None = Field(default=None, description="Once it has ended.")
     result: str | None = None
     artifacts: dict[str, str] = Field(default_factory=dict[str, str])
 
@@ -261,121 +272,6 @@ class DerivationPage(WireModel):
 
     derivations: tuple[Derivation, ...]
     next: str | None
-
-
-class DerivedFiles(WireModel):
-    """What all results of derivations have in common."""
-
-    artifacts: tuple[Artifact, ...]
-
-
-class ReportResult(DerivedFiles):
-    """``report.html`` and ``report.pdf``, the same page; both stand alone."""
-
-    kind: Literal["report"] = "report"
-
-
-class CaricatureResult(DerivedFiles):
-    """``body_caricature.glb``, in the fitted pose, and ``caricature.png``, beside the fitted body.
-
-    ``coefficient`` is the index, in ``shape`` of the fit's result, of what was multiplied.
-    """
-
-    kind: Literal["caricature"] = "caricature"
-    factor: float
-    coefficient: int = Field(ge=1)
-    before: float = Field(description="Of the fitted body, in standard deviations.")
-    after: float = Field(description="Of the caricature.")
-    height_m: float = Field(description="Of both.")
-    shape: tuple[float, ...] = Field(description="All of the caricature's coefficients.")
-
-
-class PoseResult(DerivedFiles):
-    """``body_reposed.glb``, standing on the ground and facing +z, and ``pose.png``."""
-
-    kind: Literal["pose"] = "pose"
-    pose: tuple[PartRotation, ...]
-
-
-class AnimationResult(DerivedFiles):
-    """``body_animated.glb``, ``body_skinned.glb``, ``animation.png`` and ``animation.webp``.
-
-    The first holds the bodies of SCAPE as morph targets, the second bones and a skin that follows
-    them linearly, which is only near to SCAPE; errors are distances of vertices from SCAPE's.
-    """
-
-    kind: Literal["animation"] = "animation"
-    source: str = Field(description="Where the motion comes from.")
-    frames: int
-    frame_time_s: float
-    morph_targets: int
-    morph_mean_error_mm: float
-    morph_largest_error_mm: float
-    skin_mean_error_mm: float
-    skin_largest_error_mm: float
-    sliding_mm: float = Field(
-        description="How far soles on the ground slide from frame to frame, on average."
-    )
-    travelled_m: float = Field(description="From the first place to the last, along the ground.")
-    warnings: tuple[FitWarning, ...]
-
-
-class TextureResult(DerivedFiles):
-    """``body_textured.glb``, in the fitted pose, ``texture.png`` and ``coverage.png``.
-
-    White texels of the last were seen in the picture, grey ones are taken from the other side of
-    the body, black ones continued from their surroundings: these two kinds are invented. An albedo
-    may exceed 1: it is the texture's linear value times ``scale``.
-    """
-
-    kind: Literal["texture"] = "texture"
-    colours: TextureColours
-    size: int
-    seen_share: float = Field(ge=0.0, le=1.0, description="Of the body's texels.")
-    mirrored_share: float = Field(ge=0.0, le=1.0, description="Of the body's texels.")
-    scale: float
-
-
-class FigureResult(DerivedFiles):
-    """``figure.png``."""
-
-    kind: Literal["figure"] = "figure"
-    pose: NamedPose
-
-
-class CombinedResult(DerivedFiles):
-    """``body_combined.glb``, in the canonical pose, and ``combined.png``, beside this fit alone."""
-
-    kind: Literal["combined"] = "combined"
-    pictures: int
-    shape: tuple[float, ...]
-    measurements: tuple[Measurement, ...]
-    agreement: float = Field(
-        ge=0.0,
-        le=1.0,
-        description=(
-            "How often pictures of one person give bodies that differ as much as these do; below "
-            "0.01 a warning names the fit that differs most."
-        ),
-    )
-    warnings: tuple[FitWarning, ...]
-
-
-AnyDerivationResult = (
-    Annotated[ReportResult, Tag("[report]")]
-    | Annotated[CaricatureResult, Tag("[caricature]")]
-    | Annotated[PoseResult, Tag("[pose]")]
-    | Annotated[AnimationResult, Tag("[animation]")]
-    | Annotated[TextureResult, Tag("[texture]")]
-    | Annotated[FigureResult, Tag("[figure]")]
-    | Annotated[CombinedResult, Tag("[combined]")]
-)
-
-
-class DerivationResult(RootModel[Annotated[AnyDerivationResult, _BY_KIND]]):
-    """``result.json`` of a derivation; ``kind`` says which fields there are."""
-
-    model_config = ConfigDict(frozen=True, strict=True)
 
 
 class DerivationEventType(StrEnum):

@@ -27,6 +27,7 @@ class JobLinks(WireModel):
     self: str
     events: str
     image: str = Field(description="The picture it was made of.")
+    mask: str | None = Field(default=None, description="The mask that was sent, if one was.")
     request: str = Field(description="What was asked for.")
     derivations: str | None = Field(
         default=None, description="What was derived from the fit; once it has succeeded."

@@ -33,11 +33,25 @@ class OptimizerKind(StrEnum):
     SIMPLEX = "simplex"
 
 
+class Clothing(StrEnum):
+    """How clothes lie: with the body's outline, or as an outer bound of it, skin excepted."""
+
+    TIGHT = "tight"
+    LOOSE = "loose"
+
+
 class LightKind(StrEnum):
     """A near point light (indoors) or a distant directional one (outdoors)."""
 
     POINT = "point"
     DIRECTIONAL = "directional"
+
+
+class SurroundingsKind(StrEnum):
+    """How light from all round is described, beside the one light."""
+
+    UNIFORM = "uniform"
+    SPHERICAL_HARMONICS = "spherical_harmonics"
 
 
 class Facing(StrEnum):
@@ -66,12 +80,16 @@ class LightGuess(WireModel):
 
     Azimuth 0 and elevation 0 is a light at the camera's side of the body; positive azimuth comes
     from the right of the picture, positive elevation from above.
+
+    ``surroundings`` is no guess: the same ambient light everywhere, or light that differs by
+    direction, as nine spherical harmonics, with the shadows the body casts on itself.
     """
 
     kind: LightKind = LightKind.POINT
     azimuth_deg: float | None = Field(default=None, ge=-180.0, le=180.0)
     elevation_deg: float | None = Field(default=None, ge=-90.0, le=90.0)
     distance_m: float | None = Field(default=None, gt=0.0, le=100.0)
+    surroundings: SurroundingsKind = SurroundingsKind.UNIFORM
 
 
 class SubjectOptions(KnownMeasurements):
@@ -124,6 +142,14 @@ class FitOptions(SubjectOptions):
 
     cues: Cues = Cues.SES
     optimizer: OptimizerKind = OptimizerKind.GAUSS_NEWTON
+    clothing: Clothing = Field(
+        default=Clothing.TIGHT,
+        description=(
+            "`loose`: the outline of clothes bounds the body from outside, by an ease that is not "
+            "known; where skin shows, which the person's own face and hands tell, it is tight. "
+            "Shading looks at skin alone. Give the weight if it is known."
+        ),
+    )
     light: LightGuess = LightGuess()
 
 

@@ -3,7 +3,13 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
+import numpy as np
+from jaxtyping import Float
+
 from fitter.arrays import PerVertex, Pose, Shape, Vector3
+
+Surroundings = Float[np.ndarray, "9"]
+"""Light from all round: the coefficients e of :mod:`fitter.render.surroundings`."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -53,12 +59,16 @@ class Light:
         Radians.
     distance
         Metres from the body's centre; meaningless and infinite for a directional light.
+    surroundings
+        The light from all round relative to l = 1, camera frame; None where it is the constant
+        ambient b of Eq. 1.
     """
 
     kind: LightKind
     azimuth: float
     elevation: float
     distance: float
+    surroundings: Surroundings | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -70,7 +80,7 @@ class Reflectance:
     albedo, specularity
         (m,) per vertex, >= 0.
     ambient
-        b, >= 0.
+        b, >= 0; 0 where the light has surroundings.
     specular_exponent
         α, >= 1.
     """

@@ -3,55 +3,34 @@
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
-
-from fitter.arrays import GreyImage
-from fitter.body.skeleton import regress
-from fitter.energies.attributes import KnownAttributes
-from fitter.energies.clicks import click_evidence
-from fitter.energies.objective import Candidate, Objective, PictureEvidence
+from fitter.energies.objective import Candidate, Objective
 from fitter.energies.scales import FAR_BOUNDARY_ETA_M, NEAR_BOUNDARY_ETA_M, scales_at
 from fitter.estimate.known_person import known_person
-from fitter.evidence.edge_cost import edge_cost_map
 from fitter.evidence.intensity import intensity_map
-from fitter.evidence.outline_confidence import outline_confidence
-from fitter.evidence.silhouette_evidence import silhouette_evidence
 from fitter.fittable import FittableBody, fittable_body
 from fitter.measurement.anthropometry import measure
-from fitter.observation.observation import Observation, observe
+from fitter.observation.observation import observe
 from fitter.optimizer.albedo_colour import albedo_rgb
-from fitter.optimizer.alternation import ShadedFit, fit_shading
+from fitter.optimizer.alternation import ShadedFit
 from fitter.optimizer.hypotheses import try_hypotheses
 from fitter.optimizer.light_solve import guessed_lights
-from fitter.optimizer.renewed_lines import renewing_lines, with_lines_about
-from fitter.optimizer.search import body_search, limits_of
 from fitter.optimizer.uncertainty import shape_covariance
-from fitter.parameters import BodyParameters
-from fitter.pose_init.initial_pose import InitialPose, initialize_pose
+from fitter.pose_init.initial_pose import initialize_pose
 from fitter.pose_init.points import clicked_points
 from fitter.progress import Observer, Stage, ignore_progress
 from fitter.remarks import FitWarning
-from fitter.render.rasterizer import render
 from fitter.reporting import fit_warnings, limb_facings, outcome_of
-from fitter.request import Cues, FitRequest, OutlineKind
+from fitter.request import Cues, FitRequest
 from fitter.result import FitResult, Pictures, StageBody
-from fitter.segmentation.bones import clicked_bones, foot_bones
-from fitter.segmentation.grabcut import Segmentation, border_warnings, segment
-from fitter.segmentation.trimap import Trimap, first_band, trimap
 from fitter.stage_clock import StageClock
-
-RESEGMENTED_BAND = 0.5
-"""Share of the first band's width in which the picture is cut again round the body found from the
-first cut (section 7 names this as future work): what the first cut took for the person far from
-any body, such as ground of the skin's colour, can no longer be taken."""
-
-DOUBTFUL_PARTS = ("head", "left_hand", "right_hand")
-"""Parts whose outline says little of the body: hair, and hands in a pose of their own."""
-
-_DOUBTFUL_MARGIN_M = 0.05
-
-_EDGE_THRESHOLD_M = 0.03
-"""How far from a model edge an image edge may lie and still attract it."""
+from fitter.stages.clothing import clothing_remarks, where_bare
+from fitter.stages.cut_out import (
+    RESEGMENTED_BAND,
+    segmented,
+    silhouette_and_edges,
+    with_silhouette,
+)
+from fitter.stages.descents import descents
 
 
 def fit(
@@ -79,18 +58,25 @@ def fit(
             shape=person.shape,
             limb_facing=request.limb_facing,
         )
-    limits = limits_of(request.optimizer)
-    meets_lines = request.outline is OutlineKind.LINES and observation.mask is None
+    searches = descents(request, observation)
+    limits = searches.limits
     with clock.stage(Stage.SEGMENTATION) as report:
-        labels, segmentation = _segmented(observation, body, initial.parameters, 1.0)
-        coarse = _silhouette_and_edges(observation, body, initial, segmentation, person.attributes)
-        nearer = body_search(request.optimizer, limits.first, report)(coarse, initial.parameters)
-        labels, segmentation = _segmented(
+        labels, segmentation = segmented(observation, body, initial.parameters, 1.0)
+        coarse = silhouette_and_edges(
+            observation,
+            body,
+            initial.parameters,
+            segmentation,
+            person.attributes,
+            boundary_eta_m=FAR_BOUNDARY_ETA_M,
+        )
+        nearer = searches.search(limits.first, report)(coarse, initial.parameters)
+        labels, segmentation = segmented(
             observation, body, nearer.candidate.parameters, RESEGMENTED_BAND
         )
     with clock.stage(Stage.SILHOUETTE_AND_EDGES) as report:
         hypotheses = initial.hypotheses[: limits.hypotheses]
-        far = _with_silhouette(coarse, segmentation)
+        far = with_silhouette(coarse, segmentation, observation, body, nearer.candidate.parameters)
         objective = replace(
             far,
             scales=scales_at(
@@ -101,33 +87,21 @@ def fit(
             far,
             objective,
             [hypothesis.parameters for hypothesis in hypotheses],
-            trial=body_search(request.optimizer, limits.trial, report),
+            trial=searches.search(limits.trial, report),
             contenders=limits.contenders,
-            contest=body_search(request.optimizer, limits.contest, report),
+            contest=searches.search(limits.contest, report),
         )
-        search = body_search(request.optimizer, limits.silhouette_and_edges, report)
-        if meets_lines:
-            settle = body_search(request.optimizer, limits.contest, report)
-            search = renewing_lines([settle, search], observation.display)
-        se = search(objective, tried.ends[tried.best].parameters)
+        se = searches.silhouette_and_edges(objective, tried.ends[tried.best].parameters, report)
     intensity = intensity_map(observation.luminance, observation.display, segmentation.mask)
     shaded: ShadedFit | None = None
     with clock.stage(Stage.SHADING) as report:
         if request.cues is Cues.SES:
-            search = body_search(request.optimizer, limits.shading_round, report)
-            if meets_lines:
-                search = renewing_lines([search], observation.display)
-            shaded = fit_shading(
-                objective,
-                se.candidate,
-                intensity,
-                guessed_lights(request.light),
-                search=search,
-            )
+            objective, intensity = where_bare(objective, se.candidate, intensity)
+            lights = guessed_lights(request.light)
+            shaded = searches.shading(objective, se.candidate, intensity, lights, report)
     final = se if shaded is None else shaded.minimum
     with clock.stage(Stage.MEASUREMENT):
-        if meets_lines:
-            objective = with_lines_about(objective, final.candidate.parameters, observation.display)
+        objective = searches.about(objective, final.candidate.parameters)
         overlap = objective.overlap(final.candidate)
         covariance = shape_covariance(
             objective if shaded is None else objective.with_shading(shaded.evidence),
@@ -147,6 +121,7 @@ def fit(
         if shaded is not None:
             stages.append(_stage(body, objective, "SES", shaded.minimum.candidate))
     facings = limb_facings(hypotheses, tried, request.limb_facing)
+    clothing_assumptions, clothing_warnings = clothing_remarks(objective)
     shading_missing = request.cues is Cues.SES and shaded is None
     return FitResult(
         gender=request.gender,
@@ -182,9 +157,10 @@ def fit(
         stages=tuple(stages),
         measurements=measurements,
         limb_facing=facings,
-        assumptions=observation.assumptions + person.assumptions,
+        assumptions=observation.assumptions + person.assumptions + clothing_assumptions,
         warnings=observation.warnings
         + segmentation.warnings
+        + clothing_warnings
         + fit_warnings(overlap, facings)
         + (_SHADING_MISSING if shading_missing else ()),
         stage_seconds=clock.seconds,
@@ -205,79 +181,6 @@ _SHADING_MISSING = (
         ),
     ),
 )
-
-
-def _segmented(
-    observation: Observation, body: FittableBody, parameters: BodyParameters, narrowing: float
-) -> tuple[Trimap | None, Segmentation]:
-    """The caller's mask, or GrabCut from the tri-map round a body (section 3.2)."""
-    if observation.mask is not None:
-        return None, Segmentation(mask=observation.mask, warnings=border_warnings(observation.mask))
-    vertices = body.instruments.evaluator.vertices(parameters)
-    silhouette = render(vertices, body.instruments.model.triangles, observation.camera).silhouette
-    landmarks = body.instruments.model.landmarks
-    points = observation.camera.project(regress(landmarks, vertices))
-    seen = dict(zip(landmarks.names, points, strict=True))
-    bones = np.concatenate(
-        [clicked_bones(observation.clicks), foot_bones(observation.clicks, seen)]
-    )
-    labels = trimap(silhouette, bones, band=narrowing * first_band(silhouette, bones))
-    return labels, segment(observation.display, labels)
-
-
-def _silhouette_and_edges(
-    observation: Observation,
-    body: FittableBody,
-    initial: InitialPose,
-    segmentation: Segmentation,
-    attributes: KnownAttributes,
-) -> Objective:
-    """E1 of this picture, with a boundary that pulls from afar."""
-    depth = initial.root_depth_m
-    pixels_per_metre = observation.camera.focal_length_px / depth
-    confidence = _outline_confidence(observation, body, initial.parameters, pixels_per_metre)
-    return Objective(
-        instruments=body.instruments,
-        evidence=PictureEvidence(
-            camera=observation.camera,
-            clicks=click_evidence(body.instruments.model.landmarks, observation.clicks),
-            silhouette=silhouette_evidence(segmentation.mask, confidence),
-            edges=edge_cost_map(
-                observation.display, threshold_px=_EDGE_THRESHOLD_M * pixels_per_metre
-            ),
-            shading=None,
-        ),
-        scales=scales_at(observation.camera, depth, boundary_eta_m=FAR_BOUNDARY_ETA_M),
-        attributes=attributes,
-    )
-
-
-def _with_silhouette(objective: Objective, segmentation: Segmentation) -> Objective:
-    """The same picture with the person cut out anew."""
-    evidence = objective.evidence
-    silhouette = silhouette_evidence(segmentation.mask, evidence.silhouette.confidence)
-    return replace(objective, evidence=replace(evidence, silhouette=silhouette))
-
-
-def _outline_confidence(
-    observation: Observation,
-    body: FittableBody,
-    initial: BodyParameters,
-    pixels_per_metre: float,
-) -> GreyImage:
-    """Little where the initial body has its head and hands."""
-    model = body.instruments.model
-    projected = observation.camera.project(body.instruments.evaluator.vertices(initial))
-    corners = [
-        model.triangles[model.part_of_triangle == model.part_names.index(part)]
-        for part in DOUBTFUL_PARTS
-    ]
-    return outline_confidence(
-        observation.camera.height,
-        observation.camera.width,
-        [projected[np.unique(triangles)] for triangles in corners],
-        margin_px=_DOUBTFUL_MARGIN_M * pixels_per_metre,
-    )
 
 
 def _stage(body: FittableBody, objective: Objective, name: str, candidate: Candidate) -> StageBody:

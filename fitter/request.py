@@ -43,6 +43,28 @@ class OutlineKind(StrEnum):
     LINES = "correspondence_lines"
 
 
+class SurroundingsKind(StrEnum):
+    """What light comes from all round, beside the one light of section 5.
+
+    ``UNIFORM``: the ambient constant of Eq. 1. ``SPHERICAL_HARMONICS``: second-order irradiance
+    (:mod:`fitter.render.surroundings`), with cast shadows.
+    """
+
+    UNIFORM = "uniform"
+    SPHERICAL_HARMONICS = "spherical_harmonics"
+
+
+class Clothing(StrEnum):
+    """How clothes lie.
+
+    ``TIGHT`` ones have the body's outline, ``LOOSE`` ones bound it from outside (Balan and Black
+    2008), while bare skin is as tight as ever.
+    """
+
+    TIGHT = "tight"
+    LOOSE = "loose"
+
+
 class Facing(StrEnum):
     """Whether the far end of a limb is nearer to the camera than its near end, or farther."""
 
@@ -84,12 +106,16 @@ class KnownMeasurement:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LightGuess:
-    """The caller's coarse first light (section 5); the angles are those of ``Light``, radians."""
+    """The caller's coarse first light (section 5); the angles are those of ``Light``, radians.
+
+    ``surroundings`` is no guess but what model of light is fitted.
+    """
 
     kind: LightKind = LightKind.POINT
     azimuth: float | None = None
     elevation: float | None = None
     distance: float | None = None
+    surroundings: SurroundingsKind = SurroundingsKind.UNIFORM
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -130,6 +156,7 @@ class FitRequest:
     cues: Cues = Cues.SES
     optimizer: OptimizerKind = OptimizerKind.GAUSS_NEWTON
     outline: OutlineKind = OutlineKind.LINES
+    clothing: Clothing = Clothing.TIGHT
     light: LightGuess = field(default_factory=LightGuess)
     limb_facing: Mapping[str, Facing] = field(default_factory=dict[str, Facing])
     mask: bytes | None = None

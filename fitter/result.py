@@ -90,35 +90,43 @@ class Pictures:
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class FitResult:
-    """The whole result; vertices in the camera frame (posed) and body frame (canonical), metres.
+class LitBody:
+    """The body that was found in a picture, and the light on it.
 
-    ``given`` names the measurements the request gave, its height as stature. ``light`` and
-    ``reflectance`` are None for SE, which does not estimate them. ``camera`` refers
-    to the working picture, ``image_camera`` to the upright original. ``shape_covariance`` is that
-    of the body's shape coefficients, zero along what was given. ``stage_seconds`` is wall time by
-    stage name.
+    ``light`` and ``reflectance`` are None for SE, which does not estimate them. ``image_camera``
+    is that of the upright original, vertices lie in its frame, metres. ``shape_covariance`` is
+    that of the body's shape coefficients, zero along what was given.
     """
 
     gender: Gender
     height_m: float
-    given: tuple[str, ...]
     cues: Cues
-    optimizer: OptimizerKind
     outcome: Outcome
-    camera: Camera
     image_camera: Camera
-    focal_length_source: FocalLengthSource
     body: BodyParameters
     shape_covariance: Float[np.ndarray, "n n"] | None
     posed_vertices: Vertices
-    canonical_vertices: Vertices
     light: Light | None
     reflectance: Reflectance | None
     albedo_rgb: Vertices | None
+    silhouette_overlap: float
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class FitResult(LitBody):
+    """The whole result; canonical vertices are in the body frame, metres.
+
+    ``given`` names the measurements the request gave, its height as stature. ``camera`` refers to
+    the working picture. ``stage_seconds`` is wall time by stage name.
+    """
+
+    given: tuple[str, ...]
+    optimizer: OptimizerKind
+    camera: Camera
+    focal_length_source: FocalLengthSource
+    canonical_vertices: Vertices
     energies: Mapping[str, float]
     evaluations: int
-    silhouette_overlap: float
     stages: tuple[StageBody, ...]
     measurements: tuple[Measurement, ...]
     limb_facing: tuple[LimbFacing, ...]

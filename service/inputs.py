@@ -8,6 +8,9 @@ from api_schemas.derivations import DerivationKind
 IMAGE: Final = "image"
 MASK: Final = "mask"
 
+REQUEST: Final = "request.json"
+"""What the fit was asked to do."""
+
 RESULT: Final = "result.json"
 PERSON: Final = "person.npz"
 SEGMENTATION: Final = "segmentation.png"
@@ -15,16 +18,24 @@ OVERLAY: Final = "overlay.png"
 CLIP: Final = "bvh"
 """A motion that came along with the request for a derivation."""
 
+TEXTURE: Final = "texture"
+"""A painted atlas that came along."""
 
-def other_person(index: int) -> str:
-    """The person of another fit, by its place in the request for a derivation."""
-    return f"person.{index}.npz"
+
+OF_EACH_PICTURE: Final = (PERSON, IMAGE, MASK, REQUEST)
+"""What a combined body has copies of, of every fit; a mask is there if it was sent."""
+
+
+def of_other(name: str, index: int) -> str:
+    """The same input of another fit, by that fit's place in the request for a derivation."""
+    stem, point, ending = name.partition(".")
+    return f"{stem}.{index}{point}{ending}"
 
 
 OF_ITS_FIT: Final[Mapping[DerivationKind, tuple[str, ...]]] = {
     DerivationKind.ANIMATION: (PERSON,),
     DerivationKind.CARICATURE: (PERSON,),
-    DerivationKind.COMBINED: (PERSON, RESULT),
+    DerivationKind.COMBINED: (RESULT, *OF_EACH_PICTURE),
     DerivationKind.FIGURE: (PERSON, IMAGE, OVERLAY),
     DerivationKind.POSE: (PERSON,),
     DerivationKind.TEXTURE: (PERSON, IMAGE, SEGMENTATION),

@@ -1,5 +1,6 @@
 """Folders with a package-lock.json: their packages installed once, where npm is there at all."""
 
+import fcntl
 import os
 import shutil
 import subprocess
@@ -14,10 +15,14 @@ def installed(folder: Path) -> Path:
     if npm is None or shutil.which("node") is None:
         pytest.skip("node and npm are not installed")
     stamp = folder / "node_modules" / ".package-lock.json"
-    if not stamp.exists() or stamp.stat().st_mtime < (folder / "package-lock.json").stat().st_mtime:
+    with (folder / "package-lock.json").open() as lock:
+        # Tests of two processes may come for the same packages at once.
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if stamp.exists() and stamp.stat().st_mtime >= os.fstat(lock.fileno()).st_mtime:
+            return folder
         done = subprocess.run([npm, "ci"], cwd=folder, capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            if os.environ.get("CI"):
-                pytest.fail(done.stderr)
-            pytest.skip(f"npm cannot install here: {done.stderr.strip()[-200:]}")
+    if done.returncode != 0:
+        if os.environ.get("CI"):
+            pytest.fail(done.stderr)
+        pytest.skip(f"npm cannot install here: {done.stderr.strip()[-200:]}")
     return folder

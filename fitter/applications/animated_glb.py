@@ -183,7 +183,8 @@ def _normal_targets(
     targets = np.zeros((len(frames.targets), *base.shape))
     for frame, shape in enumerate(body.shapes):
         change = unit_normals(shape.astype(np.float64), model.triangles) - base
-        targets += inverse[:, frame, None, None] * change
+        for target, share in zip(targets, inverse[:, frame], strict=True):
+            target += share * change
     return targets.astype(np.float32)
 
 

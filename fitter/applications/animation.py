@@ -133,9 +133,14 @@ def animate(person: FittedPerson, evaluator: ScapeEvaluator, motion: Motion) -> 
     """Set a fitted person in motion, feet on the ground."""
     model, shape = evaluator.model, person.body.shape
     body = grounded(moving_body(evaluator, shape, motion), model)
+    # The film before the large files: while it is made all its pictures are in memory.
+    files = {
+        "animation.png": png(strip(body, model.triangles)),
+        "animation.webp": film(body, model.triangles),
+    }
     exact = principal_frames(body.shapes)
     skin = skin_of(body, model)
-    files = {
+    files |= {
         "body_animated.glb": morphed_glb(
             body,
             exact,
@@ -150,8 +155,6 @@ def animate(person: FittedPerson, evaluator: ScapeEvaluator, motion: Motion) -> 
             reflectance=person.reflectance,
             albedo_rgb=person.albedo_rgb,
         ),
-        "animation.png": png(strip(body, model.triangles)),
-        "animation.webp": film(body, model.triangles),
     }
     way = body.roots[-1] - body.roots[0]
     return Animation(

@@ -42,13 +42,18 @@ class Atlas:
     weights: Float[np.ndarray, "t 3"]
 
 
-def atlas_of(model: BodyModel, size: int) -> Atlas:
-    """The atlas of a body model, ``size`` texels wide and high."""
-    corners = np.stack([size * model.uv[:, 0], size * (1.0 - model.uv[:, 1])], axis=1)
+def triangles_of_texels(model: BodyModel, size: int) -> Integer[np.ndarray, "n n"]:
+    """The triangle each texel of a body model's atlas lies on; -1 where it lies on none."""
+    corners = _corners(model, size)
     # A flat mesh one metre before a camera of one pixel a metre is its own picture.
     flat = np.column_stack([corners, np.ones(len(corners))])
     camera = Camera(focal_length_px=1.0, centre_x=0.0, centre_y=0.0, width=size, height=size)
-    ids = render(flat, model.uv_triangles, camera).face_ids
+    return render(flat, model.uv_triangles, camera).face_ids
+
+
+def atlas_of(model: BodyModel, size: int) -> Atlas:
+    """The atlas of a body model, ``size`` texels wide and high."""
+    ids = triangles_of_texels(model, size)
     inside = ids >= 0
     triangles = ids[inside]
     rows, columns = np.nonzero(inside)
@@ -57,25 +62,33 @@ def atlas_of(model: BodyModel, size: int) -> Atlas:
         size=size,
         inside=inside,
         triangles=triangles,
-        weights=_barycentric(texels, corners[model.uv_triangles[triangles]]),
+        weights=_barycentric(texels, _corners(model, size)[model.uv_triangles[triangles]]),
     )
 
 
+def _corners(model: BodyModel, size: int) -> Float[np.ndarray, "u 2"]:
+    """Texture coordinates as pixels of a picture of the atlas."""
+    return np.stack([size * model.uv[:, 0], size * (1.0 - model.uv[:, 1])], axis=1)
+
+
 def drawn_on(
-    atlas: Atlas, levels: UInt8[np.ndarray, "t ..."], *, empty: int = 0
+    inside: Bool[np.ndarray, "n n"], levels: UInt8[np.ndarray, "t ..."]
 ) -> UInt8[np.ndarray, "n n ..."]:
-    """A picture of the atlas from its texels' levels, each island drawn on into its margin."""
-    picture = np.full((atlas.size, atlas.size, *levels.shape[1:]), empty, dtype=np.uint8)
-    picture[atlas.inside] = levels
-    outside = (~atlas.inside).astype(np.uint8)
+    """A picture of the atlas from the levels of its texels, in reading order.
+
+    Each island is drawn on into its margin; what lies beyond is black.
+    """
+    picture = np.zeros((*inside.shape, *levels.shape[1:]), dtype=np.uint8)
+    picture[inside] = levels
+    outside = (~inside).astype(np.uint8)
     distance, labels = cv2.distanceTransformWithLabels(
         outside, cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
     )
     nearest = np.asarray(labels, dtype=np.intp)
     # Labels number the texels inside: which number is whose is told by these texels themselves.
     of_label = np.zeros(int(nearest.max()) + 1, dtype=np.intp)
-    of_label[nearest[atlas.inside]] = np.arange(len(levels))
-    margin = (outside > 0) & (distance <= MARGIN_SHARE * atlas.size)
+    of_label[nearest[inside]] = np.arange(len(levels))
+    margin = (outside > 0) & (distance <= MARGIN_SHARE * len(inside))
     picture[margin] = levels[of_label[nearest[margin]]]
     return picture
 

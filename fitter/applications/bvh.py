@@ -20,7 +20,8 @@ MAX_FRAMES = 20_000
 """Nearly three minutes at 120 Hz."""
 
 MAX_JOINTS = 512
-MAX_FRAME_TIME_S = 10.0
+FRAME_TIMES_S = (1e-5, 10.0)
+"""No recording has more frames a second, or fewer."""
 
 LARGEST_NUMBER = 1e9
 """Beyond it no length and no angle is meant; far below where squares overflow."""
@@ -275,8 +276,9 @@ def _motion(reader: _Reader, channels: int) -> tuple[float, Float[np.ndarray, "t
         frame_time_s = float(words[2])
     except ValueError:
         raise reader.expected(words, what="Frame Time: and seconds") from None
-    if not 0.0 < frame_time_s <= MAX_FRAME_TIME_S:
-        raise reader.expected(words, what=f"seconds above 0 and up to {MAX_FRAME_TIME_S:g}")
+    least, most = FRAME_TIMES_S
+    if not least <= frame_time_s <= most:
+        raise reader.expected(words, what=f"seconds from {least:g} to {most:g}")
     numbers = np.empty((count, channels))
     found = 0
     for number, line in reader.rest():

@@ -11,6 +11,7 @@
 ``camera``            (5,)        focal length, principal point (x, y), width, height; pixels
 ``light``             (3,)        azimuth, elevation (radians), distance (metres, infinite for a
                                   directional light); SES only, as all that follows
+``surroundings``      (9,)        of the light, where they were fitted
 ``eq_1``              (2,)        ambient, specular exponent
 ``albedo``            (m,)        of luminance
 ``specularity``       (m,)
@@ -27,27 +28,14 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from fitter.array_archive import read_arrays, write_arrays
+from fitter.applications.person_checks import FORMAT_VERSION, checked_person, unusable_person
+from fitter.array_archive import write_arrays
 from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
 from fitter.camera import Camera
-from fitter.errors import InvalidInputError
 from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
 from fitter.request import Gender
 from fitter.result import FitResult
-
-FORMAT_VERSION = 1
-
-MAX_BYTES = 64 * 2**20
-"""Of all arrays together, unpacked: 80 times what a body of 12,440 vertices takes."""
-
-_LARGEST_TURN = 2.0 * np.pi
-"""Of a part; a rotation vector longer than a whole turn was never fitted."""
-
-_BODY = {"pose": (-1, 3), "translation": (3,), "shape": (-1,), "camera": (5,)}
-_CERTAINTY = {"shape_covariance": (-1, -1)}
-_SHADING = {"light": (3,), "eq_1": (2,), "albedo": (-1,), "specularity": (-1,)}
-_COLOUR = {"albedo_rgb": (-1, 3)}
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -111,6 +99,8 @@ class FittedPerson:
                 "albedo": reflectance.albedo,
                 "specularity": reflectance.specularity,
             }
+            if light.surroundings is not None:
+                arrays["surroundings"] = light.surroundings
             if self.albedo_rgb is not None:
                 arrays["albedo_rgb"] = self.albedo_rgb
         stream = io.BytesIO()
@@ -134,10 +124,7 @@ class FittedPerson:
         InvalidInputError
             If it is damaged, of another format version, or holds values no fit gives.
         """
-        arrays = _unpacked(content)
-        header = _header(arrays.pop("header", None))
-        _require_fields(arrays, shaded=header["light"] is not None)
-        _require_values(arrays)
+        header, arrays = checked_person(content)
         focal_length, centre_x, centre_y, width, height = arrays["camera"].tolist()
         return cls(
             gender=Gender(str(header["gender"])),
@@ -191,11 +178,11 @@ def require_model(person: FittedPerson, model: BodyModel) -> None:
         If it is another: coefficients and vertices would mean something else.
     """
     if person.gender.value != model.gender:
-        raise _unusable(
+        raise unusable_person(
             field="gender", reason=f"is {person.gender.value}, the body model's is {model.gender}"
         )
     if person.model_checksum != str(model.header.get("checksum", "")):
-        raise _unusable(
+        raise unusable_person(
             field="model_checksum", reason="is that of another body model than the service has now"
         )
     m, n, p = len(model.mean_vertices), len(model.shape_basis), len(model.part_names)
@@ -204,114 +191,9 @@ def require_model(person: FittedPerson, model: BodyModel) -> None:
         counts["albedo"] = (len(person.reflectance.albedo), m)
     for field, (found, expected) in counts.items():
         if found != expected:
-            raise _unusable(
+            raise unusable_person(
                 field=field, reason=f"has {found} rows, the body model wants {expected}"
             )
-
-
-def _unpacked(content: bytes) -> dict[str, np.ndarray]:
-    try:
-        with zipfile.ZipFile(io.BytesIO(content)) as archive:
-            unpacked = sum(entry.file_size for entry in archive.infolist())
-        if unpacked > MAX_BYTES:
-            raise _unusable(
-                field="the file", reason=f"unpacks to {unpacked} bytes, more than {MAX_BYTES}"
-            )
-        return read_arrays(io.BytesIO(content))
-    except InvalidInputError:
-        raise
-    except Exception as error:
-        raise _unusable(field="the file", reason=f"is not a readable person ({error})") from error
-
-
-def _header(encoded: np.ndarray | None) -> dict[str, object]:
-    if encoded is None:
-        raise _unusable(field="header", reason="is missing")
-    try:
-        header = json.loads(encoded.tobytes())
-    except (ValueError, RecursionError) as error:
-        raise _unusable(field="header", reason=f"is no JSON ({error})") from error
-    expected: Mapping[str, tuple[object, ...]] = {
-        "format_version": (FORMAT_VERSION,),
-        "gender": tuple(gender.value for gender in Gender),
-        "light": (None, *(kind.value for kind in LightKind)),
-    }
-    if not isinstance(header, dict):
-        raise _unusable(field="header", reason="is no JSON object")
-    for field, values in expected.items():
-        if field not in header or header[field] not in values:
-            raise _unusable(
-                field=f"header.{field}",
-                reason=f"is {header.get(field, 'missing')!r}, expected one of {values}",
-            )
-    if not isinstance(header.get("model_checksum"), str):
-        raise _unusable(field="header.model_checksum", reason="is missing or no text")
-    return header
-
-
-def _require_fields(arrays: Mapping[str, np.ndarray], *, shaded: bool) -> None:
-    required = _BODY | (_SHADING if shaded else {})
-    allowed = required | _CERTAINTY | (_COLOUR if shaded else {})
-    for field in required.keys() - arrays.keys():
-        raise _unusable(field=field, reason="is missing")
-    for field in arrays.keys() - allowed.keys():
-        raise _unusable(field=field, reason="is no field of a person with this header")
-    for field, array in arrays.items():
-        pattern = allowed[field]
-        fits = array.ndim == len(pattern) and all(
-            expected in (-1, found) and found > 0
-            for expected, found in zip(pattern, array.shape, strict=True)
-        )
-        if array.dtype != np.float64 or not fits:
-            shape = tuple("any" if size < 0 else size for size in pattern)
-            raise _unusable(
-                field=field,
-                reason=f"is {array.dtype} of shape {array.shape}, expected float64 of {shape}",
-            )
-    m = len(arrays["albedo"]) if shaded else 0
-    for field in ("specularity", "albedo_rgb"):
-        if field in arrays and len(arrays[field]) != m:
-            raise _unusable(
-                field=field, reason=f"has {len(arrays[field])} rows, the albedo has {m}"
-            )
-
-
-def _require_covariance(covariance: np.ndarray, n: int) -> None:
-    if covariance.shape != (n, n):
-        raise _unusable(
-            field="shape_covariance", reason=f"is of shape {covariance.shape}, not ({n}, {n})"
-        )
-    if not np.allclose(covariance, covariance.T, atol=1e-9):
-        raise _unusable(field="shape_covariance", reason="is not symmetric")
-
-
-def _require_values(arrays: Mapping[str, np.ndarray]) -> None:
-    for field, array in arrays.items():
-        finite = array[:2] if field == "light" else array
-        if not np.isfinite(finite).all():
-            raise _unusable(field=field, reason="holds a number that is not finite")
-    if "shape_covariance" in arrays:
-        _require_covariance(arrays["shape_covariance"], len(arrays["shape"]))
-    if np.linalg.norm(arrays["pose"], axis=1).max() > _LARGEST_TURN:
-        raise _unusable(field="pose", reason="turns a part by more than a whole turn")
-    if arrays["translation"][2] <= 0.0:
-        raise _unusable(field="translation", reason="puts the body behind the camera")
-    focal_length, _, _, width, height = arrays["camera"]
-    if focal_length <= 0.0 or min(width, height) < 1.0 or width % 1.0 or height % 1.0:
-        raise _unusable(
-            field="camera",
-            reason="needs a positive focal length and a picture of whole pixels, one at least",
-        )
-    if "albedo" not in arrays:
-        return
-    for field in ("albedo", "specularity", "albedo_rgb"):
-        if field in arrays and arrays[field].min() < 0.0:
-            raise _unusable(field=field, reason="is negative somewhere")
-    ambient, exponent = arrays["eq_1"]
-    if ambient < 0.0 or exponent < 1.0:
-        raise _unusable(
-            field="eq_1", reason="needs an ambient term of 0 and an exponent of 1 at least"
-        )
 
 
 def _light(kind: object, arrays: Mapping[str, np.ndarray]) -> Light | None:
@@ -319,12 +201,16 @@ def _light(kind: object, arrays: Mapping[str, np.ndarray]) -> Light | None:
         return None
     azimuth, elevation, distance = arrays["light"].tolist()
     light = Light(
-        kind=LightKind(str(kind)), azimuth=azimuth, elevation=elevation, distance=distance
+        kind=LightKind(str(kind)),
+        azimuth=azimuth,
+        elevation=elevation,
+        distance=distance,
+        surroundings=arrays.get("surroundings"),
     )
     infinite = light.kind is LightKind.DIRECTIONAL
     if not distance > 0.0 or np.isinf(distance) != infinite:
         wanted = "infinite" if infinite else "positive and finite"
-        raise _unusable(
+        raise unusable_person(
             field="light", reason=f"is {distance} m away, expected {wanted} for a {kind} light"
         )
     return light
@@ -337,13 +223,4 @@ def _reflectance(arrays: Mapping[str, np.ndarray]) -> Reflectance:
         specularity=arrays["specularity"],
         ambient=ambient,
         specular_exponent=exponent,
-    )
-
-
-def _unusable(*, field: str, reason: str) -> InvalidInputError:
-    return InvalidInputError(
-        code="person-unusable",
-        field=f"person.{field.removeprefix('the ')}",
-        reason=f"{field[0].upper()}{field[1:]} {reason}.",
-        remedy="Fit the picture again and use the file person.npz of that fit as it is.",
     )

@@ -28,9 +28,11 @@ SOURCE_WEIGHT = 0.02
 
 def grounded(body: MovingBody, model: BodyModel) -> MovingBody:
     """The same bodies with their roots moved."""
-    heights = np.einsum("tj,tmj->tm", body.rotations[:, 1], body.shapes)
+    lowest = [
+        (shape @ turn[1]).min() for shape, turn in zip(body.shapes, body.rotations, strict=True)
+    ]
     roots = body.roots.copy()
-    roots[:, 1] = body.motion.lifts_m - heights.min(axis=1)
+    roots[:, 1] = body.motion.lifts_m - lowest
     soles = _soles(body, model)
     weights = _touching(soles[:, :, 1] + roots[:, None, 1])
     back = -np.diff(soles[:, :, [0, 2]], axis=0)

@@ -7,15 +7,19 @@ out and interpolated. Three strides of walking need 12 targets for 0.4 mm, eight
 64 for 7 mm in the worst vertex of the worst frame, and 0.4 mm on average.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float32
+from jaxtyping import Float, Float32
 
 MOST_TARGETS = 64
 
 ERROR_GOAL_M = 0.003
 """In the worst vertex of the worst frame: as many targets are taken as it needs, up to the most."""
+
+_BLOCK = 1024
+"""Vertices taken together."""
 
 _LEAST_SHARE = 1e-12
 """Of the largest variance: what is smaller is rounding."""
@@ -46,23 +50,22 @@ class PrincipalFrames:
 
 def principal_frames(shapes: Float32[np.ndarray, "t m 3"]) -> PrincipalFrames:
     """The basis of the fewest targets that reach the goal, or of the most there may be."""
-    frames, m, _ = shapes.shape
-    moves = (shapes - shapes[0]).reshape(frames, -1)
-    variances, vectors = np.linalg.eigh(np.asarray(moves @ moves.T, dtype=np.float64))
+    m = shapes.shape[1]
+    variances, vectors = np.linalg.eigh(_products(shapes))
     order = np.argsort(variances)[::-1]
     # Of a body that does not move one target is left, which does nothing: there must be one.
     order = order[: max(int((variances[order] > _LEAST_SHARE * variances.max()).sum()), 1)]
     vectors = vectors[:, order[:MOST_TARGETS]].astype(np.float32)
-    targets = vectors.T @ moves
+    targets = _combined(vectors, shapes)
     few, many = 1, len(targets)
     # Errors fall with every target in the mean; in the worst vertex all but surely.
     while few < many:
         middle = (few + many) // 2
-        if _errors(moves, vectors, targets, middle).max() <= ERROR_GOAL_M:
+        if _errors(shapes, vectors, targets, middle)[:, 1].max() <= ERROR_GOAL_M:
             many = middle
         else:
             few = middle + 1
-    errors = _errors(moves, vectors, targets, many)
+    errors = _errors(shapes, vectors, targets, many)
     weights, chosen = vectors[:, :many], targets[:many]
     weights = weights - weights[:1]
     largest = np.maximum(np.abs(weights).max(axis=0), 1e-30).astype(np.float32)
@@ -70,23 +73,48 @@ def principal_frames(shapes: Float32[np.ndarray, "t m 3"]) -> PrincipalFrames:
         base=shapes[0],
         targets=(chosen * largest[:, None]).reshape(-1, m, 3),
         weights=weights / largest,
-        largest_error_m=float(errors.max()),
-        mean_error_m=float(errors.mean()),
+        largest_error_m=float(errors[:, 1].max()),
+        mean_error_m=float(errors[:, 0].mean()),
     )
+
+
+def _products(shapes: Float32[np.ndarray, "t m 3"]) -> Float[np.ndarray, "t t"]:
+    """Inner products of all frames' displacements from the first."""
+    products = np.zeros((len(shapes), len(shapes)))
+    for some in _blocks(shapes):
+        moves = _moves(shapes, some)
+        products += moves @ moves.T
+    return products
+
+
+def _combined(
+    vectors: Float32[np.ndarray, "t k"], shapes: Float32[np.ndarray, "t m 3"]
+) -> Float32[np.ndarray, "k three_m"]:
+    """Displacements from the first frame, combined by each vector."""
+    return np.concatenate([vectors.T @ _moves(shapes, some) for some in _blocks(shapes)], axis=1)
+
+
+def _blocks(shapes: Float32[np.ndarray, "t m 3"]) -> Iterator[slice]:
+    """Some vertices at a time: all displacements would take the memory of the motion once more."""
+    for first in range(0, shapes.shape[1], _BLOCK):
+        yield slice(first, first + _BLOCK)
+
+
+def _moves(shapes: Float32[np.ndarray, "t m 3"], some: slice) -> Float32[np.ndarray, "t three_b"]:
+    return (shapes[:, some] - shapes[0, some]).reshape(len(shapes), -1)
 
 
 def _errors(
-    moves: Float32[np.ndarray, "t three_m"],
+    shapes: Float32[np.ndarray, "t m 3"],
     vectors: Float32[np.ndarray, "t k"],
     targets: Float32[np.ndarray, "k three_m"],
     count: int,
-) -> Float32[np.ndarray, "t m"]:
-    """Distance of every vertex in every frame, with ``count`` targets and none in the first."""
+) -> Float[np.ndarray, "t 2"]:
+    """Mean and largest distance of vertices in every frame, with ``count`` targets."""
     weights = vectors[:, :count] - vectors[:1, :count]
-    # Frame by frame: all at once would take the memory of the motion once more.
-    return np.stack(
-        [
-            np.linalg.norm((move - weight @ targets[:count]).reshape(-1, 3), axis=1)
-            for move, weight in zip(moves, weights, strict=True)
-        ]
-    )
+    errors = np.empty((len(shapes), 2))
+    for each, shape, weight in zip(errors, shapes, weights, strict=True):
+        left = shape - shapes[0] - (weight @ targets[:count]).reshape(-1, 3)
+        lengths = np.linalg.norm(left, axis=1)
+        each[:] = lengths.mean(), lengths.max()
+    return errors

@@ -17,6 +17,7 @@ from scipy.stats import chi2
 from fitter.applications.fitted_person import FittedPerson
 from fitter.arrays import Shape
 from fitter.errors import InvalidInputError
+from fitter.result import LitBody
 
 SHARED_ERROR = 0.4
 """Correlation of the errors of two pictures of one person, by which k pictures count as
@@ -86,13 +87,9 @@ def combined_shape(people: Sequence[FittedPerson]) -> CombinedShape:
     for index, (person, step) in enumerate(zip(people, steps, strict=True)):
         beside = person.body.shape - origin - directions @ step
         if np.abs(beside).max() > 0.01:
-            raise _unusable(
-                index,
-                "The fits were told different heights or other measurements of the person.",
-                "Fit every picture with the same height and the same known measurements.",
-            )
+            raise told_differently(index)
     count = len(people)
-    weight = 1.0 / (1.0 + (count - 1) * SHARED_ERROR)
+    weight = counted_as(count) / count
     prior_step = -directions.T @ origin
     matrix, pull = np.eye(len(prior_step)), prior_step.copy()
     informations = [_information(person, directions) for person in people]
@@ -113,6 +110,26 @@ def combined_shape(people: Sequence[FittedPerson]) -> CombinedShape:
     )
 
 
+def counted_as(pictures: int) -> float:
+    """How many pictures that err each by itself say as much as so many of one person."""
+    return pictures / (1.0 + (pictures - 1) * SHARED_ERROR)
+
+
+def known_covariance(person: FittedPerson | LitBody) -> Float[np.ndarray, "n n"]:
+    """How certain the shape of a fit is; fits that do not know have been refused."""
+    assert person.shape_covariance is not None
+    return person.shape_covariance
+
+
+def told_differently(index: int) -> InvalidInputError:
+    """The refusal of a fit that was told something else of the person than the first."""
+    return _unusable(
+        index,
+        "The fits were told different heights or other measurements of the person.",
+        "Fit every picture with the same height and the same known measurements.",
+    )
+
+
 def _agreement(
     index: int,
     informations: Sequence[Float[np.ndarray, "d d"]],
@@ -121,7 +138,7 @@ def _agreement(
 ) -> float:
     """How probable so large a difference between one picture and the others together is."""
     count, identity = len(steps), np.eye(len(prior_step))
-    weight = 1.0 / (1.0 + max(count - 2, 0) * SHARED_ERROR)
+    weight = counted_as(count - 1) / (count - 1)
     matrix, pull = identity.copy(), prior_step.copy()
     for other in range(count):
         if other != index:
@@ -145,18 +162,14 @@ def _agreement(
 
 def _free_directions(people: Sequence[FittedPerson]) -> Float[np.ndarray, "n d"]:
     """Orthonormal directions of the shape that were not given."""
-    covariance = people[0].shape_covariance
-    assert covariance is not None
-    values, vectors = np.linalg.eigh(covariance)
+    values, vectors = np.linalg.eigh(known_covariance(people[0]))
     return vectors[:, values > _GIVEN_VARIANCE]
 
 
 def _information(
     person: FittedPerson, directions: Float[np.ndarray, "n d"]
 ) -> Float[np.ndarray, "d d"]:
-    covariance = person.shape_covariance
-    assert covariance is not None
-    return np.linalg.inv(directions.T @ covariance @ directions)
+    return np.linalg.inv(directions.T @ known_covariance(person) @ directions)
 
 
 def _check_kinds(people: Sequence[FittedPerson]) -> None:
@@ -183,10 +196,13 @@ def _check_kinds(people: Sequence[FittedPerson]) -> None:
 
 
 def _unusable(index: int | None, reason: str, remedy: str) -> InvalidInputError:
-    """``index`` is that of the fit at fault; None for all of them."""
+    """``index`` is that of the fit at fault, None for all of them.
+
+    A caller names the others beside the first, and knows their places by ``fits``.
+    """
     return InvalidInputError(
         code="fits-unusable",
-        field="fits" if index is None else f"fits.{index}",
+        field=f"fits.{index - 1}" if index else "fits",
         reason=reason,
         remedy=remedy,
     )

@@ -6,7 +6,7 @@ which is which, so that nothing invented passes for observed.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import IntEnum
 
 import numpy as np
@@ -15,7 +15,7 @@ from jaxtyping import Bool, Float, Integer, UInt8
 from fitter.applications.atlas import Atlas, atlas_of, drawn_on
 from fitter.applications.fitted_person import FittedPerson, require_model
 from fitter.applications.seen_surface import SeenSurface, SurfacePoints, smooth_step
-from fitter.arrays import Image, Mask
+from fitter.arrays import Image, Mask, Vector3
 from fitter.body.scape import ScapeEvaluator
 from fitter.errors import InvalidInputError
 from fitter.numerics.mesh_topology import mesh_topology
@@ -24,8 +24,10 @@ from fitter.observation.colour import display_from_linear, luminance_of
 from fitter.observation.resampling import linear_working_picture, working_size
 from fitter.optimizer.hidden_reflectance import HiddenVertices
 from fitter.parameters import Light, Reflectance
+from fitter.render.rasterizer import Rendering
 from fitter.render.reflectance import shading_terms
-from fitter.render.shadow import cast_shadow
+from fitter.render.shadow import cast_shadow, penumbra
+from fitter.render.surroundings import irradiance
 
 SIZES = (512, 1024, 2048)
 """Sides an atlas may have, texels."""
@@ -137,7 +139,8 @@ def albedo_texture(
     Eq. 1 adds the same ambient light b to skin and to black cloth, so that subtracting it leaves
     cloth nothing. Here it is what surroundings of b / a' light let a surface of the typical albedo
     a' reflect: a = (r - s (h . n)^alpha l) / ((l . n) l + b / a'), the same for skin. The hue is
-    the picture's: the light is taken as white. Shadows, cast and attached, count as hidden.
+    the picture's: the light is taken as white. Shadows, cast and attached, count as hidden, but not
+    where surroundings were fitted, which take the place of b / a' and say what shines there.
 
     Parameters
     ----------
@@ -175,7 +178,8 @@ class _LitSurface:
     reflectance: Reflectance
     body_centre: Float[np.ndarray, "3"]
     lit: Float[np.ndarray, " m"]
-    surroundings: float
+    sharp: Float[np.ndarray, " m"]
+    typical: float
 
     @classmethod
     def of(
@@ -196,17 +200,19 @@ class _LitSurface:
             reflectance=reflectance,
             body_centre=centre,
             lit=1.0 - shadowed,
-            surroundings=reflectance.ambient / max(typical, _LEAST_LUMINANCE),
+            sharp=1.0 - _penumbra(rendering, shadowed, light, centre),
+            typical=max(typical, _LEAST_LUMINANCE),
         )
 
     def albedo(
         self, points: SurfacePoints, colours: Colours, belief: Beliefs
     ) -> tuple[Colours, Beliefs]:
         rendering, lit = self.surface.rendering, points.of(self.lit)
+        normals = unit_vectors(points.of(rendering.vertex_normals))
         terms = shading_terms(
             points.of(rendering.vertices),
-            unit_vectors(points.of(rendering.vertex_normals)),
-            light=self.light,
+            normals,
+            light=replace(self.light, surroundings=None),
             body_centre=self.body_centre,
             specular_exponent=self.reflectance.specular_exponent,
         )
@@ -214,8 +220,29 @@ class _LitSurface:
         highlight = points.of(self.reflectance.specularity) * terms.specular * lit
         direct = terms.diffuse * lit
         without = np.maximum(1.0 - highlight / luminance, 0.0)
-        share = without / np.maximum(direct + self.surroundings, DIM)
-        return colours * share[:, None], belief * smooth_step(direct, DIM, LIT)
+        if self.light.surroundings is None:
+            around = self.reflectance.ambient / self.typical
+            known = direct
+        else:
+            around = irradiance(self.light.surroundings, normals)
+            known = direct + around
+            belief = belief * points.of(self.sharp)
+        share = without / np.maximum(direct + around, DIM)
+        return colours * share[:, None], belief * smooth_step(known, DIM, LIT)
+
+
+def _penumbra(
+    rendering: Rendering, shadowed: Bool[np.ndarray, " m"], light: Light, body_centre: Vector3
+) -> Bool[np.ndarray, " m"]:
+    lamp = shading_terms(
+        rendering.vertices,
+        rendering.vertex_normals,
+        light=replace(light, surroundings=None),
+        body_centre=body_centre,
+        specular_exponent=1.0,
+    )
+    edges = mesh_topology(rendering.triangles, vertex_count=len(shadowed)).edges
+    return penumbra(shadowed, lamp.diffuse > 0.0, edges)
 
 
 def _surface(
@@ -252,7 +279,7 @@ def _texture(look: Look, evaluator: ScapeEvaluator, size: int) -> Texture:
     origin = np.concatenate(origins)
     levels = np.rint(255.0 * display_from_linear(np.clip(colours / scale, 0.0, 1.0)))
     return Texture(
-        levels=drawn_on(atlas, levels.astype(np.uint8)),
+        levels=drawn_on(atlas.inside, levels.astype(np.uint8)),
         coverage=_picture_of(atlas, origin),
         scale=scale,
         seen_share=float(np.mean(origin == TexelOrigin.SEEN)),

@@ -31,6 +31,7 @@ def textured_glb(
     *,
     media_type: str = "image/png",
     colour_scale: float = 1.0,
+    is_albedo: bool = False,
     lit_as: FittedPerson | None = None,
     extras: Mapping[str, object],
 ) -> bytes:
@@ -46,9 +47,11 @@ def textured_glb(
         The texture, PNG or JPEG, its rows from the top of the atlas.
     colour_scale
         Linear values are the texture's times this.
+    is_albedo
+        A texture without light, to be lit; one that has its light painted in is shown as it is.
     lit_as
-        Whose light to put in the file, for a texture without light, with the body where that
-        person stands. None for a texture that has its light painted in: it is shown as it is.
+        Whose light to put in the file for that, with the body where that person stands. Where there
+        is none, whoever shows the file lights it.
     extras
         What else is said of it; JSON values.
     """
@@ -81,10 +84,10 @@ def textured_glb(
     }
     nodes: list[dict[str, object]] = [{"mesh": 0, "name": "body"}]
     document: dict[str, Any] = {}
-    if lit_as is None or lit_as.light is None or lit_as.reflectance is None:
+    if not is_albedo:
         material["extensions"] = {"KHR_materials_unlit": {}}
         document["extensionsUsed"] = ["KHR_materials_unlit"]
-    else:
+    elif lit_as is not None and lit_as.light is not None and lit_as.reflectance is not None:
         light, node = light_and_node(
             lit_as.light,
             body_centre=lit_as.body.translation,

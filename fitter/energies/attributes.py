@@ -7,7 +7,7 @@ takes less than a millisecond, because in one pose vertices are affine in the sh
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
@@ -59,6 +59,14 @@ _NOTHING = Attributes(
 
 NOTHING_KNOWN = KnownAttributes(held=_NOTHING, uncertain=_NOTHING, standard_errors=np.zeros(0))
 """Of whom only the stature is given or assumed."""
+
+
+def whole_shape(shape: Shape) -> KnownAttributes:
+    """Of whom every coefficient is known: a search keeps to this shape, and moves the rest."""
+    every = Attributes(
+        measure=lambda shape: shape, jacobian=lambda shape: np.eye(len(shape)), values=shape
+    )
+    return replace(NOTHING_KNOWN, held=every)
 
 
 def attribute_energy(known: KnownAttributes, shape: Shape) -> float:

@@ -7,12 +7,14 @@ the contour moves across itself as these do, so that the residual
 
 of the vertices' present middle x, the line's centre c, normal n and found offset o is where the
 contour stands beside the boundary, and its derivative is exact. Lines are laid out anew as the body
-moves (:mod:`fitter.optimizer.renewed_lines`).
+moves (:mod:`fitter.optimizer.renewed_lines`). Where the boundary is that of loose clothes it bounds
+the body from outside (:mod:`fitter.energies.ease`).
 """
 
 import numpy as np
 from jaxtyping import Float
 
+from fitter.energies.ease import bound_share, ease_loss, ease_weights
 from fitter.energies.rows import PositionRows
 from fitter.energies.scales import EnergyScales
 from fitter.evidence.correspondence_lines import CorrespondenceLines
@@ -22,28 +24,48 @@ from fitter.render.rasterizer import Rendering
 
 def line_energy(rendering: Rendering, lines: CorrespondenceLines, scales: EnergyScales) -> float:
     """E_Si in nats: Σ ρ(r) over the lines, each by its own variance."""
-    loss = boundary_loss(_residuals(rendering, lines), scales.silhouette_eta)
-    return float(_precisions(lines, scales) @ loss)
+    residuals = _residuals(rendering, lines)
+    share = bound_share(residuals, lines.cloth)
+    loss = share * boundary_loss(residuals, scales.silhouette_eta)
+    eases = _cloth_lengths(lines) @ ease_loss(residuals, scales)
+    return float(_precisions(lines, scales) @ loss + eases)
 
 
 def line_rows(
     rendering: Rendering, lines: CorrespondenceLines, scales: EnergyScales
-) -> PositionRows:
-    """One row a line."""
+) -> tuple[PositionRows, ...]:
+    """One row a line, and another for the ease of the clothes where it shows any."""
     residuals = _residuals(rendering, lines)
     normals = np.repeat(lines.normals[:, None], 2, axis=1)
     ends = rendering.vertices[lines.points]
-    return PositionRows(
+    derivatives = 0.5 * rendering.camera.pull_back(ends, normals)
+    weights = _precisions(lines, scales) * boundary_weights(residuals, scales.silhouette_eta)
+    bound = PositionRows(
         residuals=residuals,
-        weights=_precisions(lines, scales) * boundary_weights(residuals, scales.silhouette_eta),
+        weights=bound_share(residuals, lines.cloth) * weights,
         points=lines.points,
-        derivatives=0.5 * rendering.camera.pull_back(ends, normals),
+        derivatives=derivatives,
     )
+    if not lines.cloth.any():
+        return (bound,)
+    ease = PositionRows(
+        residuals=residuals + scales.ease_mean,
+        weights=_cloth_lengths(lines) * ease_weights(residuals, scales),
+        points=lines.points,
+        derivatives=derivatives,
+        of_ease=True,
+    )
+    return bound, ease
 
 
 def _residuals(rendering: Rendering, lines: CorrespondenceLines) -> Float[np.ndarray, " k"]:
     moved = rendering.projected[lines.points].mean(axis=1) - lines.centres
     return np.einsum("ki,ki->k", moved, lines.normals) - lines.offsets
+
+
+def _cloth_lengths(lines: CorrespondenceLines) -> Float[np.ndarray, " k"]:
+    """Pixels of contour that each line says to be under cloth."""
+    return lines.confidence * lines.spacing * lines.cloth
 
 
 def _precisions(lines: CorrespondenceLines, scales: EnergyScales) -> Float[np.ndarray, " k"]:

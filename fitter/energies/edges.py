@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from fitter.arrays import PerVertex
 from fitter.energies.rows import PositionRows
 from fitter.energies.scales import EnergyScales
 from fitter.evidence.edge_cost import EdgeCostMap
@@ -14,22 +15,31 @@ _LEAST_COST = 0.05
 _LEAST_LENGTH_PX = 1.0
 
 
-def edge_energy(edges: ModelEdges, cost: EdgeCostMap, scales: EnergyScales) -> float:
+def edge_energy(
+    edges: ModelEdges, cost: EdgeCostMap, scales: EnergyScales, bare: PerVertex | None = None
+) -> float:
     """E_Eg in nats: mean cost along the visible model edges, by the trapezoid rule.
 
-    The mean and not the integral: a body must not gain by showing fewer edges.
+    The mean and not the integral: a body must not gain by showing fewer edges. Edges under loose
+    clothes, where ``bare`` is low, may be anywhere: the picture's are those of the clothes.
     """
     ends = edges.endpoints[edges.visible]
     if not len(ends):
         return scales.edge_weight
     lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     values = cost.at(ends.reshape(-1, 2)).reshape(-1, 2)
+    if bare is not None:
+        values = values * bare[edges.edges[edges.visible]]
     integral = float((lengths * values.mean(axis=1)).sum())
     return scales.edge_weight * integral / max(float(lengths.sum()), _LEAST_LENGTH_PX)
 
 
 def edge_rows(
-    rendering: Rendering, edges: ModelEdges, cost: EdgeCostMap, scales: EnergyScales
+    rendering: Rendering,
+    edges: ModelEdges,
+    cost: EdgeCostMap,
+    scales: EnergyScales,
+    bare: PerVertex | None = None,
 ) -> PositionRows:
     """One row for each end of each visible edge; the residual is the cost there."""
     pairs = edges.edges[edges.visible]
@@ -43,6 +53,8 @@ def edge_rows(
         * np.repeat(lengths, 2)
         / max(float(lengths.sum()), _LEAST_LENGTH_PX)
     )
+    if bare is not None:
+        share = share * bare[points]
     return PositionRows(
         residuals=values,
         weights=share / np.maximum(values, _LEAST_COST),

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
-from fitter.arrays import Points3D, Vertices
+from fitter.arrays import PerVertex, Points3D, Vertices
 from fitter.body.pose_prior import prior_residuals
 from fitter.body.skeleton import regress
 from fitter.camera import Camera
@@ -21,13 +21,14 @@ from fitter.energies.correspondence_lines import line_energy
 from fitter.energies.edges import edge_energy
 from fitter.energies.instruments import BodyInstruments
 from fitter.energies.penetration import penetration_energy, sphere_positions
-from fitter.energies.priors import lean_residual, shape_prior_energy
+from fitter.energies.priors import ShapePrior, lean_residual
 from fitter.energies.scales import EnergyScales
 from fitter.energies.shading import ShadingEvidence, shading_energy
 from fitter.energies.silhouette import silhouette_energy, silhouette_overlap
 from fitter.errors import NumericalError
 from fitter.evidence.correspondence_lines import CorrespondenceLines
 from fitter.evidence.edge_cost import EdgeCostMap
+from fitter.evidence.loose_outline import LooseClothes
 from fitter.evidence.silhouette_evidence import SilhouetteEvidence
 from fitter.parameters import BodyParameters
 from fitter.render.contours import ModelEdges, model_edges
@@ -45,6 +46,9 @@ class PictureEvidence:
     lines
         Where the person ends on lines across the contour of a body near by; then these are the
         silhouette energy. None while there is no such body: then the region is.
+    clothes
+        What is known of loose clothes, None where they are tight: edges under them are not the
+        picture's.
     shading
         None for E1.
     """
@@ -54,7 +58,13 @@ class PictureEvidence:
     silhouette: SilhouetteEvidence
     lines: CorrespondenceLines | None = None
     edges: EdgeCostMap
+    clothes: LooseClothes | None = None
     shading: ShadingEvidence | None
+
+    @property
+    def bare(self) -> PerVertex | None:
+        """(m,) probability that no loose clothes hide a vertex; None where clothes are tight."""
+        return None if self.clothes is None else self.clothes.bare
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -80,12 +90,14 @@ class Candidate:
 class Objective:
     """An energy over bodies: instruments, evidence, scales and what is known, all fixed.
 
-    Held attributes are no energy: a search keeps to the bodies that have them.
+    Held attributes are no energy: a search keeps to the bodies that have them. ``shape_prior`` is
+    that of the population, unless other pictures of the person say more.
     """
 
     instruments: BodyInstruments
     evidence: PictureEvidence
     scales: EnergyScales
+    shape_prior: ShapePrior
     attributes: KnownAttributes = NOTHING_KNOWN
 
     def evaluate(self, parameters: BodyParameters) -> Candidate:
@@ -106,10 +118,10 @@ class Objective:
             "silhouette": silhouette_energy(rendering, evidence.silhouette, scales)
             if evidence.lines is None
             else line_energy(rendering, evidence.lines, scales),
-            "edges": edge_energy(edges, evidence.edges, scales),
+            "edges": edge_energy(edges, evidence.edges, scales, evidence.bare),
             "penetration": penetration_energy(spheres, radii, instruments.penetration, scales),
             "clicks": click_energy(landmarks, evidence.clicks, evidence.camera, scales),
-            "shape_prior": shape_prior_energy(parameters.shape),
+            "shape_prior": self.shape_prior.energy(parameters.shape),
             "pose_prior": 0.5
             * float((prior_residuals(instruments.pose_prior, parameters.pose) ** 2).sum()),
         }

@@ -1,4 +1,6 @@
-"""Priors on the whole body: the population of section 4 is N(0, I), and people stand upright."""
+"""Priors on the whole body: what is known of its shape, and that people stand upright."""
+
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
@@ -13,16 +15,35 @@ use it: without this prior a body leans 40 degrees back to cover some ground wit
 people are seen lying by their clicks, which shorten their limbs by far more than this resists."""
 
 
-def shape_prior_energy(shape: Shape) -> float:
-    """½ |β|² without the height coefficient, which is known and not estimated."""
-    return 0.5 * float(shape[1:] @ shape[1:])
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class ShapePrior:
+    """What is known of the shape before the picture is looked at, as N(m, P⁻¹).
+
+    Attributes
+    ----------
+    mean
+        (n,) m.
+    precision
+        (n, n) P. The height is known and not estimated: its row and column are zero.
+    """
+
+    mean: Shape
+    precision: Float[np.ndarray, "n n"]
+
+    def energy(self, shape: Shape) -> float:
+        """½ (β - m)ᵀ P (β - m), nats."""
+        return 0.5 * float((shape - self.mean)[1:] @ self.slope(shape)[1:])
+
+    def slope(self, shape: Shape) -> Shape:
+        """P (β - m), by the coefficients."""
+        return self.precision @ (shape - self.mean)
 
 
-def shape_prior_precision(count: int) -> Float[np.ndarray, " n"]:
-    """Diagonal of the prior's information matrix."""
-    precision = np.ones(count)
-    precision[0] = 0.0
-    return precision
+def population_prior(count: int) -> ShapePrior:
+    """Of anybody: N(0, I) over so many coefficients (section 4)."""
+    precision = np.eye(count)
+    precision[0, 0] = 0.0
+    return ShapePrior(mean=np.zeros(count), precision=precision)
 
 
 def lean_residual(pose: Pose) -> tuple[float, Float[np.ndarray, "3"]]:

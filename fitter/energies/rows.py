@@ -6,7 +6,7 @@ points of the body (and by a vertex normal, for shading). Robust functions enter
 (iteratively reweighted least squares), so that w r ∂r is the energy's own gradient.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float, Integer
@@ -26,12 +26,16 @@ class PositionRows:
         (k, q) indices into the support: mesh vertices, landmarks or spheres.
     derivatives
         (k, q, 3) of the residual by each point's camera-frame position, per metre.
+    of_ease
+        Whether the residuals are how far the ease of loose clothes is from its mean, in pixels
+        (:mod:`fitter.energies.ease`).
     """
 
     residuals: Float[np.ndarray, " k"]
     weights: Float[np.ndarray, " k"]
     points: Integer[np.ndarray, "k q"]
     derivatives: Float[np.ndarray, "k q 3"]
+    of_ease: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -61,7 +65,8 @@ def thinned(rows: PositionRows, limit: int) -> PositionRows:
     if step <= 1:
         return rows
     chosen = slice(step // 2, None, step)
-    return PositionRows(
+    return replace(
+        rows,
         residuals=rows.residuals[chosen],
         weights=rows.weights[chosen] * step,
         points=rows.points[chosen],

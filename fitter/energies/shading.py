@@ -9,7 +9,7 @@ sum over visible vertices is taken: a body must not gain by hiding.
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Bool, Integer
+from jaxtyping import Bool, Float, Integer
 
 from fitter.arrays import PerVertex, Vector3
 from fitter.energies._shading_kernels import facing_camera
@@ -45,6 +45,9 @@ class ShadingEvidence:
         Eq. 1 knows no cast shadow, and a body fitted to one bulges to turn away from the light.
     eta
         η₁ in units of luminance.
+    lit
+        (m,) share of the lamp that is seen: 0 in a cast shadow, where surroundings alone shine, and
+        a half near its border, which real lights blur. None where shadows are left out.
     """
 
     intensity: IntensityMap
@@ -54,6 +57,11 @@ class ShadingEvidence:
     vertex_areas: PerVertex
     shadowed: Bool[np.ndarray, " m"]
     eta: float
+    lit: PerVertex | None = None
+
+    def lit_at(self, vertices: Integer[np.ndarray, " k"]) -> Float[np.ndarray, " k"] | None:
+        """``lit`` of some vertices."""
+        return None if self.lit is None else self.lit[vertices]
 
     def reflectance_of(self, vertices: Integer[np.ndarray, " k"]) -> Reflectance:
         """The reflectance of some vertices, in their order."""
@@ -90,6 +98,14 @@ def usable_vertices(rendering: Rendering, evidence: ShadingEvidence) -> Bool[np.
     return _seen_among(rendering.vertex_visible & taking_part, rendering, evidence.intensity)
 
 
+def explained_vertices(rendering: Rendering, evidence: ShadingEvidence) -> Bool[np.ndarray, " m"]:
+    """Usable vertices, and where shadows are not left out those in the middle of one."""
+    if evidence.lit is None:
+        return usable_vertices(rendering, evidence)
+    known = (evidence.vertex_areas > 0.0) & (~evidence.shadowed | (evidence.lit == 0.0))
+    return _seen_among(rendering.vertex_visible & known, rendering, evidence.intensity)
+
+
 def shading_energy(rendering: Rendering, evidence: ShadingEvidence, scales: EnergyScales) -> float:
     """Data term of E_Sh in nats."""
     chosen = np.flatnonzero(usable_vertices(rendering, evidence))
@@ -102,6 +118,7 @@ def shading_energy(rendering: Rendering, evidence: ShadingEvidence, scales: Ener
         light=evidence.light,
         body_centre=evidence.body_centre,
         reflectance=evidence.reflectance_of(chosen),
+        lit=evidence.lit_at(chosen),
     )
     observed = evidence.intensity.at(rendering.projected[chosen])
     loss = geman_mcclure(predicted - observed, evidence.eta)
@@ -120,6 +137,7 @@ def shading_rows(
         light=evidence.light,
         body_centre=evidence.body_centre,
         reflectance=evidence.reflectance_of(chosen),
+        lit=evidence.lit_at(chosen),
     )
     observed, slopes = evidence.intensity.with_gradient_at(rendering.projected[chosen])
     residuals = derivatives.shading - observed

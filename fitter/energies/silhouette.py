@@ -5,17 +5,20 @@ here ρ'(d) = d / (1 + d²/η²)². A sliver of width δ along the outline then 
 ½ δ² / (1 + δ²/η²) for each pixel of outline: the sum is a Geman-McClure boundary error, and contour
 points with its weights are its exact linearisation. Wrong ground, walls and hair lie far from the
 body, and pull at nothing there. Divided by σ² and by the length over which neighbouring errors
-repeat themselves it is a negative log-likelihood.
+repeat themselves it is a negative log-likelihood. Where loose cloth is seen the outline bounds the
+body from outside (:mod:`fitter.energies.ease`), and a pixel costs the derivative of that function.
 """
 
 import numpy as np
-from jaxtyping import Bool
+from jaxtyping import Bool, Float, Integer
 
+from fitter.energies._ease_kernels import clothed_mismatch
 from fitter.energies._silhouette_kernels import (
     bounding_box,
     nearest_within,
     robust_mismatch,
 )
+from fitter.energies.ease import bound_share, ease_weights
 from fitter.energies.rows import PositionRows
 from fitter.energies.scales import EnergyScales
 from fitter.evidence.silhouette_evidence import SilhouetteEvidence
@@ -40,16 +43,29 @@ def silhouette_energy(
 ) -> float:
     """E_Si in nats; pixels outside the picture count for nothing."""
     top, bottom, left, right = _common_box(rendering, evidence)
-    total = robust_mismatch(
+    pixels = (
         rendering.face_ids[top:bottom, left:right],
         evidence.mask[top:bottom, left:right],
         evidence.signed_distance[top:bottom, left:right],
         evidence.confidence[top:bottom, left:right],
-        scales.silhouette_eta,
-        _FAR_COST * scales.silhouette_eta,
-        _FAR * scales.silhouette_eta,
     )
-    return float(total) / (scales.silhouette_sigma**2 * scales.correlation_length)
+    eta = scales.silhouette_eta
+    nats = 1.0 / (scales.silhouette_sigma**2 * scales.correlation_length)
+    if evidence.cloth is None:
+        return nats * float(robust_mismatch(*pixels, eta, _FAR_COST * eta, _FAR * eta))
+    return float(
+        clothed_mismatch(
+            *pixels,
+            evidence.cloth[top:bottom, left:right],
+            eta,
+            _FAR_COST * eta,
+            _FAR * eta,
+            nats,
+            scales.ease_mean,
+            scales.ease_reach,
+            1.0 / (scales.ease_spread**2 * scales.ease_correlation_length),
+        )
+    )
 
 
 def silhouette_rows(
@@ -57,10 +73,11 @@ def silhouette_rows(
     edges: ModelEdges,
     evidence: SilhouetteEvidence,
     scales: EnergyScales,
-) -> tuple[PositionRows, PositionRows]:
+) -> tuple[PositionRows, ...]:
     """Rows from the model's outline to the image, and from the image's outline to the model.
 
     The second kind sees what the first cannot: observed limbs that no part of the outline is near.
+    Under loose clothes each is followed by its rows for their ease.
     """
     camera = rendering.camera
     middles = edges.endpoints.mean(axis=1)
@@ -76,41 +93,74 @@ def silhouette_rows(
     normals = edges.outward[outer]
     lengths = np.linalg.norm(edges.endpoints[outer, 1] - edges.endpoints[outer, 0], axis=1)
     points = rendering.vertices[pairs]  # (k, 2, 3)
-    nats = _SHARE / (scales.silhouette_sigma**2 * scales.correlation_length)
-
     distances = evidence.distance_at(middles)
-    forward = PositionRows(
-        residuals=distances,
-        weights=nats
-        * evidence.confidence_at(middles)
-        * lengths
-        * boundary_weights(distances, scales.silhouette_eta),
+    forward = _rows(
+        distances,
+        evidence.confidence_at(middles) * lengths,
+        evidence.cloth_at(middles),
+        scales,
         points=pairs,
         derivatives=0.5 * camera.pull_back(points, np.repeat(normals[:, None], 2, axis=1)),
     )
     if not len(middles):
-        return forward, forward
+        return forward
     nearest = _nearest_facing_alike(middles, normals, evidence, scales)
     matched = nearest >= 0
     nearest = nearest[matched]
     observed, facing = evidence.boundary_points[matched], evidence.boundary_normals[matched]
     residuals = np.einsum("ki,ki->k", middles[nearest] - observed, facing)
-    backward = PositionRows(
-        residuals=residuals,
-        weights=nats
-        * evidence.confidence_at(observed)
-        * evidence.boundary_spacing
-        * boundary_weights(residuals, scales.silhouette_eta),
+    backward = _rows(
+        residuals,
+        evidence.confidence_at(observed) * evidence.boundary_spacing,
+        evidence.cloth_at(observed),
+        scales,
         points=pairs[nearest],
         derivatives=0.5 * camera.pull_back(points[nearest], np.repeat(facing[:, None], 2, axis=1)),
     )
-    return forward, backward
+    return (*forward, *backward)
+
+
+def _rows(
+    residuals: Float[np.ndarray, " k"],
+    lengths: Float[np.ndarray, " k"],
+    cloth: Float[np.ndarray, " k"],
+    scales: EnergyScales,
+    *,
+    points: Integer[np.ndarray, "k 2"],
+    derivatives: Float[np.ndarray, "k 2 3"],
+) -> tuple[PositionRows, ...]:
+    """Rows of one kind for so many pixels of outline each, and for the ease of what cloth shows."""
+    nats = _SHARE / (scales.silhouette_sigma**2 * scales.correlation_length)
+    bound = PositionRows(
+        residuals=residuals,
+        weights=nats
+        * lengths
+        * bound_share(residuals, cloth)
+        * boundary_weights(residuals, scales.silhouette_eta),
+        points=points,
+        derivatives=derivatives,
+    )
+    if not cloth.any():
+        return (bound,)
+    ease = PositionRows(
+        residuals=residuals + scales.ease_mean,
+        weights=_SHARE * lengths * cloth * ease_weights(residuals, scales),
+        points=points,
+        derivatives=derivatives,
+        of_ease=True,
+    )
+    return bound, ease
 
 
 def silhouette_overlap(rendering: Rendering, evidence: SilhouetteEvidence) -> float:
-    """Intersection over union of the model's region and the observed one."""
+    """Intersection over union of the model's region and the observed one.
+
+    What loose clothes add to the body counts to neither.
+    """
     model = rendering.silhouette
-    union = np.count_nonzero(model | evidence.mask)
+    union = float(np.count_nonzero(model | evidence.mask))
+    if evidence.cloth is not None:
+        union -= float(evidence.cloth[evidence.mask & ~model].sum())
     return np.count_nonzero(model & evidence.mask) / union if union else 0.0
 
 

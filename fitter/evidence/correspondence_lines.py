@@ -19,6 +19,7 @@ from scipy.special import ndtr
 
 from fitter.arrays import GreyImage, Image, Points2D
 from fitter.evidence import _line_kernels as kernels
+from fitter.evidence.loose_outline import LooseOutline
 from fitter.evidence.sampling import sample
 from fitter.render.contours import ModelEdges
 from fitter.render.rasterizer import Rendering
@@ -72,6 +73,8 @@ class CorrespondenceLines:
         (k,) where the boundary lies outside the centres, pixels, and how uncertain that is.
     confidence
         (k,) how much of a line counts: what is seen may be no outline of the body.
+    cloth
+        (k,) probability that the boundary is that of loose clothes; 0 where clothes are tight.
     spacing
         Pixels of contour each line stands for.
     """
@@ -82,11 +85,16 @@ class CorrespondenceLines:
     offsets: Float[np.ndarray, " k"]
     variances: Float[np.ndarray, " k"]
     confidence: Float[np.ndarray, " k"]
+    cloth: Float[np.ndarray, " k"]
     spacing: float
 
 
 def correspondence_lines(
-    rendering: Rendering, edges: ModelEdges, display: Image, confidence: GreyImage
+    rendering: Rendering,
+    edges: ModelEdges,
+    display: Image,
+    confidence: GreyImage,
+    clothes: LooseOutline | None = None,
 ) -> CorrespondenceLines:
     """Look for the person's boundary along the contour of a body.
 
@@ -98,6 +106,9 @@ def correspondence_lines(
         (h, w, 3) display values in [0, 1].
     confidence
         (h, w) how much an outline counts.
+    clothes
+        Of a person in loose clothes: the boundary is looked for about their outline, which may lie
+        far outside the body's contour.
     """
     pixels_per_metre = rendering.camera.focal_length_px / float(rendering.vertices[:, 2].mean())
     window = max(round(WINDOW_M * pixels_per_metre), LEAST_WINDOW_PX)
@@ -105,18 +116,25 @@ def correspondence_lines(
     chosen, spacing = _spread_along(edges, _on_the_outline(edges, rendering))
     centres, normals = edges.endpoints[chosen].mean(axis=1), edges.outward[chosen]
     reach = window + depth
+    region, ease = rendering.silhouette, np.zeros(len(chosen))
+    if clothes is not None:
+        region, ease = clothes.mask, clothes.beyond(rendering, centres, normals)
+        met = np.isfinite(ease)
+        chosen, ease, centres, normals = chosen[met], ease[met], centres[met], normals[met]
+    outline = np.ascontiguousarray(centres + ease[:, None] * normals)
     first, last = np.empty((2, len(chosen)), dtype=np.int64)
-    kernels.usable_samples(rendering.silhouette, centres, normals, reach, first, last)
+    kernels.usable_samples(region, outline, normals, reach, first, last)
     told = (reach - first >= LEAST_SAMPLES) & (last - reach >= LEAST_SAMPLES)
-    chosen, first, last = chosen[told], first[told], last[told]
-    centres, normals = np.ascontiguousarray(centres[told]), np.ascontiguousarray(normals[told])
+    chosen, first, last, ease = chosen[told], first[told], last[told], ease[told]
+    centres, outline = np.ascontiguousarray(centres[told]), np.ascontiguousarray(outline[told])
+    normals = np.ascontiguousarray(normals[told])
     samples = np.zeros((len(chosen), 2 * reach + 1, 3))
     picture = np.ascontiguousarray(display, dtype=np.float32)
-    kernels.sample_lines(picture, centres, normals, first, last, samples)
+    kernels.sample_lines(picture, outline, normals, first, last, samples)
     offsets, variances = _boundaries(
         samples,
         (first, last),
-        _neighbourhood(centres, normals, NEIGHBOURHOOD_M * pixels_per_metre),
+        _neighbourhood(outline, normals, NEIGHBOURHOOD_M * pixels_per_metre),
         window=window,
         depth=depth,
     )
@@ -124,9 +142,12 @@ def correspondence_lines(
         points=edges.edges[chosen],
         centres=centres,
         normals=normals,
-        offsets=offsets,
+        offsets=ease + offsets,
         variances=variances,
         confidence=sample(confidence, centres)[0],
+        cloth=np.zeros(len(chosen))
+        if clothes is None
+        else clothes.cloth_within(outline + offsets[:, None] * normals, normals, pixels_per_metre),
         spacing=spacing,
     )
 

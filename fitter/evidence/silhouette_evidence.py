@@ -36,6 +36,9 @@ class SilhouetteEvidence:
         (h, w) pixels to the outline at each pixel's centre, positive outside.
     confidence
         (h, w) how much an unmatched pixel or outline point counts, in [0, 1].
+    cloth
+        (h, w) probability that what is seen there is loose cloth, off the person that of their
+        nearest pixel; None where clothes are tight.
     boundary_points, boundary_normals
         (b, 2) points of the outline in continuous pixels, between the pixels' centres, with
         outward unit normals; the picture's own border is no outline.
@@ -53,6 +56,13 @@ class SilhouetteEvidence:
     boundary_spacing: float
     occupied_rows: Bool[np.ndarray, " h"]
     occupied_columns: Bool[np.ndarray, " w"]
+    cloth: GreyImage | None = None
+
+    def cloth_at(self, points: Points2D) -> Float[np.ndarray, " k"]:
+        """Probability of loose cloth at continuous pixels."""
+        if self.cloth is None:
+            return np.zeros(len(points))
+        return sample(self.cloth, points)[0]
 
     def confidence_at(self, points: Points2D) -> Float[np.ndarray, " k"]:
         """Confidence at continuous pixels."""
@@ -64,7 +74,9 @@ class SilhouetteEvidence:
         return values
 
 
-def silhouette_evidence(mask: Mask, confidence: GreyImage | None = None) -> SilhouetteEvidence:
+def silhouette_evidence(
+    mask: Mask, confidence: GreyImage | None = None, cloth: GreyImage | None = None
+) -> SilhouetteEvidence:
     """Prepare a segmentation."""
     points, normals = _outline(mask)
     return SilhouetteEvidence(
@@ -76,6 +88,7 @@ def silhouette_evidence(mask: Mask, confidence: GreyImage | None = None) -> Silh
         boundary_spacing=_SPACING_PX,
         occupied_rows=np.asarray(mask.any(axis=1)),
         occupied_columns=np.asarray(mask.any(axis=0)),
+        cloth=cloth,
     )
 
 

@@ -17,7 +17,8 @@ from fitter.observation.decoding import decode_picture
 from fitter.parameters import Reflectance
 from fitter.render.rasterizer import render
 from fitter.render.reflectance import shading_terms
-from fitter.result import FitResult, before_shading
+from fitter.render.shadow import lamp_seen
+from fitter.result import FitResult, LitBody, before_shading
 
 
 def artifacts(result: FitResult, *, model: BodyModel, image: bytes) -> dict[str, bytes]:
@@ -38,17 +39,12 @@ def artifacts(result: FitResult, *, model: BodyModel, image: bytes) -> dict[str,
         The caller's encoded picture.
     """
     triangles = model.triangles
-    image_camera = result.image_camera
-    camera = drawing_camera(image_camera)
-    picture = decode_picture(
-        image, field="image", max_pixels=image_camera.width * image_camera.height
-    )
-    drawn = drawing_picture(picture.pixels, image_camera, camera)
+    camera = drawing_camera(result.image_camera)
     files = {
         "body_posed.glb": body_posed_glb(result, model),
         "body_canonical.glb": body_canonical_glb(result, model),
         "segmentation.png": png(mask_levels(result.pictures.segmentation, result.camera, camera)),
-        "overlay.png": png(overlay_picture(drawn, result.posed_vertices, triangles, camera)),
+        "overlay.png": overlay_png(result, model=model, image=image),
         "views.png": png(
             views_picture(
                 posed_vertices=result.posed_vertices,
@@ -69,10 +65,24 @@ def artifacts(result: FitResult, *, model: BodyModel, image: bytes) -> dict[str,
     return files
 
 
+def overlay_png(result: LitBody, *, model: BodyModel, image: bytes) -> bytes:
+    """``overlay.png``: the body's outline over the caller's encoded picture."""
+    image_camera = result.image_camera
+    camera = drawing_camera(image_camera)
+    picture = decode_picture(
+        image, field="image", max_pixels=image_camera.width * image_camera.height
+    )
+    drawn = drawing_picture(picture.pixels, image_camera, camera)
+    return png(overlay_picture(drawn, result.posed_vertices, model.triangles, camera))
+
+
 def _reflectance_pictures(
     result: FitResult, reflectance: Reflectance, model: BodyModel
 ) -> dict[str, bytes]:
-    """Fig. 7: albedo, the Lambertian part of Eq. 1, and all of it, as the camera sees them."""
+    """Fig. 7: albedo, the Lambertian part of Eq. 1, and all of it, as the camera sees them.
+
+    With surroundings where the light has them, and then with cast shadows.
+    """
     if result.light is None:
         return {}
     camera = finer(drawing_camera(result.image_camera), SUPERSAMPLING)
@@ -83,6 +93,12 @@ def _reflectance_pictures(
         light=result.light,
         body_centre=result.body.translation,
         specular_exponent=reflectance.specular_exponent,
+        lit=lamp_seen(
+            result.posed_vertices,
+            model.triangles,
+            light=result.light,
+            body_centre=result.body.translation,
+        ),
     )
     lambertian = reflectance.ambient + reflectance.albedo * terms.diffuse
     albedo = reflectance.albedo if result.albedo_rgb is None else result.albedo_rgb

@@ -21,8 +21,11 @@ def to_levels(display: Float[np.ndarray, "..."]) -> UInt8[np.ndarray, "..."]:
 
 
 def png(levels: UInt8[np.ndarray, "h w ..."]) -> bytes:
-    """A PNG of (h, w) grey or (h, w, 3) red-green-blue levels; the same input, the same bytes."""
-    ordered = levels[:, :, ::-1] if levels.ndim == 3 else levels
+    """A PNG of (h, w) grey, (h, w, 3) red-green-blue or (h, w, 4) levels with opacity.
+
+    The same input gives the same bytes.
+    """
+    ordered = levels[:, :, [2, 1, 0, 3][: levels.shape[2]]] if levels.ndim == 3 else levels
     encoded, content = cv2.imencode(".png", ordered, _COMPRESSION)
     if not encoded:
         message = f"OpenCV could not encode a picture of shape {levels.shape}."

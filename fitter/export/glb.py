@@ -74,9 +74,12 @@ class BinaryChunk:
         self._bytes += content + b"\0" * (-len(content) % _ALIGNMENT)
         return len(self.buffer_views) - 1
 
-    def content(self) -> bytes:
-        """Everything appended so far, padded to four bytes."""
-        return bytes(self._bytes)
+    def content(self) -> memoryview:
+        """Everything appended so far, padded to four bytes; nothing can be added while it is held.
+
+        No copy: an animation has 20 MB.
+        """
+        return memoryview(self._bytes)
 
 
 def pack_glb(document: Mapping[str, object], binary: BinaryChunk) -> bytes:

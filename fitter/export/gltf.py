@@ -2,8 +2,11 @@
 
 ``body_posed.glb`` lies in the camera frame with glTF's axes (OpenCV x diag(1, -1, -1): x right,
 y up, looking along -z), metres, so that its camera node is the identity; it carries camera, light,
-and reflectance per vertex. ``body_canonical.glb`` lies in the body frame (y up, facing +z) in the
-canonical pose with its feet on y = 0. Vertex order is the body model's, in both.
+and reflectance per vertex. Light from all round, where it was found as spherical harmonics, is the
+light's extra ``surroundings`` (:mod:`fitter.render.surroundings`, in the file's axes), and what
+cast shadows leave of the lamp the vertex attribute ``_LIT``. ``body_canonical.glb`` lies in the
+body frame (y up, facing +z) in the canonical pose with its feet on y = 0. Vertex order is the body
+model's, in both.
 """
 
 import math
@@ -12,7 +15,7 @@ from importlib.metadata import PackageNotFoundError, version
 import numpy as np
 from jaxtyping import Float
 
-from fitter.arrays import Normals, Triangles, Vector3, Vertices
+from fitter.arrays import Normals, PerVertex, Triangles, Vector3, Vertices
 from fitter.body.model import BodyModel
 from fitter.body.scape import CAMERA_AXES
 from fitter.camera import Camera
@@ -20,7 +23,9 @@ from fitter.export.glb import BinaryChunk, Target, pack_glb
 from fitter.numerics.normals import summed_cross_products
 from fitter.parameters import Light, LightKind, Reflectance
 from fitter.render.light import direction_to_light, light_position
-from fitter.result import FitResult
+from fitter.render.shadow import lamp_seen
+from fitter.render.surroundings import GLTF_SIGNS
+from fitter.result import FitResult, LitBody
 
 NEUTRAL_ALBEDO = 0.6
 """Base colour where no reflectance was estimated (SE)."""
@@ -36,10 +41,11 @@ COLOUR_PERCENTILE = 99.0
 albedo divided by this percentile where it exceeds 1, and the light is made as much stronger."""
 
 
-def body_posed_glb(result: FitResult, model: BodyModel) -> bytes:
+def body_posed_glb(result: LitBody, model: BodyModel) -> bytes:
     """The posed body with its camera, light and reflectance."""
     colour_scale = _colour_scale(result.reflectance, result.albedo_rgb)
     document = _document(result, model, name="body_posed")
+    lit: PerVertex | None = None
     nodes: list[dict[str, object]] = [
         {"mesh": 0, "name": "body"},
         {"camera": 0, "name": "camera"},
@@ -54,12 +60,19 @@ def body_posed_glb(result: FitResult, model: BodyModel) -> bytes:
         )
         document["extensions"] = {"KHR_lights_punctual": {"lights": [light]}}
         nodes.append(placement)
+        lit = lamp_seen(
+            result.posed_vertices,
+            model.triangles,
+            light=result.light,
+            body_centre=result.body.translation,
+        )
     return _with_body(
         document,
         nodes,
         vertices=result.posed_vertices * CAMERA_AXES,
         triangles=model.triangles,
         result=result,
+        lit=lit,
     )
 
 
@@ -85,7 +98,7 @@ def light_and_node(
     l = 1 at the body's centre, at distance d, is π l d² candela; a directional one π l lux.
     glTF's lights shine along their node's -z.
     """
-    extras = {
+    extras: dict[str, object] = {
         "azimuth_rad": light.azimuth,
         "elevation_rad": light.elevation,
         "intensity_at_body_centre": 1.0,
@@ -93,6 +106,8 @@ def light_and_node(
         "specular_exponent": reflectance.specular_exponent,
         "colour_scale": colour_scale,
     }
+    if light.surroundings is not None:
+        extras["surroundings"] = (GLTF_SIGNS * light.surroundings).tolist()
     to_light = direction_to_light(light) * CAMERA_AXES
     illuminance = math.pi * colour_scale
     node: dict[str, object] = {
@@ -141,7 +156,8 @@ def _with_body(
     *,
     vertices: Vertices,
     triangles: Triangles,
-    result: FitResult,
+    result: LitBody,
+    lit: PerVertex | None = None,
 ) -> bytes:
     binary = BinaryChunk()
     add_body_mesh(
@@ -151,6 +167,7 @@ def _with_body(
         triangles=triangles,
         reflectance=result.reflectance,
         albedo_rgb=result.albedo_rgb,
+        lit=lit,
     )
     document["nodes"] = nodes
     return pack_glb(document, binary)
@@ -164,6 +181,7 @@ def add_body_mesh(
     triangles: Triangles,
     reflectance: Reflectance | None,
     albedo_rgb: Vertices | None,
+    lit: PerVertex | None = None,
 ) -> dict[str, object]:
     """Give a document its one mesh, of the body, and its material.
 
@@ -177,6 +195,8 @@ def add_body_mesh(
         The body, in the axes of the file.
     reflectance, albedo_rgb
         Per vertex; a neutral colour where there is none.
+    lit
+        Per vertex, the share of the lamp that cast shadows leave; where that is known.
 
     Returns
     -------
@@ -197,6 +217,8 @@ def add_body_mesh(
         attributes["COLOR_0"] = attribute(np.clip(colours / scale, 0.0, 1.0))
         attributes["_ALBEDO"] = attribute(reflectance.albedo)
         attributes["_SPECULARITY"] = attribute(reflectance.specularity)
+    if lit is not None:
+        attributes["_LIT"] = attribute(lit)
     index_type = np.uint16 if len(vertices) < np.iinfo(np.uint16).max else np.uint32
     indices = binary.add(triangles.ravel().astype(index_type), target=Target.TRIANGLE_INDICES)
     material, extensions = _material(reflectance, scale)
@@ -217,7 +239,7 @@ def unit_normals(vertices: Vertices, triangles: Triangles) -> Normals:
     return np.where(lengths > 0.0, sums / np.maximum(lengths, 1e-30), [0.0, 0.0, 1.0])
 
 
-def _document(result: FitResult, model: BodyModel, *, name: str) -> dict[str, object]:
+def _document(result: LitBody, model: BodyModel, *, name: str) -> dict[str, object]:
     provenance = _provenance(result, model)
     # Blender keeps the scene's extras but drops the asset's, so both carry the provenance.
     return {
@@ -227,7 +249,7 @@ def _document(result: FitResult, model: BodyModel, *, name: str) -> dict[str, ob
     }
 
 
-def _provenance(result: FitResult, model: BodyModel) -> dict[str, object]:
+def _provenance(result: LitBody, model: BodyModel) -> dict[str, object]:
     return {
         "generator": generator_name(),
         "method": "Guan, Weiss, Balan, Black: Estimating Human Shape and Pose from a Single "

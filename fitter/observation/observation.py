@@ -15,7 +15,7 @@ from fitter.observation.masks import decode_mask
 from fitter.observation.resampling import linear_working_picture, working_size
 from fitter.observation.subject import check_subject
 from fitter.remarks import Assumption, FitWarning
-from fitter.request import Click, FitRequest
+from fitter.request import Click, Clothing, FitRequest
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -38,6 +38,8 @@ class Observation:
         By name, in continuous pixels of the working picture.
     mask
         (h, w) the caller's foreground, None where none was sent.
+    clothing
+        How the caller says the clothes lie.
     """
 
     display: Image
@@ -49,6 +51,7 @@ class Observation:
     scale: float
     clicks: Mapping[str, Click]
     mask: Mask | None
+    clothing: Clothing
     assumptions: tuple[Assumption, ...]
     warnings: tuple[FitWarning, ...]
 
@@ -95,6 +98,7 @@ def observe(request: FitRequest) -> Observation:
             for name, click in request.clicks.items()
         },
         mask=mask,
+        clothing=request.clothing,
         assumptions=focal.assumptions,
         warnings=picture.warnings + side_warnings(request.clicks),
     )

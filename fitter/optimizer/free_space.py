@@ -80,6 +80,12 @@ def free_space(held: Attributes, parameters: BodyParameters) -> FreeSpace:
     )
 
 
+def kept_directions(held: Attributes, shape: Shape) -> Float[np.ndarray, "n free"]:
+    """Orthonormal changes of a shape that keep its height and what is held, in columns."""
+    kept = _kept_directions(held.jacobian(shape)[:, 1:])
+    return np.concatenate([np.zeros((1, kept.shape[1])), kept])
+
+
 def held_shape(held: Attributes, shape: Shape) -> Shape:
     """The nearest shape of the same height coefficient that has what is held.
 

@@ -2,6 +2,10 @@
 
 Azimuth, elevation and distance, and with them the ambient light and one scale each for albedo and
 specularity, which keep the light from being judged by a reflectance fitted to another light.
+
+A light with surroundings has nine coefficients in place of the ambient light. Brightness is linear
+in them times the albedo's scale, so these products are what is solved for. Their prior
+(:func:`surroundings_prior`) keeps band 1 from passing for the lamp.
 """
 
 from dataclasses import dataclass, replace
@@ -11,8 +15,17 @@ from jaxtyping import Float
 
 from fitter.arrays import Vector3
 from fitter.numerics.robust import geman_mcclure, geman_mcclure_weights
-from fitter.parameters import Light, LightKind, Reflectance
+from fitter.parameters import Light, LightKind, Reflectance, Surroundings
 from fitter.render.reflectance import ShadingDerivatives, shade, shade_with_derivatives
+from fitter.render.surroundings import (
+    BAND_OF,
+    BAND_TRANSFER,
+    COUNT,
+    harmonics,
+    irradiance,
+    mean_irradiance,
+    without_negative_light,
+)
 from fitter.request import LightGuess
 
 # A light's distance is told by attenuation across the body alone: a weak prior about 3 m, spread
@@ -22,6 +35,17 @@ DISTANCE_SPREAD = 0.6
 _DISTANCE_RANGE_M = (1.0, 30.0)
 _ELEVATION_RANGE = (-1.45, 1.45)
 _DISTANCE_PRIOR_WEIGHT = 2e-3
+
+SURROUNDINGS_SPREAD = 0.3
+"""Standard deviation of each radiance coefficient of bands 1 and 2 over that of band 0."""
+
+_SURROUNDINGS_PRIOR_WEIGHT = 2e-3
+AMBIENT_COLUMNS = slice(3, -2)
+"""Of :func:`light_columns`: those of the ambient light or the surroundings."""
+
+_LEAST_SURROUNDINGS, _LEAST_LAMP = 0.01, 0.02
+"""Of the lamp's light, and of the surroundings': their ratio stays a number."""
+
 _DAMPING_DOWN, _DAMPING_UP = 0.3, 5.0
 _LARGEST_DAMPING = 1e6
 
@@ -37,7 +61,8 @@ class LitSurface:
     """Surface points with what was observed there; camera frame, metres.
 
     ``weights`` sum to one; ``albedo`` and ``specularity`` are held but for a common scale each;
-    ``ambient_limit`` is as in :class:`fitter.optimizer.reflectance_solve.ReflectanceProblem`.
+    ``ambient_limit`` is as in :class:`fitter.optimizer.reflectance_solve.ReflectanceProblem`;
+    ``lit`` is the share of the lamp that each sees, None where no cast shadow is known.
     """
 
     positions: Float[np.ndarray, "k 3"]
@@ -50,6 +75,7 @@ class LitSurface:
     body_centre: Vector3
     specular_exponent: float
     eta: float
+    lit: Float[np.ndarray, " k"] | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -79,6 +105,12 @@ def estimate_light(surface: LitSurface, start: LightEstimate, *, iterations: int
         else:
             matrix[2, :] = matrix[:, 2] = 0.0
             matrix[2, 2], gradient[2] = 1.0, 0.0
+        if now.light.surroundings is not None:
+            away, slopes = surroundings_prior(now.albedo_scale * now.light.surroundings)
+            matrix[AMBIENT_COLUMNS, AMBIENT_COLUMNS] += (
+                2.0 * _SURROUNDINGS_PRIOR_WEIGHT * slopes.T @ slopes
+            )
+            gradient[AMBIENT_COLUMNS] += 2.0 * _SURROUNDINGS_PRIOR_WEIGHT * slopes.T @ away
         before = now.energy
         while damping < _LARGEST_DAMPING:
             step = np.linalg.solve(matrix + damping * np.diag(matrix.diagonal() + 1e-12), -gradient)
@@ -161,8 +193,12 @@ def _energy(surface: LitSurface, estimate: LightEstimate) -> float:
         light=estimate.light,
         body_centre=surface.body_centre,
         reflectance=_reflectance(surface, estimate),
+        lit=surface.lit,
     )
     data = float(surface.weights @ geman_mcclure(predicted - surface.observed, surface.eta))
+    if estimate.light.surroundings is not None:
+        uneven, _ = surroundings_prior(estimate.light.surroundings)
+        data += _SURROUNDINGS_PRIOR_WEIGHT * float(uneven @ uneven)
     if estimate.light.kind is LightKind.DIRECTIONAL:
         return data
     away = np.log(estimate.light.distance / _USUAL_DISTANCE_M) / DISTANCE_SPREAD
@@ -173,46 +209,73 @@ def light_columns(
     derivatives: ShadingDerivatives,
     light: Light,
     *,
+    normals: Float[np.ndarray, "k 3"],
     albedo: Float[np.ndarray, " k"],
     specularity: Float[np.ndarray, " k"],
-) -> Float[np.ndarray, "k 6"]:
+) -> Float[np.ndarray, "k columns"]:
     """Derivatives of Eq. 1 by azimuth, elevation, log distance, ambient light and two scales.
 
     The scales multiply ``albedo`` and ``specularity``; a directional light has no distance, and
-    zeros in its column.
+    zeros in its column. Surroundings have nine columns, by the products of their coefficients with
+    the albedo's scale, in place of the ambient light's; that scale then is the lamp's alone.
     """
     point = light.kind is LightKind.POINT
-    return np.stack(
+    by_albedo, ambient = derivatives.by_albedo, np.ones((len(albedo), 1))
+    if light.surroundings is not None:
+        by_albedo = by_albedo - irradiance(light.surroundings, normals)
+        ambient = albedo[:, None] * harmonics(normals)
+    return np.column_stack(
         [
             derivatives.by_light[:, 0],
             derivatives.by_light[:, 1],
             light.distance * derivatives.by_light[:, 2] if point else np.zeros(len(albedo)),
-            np.ones(len(albedo)),
-            albedo * derivatives.by_albedo,
+            ambient,
+            albedo * by_albedo,
             specularity * derivatives.by_specularity,
-        ],
-        axis=1,
+        ]
     )
+
+
+def surroundings_prior(
+    surroundings: Surroundings,
+) -> tuple[Float[np.ndarray, "8"], Float[np.ndarray, "8 9"]]:
+    """How many standard deviations bands 1 and 2 are from none, and the derivatives.
+
+    Half their squares are nats. Relative to band 0, so that the scale of the coefficients does not
+    matter.
+    """
+    level = max(surroundings[0], 1e-12)
+    spread = SURROUNDINGS_SPREAD * np.array(BAND_TRANSFER)[BAND_OF[1:]]
+    away = surroundings[1:] / (spread * level)
+    slopes = np.zeros((COUNT - 1, COUNT))
+    slopes[:, 0] = -away / level
+    slopes[:, 1:] = np.diag(1.0 / (spread * level))
+    return away, slopes
 
 
 def _linearise(
     surface: LitSurface, estimate: LightEstimate
-) -> tuple[Float[np.ndarray, "k 6"], Float[np.ndarray, " k"]]:
+) -> tuple[Float[np.ndarray, "k columns"], Float[np.ndarray, " k"]]:
     derivatives = shade_with_derivatives(
         surface.positions,
         surface.normals,
         light=estimate.light,
         body_centre=surface.body_centre,
         reflectance=_reflectance(surface, estimate),
+        lit=surface.lit,
     )
     jacobian = light_columns(
-        derivatives, estimate.light, albedo=surface.albedo, specularity=surface.specularity
+        derivatives,
+        estimate.light,
+        normals=surface.normals,
+        albedo=surface.albedo,
+        specularity=surface.specularity,
     )
     return jacobian, derivatives.shading - surface.observed
 
 
 def _stepped(
-    now: LightEstimate, step: Float[np.ndarray, "6"], ambient_limit: float
+    now: LightEstimate, step: Float[np.ndarray, " columns"], ambient_limit: float
 ) -> LightEstimate:
     light = now.light
     turn = np.clip(step[:2], -0.5, 0.5)
@@ -223,12 +286,29 @@ def _stepped(
         distance = float(
             np.clip(light.distance * np.exp(np.clip(step[2], -0.7, 0.7)), *_DISTANCE_RANGE_M)
         )
+    moved = Light(
+        kind=light.kind, azimuth=float(azimuth), elevation=float(elevation), distance=distance
+    )
+    albedo_scale = max(now.albedo_scale + float(step[-2]), 0.0)
+    specularity_scale = max(now.specularity_scale + float(step[-1]), 0.0)
+    if light.surroundings is None:
+        ambient = min(max(now.ambient + float(step[3]), 0.0), ambient_limit)
+    else:
+        moved, albedo_scale = _surrounded(
+            moved, now.albedo_scale * light.surroundings + step[AMBIENT_COLUMNS], albedo_scale
+        )
+        ambient = 0.0
     return LightEstimate(
-        light=Light(
-            kind=light.kind, azimuth=float(azimuth), elevation=float(elevation), distance=distance
-        ),
-        ambient=min(max(now.ambient + float(step[3]), 0.0), ambient_limit),
-        albedo_scale=max(now.albedo_scale + float(step[4]), 0.0),
-        specularity_scale=max(now.specularity_scale + float(step[5]), 0.0),
+        light=moved,
+        ambient=ambient,
+        albedo_scale=albedo_scale,
+        specularity_scale=specularity_scale,
         energy=now.energy,
     )
+
+
+def _surrounded(lamp: Light, products: Surroundings, albedo_scale: float) -> tuple[Light, float]:
+    """A lamp with surroundings that were solved for times the albedo's scale, and that scale."""
+    products = without_negative_light(products, least=max(_LEAST_SURROUNDINGS * albedo_scale, 1e-9))
+    albedo_scale = max(albedo_scale, _LEAST_LAMP * mean_irradiance(products))
+    return replace(lamp, surroundings=products / albedo_scale), albedo_scale

@@ -19,7 +19,7 @@ from fitter.energies.edges import edge_rows
 from fitter.energies.instruments import BodyInstruments
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.penetration import penetration_rows
-from fitter.energies.priors import lean_residual, shape_prior_precision
+from fitter.energies.priors import lean_residual
 from fitter.energies.rows import PositionRows, ShadingRows, thinned
 from fitter.energies.shading import shading_rows, thinned_shading
 from fitter.energies.silhouette import silhouette_rows
@@ -34,7 +34,7 @@ from fitter.optimizer.row_jacobians import (
 )
 
 # Rows of each kind that enter the matrix; the gradient uses all of them.
-_MATRIX_ROWS = 300
+MATRIX_ROWS = 300
 MATRIX_SHADING_ROWS = 300
 
 Matrix = Float[np.ndarray, "columns columns"]
@@ -49,11 +49,11 @@ def normal_equations(objective: Objective, candidate: Candidate) -> tuple[Matrix
     pull = np.zeros_like(candidate.vertices)
     jacobians: list[RowJacobian] = []
     for rows in (
-        *_outline_rows(objective, candidate),
-        edge_rows(rendering, candidate.edges, evidence.edges, scales),
+        *outline_rows(objective, candidate),
+        edge_rows(rendering, candidate.edges, evidence.edges, scales, evidence.bare),
     ):
         scatter(rows, pull)
-        few = thinned(rows, _MATRIX_ROWS)
+        few = thinned(rows, MATRIX_ROWS)
         vertices = instruments.tangent.vertices
         jacobians.append(position_row_jacobian(few, frame, vertices, candidate.vertices))
     for rows, support, attachments, positions in (
@@ -86,11 +86,11 @@ def normal_equations(objective: Objective, candidate: Candidate) -> tuple[Matrix
     return matrix, gradient
 
 
-def _outline_rows(objective: Objective, candidate: Candidate) -> tuple[PositionRows, ...]:
+def outline_rows(objective: Objective, candidate: Candidate) -> tuple[PositionRows, ...]:
     """Rows of the silhouette energy: of its lines, or of the segmented region."""
     evidence, scales = objective.evidence, objective.scales
     if evidence.lines is not None:
-        return (line_rows(candidate.rendering, evidence.lines, scales),)
+        return line_rows(candidate.rendering, evidence.lines, scales)
     return silhouette_rows(candidate.rendering, candidate.edges, evidence.silhouette, scales)
 
 
@@ -119,10 +119,9 @@ def _add_priors(
     lean, by_root = lean_residual(parameters.pose)
     matrix[:3, :3] += np.outer(by_root, by_root)
     gradient[:3] += lean * by_root
-    precision = shape_prior_precision(len(parameters.shape))
     shape = slice(pose_size + 3, None)
-    matrix[shape, shape] += np.diag(precision)
-    gradient[shape] += precision * parameters.shape
+    matrix[shape, shape] += objective.shape_prior.precision
+    gradient[shape] += objective.shape_prior.slope(parameters.shape)
     slopes = attribute_slopes(objective.attributes, parameters.shape)
     matrix[shape, shape] += slopes.T @ slopes
     gradient[shape] += slopes.T @ attribute_residuals(objective.attributes, parameters.shape)

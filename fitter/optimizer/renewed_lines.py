@@ -6,6 +6,7 @@ from dataclasses import replace
 from fitter.arrays import Image
 from fitter.energies.objective import Objective
 from fitter.evidence.correspondence_lines import correspondence_lines
+from fitter.evidence.loose_outline import LooseOutline
 from fitter.optimizer.alternation import BodySearch
 from fitter.optimizer.gauss_newton import Minimum
 from fitter.parameters import BodyParameters
@@ -22,8 +23,12 @@ def with_lines_about(objective: Objective, body: BodyParameters, display: Image)
     vertices = instruments.evaluator.vertices(body)
     rendering = render(vertices, instruments.model.triangles, evidence.camera)
     edges = model_edges(rendering, instruments.topology)
+    silhouette = evidence.silhouette
+    clothes = None
+    if silhouette.cloth is not None:
+        clothes = LooseOutline(mask=silhouette.mask, cloth=silhouette.cloth)
     return objective.with_lines(
-        correspondence_lines(rendering, edges, display, evidence.silhouette.confidence)
+        correspondence_lines(rendering, edges, display, silhouette.confidence, clothes)
     )
 
 

@@ -6,7 +6,8 @@ from jaxtyping import Float
 from fitter.arrays import Shape
 from fitter.energies.attributes import attribute_slopes
 from fitter.energies.objective import Candidate, Objective
-from fitter.optimizer.free_space import FreeSpace, free_space
+from fitter.optimizer.ease_freedom import information_lost_to_ease
+from fitter.optimizer.free_space import FreeSpace, free_space, kept_directions
 from fitter.optimizer.light_freedom import information_lost_to_light
 from fitter.optimizer.normal_equations import normal_equations
 
@@ -14,7 +15,7 @@ from fitter.optimizer.normal_equations import normal_equations
 def shape_covariance(
     objective: Objective, candidate: Candidate, *, height_variance: float
 ) -> Float[np.ndarray, "n n"]:
-    """Covariance of the shape with pose, place and light marginalised.
+    """Covariance of the shape with pose, place, light and the ease of loose clothes marginalised.
 
     The albedo of each vertex is held, as is everything else the objective fixes. Energies are
     negative log-likelihoods, so the inverse of the Gauss-Newton matrix is the covariance of all
@@ -25,27 +26,25 @@ def shape_covariance(
     matrix, _ = normal_equations(objective, candidate)
     if objective.evidence.shading is not None:
         matrix -= information_lost_to_light(objective, candidate, objective.evidence.shading)
+    if objective.evidence.silhouette.cloth is not None:
+        matrix -= information_lost_to_ease(objective, candidate)
     space = free_space(objective.attributes.held, candidate.parameters)
     inner = space.directions.T @ matrix @ space.directions
     inverse = np.linalg.inv(inner + 1e-9 * np.eye(len(inner)))
     shapes = space.directions[-len(candidate.parameters.shape) :]
-    response = _height_response(objective, candidate, space, shapes)
+    response = _height_response(objective, candidate, space)
     return shapes @ inverse @ shapes.T + height_variance * np.outer(response, response)
 
 
-def _height_response(
-    objective: Objective,
-    candidate: Candidate,
-    space: FreeSpace,
-    shapes: Float[np.ndarray, "n free"],
-) -> Shape:
+def _height_response(objective: Objective, candidate: Candidate, space: FreeSpace) -> Shape:
     """How the most probable shape changes with the height coefficient.
 
-    With what is held kept, the population N(0, I) and the uncertain attributes together: with
-    their slopes S and the response e that keeps what is held, e - B (I + BᵀSᵀSB)⁻¹ BᵀSᵀ S e.
+    With what is held kept, the prior and the uncertain attributes together, Q = P + SᵀS of the
+    prior's precision and the attributes' slopes: with the response e that keeps what is held,
+    e - B (BᵀQB)⁻¹ BᵀQ e.
     """
-    held = space.height_response
-    slopes = attribute_slopes(objective.attributes, candidate.parameters.shape)
-    along = slopes @ shapes
-    weights = np.linalg.solve(np.eye(shapes.shape[1]) + along.T @ along, along.T @ (slopes @ held))
-    return held - shapes @ weights
+    held, shape = space.height_response, candidate.parameters.shape
+    shapes = kept_directions(objective.attributes.held, shape)
+    slopes = attribute_slopes(objective.attributes, shape)
+    known = objective.shape_prior.precision + slopes.T @ slopes
+    return held - shapes @ np.linalg.solve(shapes.T @ known @ shapes, shapes.T @ known @ held)

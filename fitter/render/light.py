@@ -36,15 +36,22 @@ def light_position(light: Light, body_centre: Vector3) -> Vector3:
 
 
 def light_about(light: Light, *, old_centre: Vector3, new_centre: Vector3) -> Light:
-    """The same light in spherical coordinates about another centre of the body."""
+    """The same light in spherical coordinates about another centre of the body.
+
+    Where the lamp is nearer to the new centre, the surroundings are less beside it.
+    """
     if light.kind is LightKind.DIRECTIONAL:
         return light
     toward = light_position(light, old_centre) - new_centre
     distance = float(np.linalg.norm(toward))
     x, y, z = toward / distance
+    surroundings = light.surroundings
+    if surroundings is not None:
+        surroundings = (distance / light.distance) ** 2 * surroundings
     return Light(
         kind=light.kind,
         azimuth=float(np.arctan2(x, -z)),
         elevation=float(np.arcsin(np.clip(-y, -1.0, 1.0))),
         distance=distance,
+        surroundings=surroundings,
     )

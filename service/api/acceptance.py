@@ -81,11 +81,15 @@ class File:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Inputs:
-    """What a job of a kind is made of; ``options`` is the request as JSON."""
+    """What a job of a kind is made of; ``options`` is the request as JSON.
+
+    ``sources`` are the fits, beside its own, that it has copies of.
+    """
 
     kind: str = FIT
     options: bytes
     files: Mapping[str, File]
+    sources: tuple[str, ...] = ()
     webhook: WebhookTarget | None
 
 
@@ -179,6 +183,7 @@ def _stored(context: ApiContext, job_id: str, inputs: Inputs, key: Idempotency |
         kind=inputs.kind,
         options=stored(File(content=inputs.options, media_type="application/json")),
         inputs={name: stored(file) for name, file in inputs.files.items()},
+        sources=inputs.sources,
         idempotency=key,
         request_id=context.request_id,
         traceparent=current_traceparent(),

@@ -11,12 +11,8 @@ from fastapi import APIRouter, Request, Response
 from fastapi.responses import StreamingResponse
 from starlette.concurrency import run_in_threadpool
 
-from api_schemas.derivations import (
-    Derivation,
-    DerivationPage,
-    DerivationRequest,
-    DerivationResult,
-)
+from api_schemas.derivation_results import DerivationResult
+from api_schemas.derivations import Derivation, DerivationPage, DerivationRequest
 from service.api.acceptance import (
     ACCEPTANCE_PROBLEMS,
     IdempotencyKey,
@@ -27,7 +23,8 @@ from service.api.acceptance import (
     idempotency,
 )
 from service.api.context import ApiContext, Context
-from service.api.derivation_inputs import derivation_inputs, read_derivation
+from service.api.derivation_inputs import derivation_inputs
+from service.api.derivation_requests import read_derivation
 from service.api.events import STREAM, LastEventId, event_stream
 from service.api.fit_inputs import serve_blob
 from service.api.job_routes import (
@@ -57,7 +54,7 @@ from service.api.results import (
 )
 from service.api.uploads import MULTIPART
 from service.engine.port import JobRecord
-from service.inputs import CLIP
+from service.inputs import CLIP, TEXTURE
 from service.webhooks.targets import check_webhook
 
 ROUTER: Final = APIRouter(prefix="/v1/fits/{fit_id}/derivations", tags=["derivations"])
@@ -72,9 +69,14 @@ _SUBMISSION: Final[dict[str, Any]] = {
                 "schema": {
                     "type": "object",
                     "additionalProperties": False,
-                    "required": ["request", CLIP],
+                    "required": ["request"],
                     "properties": {
-                        "request": {"$ref": "#/components/schemas/AnimationOptions"},
+                        "request": {
+                            "anyOf": [
+                                {"$ref": "#/components/schemas/AnimationOptions"},
+                                {"$ref": "#/components/schemas/TextureOptions"},
+                            ]
+                        },
                         CLIP: {
                             "type": "string",
                             "format": "binary",
@@ -83,11 +85,20 @@ _SUBMISSION: Final[dict[str, Any]] = {
                                 "CMU, Mixamo, Rokoko or Blender."
                             ),
                         },
+                        TEXTURE: {
+                            "type": "string",
+                            "format": "binary",
+                            "description": (
+                                "A painted atlas, square, in the layout of `atlas.png` of any "
+                                "texture of the fit: JPEG, PNG or WebP, for colours `own`."
+                            ),
+                        },
                     },
                 },
                 "encoding": {
                     "request": {"contentType": JSON},
                     CLIP: {"contentType": "text/plain, application/octet-stream"},
+                    TEXTURE: {"contentType": "image/jpeg, image/png, image/webp"},
                 },
             },
         },
@@ -122,19 +133,19 @@ async def derive(
 ) -> Derivation:
     """Accept a job that makes something of a fit that has succeeded; `kind` says what.
 
-    It has copies of its own of what it needs of the fit; erasing the fit erases it too. A motion
-    comes along as the part `bvh` of a form, whose part `request` is the JSON; without one an
-    animated body walks.
+    It has copies of its own of what it needs of the fit; erasing the fit erases it too. A file
+    comes along as a part of a form, whose part `request` is the JSON: `bvh`, a motion for an
+    animation, without which the body walks; `texture`, for a texture with the colours `own`.
 
     `Idempotency-Key` and `Prefer` are as for fits.
     """
-    asked, sent = await read_derivation(request)
+    asked, sent = await read_derivation(request, max_pixels=context.settings.max_pixels)
     check_webhook(asked.webhook, context.settings)
-    inputs = await run_in_threadpool(derivation_inputs, context, fit_id, asked, sent.clip)
+    inputs = await run_in_threadpool(derivation_inputs, context, fit_id, asked, sent.files)
     jobs = context.jobs.derivations(str(fit_id))
-    key = idempotency(
-        idempotency_key, b"derivation", str(fit_id).encode(), sent.text, sent.clip or b""
-    )
+    # At most one file comes along, and what was asked for says which.
+    brought = b"".join(file.content for file in sent.files.values())
+    key = idempotency(idempotency_key, b"derivation", str(fit_id).encode(), sent.text, brought)
     job = await accept(context, jobs, inputs, key=key)
     return represent_derivation(await answer(context, jobs, response, job, prefer=prefer))
 

@@ -11,30 +11,43 @@ from service.api.json_bodies import JSON
 from service.api.problems import documented, not_found
 from service.blobs import BlobMissingError
 from service.engine.port import JobRecord, StoredBlob
-from service.inputs import IMAGE
+from service.inputs import IMAGE, MASK
 
 ROUTER: Final = APIRouter(prefix="/v1/fits", tags=["fits"])
 
 _BINARY: Final = {"schema": {"type": "string", "format": "binary"}}
+_AS_SENT: Final = {
+    200: {
+        "description": "The file as it was sent.",
+        "content": {"image/jpeg": _BINARY, "image/png": _BINARY, "image/webp": _BINARY},
+    },
+}
 
 
 @ROUTER.get(
     "/{fit_id}/image",
     summary="The picture of a job",
     response_class=Response,
-    responses={
-        200: {
-            "description": "The file as it was sent.",
-            "content": {"image/jpeg": _BINARY, "image/png": _BINARY, "image/webp": _BINARY},
-        },
-    }
-    | NOT_MODIFIED
-    | documented(*JOB_PROBLEMS),
+    responses=_AS_SENT | NOT_MODIFIED | documented(*JOB_PROBLEMS),
 )
 def fit_image(fit_id: UUID, context: Context, if_none_match: IfNoneMatch = None) -> Response:
     """Return the picture as it was sent; it is erased with the job."""
     record = find(context.jobs, fit_id)
     return serve_blob(context, record, record.inputs[IMAGE], if_none_match)
+
+
+@ROUTER.get(
+    "/{fit_id}/mask",
+    summary="The mask of a job",
+    response_class=Response,
+    responses=_AS_SENT | NOT_MODIFIED | documented(*JOB_PROBLEMS),
+)
+def fit_mask(fit_id: UUID, context: Context, if_none_match: IfNoneMatch = None) -> Response:
+    """Return the mask as it was sent; `not-found` if none was."""
+    record = find(context.jobs, fit_id)
+    if MASK not in record.inputs:
+        raise not_found(what="mask: this job was sent none")
+    return serve_blob(context, record, record.inputs[MASK], if_none_match)
 
 
 @ROUTER.get(

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any, Final
 
-_FIT: Final = ("get_fit", "follow", "cancel", "erase", "fit_image", "fit_request")
+_FIT: Final = ("get_fit", "follow", "cancel", "erase", "fit_image", "fit_mask", "fit_request")
 _ENDED_FIT: Final = (*_FIT, "retry", "result", "derive", "list_derivations")
 _DERIVATION: Final = (
     "get_derivation",
@@ -12,7 +12,7 @@ _DERIVATION: Final = (
     "erase_derivation",
     "derivation_request",
 )
-_ENDED_DERIVATION: Final = (*_DERIVATION, "derivation_result")
+_ENDED_DERIVATION: Final = (*_DERIVATION, "retry_derivation", "derivation_result")
 
 _FROM_JOB: Final = {"fit_id": "$response.body#/id"}
 _SAME_FIT: Final = {"fit_id": "$request.path.fit_id"}
@@ -43,8 +43,12 @@ LINKS: Final[Mapping[tuple[str, str], dict[str, Any]]] = {
     ("result", "200"): _links(_SAME_FIT | {"name": "$response.body#/artifacts/0/name"}, "artifact"),
     ("derive", "202"): _links(_FROM_DERIVATION, *_DERIVATION),
     ("derive", "200"): _links(_FROM_DERIVATION, *_ENDED_DERIVATION),
+    ("retry_derivation", "202"): _links(_FROM_DERIVATION, *_DERIVATION),
+    ("retry_derivation", "200"): _links(_FROM_DERIVATION, *_ENDED_DERIVATION),
     ("get_derivation", "200"): _links(_SAME_DERIVATION, *_ENDED_DERIVATION),
-    ("cancel_derivation", "200"): _links(_SAME_DERIVATION, "get_derivation", "erase_derivation"),
+    ("cancel_derivation", "200"): _links(
+        _SAME_DERIVATION, "get_derivation", "retry_derivation", "erase_derivation"
+    ),
     ("cancel_derivation", "202"): _links(_SAME_DERIVATION, "get_derivation", "erase_derivation"),
     ("derivation_result", "200"): _links(
         _SAME_DERIVATION | {"name": "$response.body#/artifacts/0/name"}, "derivation_artifact"

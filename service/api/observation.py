@@ -8,7 +8,7 @@ from typing import Final
 
 from opentelemetry.trace import SpanKind
 from starlette.datastructures import MutableHeaders
-from starlette.requests import Request
+from starlette.requests import ClientDisconnect, Request
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from api_schemas.problems import problem
@@ -84,6 +84,9 @@ class Observation:
 
         try:
             await self._app(request.scope, receive, identified)
+        except ClientDisconnect:
+            # It hung up before its request was whole: nobody is there to be answered.
+            pass
         except Exception:
             LOG.exception("%s %s failed.", request.method, _route(request.scope))
             if status != 499:

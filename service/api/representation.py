@@ -7,6 +7,7 @@ from uuid import UUID
 from api_schemas.derivations import Derivation, DerivationKind, DerivationLinks
 from api_schemas.jobs import Job, JobLinks, JobState, WebhookDelivery
 from service.engine.port import JobRecord, WebhookRecord
+from service.inputs import MASK
 from service.jobs import ACTIVE
 
 POLL_AFTER_S: Final = 1
@@ -28,15 +29,14 @@ def job_path(record: JobRecord) -> str:
 def represent(record: JobRecord) -> Job:
     """Translate the record of a fit."""
     path = job_path(record)
-    active = record.state in ACTIVE
     succeeded = record.state is JobState.SUCCEEDED
     return Job(
         **_standing(record),
         links=JobLinks(
             **_links(record),
             image=f"{path}/image",
+            mask=f"{path}/mask" if MASK in record.inputs else None,
             derivations=derivations_path(record.id) if succeeded else None,
-            retry=None if active else f"{path}/retry",
         ),
     )
 
@@ -79,11 +79,13 @@ def _standing(record: JobRecord) -> dict[str, Any]:
 
 def _links(record: JobRecord) -> dict[str, Any]:
     path = job_path(record)
+    active = record.state in ACTIVE
     return {
         "self": path,
         "events": f"{path}/events",
         "request": f"{path}/request",
-        "cancel": f"{path}/cancel" if record.state in ACTIVE else None,
+        "cancel": f"{path}/cancel" if active else None,
+        "retry": None if active else f"{path}/retry",
         "result": f"{path}/result" if record.state is JobState.SUCCEEDED else None,
         "artifacts": {
             artifact.name: f"{path}/artifacts/{artifact.name}" for artifact in record.artifacts

@@ -6,6 +6,7 @@ from uuid import UUID
 from fastapi import APIRouter, Response
 from starlette.concurrency import run_in_threadpool
 
+from api_schemas.derivations import CombinedOptions, Derivation, DerivationKind
 from api_schemas.jobs import Job
 from api_schemas.problems import problem
 from service.api.acceptance import (
@@ -20,23 +21,26 @@ from service.api.acceptance import (
     idempotency,
 )
 from service.api.context import ApiContext, Context
+from service.api.derivation_inputs import other_fits
 from service.api.job_routes import find
 from service.api.problems import ProblemError, documented, not_found
-from service.api.representation import represent
+from service.api.representation import represent, represent_derivation
 from service.blobs import BlobMissingError
-from service.engine.port import StoredBlob
+from service.engine.port import StoredBlob, TenantJobs
 from service.jobs import ACTIVE
 
-ROUTER: Final = APIRouter(prefix="/v1/fits", tags=["fits"])
+ROUTER: Final = APIRouter(prefix="/v1/fits")
+
+_PROBLEMS: Final = ("not-found", "fit-expired", "not-ended", *ACCEPTANCE_PROBLEMS)
 
 
 @ROUTER.post(
     "/{fit_id}/retry",
+    tags=["fits"],
     status_code=202,
     response_model=Job,
     summary="Fit the same picture again",
-    responses=accepted(Job)
-    | documented("not-found", "fit-expired", "not-ended", *ACCEPTANCE_PROBLEMS),
+    responses=accepted(Job) | documented(*_PROBLEMS),
 )
 async def retry(
     fit_id: UUID,
@@ -49,14 +53,42 @@ async def retry(
 
     It has a copy of its own of both, and its end is told to whom the first one's was.
     """
-    inputs = await run_in_threadpool(_inputs, context, fit_id)
+    jobs = context.jobs
+    inputs = await run_in_threadpool(_inputs, context, jobs, fit_id)
     key = idempotency(idempotency_key, b"retry", str(fit_id).encode())
-    job = await accept(context, context.jobs, inputs, key=key)
-    return represent(await answer(context, context.jobs, response, job, prefer=prefer))
+    job = await accept(context, jobs, inputs, key=key)
+    return represent(await answer(context, jobs, response, job, prefer=prefer))
 
 
-def _inputs(context: ApiContext, fit_id: UUID) -> Inputs:
-    record = find(context.jobs, fit_id)
+@ROUTER.post(
+    "/{fit_id}/derivations/{derivation_id}/retry",
+    tags=["derivations"],
+    status_code=202,
+    response_model=Derivation,
+    summary="Derive the same again",
+    responses=accepted(Derivation) | documented(*_PROBLEMS),
+)
+async def retry_derivation(
+    fit_id: UUID,
+    derivation_id: UUID,
+    response: Response,
+    context: Context,
+    idempotency_key: IdempotencyKey = None,
+    prefer: Prefer = None,
+) -> Derivation:
+    """Accept a new job on all that one that has ended was made of.
+
+    It has a copy of its own of that, and its end is told to whom the first one's was.
+    """
+    jobs = context.jobs.derivations(str(fit_id))
+    inputs = await run_in_threadpool(_inputs, context, jobs, derivation_id)
+    key = idempotency(idempotency_key, b"retry", str(derivation_id).encode())
+    job = await accept(context, jobs, inputs, key=key)
+    return represent_derivation(await answer(context, jobs, response, job, prefer=prefer))
+
+
+def _inputs(context: ApiContext, jobs: TenantJobs, job_id: UUID) -> Inputs:
+    record = find(jobs, job_id)
     if record.state in ACTIVE:
         raise ProblemError(
             problem(
@@ -70,10 +102,19 @@ def _inputs(context: ApiContext, fit_id: UUID) -> Inputs:
         return File(content=context.blobs.get(record.id, blob.digest), media_type=blob.media_type)
 
     try:
+        options = file(record.options).content
         return Inputs(
-            options=file(record.options).content,
+            kind=record.kind,
+            options=options,
             files={name: file(blob) for name, blob in record.inputs.items()},
-            webhook=context.jobs.webhook_target(record.id),
+            sources=_sources(record.kind, options),
+            webhook=jobs.webhook_target(record.id),
         )
     except BlobMissingError as error:
         raise not_found(what="such job any more") from error
+
+
+def _sources(kind: str, options: bytes) -> tuple[str, ...]:
+    if kind != DerivationKind.COMBINED:
+        return ()
+    return other_fits(CombinedOptions.model_validate_json(options))

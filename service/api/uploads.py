@@ -64,16 +64,18 @@ async def read_image(request: Request) -> bytes:
     return (await _parts(request, needed=("image",), known=("image",)))["image"]
 
 
-async def read_request_and_file(request: Request, name: str) -> tuple[bytes, bytes]:
-    """Read the parts ``request``, JSON as a string or as a file, and ``name``, a file.
+async def read_request_and_files(
+    request: Request, names: Sequence[str]
+) -> tuple[bytes, dict[str, bytes]]:
+    """Read the part ``request``, JSON as a string or as a file, and files, none of which must come.
 
     Raises
     ------
     ProblemError
-        If a part is missing, unknown or doubled.
+        If the request is missing, or a part is unknown or doubled.
     """
-    parts = await _parts(request, needed=("request", name), known=("request", name))
-    return parts["request"], parts[name]
+    parts = await _parts(request, needed=("request",), known=("request", *names))
+    return parts.pop("request"), parts
 
 
 async def _parts(

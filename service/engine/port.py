@@ -36,14 +36,17 @@ class Idempotency:
 class NewJob:
     """A job to accept; its blobs are stored already, ``options`` being the request as JSON.
 
-    ``inputs`` is what else it needs, by name. ``request_id`` and ``traceparent`` name the HTTP
-    request it came with, in logs and traces; ``webhook`` is whom to tell of its end.
+    ``inputs`` is what else it needs, by name; ``sources`` are the fits, beside its own, whose
+    pictures are among them: it is erased and expires with the first of them. ``request_id`` and
+    ``traceparent`` name the HTTP request it came with, in logs and traces; ``webhook`` is whom to
+    tell of its end.
     """
 
     id: str
     kind: str
     options: StoredBlob
     inputs: Mapping[str, StoredBlob]
+    sources: tuple[str, ...] = ()
     idempotency: Idempotency | None = None
     request_id: str | None = None
     traceparent: str | None = None
@@ -117,7 +120,7 @@ class SubmitOutcome(StrEnum):
     """How a submission ended.
 
     ``TENANT_FULL``: too many jobs of this tenant are waiting. ``LOST``: the blobs of the job were
-    taken for abandoned and erased before it was submitted. ``PARENT_GONE``: the fit it is derived
+    taken for abandoned and erased before it was submitted. ``PARENT_GONE``: a fit it is derived
     from was erased meanwhile.
     """
 

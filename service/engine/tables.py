@@ -48,6 +48,20 @@ JOBS = sa.Table(
 """Fits, and what is derived from them: these name their fit as ``parent_id``. ``inputs`` are blobs
 in the job's own scope, by name, as JSON."""
 
+SOURCES = sa.Table(
+    "maquette_sources",
+    METADATA,
+    sa.Column(
+        "job_id",
+        sa.String(36),
+        sa.ForeignKey("maquette_jobs.id", ondelete="CASCADE"),
+        primary_key=True,
+    ),
+    sa.Column("fit_id", sa.String(36), primary_key=True),
+    sa.Index("maquette_sources_fit", "fit_id"),
+)
+"""Of which other fits, beside their own, derivations have copies: they go when one of them goes."""
+
 EVENTS = sa.Table(
     "maquette_events",
     METADATA,

@@ -1,7 +1,7 @@
 """The jobs of one tenant: our records, with DBOS's queue behind them."""
 
 import time
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 import sqlalchemy as sa
 from dbos import DBOSClient, EnqueueOptions
@@ -28,7 +28,7 @@ from service.engine.port import (
 )
 from service.engine.queue import EXECUTION_VERSION, QUEUE, WORKFLOW
 from service.engine.records import INPUTS, append_event, end_job, job_record
-from service.engine.tables import EVENTS, JOBS, TOMBSTONES
+from service.engine.tables import EVENTS, JOBS, SOURCES, TOMBSTONES
 
 
 class DbosTenantJobs:
@@ -83,7 +83,7 @@ class DbosTenantJobs:
                 answered = self._answered(connection, job.idempotency)
                 if answered is not None:
                     return answered
-                expires_at = self._parents_end(connection)
+                expires_at = self._parents_end(connection, job.sources)
                 if self._parent is not None and expires_at is None:
                     return Submission(outcome=SubmitOutcome.PARENT_GONE, job=None)
                 if not take_out(connection, job.id):
@@ -214,22 +214,28 @@ class DbosTenantJobs:
     def _own(self, job_id: str) -> tuple[sa.ColumnElement[bool], ...]:
         return (JOBS.c.id == job_id, *self._ours())
 
-    def _parents_end(self, connection: sa.Connection) -> float | None:
-        """When the fit to derive from expires; None if it is gone, or there is none to be.
+    def _parents_end(self, connection: sa.Connection, sources: Collection[str]) -> float | None:
+        """When the first of the fits to derive from expires; None if one is gone, or none is to be.
 
-        Its record is held until the transaction ends, so that it cannot be erased meanwhile.
+        Their records are held until the transaction ends, so that none can be erased meanwhile.
         """
         if self._parent is None:
             return None
-        return connection.execute(
+        fits = {self._parent, *sources}
+        ends = connection.execute(
             sa.select(JOBS.c.expires_at)
             .where(
-                JOBS.c.id == self._parent,
+                JOBS.c.id.in_(fits),
                 JOBS.c.tenant == self._tenant,
+                JOBS.c.parent_id.is_(None),
                 JOBS.c.expires_at > time.time(),
             )
+            # In one order, lest two transactions wait for each other.
+            .order_by(JOBS.c.id)
             .with_for_update()
-        ).scalar_one_or_none()
+        ).scalars()
+        found = list(ends)
+        return min(found) if len(found) == len(fits) else None
 
     def _find(self, connection: sa.Connection, job_id: str) -> JobRecord | None:
         row = connection.execute(sa.select(JOBS).where(*self._own(job_id))).mappings().one_or_none()
@@ -329,6 +335,9 @@ class DbosTenantJobs:
             .mappings()
             .one()
         )
+        if job.sources:
+            named = [{"job_id": job.id, "fit_id": each} for each in job.sources]
+            connection.execute(sa.insert(SOURCES), named)
         record = job_record(row)
         append_event(connection, record, EventKind.STATE)
         return record

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Final
+from uuid import UUID
 
 from api_schemas.derivations import DerivationRequest
 from api_schemas.problems import Problem, field_problem, problem
@@ -53,7 +54,10 @@ OOM_SCORE: Final = 500
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ChildTask:
-    """What the worker tells the child to begin with; options and named inputs follow as bytes."""
+    """What the worker tells the child to begin with; options and named inputs follow as bytes.
+
+    ``fit_id`` is that of the fit a job derives from, None for a fit.
+    """
 
     pipeline: str
     kind: str
@@ -64,6 +68,7 @@ class ChildTask:
     log_level: str
     log_format: str
     log_context: LogContext
+    fit_id: str | None = None
 
 
 def work(task: ChildTask, connection: Connection) -> None:
@@ -131,6 +136,7 @@ def _derivation_input(
         inputs=inputs,
         max_pixels=task.max_pixels,
         models=task.models,
+        fit_id=None if task.fit_id is None else UUID(task.fit_id),
     )
 
 

@@ -150,6 +150,7 @@ class ChildRunner:
             log_level=self._settings.log_level,
             log_format=self._settings.log_format,
             log_context=dict(current_log_context()),
+            fit_id=job.parent,
         )
         return self._processes.start(child.work, task)
 

@@ -11,9 +11,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol, cast
+from uuid import UUID
 
 from api_schemas.body_models import BodyModels
-from api_schemas.derivations import AnyDerivationOptions, DerivedFiles
+from api_schemas.derivation_results import DerivedFiles
+from api_schemas.derivations import AnyDerivationOptions
 from api_schemas.problems import FieldProblem
 from api_schemas.requests import FitOptions
 from api_schemas.results import FitResult
@@ -44,12 +46,16 @@ class PipelineOutput:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DerivationInput:
-    """What is to be derived, and the inputs of that kind, by the names of :mod:`service.inputs`."""
+    """What is to be derived, and the inputs of that kind, by the names of :mod:`service.inputs`.
+
+    ``fit_id`` is that of the fit it is derived from, None where the service keeps none.
+    """
 
     options: AnyDerivationOptions
     inputs: Mapping[str, bytes]
     max_pixels: int
     models: Path | None = None
+    fit_id: UUID | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

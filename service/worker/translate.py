@@ -2,21 +2,24 @@
 
 import math
 from collections.abc import Sequence
+from uuid import UUID
 
 import numpy as np
 
 from api_schemas import known as wire_known
 from api_schemas import requests as wire_request
 from api_schemas import results as wire
+from api_schemas.derivation_results import CombinedPicture
 from api_schemas.points import points_by_name
 from api_schemas.problems import FieldProblem
 from fitter.camera import Camera
 from fitter.errors import InvalidInputError
 from fitter.measurement.quantity import Measurement
-from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
+from fitter.parameters import BodyParameters, Light, LightKind, Reflectance, Surroundings
 from fitter.progress import Progress
 from fitter.request import (
     Click,
+    Clothing,
     Cues,
     Facing,
     FitRequest,
@@ -24,8 +27,9 @@ from fitter.request import (
     KnownMeasurement,
     LightGuess,
     OptimizerKind,
+    SurroundingsKind,
 )
-from fitter.result import OUTCOME_EXPLANATIONS, FitResult, LimbFacing, StageBody
+from fitter.result import OUTCOME_EXPLANATIONS, FitResult, LimbFacing, LitBody, StageBody
 from service.engine.port import Report
 
 SEEN = 2
@@ -53,11 +57,13 @@ def fit_request(
         focal_length_35mm=options.focal_length_35mm,
         cues=Cues(options.cues),
         optimizer=OptimizerKind(options.optimizer),
+        clothing=Clothing(options.clothing),
         light=LightGuess(
             kind=LightKind(options.light.kind),
             azimuth=_radians(options.light.azimuth_deg),
             elevation=_radians(options.light.elevation_deg),
             distance=options.light.distance_m,
+            surroundings=SurroundingsKind(options.light.surroundings),
         ),
         limb_facing={limb.value: Facing(facing) for limb, facing in options.limb_facing.items()},
         max_pixels=max_pixels,
@@ -128,6 +134,22 @@ def fit_result(result: FitResult, *, part_names: Sequence[str]) -> wire.FitResul
     )
 
 
+def combined_picture(
+    body: LitBody, *, number: int, fit_id: UUID, part_names: Sequence[str]
+) -> CombinedPicture:
+    """Translate the person in one of several pictures."""
+    return CombinedPicture(
+        number=number,
+        fit_id=fit_id,
+        outcome=wire.Outcome(body.outcome.value),
+        image_camera=camera_result(body.image_camera),
+        body=body_result(body.body, part_names),
+        light=None if body.light is None else _light(body.light),
+        reflectance=None if body.reflectance is None else _reflectance(body.reflectance),
+        silhouette_overlap=body.silhouette_overlap,
+    )
+
+
 def _radians(degrees: float | None) -> float | None:
     return None if degrees is None else math.radians(degrees)
 
@@ -166,7 +188,13 @@ def _light(light: Light) -> wire.LightResult:
         azimuth_deg=math.degrees(light.azimuth),
         elevation_deg=math.degrees(light.elevation),
         distance_m=None if light.kind is LightKind.DIRECTIONAL else light.distance,
+        surroundings=None if light.surroundings is None else _surroundings(light.surroundings),
     )
+
+
+def _surroundings(surroundings: Surroundings) -> wire.SurroundingsResult:
+    e0, e1, e2, e3, e4, e5, e6, e7, e8 = surroundings.tolist()
+    return wire.SurroundingsResult(coefficients=(e0, e1, e2, e3, e4, e5, e6, e7, e8))
 
 
 def _reflectance(reflectance: Reflectance) -> wire.ReflectanceResult:

@@ -4,13 +4,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-from fitter import pipeline
 from fitter.energies.objective import Objective
 from fitter.optimizer.alternation import BodySearch
 from fitter.optimizer.gauss_newton import EnergyObserver, Minimum
 from fitter.optimizer.search import body_search
 from fitter.parameters import BodyParameters
 from fitter.request import OptimizerKind
+from fitter.stages import descents
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -39,8 +39,8 @@ def recorded_searches() -> Iterator[list[Search]]:
 
         return recorded
 
-    pipeline.body_search = recording
+    descents.body_search = recording
     try:
         yield found
     finally:
-        pipeline.body_search = body_search
+        descents.body_search = body_search

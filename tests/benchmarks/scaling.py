@@ -9,7 +9,6 @@ import qdldl
 import trimesh
 from scipy import sparse
 
-from fitter import pipeline
 from fitter.camera import Camera
 from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
 from fitter.numerics.mesh_topology import mesh_topology
@@ -18,6 +17,7 @@ from fitter.optimizer.search import limits_of
 from fitter.progress import Stage
 from fitter.render.contours import model_edges
 from fitter.render.rasterizer import render
+from fitter.stages import descents
 from fitter.training.text_tables import note_lines, table_lines
 from tests.benchmarks.requests import suite_requests, warm_up
 from tests.benchmarks.spent import TimedFit, median, timed, timed_fit
@@ -87,13 +87,13 @@ def _by_starts(count: int) -> Iterator[str]:
 @contextmanager
 def _at_most(starts: int) -> Iterator[None]:
     """Fits in this context try so many readings of the clicks at most."""
-    pipeline.limits_of = lambda kind: replace(
+    descents.limits_of = lambda kind: replace(
         limits_of(kind), hypotheses=starts, contenders=min(starts, limits_of(kind).contenders)
     )
     try:
         yield
     finally:
-        pipeline.limits_of = limits_of
+        descents.limits_of = limits_of
 
 
 def _by_vertices() -> Iterator[str]:

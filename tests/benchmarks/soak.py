@@ -10,10 +10,10 @@ import httpx
 
 from fitter.training.text_tables import note_lines, table_lines
 from tests.benchmarks.crowd import crowd
-from tests.benchmarks.served import NO_WORKER, ready, running
-from tests.deployment import Deployment, Kind
+from tests.benchmarks.served import NO_WORKER, all_ended, ready, running
+from tests.deployment import Deployment, Kind, wait_for
 from tests.process_table import KIB_PER_MIB, own_memory_mib
-from tests.submissions import small_submissions
+from tests.submissions import Submission, small_submissions
 
 PICTURES = 4
 KEPT = 20
@@ -34,13 +34,12 @@ def lines(count: int) -> Iterator[str]:
             kept: list[str] = []
             ended = 0
             for minute in range(count + 1):
+                _submit(client, kept, submissions)
+                _settle(client, kept, deployment)
                 looks.append(_look(ended, deployment))
                 until = time.monotonic() + MINUTE_S
                 while minute < count and time.monotonic() < until:
-                    while len(kept) < KEPT:
-                        files = submissions[len(kept) % PICTURES].files
-                        answer = client.post("/v1/fits", files=files).raise_for_status()
-                        kept.append(answer.headers["Location"])
+                    _submit(client, kept, submissions)
                     with crowd(
                         deployment.port, listening_to=kept[:LISTENERS], polling=kept[-POLLERS:]
                     ):
@@ -56,8 +55,24 @@ def lines(count: int) -> Iterator[str]:
     yield from note_lines(
         "Each job is followed to its end, all its files are fetched, it is erased. The first "
         "minutes fill what a process keeps: threads and their heaps, connections and their caches. "
-        "What it loses shows in the second half."
+        "What it loses shows in the second half. It is looked at while no fit runs."
     )
+
+
+def _submit(client: httpx.Client, kept: list[str], submissions: Sequence[Submission]) -> None:
+    """As many jobs as are to be there."""
+    while len(kept) < KEPT:
+        files = submissions[len(kept) % PICTURES].files
+        kept.append(client.post("/v1/fits", files=files).raise_for_status().headers["Location"])
+
+
+def _settle(client: httpx.Client, kept: Sequence[str], deployment: Deployment) -> None:
+    """Wait until no fit runs.
+
+    A forked fit shares the fork server's memory, of which then next to nothing is the server's own.
+    """
+    all_ended(client, kept)
+    wait_for(lambda: not deployment.of_kind(Kind.FIT), within_s=MINUTE_S)
 
 
 def _fetched_and_erased(client: httpx.Client, kept: list[str]) -> int:

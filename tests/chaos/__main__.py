@@ -1,4 +1,4 @@
-"""``python -m tests.chaos``: real fits, random kill -9, and whether anything was lost.
+"""``python -m tests.chaos``: real fits and derivations, random kill -9, and what was lost.
 
 On SQLite, on Postgres (a database of its own on 127.0.0.1:5432), or on both. Nothing is faked: the
 pictures are small and fitted by silhouette and edges, so that a hundred jobs take minutes. Exits
@@ -14,6 +14,7 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
+from tests.chaos.caller import Derived
 from tests.chaos.reference import references
 from tests.chaos.run import Plan, disturb
 from tests.chaos.verdict import verdict
@@ -23,6 +24,14 @@ from tests.submissions import small_submissions
 
 DATABASES = ("sqlite", "postgres")
 PICTURES = 6
+DERIVED = (
+    Derived(request={"kind": "pose", "pose": "sitting"}),
+    Derived(request={"kind": "texture", "size": 512}),
+    Derived(request={"kind": "caricature", "factor": 1.5}),
+    Derived(request={"kind": "animation", "duration_s": 0.2}),
+    Derived(request={"kind": "figure"}),
+    Derived(request={"kind": "report"}),
+)
 SHARES = {
     Kind.API: 0.25,
     Kind.WORKER: 0.3,
@@ -35,7 +44,8 @@ SHARES = {
 def main(arguments: Sequence[str]) -> int:
     """Run the command line; returns the exit status."""
     options = _parser().parse_args(arguments)
-    submissions = small_submissions(PICTURES)
+    fits = small_submissions(PICTURES)
+    tasks = [task for pair in zip(fits, DERIVED, strict=True) for task in pair]
     kills = {kind: max(1, round(share * options.kills)) for kind, share in SHARES.items()}
     plan = Plan(jobs=options.jobs, kills=kills, seed=options.seed)
     status = 0
@@ -43,13 +53,13 @@ def main(arguments: Sequence[str]) -> int:
         load = ", ".join(f"{value:.1f}" for value in os.getloadavg())
         print(f"\n{name}, seed {plan.seed} (load averages before: {load})", flush=True)
         folder = Path(tempfile.mkdtemp(prefix="maquette-chaos-"))
-        expected = references(Deployment(folder=folder / "undisturbed"), submissions)
+        expected = references(Deployment(folder=folder / "undisturbed"), tasks)
         with contextlib.ExitStack() as stack:
             url = stack.enter_context(fresh_database()) if name == "postgres" else None
             deployment = Deployment(folder=folder / "disturbed", database_url=url)
             stack.callback(deployment.end)
             deployment.start()
-            judged = verdict(deployment, disturb(deployment, submissions, plan), expected)
+            judged = verdict(deployment, disturb(deployment, tasks, plan), expected)
         for line in judged.lines():
             print(line, flush=True)
         if judged.faults:

@@ -2,7 +2,8 @@
 
 import contextlib
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import httpx
@@ -18,10 +19,24 @@ class NoAnswerError(Exception):
     """The service did not answer for minutes."""
 
 
-class Caller:
-    """One caller with connections of its own."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Derived:
+    """Something to be derived from the fit that all derivations of a run begin with."""
 
-    def __init__(self, address: str) -> None:
+    request: Mapping[str, object]
+
+
+Task = Submission | Derived
+
+
+class Caller:
+    """One caller with connections of its own.
+
+    ``parent`` is the path of the fit that derivations are derived from.
+    """
+
+    def __init__(self, address: str, *, parent: str | None = None) -> None:
+        self.parent = parent
         self._client = httpx.Client(base_url=address, timeout=30.0)
         self.is_posting = False
         self.repeated_posts = 0
@@ -31,14 +46,14 @@ class Caller:
         """Release the connections."""
         self._client.close()
 
-    def post(self, submission: Submission, *, key: str) -> str:
+    def post(self, task: Task, *, key: str) -> str:
         """Submit, however often it takes; returns the job's path."""
         headers = {"Idempotency-Key": key}
         for attempt in self._attempts():
             self.repeated_posts += attempt > 0
             self.is_posting = True
             try:
-                answer = self._client.post("/v1/fits", files=submission.files, headers=headers)
+                answer = self._posted(task, headers)
             except httpx.TransportError:
                 continue
             finally:
@@ -72,11 +87,24 @@ class Caller:
 
     def jobs(self) -> list[dict[str, Any]]:
         """All jobs there are."""
+        found = self._listed("/v1/fits", "jobs")
+        for fit in list(found):
+            if fit["links"]["derivations"] is not None:
+                found += self._listed(fit["links"]["derivations"], "derivations")
+        return found
+
+    def _posted(self, task: Task, headers: Mapping[str, str]) -> httpx.Response:
+        if isinstance(task, Submission):
+            return self._client.post("/v1/fits", files=task.files, headers=headers)
+        path = f"{self.parent}/derivations"
+        return self._client.post(path, json=dict(task.request), headers=headers)
+
+    def _listed(self, path: str, called: str) -> list[dict[str, Any]]:
         found: list[dict[str, Any]] = []
-        following: str | None = "/v1/fits?limit=200"
+        following: str | None = f"{path}?limit=200"
         while following is not None:
             page = self.get(following).raise_for_status().json()
-            found += page["jobs"]
+            found += page[called]
             following = page["next"]
         return found
 

@@ -1,4 +1,4 @@
-"""What a service that nobody disturbs makes of a picture, to compare with."""
+"""What a service that nobody disturbs makes of it, to compare with."""
 
 import hashlib
 import json
@@ -7,9 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from tests.chaos.caller import Caller
+from tests.chaos.caller import Caller, Task
 from tests.deployment import Deployment
-from tests.submissions import Submission
 
 FITTED_WITHIN_S = 300.0
 TOLERANCE = 1e-6
@@ -34,13 +33,18 @@ class Outcome:
         return self.is_whole and other.is_whole and _agree(self.result, other.result)
 
 
-def references(deployment: Deployment, submissions: Sequence[Submission]) -> list[Outcome]:
-    """Fit each once, on a service that is left in peace."""
+def references(deployment: Deployment, tasks: Sequence[Task]) -> list[Outcome]:
+    """Do each once, on a service that is left in peace.
+
+    The first is a fit, from which what is to be derived is derived.
+    """
     caller = Caller(deployment.address)
     try:
         deployment.start()
-        paths = [caller.post(each, key=f"reference-{n}") for n, each in enumerate(submissions)]
-        return [_reference(caller, path) for path in paths]
+        first = caller.parent = caller.post(tasks[0], key="reference")
+        _ended(caller, first)
+        paths = [caller.post(each, key=f"reference-{n}") for n, each in enumerate(tasks[1:])]
+        return [outcome(caller, _ended(caller, path)) for path in (first, *paths)]
     finally:
         caller.close()
         deployment.end()
@@ -55,15 +59,15 @@ def outcome(caller: Caller, job: Mapping[str, Any]) -> Outcome:
         if name != RESULT
     }
     listed = {artifact["name"]: artifact["sha256"] for artifact in result.pop("artifacts")}
-    del result["stage_seconds"]
+    result.pop("stage_seconds", None)
     return Outcome(files=files, result=result, is_whole=files == listed)
 
 
-def _reference(caller: Caller, path: str) -> Outcome:
+def _ended(caller: Caller, path: str) -> dict[str, Any]:
     job = caller.ended(path, within_s=FITTED_WITHIN_S)
     assert job is not None, f"{path} did not end undisturbed"
     assert job["state"] == "succeeded", job
-    return outcome(caller, job)
+    return job
 
 
 def _agree(one: object, other: object) -> bool:

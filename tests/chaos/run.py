@@ -8,9 +8,8 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from tests.chaos.caller import Caller
+from tests.chaos.caller import Caller, Task
 from tests.deployment import Deployment, Kind
-from tests.submissions import Submission
 
 CALLERS = 3
 MOST_OPEN = 3
@@ -38,7 +37,7 @@ class Plan:
 
 @dataclass(slots=True, kw_only=True)
 class Accepted:
-    """A job that was answered with 202, and of which submission it is."""
+    """A job that was answered with 202, and which of the tasks it is."""
 
     key: str
     path: str
@@ -56,14 +55,19 @@ class Course:
     seconds: float = 0.0
 
 
-def disturb(deployment: Deployment, submissions: Sequence[Submission], plan: Plan) -> Course:
-    """Submit ``plan.jobs`` jobs and wait for their ends while processes are killed."""
+def disturb(deployment: Deployment, tasks: Sequence[Task], plan: Plan) -> Course:
+    """Submit ``plan.jobs`` jobs and wait for their ends while processes are killed.
+
+    The first task is a fit, made once in peace: from that one the run's derivations are derived.
+    """
     course = Course()
     began = time.monotonic()
-    numbers = itertools.count()
-    callers = [Caller(deployment.address) for _ in range(CALLERS)]
+    parent = _fitted(deployment, tasks[0], plan)
+    numbers = itertools.count(1)
+    callers = [Caller(deployment.address, parent=parent.path) for _ in range(CALLERS)]
+    course.accepted.append(parent)
     threads = [
-        threading.Thread(target=_submit, args=(caller, submissions, plan, numbers, course))
+        threading.Thread(target=_submit, args=(caller, tasks, plan, numbers, course))
         for caller in callers
     ]
     for thread in threads:
@@ -80,9 +84,21 @@ def disturb(deployment: Deployment, submissions: Sequence[Submission], plan: Pla
     return course
 
 
+def _fitted(deployment: Deployment, task: Task, plan: Plan) -> Accepted:
+    caller, key = Caller(deployment.address), f"chaos-{plan.seed}-0"
+    try:
+        path = caller.post(task, key=key)
+        job = caller.ended(path, within_s=ENDED_WITHIN_S)
+    finally:
+        caller.close()
+    assert job is not None, f"{path} did not end"
+    assert job["state"] == "succeeded", job
+    return Accepted(key=key, path=path, which=0)
+
+
 def _submit(
     caller: Caller,
-    submissions: Sequence[Submission],
+    tasks: Sequence[Task],
     plan: Plan,
     numbers: "itertools.count[int]",
     course: Course,
@@ -91,9 +107,9 @@ def _submit(
     for number in numbers:
         if number >= plan.jobs:
             break
-        which = number % len(submissions)
+        which = number % len(tasks)
         key = f"chaos-{plan.seed}-{number}"
-        path = caller.post(submissions[which], key=key)
+        path = caller.post(tasks[which], key=key)
         course.accepted.append(Accepted(key=key, path=path, which=which))
         under_way.append(path)
         if len(under_way) > MOST_OPEN:

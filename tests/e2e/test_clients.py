@@ -13,6 +13,7 @@ import pytest
 
 from tests.contract.document import EXPORTED
 from tests.e2e.service import REPOSITORY, running_service
+from tests.npm_packages import installed
 
 CLIENTS = REPOSITORY / "tests" / "clients"
 SAMPLE = [
@@ -66,18 +67,7 @@ def test_a_generated_python_client_fits_the_sample(service: httpx.Client, tmp_pa
 
 @pytest.fixture(scope="module")
 def node_modules() -> Path:
-    folder = CLIENTS / "typescript"
-    if shutil.which("node") is None or shutil.which("npm") is None:
-        pytest.skip("node and npm are not installed")
-    if not (folder / "node_modules" / "openapi-fetch").exists():
-        done = subprocess.run(
-            ["npm", "ci"], cwd=folder, capture_output=True, text=True, check=False
-        )
-        if done.returncode != 0:
-            if os.environ.get("CI"):
-                pytest.fail(done.stderr)
-            pytest.skip(f"npm cannot install the generator here: {done.stderr.strip()[-200:]}")
-    return folder / "node_modules"
+    return installed(CLIENTS / "typescript") / "node_modules"
 
 
 def test_a_generated_typescript_client_fits_the_sample(

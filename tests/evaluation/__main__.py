@@ -5,12 +5,14 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from fitter.request import Cues, Gender, OutlineKind
+from fitter.request import Clothing, Cues, Gender, OutlineKind
 from tests.evaluation.cases import CASES, PEOPLE
+from tests.evaluation.clothing_table import clothing_lines
+from tests.evaluation.light_figures import InLight, in_both_lights, light_lines
 from tests.evaluation.outline_limit import outline_limit
 from tests.evaluation.page import write_page
 from tests.evaluation.people import load_person
-from tests.evaluation.runs import Run, score_all
+from tests.evaluation.runs import Run, score_all, score_dressed
 from tests.evaluation.scene import Case, Half, Series
 from tests.evaluation.several import several_pictures
 from tests.evaluation.shape_limit import shape_limit
@@ -47,6 +49,19 @@ def main(arguments: Sequence[str]) -> int:
                 print(f"\n{half.value} half")
                 print("\n".join(several_lines(list(several_pictures(of_half, names)))))
         return 0
+    if options.surroundings:
+        found: list[InLight] = []
+        for each in in_both_lights(chosen):
+            line = case_lines([each.scored])[1]
+            print(f"{each.surroundings.value:20s}{line}", flush=True)
+            found.append(each)
+        print("\n".join(light_lines(found)))
+        return 0
+    if options.set == Series.CLOTHED.value and options.clothing is None:
+        for title, part in _halves(chosen):
+            print(f"\n{title}")
+            print("\n".join(clothing_lines(score_dressed(part, jobs=options.jobs))))
+        return 0
     run = Run(
         told=Told(
             mask=options.true_mask,
@@ -55,6 +70,7 @@ def main(arguments: Sequence[str]) -> int:
             pose=options.true_pose,
             measurements=tuple(options.given or ()),
             outline=None if options.outline is None else OutlineKind(options.outline),
+            clothing=Clothing(options.clothing or Clothing.TIGHT),
         ),
         pictures=options.page,
     )
@@ -90,7 +106,15 @@ def _parts(scored: Sequence[Scored]) -> list[tuple[str, list[Scored]]]:
     ]
     parts += [
         (f"{series.value} set", [each for each in scored if each.case.series is series])
-        for series in (Series.LIGHTS, Series.SAMPLE)
+        for series in (Series.LIGHTS, Series.CLOTHED, Series.SAMPLE)
+    ]
+    return [(title, part) for title, part in parts if part]
+
+
+def _halves(cases: Sequence[Case]) -> list[tuple[str, list[Case]]]:
+    parts = [
+        (f"{half.value} half", [case for case in cases if PEOPLE[case.person].half is half])
+        for half in Half
     ]
     return [(title, part) for title, part in parts if part]
 
@@ -126,6 +150,11 @@ def _parser() -> argparse.ArgumentParser:
         help="what the contour is to meet (default: as every fit)",
     )
     parser.add_argument(
+        "--clothing",
+        choices=[each.value for each in Clothing],
+        help="how clothes are said to lie (default: tight; of the clothed set both, side by side)",
+    )
+    parser.add_argument(
         "--true-light", action="store_true", help="begin the search for the light at the truth"
     )
     parser.add_argument(
@@ -158,6 +187,11 @@ def _parser() -> argparse.ArgumentParser:
         "--several",
         action="store_true",
         help="combine one, two and three pictures of each person: how measurements tighten",
+    )
+    parser.add_argument(
+        "--surroundings",
+        action="store_true",
+        help="fit with uniform ambient light and with spherical harmonics, side by side",
     )
     return parser
 

@@ -1,7 +1,7 @@
 """The pictures of the suite: a table of people, rooms and stances, varied from seeds.
 
 Three pictures of each person, one of each kind of stance; eight of the tuning half in unusual
-light; and the sample of ``maquette demo``.
+light; eight people of both halves in loose clothes; and the sample of ``maquette demo``.
 """
 
 from collections.abc import Mapping
@@ -9,6 +9,16 @@ from dataclasses import replace
 
 import numpy as np
 
+from tests.evaluation.outfits import (
+    BLOUSE_AND_SKIRT,
+    BLOUSE_AND_TROUSERS,
+    CHECKED_SHIRT_AND_TROUSERS,
+    DRESS,
+    DRESS_OF_LINEN,
+    SHIRT_AND_TROUSERS,
+    STRIPED_SHIRT_AND_TROUSERS,
+    WIDE_SHIRT_AND_TROUSERS,
+)
 from tests.evaluation.people_table import PEOPLE, SITTERS, Sitter
 from tests.evaluation.scene import (
     Case,
@@ -16,6 +26,7 @@ from tests.evaluation.scene import (
     FocalLength,
     Lamp,
     Lighting,
+    Outfit,
     Rgb,
     Series,
     Stance,
@@ -250,4 +261,40 @@ _LIGHTS = (
     ),
 )
 
-CASES: Mapping[str, Case] = {case.name: case for case in (DEMO, *_people(), *_LIGHTS)}
+
+def _clothed(number: int, person: str, stance: Stance, outfit: Outfit) -> Case:
+    """A picture in loose clothes."""
+    sitter, seed = _SITTER[person], 300 + number
+    rng = np.random.default_rng([seed, 3])
+    return Case(
+        name=f"clothed_{person}",
+        person=person,
+        series=Series.CLOTHED,
+        stance=_stance(sitter, stance, rng),
+        view=_view(sitter.source.stature_m, (480, 640), rng),
+        lighting=_lighting(rng),
+        surroundings=ROOMS[(3 * number + 1) % len(ROOMS)],
+        look=sitter.look,
+        focal_length=FocalLength.GIVEN,
+        outfit=outfit,
+        seed=seed,
+    )
+
+
+_CLOTHED = tuple(
+    _clothed(number, person, stance, outfit)
+    for number, (person, stance, outfit) in enumerate(
+        (
+            ("woman_young_thin", UPRIGHT, SHIRT_AND_TROUSERS),
+            ("woman_old_heavy", ASTRIDE, DRESS),
+            ("man_middle_aged_middling", AT_EASE, STRIPED_SHIRT_AND_TROUSERS),
+            ("woman_middle_aged_middling", THREE_QUARTERS, BLOUSE_AND_SKIRT),
+            ("woman_193_young_thin", AT_EASE, DRESS_OF_LINEN),
+            ("woman_101_middle_aged_middling", UPRIGHT, BLOUSE_AND_TROUSERS),
+            ("man_105_young_thin", ASTRIDE, WIDE_SHIRT_AND_TROUSERS),
+            ("man_122_middle_aged_middling", UPRIGHT, CHECKED_SHIRT_AND_TROUSERS),
+        )
+    )
+)
+
+CASES: Mapping[str, Case] = {case.name: case for case in (DEMO, *_people(), *_LIGHTS, *_CLOTHED)}

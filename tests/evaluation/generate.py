@@ -1,7 +1,8 @@
 """``python -m tests.evaluation.generate``: (re)build the suite's pictures and truths.
 
-Needs the renderer: the extra ``evaluation``. Everything is drawn from the cases' seeds, so that a
-second run gives the same pictures, to the rounding of light added up by several threads.
+Needs the renderer and marching cubes: the extra ``evaluation``. Everything is drawn from the cases'
+seeds, so that a second run gives the same pictures, to the rounding of light added up by several
+threads.
 ``--documents`` writes requests and truths alone, after a change of landmarks or measurement
 definitions, and needs no renderer.
 """
@@ -23,8 +24,8 @@ from tests.evaluation.people import load_person
 from tests.evaluation.scene import Case, Series
 from tests.evaluation.staging import Staged, stage
 
-SAMPLES = {Series.SAMPLE: 64, Series.PEOPLE: 36, Series.LIGHTS: 36}
-QUALITY = {Series.SAMPLE: 92, Series.PEOPLE: 86, Series.LIGHTS: 86}
+SAMPLES = {Series.SAMPLE: 64, Series.PEOPLE: 36, Series.LIGHTS: 36, Series.CLOTHED: 25}
+QUALITY = {Series.SAMPLE: 92, Series.PEOPLE: 86, Series.LIGHTS: 86, Series.CLOTHED: 86}
 SAMPLE_FOLDER = Path(__file__).parents[2] / "service" / "demo_data"
 
 

@@ -1,15 +1,14 @@
 """A person as coloured meshes in the world, for the renderer."""
 
-from dataclasses import dataclass
-
 import numpy as np
 from jaxtyping import Float
 
-from fitter.arrays import Normals, PerVertex, Triangles, Vertices
+from fitter.arrays import Vertices
 from tests.evaluation.landmark_points import rest_landmarks
 from tests.evaluation.looks import HAIR_ROUGHNESS, Canvas, paint
 from tests.evaluation.makehuman_faces import faces_of_group, texture_coordinates
 from tests.evaluation.people import rig_of_people
+from tests.evaluation.person_mesh import PersonMesh
 from tests.evaluation.refinement import Refined, refined, triangulated, vertex_normals
 from tests.evaluation.scene import Hair
 from tests.evaluation.staging import Staged, body_group_ids
@@ -30,20 +29,15 @@ BUN_RADIUS_M = 0.035
 BUN_BEHIND_EARS_M = 0.115
 
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class PersonMesh:
-    """A part of the person; vertices in the world, metres, albedo linear."""
-
-    vertices: Vertices
-    normals: Normals
-    triangles: Triangles
-    albedo: Float[np.ndarray, "k 3"]
-    roughness: PerVertex
-
-
 def person_meshes(staged: Staged, rng: np.random.Generator) -> list[PersonMesh]:
-    """Body, eyes and lashes, and a knot of hair where it is tied."""
-    return [*_body(staged, rng), *_eyes(staged), *_lashes(staged)]
+    """Body, eyes and lashes, a knot of hair where it is tied, and what is worn."""
+    person = [*_body(staged, rng), *_eyes(staged), *_lashes(staged)]
+    if staged.case.outfit is None:
+        return person
+    # Garments need a package that only the making of pictures needs.
+    from tests.evaluation.garments import garment_meshes
+
+    return [*person, *garment_meshes(staged, rng)]
 
 
 def _body(staged: Staged, rng: np.random.Generator) -> list[PersonMesh]:

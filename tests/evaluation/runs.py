@@ -1,15 +1,18 @@
 """Many fits, one after the other or in several processes."""
 
 import multiprocessing
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import TypeVar
 
-from fitter.request import Cues
+from fitter.request import Clothing, Cues
 from tests.evaluation.scene import Case
 from tests.evaluation.sheets import write_pictures
 from tests.evaluation.suite import Scored, Told, fit_case, score
+
+Found = TypeVar("Found")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -22,11 +25,20 @@ class Run:
 
 def score_all(cases: Sequence[Case], run: Run, *, jobs: int) -> Iterator[list[Scored]]:
     """SE and SES of each picture, in order; ``jobs`` processes, each with whole pictures."""
+    return _of_each(partial(_score_both, run), cases, jobs)
+
+
+def score_dressed(cases: Sequence[Case], *, jobs: int) -> list[tuple[Clothing, Scored]]:
+    """Each picture by SES, its clothes said to be tight and loose."""
+    return [pair for pairs in _of_each(_score_dressed, cases, jobs) for pair in pairs]
+
+
+def _of_each(task: Callable[[Case], Found], cases: Sequence[Case], jobs: int) -> Iterator[Found]:
     if jobs == 1:
-        yield from map(partial(_score_both, run), cases)
+        yield from map(task, cases)
         return
     with multiprocessing.get_context("spawn").Pool(jobs) as pool:
-        yield from pool.imap(partial(_score_both, run), cases)
+        yield from pool.imap(task, cases)
 
 
 def _score_both(run: Run, case: Case) -> list[Scored]:
@@ -34,3 +46,10 @@ def _score_both(run: Run, case: Case) -> list[Scored]:
     if run.pictures is not None:
         write_pictures(run.pictures, fits)
     return [score(fitted) for fitted in fits]
+
+
+def _score_dressed(case: Case) -> list[tuple[Clothing, Scored]]:
+    return [
+        (clothing, score(fit_case(case, Cues.SES, Told(clothing=clothing))))
+        for clothing in Clothing
+    ]

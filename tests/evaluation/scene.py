@@ -25,6 +25,7 @@ class Series(StrEnum):
     PEOPLE = "people"
     LIGHTS = "lights"
     SAMPLE = "sample"
+    CLOTHED = "clothed"
 
 
 class FocalLength(StrEnum):
@@ -53,6 +54,14 @@ class Floor(StrEnum):
     WOOD = "wood"
     CARPET = "carpet"
     GRASS = "grass"
+
+
+class Pattern(StrEnum):
+    """What is woven into a garment or printed on it."""
+
+    PLAIN = "plain"
+    STRIPES = "stripes"
+    CHECKS = "checks"
 
 
 class Hair(StrEnum):
@@ -186,6 +195,57 @@ class Look:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Cloth:
+    """A garment's colours, linear, and how it hangs.
+
+    ``ease_m`` is how far it stands off the body where it is widest; ``fall`` how steeply, in metres
+    a metre downward, it falls back to a body that tapers below it: 0 hangs straight, less flares.
+    """
+
+    colour: Rgb
+    second_colour: Rgb = (0.5, 0.5, 0.5)
+    pattern: Pattern = Pattern.PLAIN
+    ease_m: float = 0.03
+    fall: float = 0.15
+    fold_m: float = 0.006
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Top:
+    """A shirt, a blouse or a dress.
+
+    ``sleeve`` is the share of the arm from shoulder to wrist, ``hem`` the height above the floor
+    as a share of the stature, ``neckline_m`` how far it lies below the neck's root in front.
+    """
+
+    cloth: Cloth
+    sleeve: float = 0.4
+    hem: float = 0.46
+    neckline_m: float = 0.03
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Bottom:
+    """Trousers, or a skirt, whose legs are one.
+
+    ``waist`` and ``hem`` are heights above the floor as shares of the stature.
+    """
+
+    cloth: Cloth
+    waist: float = 0.585
+    hem: float = 0.06
+    skirt: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Outfit:
+    """What is worn over the underwear; a dress is a top alone."""
+
+    top: Top
+    bottom: Bottom | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PersonSource:
     """A held-out person; ``stature_m`` is rounded, for the framing of their pictures."""
 
@@ -208,4 +268,5 @@ class Case:
     surroundings: Surroundings = field(default_factory=Surroundings)
     look: Look = field(default_factory=Look)
     focal_length: FocalLength = FocalLength.GIVEN
+    outfit: Outfit | None = None
     seed: int = 0

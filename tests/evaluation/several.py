@@ -1,36 +1,66 @@
-"""How measurements tighten with more pictures of one person."""
+"""How measurements and poses gain with more pictures of one person.
+
+``fused`` is the shape that the finished fits agree on, ``refitted`` that of the pictures searched
+again, each under what the others say.
+"""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
+import numpy as np
+
 from fitter.applications.fitted_person import FittedPerson, fitted_person
-from fitter.applications.several_pictures import combined_shape
+from fitter.arrays import Vertices
+from fitter.body.skeleton import regress
 from fitter.fittable import packaged_body
+from fitter.joint_fit import JointFit, joint_fit
 from fitter.measurement.anthropometry import measure
 from fitter.measurement.quantity import Measurement
-from fitter.request import Cues
+from fitter.request import Cues, FitRequest
 from tests.evaluation.landmark_points import packaged_model
+from tests.evaluation.limbs_in_depth import wrong_limbs
 from tests.evaluation.scene import Case
-from tests.evaluation.suite import Told, fit_case
+from tests.evaluation.suite import Told, fit_case, fit_request, joint_error_mm
 from tests.evaluation.truth import TrueBody
+
+ROUNDS = {"fused": 0, "refitted": 1}
+"""Over the pictures, by the way they are combined."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Posed:
+    """How well a body stands in one picture."""
+
+    joint_mm: float
+    wrong_limbs: int
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class SeveralPictures:
-    """What so many pictures of one person say of a measurement."""
+    """What so many pictures of one person say; ``way`` is None for one picture alone.
+
+    ``errors`` and ``standard_errors`` are by measurement; ``before`` and ``after`` hold the poses
+    in the pictures, by their own fits and with the shape that they have in common.
+    """
 
     pictures: int
-    name: str
-    error: float
-    standard_error: float
+    way: str | None
+    errors: dict[str, float]
+    standard_errors: dict[str, float]
+    before: tuple[Posed, ...]
+    after: tuple[Posed, ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class _Fitted:
     person: FittedPerson
+    request: FitRequest
     measurements: tuple[Measurement, ...]
     given: tuple[str, ...]
+    truth: TrueBody
+    true_joints: Vertices
+    posed: Posed
 
 
 def several_pictures(cases: Sequence[Case], names: Sequence[str]) -> Iterator[SeveralPictures]:
@@ -44,43 +74,73 @@ def several_pictures(cases: Sequence[Case], names: Sequence[str]) -> Iterator[Se
         Of the measurements that are compared with the truth.
     """
     for person in dict.fromkeys(case.person for case in cases):
-        fits: list[_Fitted] = []
-        truth: TrueBody | None = None
-        for case in cases:
-            if case.person == person:
-                fitted = fit_case(case, Cues.SES, Told())
-                result, truth = fitted.result, fitted.truth
-                model = packaged_model(result.gender)
-                fits.append(
-                    _Fitted(
-                        person=fitted_person(result, model),
-                        measurements=result.measurements,
-                        given=result.given,
-                    )
-                )
-        assert truth is not None
-        for count in range(1, len(fits) + 1):
+        fits = [_fitted(case) for case in cases if case.person == person]
+        for each in fits:
+            yield _compared([each], each.measurements, (each.posed,), None, names)
+        for count in range(2, len(fits) + 1):
             for chosen in combinations(fits, count):
-                found = {each.name: each for each in _measured(chosen)}
-                for name in names:
-                    error = found[name].standard_error
-                    assert error is not None
-                    yield SeveralPictures(
-                        pictures=count,
-                        name=name,
-                        error=found[name].value - truth.measurements[name],
-                        standard_error=error,
+                for way, rounds in ROUNDS.items():
+                    found = joint_fit(
+                        [each.person for each in chosen],
+                        [each.request for each in chosen],
+                        rounds=rounds,
+                        observe=lambda _: None,
                     )
+                    after = [
+                        _posed(picture.posed_vertices, each.true_joints, each.person)
+                        for picture, each in zip(found.pictures, chosen, strict=True)
+                    ]
+                    yield _compared(chosen, _measured(found, chosen[0]), after, way, names)
 
 
-def _measured(fits: Sequence[_Fitted]) -> tuple[Measurement, ...]:
-    if len(fits) == 1:
-        return fits[0].measurements
-    combined = combined_shape([each.person for each in fits])
+def _fitted(case: Case) -> _Fitted:
+    fitted = fit_case(case, Cues.SES, Told())
+    result = fitted.result
+    person = fitted_person(result, packaged_model(result.gender))
+    true_joints = np.array(fitted.files.scene["joints_m"])
+    return _Fitted(
+        person=person,
+        request=fit_request(fitted.files, Cues.SES),
+        measurements=result.measurements,
+        given=result.given,
+        truth=fitted.truth,
+        true_joints=true_joints,
+        posed=_posed(result.posed_vertices, true_joints, person),
+    )
+
+
+def _posed(vertices: Vertices, true_joints: Vertices, person: FittedPerson) -> Posed:
+    joints = regress(packaged_model(person.gender).joint_regressor, vertices)
+    return Posed(
+        joint_mm=joint_error_mm(joints, true_joints),
+        wrong_limbs=len(wrong_limbs(joints, true_joints)),
+    )
+
+
+def _measured(found: JointFit, first: _Fitted) -> tuple[Measurement, ...]:
     return measure(
-        packaged_body(fits[0].person.gender).measuring,
-        combined.shape,
-        shape_covariance=combined.covariance,
-        given=fits[0].given,
-        held=fits[0].given,
+        packaged_body(first.person.gender).measuring,
+        found.shape,
+        shape_covariance=found.covariance,
+        given=first.given,
+        held=first.given,
+    )
+
+
+def _compared(
+    fits: Sequence[_Fitted],
+    measurements: Sequence[Measurement],
+    after: Sequence[Posed],
+    way: str | None,
+    names: Sequence[str],
+) -> SeveralPictures:
+    found = {each.name: each for each in measurements}
+    true = fits[0].truth.measurements
+    return SeveralPictures(
+        pictures=len(fits),
+        way=way,
+        errors={name: found[name].value - true[name] for name in names},
+        standard_errors={name: found[name].standard_error or 0.0 for name in names},
+        before=tuple(each.posed for each in fits),
+        after=tuple(after),
     )

@@ -15,12 +15,14 @@ from fitter.render.light import direction_to_light
 from fitter.render.rasterizer import render
 from fitter.request import (
     Click,
+    Clothing,
     Cues,
     FitRequest,
     Gender,
     KnownMeasurement,
     LightGuess,
     OutlineKind,
+    SurroundingsKind,
 )
 from fitter.result import FitResult
 from tests.evaluation.files import CaseFiles, encoded_mask, light_from_document, read_case
@@ -46,7 +48,7 @@ class Told:
     ``mask`` the person as seen, in place of segmentation; ``light`` where the search for the light
     begins; ``focal_length`` in pixels, where the picture does not give it; ``pose`` is held;
     ``measurements`` are named and given as the caller of the service may give them; ``outline`` is
-    what the contour is to meet, in place of the default.
+    what the contour is to meet, in place of the default; ``clothing`` how clothes are said to lie.
     """
 
     mask: bool = False
@@ -55,6 +57,8 @@ class Told:
     pose: bool = False
     measurements: tuple[str, ...] = ()
     outline: OutlineKind | None = None
+    surroundings: SurroundingsKind = SurroundingsKind.UNIFORM
+    clothing: Clothing = Clothing.TIGHT
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -147,13 +151,13 @@ def score(fitted: Fitted) -> Scored:
             if each.standard_error is not None and name not in result.given
         },
         vertex_mm=_vertex_error_mm(result.canonical_vertices, truth.canonical),
-        joint_mm=_joint_error_mm(joints, true_joints),
+        joint_mm=joint_error_mm(joints, true_joints),
         overlap=_overlap(_silhouette(result), files.body_mask),
         mask_overlap=_overlap(
             resampled(result.pictures.segmentation, working_scale(result), files.body_mask.shape),
             files.person_mask,
         ),
-        light_degrees=_light_error(result.light, light_from_document(scene["light"])),
+        light_degrees=light_error(result.light, light_from_document(scene["light"])),
         wrong_limbs=wrong_limbs(joints, true_joints),
         seconds=fitted.seconds,
     )
@@ -179,6 +183,7 @@ def told_request(files: CaseFiles, request: FitRequest, told: Told) -> FitReques
     """A request with what is told beside."""
     if told.mask:
         request = replace(request, mask=encoded_mask(files.person_mask))
+    request = replace(request, clothing=told.clothing)
     if told.outline is not None:
         request = replace(request, outline=told.outline)
     if told.focal_length:
@@ -192,7 +197,7 @@ def told_request(files: CaseFiles, request: FitRequest, told: Told) -> FitReques
             distance=light.distance,
         )
         request = replace(request, light=guess)
-    return request
+    return replace(request, light=replace(request.light, surroundings=told.surroundings))
 
 
 def _vertex_error_mm(found: np.ndarray, true: np.ndarray) -> float:
@@ -204,7 +209,8 @@ def _joints(result: FitResult) -> np.ndarray:
     return regress(packaged_model(result.gender).joint_regressor, result.posed_vertices)
 
 
-def _joint_error_mm(found: np.ndarray, true: np.ndarray) -> float:
+def joint_error_mm(found: np.ndarray, true: np.ndarray) -> float:
+    """Mean distance of joints in the camera frame with both root joints together."""
     difference = (found - found[0]) - (true - true[0])
     return MILLIMETRES * float(np.linalg.norm(difference, axis=1).mean())
 
@@ -233,7 +239,8 @@ def _overlap(first: Mask, second: Mask) -> float:
     return float((first & second).sum() / (first | second).sum())
 
 
-def _light_error(found: Light | None, true: Light) -> float | None:
+def light_error(found: Light | None, true: Light) -> float | None:
+    """Degrees between the directions to two lights."""
     if found is None:
         return None
     cosine = float(direction_to_light(found) @ direction_to_light(true))

@@ -84,14 +84,14 @@ def _shares(scored: Sequence[Scored]) -> list[tuple[str, dict[Cues, list[bool]]]
     rows = [
         (
             f"truth in {level} %",
-            {cues: [yes for each in of[cues] for yes in _held(each, keys, z)] for cues in Cues},
+            {cues: [yes for each in of[cues] for yes in held(each, keys, z)] for cues in Cues},
         )
         for level, z in INTERVALS
     ]
     rows += [
         (
             f"  {name} in {level} %",
-            {cues: [yes for each in of[cues] for yes in _held(each, [key], z)] for cues in Cues},
+            {cues: [yes for each in of[cues] for yes in held(each, [key], z)] for cues in Cues},
         )
         for name, key, _ in MEASUREMENTS
         for level, z in INTERVALS
@@ -100,7 +100,7 @@ def _shares(scored: Sequence[Scored]) -> list[tuple[str, dict[Cues, list[bool]]]
     return rows
 
 
-def _held(scored: Scored, keys: Sequence[str], deviations: float) -> list[bool]:
+def held(scored: Scored, keys: Sequence[str], deviations: float) -> list[bool]:
     """Whether intervals of so many standard errors hold the true measurements."""
     return [
         abs(scored.errors[key]) <= deviations * scored.standard_errors[key]
@@ -155,19 +155,29 @@ def _case_line(scored: Scored) -> str:
 
 
 def several_lines(found: Sequence[SeveralPictures]) -> list[str]:
-    """Mean (median) errors, mean standard errors and coverage by the number of pictures."""
-    heading = f"{'pictures':>8s}{'choices':>9s}" + "".join(
+    """Mean (median) errors, mean standard errors and coverage by the number of pictures.
+
+    The poses are those in the pictures, by their own fits and with the shape in common; limbs are
+    wrong in so many of them.
+    """
+    heading = f"{'pictures':18s}{'choices':>8s}" + "".join(
         f"{f'{name} {unit}':>16s}{'s.e.':>6s}" for name, _, unit in MEASUREMENTS
     )
-    lines = [heading + f"{'95 % hold':>11s}"]
-    for count in sorted({each.pictures for each in found}):
-        these = [each for each in found if each.pictures == count]
-        by_name = {key: [e for e in these if e.name == key] for _, key, _ in MEASUREMENTS}
-        line = f"{count:8d}{len(these) // len(by_name):9d}"
-        for mine in by_name.values():
-            away = np.abs([each.error for each in mine])
-            certain = np.mean([each.standard_error for each in mine])
-            line += f"{f'{away.mean():.2f} ({np.median(away):.2f})':>16s}{certain:6.2f}"
-        within = [abs(each.error) <= INTERVALS[1][1] * each.standard_error for each in these]
-        lines.append(line + f"{100.0 * np.mean(within):10.0f}%")
+    lines = [f"{heading}{'95 % hold':>11s}{'joints mm':>14s}{'limbs wrong':>16s}"]
+    for count, way in sorted({(each.pictures, each.way or "") for each in found}):
+        these = [each for each in found if (each.pictures, each.way or "") == (count, way)]
+        line = f"{f'{count} {way}':18s}{len(these):8d}"
+        within: list[bool] = []
+        for _, key, _ in MEASUREMENTS:
+            away = np.abs([each.errors[key] for each in these])
+            certain = np.array([each.standard_errors[key] for each in these])
+            line += f"{f'{away.mean():.2f} ({np.median(away):.2f})':>16s}{certain.mean():6.2f}"
+            within += list(away <= INTERVALS[1][1] * certain)
+        line += f"{100.0 * np.mean(within):10.0f}%"
+        before = [pose for each in these for pose in each.before]
+        after = [pose for each in these for pose in each.after]
+        joints = [np.mean([pose.joint_mm for pose in poses]) for poses in (before, after)]
+        wrong = [sum(pose.wrong_limbs > 0 for pose in poses) for poses in (before, after)]
+        line += f"{f'{joints[0]:.1f} > {joints[1]:.1f}':>14s}"
+        lines.append(line + f"{f'{wrong[0]} > {wrong[1]} of {len(after)}':>16s}")
     return lines

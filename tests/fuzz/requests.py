@@ -4,16 +4,18 @@ import json
 import random
 import string
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Any
 
+from tests.fuzz.derivations import (
+    UNKNOWN_ID,
+    derivation_address,
+    derivation_body,
+    derivation_form,
+)
+from tests.fuzz.messages import JSON, MULTIPART, RawRequest, head_and_body, multipart
 from tests.fuzz.mutations import damaged, damaged_document
 from tests.fuzz.pictures import black_mask, picture, sound_picture
 
-BOUNDARY = "limit"
-MULTIPART = f"multipart/form-data; boundary={BOUNDARY}"
-JSON = "application/json"
-UNKNOWN_ID = "00000000-0000-4000-8000-000000000000"
 DEEP = 5_000
 
 POINTS = {
@@ -99,17 +101,9 @@ PRINTABLE = string.ascii_letters + string.digits + string.punctuation
 METHODS = ("GET", "GET", "GET", "HEAD", "POST", "PUT", "DELETE", "OPTIONS", "PATCH", "BREW")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RawRequest:
-    """What goes over the wire; ``is_well_framed`` unless its end cannot be told from its head."""
-
-    content: bytes
-    is_well_framed: bool = True
-
-
 def uploaded_picture(chance: random.Random) -> RawRequest:
     """A damaged picture to keep: the API looks at its header."""
-    return _posted("/v1/images", MULTIPART, _multipart({"image": picture(chance)}))
+    return head_and_body("/v1/images", MULTIPART, multipart({"image": picture(chance)}))
 
 
 def fitted_picture(chance: random.Random) -> RawRequest:
@@ -120,7 +114,7 @@ def fitted_picture(chance: random.Random) -> RawRequest:
         "mask": picture(chance) if spoilt_mask else black_mask(),
         "request": json.dumps(FIT | {"weight_kg": None, "measurements": {}}).encode(),
     }
-    return _posted("/v1/fits", MULTIPART, _multipart(parts))
+    return head_and_body("/v1/fits", MULTIPART, multipart(parts))
 
 
 def json_body(chance: random.Random) -> RawRequest:
@@ -132,7 +126,7 @@ def json_body(chance: random.Random) -> RawRequest:
         text = json.dumps(damaged_document(document, chance)).encode()
     else:
         text = damaged(json.dumps(document).encode(), chance)
-    return _posted(path, JSON, text)
+    return head_and_body(path, JSON, text)
 
 
 def multipart_body(chance: random.Random) -> RawRequest:
@@ -140,9 +134,9 @@ def multipart_body(chance: random.Random) -> RawRequest:
     parts = {"image": sound_picture()[:200], "request": json.dumps(FIT).encode()}
     if chance.random() < 0.4:
         parts["request"] = json.dumps(damaged_document(FIT, chance)).encode()
-        return _posted("/v1/fits", MULTIPART, _multipart(parts))
-    return _posted(
-        chance.choice(("/v1/fits", "/v1/images")), MULTIPART, damaged(_multipart(parts), chance)
+        return head_and_body("/v1/fits", MULTIPART, multipart(parts))
+    return head_and_body(
+        chance.choice(("/v1/fits", "/v1/images")), MULTIPART, damaged(multipart(parts), chance)
     )
 
 
@@ -179,32 +173,17 @@ def address(chance: random.Random) -> RawRequest:
 
 
 KINDS: Mapping[str, tuple[Callable[[random.Random], RawRequest], float]] = {
-    "picture, uploaded": (uploaded_picture, 0.3),
+    "picture, uploaded": (uploaded_picture, 0.25),
     "picture, fitted": (fitted_picture, 0.1),
-    "JSON body": (json_body, 0.25),
-    "multipart body": (multipart_body, 0.15),
-    "headers": (headers, 0.12),
-    "address": (address, 0.08),
+    "JSON body": (json_body, 0.2),
+    "multipart body": (multipart_body, 0.13),
+    "headers": (headers, 0.1),
+    "address": (address, 0.07),
+    "derivation, JSON": (derivation_body, 0.05),
+    "derivation, form": (derivation_form, 0.07),
+    "derivation, path": (derivation_address, 0.03),
 }
 """Makers of requests, and their shares of all inputs."""
-
-
-def _posted(path: str, media_type: str, body: bytes) -> RawRequest:
-    head = (
-        f"POST {path} HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: {media_type}\r\n"
-        f"Content-Length: {len(body)}\r\nConnection: close\r\n\r\n"
-    )
-    return RawRequest(content=head.encode() + body)
-
-
-def _multipart(parts: Mapping[str, bytes]) -> bytes:
-    return b"".join([*(_part(*part) for part in parts.items()), f"--{BOUNDARY}--\r\n".encode()])
-
-
-def _part(name: str, content: bytes) -> bytes:
-    file = "" if name == "request" else '; filename="p"'
-    head = f'--{BOUNDARY}\r\nContent-Disposition: form-data; name="{name}"{file}\r\n\r\n'
-    return head.encode() + content + b"\r\n"
 
 
 def _escaped(chance: random.Random) -> str:

@@ -1,21 +1,25 @@
 """Thousands of damaged inputs against a running service, and how it took them."""
 
 import itertools
+import json
 import random
 import threading
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import httpx
 
 from tests.deployment import Deployment, Kind, wait_for
-from tests.fuzz.requests import KINDS, RawRequest
+from tests.fuzz.derivations import DERIVATION_ID, FIT_ID, OTHER_FIT_ID, with_ids
+from tests.fuzz.messages import RawRequest
+from tests.fuzz.requests import KINDS
 from tests.fuzz.sending import Answer, send
 from tests.process_table import own_memory_mib
+from tests.submissions import small_submissions
 
 SENDERS = 4
 LOOKS = 10
@@ -24,6 +28,9 @@ LOOKS = 10
 READY_WITHIN_S = 300.0
 ENDED_WITHIN_S = 1_200.0
 MOST_FAULTS = 20
+
+FAULTY_ENDS = (": fit-failed", ": fit-crashed", ": out-of-memory", "timed_out")
+"""Faults of ours, or of a file that killed its process."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -52,8 +59,9 @@ class Harvest:
                 f"{groups['503']:6} {groups['5xx']:10} {groups['none']:14}"
             )
         yield f"in all {sum(each.total() for each in self.statuses.values())} inputs"
-        jobs = ", ".join(f"{count} {how}" for how, count in sorted(self.jobs.items()))
-        yield f"accepted fits, and how they ended: {jobs or 'none'}"
+        yield "accepted jobs, and how they ended:"
+        for how, count in sorted(self.jobs.items()):
+            yield f"  {count:6} {how}"
         memory = " ".join(f"{each:.0f}" for each in self.memory_mib)
         yield f"memory of the API alone, MiB, at every tenth: {memory}"
         yield f"processes that ended unasked {self.restarts}, fits left {self.fits_left}"
@@ -61,25 +69,33 @@ class Harvest:
         yield from self.faults[:MOST_FAULTS]
 
 
-def fuzz(deployment: Deployment, *, inputs: int, seed: int) -> Harvest:
+def fuzz(
+    deployment: Deployment, *, inputs: int, seed: int, kinds: Sequence[str] = tuple(KINDS)
+) -> Harvest:
     """Start the service, send everything, wait for the fits it accepted."""
     harvest = Harvest()
     began = time.monotonic()
     with httpx.Client(base_url=deployment.address, timeout=60.0) as client:
         deployment.start()
         assert wait_for(lambda: _is_ready(client), within_s=READY_WITHIN_S), "not ready"
+        ids = _something_to_derive_from(client)
         before = {each.pid for each in deployment.processes()}
-        _send_all(deployment, harvest, inputs=inputs, seed=seed)
-        ended = wait_for(
-            lambda: (
-                client.get("/v1/fits?state=queued").json()["jobs"] == []
-                and client.get("/v1/fits?state=running").json()["jobs"] == []
+        _send_all(deployment, harvest, ids, inputs, lambda number: made(number, seed, kinds))
+        lists = [
+            ("/v1/fits", "jobs"),
+            *(
+                (f"/v1/fits/{ids[fit]}/derivations", "derivations")
+                for fit in (FIT_ID, OTHER_FIT_ID)
             ),
-            within_s=ENDED_WITHIN_S,
+        ]
+        ended = wait_for(
+            lambda: all(_none_waits(client, *each) for each in lists), within_s=ENDED_WITHIN_S
         )
         if not ended:
-            harvest.faults.append("not all accepted fits ended")
-        _account_for_fits(client, harvest)
+            harvest.faults.append("not all accepted jobs ended")
+        for each in lists:
+            _account_for_jobs(client, harvest, *each)
+        _erase_whole_fit(client, harvest, ids)
         wait_for(lambda: not deployment.of_kind(Kind.FIT), within_s=10.0)
         harvest.fits_left = len(deployment.of_kind(Kind.FIT))
         harvest.restarts = len(before - {each.pid for each in deployment.processes()})
@@ -88,22 +104,62 @@ def fuzz(deployment: Deployment, *, inputs: int, seed: int) -> Harvest:
     return harvest
 
 
-def made(number: int, seed: int) -> tuple[str, RawRequest]:
-    """Input ``number`` of a seed: the same whoever makes it, and whenever."""
+def made(number: int, seed: int, kinds: Sequence[str] = tuple(KINDS)) -> tuple[str, RawRequest]:
+    """Input ``number`` of a seed among these kinds: the same whoever makes it, and whenever."""
     chance = random.Random(f"{seed}/{number}")
-    kind = chance.choices(list(KINDS), [share for _, share in KINDS.values()])[0]
+    kind = chance.choices(kinds, [KINDS[kind][1] for kind in kinds])[0]
     return kind, KINDS[kind][0](chance)
 
 
-def _send_all(deployment: Deployment, harvest: Harvest, *, inputs: int, seed: int) -> None:
+def _something_to_derive_from(client: httpx.Client) -> dict[str, str]:
+    """Fit two pictures of a person, and pose one: ids by those that stand for them."""
+    patiently = {"Prefer": "wait=60"}
+    (picture,) = small_submissions(1)
+    # With shading, so that there is an albedo to make a texture of.
+    shaded = json.dumps(json.loads(picture.request) | {"cues": "SES"})
+    files = replace(picture, request=shaded).files
+    fits = [_succeeded(client.post("/v1/fits", files=files, headers=patiently)) for _ in "12"]
+    pose = client.post(f"/v1/fits/{fits[0]}/derivations", json={"kind": "pose"}, headers=patiently)
+    return {FIT_ID: fits[0], OTHER_FIT_ID: fits[1], DERIVATION_ID: _succeeded(pose)}
+
+
+def _succeeded(answer: httpx.Response) -> str:
+    job = answer.raise_for_status().json()
+    assert job["state"] == "succeeded", job
+    return job["id"]
+
+
+def _none_waits(client: httpx.Client, path: str, called: str) -> bool:
+    return all(
+        client.get(f"{path}?state={state}&limit=1").json()[called] == []
+        for state in ("queued", "running")
+    )
+
+
+def _erase_whole_fit(client: httpx.Client, harvest: Harvest, ids: Mapping[str, str]) -> None:
+    """What was derived from a fit goes with it."""
+    fit = f"/v1/fits/{ids[FIT_ID]}"
+    client.delete(fit).raise_for_status()
+    left = client.get(f"{fit}/derivations/{ids[DERIVATION_ID]}").status_code
+    if left != httpx.codes.NOT_FOUND:
+        harvest.faults.append(f"a derivation of an erased fit is answered by {left}")
+
+
+def _send_all(
+    deployment: Deployment,
+    harvest: Harvest,
+    ids: Mapping[str, str],
+    inputs: int,
+    make: Callable[[int], tuple[str, RawRequest]],
+) -> None:
     numbers = itertools.count()
     lock = threading.Lock()
     (api,) = deployment.of_kind(Kind.API)
 
     def send_some() -> None:
         while (number := next(numbers)) < inputs:
-            kind, request = made(number, seed)
-            answer = send(deployment.port, request)
+            kind, request = make(number)
+            answer = send(deployment.port, with_ids(request, ids))
             with lock:
                 _note(harvest, number, kind, answer)
                 if number % max(1, inputs // LOOKS) == 0:
@@ -122,15 +178,14 @@ def _note(harvest: Harvest, number: int, kind: str, answer: Answer) -> None:
         harvest.faults.append(f"input {number} ({kind}): {answer.fault}")
 
 
-def _account_for_fits(client: httpx.Client, harvest: Harvest) -> None:
-    following: str | None = "/v1/fits?limit=200"
+def _account_for_jobs(client: httpx.Client, harvest: Harvest, path: str, called: str) -> None:
+    following: str | None = f"{path}?limit=200"
     while following is not None:
         page = client.get(following).raise_for_status().json()
-        for job in page["jobs"]:
-            how = _how_it_ended(job)
+        for job in page[called]:
+            how = f"{job.get('kind', 'fit')} {_how_it_ended(job)}"
             harvest.jobs[how] += 1
-            # A fault of ours, or a picture that killed its process.
-            if how in ("failed: fit-failed", "failed: fit-crashed", "timed_out"):
+            if how.endswith(FAULTY_ENDS):
                 harvest.faults.append(f"{job['links']['self']}: {job['problem']}")
         following = page["next"]
 

@@ -5,7 +5,7 @@ import json
 import socket
 from dataclasses import dataclass
 
-from tests.fuzz.requests import RawRequest
+from tests.fuzz.messages import RawRequest
 
 PATIENCE_S = 60.0
 IMPATIENCE_S = 0.3

@@ -32,6 +32,7 @@ ANSWERS: Final[Mapping[str, Mapping[int, Examples]]] = {
     "result": {200: {"man-by-point-light": results.RESULT}},
     "artifact": {200: {"result.json": results.RESULT}},
     "derive": {200: derivations.ENDED, 202: derivations.ACCEPTED},
+    "retry_derivation": {200: derivations.ENDED, 202: derivations.ACCEPTED},
     "list_derivations": {200: {"only-page": derivations.PAGE}},
     "get_derivation": {200: derivations.ACCEPTED | derivations.ENDED},
     "cancel_derivation": {

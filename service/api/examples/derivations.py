@@ -42,6 +42,7 @@ def _derivation(fit: dict[str, Any], **changes: Any) -> dict[str, Any]:
         "events": f"{_PATH}/events",
         "request": f"{_PATH}/request",
         "cancel": f"{_PATH}/cancel" if fit["links"]["cancel"] else None,
+        "retry": None if fit["links"]["cancel"] else f"{_PATH}/retry",
         "result": None,
         "artifacts": {},
     }
@@ -97,6 +98,13 @@ MEDIA_TYPES: Final = {
     "webp": "image/webp",
 }
 
+
+def _picture(number: int, fit_id: str) -> dict[str, Any]:
+    """What a fit found, for one of several pictures."""
+    same = ("outcome", "image_camera", "body", "light", "reflectance", "silhouette_overlap")
+    return {"number": number, "fit_id": fit_id} | {name: RESULT[name] for name in same}
+
+
 REPORT_RESULT: Final[dict[str, Any]] = {
     "artifacts": _files(report__html=653350, report__pdf=786326),
     "kind": "report",
@@ -123,10 +131,21 @@ RESULTS: Final[dict[str, Any]] = {
         ],
     },
     "combined": {
-        "artifacts": _files(body_combined__glb=699700, combined__png=160500),
+        "artifacts": _files(
+            body_combined__glb=699700,
+            body_posed_1__glb=699700,
+            body_posed_2__glb=699700,
+            combined__png=160500,
+            overlay_1__png=812300,
+            overlay_2__png=798100,
+        ),
         "kind": "combined",
         "pictures": 2,
         "shape": [0.813, -1.386, -0.711],
+        "bodies": [
+            _picture(1, str(jobs.FIT_ID)),
+            _picture(2, "0d3c1b6e-52a4-4f0e-9e37-0a4f6c2f7d10"),
+        ],
         "measurements": [RESULT["measurements"][-1]],
         "agreement": 0.84,
         "warnings": [],
@@ -137,7 +156,12 @@ RESULTS: Final[dict[str, Any]] = {
         "pose": "arms_raised",
     },
     "texture": {
-        "artifacts": _files(body_textured__glb=2874000, texture__png=1980000),
+        "artifacts": _files(
+            body_textured__glb=2874000,
+            texture__png=1980000,
+            coverage__png=21000,
+            atlas__png=73000,
+        ),
         "kind": "texture",
         "colours": "albedo",
         "size": 2048,

@@ -53,6 +53,7 @@ def _job(state: str, *, links: dict[str, Any] | None = None, **changes: Any) -> 
             "self": _PATH,
             "events": f"{_PATH}/events",
             "image": f"{_PATH}/image",
+            "mask": None,
             "request": f"{_PATH}/request",
             "derivations": None,
             "cancel": f"{_PATH}/cancel",
@@ -132,7 +133,14 @@ OPTIONS: Final[dict[str, Any]] = {
     "limb_facing": {"left_forearm": "toward"},
     "cues": "SES",
     "optimizer": "gauss_newton",
-    "light": {"kind": "point", "azimuth_deg": None, "elevation_deg": None, "distance_m": None},
+    "clothing": "tight",
+    "light": {
+        "kind": "point",
+        "azimuth_deg": None,
+        "elevation_deg": None,
+        "distance_m": None,
+        "surroundings": "uniform",
+    },
 }
 
 EVENTS: Final = """\

@@ -63,7 +63,13 @@ RESULT: Final[dict[str, Any]] = {
     },
     "focal_length_source": "assumed",
     "body": _BODY,
-    "light": {"kind": "point", "azimuth_deg": -35.7, "elevation_deg": 30.4, "distance_m": 2.91},
+    "light": {
+        "kind": "point",
+        "azimuth_deg": -35.7,
+        "elevation_deg": 30.4,
+        "distance_m": 2.91,
+        "surroundings": None,
+    },
     "reflectance": {
         "ambient": 0.0259,
         "specular_exponent": 48.0,

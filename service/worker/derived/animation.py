@@ -3,7 +3,8 @@
 from collections.abc import Callable
 from typing import cast
 
-from api_schemas.derivations import AnimationOptions, AnimationResult, DerivationKind
+from api_schemas.derivation_results import AnimationResult
+from api_schemas.derivations import AnimationOptions, DerivationKind
 from api_schemas.results import FitWarning
 from fitter.applications.animation import ChosenMotion, animate, motion_of_clip
 from fitter.applications.bvh import parse_bvh

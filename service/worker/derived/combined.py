@@ -1,25 +1,39 @@
-"""One person from several of their pictures: the shape the fits agree on."""
+"""One person from several of their pictures: one shape, and pose and light in each picture."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import cast
 
-from api_schemas.derivations import CombinedOptions, CombinedResult, DerivationKind
+from api_schemas.derivation_results import CombinedResult
+from api_schemas.derivations import CombinedOptions, DerivationKind
+from api_schemas.requests import FitOptions
 from api_schemas.results import FitResult, FitWarning
 from fitter.applications.fitted_person import FittedPerson
 from fitter.applications.previews import View, preview
-from fitter.applications.several_pictures import CombinedShape, combined_shape
+from fitter.applications.several_pictures import CombinedShape
 from fitter.arrays import Vertices
+from fitter.body.model import BodyModel
+from fitter.export import overlay_png
 from fitter.export.display import png
+from fitter.export.gltf import body_posed_glb
 from fitter.export.plain_gltf import plain_glb
 from fitter.fittable import fittable_body
+from fitter.joint_fit import joint_fit
 from fitter.measurement.anthropometry import measure
+from fitter.request import FitRequest
+from fitter.result import LitBody
 from service.engine.port import Report
-from service.inputs import PERSON, RESULT, other_person
+from service.inputs import IMAGE, MASK, OF_EACH_PICTURE, PERSON, REQUEST, RESULT, of_other
 from service.worker.derived.person import person_and_instruments
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
-from service.worker.translate import measurement_results
+from service.worker.translate import combined_picture, fit_request, measurement_results
 
 STAGE = DerivationKind.COMBINED.value
+
+_FITTED = 0.95
+"""Share of the work that is done when the pictures are fitted and their files are to be made."""
+
+LEAST_PERCENT = 0.01
+"""What is rarer is not told apart."""
 
 
 def derive(job: DerivationInput, observe: Callable[[Report], None]) -> DerivationOutput:
@@ -28,13 +42,14 @@ def derive(job: DerivationInput, observe: Callable[[Report], None]) -> Derivatio
     options = cast("CombinedOptions", job.options)
     fit = FitResult.model_validate_json(job.inputs[RESULT])
     first, instruments = person_and_instruments(job.inputs[PERSON], job.models)
-    others = [
-        FittedPerson.from_bytes(job.inputs[other_person(index)])
-        for index in range(len(options.fits))
-    ]
-    people = [first, *others]
-    found = combined_shape(people)
-    observe(Report(stage=STAGE, progress=0.3))
+    pictures = [job.inputs, *_others(job.inputs, len(options.fits))]
+    people = [first, *(FittedPerson.from_bytes(each[PERSON]) for each in pictures[1:])]
+    found = joint_fit(
+        people,
+        [_request(each, job.max_pixels) for each in pictures],
+        models=job.models,
+        observe=lambda share: observe(Report(stage=STAGE, progress=_FITTED * share)),
+    )
     model = instruments.model
     measuring = fittable_body(first.gender, models=job.models).measuring
     given = [each.name for each in fit.measurements if each.given]
@@ -46,13 +61,20 @@ def derive(job: DerivationInput, observe: Callable[[Report], None]) -> Derivatio
         held=[each.name for each in fit.measurements if each.given and each.standard_error == 0.0],
     )
     body = measuring.canonical.at(found.shape)
+    assert job.fit_id is not None
     return DerivationOutput(
         result=CombinedResult(
             pictures=len(people),
             shape=tuple(found.shape.tolist()),
+            bodies=tuple(
+                combined_picture(each, number=number, fit_id=fit_id, part_names=model.part_names)
+                for number, (each, fit_id) in enumerate(
+                    zip(found.pictures, (job.fit_id, *options.fits), strict=True), start=1
+                )
+            ),
             measurements=measurement_results(measurements, given),
-            agreement=found.agreement,
-            warnings=_warnings(found, options),
+            agreement=found.fused.agreement,
+            warnings=_warnings(found.fused, options),
             artifacts=(),
         ),
         artifacts={
@@ -61,8 +83,8 @@ def derive(job: DerivationInput, observe: Callable[[Report], None]) -> Derivatio
                 model,
                 name="body_combined",
                 extras={"pictures": len(people)},
-                reflectance=first.reflectance,
-                albedo_rgb=first.albedo_rgb,
+                reflectance=found.pictures[0].reflectance,
+                albedo_rgb=found.pictures[0].albedo_rgb,
             ),
             "combined.png": png(
                 preview(
@@ -73,8 +95,40 @@ def derive(job: DerivationInput, observe: Callable[[Report], None]) -> Derivatio
                     model.triangles,
                 )
             ),
-        },
+        }
+        | _files_of_pictures(found.pictures, model, [each[IMAGE] for each in pictures]),
     )
+
+
+def _others(inputs: Mapping[str, bytes], count: int) -> list[dict[str, bytes]]:
+    """What is there of each of the other fits, by the names of this one's."""
+    return [
+        {
+            name: inputs[of_other(name, index)]
+            for name in OF_EACH_PICTURE
+            if of_other(name, index) in inputs
+        }
+        for index in range(count)
+    ]
+
+
+def _request(inputs: Mapping[str, bytes], max_pixels: int) -> FitRequest:
+    return fit_request(
+        FitOptions.model_validate_json(inputs[REQUEST]),
+        image=inputs[IMAGE],
+        mask=inputs.get(MASK),
+        max_pixels=max_pixels,
+    )
+
+
+def _files_of_pictures(
+    bodies: Sequence[LitBody], model: BodyModel, images: Sequence[bytes]
+) -> dict[str, bytes]:
+    files: dict[str, bytes] = {}
+    for number, (body, image) in enumerate(zip(bodies, images, strict=True), start=1):
+        files[f"body_posed_{number}.glb"] = body_posed_glb(body, model)
+        files[f"overlay_{number}.png"] = overlay_png(body, model=model, image=image)
+    return files
 
 
 def _views(label: str, vertices: Vertices) -> Sequence[View]:
@@ -93,8 +147,13 @@ def _warnings(found: CombinedShape, options: CombinedOptions) -> tuple[FitWarnin
             code="different-people",
             message=(
                 f"The pictures seem to show different people: the body of {which} differs from "
-                f"that of the others as fits of one person do in {100.0 * found.agreement:.2g} % "
+                f"that of the others as fits of one person do in {_percent(found.agreement)} "
                 "of cases. Check the pictures and their clicks, or leave that fit out."
             ),
         ),
     )
+
+
+def _percent(share: float) -> str:
+    percent = 100.0 * share
+    return f"less than {LEAST_PERCENT} %" if percent < LEAST_PERCENT else f"{percent:.2g} %"

@@ -5,7 +5,8 @@ from typing import cast
 
 import numpy as np
 
-from api_schemas.derivations import DerivationKind, NamedPose, PoseOptions, PoseResult
+from api_schemas.derivation_results import PoseResult
+from api_schemas.derivations import DerivationKind, NamedPose, PoseOptions
 from fitter.applications.poses import named_pose, spelled_pose
 from fitter.applications.previews import View, preview
 from fitter.applications.rig import Rig, rig_of

@@ -1,27 +1,27 @@
-"""The picture, or the albedo found in it, as a texture of the fitted body."""
+"""The picture, the albedo found in it or a painted atlas as a texture of the fitted body."""
 
 from collections.abc import Callable
 from typing import cast
 
 import cv2
 import numpy as np
+from jaxtyping import UInt8
 
-from api_schemas.derivations import (
-    DerivationKind,
-    TextureColours,
-    TextureOptions,
-    TextureResult,
-)
+from api_schemas.derivation_results import TextureResult
+from api_schemas.derivations import DerivationKind, TextureColours, TextureOptions
+from fitter.applications.fitted_person import FittedPerson
+from fitter.applications.own_texture import atlas_drawing, painted_texture
 from fitter.applications.texture import albedo_texture, picture_texture
 from fitter.applications.textured_glb import in_file_axes, textured_glb
 from fitter.arrays import Mask
 from fitter.camera import Camera
+from fitter.energies.instruments import BodyInstruments
 from fitter.errors import InvalidInputError
 from fitter.export.display import png
 from fitter.observation.colour import linear_from_display
 from fitter.observation.decoding import decode_coverage, decode_picture
 from service.engine.port import Report
-from service.inputs import IMAGE, PERSON, SEGMENTATION
+from service.inputs import IMAGE, PERSON, SEGMENTATION, TEXTURE
 from service.worker.derived.person import person_and_instruments
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 
@@ -32,11 +32,48 @@ HALF = 128
 
 
 def derive(job: DerivationInput, observe: Callable[[Report], None]) -> DerivationOutput:
-    """Lay the picture on the body; see :class:`service.worker.derivers.Deriver`."""
+    """Lay the picture, or what was painted, on the body.
+
+    See :class:`service.worker.derivers.Deriver`.
+    """
     observe(Report(stage=STAGE, progress=0.0))
     options = cast("TextureOptions", job.options)
     person, instruments = person_and_instruments(job.inputs[PERSON], job.models)
+    laid = _painted if options.colours is TextureColours.OWN else _pictured
+    result, levels, coverage = laid(job, options, person, instruments)
+    observe(Report(stage=STAGE, progress=0.8))
     model, evaluator = instruments.model, instruments.evaluator
+    texture = png(levels)
+    return DerivationOutput(
+        result=result,
+        artifacts={
+            "body_textured.glb": textured_glb(
+                in_file_axes(evaluator.vertices(person.body)),
+                model,
+                texture,
+                colour_scale=result.scale,
+                is_albedo=options.colours is not TextureColours.PICTURE,
+                lit_as=person,
+                extras={
+                    "colours": options.colours.value,
+                    "seen_share": result.seen_share,
+                    "mirrored_share": result.mirrored_share,
+                },
+            ),
+            "texture.png": texture,
+            "atlas.png": png(atlas_drawing(model, result.size)),
+        }
+        | ({} if coverage is None else {"coverage.png": png(coverage)}),
+    )
+
+
+_Laid = tuple[TextureResult, UInt8[np.ndarray, "n n 3"], UInt8[np.ndarray, "n n"] | None]
+"""What is told of a texture, its levels, and which of them were seen if any could be."""
+
+
+def _pictured(
+    job: DerivationInput, options: TextureOptions, person: FittedPerson, body: BodyInstruments
+) -> _Laid:
     picture = decode_picture(job.inputs[IMAGE], field="image", max_pixels=job.max_pixels)
     mask = _person_in(job.inputs[SEGMENTATION], person.camera, max_pixels=job.max_pixels)
     without_light = options.colours is TextureColours.ALBEDO
@@ -45,39 +82,37 @@ def derive(job: DerivationInput, observe: Callable[[Report], None]) -> Derivatio
     made = albedo_texture if without_light else picture_texture
     texture = made(
         person,
-        evaluator,
+        body.evaluator,
         linear_from_display(picture.pixels / 255.0),
         mask=mask,
         size=options.size,
     )
-    observe(Report(stage=STAGE, progress=0.8))
-    levels = png(texture.levels)
-    return DerivationOutput(
-        result=TextureResult(
-            colours=options.colours,
-            size=options.size,
-            seen_share=texture.seen_share,
-            mirrored_share=texture.mirrored_share,
-            scale=texture.scale,
-            artifacts=(),
-        ),
-        artifacts={
-            "body_textured.glb": textured_glb(
-                in_file_axes(evaluator.vertices(person.body)),
-                model,
-                levels,
-                colour_scale=texture.scale,
-                lit_as=person if without_light else None,
-                extras={
-                    "colours": options.colours.value,
-                    "seen_share": texture.seen_share,
-                    "mirrored_share": texture.mirrored_share,
-                },
-            ),
-            "texture.png": levels,
-            "coverage.png": png(texture.coverage),
-        },
+    result = TextureResult(
+        colours=options.colours,
+        size=options.size,
+        seen_share=texture.seen_share,
+        mirrored_share=texture.mirrored_share,
+        scale=texture.scale,
+        artifacts=(),
     )
+    return result, texture.levels, texture.coverage
+
+
+def _painted(
+    job: DerivationInput, options: TextureOptions, person: FittedPerson, body: BodyInstruments
+) -> _Laid:
+    del person
+    painted = decode_picture(job.inputs[TEXTURE], field=TEXTURE, max_pixels=job.max_pixels)
+    levels = painted_texture(painted.pixels, body.model, field=TEXTURE)
+    result = TextureResult(
+        colours=options.colours,
+        size=len(levels),
+        seen_share=0.0,
+        mirrored_share=0.0,
+        scale=1.0,
+        artifacts=(),
+    )
+    return result, levels, None
 
 
 def _person_in(segmentation: bytes, camera: Camera, *, max_pixels: int) -> Mask:

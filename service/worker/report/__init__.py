@@ -3,7 +3,8 @@
 from collections.abc import Callable
 from typing import Final
 
-from api_schemas.derivations import DerivationKind, ReportResult
+from api_schemas.derivation_results import ReportResult
+from api_schemas.derivations import DerivationKind
 from api_schemas.results import FitResult
 from service.engine.port import Report
 from service.inputs import RESULT

@@ -14,6 +14,7 @@ from api_schemas.results import (
     LightResult,
     Measurement,
     ReflectanceResult,
+    SurroundingsResult,
 )
 
 WITHIN_95: Final = 1.96
@@ -125,9 +126,17 @@ def _light_and_skin(light: LightResult | None, reflectance: ReflectanceResult | 
             ("Mean albedo", f"{reflectance.mean_albedo:.3f}"),
             ("Mean specularity", f"{reflectance.mean_specularity:.3f}"),
             ("Specular exponent", f"{reflectance.specular_exponent:.0f}"),
-            ("Ambient", f"{reflectance.ambient:.3f}"),
+            ("Ambient", f"{reflectance.ambient:.3f}")
+            if light.surroundings is None
+            else ("Light from all round", _surroundings(light.surroundings)),
         ),
     )
+
+
+def _surroundings(surroundings: SurroundingsResult) -> str:
+    """The mean of E over all directions."""
+    mean = surroundings.coefficients[0] / (2.0 * math.sqrt(math.pi))
+    return f"{100.0 * mean:.0f} % of the lamp's on the mean"
 
 
 def _fit(result: FitResult) -> Section:

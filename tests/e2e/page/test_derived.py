@@ -1,10 +1,12 @@
 """What is made of a finished fit: asked for, looked at, kept, erased."""
 
 import json
+from pathlib import Path
 
 import httpx
 import numpy as np
 import pytest
+from PIL import Image
 from playwright.sync_api import expect
 
 from service.demo_sample import load_sample
@@ -13,7 +15,11 @@ from tests.e2e.service import ended_job
 
 
 @pytest.fixture
-def looking(visitor: Visitor, finished_fit: str) -> Visitor:
+def looking(visitor: Visitor, service: httpx.Client, finished_fit: str) -> Visitor:
+    """Someone before a fit of which nothing is made yet, whatever other tests made of it."""
+    derivations = f"/v1/fits/{finished_fit}/derivations"
+    for each in service.get(derivations).raise_for_status().json()["derivations"]:
+        service.delete(each["links"]["self"]).raise_for_status()
     visitor.page.goto(f"{visitor.origin}/#/fits/{finished_fit}")
     visitor.wait_for_result()
     return visitor
@@ -54,7 +60,8 @@ def test_another_pose_and_a_caricature_are_shown_and_what_cannot_be_is_told(look
     expect(page.get_by_role("img", name="Caricature of the body")).to_be_visible(
         timeout=FIT_WITHIN_MS
     )
-    expect(page.locator(".derived > li")).to_have_count(2)
+    for made in ("Other pose", "Caricature"):
+        expect(page.locator(".derived > li").filter(has_text=made).first).to_be_visible()
 
 
 def test_an_animation_plays_until_it_is_held_still(looking: Visitor):
@@ -78,6 +85,18 @@ def test_an_animation_plays_until_it_is_held_still(looking: Visitor):
     page.get_by_role("button", name="Hold still").click()
     expect(page.get_by_role("button", name="Play")).to_be_visible()
     expect(moving).not_to_have_attribute("src", playing)
+    moving.evaluate("image => image.decode()")
+    # What lies below stays where it is.
+    below = page.get_by_role("button", name="body_skinned.glb")
+    place = below.evaluate("button => button.offsetTop")
+    page.get_by_role("button", name="Play").click()
+    expect(page.get_by_role("button", name="Hold still")).to_be_visible()
+    expect(moving).to_be_visible()
+    moving.evaluate("image => image.decode()")
+    assert below.evaluate("button => button.offsetTop") == place
+    page.get_by_role("button", name="Hold still").click()
+    expect(page.get_by_role("button", name="Play")).to_be_visible()
+    expect(moving).to_be_visible()
     moving.evaluate("image => image.decode()")
     still = looking.pixels(moving)
     page.wait_for_timeout(500)
@@ -103,6 +122,36 @@ def test_a_texture_is_shown_with_where_it_comes_from(looking: Visitor):
     with page.expect_download() as download:
         made.get_by_role("button", name="body_textured.glb").click()
     assert download.value.path().read_bytes()[:4] == b"glTF"
+    made.get_by_role("button", name="Turn it").click()
+    body = made.get_by_role("img", name="The textured body; arrow keys turn it")
+    expect(body).to_have_attribute("data-shows", "texture", timeout=FIT_WITHIN_MS)
+    front = looking.pixels(body)
+    assert (np.ptp(front, axis=2) > VISIBLY).mean() > 0.05
+    body.press("ArrowRight")
+    looking.wait_for_change(body, front, share=0.02)
+
+
+def test_a_texture_of_ones_own_is_laid_on_the_body(looking: Visitor, tmp_path: Path):
+    page = looking.page
+    looking.choose("Texture")
+    looking.choose("My own")
+    make = page.get_by_role("button", name="Make the texture")
+    expect(make).to_be_disabled()
+    oblong, square = tmp_path / "oblong.png", tmp_path / "square.png"
+    Image.new("RGB", (256, 128)).save(oblong)
+    Image.new("RGB", (256, 256), (30, 160, 60)).save(square)
+    page.get_by_label("Choose a texture").set_input_files(oblong)
+    make.click()
+    expect(page.get_by_role("alert")).to_contain_text("texture")
+    page.get_by_label("Another texture").set_input_files(square)
+    expect(page.get_by_text("square.png is laid on the body.")).to_be_visible()
+    make.click()
+    made = page.locator(".derived > li").first
+    made.get_by_role("button", name="Turn it").click(timeout=FIT_WITHIN_MS)
+    body = made.get_by_role("img", name="The textured body; arrow keys turn it")
+    expect(body).to_have_attribute("data-shows", "texture", timeout=FIT_WITHIN_MS)
+    red, green, blue = np.moveaxis(looking.pixels(body), 2, 0)
+    assert (green > 1.5 * np.maximum(red, blue)).mean() > 0.05
 
 
 def test_fits_of_one_person_are_offered_and_combined(looking: Visitor, service: httpx.Client):
@@ -119,6 +168,9 @@ def test_fits_of_one_person_are_offered_and_combined(looking: Visitor, service: 
         page.goto(f"{looking.origin}/#/fits/{job['id']}")
         looking.wait_for_result()
         expect(page.locator(".badge")).to_have_text("2" if height_m == 1.804 else "3")
+    page.get_by_role("button", name="Fits").click()
+    expect(page.get_by_role("dialog").get_by_text("Man, 170 cm")).to_be_visible()
+    page.keyboard.press("Escape")
     page.go_back()
     page.go_back()
     looking.wait_for_result()
@@ -134,6 +186,9 @@ def test_fits_of_one_person_are_offered_and_combined(looking: Visitor, service: 
     expect(table).to_be_visible(timeout=FIT_WITHIN_MS)
     expect(table.get_by_role("row").filter(has_text="Hip")).to_contain_text("–")
     expect(page.locator(".derived > li").first).to_contain_text("From 2 pictures.")
+    for number in (1, 2):
+        over = page.get_by_role("img", name=f"Combined body over picture {number}")
+        expect(over).to_be_visible()
 
 
 def test_a_figure_is_drawn_from_where_one_wants(looking: Visitor):

@@ -10,7 +10,7 @@ import pytest
 from PIL import Image
 from playwright.sync_api import Browser, Page, expect
 
-from tests.e2e.page.visitor import LIMBS, PHONE, Visitor
+from tests.e2e.page.visitor import FIT_WITHIN_MS, LIMBS, PHONE, Visitor
 from tests.e2e.service import REPOSITORY, running_service
 from tests.npm_packages import installed
 
@@ -55,6 +55,14 @@ def test_axe_finds_nothing_serious_from_start_to_result(
         assert serious_findings(page, axe) == []
         page.goto(f"{visitor.origin}/#/fits/{finished_fit}")
         visitor.wait_for_result()
+        for kind in ("Figure", "Other pose", "Animation", "Texture", "Caricature", "Combined body"):
+            visitor.choose(kind)
+            assert serious_findings(page, axe) == [], kind
+        visitor.choose("Caricature")
+        page.get_by_role("button", name="Make the caricature").click()
+        page.get_by_role("button", name="Turn it").last.click(timeout=FIT_WITHIN_MS)
+        turned = page.locator(".derived-canvas")
+        expect(turned).to_have_attribute("data-shows", "clay", timeout=FIT_WITHIN_MS)
         assert serious_findings(page, axe) == []
         page.get_by_role("button", name="Fits").click()
         expect(page.get_by_role("dialog")).to_be_visible()

@@ -2,6 +2,7 @@
 
 import io
 import json
+import re
 from pathlib import Path
 
 import httpx
@@ -11,7 +12,7 @@ from PIL import Image
 from playwright.sync_api import expect
 
 from service.demo_sample import FOLDER
-from tests.e2e.page.visitor import SAMPLE_SIZE, Visitor
+from tests.e2e.page.visitor import SAMPLE_SIZE, VISIBLY, Visitor
 from tests.e2e.service import REPOSITORY
 
 MASK = REPOSITORY / "tests" / "evaluation" / "data" / "pictures" / "demo_person.png"
@@ -66,11 +67,7 @@ def test_a_tape_and_a_mask_reach_the_fit_and_come_back_with_it(
     expect(page.get_by_role("alert")).to_contain_text("64 × 48 pixels, the picture 720 × 960")
     page.get_by_label("Choose a mask").set_input_files(mask)
     expect(page.get_by_role("img", name="The border of the mask")).to_be_visible()
-    with page.expect_request(
-        lambda request: request.method == "POST" and request.url.endswith("/v1/fits")
-    ) as sent:
-        visitor.submit()
-    asked = sent.value.post_data_json
+    asked = visitor.sent_request()
     assert asked["measurements"] == {"hip_girth": {"value": 98, "standard_error": 1}}
     assert len(asked["mask_id"]) == 64
     visitor.wait_for_result()
@@ -83,6 +80,60 @@ def test_a_tape_and_a_mask_reach_the_fit_and_come_back_with_it(
     page.get_by_role("button", name="Change and fit again").click()
     page.get_by_text("Known measurements").click()
     expect(page.get_by_label("Hip", exact=True)).to_have_value("98")
+    expect(page.get_by_role("img", name="The border of the mask")).to_be_visible()
+    page.get_by_role("heading", name="What the fit goes by").click()
+    expect(page.get_by_text("the mask of that fit is used")).to_be_visible()
+
+
+def test_light_and_clothes_that_were_told_reach_the_fit_and_come_back_with_it(visitor: Visitor):
+    page = visitor.page
+    visitor.open_sample(with_points=True)
+    page.get_by_role("heading", name="Lens and light").click()
+    ball = page.get_by_role("slider", name="Direction of the light")
+    expect(ball).to_have_attribute("aria-valuetext", "left to the fit")
+    ball.scroll_into_view_if_needed()
+    box = ball.bounding_box()
+    assert box is not None
+    before = visitor.pixels(ball)
+    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 0.25 * box["width"], box["y"] + 0.25 * box["height"], steps=4)
+    page.mouse.up()
+    # Half a radius to the left and up: both sines are a half of the light brightest there.
+    expect(ball).to_have_attribute("aria-valuetext", re.compile("° from the left, 30° from above"))
+    lit = visitor.pixels(ball)
+    assert np.abs(lit - before).max() > VISIBLY
+    rows, columns = np.ogrid[-1 : 1 : 1j * lit.shape[0], -1 : 1 : 1j * lit.shape[1]]
+    levels = np.where(np.hypot(rows, columns) < 0.9, lit.sum(axis=2), 0)
+    brightest = np.argwhere(levels >= np.quantile(levels, 0.98)).mean(axis=0)
+    assert (brightest < 0.45 * np.array(levels.shape)).all()
+    visitor.choose("Sun")
+    visitor.choose("By direction")
+    page.get_by_role("heading", name="What the fit goes by").click()
+    visitor.choose("Loose")
+    asked = visitor.sent_request()
+    assert asked["clothing"] == "loose"
+    assert asked["light"]["surroundings"] == "spherical_harmonics"
+    assert asked["light"]["kind"] == "directional"
+    assert asked["light"]["azimuth_deg"] == pytest.approx(-35.3, abs=1.5)
+    assert asked["light"]["elevation_deg"] == pytest.approx(30.0, abs=1.5)
+    visitor.wait_for_result()
+    expect(page.get_by_text("from the surroundings, by direction")).to_be_visible()
+    expect(page.get_by_text("Clothing is loose")).to_be_visible()
+    visitor.wait_until_drawn(placement="picture")
+    visitor.choose("Lit")
+    lit = visitor.wait_until_drawn(placement="picture", surface="lit")
+    visitor.choose("Clay")
+    clay = visitor.wait_until_drawn(placement="picture")
+    # Skin, and as bright as in the picture.
+    changed = np.abs(lit - clay).max(axis=2) > VISIBLY
+    assert changed.mean() > 0.1
+    assert lit[changed].mean() > 40
+    page.get_by_role("button", name="Change and fit again").click()
+    page.get_by_role("heading", name="Lens and light").click()
+    expect(page.get_by_role("radio", name="By direction")).to_be_checked()
+    page.get_by_role("heading", name="What the fit goes by").click()
+    expect(page.get_by_role("radio", name="Loose", exact=True)).to_be_checked()
 
 
 def test_the_body_before_shading_can_be_seen_in_its_place(visitor: Visitor, finished_fit: str):

@@ -93,9 +93,10 @@ class Visitor:
     def without_news(self) -> Iterator[None]:
         """Let the page hear nothing of fits meanwhile, however fast they end."""
         held: list[Route] = []
+        holding = True
 
         def hold(route: Route) -> None:
-            if route.request.method == "GET":
+            if holding and route.request.method == "GET":
                 held.append(route)
             else:
                 route.continue_()
@@ -105,9 +106,11 @@ class Visitor:
         try:
             yield
         finally:
-            self.page.unroute(paths, hold)
+            # Before the rule goes: with the last of its rules the browser lets go what is held.
+            holding = False
             for route in held:
                 route.continue_()
+            self.page.unroute(paths, hold)
 
     def let_fits_take_minutes(self) -> None:
         """Ask for the paper's search, where the page's own choice ends in a second."""
@@ -157,6 +160,14 @@ class Visitor:
 
     def submit(self) -> None:
         self.page.get_by_role("button", name="Fit the body").click()
+
+    def sent_request(self) -> dict[str, Any]:
+        """Submit, and return what was asked of the service."""
+        with self.page.expect_request(
+            lambda request: request.method == "POST" and request.url.endswith("/v1/fits")
+        ) as sent:
+            self.submit()
+        return sent.value.post_data_json
 
     def wait_for_result(self) -> None:
         expect(self.body).to_be_visible(timeout=FIT_WITHIN_MS)

@@ -11,20 +11,24 @@ from pathlib import Path
 from typing import Any
 
 from api_schemas.body_models import BodyModelInfo, BodyModels
-from api_schemas.derivations import (
-    AnimationOptions,
+from api_schemas.derivation_results import (
     AnimationResult,
-    CaricatureOptions,
     CaricatureResult,
-    CombinedOptions,
+    CombinedPicture,
     CombinedResult,
-    FigureOptions,
     FigureResult,
-    PoseOptions,
     PoseResult,
     ReportResult,
-    TextureOptions,
     TextureResult,
+)
+from api_schemas.derivations import (
+    AnimationOptions,
+    CaricatureOptions,
+    CombinedOptions,
+    FigureOptions,
+    PoseOptions,
+    TextureColours,
+    TextureOptions,
 )
 from api_schemas.known import UncertainMeasurement
 from api_schemas.problems import FieldProblem
@@ -40,7 +44,7 @@ from api_schemas.results import (
     PartRotation,
 )
 from service.engine.port import Report
-from service.inputs import CLIP, IMAGE, PERSON, RESULT, other_person
+from service.inputs import CLIP, IMAGE, PERSON, REQUEST, RESULT, TEXTURE, of_other
 from service.worker.pipeline_port import (
     DerivationInput,
     DerivationOutput,
@@ -101,8 +105,8 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
         artifacts={
             "body_posed.glb": b"glTF" + bytes(range(256)),
             "overlay.png": job.image,
-            "person.npz": job.image,
-        },
+        }
+        | ({} if script.get("old") else {"person.npz": job.image}),
     )
 
 
@@ -143,10 +147,27 @@ def _derived(job: DerivationInput) -> DerivationOutput:
         files = {"body_reposed.glb": b"glTF", "pose.png": b"PNG"}
     elif isinstance(options, CombinedOptions):
         fit = FitResult.model_validate_json(job.inputs[RESULT])
-        assert all(job.inputs[other_person(index)] for index in range(len(options.fits)))
+        assert job.fit_id is not None
+        FitOptions.model_validate_json(job.inputs[REQUEST])
+        for index in range(len(options.fits)):
+            assert job.inputs[of_other(IMAGE, index)] == job.inputs[of_other(PERSON, index)]
+            FitOptions.model_validate_json(job.inputs[of_other(REQUEST, index)])
         result = CombinedResult(
             pictures=1 + len(options.fits),
             shape=(0.0, 0.5),
+            bodies=tuple(
+                CombinedPicture(
+                    number=number,
+                    fit_id=fit_id,
+                    outcome=fit.outcome,
+                    image_camera=fit.image_camera,
+                    body=fit.body,
+                    light=None,
+                    reflectance=None,
+                    silhouette_overlap=0.9,
+                )
+                for number, fit_id in enumerate((job.fit_id, *options.fits), start=1)
+            ),
             measurements=fit.measurements,
             agreement=0.5,
             warnings=(),
@@ -157,10 +178,12 @@ def _derived(job: DerivationInput) -> DerivationOutput:
         result = FigureResult(pose=options.pose, artifacts=())
         files = {"figure.png": b"PNG"}
     elif isinstance(options, TextureOptions):
-        assert job.inputs[IMAGE] == job.inputs[PERSON]
+        # Who brings the colours has no copy of the picture.
+        own = options.colours is TextureColours.OWN
+        assert own is (TEXTURE in job.inputs) is (IMAGE not in job.inputs)
         result = TextureResult(
             colours=options.colours,
-            size=options.size,
+            size=len(job.inputs[TEXTURE]) if own else options.size,
             seen_share=0.4,
             mirrored_share=0.1,
             scale=1.0,

@@ -6,6 +6,7 @@ The fake pipeline, so that it takes seconds; ``python -m tests.chaos`` does the 
 import json
 import sys
 
+from tests.chaos.caller import Derived
 from tests.chaos.reference import references
 from tests.chaos.run import Plan, disturb
 from tests.chaos.verdict import verdict
@@ -19,6 +20,7 @@ COMMANDS = Commands(
     worker=(sys.executable, "-m", "tests.integration.service.fake_worker"),
 )
 PICTURES = 3
+DERIVED = ("pose", "report")
 PLAN = Plan(
     jobs=24,
     kills={Kind.API: 2, Kind.WORKER: 3, Kind.FIT: 3, Kind.FORK_SERVER: 1},
@@ -27,15 +29,19 @@ PLAN = Plan(
 
 
 def test_whoever_is_killed_every_job_ends_once_with_its_result(machine: Machine):
-    submissions = [
-        Submission(
-            image=scripted_image({"seconds": 0.4, "number": number}), request=json.dumps(REQUEST)
-        )
-        for number in range(PICTURES)
+    script = {"seconds": 0.4, "derivation": {"seconds": 0.4}}
+    tasks = [
+        *(
+            Submission(
+                image=scripted_image(script | {"number": number}), request=json.dumps(REQUEST)
+            )
+            for number in range(PICTURES)
+        ),
+        *(Derived(request={"kind": kind}) for kind in DERIVED),
     ]
     settings = {**QUICK, "worker_processes": 1, "max_crashes": 1_000}
     expected = references(
-        Deployment(folder=machine.data_dir / "undisturbed", commands=COMMANDS), submissions
+        Deployment(folder=machine.data_dir / "undisturbed", commands=COMMANDS), tasks
     )
     deployment = Deployment(
         folder=machine.data_dir / "disturbed",
@@ -45,7 +51,7 @@ def test_whoever_is_killed_every_job_ends_once_with_its_result(machine: Machine)
     )
     try:
         deployment.start()
-        judged = verdict(deployment, disturb(deployment, submissions, PLAN), expected)
+        judged = verdict(deployment, disturb(deployment, tasks, PLAN), expected)
     finally:
         deployment.end()
     assert judged.faults == {}, (judged, deployment.log.read_text()[-10_000:])

@@ -9,13 +9,8 @@ from uuid import uuid4
 import httpx
 import pytest
 
-from api_schemas.derivations import (
-    Derivation,
-    DerivationEvent,
-    DerivationPage,
-    DerivationResult,
-)
-from service.api.derivation_inputs import MAX_CLIP_BYTES
+from api_schemas.derivation_results import DerivationResult
+from api_schemas.derivations import Derivation, DerivationEvent, DerivationPage
 from service.engine.port import NewJob, StoredBlob, SubmitOutcome
 from tests.integration.service.harness import (
     REQUEST,
@@ -210,60 +205,6 @@ def test_a_texture_is_made_of_the_fit_s_own_picture(service: Service):
     assert job["state"] == "succeeded"
     result = service.client.get(job["links"]["result"]).json()
     assert (result["colours"], result["size"]) == ("albedo", 512)
-
-
-def test_fits_of_one_person_are_combined(machine: Machine):
-    with running_service(machine) as service:
-        one, other = fitted(service), fitted(service)
-        body = {"kind": "combined", "fits": [other.rpartition("/")[2]]}
-        job = service.ended(derived(service, one, body))
-        assert job["state"] == "succeeded"
-        result = service.client.get(job["links"]["result"]).json()
-        assert (result["kind"], result["pictures"]) == ("combined", 2)
-
-
-def test_only_other_fits_that_have_succeeded_are_combined(service: Service):
-    fit = fitted(service)
-    own, unknown = fit.rpartition("/")[2], "00000000-0000-4000-8000-000000000000"
-    failed = service.submit({"unusable": True})
-    service.ended(failed)
-    for other in (own, unknown, failed.rpartition("/")[2]):
-        answer = post(service, fit, {"kind": "combined", "fits": [other]})
-        assert answer.status_code == 422
-        assert answer.json()["errors"][0]["field"] == "fits.0"
-        assert other in answer.text
-    for fits in ([], [own] * 2, [unknown] * 12):
-        assert post(service, fit, {"kind": "combined", "fits": fits}).status_code == 422
-
-
-def test_the_same_key_with_another_motion_is_refused(service: Service):
-    fit = fitted(service)
-    key = {"headers": {"Idempotency-Key": "motion-1"}}
-    assert post_motion(service, fit, **key).status_code == 202
-    assert problem(post_motion(service, fit, BVH + "\n", **key))[1] == "idempotency-key-reused"
-
-
-def test_a_form_at_fault_is_refused_with_the_part(service: Service):
-    fit = fitted(service)
-    for clip in ("", "motion", '{"kind": "animation"}'):
-        assert problem(post_motion(service, fit, clip)) == (422, "not-a-bvh", "bvh")
-    assert post_motion(service, fit, "\ufeff\n hierarchy\n").status_code == 202
-    report = {"data": {"request": '{"kind": "report"}'}}
-    assert problem(post_motion(service, fit, **report)) == (422, "unknown-field", "bvh")
-    assert problem(post_motion(service, fit, data={})) == (422, "missing", "request")
-    extra = {"data": {"request": '{"kind": "animation"}', "mask": "x"}}
-    assert problem(post_motion(service, fit, **extra)) == (422, "unknown-field", "mask")
-    broken = {"data": {"request": '{"kind"'}}
-    assert problem(post_motion(service, fit, **broken)) == (400, "invalid-json", "request")
-
-
-def test_a_motion_that_is_too_large_is_refused(service: Service):
-    large = BVH + " " * MAX_CLIP_BYTES
-    assert problem(post_motion(service, fitted(service), large)) == (
-        413,
-        "payload-too-large",
-        "bvh",
-    )
 
 
 @pytest.mark.parametrize("number", ["NaN", "Infinity", "1e999"])

@@ -18,6 +18,22 @@ def test_picture_and_request_of_a_job_can_be_had_again(service: Service):
     assert set(json.loads(request.content)["points"]) == set(POINTS)
 
 
+def test_a_mask_can_be_had_again_where_one_was_sent(service: Service):
+    mask = scripted_image({"mask": True})
+    files = {
+        "image": ("picture.png", scripted_image(), "image/png"),
+        "mask": ("mask.png", mask, "image/png"),
+    }
+    data = {"request": json.dumps(REQUEST)}
+    job = service.client.post("/v1/fits", files=files, data=data).json()
+    assert service.client.get(job["links"]["mask"]).content == mask
+    without = service.client.get(service.submit()).json()
+    assert without["links"]["mask"] is None
+    answer = service.client.get(f"{without['links']['self']}/mask")
+    assert answer.status_code == 404
+    assert answer.json()["detail"] == "There is no mask: this job was sent none."
+
+
 def test_they_are_not_sent_twice_to_who_has_them(service: Service):
     job = service.client.get(service.submit()).json()
     for link in ("image", "request"):

@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+import re
 import signal
 from collections.abc import Iterator
 from typing import Any
@@ -30,6 +31,14 @@ def receiver() -> Iterator[Receiver]:
         yield started
 
 
+@pytest.fixture(scope="module")
+def telling(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    """One service for all the tests that leave it as it was."""
+    machine = Machine(tmp_path_factory.mktemp("telling"), settings=SETTINGS)
+    with running_service(machine) as running:
+        yield running
+
+
 def with_settings(machine: Machine, **changes: object) -> Machine:
     return dataclasses.replace(machine, settings=SETTINGS | changes)
 
@@ -48,6 +57,13 @@ def settled(service: Service, path: str) -> dict[str, Any]:
         return found if found["state"] in ("delivered", "given_up") else None
 
     return eventually(webhook, what=f"the notice of {path} settled")
+
+
+def given_up(service: Service) -> float:
+    """How many notices the figures say were given up."""
+    figures = service.client.get("/metrics").text
+    found = re.search(r'^maquette_webhooks\{state="given_up"\} (\S+)$', figures, re.MULTILINE)
+    return float(found[1]) if found else 0.0
 
 
 def test_the_end_of_a_job_is_told_signed_and_repeated_until_it_is_accepted(
@@ -89,14 +105,13 @@ def test_the_end_of_a_job_is_told_signed_and_repeated_until_it_is_accepted(
     [({"unusable": True}, "fit.failed"), ({"segfault": True}, "fit.failed")],
 )
 def test_failures_are_told_with_their_problem(
-    embedded: Machine, receiver: Receiver, script: dict[str, object], kind: str
+    telling: Service, receiver: Receiver, script: dict[str, object], kind: str
 ):
-    with running_service(with_settings(embedded)) as service:
-        path = submitted(service, script, url=receiver.url(), secret=SECRET)
-        assert settled(service, path)["state"] == "delivered"
-        event = receiver.notices[0].event
-        assert event["type"] == kind
-        assert event["data"]["problem"] == service.job(path)["problem"]
+    path = submitted(telling, script, url=receiver.url(), secret=SECRET)
+    assert settled(telling, path)["state"] == "delivered"
+    event = receiver.notices[0].event
+    assert event["type"] == kind
+    assert event["data"]["problem"] == telling.job(path)["problem"]
 
 
 def test_a_canceled_job_is_told_and_an_erased_one_is_not(embedded: Machine, receiver: Receiver):
@@ -125,32 +140,29 @@ def test_a_fit_of_an_uploaded_picture_is_told_too_with_the_services_own_secret(
 
 
 def test_the_end_of_a_retried_job_is_told_to_the_same_receiver(
-    embedded: Machine, receiver: Receiver
+    telling: Service, receiver: Receiver
 ):
-    with running_service(with_settings(embedded)) as service:
-        first = submitted(service, {"unusable": True}, url=receiver.url(), secret=SECRET)
-        assert settled(service, first)["state"] == "delivered"
-        again = service.client.post(f"{first}/retry").headers["Location"]
-        assert settled(service, again)["state"] == "delivered"
+    first = submitted(telling, {"unusable": True}, url=receiver.url(), secret=SECRET)
+    assert settled(telling, first)["state"] == "delivered"
+    again = telling.client.post(f"{first}/retry").headers["Location"]
+    assert settled(telling, again)["state"] == "delivered"
     assert all(notice.is_signed_with(SECRET) for notice in receiver.notices)
     assert [notice.event["data"]["links"]["self"] for notice in receiver.notices] == [first, again]
 
 
-def test_after_the_last_attempt_a_notice_is_given_up(embedded: Machine, receiver: Receiver):
+def test_after_the_last_attempt_a_notice_is_given_up(telling: Service, receiver: Receiver):
     receiver.statuses = [503] * 4
-    with running_service(with_settings(embedded)) as service:
-        path = submitted(service, url=receiver.url(), secret=SECRET)
-        webhook = settled(service, path)
-        figures = service.client.get("/metrics").text
+    before = given_up(telling)
+    path = submitted(telling, url=receiver.url(), secret=SECRET)
+    webhook = settled(telling, path)
     assert (webhook["state"], webhook["attempts"], webhook["last_status"]) == ("given_up", 4, 503)
     assert webhook["last_error"] == "The receiver answered 503."
-    assert 'maquette_webhooks{state="given_up"} 1.0' in figures
+    assert given_up(telling) == before + 1
 
 
-def test_who_answers_gone_is_not_asked_again(embedded: Machine, receiver: Receiver):
+def test_who_answers_gone_is_not_asked_again(telling: Service, receiver: Receiver):
     receiver.statuses = [410]
-    with running_service(with_settings(embedded)) as service:
-        webhook = settled(service, submitted(service, url=receiver.url(), secret=SECRET))
+    webhook = settled(telling, submitted(telling, url=receiver.url(), secret=SECRET))
     assert (webhook["state"], webhook["attempts"]) == ("given_up", 1)
 
 
@@ -228,12 +240,11 @@ def test_a_notice_nobody_could_sign_is_refused(service: Service):
     assert (answer.status_code, answer.json()["field"]) == (422, "webhook.secret")
 
 
-def test_no_secret_is_ever_answered(embedded: Machine, receiver: Receiver):
-    with running_service(with_settings(embedded)) as service:
-        path = submitted(service, url=receiver.url("/token-in-path"), secret=SECRET)
-        settled(service, path)
-        answers = [
-            service.client.get(each).text
-            for each in (path, "/v1/fits", f"{path}/result", f"{path}/request")
-        ]
+def test_no_secret_is_ever_answered(telling: Service, receiver: Receiver):
+    path = submitted(telling, url=receiver.url("/token-in-path"), secret=SECRET)
+    settled(telling, path)
+    answers = [
+        telling.client.get(each).text
+        for each in (path, "/v1/fits", f"{path}/result", f"{path}/request")
+    ]
     assert all(SECRET not in answer for answer in answers), json.dumps(answers)

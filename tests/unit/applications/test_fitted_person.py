@@ -6,22 +6,21 @@ from zipfile import ZIP_STORED
 import numpy as np
 import pytest
 
-from fitter.applications.fitted_person import (
-    MAX_BYTES,
-    FittedPerson,
-    fitted_person,
-    require_model,
-)
+from fitter.applications.fitted_person import FittedPerson, fitted_person, require_model
+from fitter.applications.person_checks import MAX_BYTES
 from fitter.array_archive import write_arrays
 from fitter.errors import InvalidInputError
 from tests.unit.body.synthetic_model import bar_model
-from tests.unit.export.results import CAMERA, SUN, result_of
+from tests.unit.export.results import CAMERA, POINT_LIGHT, SUN, result_of
 
 MODEL = bar_model()
 COLOURS = np.random.default_rng(1).uniform(0.0, 1.2, size=(len(MODEL.mean_vertices), 3))
 
+SURROUNDED = replace(POINT_LIGHT, surroundings=np.linspace(1.0, -0.2, 9))
+
 PEOPLE = {
     "point light": fitted_person(result_of(MODEL), MODEL),
+    "surroundings": fitted_person(result_of(MODEL, light=SURROUNDED), MODEL),
     "directional light": fitted_person(result_of(MODEL, light=SUN), MODEL),
     "coloured": fitted_person(result_of(MODEL, albedo_rgb=COLOURS), MODEL),
     "without shading": fitted_person(result_of(MODEL, light=None), MODEL),
@@ -61,7 +60,9 @@ def test_every_number_comes_back_as_it_was(kind):
     assert found.camera == person.camera == CAMERA
     assert (found.light is None) == (person.light is None)
     if person.light is not None:
-        assert asdict(found.light) == asdict(person.light)
+        numbers, expected = asdict(found.light), asdict(person.light)
+        np.testing.assert_array_equal(numbers.pop("surroundings"), expected.pop("surroundings"))
+        assert numbers == expected
     for name in ("pose", "translation", "shape"):
         np.testing.assert_array_equal(getattr(found.body, name), getattr(person.body, name))
     if person.reflectance is None:

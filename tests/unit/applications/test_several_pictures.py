@@ -85,9 +85,9 @@ def test_pictures_of_different_people_are_noticed_and_the_odd_one_named():
 @pytest.mark.parametrize(
     ("change", "field", "says"),
     [
-        ({"gender": Gender.MALE}, "fits.1", "different body models"),
-        ({"model_checksum": "two"}, "fits.1", "different body models"),
-        ({"shape_covariance": None}, "fits.1", "how certain"),
+        ({"gender": Gender.MALE}, "fits.0", "different body models"),
+        ({"model_checksum": "two"}, "fits.0", "different body models"),
+        ({"shape_covariance": None}, "fits.0", "how certain"),
     ],
 )
 def test_fits_that_cannot_be_combined_are_refused_by_number(change, field, says):

@@ -23,8 +23,8 @@ from fitter.observation.colour import linear_from_display
 from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
 from fitter.render.interpolation import shade_image
 from fitter.render.rasterizer import render
-from fitter.render.reflectance import shading_terms
-from fitter.render.shadow import cast_shadow
+from fitter.render.reflectance import shade, shading_terms
+from fitter.render.shadow import cast_shadow, lamp_seen
 from fitter.request import Gender
 from tests.unit.applications.bodies import packaged
 from tests.unit.export.glb_reader import read_glb
@@ -133,7 +133,7 @@ def test_texels_lie_where_the_models_texture_coordinates_say(sitter):
 
 def test_islands_are_drawn_on_into_their_margin_and_no_farther(sitter):
     atlas = atlas_of(sitter.evaluator.model, 512)
-    picture = drawn_on(atlas, np.full(len(atlas.triangles), 200, dtype=np.uint8))
+    picture = drawn_on(atlas.inside, np.full(len(atlas.triangles), 200, dtype=np.uint8))
     away = cv2.distanceTransform((~atlas.inside).astype(np.uint8), cv2.DIST_L2, 5)
     assert (picture[away <= 8.0] == 200).all()
     assert (picture[away > 8.0] == 0).all()
@@ -182,6 +182,37 @@ def test_the_albedo_comes_back_from_under_the_light(sitter):
     assert np.median(error(sitter, painted, TexelOrigin.SEEN)) > 5.0 * np.median(seen)
 
 
+def test_surroundings_bring_the_albedo_back_from_shadows_too(sitter):
+    model, person = sitter.evaluator.model, sitter.person
+    light = replace(
+        LIGHT, elevation=1.0, surroundings=np.array([1.2, -0.2, -0.05, 0.1, 0, 0, 0.02, 0, 0])
+    )
+    reflectance = replace(person.reflectance, ambient=0.0)
+    vertices = sitter.evaluator.vertices(person.body)
+    rendering = render(vertices, model.triangles, CAMERA)
+    lit = lamp_seen(vertices, model.triangles, light=light, body_centre=person.body.translation)
+    brightness = shade(
+        vertices,
+        rendering.vertex_normals,
+        light=light,
+        body_centre=person.body.translation,
+        reflectance=reflectance,
+        lit=lit,
+    )
+    colours = sitter.paint * (brightness / reflectance.albedo)[:, None]
+    channels = [shade_image(rendering, channel, background=0.9) for channel in colours.T]
+    picture = np.stack(channels, axis=2)
+    known = replace(person, light=light, reflectance=reflectance)
+    albedo = albedo_texture(known, sitter.evaluator, picture, size=512)
+    seen = error(sitter, albedo, TexelOrigin.SEEN)
+    assert np.median(seen) < 0.01
+    assert np.percentile(seen, 95) < 0.06
+    # Eq. 1 counts shadows as hidden.
+    alone = replace(known, light=replace(light, surroundings=None))
+    hidden = albedo_texture(alone, sitter.evaluator, picture, size=512)
+    assert albedo.seen_share > 1.05 * hidden.seen_share
+
+
 def test_a_picture_of_another_scale_gives_the_same(sitter, texture):
     small = cv2.resize(sitter.even, (450, 600), interpolation=cv2.INTER_AREA)
     found = picture_texture(sitter.person, sitter.evaluator, small, size=512)
@@ -223,7 +254,8 @@ def test_the_file_holds_the_body_its_texture_and_its_light(sitter, texture, with
         in_file_axes(vertices),
         model,
         picture,
-        lit_as=sitter.person if with_light else None,
+        is_albedo=with_light,
+        lit_as=sitter.person,
         extras={"seen_share": texture.seen_share},
     )
     glb = read_glb(content)

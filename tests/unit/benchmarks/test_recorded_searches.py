@@ -5,6 +5,7 @@ import pytest
 from fitter import pipeline
 from fitter.optimizer.gauss_newton import minimize_gauss_newton
 from fitter.optimizer.search import body_search
+from fitter.stages import descents
 from tests.benchmarks.recorded_searches import recorded_searches
 from tests.benchmarks.requests import suite_requests
 
@@ -29,5 +30,5 @@ def test_a_recorded_search_is_the_one_the_fit_made():
 
 def test_the_record_ends_with_its_context():
     with recorded_searches():
-        assert pipeline.body_search is not body_search
-    assert pipeline.body_search is body_search
+        assert descents.body_search is not body_search
+    assert descents.body_search is body_search

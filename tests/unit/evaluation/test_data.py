@@ -52,6 +52,13 @@ def test_the_lights_show_people_of_the_tuning_half_alone():
     assert {PEOPLE[case.person].half for case in lights} == {Half.TUNING}
 
 
+def test_people_of_both_halves_are_shown_in_loose_clothes():
+    clothed = [case for case in CASES.values() if case.series is Series.CLOTHED]
+    shown = Counter(PEOPLE[case.person].half for case in clothed)
+    assert shown == {Half.TUNING: 4, Half.REPORTING: 4}
+    assert all(case.outfit is not None for case in clothed)
+
+
 def test_the_suite_is_small_and_holds_nothing_but_its_cases():
     files = list(PICTURES_FOLDER.iterdir())
     assert sum(path.stat().st_size for path in files) <= LARGEST_SUM_BYTES
@@ -69,7 +76,19 @@ def test_pictures_are_small_and_of_the_size_their_scene_says(name):
     assert files.body_mask.shape == files.person_mask.shape == picture.size[::-1]
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize(
+    "name", [name for name, case in CASES.items() if case.series is Series.CLOTHED]
+)
+def test_loose_clothes_add_to_the_body_and_hide_it(name):
+    files = read_case(CASES[name])
+    body, person = files.body_mask, files.person_mask
+    assert (body & person).sum() / body.sum() > 0.98
+    assert person.sum() / body.sum() > 1.05
+
+
+@pytest.mark.parametrize(
+    "name", [name for name, case in CASES.items() if case.series is not Series.CLOTHED]
+)
 def test_two_renderers_agree_on_where_the_person_is(name):
     files = read_case(CASES[name])
     below_hair = (

@@ -1,7 +1,10 @@
+from dataclasses import replace
+
 import numpy as np
 
-from fitter.request import Cues
+from fitter.request import Cues, SurroundingsKind
 from tests.evaluation.cases import CASES, DEMO
+from tests.evaluation.light_figures import InLight, LightFigures, light_lines
 from tests.evaluation.scene import Case, Half
 from tests.evaluation.suite import Scored, resampled
 from tests.evaluation.table import MEASUREMENTS, case_lines, summary_lines, worst_lines
@@ -50,6 +53,35 @@ def test_intervals_hold_the_truth_within_their_standard_errors():
     assert "8/16  50%" in _line(scored, "truth in 68 %")
     assert "12/16  75%" in _line(scored, "truth in 95 %")
     assert "2/4  50%" in _line(scored, "  waist in 68 %")
+
+
+def test_both_descriptions_of_the_light_stand_side_by_side():
+    found = [
+        InLight(
+            surroundings=kind,
+            scored=_scored(Cues.SES, error),
+            figures=LightFigures(
+                unexplained=share,
+                unexplained_in_shadow=float("nan"),
+                skin_lit=share,
+                skin_in_shadow=share,
+                skin_hidden=share,
+            ),
+        )
+        for kind, error, share in [
+            (SurroundingsKind.UNIFORM, -3.0, 0.2),
+            (SurroundingsKind.UNIFORM, 5.0, 0.3),
+            (SurroundingsKind.SPHERICAL_HARMONICS, 1.0, 0.1),
+        ]
+    ]
+    # Of no shadow, or of one picture alone, there may be nothing to average.
+    found[2] = replace(found[2], figures=replace(found[2].figures, unexplained_in_shadow=0.07))
+    found[0] = replace(found[0], figures=replace(found[0].figures, unexplained_in_shadow=0.5))
+    lines = {line[:26].strip(): line[26:].split() for line in light_lines(found)}
+    assert lines["waist [cm]"] == ["4.00", "4.00", "1.00", "1.00"]
+    assert lines["unexplained [%]"] == ["25.00", "25.00", "10.00", "10.00"]
+    assert lines["unexplained in shadow [%]"] == ["50.00", "50.00", "7.00", "7.00"]
+    assert lines["truth in 95 %"] == ["4/8", "4/4"]
 
 
 def test_a_fit_fails_by_a_limb_that_faces_the_wrong_way():

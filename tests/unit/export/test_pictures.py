@@ -129,7 +129,9 @@ def test_rims_are_anti_aliased(ball):
 
 
 def test_png_keeps_levels_and_colour_order():
-    levels = np.random.default_rng(0).integers(0, 256, size=(20, 30, 3), dtype=np.uint8)
+    levels = np.random.default_rng(0).integers(0, 256, size=(20, 30, 4), dtype=np.uint8)
+    np.testing.assert_array_equal(decoded(png(levels))[:, :, [2, 1, 0, 3]], levels)
+    levels = levels[..., :3]
     np.testing.assert_array_equal(decoded(png(levels))[:, :, ::-1], levels)
     np.testing.assert_array_equal(decoded(png(levels[..., 0])), levels[..., 0])
     assert png(levels) == png(levels)

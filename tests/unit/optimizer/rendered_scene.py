@@ -16,6 +16,7 @@ from fitter.camera import Camera
 from fitter.energies.clicks import click_evidence
 from fitter.energies.instruments import BodyInstruments
 from fitter.energies.objective import Objective, PictureEvidence
+from fitter.energies.priors import population_prior
 from fitter.energies.scales import NEAR_BOUNDARY_ETA_M, scales_at
 from fitter.evidence.edge_cost import edge_cost_map
 from fitter.evidence.intensity import IntensityMap, intensity_map
@@ -26,6 +27,7 @@ from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
 from fitter.render.interpolation import shade_image
 from fitter.render.rasterizer import render
 from fitter.render.reflectance import shade
+from fitter.render.shadow import lamp_seen
 from fitter.request import Click, Gender
 
 CAMERA = Camera(focal_length_px=700.0, centre_x=180.0, centre_y=240.0, width=360, height=480)
@@ -62,8 +64,8 @@ class RenderedScene:
         return 1000 * float(np.linalg.norm(difference - difference.mean(axis=0), axis=1).mean())
 
 
-def rendered_scene(seed: int) -> RenderedScene:
-    """A standing man of random shape near the mean pose."""
+def rendered_scene(seed: int, light: Light = LIGHT) -> RenderedScene:
+    """A standing man of random shape near the mean pose, in ambient light or in surroundings."""
     rng = np.random.default_rng(seed)
     instruments = packaged_body(Gender.MALE).instruments
     model, evaluator = instruments.model, instruments.evaluator
@@ -82,14 +84,15 @@ def rendered_scene(seed: int) -> RenderedScene:
     values = shade(
         vertices,
         rendering.vertex_normals,
-        light=LIGHT,
+        light=light,
         body_centre=truth.translation,
         reflectance=Reflectance(
             albedo=np.full(len(vertices), 0.5),
             specularity=np.full(len(vertices), 0.08),
-            ambient=0.06,
+            ambient=0.06 if light.surroundings is None else 0.0,
             specular_exponent=12.0,
         ),
+        lit=lamp_seen(vertices, model.triangles, light=light, body_centre=truth.translation),
     )
     mask = rendering.silhouette
     luminance = np.where(mask, np.nan_to_num(shade_image(rendering, values)), 0.0)
@@ -111,6 +114,7 @@ def rendered_scene(seed: int) -> RenderedScene:
             shading=None,
         ),
         scales=scales_at(CAMERA, DEPTH_M, boundary_eta_m=2 * NEAR_BOUNDARY_ETA_M),
+        shape_prior=population_prior(n),
     )
     return RenderedScene(
         truth=truth,

@@ -19,6 +19,16 @@ test("a request says only what its kind knows", () => {
   assert.deepEqual(KINDS.animation.request(wishes), { kind: "animation" });
 });
 
+test("a texture of one's own is sent along, and needed", () => {
+  const own = { ...FIRST_WISHES, colours: "own" as const };
+  assert.match(KINDS.texture.lacks!(own)!, /Choose a texture/);
+  assert.equal(KINDS.texture.part!({ ...FIRST_WISHES, texture: new File([], "skin.png") }), null);
+  const chosen = { ...own, texture: new File([], "skin.png") };
+  assert.equal(KINDS.texture.lacks!(chosen), null);
+  assert.equal(KINDS.texture.part!(chosen)!.name, "texture");
+  assert.deepEqual(KINDS.texture.request(chosen), { kind: "texture", colours: "own" });
+});
+
 test("nothing is combined before another fit is chosen", () => {
   assert.match(KINDS.combined.lacks!(FIRST_WISHES)!, /at least one/);
   assert.equal(KINDS.combined.lacks!({ ...FIRST_WISHES, fits: ["one"] }), null);

@@ -56,6 +56,37 @@ test("a directional light is read as the way toward it", () => {
   assert.equal(body.light!.colourScale, 1.5);
 });
 
+test("light of the surroundings and the body's own shadow are read where they are told", () => {
+  const surroundings = [1, 2, 3, 4, 5, 6, 7, 8, 9];
+  const extras = { ambient: 0, specular_exponent: 12, colour_scale: 1, distance_m: 3, surroundings };
+  const attributes = { POSITION: 0, NORMAL: 0, _LIT: 1 };
+  const body = readGlb(
+    glb({
+      meshes: [{ primitives: [{ attributes, indices: 2 }] }],
+      nodes: [{ name: "light", translation: [1, 2, 3] }],
+      extensions: { KHR_lights_punctual: { lights: [{ type: "point", extras }] } },
+    }),
+  );
+  assert.deepEqual(body.light!.surroundings, surroundings);
+  assert.deepEqual([...body.lit!], [0.25, 0.5, 0.75]);
+});
+
+test("a texture is read with its places, and whether its light is in it", async () => {
+  const attributes = { POSITION: 0, NORMAL: 0, TEXCOORD_0: 1 };
+  const body = readGlb(
+    glb({
+      meshes: [{ primitives: [{ attributes, indices: 2 }] }],
+      materials: [{ extensions: { KHR_materials_unlit: {} } }],
+      images: [{ bufferView: 2, mimeType: "image/png" }],
+    }),
+  );
+  assert.deepEqual([...body.uv!], [0.25, 0.5, 0.75]);
+  assert.equal(body.unlit, true);
+  assert.equal(body.texture!.type, "image/png");
+  assert.deepEqual([...new Uint8Array(await body.texture!.arrayBuffer())], [2, 0, 1, 0, 0, 0]);
+  assert.equal(readGlb(glb({})).texture, null);
+});
+
 test("what is no GLB file is refused", () => {
   assert.throws(() => readGlb(new ArrayBuffer(40)), /no GLB/);
 });

@@ -5,6 +5,7 @@ import {
   heightFault,
   heightM,
   inUnits,
+  personInWords,
   tapeFault,
   tapeMeasurements,
   tapeTexts,
@@ -59,4 +60,10 @@ test("a tape's value that nobody has, or that is no number, is a fault and is no
   const word = { ...NOBODY, tape: { calf_girth: "thick" } };
   assert.equal(tapeFault(word), "calf_girth");
   assert.deepEqual(tapeMeasurements(word), {});
+});
+
+test("a fit is told apart by whom it shows", () => {
+  assert.equal(personInWords({ gender: "female", height_m: 1.65 }, "metric"), "Woman, 165 cm");
+  assert.equal(personInWords({ gender: "male", height_m: 1.8034 }, "imperial"), "Man, 5 ft 11 in");
+  assert.equal(personInWords({ gender: "male" }, "metric"), "Man");
 });

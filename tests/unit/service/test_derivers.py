@@ -3,16 +3,18 @@
 import io
 import json
 from dataclasses import replace
+from functools import cache
+from uuid import UUID
 
 import numpy as np
 import pytest
 from PIL import Image
 
+from api_schemas.derivation_results import DerivationResult
 from api_schemas.derivations import (
     TEXTURE_SIZES,
     DerivationKind,
     DerivationRequest,
-    DerivationResult,
     NamedPose,
 )
 from fitter.applications.fitted_person import FittedPerson
@@ -20,22 +22,31 @@ from fitter.applications.poses import NAMED_POSES, REST
 from fitter.applications.texture import SIZES
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.camera import Camera
-from fitter.parameters import BodyParameters
+from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
 from fitter.request import Gender
+from service.demo_sample import load_sample
 from service.inputs import (
     CLIP,
     IMAGE,
     OF_ITS_FIT,
     OVERLAY,
     PERSON,
+    REQUEST,
     RESULT,
     SEGMENTATION,
-    other_person,
+    TEXTURE,
+    of_other,
 )
+from service.submission import check_submission
 from service.worker.artifacts import MEDIA_TYPES, with_result_document
 from service.worker.derivers import MODULES
-from service.worker.pipeline import derive
-from service.worker.pipeline_port import DerivationInput, DerivationOutput, UnusableInputError
+from service.worker.pipeline import derive, run
+from service.worker.pipeline_port import (
+    DerivationInput,
+    DerivationOutput,
+    PipelineInput,
+    UnusableInputError,
+)
 from tests.unit.export.glb_reader import read_glb
 from tests.unit.service.fit_results import fit_result
 
@@ -65,21 +76,8 @@ def person() -> FittedPerson:
     )
 
 
-def with_certainty(**coefficients: float) -> bytes:
-    """The same person by another picture, which tells a coefficient otherwise."""
-    other = person()
-    shape = other.body.shape.copy()
-    for name, value in coefficients.items():
-        shape[int(name.removeprefix("c"))] = value
-    certain = np.diag(np.concatenate([[0.0], np.full(len(shape) - 1, 0.1)]))
-    body = replace(other.body, shape=shape)
-    return replace(other, body=body, shape_covariance=certain).to_bytes()
-
-
 INPUTS = {
-    PERSON: with_certainty(),
-    other_person(0): with_certainty(c2=1.1, c3=0.2),
-    other_person(1): with_certainty(c2=-2.0, c3=3.0),
+    PERSON: person().to_bytes(),
     RESULT: fit_result(light=None, reflectance=None).model_dump_json().encode(),
     IMAGE: png(),
     SEGMENTATION: png(66, 99, level=255),
@@ -87,18 +85,54 @@ INPUTS = {
 }
 
 
-NEEDED = {"combined": {"fits": ["0d3c1b6e-52a4-4f0e-9e37-0a4f6c2f7d10"]}}
+FITS = ("0d3c1b6e-52a4-4f0e-9e37-0a4f6c2f7d10", "a2d6a7b0-3a0b-4a7c-8f9e-5f4f0d9f5b11")
+OWN = UUID("7c9e6679-7425-40de-944b-e07fc1f90ae7")
+
+NEEDED = {"combined": {"fits": FITS[:1]}}
 """What kinds cannot do without."""
 
 
-def derived(*, clip: bytes | None = None, **request: object) -> DerivationOutput:
+@cache
+def sample_inputs() -> dict[str, bytes]:
+    """A finished fit of the sample, by silhouette and edges, and others of the same picture.
+
+    The first other one tells two coefficients a little otherwise, the second is of somebody else.
+    """
+    sample = load_sample()
+    asked = json.dumps(json.loads(sample.request) | {"cues": "SE"}).encode()
+    options = check_submission(
+        request=asked, image=sample.image, mask=None, max_pixels=1_000_000
+    ).options
+    output = run(
+        PipelineInput(options=options, image=sample.image, mask=None, max_pixels=1_000_000),
+        lambda _: None,
+    )
+    own = {
+        PERSON: output.artifacts[PERSON],
+        IMAGE: sample.image,
+        REQUEST: options.model_dump_json().encode(),
+    }
+    fitted = FittedPerson.from_bytes(own[PERSON])
+    inputs = own | {RESULT: output.result.model_dump_json().encode()}
+    for index, offset in enumerate(([0.0, 0.0, 0.1, 0.1], [0.0, 4.0, -4.0, 4.0])):
+        shape = fitted.body.shape.copy()
+        shape[: len(offset)] += offset
+        body = replace(fitted.body, shape=shape)
+        other = own | {PERSON: replace(fitted, body=body).to_bytes()}
+        inputs |= {of_other(name, index): content for name, content in other.items()}
+    return inputs
+
+
+def derived(*, files: dict[str, bytes] | None = None, **request: object) -> DerivationOutput:
     options = DerivationRequest.model_validate_json(json.dumps(request)).root
     stages: list[str] = []
+    inputs = sample_inputs() if request["kind"] == "combined" else INPUTS
     output = derive(
         DerivationInput(
             options=options,
-            inputs=INPUTS | ({} if clip is None else {CLIP: clip}),
-            max_pixels=10_000,
+            inputs=inputs | (files or {}),
+            max_pixels=1_000_000,
+            fit_id=OWN,
         ),
         lambda report: stages.append(report.stage),
     )
@@ -149,22 +183,57 @@ def test_a_named_pose_departs_where_it_is_told_to():
     assert changed == [("head", pytest.approx((0.0, 0.3, 0.0)))]
 
 
+def shape_of(inputs: dict[str, bytes], name: str = PERSON) -> np.ndarray:
+    return FittedPerson.from_bytes(inputs[name]).body.shape
+
+
 def test_the_combined_body_lies_between_those_of_the_fits():
+    inputs = sample_inputs()
     result = derived(kind="combined", **NEEDED["combined"]).result.model_dump()
+    own, other = shape_of(inputs), shape_of(inputs, of_other(PERSON, 0))
     assert result["pictures"] == 2
-    assert 0.9 < result["shape"][2] < 1.1
-    assert 0.0 < result["shape"][3] < 0.2
+    assert np.abs(np.array(result["shape"]) - 0.5 * (own + other)).max() < 0.3
     assert result["agreement"] > 0.5
     assert not result["warnings"]
     waist = next(each for each in result["measurements"] if each["name"] == "waist_girth_navel")
     assert waist["standard_error"] > 0.0
 
 
+def test_a_combined_body_stands_in_each_picture_in_its_pose():
+    output = derived(kind="combined", **NEEDED["combined"])
+    result = output.result.model_dump()
+    assert [each["number"] for each in result["bodies"]] == [1, 2]
+    assert [str(each["fit_id"]) for each in result["bodies"]] == [str(OWN), FITS[0]]
+    for each in result["bodies"]:
+        assert each["body"]["shape"] == result["shape"]
+        assert each["silhouette_overlap"] > 0.85
+        glb = read_glb(output.artifacts[f"body_posed_{each['number']}.glb"])
+        depth = -glb.attribute("POSITION")[:, 2].mean()
+        assert depth == pytest.approx(each["body"]["translation_m"][2], abs=0.2)
+        with Image.open(io.BytesIO(output.artifacts[f"overlay_{each['number']}.png"])) as overlay:
+            camera = each["image_camera"]
+            assert overlay.size == (camera["width"], camera["height"])
+
+
 def test_pictures_of_different_people_are_combined_with_a_warning_that_names_the_fit():
-    fits = [NEEDED["combined"]["fits"][0], "a2d6a7b0-3a0b-4a7c-8f9e-5f4f0d9f5b11"]
-    (warning,) = derived(kind="combined", fits=fits).result.model_dump()["warnings"]
+    (warning,) = derived(kind="combined", fits=FITS).result.model_dump()["warnings"]
     assert warning["code"] == "different-people"
-    assert fits[1] in warning["message"]
+    assert FITS[1] in warning["message"]
+    assert "in less than 0.01 % of cases" in warning["message"]
+
+
+def test_fits_that_were_told_other_heights_are_not_combined():
+    taller = json.loads(sample_inputs()[REQUEST]) | {"height_m": 1.9}
+    inputs = sample_inputs() | {of_other(REQUEST, 0): json.dumps(taller).encode()}
+    options = DerivationRequest.model_validate_json(
+        json.dumps({"kind": "combined", "fits": FITS[:1]})
+    ).root
+    with pytest.raises(UnusableInputError) as caught:
+        derive(
+            DerivationInput(options=options, inputs=inputs, max_pixels=1_000_000, fit_id=OWN),
+            lambda _: None,
+        )
+    assert caught.value.error.field == "fits.0"
 
 
 def test_a_texture_with_its_light_divided_out_needs_a_fit_with_shading():
@@ -173,13 +242,61 @@ def test_a_texture_with_its_light_divided_out_needs_a_fit_with_shading():
     assert caught.value.error.field == "colours"
 
 
+def lit_person() -> bytes:
+    vertices = len(load_body_model(packaged_model_path("female")).mean_vertices)
+    return replace(
+        person(),
+        light=Light(kind=LightKind.POINT, azimuth=0.4, elevation=0.3, distance=2.0),
+        reflectance=Reflectance(
+            albedo=np.full(vertices, 0.5),
+            specularity=np.zeros(vertices),
+            ambient=0.1,
+            specular_exponent=10.0,
+        ),
+    ).to_bytes()
+
+
+@pytest.mark.parametrize(
+    ("fitted", "extensions"),
+    [(lambda: person().to_bytes(), []), (lit_person, ["KHR_lights_punctual"])],
+    ids=["without light", "with light"],
+)
+def test_a_texture_of_one_s_own_is_albedo_in_the_light_of_the_fit(fitted, extensions):
+    painted = png(96, 96, level=131)
+    output = derived(
+        files={TEXTURE: painted, PERSON: fitted()}, kind="texture", colours="own", size=512
+    )
+    assert set(output.artifacts) == {"body_textured.glb", "texture.png", "atlas.png"}
+    result = output.result.model_dump()
+    assert (result["colours"], result["size"], result["scale"]) == ("own", 96, 1.0)
+    assert (result["seen_share"], result["mirrored_share"]) == (0.0, 0.0)
+    texture = np.asarray(Image.open(io.BytesIO(output.artifacts["texture.png"])))
+    assert texture.shape == (96, 96, 3)
+    assert set(np.unique(texture)) == {0, 131}
+    assert Image.open(io.BytesIO(output.artifacts["atlas.png"])).mode == "RGBA"
+    glb = read_glb(output.artifacts["body_textured.glb"])
+    assert glb.document.get("extensionsUsed", []) == extensions
+    view = glb.document["bufferViews"][glb.document["images"][0]["bufferView"]]
+    start = view["byteOffset"]
+    stored = glb.binary[start : start + view["byteLength"]]
+    assert stored == output.artifacts["texture.png"]
+
+
+@pytest.mark.parametrize("content", [png(96, 96)[:-40], png(96, 64), b"\x89PNG\r\n\x1a\n"])
+def test_a_texture_that_cannot_be_laid_on_the_body_is_refused_with_the_part(content):
+    with pytest.raises(UnusableInputError) as caught:
+        derived(files={TEXTURE: content}, kind="texture", colours="own")
+    assert caught.value.error.field == "texture"
+    assert caught.value.error.remedy
+
+
 def test_the_sizes_of_textures_on_the_wire_are_the_fitter_s():
     assert TEXTURE_SIZES == SIZES
 
 
 def test_a_clip_that_comes_along_is_what_moves_the_body_and_says_its_errors():
     with pytest.raises(UnusableInputError) as caught:
-        derived(clip=b"HIERARCHY\nROOT Hips\n{\n}\n", kind="animation")
+        derived(files={CLIP: b"HIERARCHY\nROOT Hips\n{\n}\n"}, kind="animation")
     assert caught.value.error.field == "bvh"
 
 

@@ -106,6 +106,7 @@ def test_checking_twice_changes_nothing():
             "two-focal-lengths",
         ),
         ({"cues": "S"}, "cues", "unknown-value"),
+        ({"clothing": "baggy"}, "clothing", "unknown-value"),
         ({"limb_facing": {"left_forearm": "up"}}, "limb_facing.left_forearm", "unknown-value"),
         ({"limb_facing": {"tail": "away"}}, "limb_facing.tail", "unknown-value"),
     ],

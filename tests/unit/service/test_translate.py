@@ -24,10 +24,11 @@ PARTS = ("pelvis", "spine")
 
 REQUEST = """{
   "gender": "female", "height_m": 1.65, "focal_length_35mm": 35, "cues": "SE",
-  "optimizer": "simplex",
+  "optimizer": "simplex", "clothing": "loose",
   "points": {"nose": [10, 20], "left_knee": {"x": 30, "y": 40, "visibility": 1},
              "left_ankle": [1, 2, 0]},
-  "light": {"kind": "directional", "azimuth_deg": 90, "elevation_deg": -45},
+  "light": {"kind": "directional", "azimuth_deg": 90, "elevation_deg": -45,
+            "surroundings": "spherical_harmonics"},
   "limb_facing": {"left_forearm": "toward"}
 }"""
 
@@ -48,6 +49,7 @@ def test_a_request_says_the_same_in_both_languages():
     assert request.focal_length_35mm == 35.0
     assert request.cues is fitter_request.Cues.SE
     assert request.optimizer is fitter_request.OptimizerKind.SIMPLEX
+    assert request.clothing is fitter_request.Clothing.LOOSE
     assert request.limb_facing == {"left_forearm": fitter_request.Facing.TOWARD}
 
 
@@ -90,6 +92,7 @@ def test_degrees_become_radians():
     assert light.azimuth == pytest.approx(math.pi / 2)
     assert light.elevation == pytest.approx(-math.pi / 4)
     assert light.distance is None
+    assert light.surroundings is fitter_request.SurroundingsKind.SPHERICAL_HARMONICS
 
 
 def test_what_the_caller_leaves_open_stays_open():
@@ -245,6 +248,19 @@ def test_a_result_says_the_same_in_both_languages():
     assert translated.limb_facing[0].facing == wire_request.Facing.AWAY
     assert translated.assumptions[0].value == 50.0
     assert translated.warnings[0].code == "a-warning"
+
+
+def test_surroundings_are_nine_coefficients_or_null():
+    uniform = translate.fit_result(result(light=POINT_LIGHT), part_names=PARTS)
+    assert uniform.light is not None
+    assert uniform.light.surroundings is None
+    surroundings = np.linspace(1.0, -0.2, 9)
+    surrounded = replace(POINT_LIGHT, surroundings=surroundings)
+    translated = translate.fit_result(result(light=surrounded), part_names=PARTS)
+    assert wire.FitResult.model_validate_json(translated.model_dump_json()) == translated
+    assert translated.light is not None
+    assert translated.light.surroundings is not None
+    np.testing.assert_allclose(translated.light.surroundings.coefficients, surroundings)
 
 
 def test_a_directional_light_has_no_distance():

@@ -40,13 +40,13 @@ export async function listDerivations(fit: Job): Promise<readonly Derivation[]> 
   return (await requestJson<DerivationPage>(`/v1/fits/${fit.id}/derivations`)).derivations;
 }
 
-/** Ask for a derivation; `motion` is the BVH file an animation goes by. */
-export function derive(fit: Job, asked: DerivationRequest, motion: File | null): Promise<Derivation> {
+/** Ask for a derivation; `part` is the file it goes by, under the name of its form part. */
+export function derive(fit: Job, asked: DerivationRequest, part: { name: string; file: File } | null): Promise<Derivation> {
   const path = `/v1/fits/${fit.id}/derivations`;
-  if (!motion) return requestJson(path, jsonBody(asked));
+  if (!part) return requestJson(path, jsonBody(asked));
   const form = new FormData();
   form.append("request", new Blob([JSON.stringify(asked)], { type: "application/json" }), "request.json");
-  form.append("bvh", motion, "motion.bvh");
+  form.append(part.name, part.file, part.file.name);
   return requestJson(path, { method: "POST", body: form });
 }
 
@@ -56,6 +56,10 @@ export function getDerivation(path: string): Promise<Derivation> {
 
 export function getDerivationResult({ links }: Derivation): Promise<DerivationResult> {
   return requestJson(links.result ?? `${links.self}/result`);
+}
+
+export function retryDerivation({ links }: Derivation): Promise<Derivation> {
+  return requestJson(`${links.self}/retry`, { method: "POST" });
 }
 
 export async function eraseDerivation({ links }: Derivation): Promise<void> {

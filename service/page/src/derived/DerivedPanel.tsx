@@ -14,7 +14,7 @@ interface Props {
 }
 
 export function DerivedPanel({ fit, hasLight }: Props) {
-  const { list, problem, start, erase } = useDerivations(fit);
+  const { list, problem, start, retry, erase } = useDerivations(fit);
   const [kind, setKind] = useState<DerivationKind>("report");
   const [wishes, wish] = useState(FIRST_WISHES);
   const [asking, setAsking] = useState(false);
@@ -41,7 +41,7 @@ export function DerivedPanel({ fit, hasLight }: Props) {
         title={lack ?? undefined}
         onClick={() => {
           setAsking(true);
-          void start(chosen.request(wishes), chosen.motion?.(wishes) ?? null).finally(() => setAsking(false));
+          void start(chosen.request(wishes), chosen.part?.(wishes) ?? null).finally(() => setAsking(false));
         }}
       >
         Make the {chosen.label.toLowerCase()}
@@ -49,7 +49,7 @@ export function DerivedPanel({ fit, hasLight }: Props) {
       {problem && <ProblemNote problem={problem} />}
       <ul class="derived">
         {list.map((each) => (
-          <Made key={each.id} made={each} onErase={() => void erase(each)} />
+          <Made key={each.id} made={each} onRetry={() => void retry(each)} onErase={() => void erase(each)} />
         ))}
       </ul>
     </section>

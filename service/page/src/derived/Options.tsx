@@ -54,19 +54,11 @@ function PoseChoice({ wishes, onWish }: Props) {
 function MotionChoice({ wishes: { motion }, onWish }: Props) {
   return (
     <div class="row">
-      <label class="button is-small">
-        {motion ? "Another BVH file" : "Choose a BVH file"}
-        <input
-          class="unseen"
-          type="file"
-          accept=".bvh"
-          onChange={(event) => {
-            const file = event.currentTarget.files?.[0];
-            event.currentTarget.value = "";
-            if (file) onWish({ motion: file });
-          }}
-        />
-      </label>
+      <FileChoice
+        label={motion ? "Another BVH file" : "Choose a BVH file"}
+        accept=".bvh"
+        onChoose={(file) => onWish({ motion: file })}
+      />
       {motion && (
         <button class="button is-small" type="button" onClick={() => onWish({ motion: null })}>
           Let it walk
@@ -81,38 +73,85 @@ function MotionChoice({ wishes: { motion }, onWish }: Props) {
   );
 }
 
+const PHOTOGRAPHED = { value: "picture", label: "As photographed", title: "With the light of the picture" } as const;
+const UNLIT = { value: "albedo", label: "Without the light", title: "The albedo: to be lit anew" } as const;
+const OWN = { value: "own", label: "My own", title: "A texture painted in the atlas’ layout" } as const;
+
 function TextureChoice({ hasLight, wishes, onWish }: Props) {
   return (
     <>
-      {hasLight ? (
-        <Choice<TextureColours>
-          name="colours"
-          legend="Colours"
-          options={[
-            { value: "picture", label: "As photographed", title: "With the light of the picture" },
-            { value: "albedo", label: "Without the light", title: "The albedo: to be lit anew" },
-          ]}
-          value={wishes.colours}
-          onChange={(colours) => onWish({ colours })}
-        />
-      ) : (
-        <p class="fine">With the light of the picture: only a fit with shading can take it out.</p>
-      )}
-      <div class="field">
-        <label for="texture-size">Size</label>
-        <select
-          id="texture-size"
-          value={wishes.size}
-          onChange={(event) => onWish({ size: Number(event.currentTarget.value) as TextureSize })}
-        >
-          {TEXTURE_SIZES.map((size) => (
-            <option key={size} value={size}>
-              {size} × {size}
-            </option>
-          ))}
-        </select>
-      </div>
+      <Choice<TextureColours>
+        name="colours"
+        legend="Colours"
+        options={hasLight ? [PHOTOGRAPHED, UNLIT, OWN] : [PHOTOGRAPHED, OWN]}
+        value={wishes.colours}
+        onChange={(colours) => onWish({ colours })}
+      />
+      {!hasLight && <p class="fine">Only a fit with shading can take the light out of the picture.</p>}
+      {wishes.colours === "own" ? <OwnTexture wishes={wishes} onWish={onWish} /> : <TextureSide wishes={wishes} onWish={onWish} />}
     </>
+  );
+}
+
+type Wished = Pick<Props, "wishes" | "onWish">;
+
+function OwnTexture({ wishes: { texture }, onWish }: Wished) {
+  return (
+    <div class="row">
+      <FileChoice
+        label={texture ? "Another texture" : "Choose a texture"}
+        accept="image/png,image/jpeg,image/webp"
+        onChoose={(file) => onWish({ texture: file })}
+      />
+      <span class="fine grow">
+        {texture
+          ? `${texture.name} is laid on the body.`
+          : "A square picture. Make a texture first: its atlas.png says where each part of the body lies."}
+      </span>
+    </div>
+  );
+}
+
+function TextureSide({ wishes, onWish }: Wished) {
+  return (
+    <div class="field">
+      <label for="texture-size">Size</label>
+      <select
+        id="texture-size"
+        value={wishes.size}
+        onChange={(event) => onWish({ size: Number(event.currentTarget.value) as TextureSize })}
+      >
+        {TEXTURE_SIZES.map((size) => (
+          <option key={size} value={size}>
+            {size} × {size}
+          </option>
+        ))}
+      </select>
+    </div>
+  );
+}
+
+interface FileChoiceProps {
+  readonly label: string;
+  readonly accept: string;
+  readonly onChoose: (file: File) => void;
+}
+
+function FileChoice({ label, accept, onChoose }: FileChoiceProps) {
+  return (
+    <label class="button is-small">
+      {label}
+      <input
+        class="unseen"
+        type="file"
+        accept={accept}
+        onChange={(event) => {
+          const file = event.currentTarget.files?.[0];
+          event.currentTarget.value = "";
+          if (file) onChoose(file);
+        }}
+      />
+    </label>
   );
 }
 

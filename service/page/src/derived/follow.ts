@@ -1,17 +1,19 @@
 // A fit's derivations, each followed to its end.
 import { useEffect, useState } from "preact/hooks";
-import { derive, eraseDerivation, getDerivation, listDerivations } from "../api/calls";
+import { derive, eraseDerivation, getDerivation, listDerivations, retryDerivation } from "../api/calls";
 import { problemFrom } from "../api/client";
 import { jobEvents } from "../api/events";
 import type { Derivation, DerivationRequest, Job, Problem } from "../api/types";
 import { isActive } from "../fit/watch";
+import type { Part } from "./kinds";
 
 export interface Derived {
   /** Newest first. */
   readonly list: readonly Derivation[];
   readonly problem: Problem | null;
   /** With the file that comes along, if any. */
-  readonly start: (asked: DerivationRequest, motion: File | null) => Promise<void>;
+  readonly start: (asked: DerivationRequest, part: Part | null) => Promise<void>;
+  readonly retry: (each: Derivation) => Promise<void>;
   readonly erase: (each: Derivation) => Promise<void>;
 }
 
@@ -30,6 +32,11 @@ export function useDerivations(fit: Job): Derived {
     put(await getDerivation(each.links.self));
   };
 
+  const begin = (begun: Derivation) => {
+    put(begun);
+    follow(begun).catch(fail);
+  };
+
   useEffect(() => {
     listDerivations(fit).then((found) => {
       setList(found);
@@ -45,12 +52,8 @@ export function useDerivations(fit: Job): Derived {
   return {
     list,
     problem,
-    start: (asked, motion) =>
-      attempt(async () => {
-        const begun = await derive(fit, asked, motion);
-        put(begun);
-        follow(begun).catch(fail);
-      }),
+    start: (asked, part) => attempt(async () => begin(await derive(fit, asked, part))),
+    retry: (each) => attempt(async () => begin(await retryDerivation(each))),
     erase: (each) =>
       attempt(async () => {
         await eraseDerivation(each);

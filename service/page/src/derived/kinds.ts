@@ -10,6 +10,8 @@ export interface Wishes {
   readonly size: TextureSize;
   /** A BVH file; without one the body walks. */
   readonly motion: File | null;
+  /** A texture of one's own, in the atlas' layout. */
+  readonly texture: File | null;
   /** Other fits of the same person, by id. */
   readonly fits: readonly string[];
 }
@@ -21,6 +23,7 @@ export const FIRST_WISHES: Wishes = {
   colours: "picture",
   size: 1024,
   motion: null,
+  texture: null,
   fits: [],
 };
 export const FACTORS = { least: 0, most: 5, step: 0.25 } as const;
@@ -49,13 +52,28 @@ export interface Shows {
   readonly caption?: string;
 }
 
-interface Kind {
+/** A file sent beside a request, by the name of its form part. */
+export interface Part {
+  readonly name: "bvh" | "texture";
+  readonly file: File;
+}
+
+/** A body among the files that can be turned here. */
+export interface Turns {
+  readonly file: string;
+  readonly label: string;
+}
+
+export interface Kind {
   readonly label: string;
   readonly help: string;
   readonly request: (wishes: Wishes) => DerivationRequest;
   readonly pictures: readonly Shows[];
+  /** Of files that come by number, how they are shown; null of those that are no pictures. */
+  readonly pictureOf?: (file: string) => Shows | null;
+  readonly turns?: Turns;
   /** A file that comes along with the request, if one was chosen. */
-  readonly motion?: (wishes: Wishes) => File | null;
+  readonly part?: (wishes: Wishes) => Part | null;
   /** What has yet to be chosen before it can be made; null if nothing has. */
   readonly lacks?: (wishes: Wishes) => string | null;
 }
@@ -79,18 +97,22 @@ export const KINDS: Readonly<Record<DerivationKind, Kind>> = {
     help: "The same body held otherwise, as a mesh.",
     request: ({ pose }) => ({ kind: "pose", pose }),
     pictures: [{ file: "pose.png", alt: "Other pose of the body" }],
+    turns: { file: "body_reposed.glb", label: "The body in this pose" },
   },
   animation: {
     label: "Animation",
     help: "The body in motion: walking, or as a BVH file of motion capture says.",
     request: () => ({ kind: "animation" }),
-    motion: ({ motion }) => motion,
+    part: ({ motion }) => motion && { name: "bvh", file: motion },
     pictures: [{ file: "animation.webp", still: "animation.png", alt: "The body in motion" }],
   },
   texture: {
     label: "Texture",
-    help: "The picture laid on the body. What it does not show is made up.",
-    request: ({ colours, size }) => ({ kind: "texture", colours, size }),
+    help: "The picture, or a texture of your own, laid on the body. What the picture does not show is made up.",
+    request: ({ colours, size }) => ({ kind: "texture", colours, ...(colours === "own" ? {} : { size }) }),
+    part: ({ colours, texture }) => (colours === "own" && texture ? { name: "texture", file: texture } : null),
+    lacks: ({ colours, texture }) => (colours === "own" && !texture ? "Choose a texture first." : null),
+    turns: { file: "body_textured.glb", label: "The textured body" },
     pictures: [
       { file: "texture.png", alt: "Texture of the body" },
       {
@@ -105,6 +127,7 @@ export const KINDS: Readonly<Record<DerivationKind, Kind>> = {
     help: "What is most unusual of this body, exaggerated; as tall as it is.",
     request: ({ factor }) => ({ kind: "caricature", factor }),
     pictures: [{ file: "caricature.png", alt: "Caricature of the body" }],
+    turns: { file: "body_caricature.glb", label: "The caricature" },
   },
   combined: {
     label: "Combined body",
@@ -112,6 +135,11 @@ export const KINDS: Readonly<Record<DerivationKind, Kind>> = {
     request: ({ fits }) => ({ kind: "combined", fits: [...fits] }),
     lacks: ({ fits }) => (fits.length === 0 ? "Choose at least one other fit of this person." : null),
     pictures: [{ file: "combined.png", alt: "Combined body beside this fit alone" }],
+    pictureOf: (file) => {
+      const number = /^overlay_(\d+)\.png$/.exec(file)?.[1];
+      return number ? { file, alt: `Combined body over picture ${number}`, caption: `In picture ${number}, as posed there` } : null;
+    },
+    turns: { file: "body_combined.glb", label: "The combined body" },
   },
 };
 

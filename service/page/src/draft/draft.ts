@@ -1,6 +1,6 @@
 // The fit that is being prepared: a few signals, and what follows from them.
 import { computed, signal } from "@preact/signals";
-import type { Cues, Facing, Limb, LightGuess, UploadedImage } from "../api/types";
+import type { Clothing, Cues, Facing, Limb, LightGuess, Surroundings, UploadedImage } from "../api/types";
 import type { PointName } from "../points/catalogue";
 import { NO_POINTS, isEnough, nextPoint } from "../points/placed";
 import type { Points } from "../points/placed";
@@ -23,6 +23,9 @@ export const person = signal<Person>(NOBODY);
 export const focalLength = signal<number | null>(null);
 /** The light shown on the ball; null leaves it to the fit. */
 export const light = signal<LightGuess | null>(null);
+/** Whether ambient light is taken as even, or as coming from everywhere by direction. */
+export const surroundings = signal<Surroundings>("uniform");
+export const clothing = signal<Clothing>("tight");
 export const facing = signal<Readonly<Partial<Record<Limb, Facing>>>>({});
 export const cues = signal<Cues>("SES");
 /** Who is the person and who is not, white on black; null leaves it to the fit. */
@@ -48,6 +51,8 @@ export function usePicture(next: Picture): void {
   facing.value = {};
   focalLength.value = null;
   light.value = null;
+  surroundings.value = "uniform";
+  clothing.value = "tight";
   seenFromBehind.value = false;
   useMask(null);
 }

@@ -1,5 +1,5 @@
 // What is known of the person, as typed; nothing typed means unknown.
-import type { Gender, KnownMeasurements } from "../api/types";
+import type { FitOptions, Gender, KnownMeasurements } from "../api/types";
 
 export interface Person {
   readonly gender: Gender | null;
@@ -128,6 +128,14 @@ export function heightTexts(height: number | null, units: Person["units"]): { he
   if (units === "metric") return { height: trimmed(height * 100, 1), inches: "" };
   const inches = Math.round((height / INCH_M) * 4) / 4;
   return { height: String(Math.floor(inches / 12)), inches: trimmed(inches % 12, 2) };
+}
+
+/** The person of a request, to tell fits apart by: "Woman, 165 cm". */
+export function personInWords(asked: Pick<FitOptions, "gender" | "height_m">, units: Person["units"]): string {
+  const who = asked.gender === "female" ? "Woman" : "Man";
+  const { height, inches } = heightTexts(asked.height_m ?? null, units);
+  if (height === "") return who;
+  return `${who}, ${units === "metric" ? `${height} cm` : `${height} ft ${inches} in`}`;
 }
 
 export function weightText(weight: number | null, units: Person["units"]): string {

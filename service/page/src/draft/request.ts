@@ -3,7 +3,7 @@ import type { FitOptions, Gender, InitialPoseRequest } from "../api/types";
 import { namedPoints } from "../points/coco";
 import type { Points } from "../points/placed";
 import { begin } from "../points/timeline";
-import { cues, facing, focalLength, light, person, picture, points, selected, timeline } from "./draft";
+import { clothing, cues, facing, focalLength, light, person, picture, points, selected, surroundings, timeline } from "./draft";
 import { NOBODY, heightM, heightTexts, tapeMeasurements, tapeTexts, weightKg, weightText } from "./person";
 import type { Person } from "./person";
 
@@ -43,6 +43,16 @@ export function draftedSubject(): Subject | null {
   return subjectOf(gender, person.value, points.value, focalLength.value, facing.value);
 }
 
+/** How the light and the outline are to be taken, and by what the body is found. */
+export function draftedChoices(): Pick<FitOptions, "cues" | "clothing" | "light"> {
+  const known = light.value !== null || surroundings.value !== "uniform";
+  return {
+    cues: cues.value,
+    clothing: clothing.value,
+    ...(known ? { light: { ...light.value, surroundings: surroundings.value } } : {}),
+  };
+}
+
 export function draftedInitialPose(subject: Subject, width: number, height: number, imageId: string | null): InitialPoseRequest {
   const where = imageId === null ? { image_size: { width, height } } : { image_id: imageId };
   return { ...subject, ...where };
@@ -65,7 +75,9 @@ export function useRequest(asked: FitOptions): void {
   focalLength.value = lensOf(asked);
   facing.value = asked.limb_facing ?? {};
   cues.value = asked.cues ?? "SES";
+  clothing.value = asked.clothing ?? "tight";
   light.value = asked.light?.azimuth_deg != null ? asked.light : null;
+  surroundings.value = asked.light?.surroundings ?? "uniform";
 }
 
 /** As on 35 mm film, whichever way it was said; null if it was not. */

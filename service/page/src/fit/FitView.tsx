@@ -5,6 +5,8 @@ import { cancelFit, getFile, getRequest } from "../api/calls";
 import { problemFrom } from "../api/client";
 import type { Job, Problem } from "../api/types";
 import { entries, forget, jobs, remember, seen, thumbnailOf } from "../history/store";
+import { person } from "../draft/draft";
+import { personInWords } from "../draft/person";
 import { openPicture } from "../draft/picture";
 import type { Picture } from "../draft/picture";
 import { openAgain } from "../panel/open";
@@ -31,8 +33,8 @@ export function FitView({ id }: { id: string }) {
     if (!image) return undefined;
     let gone = false;
     let opened: Picture | null = null;
-    getFile(image)
-      .then((file) => openPicture(file, entries.value.find((entry) => entry.id === id)?.name ?? "picture"))
+    Promise.all([getFile(image), nameOf(job)])
+      .then(([file, name]) => openPicture(file, name))
       .then((shown) => {
         opened = shown;
         if (gone) return URL.revokeObjectURL(shown.url);
@@ -55,6 +57,12 @@ export function FitView({ id }: { id: string }) {
     return <Progress job={job} picture={picture.value} onCancel={() => void cancel(job, (found) => (problem.value = found))} />;
   }
   return <Ended job={job} picture={picture.value} />;
+}
+
+/** As this browser knows it; a fit opened by its link is named by whom it shows. */
+async function nameOf(job: Job): Promise<string> {
+  const known = entries.value.find((entry) => entry.id === job.id);
+  return known?.name ?? personInWords(await getRequest(job), person.value.units);
 }
 
 async function cancel(job: Job, fail: (problem: Problem | null) => void): Promise<void> {
@@ -113,7 +121,7 @@ function Ended({ job, picture }: { job: Job; picture: Picture | null }) {
           <button
             class="button is-primary"
             type="button"
-            onClick={async () => openAgain(picture, await getRequest(job))}
+            onClick={() => openAgain(picture, job)}
           >
             Change the points and try again
           </button>

@@ -1,5 +1,5 @@
-// By what the body is found: by its outline alone, or by its shading as well.
-import { cues } from "../draft/draft";
+// By what the body is found: by its outline alone, or by its shading as well; and what covers it.
+import { clothing, cues } from "../draft/draft";
 import { Choice } from "../ui/Choice";
 
 export function EvidencePanel() {
@@ -18,7 +18,22 @@ export function EvidencePanel() {
       <p class="fine">
         {cues.value === "SES"
           ? "Shading measures better where skin, or what clings to it, is seen in one light. It takes twice as long."
-          : "For loose clothes, paintings and light from everywhere. Nothing is said of light and skin then."}
+          : "For paintings and light from everywhere. Nothing is said of light and skin then."}
+      </p>
+      <Choice
+        name="clothing"
+        legend="Clothes"
+        options={[
+          { value: "tight", label: "Close-fitting or none" },
+          { value: "loose", label: "Loose" },
+        ]}
+        value={clothing.value}
+        onChange={(value) => (clothing.value = value)}
+      />
+      <p class="fine">
+        {clothing.value === "tight"
+          ? "The outline is the body’s own."
+          : "The body is sought inside the outline, tight only where skin is seen. Intervals are wider."}
       </p>
     </div>
   );

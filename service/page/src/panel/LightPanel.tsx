@@ -1,7 +1,7 @@
 // Where the light comes from: a ball to be lit by dragging.
 import { useEffect, useRef } from "preact/hooks";
 import type { LightGuess } from "../api/types";
-import { light } from "../draft/draft";
+import { cues, light, surroundings } from "../draft/draft";
 import { Choice } from "../ui/Choice";
 import { drawBall, lightAt } from "./ball";
 
@@ -41,6 +41,25 @@ export function LightPanel() {
           )}
         </div>
       </div>
+      {cues.value === "SES" && (
+        <>
+          <Choice
+            name="surroundings"
+            legend="Light of the surroundings"
+            options={[
+              { value: "uniform", label: "Even", title: "Eq. 1 of the paper" },
+              { value: "spherical_harmonics", label: "By direction", title: "Second-order spherical harmonics" },
+            ]}
+            value={surroundings.value}
+            onChange={(kind) => (surroundings.value = kind)}
+          />
+          <p class="fine">
+            {surroundings.value === "uniform"
+              ? "One lamp or the sun, and the same faint light from everywhere."
+              : "For the sky, windows, bright walls: light from around may differ by direction."}
+          </p>
+        </>
+      )}
     </div>
   );
 }

@@ -3,9 +3,9 @@ import { useSignal } from "@preact/signals";
 import { submitFit, uploadImage } from "../api/calls";
 import { problemFrom } from "../api/client";
 import type { Problem } from "../api/types";
-import { cues, light, mask, picture, todo, uploaded } from "../draft/draft";
+import { mask, picture, todo, uploaded } from "../draft/draft";
 import { liveBody, uploadProblem } from "../draft/live";
-import { draftedSubject } from "../draft/request";
+import { draftedChoices, draftedSubject } from "../draft/request";
 import { assumed, remember, seen, thumbnailOf } from "../history/store";
 import { fitAddress, go } from "../route";
 import { ProblemNote } from "../ui/ProblemNote";
@@ -26,8 +26,7 @@ export function SubmitBar() {
       const job = await submitFit({
         ...subject,
         image_id: kept.id,
-        cues: cues.value,
-        ...(light.value ? { light: light.value } : {}),
+        ...draftedChoices(),
         ...(cut ? { mask_id: cut.id } : {}),
       });
       seen(job);

@@ -1,7 +1,8 @@
 // How a picture gets in.
 import { signal } from "@preact/signals";
-import type { FitOptions } from "../api/types";
-import { change, points, usePicture } from "../draft/draft";
+import { getFile, getRequest } from "../api/calls";
+import type { FitOptions, Job } from "../api/types";
+import { change, points, useMask, usePicture } from "../draft/draft";
 import { openPicture } from "../draft/picture";
 import type { Picture } from "../draft/picture";
 import { useRequest } from "../draft/request";
@@ -31,10 +32,15 @@ export async function trySample(name: string, withPoints: boolean): Promise<void
   change(skipRest(points.value));
 }
 
-/** A fit's picture and request, to be changed and sent again. */
-export async function openAgain(picture: Picture, asked: FitOptions): Promise<void> {
+/** A fit's picture, mask and request, to be changed and sent again. */
+export async function openAgain(picture: Picture, job: Job): Promise<void> {
+  const [asked, mask] = await Promise.all([
+    getRequest(job),
+    job.links.mask ? getFile(job.links.mask).then((file) => openPicture(file, "the mask of that fit")) : null,
+  ]);
   await openFile(picture.file, picture.name);
   useRequest(asked);
+  useMask(mask);
 }
 
 export function listenForPaste(): void {

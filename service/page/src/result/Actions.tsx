@@ -1,6 +1,6 @@
 // What can be done with a finished fit: keep its link, change it, erase it.
 import { useSignal } from "@preact/signals";
-import { eraseFit, getRequest } from "../api/calls";
+import { eraseFit } from "../api/calls";
 import { problemFrom } from "../api/client";
 import type { Job, Problem } from "../api/types";
 import type { Picture } from "../draft/picture";
@@ -57,7 +57,7 @@ export function Actions({ job, picture }: { job: Job; picture: Picture | null })
             class="button is-primary grow"
             type="button"
             disabled={!picture}
-            onClick={() => attempt(async () => openAgain(picture!, await getRequest(job)))}
+            onClick={() => attempt(async () => openAgain(picture!, job))}
           >
             Change and fit again
           </button>

@@ -67,8 +67,8 @@ export function Facts({ result, onChange }: Props) {
           <>
             <dt>Skin</dt>
             <dd>
-              albedo {reflectance.mean_albedo.toFixed(2)}, gloss {reflectance.mean_specularity.toFixed(2)}, ambient{" "}
-              {reflectance.ambient.toFixed(2)}
+              albedo {reflectance.mean_albedo.toFixed(2)}, gloss {reflectance.mean_specularity.toFixed(2)}
+              {!light?.surroundings && `, ambient ${reflectance.ambient.toFixed(2)}`}
             </dd>
           </>
         )}
@@ -92,9 +92,9 @@ export function Facts({ result, onChange }: Props) {
   );
 }
 
-function lightWords({ kind, azimuth_deg, elevation_deg, distance_m }: NonNullable<FitResult["light"]>): string {
+function lightWords({ kind, azimuth_deg, elevation_deg, distance_m, surroundings }: NonNullable<FitResult["light"]>): string {
   const across = `${Math.abs(azimuth_deg).toFixed(0)}° from the ${azimuth_deg > 0 ? "right" : "left"}`;
   const along = `${Math.abs(elevation_deg).toFixed(0)}° from ${elevation_deg > 0 ? "above" : "below"}`;
   const away = kind === "point" && distance_m !== null ? `, ${distance_m.toFixed(1)} m away` : ", far away";
-  return `${across}, ${along}${away}`;
+  return `${across}, ${along}${away}${surroundings ? "; and from the surroundings, by direction" : ""}`;
 }

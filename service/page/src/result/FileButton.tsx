@@ -34,9 +34,12 @@ export const FILE_LABELS: Readonly<Record<string, string>> = {
   "animation.png": "Moments of it, from the front and the side",
   "body_textured.glb": "The body with the texture",
   "texture.png": "The texture alone",
+  "atlas.png": "Where the texture has which part, to paint on",
   "coverage.png": "What of it was seen, mirrored, continued",
   "figure.png": "As in the paper’s Fig. 10",
   "body_combined.glb": "The body the pictures agree on, upright",
+  "body_posed_N.glb": "The combined body as posed in that picture, with its light",
+  "overlay_N.png": "The combined body over that picture",
   "combined.png": "Beside the body by this fit alone",
 };
 
@@ -58,7 +61,7 @@ export function FileButton({ name, path, bytes }: { name: string; path: string; 
         <Icon name="download" />
         <span>
           {name}
-          <small>{FILE_LABELS[name]}</small>
+          <small>{FILE_LABELS[name] ?? FILE_LABELS[name.replace(/_\d+\./, "_N.")]}</small>
         </span>
         <small>{sizeText(bytes)}</small>
       </button>

@@ -1,6 +1,5 @@
 // What came out: to look at on the left, to read on the right.
 import { useState } from "preact/hooks";
-import { getRequest } from "../api/calls";
 import type { Job } from "../api/types";
 import { DerivedPanel } from "../derived/DerivedPanel";
 import type { Picture } from "../draft/picture";
@@ -46,7 +45,7 @@ export function ResultView({ job, picture }: { job: Job; picture: Picture | null
             {files && (
               <Facts
                 result={files.result}
-                onChange={picture && (() => void getRequest(job).then((asked) => openAgain(picture, asked)))}
+                onChange={picture && (() => void openAgain(picture, job))}
               />
             )}
           </section>

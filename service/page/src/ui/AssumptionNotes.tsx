@@ -8,12 +8,16 @@ const WORDS: Readonly<Record<string, (value: number) => string>> = {
   height_m: (value) => `A height of ${(100 * value).toFixed(0)} cm`,
 };
 
+/** How the outline was taken was the caller's choice: its reason says it all. */
+const TOLD = "outline";
+
 export function AssumptionNotes({ assumptions }: { assumptions: Assumptions }) {
   return (
     <>
       {assumptions.map(({ quantity, value, reason }) => (
         <p class="note" key={quantity}>
-          {inWords(quantity, value)} is assumed. {reason}
+          {quantity !== TOLD && `${inWords(quantity, value)} is assumed. `}
+          {reason}
         </p>
       ))}
     </>

@@ -6,14 +6,6 @@ import type { GlbBody } from "./glb";
 import type { Surface } from "./surface";
 import type { TapeLines } from "./Tapes";
 
-const TURN = 0.12;
-const TURNS: Readonly<Record<string, readonly [number, number]>> = {
-  ArrowLeft: [-TURN, 0],
-  ArrowRight: [TURN, 0],
-  ArrowUp: [0, -TURN],
-  ArrowDown: [0, TURN],
-};
-
 interface Props {
   readonly posed: GlbBody;
   readonly canonical: GlbBody | null;
@@ -82,10 +74,7 @@ export function BodyCanvas(props: Props) {
       role="img"
       aria-label={turned ? "The body in 3D; arrow keys turn it" : "The body over the picture"}
       onKeyDown={(event) => {
-        const turn = TURNS[event.key];
-        if (!turn) return;
-        event.preventDefault();
-        scene.current?.turn(...turn);
+        if (scene.current?.turnBy(event.key)) event.preventDefault();
       }}
     />
   );

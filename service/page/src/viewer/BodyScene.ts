@@ -5,20 +5,20 @@ import {
   LinearFilter,
   Mesh,
   NoColorSpace,
-  PerspectiveCamera,
   Scene,
   ShaderMaterial,
   Texture,
   Vector3,
   WebGLRenderer,
 } from "three";
-import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Cues } from "../api/types";
 import type { GlbBody } from "./glb";
 import { SURFACES, surfaceMaterial } from "./surface";
 import type { Surface } from "./surface";
 import { Tapes } from "./Tapes";
 import type { TapeLines } from "./Tapes";
+import { TURNED_FOV_DEG, Turntable } from "./Turntable";
+import type { Standing } from "./Turntable";
 
 export type Placement = "picture" | "turned" | "canonical";
 
@@ -27,25 +27,19 @@ export interface PosedAndUpright {
   readonly canonical: GlbBody | null;
 }
 
-const TURNED_FOV_DEG = 30;
-const MARGIN = 1.24;
-
 interface Parts {
   readonly posed: Part;
   readonly canonical: Part | null;
 }
 
-interface Part {
+interface Part extends Standing {
   readonly mesh: Mesh<BufferGeometry, ShaderMaterial>;
-  readonly centre: Vector3;
-  readonly height: number;
 }
 
 export class BodyScene {
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
-  private readonly camera = new PerspectiveCamera(TURNED_FOV_DEG, 1, 0.02, 100);
-  private readonly controls: OrbitControls;
+  private readonly table: Turntable;
   private readonly parts: Parts;
   /** The body before shading, where it is to be compared. */
   private outlined: Parts | null = null;
@@ -75,9 +69,7 @@ export class BodyScene {
     this.parts = this.added({ posed: body, canonical: upright });
     this.tapes = new Tapes(tapes);
     this.scene.add(this.tapes.group);
-    this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.enablePan = false;
-    this.controls.addEventListener("change", () => this.draw());
+    this.table = new Turntable(canvas, () => this.draw());
     this.place("picture");
   }
 
@@ -85,10 +77,10 @@ export class BodyScene {
   place(placement: Placement): void {
     this.placement = placement;
     this.reveal();
-    this.controls.enabled = placement !== "picture";
+    this.table.enabled = placement !== "picture";
     // Over the picture there is nothing to turn, and a finger may scroll the page.
     this.renderer.domElement.style.touchAction = placement === "picture" ? "auto" : "none";
-    if (placement !== "picture") this.lookFrom(placement === "canonical" ? 0.35 : 0);
+    if (placement !== "picture") this.table.lookAt(this.shown(), placement === "canonical" ? 0.35 : 0);
     this.draw();
   }
 
@@ -127,26 +119,18 @@ export class BodyScene {
   resize(width: number, height: number): void {
     if (width === 0 || height === 0) return;
     this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / height;
+    this.table.camera.aspect = width / height;
     this.draw();
   }
 
-  /** Turn by keys, radians. */
-  turn(azimuth: number, elevation: number): void {
-    if (this.placement === "picture") return;
-    const { centre } = this.shown();
-    const offset = this.camera.position.clone().sub(centre);
-    const side = new Vector3().crossVectors(this.camera.up, offset).normalize();
-    offset.applyAxisAngle(this.camera.up, azimuth).applyAxisAngle(side, elevation);
-    if (Math.abs(offset.clone().normalize().y) > 0.98) return;
-    this.camera.position.copy(centre).add(offset);
-    this.controls.update();
-    this.draw();
+  /** Turn by an arrow key; false of any other key, and over the picture. */
+  turnBy(key: string): boolean {
+    return this.placement !== "picture" && this.table.turnBy(key);
   }
 
   dispose(): void {
     cancelAnimationFrame(this.scheduled);
-    this.controls.dispose();
+    this.table.dispose();
     this.texture.dispose();
     this.tapes.dispose();
     for (const each of this.all()) {
@@ -181,17 +165,6 @@ export class BodyScene {
     this.tapes.group.visible = shown === this.parts.canonical;
   }
 
-  private lookFrom(azimuth: number): void {
-    const { centre, height } = this.shown();
-    const half = Math.tan((TURNED_FOV_DEG * Math.PI) / 360);
-    const distance = (MARGIN * height) / 2 / half;
-    this.camera.position.set(centre.x + distance * Math.sin(azimuth), centre.y, centre.z + distance * Math.cos(azimuth));
-    this.controls.target.copy(centre);
-    this.controls.minDistance = 0.2 * distance;
-    this.controls.maxDistance = 3 * distance;
-    this.controls.update();
-  }
-
   private draw(): void {
     cancelAnimationFrame(this.scheduled);
     this.scheduled = requestAnimationFrame(() => this.render());
@@ -199,18 +172,19 @@ export class BodyScene {
 
   private render(): void {
     const { mesh } = this.shown();
+    const { camera } = this.table;
     if (this.placement === "picture") this.useFittedCamera();
     else this.useFreeCamera();
-    mesh.material.uniforms.eye!.value.copy(this.camera.position);
-    this.renderer.render(this.scene, this.camera);
+    mesh.material.uniforms.eye!.value.copy(camera.position);
+    this.renderer.render(this.scene, camera);
     // What is drawn, not what is wanted: the outlined body comes later than its choice.
     const cues = this.cues === "SE" && this.outlined ? "SE" : "SES";
     this.renderer.domElement.dataset.shows = [this.placement, this.kind, cues, this.marked ?? "none"].join(" ");
   }
 
   private useFreeCamera(): void {
-    this.camera.fov = TURNED_FOV_DEG;
-    this.camera.updateProjectionMatrix();
+    this.table.camera.fov = TURNED_FOV_DEG;
+    this.table.camera.updateProjectionMatrix();
   }
 
   /** The pinhole of the fit: at the origin, along -z, its centre where the picture's is. */
@@ -219,10 +193,11 @@ export class BodyScene {
     if (!camera) return;
     const near = 0.02;
     const far = 100;
-    this.camera.position.set(0, 0, 0);
-    this.camera.quaternion.identity();
-    this.camera.updateMatrixWorld();
-    this.camera.projectionMatrix.makePerspective(
+    const fitted = this.table.camera;
+    fitted.position.set(0, 0, 0);
+    fitted.quaternion.identity();
+    fitted.updateMatrixWorld();
+    fitted.projectionMatrix.makePerspective(
       (-camera.cx / camera.fx) * near,
       ((camera.width - camera.cx) / camera.fx) * near,
       (camera.cy / camera.fx) * near,
@@ -230,7 +205,7 @@ export class BodyScene {
       near,
       far,
     );
-    this.camera.projectionMatrixInverse.copy(this.camera.projectionMatrix).invert();
+    fitted.projectionMatrixInverse.copy(fitted.projectionMatrix).invert();
   }
 }
 
@@ -262,6 +237,8 @@ function part(shown: GlbBody, posed: GlbBody, texture: Texture): Part {
   add("tint", scaled(shown.colours, posed.light?.colourScale ?? 1) ?? grey(0.6, 3), 3);
   add("albedo", shown.albedo ?? grey(0.6, 1), 1);
   add("specularity", shown.specularity ?? grey(0, 1), 1);
+  add("lit", shown.lit ?? grey(1, 1), 1);
+  add("posedLit", posed.lit ?? grey(1, 1), 1);
   add("shift", grey(0, 1), 1);
   geometry.setIndex(new BufferAttribute(shown.triangles, 1));
   geometry.computeBoundingBox();

@@ -15,6 +15,8 @@ export interface GlbLight {
   /** From the body's centre; 0 of a directional light. */
   readonly distance: number;
   readonly ambient: number;
+  /** Nine coefficients of what the surroundings send, in the file's axes; null of an even ambient light. */
+  readonly surroundings: readonly number[] | null;
   readonly exponent: number;
   /** By what vertex colours are to be multiplied to be albedo. */
   readonly colourScale: number;
@@ -27,6 +29,13 @@ export interface GlbBody {
   readonly colours: Float32Array | null;
   readonly albedo: Float32Array | null;
   readonly specularity: Float32Array | null;
+  /** Where the body's own shadow does not fall; null of light without known surroundings. */
+  readonly lit: Float32Array | null;
+  /** Places in the texture, from its upper left corner. */
+  readonly uv: Float32Array | null;
+  readonly texture: Blob | null;
+  /** Whether its colours have their light in them. */
+  readonly unlit: boolean;
   readonly camera: GlbCamera | null;
   readonly light: GlbLight | null;
 }
@@ -35,9 +44,19 @@ interface Document {
   accessors: { bufferView: number; componentType: number; count: number; type: string; byteOffset?: number }[];
   bufferViews: { byteOffset?: number; byteLength: number }[];
   meshes: { primitives: { attributes: Record<string, number>; indices: number }[] }[];
+  materials?: { extensions?: { KHR_materials_unlit?: object } }[];
+  images?: { bufferView: number; mimeType: string }[];
   nodes: { name?: string; translation?: [number, number, number]; rotation?: [number, number, number, number] }[];
   cameras?: { extras: Record<string, number> }[];
-  extensions?: { KHR_lights_punctual?: { lights: { type: GlbLight["kind"]; extras: Record<string, number> }[] } };
+  extensions?: { KHR_lights_punctual?: { lights: { type: GlbLight["kind"]; extras: LightExtras }[] } };
+}
+
+interface LightExtras {
+  readonly ambient: number;
+  readonly specular_exponent: number;
+  readonly colour_scale: number;
+  readonly distance_m?: number;
+  readonly surroundings?: readonly number[];
 }
 
 const MAGIC = 0x46546c67;
@@ -72,9 +91,21 @@ export function readGlb(content: ArrayBuffer): GlbBody {
     colours: floats("COLOR_0"),
     albedo: floats("_ALBEDO"),
     specularity: floats("_SPECULARITY"),
+    lit: floats("_LIT"),
+    uv: floats("TEXCOORD_0"),
+    texture: textureOf(document, content, binary),
+    unlit: document.materials?.[0]?.extensions?.KHR_materials_unlit !== undefined,
     camera: cameraOf(document),
     light: lightOf(document),
   };
+}
+
+function textureOf({ images, bufferViews }: Document, content: ArrayBuffer, binary: number): Blob | null {
+  const image = images?.[0];
+  if (!image) return null;
+  const { byteOffset = 0, byteLength } = bufferViews[image.bufferView]!;
+  const start = binary + byteOffset;
+  return new Blob([content.slice(start, start + byteLength)], { type: image.mimeType });
 }
 
 function cameraOf(document: Document): GlbCamera | null {
@@ -93,14 +124,15 @@ function lightOf(document: Document): GlbLight | null {
   const light = document.extensions?.KHR_lights_punctual?.lights[0];
   const node = document.nodes.find((each) => each.name === "light");
   if (!light || !node) return null;
-  const { ambient, specular_exponent, colour_scale, distance_m } = light.extras;
+  const { ambient, specular_exponent, colour_scale, distance_m, surroundings } = light.extras;
   return {
     kind: light.type,
     vector: node.translation ?? turnedZ(node.rotation ?? [0, 0, 0, 1]),
     distance: distance_m ?? 0,
-    ambient: ambient!,
-    exponent: specular_exponent!,
-    colourScale: colour_scale!,
+    ambient,
+    surroundings: surroundings ?? null,
+    exponent: specular_exponent,
+    colourScale: colour_scale,
   };
 }
 

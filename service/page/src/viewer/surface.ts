@@ -11,7 +11,11 @@ const VERTEX = /* glsl */ `
   in float specularity;
   in vec3 posed;
   in vec3 posedNormal;
+  in float lit;
+  in float posedLit;
   in float shift;
+  out float vLit;
+  out float vPosedLit;
   out vec3 vPosition;
   out vec3 vNormal;
   out vec3 vTint;
@@ -26,13 +30,17 @@ const VERTEX = /* glsl */ `
     vReflectance = vec2(albedo, specularity);
     vPosed = posed;
     vPosedNormal = posedNormal;
+    vLit = lit;
+    vPosedLit = posedLit;
     vShift = shift;
     gl_Position = projectionMatrix * viewMatrix * vec4(position, 1.0);
   }
 `;
 
 // r = b + a (l . n) l + s (h . n)^alpha l  (Eq. 1), l = 1 at the body's centre and falling with the
-// square of the distance; a surface turned from the light shows ambient light alone.
+// square of the distance; a surface turned from the light shows ambient light alone. Where the light of the
+// surroundings was found, r = a (E(n) + V (l . n) l) + s V (h . n)^alpha l, E in second-order spherical
+// harmonics, V = 0 in the body's own shadow.
 const FRAGMENT = /* glsl */ `
   precision highp float;
   in vec3 vPosition;
@@ -42,6 +50,10 @@ const FRAGMENT = /* glsl */ `
   in vec3 vPosed;
   in vec3 vPosedNormal;
   in float vShift;
+  in float vLit;
+  in float vPosedLit;
+  uniform bool hasSurroundings;
+  uniform float surroundings[9];
   uniform int surface;
   uniform bool isPoint;
   uniform vec3 lightVector;
@@ -64,6 +76,21 @@ const FRAGMENT = /* glsl */ `
     if (facing <= 0.0) return vec2(0.0);
     float mirror = max(dot(normalize(toLight + toEye), normal), 0.0);
     return intensity * vec2(facing, pow(mirror, exponent));
+  }
+
+  float fromSurroundings(vec3 n) {
+    float sum = 0.2820947918 * surroundings[0]
+      + 0.4886025119 * dot(vec3(surroundings[3], surroundings[1], surroundings[2]), n)
+      + 1.0925484306 * (surroundings[4] * n.x * n.y + surroundings[5] * n.y * n.z + surroundings[7] * n.x * n.z)
+      + 0.3153915653 * surroundings[6] * (3.0 * n.z * n.z - 1.0)
+      + 0.5462742153 * surroundings[8] * (n.x * n.x - n.y * n.y);
+    return max(sum, 0.0);
+  }
+
+  // What a surface of this albedo and specularity shows, given the factors of Eq. 1.
+  vec3 shaded(vec3 albedo, float specularity, vec3 normal, vec2 terms, float isLit) {
+    if (!hasSurroundings) return ambient + albedo * terms.x + specularity * terms.y;
+    return albedo * (fromSurroundings(normal) + isLit * terms.x) + specularity * isLit * terms.y;
   }
 
   vec3 encoded(vec3 linear) {
@@ -92,7 +119,7 @@ const FRAGMENT = /* glsl */ `
     if (any(lessThan(place, vec2(0.0))) || any(greaterThan(place, vec2(1.0)))) return vec3(0.35);
     float seen = dot(decoded(texture(picture, vec2(place.x, 1.0 - place.y)).rgb), vec3(0.2126, 0.7152, 0.0722));
     vec2 terms = eq1(vPosed, normal, toEye, posedLight);
-    float difference = seen - (ambient + dot(vReflectance, terms));
+    float difference = seen - shaded(vec3(vReflectance.x), vReflectance.y, normal, terms, vPosedLit).x;
     float strength = clamp(abs(difference) / 0.12, 0.0, 1.0);
     vec3 hue = difference > 0.0 ? vec3(0.80, 0.13, 0.02) : vec3(0.02, 0.18, 0.62);
     return mix(vec3(0.78), hue, strength);
@@ -115,10 +142,10 @@ const FRAGMENT = /* glsl */ `
     if (surface == 1) linear = claySurface(normal, toEye);
     else if (surface == 2) linear = vTint;
     else if (surface == 3) linear = vec3(vReflectance.y);
-    else if (surface == 4) linear = vec3(ambient + dot(vec2(0.5, 0.2), terms));
+    else if (surface == 4) linear = shaded(vec3(0.5), 0.2, normal, terms, vLit);
     else if (surface == 5) linear = residualSurface();
     else if (surface == 6) linear = changeSurface(normal, toEye);
-    else linear = ambient + vTint * terms.x + vReflectance.y * terms.y;
+    else linear = shaded(vTint, vReflectance.y, normal, terms, vLit);
     colour = vec4(encoded(linear), 1.0);
   }
 `;
@@ -138,6 +165,8 @@ export function surfaceMaterial(body: GlbBody, picture: Texture | null): ShaderM
       lightVector: { value: new Vector3(...(light?.vector ?? [0, 0, 1])) },
       posedLight: { value: new Vector3(...(light?.vector ?? [0, 0, 1])) },
       lightDistance: { value: light?.distance ?? 1 },
+      hasSurroundings: { value: light?.surroundings != null },
+      surroundings: { value: light?.surroundings ?? new Array<number>(9).fill(0) },
       ambient: { value: light?.ambient ?? 0.1 },
       exponent: { value: light?.exponent ?? 20 },
       eye: { value: new Vector3() },

@@ -1,0 +1,44 @@
+"""The outline of loose clothes: an outer bound of the body.
+
+Balan and Black ("The Naked Truth", ECCV 2008): what is observed of a clothed person is the body's
+boundary plus the ease e ≥ 0 of the clothes. With r how far the body's contour lies outside the
+observed outline, e = -r. Three things are known of it where cloth is seen with probability c:
+
+- a body outside its clothes is as unlikely as one outside a tight outline: ρ_η(r)/σ² for r > 0;
+- clothes stand off by an ease of mean μ and deviation τ, people's tailors being what they are:
+  ρ_κ(r + μ)/τ², flat beyond κ, where a skirt or a cape says nothing of the leg beneath;
+- the ease of one garment repeats itself over a length Λ.
+
+A pixel of outline therefore costs the expected negative log-likelihood
+
+    E(r) = (1 - c + c [r > 0]) ρ_η(r) / (σ² L) + c ρ_κ(r + μ) / (τ² Λ),
+
+ρ_η(x) = ½ x² / (1 + x²/η²). The bracket jumps where ρ and its slope are zero, so that E is once
+continuously differentiable. Its two terms are two rows of least squares; without cloth it is the
+tight outline's.
+"""
+
+import numpy as np
+from jaxtyping import Float
+
+from fitter.energies.scales import EnergyScales
+from fitter.numerics.robust import boundary_loss, boundary_weights
+
+Values = Float[np.ndarray, " k"]
+
+
+def bound_share(residuals: Values, cloth: Values) -> Values:
+    """1 - c + c [r > 0]: how much of the tight outline's cost is left."""
+    return np.where(residuals > 0.0, 1.0, 1.0 - cloth)
+
+
+def ease_loss(residuals: Values, scales: EnergyScales) -> Values:
+    """ρ_κ(r + μ) / (τ² Λ), nats a pixel of outline that shows cloth."""
+    loss = boundary_loss(residuals + scales.ease_mean, scales.ease_reach)
+    return loss / (scales.ease_spread**2 * scales.ease_correlation_length)
+
+
+def ease_weights(residuals: Values, scales: EnergyScales) -> Values:
+    """Weights w with w (r + μ) = the derivative of :func:`ease_loss`."""
+    weights = boundary_weights(residuals + scales.ease_mean, scales.ease_reach)
+    return weights / (scales.ease_spread**2 * scales.ease_correlation_length)

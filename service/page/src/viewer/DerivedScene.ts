@@ -1,0 +1,94 @@
+// A body by itself, to be turned: with its texture, or as clay.
+import {
+  AmbientLight,
+  BufferAttribute,
+  BufferGeometry,
+  DirectionalLight,
+  Mesh,
+  MeshBasicMaterial,
+  MeshLambertMaterial,
+  SRGBColorSpace,
+  Scene,
+  Texture,
+  Vector3,
+  WebGLRenderer,
+} from "three";
+import type { GlbBody } from "./glb";
+import { Turntable } from "./Turntable";
+
+const CLAY = 0xdfd3c5;
+/** A little from the left, so that a form that is lit shows its relief. */
+const KEY_FROM = new Vector3(-0.5, 0.6, 1);
+
+export class DerivedScene {
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly table: Turntable;
+  private readonly mesh: Mesh<BufferGeometry, MeshBasicMaterial | MeshLambertMaterial>;
+  private scheduled = 0;
+
+  constructor(canvas: HTMLCanvasElement, body: GlbBody, image: ImageBitmap | null) {
+    this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: true });
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+    this.renderer.setClearColor(0, 0);
+    canvas.style.touchAction = "none";
+    this.mesh = new Mesh(geometryOf(body), materialOf(body, image));
+    this.table = new Turntable(canvas, () => this.draw());
+    const key = new DirectionalLight(0xffffff, 2.2);
+    key.position.copy(KEY_FROM);
+    this.table.camera.add(key);
+    this.scene.add(this.mesh, this.table.camera, new AmbientLight(0xffffff, 0.9));
+    const box = this.mesh.geometry.boundingBox!;
+    this.table.lookAt({ centre: box.getCenter(new Vector3()), height: box.max.y - box.min.y }, 0);
+    this.draw();
+  }
+
+  turnBy(key: string): boolean {
+    return this.table.turnBy(key);
+  }
+
+  resize(width: number, height: number): void {
+    if (width === 0 || height === 0) return;
+    this.renderer.setSize(width, height, false);
+    this.table.camera.aspect = width / height;
+    this.table.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  dispose(): void {
+    cancelAnimationFrame(this.scheduled);
+    this.table.dispose();
+    this.mesh.geometry.dispose();
+    this.mesh.material.map?.dispose();
+    this.mesh.material.dispose();
+    this.renderer.dispose();
+  }
+
+  private draw(): void {
+    cancelAnimationFrame(this.scheduled);
+    this.scheduled = requestAnimationFrame(() => {
+      this.renderer.render(this.scene, this.table.camera);
+      this.renderer.domElement.dataset.shows = this.mesh.material.map ? "texture" : "clay";
+    });
+  }
+}
+
+function geometryOf(body: GlbBody): BufferGeometry {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(body.positions, 3));
+  geometry.setAttribute("normal", new BufferAttribute(body.normals, 3));
+  if (body.uv) geometry.setAttribute("uv", new BufferAttribute(body.uv, 2));
+  geometry.setIndex(new BufferAttribute(body.triangles, 1));
+  geometry.computeBoundingBox();
+  return geometry;
+}
+
+/** A photograph has its light in it; an albedo, and clay, need one. */
+function materialOf(body: GlbBody, image: ImageBitmap | null): MeshBasicMaterial | MeshLambertMaterial {
+  if (!image) return new MeshLambertMaterial({ color: CLAY });
+  const map = new Texture(image);
+  map.flipY = false;
+  map.colorSpace = SRGBColorSpace;
+  map.needsUpdate = true;
+  return body.unlit ? new MeshBasicMaterial({ map }) : new MeshLambertMaterial({ map });
+}

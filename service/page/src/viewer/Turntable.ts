@@ -1,0 +1,65 @@
+// A camera that walks round a body: by dragging, wheel, pinch and keys.
+import { PerspectiveCamera, Vector3 } from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+
+export const TURNED_FOV_DEG = 30;
+const MARGIN = 1.24;
+/** How near the camera may come to looking straight down or up, as a sine. */
+const STEEPEST = 0.98;
+const STEP = 0.12;
+const STEPS: Readonly<Record<string, readonly [number, number]>> = {
+  ArrowLeft: [-STEP, 0],
+  ArrowRight: [STEP, 0],
+  ArrowUp: [0, -STEP],
+  ArrowDown: [0, STEP],
+};
+
+export interface Standing {
+  readonly centre: Vector3;
+  readonly height: number;
+}
+
+export class Turntable {
+  readonly camera = new PerspectiveCamera(TURNED_FOV_DEG, 1, 0.02, 100);
+  private readonly controls: OrbitControls;
+
+  constructor(canvas: HTMLCanvasElement, onChange: () => void) {
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enablePan = false;
+    this.controls.addEventListener("change", onChange);
+  }
+
+  set enabled(enabled: boolean) {
+    this.controls.enabled = enabled;
+  }
+
+  /** The whole body, seen from so many radians to the right of its front. */
+  lookAt({ centre, height }: Standing, azimuth: number): void {
+    const half = Math.tan((TURNED_FOV_DEG * Math.PI) / 360);
+    const distance = (MARGIN * height) / 2 / half;
+    this.camera.position.set(centre.x + distance * Math.sin(azimuth), centre.y, centre.z + distance * Math.cos(azimuth));
+    this.controls.target.copy(centre);
+    this.controls.minDistance = 0.2 * distance;
+    this.controls.maxDistance = 3 * distance;
+    this.controls.update();
+  }
+
+  /** Turn by an arrow key; false of any other key. */
+  turnBy(key: string): boolean {
+    const step = STEPS[key];
+    if (!step) return false;
+    const centre = this.controls.target;
+    const offset = this.camera.position.clone().sub(centre);
+    const side = new Vector3().crossVectors(this.camera.up, offset).normalize();
+    offset.applyAxisAngle(this.camera.up, step[0]).applyAxisAngle(side, step[1]);
+    if (Math.abs(offset.clone().normalize().y) <= STEEPEST) {
+      this.camera.position.copy(centre).add(offset);
+      this.controls.update();
+    }
+    return true;
+  }
+
+  dispose(): void {
+    this.controls.dispose();
+  }
+}

@@ -1,0 +1,64 @@
+"""Fits of one person of the evaluation suite in loose clothes, said to be tight and loose."""
+
+from dataclasses import replace
+
+import pytest
+
+from fitter.pipeline import fit
+from fitter.request import Clothing, Cues
+from fitter.result import FitResult
+from tests.evaluation.cases import CASES
+from tests.evaluation.files import CaseFiles, read_case
+from tests.evaluation.suite import fit_request
+
+WAIST = "waist_girth_navel"
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(scope="module")
+def files() -> CaseFiles:
+    return read_case(CASES["clothed_woman_young_thin"])
+
+
+@pytest.fixture(scope="module")
+def fits(files: CaseFiles) -> dict[Clothing, FitResult]:
+    request = fit_request(files, Cues.SES)
+    return {clothing: fit(replace(request, clothing=clothing)) for clothing in Clothing}
+
+
+def waist(result: FitResult) -> tuple[float, float]:
+    (found,) = [each for each in result.measurements if each.name == WAIST]
+    assert found.standard_error is not None
+    return found.value, found.standard_error
+
+
+def test_the_waist_within_loose_clothes_is_nearer_to_the_truth_and_less_certain(files, fits):
+    truth = files.document["truth"][WAIST]
+    (tight, tight_error), (loose, loose_error) = (waist(fits[clothing]) for clothing in Clothing)
+    assert abs(loose - truth) < 0.7 * abs(tight - truth)
+    assert loose_error > tight_error
+
+
+def test_the_result_says_how_the_outline_was_taken(fits):
+    assumed = {
+        clothing: {each.quantity: each for each in result.assumptions}
+        for clothing, result in fits.items()
+    }
+    assert "outline" not in assumed[Clothing.TIGHT]
+    assert assumed[Clothing.LOOSE]["outline"].value == "outer bound"
+    assert "%" in assumed[Clothing.LOOSE]["outline"].reason
+
+
+def test_a_body_within_loose_clothes_is_no_poor_fit(fits):
+    result = fits[Clothing.LOOSE]
+    assert result.outcome.value == "converged"
+    assert result.silhouette_overlap > 0.9
+    assert not [warning for warning in result.warnings if warning.code == "low-silhouette-overlap"]
+
+
+def test_saying_loose_of_underwear_is_questioned_and_of_loose_clothes_is_not(fits):
+    request = fit_request(read_case(CASES["man_old_heavy_turned"]), Cues.SE)
+    doubted = fit(replace(request, clothing=Clothing.LOOSE))
+    said = [[each.code for each in result.warnings] for result in (doubted, *fits.values())]
+    assert ["clothes-not-loose" in codes for codes in said] == [True, False, False]

@@ -1,0 +1,204 @@
+"""Light from all round is found beside the lamp, and neither passes for the other."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fitter.energies.shading import explained_vertices, usable_vertices
+from fitter.optimizer.alternation import ShadedFit, fit_shading
+from fitter.optimizer.gauss_newton import minimize_gauss_newton
+from fitter.optimizer.light_solve import (
+    LightEstimate,
+    LitSurface,
+    estimate_light,
+    guessed_lights,
+    surroundings_prior,
+)
+from fitter.optimizer.light_step import with_explained_shadows
+from fitter.parameters import Light, LightKind, Reflectance
+from fitter.render.light import direction_to_light
+from fitter.render.reflectance import shade
+from fitter.render.shadow import lamp_seen
+from fitter.render.surroundings import irradiance, mean_irradiance, uniform_surroundings
+from fitter.request import LightGuess, SurroundingsKind
+from tests.unit.optimizer.rendered_scene import LIGHT, RenderedScene, rendered_scene
+from tests.unit.render.shapes import sphere
+
+# Brighter from above and from the left, in a room.
+AROUND = np.array([1.1, -0.15, 0.02, -0.12, 0.02, 0.01, -0.01, 0.0, 0.02])
+# From high up, the head and the arms cast shadows.
+SURROUNDED = replace(LIGHT, elevation=1.0, surroundings=AROUND)
+CENTRE = np.array([0.0, 0.0, 3.0])
+
+
+def degrees_between(first: Light, second: Light) -> float:
+    cosine = direction_to_light(first) @ direction_to_light(second)
+    return float(np.degrees(np.arccos(min(cosine, 1.0))))
+
+
+def test_the_priors_slopes_are_those_of_finite_differences():
+    step = 1e-6
+    numeric = [
+        (surroundings_prior(AROUND + h)[0] - surroundings_prior(AROUND - h)[0]) / (2 * step)
+        for h in step * np.eye(9)
+    ]
+    np.testing.assert_allclose(surroundings_prior(AROUND)[1], np.array(numeric).T, atol=1e-6)
+    # Brighter surroundings are as uneven as before.
+    np.testing.assert_allclose(surroundings_prior(3.0 * AROUND)[0], surroundings_prior(AROUND)[0])
+
+
+@pytest.mark.parametrize("kind", list(LightKind))
+def test_lamp_and_surroundings_of_a_sphere_are_found(kind):
+    lamp = replace(LIGHT, kind=kind, distance=2.5 if kind is LightKind.POINT else np.inf)
+    true = replace(lamp, surroundings=AROUND)
+    points, _ = sphere(0.5, tuple(CENTRE))
+    normals = (points - CENTRE) / 0.5
+    seen = normals[:, 2] < -0.2
+    points, normals = points[seen], normals[seen]
+    count = len(points)
+    observed = shade(
+        points,
+        normals,
+        light=true,
+        body_centre=CENTRE,
+        reflectance=Reflectance(
+            albedo=np.full(count, 0.4),
+            specularity=np.full(count, 0.1),
+            ambient=0.0,
+            specular_exponent=12.0,
+        ),
+    )
+    surface = LitSurface(
+        positions=points,
+        normals=normals,
+        observed=observed,
+        weights=np.full(count, 1.0 / count),
+        albedo=np.ones(count),
+        specularity=np.ones(count),
+        ambient_limit=0.0,
+        body_centre=CENTRE,
+        specular_exponent=12.0,
+        eta=0.05,
+    )
+    start = LightEstimate(
+        light=replace(
+            lamp,
+            azimuth=lamp.azimuth - 0.3,
+            elevation=lamp.elevation + 0.2,
+            surroundings=uniform_surroundings(0.2),
+        ),
+        ambient=0.0,
+        albedo_scale=0.3,
+        specularity_scale=0.05,
+        energy=1.0,
+    )
+    found = estimate_light(surface, start, iterations=60)
+    assert found.light.surroundings is not None
+    assert degrees_between(found.light, true) < 3.0
+    assert found.albedo_scale == pytest.approx(0.4, rel=0.1)
+    assert found.ambient == 0.0
+    np.testing.assert_allclose(
+        irradiance(found.light.surroundings, normals), irradiance(AROUND, normals), atol=0.06
+    )
+
+
+@pytest.fixture(scope="module")
+def scene() -> RenderedScene:
+    return rendered_scene(0, SURROUNDED)
+
+
+@pytest.fixture(scope="module")
+def shaded(scene) -> ShadedFit:
+    def search(objective, parameters):
+        return minimize_gauss_newton(
+            objective, parameters, max_evaluations=20, on_energies=lambda _: None
+        )
+
+    found = fit_shading(
+        scene.objective,
+        scene.objective.evaluate(scene.truth),
+        scene.intensity,
+        guessed_lights(LightGuess()),
+        search=search,
+        surroundings=SurroundingsKind.SPHERICAL_HARMONICS,
+    )
+    assert found is not None
+    return found
+
+
+def known_and_shadow(scene: RenderedScene, shaded: ShadedFit) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices whose reflectance was seen, and those of them that lie in a shadow."""
+    final = shaded.minimum.candidate
+    shown = with_explained_shadows(scene.objective, final, shaded.evidence)
+    known = explained_vertices(final.rendering, shown)
+    return known, known & ~usable_vertices(final.rendering, shown)
+
+
+def test_shadows_tell_nothing_of_the_body(shaded):
+    assert shaded.evidence.lit is None
+    assert shaded.evidence.shadowed.any()
+
+
+def test_lamp_and_surroundings_of_a_body_are_found(shaded):
+    assert degrees_between(shaded.light, SURROUNDED) < 6.0
+    found = mean_irradiance(shaded.light.surroundings)
+    assert found == pytest.approx(mean_irradiance(AROUND), rel=0.35)
+    assert shaded.reflectance.ambient == 0.0
+    # More light from above than from below, and from the left than from the right.
+    toward = np.array([[0.0, -1.0, 0.0], [0.0, 1.0, 0.0]])
+    above, below = irradiance(shaded.light.surroundings, toward)
+    assert above > below
+
+
+def test_what_is_found_explains_the_picture_in_shadows_too(scene, shaded):
+    final = shaded.minimum.candidate
+    lit = lamp_seen(
+        final.vertices,
+        scene.instruments.model.triangles,
+        light=shaded.light,
+        body_centre=final.parameters.translation,
+    )
+    assert lit is not None
+    predicted = shade(
+        final.vertices,
+        final.rendering.vertex_normals,
+        light=shaded.light,
+        body_centre=final.parameters.translation,
+        reflectance=shaded.reflectance,
+        lit=lit,
+    )
+    known, shadow = known_and_shadow(scene, shaded)
+    assert shadow.sum() > 30, "this lamp casts a shadow that is seen"
+    for chosen in (known & ~shadow, shadow & (lit == 0.0)):
+        observed = scene.intensity.at(final.rendering.projected[chosen])
+        missed = np.median(np.abs(predicted[chosen] - observed))
+        assert missed < 0.05 * np.median(observed)
+
+
+def test_albedo_in_a_shadow_is_that_of_the_light(scene, shaded):
+    """The whole body has one albedo: the shadow must not look like another skin."""
+    known, shadow = known_and_shadow(scene, shaded)
+    albedo = shaded.reflectance.albedo
+    assert np.median(albedo[shadow]) == pytest.approx(np.median(albedo[known]), rel=0.15)
+
+
+def test_surroundings_leave_equation_1_as_it_was():
+    """What no caller asked for must not be felt: no field of the evidence is set."""
+    plain = rendered_scene(0)
+    found = fit_shading(
+        plain.objective,
+        plain.objective.evaluate(plain.truth),
+        plain.intensity,
+        guessed_lights(LightGuess()),
+        search=lambda objective, parameters: minimize_gauss_newton(
+            objective, parameters, max_evaluations=2, on_energies=lambda _: None
+        ),
+    )
+    assert found is not None
+    assert found.light.surroundings is None
+    assert found.evidence.lit is None
+    np.testing.assert_array_equal(
+        explained_vertices(found.minimum.candidate.rendering, found.evidence),
+        usable_vertices(found.minimum.candidate.rendering, found.evidence),
+    )

@@ -1,0 +1,56 @@
+"""What is said of requests that end otherwise than by an answer of the application."""
+
+import asyncio
+import logging
+from unittest.mock import create_autospec
+
+import pytest
+from starlette.requests import ClientDisconnect
+from starlette.types import Message, Receive, Scope, Send
+
+from service.api.figures import Figures
+from service.api.observation import Observation
+from service.engine.port import JobEngine
+
+SCOPE = {
+    "type": "http",
+    "method": "POST",
+    "path": "/v1/initial-poses",
+    "query_string": b"",
+    "headers": [],
+    "state": {},
+}
+
+
+async def nothing() -> Message:
+    return {"type": "http.disconnect"}
+
+
+def answers(error: Exception) -> list[Message]:
+    """What is sent when the application ends with an error."""
+    sent: list[Message] = []
+
+    async def application(scope: Scope, receive: Receive, send: Send) -> None:
+        raise error
+
+    async def send(message: Message) -> None:
+        sent.append(message)
+
+    observed = Observation(application, figures=Figures(create_autospec(JobEngine)))
+    asyncio.run(observed(dict(SCOPE), nothing, send))
+    return sent
+
+
+def test_who_hangs_up_while_sending_is_no_fault_of_the_service(caplog: pytest.LogCaptureFixture):
+    with caplog.at_level(logging.DEBUG, logger="service.api.observation"):
+        assert answers(ClientDisconnect()) == []
+    (line,) = caplog.records
+    assert line.levelno == logging.INFO
+    assert line.exc_info is None
+    assert "499" in str(vars(line))
+
+
+def test_a_fault_is_logged_and_answered(caplog: pytest.LogCaptureFixture):
+    sent = answers(ValueError("a fault"))
+    assert sent[0]["status"] == 500
+    assert any(record.exc_info for record in caplog.records)
