@@ -9,8 +9,9 @@ import sqlalchemy as sa
 from dbos import DBOS
 from sqlalchemy import event
 
+from service.engine.facts import read_fact, write_fact
 from service.engine.patience import patiently
-from service.engine.tables import FACTS, JOBS, METADATA
+from service.engine.tables import JOBS, METADATA
 
 BUSY_TIMEOUT_MS: Final = 30_000
 MIGRATION_LOCK: Final = 0x6D617175
@@ -88,7 +89,7 @@ def prepare_database(url: str) -> None:
             else:
                 connection.execute(sa.text("BEGIN IMMEDIATE"))
             METADATA.create_all(connection)
-            _note_schema(connection)
+            write_fact(connection, SCHEMA_FACT, SCHEMA_VERSION)
     finally:
         engine.dispose()
 
@@ -97,9 +98,7 @@ def _check_schema(engine: sa.Engine) -> None:
     if not sa.inspect(engine).has_table(JOBS.name):
         return
     with engine.connect() as connection:
-        found = connection.execute(
-            sa.select(FACTS.c.value).where(FACTS.c.name == SCHEMA_FACT)
-        ).scalar_one_or_none()
+        found = read_fact(connection, SCHEMA_FACT)
     if found != SCHEMA_VERSION:
         message = (
             f"The database was made by another version of Maquette (tables {found or '1'}, here "
@@ -107,12 +106,6 @@ def _check_schema(engine: sa.Engine) -> None:
             "new MAQUETTE_DATA_DIR or MAQUETTE_DATABASE_URL."
         )
         raise DatabaseUnusableError(message)
-
-
-def _note_schema(connection: sa.Connection) -> None:
-    known = connection.execute(sa.select(FACTS.c.name).where(FACTS.c.name == SCHEMA_FACT))
-    if known.scalar_one_or_none() is None:
-        connection.execute(sa.insert(FACTS).values(name=SCHEMA_FACT, value=SCHEMA_VERSION))
 
 
 def _check_sqlite_version() -> None:

@@ -13,6 +13,7 @@ from api_schemas.body_models import BodyModels
 from api_schemas.jobs import JobState, WebhookState
 from service.blobs import BlobStore
 from service.engine.availability import available
+from service.engine.facts import read_fact, touch_fact
 from service.engine.image_port import ImageQuota
 from service.engine.images import StoredImages
 from service.engine.liveness import WorkerWatch
@@ -20,7 +21,7 @@ from service.engine.port import EngineStatistics, EngineUnavailableError, Worker
 from service.engine.queue import APPLICATION
 from service.engine.statistics import read_durations, read_outcomes
 from service.engine.sweeper import Sweeper
-from service.engine.tables import FACTS, JOBS, WORKERS
+from service.engine.tables import JOBS, WORKERS
 from service.engine.tenant_jobs import DbosTenantJobs
 
 LOG: Final = logging.getLogger(__name__)
@@ -159,18 +160,15 @@ class DbosJobEngine:
     @available
     def body_models(self) -> BodyModels | None:
         """Return what the worker that last started can fit; None before any did."""
-        query = sa.select(FACTS.c.value).where(FACTS.c.name == BODY_MODELS_FACT)
         with self._database.connect() as connection:
-            value = connection.execute(query).scalar_one_or_none()
+            value = read_fact(connection, BODY_MODELS_FACT)
         return None if value is None else BodyModels.model_validate_json(value)
 
     @available
     def check_writable(self) -> None:
         """Raise :class:`EngineUnavailableError` if the database cannot be written."""
         with self._database.begin() as connection:
-            connection.execute(
-                sa.update(FACTS).where(FACTS.c.name == BODY_MODELS_FACT).values(name=FACTS.c.name)
-            )
+            touch_fact(connection, BODY_MODELS_FACT)
 
     def _watch_workers(self) -> None:
         while not self._stopped.wait(self._heartbeat_s):

@@ -16,11 +16,11 @@ from api_schemas.body_models import BodyModels
 from service.blobs import BlobStore, BlobsUnavailableError
 from service.engine.attempts import AttemptLog, result_from_json, result_to_json
 from service.engine.dbos_jobs import BODY_MODELS_FACT
+from service.engine.facts import write_fact
 from service.engine.heartbeat import Heartbeat, executions_table
 from service.engine.places import Places
 from service.engine.port import AttemptHandler, Ending
 from service.engine.queue import APPLICATION, EXECUTION_VERSION, QUEUE, WORKFLOW
-from service.engine.tables import FACTS
 from service.logs import fields, log_context
 from service.tracing import span
 
@@ -226,7 +226,4 @@ class DbosWorkerEngine:
 
     def _store_body_models(self, body_models: BodyModels) -> None:
         with self._database.begin() as connection:
-            connection.execute(sa.delete(FACTS).where(FACTS.c.name == BODY_MODELS_FACT))
-            connection.execute(
-                sa.insert(FACTS).values(name=BODY_MODELS_FACT, value=body_models.model_dump_json())
-            )
+            write_fact(connection, BODY_MODELS_FACT, body_models.model_dump_json())

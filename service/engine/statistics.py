@@ -9,11 +9,11 @@ from collections.abc import Mapping
 from typing import Final
 
 import sqlalchemy as sa
-from sqlalchemy.dialects import postgresql, sqlite
 
 from api_schemas.jobs import JobState
 from service.engine.port import FIT, DurationHistogram, JobRecord
 from service.engine.tables import DURATIONS, OUTCOMES
+from service.engine.upsert import insert_or_update
 
 BOUNDS_S: Final = (0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 5.0, 10.0, 30.0, 60.0, 300.0, 1800.0, 1e9)
 """Upper bounds of the histograms' buckets; the last one stands for infinity."""
@@ -27,7 +27,7 @@ def count_ending(connection: sa.Connection, job: JobRecord) -> None:
 
     How long derivations ran is counted by their kinds, beside the fits.
     """
-    insert = _insert(connection, OUTCOMES).values(state=job.state.value, jobs=1)
+    insert = insert_or_update(connection, OUTCOMES).values(state=job.state.value, jobs=1)
     connection.execute(
         insert.on_conflict_do_update(
             index_elements=[OUTCOMES.c.state], set_={"jobs": OUTCOMES.c.jobs + 1}
@@ -51,7 +51,7 @@ def count_durations(connection: sa.Connection, seconds: Mapping[str, float]) -> 
         # A clock that was set back makes a duration negative.
         lasted = min(max(duration, 0.0), BOUNDS_S[-1])
         bucket = BOUNDS_S[bisect.bisect_left(BOUNDS_S, lasted)]
-        insert = _insert(connection, DURATIONS).values(
+        insert = insert_or_update(connection, DURATIONS).values(
             phase=phase, bucket=bucket, jobs=1, seconds=lasted
         )
         connection.execute(
@@ -85,9 +85,3 @@ def read_durations(connection: sa.Connection) -> tuple[DurationHistogram, ...]:
         )
         for phase in sorted(counts)
     )
-
-
-def _insert(connection: sa.Connection, table: sa.Table) -> sqlite.Insert | postgresql.Insert:
-    if connection.dialect.name == "postgresql":
-        return postgresql.insert(table)
-    return sqlite.insert(table)

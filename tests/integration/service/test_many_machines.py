@@ -80,8 +80,10 @@ def same_host(pid: int, other: int) -> bool:
     return is_running(pid) and len(names) == 1
 
 
-def workers_alive(service: Service) -> int:
-    return service.client.get("/healthz/ready").json().get("workers", 0)
+def all_alive(service: Service, *workers: subprocess.Popen[bytes]) -> bool:
+    ended = [worker.returncode for worker in workers if worker.poll() is not None]
+    assert not ended, f"workers ended at their start: {ended}"
+    return service.client.get("/healthz/ready").json().get("workers", 0) == len(workers)
 
 
 def artifact(service: Service, job: dict, name: str) -> bytes:
@@ -106,8 +108,8 @@ def test_a_host_takes_over_from_one_that_is_gone(
     with contextlib.ExitStack() as stack:
         service = stack.enter_context(running_service(front, api_only=True))
         doomed = stack.enter_context(worker_on_another_host(left, "left"))
-        stack.enter_context(worker_on_another_host(right, "right"))
-        eventually(lambda: workers_alive(service) == 2, what="both workers ready")
+        other = stack.enter_context(worker_on_another_host(right, "right"))
+        eventually(lambda: all_alive(service, doomed, other), what="both workers ready")
         scripts = [
             {"seconds": SECONDS, "note_pid": str(note), "number": number} for number in range(JOBS)
         ]
