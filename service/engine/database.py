@@ -12,6 +12,7 @@ from sqlalchemy import event
 from service.engine.facts import read_fact, write_fact
 from service.engine.patience import patiently
 from service.engine.tables import JOBS, METADATA
+from service.engine.transactions import read_then_write
 
 BUSY_TIMEOUT_MS: Final = 30_000
 MIGRATION_LOCK: Final = 0x6D617175
@@ -83,11 +84,9 @@ def prepare_database(url: str) -> None:
         if engine.dialect.name == "sqlite":
             _prepare_sqlite_file(engine)
         DBOS.migrate(url)
-        with engine.begin() as connection:
+        with read_then_write(engine) as connection:
             if engine.dialect.name == "postgresql":
                 connection.execute(sa.select(sa.func.pg_advisory_xact_lock(MIGRATION_LOCK)))
-            else:
-                connection.execute(sa.text("BEGIN IMMEDIATE"))
             METADATA.create_all(connection)
             write_fact(connection, SCHEMA_FACT, SCHEMA_VERSION)
     finally:

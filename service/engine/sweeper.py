@@ -19,6 +19,7 @@ from service.engine.expiry import (
     postpone,
     take_out,
 )
+from service.engine.transactions import read_then_write
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -50,7 +51,7 @@ class Sweeper:
         """Expire and erase what is due; returns how many scopes were erased."""
         if self._clock.is_settled():
             while not self._stopped.is_set():
-                with self._database.begin() as connection:
+                with read_then_write(self._database) as connection:
                     if expire_jobs(connection) == 0:
                         break
             with self._database.begin() as connection:

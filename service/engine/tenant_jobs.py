@@ -29,6 +29,7 @@ from service.engine.port import (
 from service.engine.queue import EXECUTION_VERSION, QUEUE, WORKFLOW
 from service.engine.records import INPUTS, append_event, end_job, job_record
 from service.engine.tables import EVENTS, JOBS, SOURCES, TOMBSTONES
+from service.engine.transactions import read_then_write
 
 
 class DbosTenantJobs:
@@ -79,7 +80,7 @@ class DbosTenantJobs:
     def submit(self, job: NewJob) -> Submission:
         """Write the record and the queue entry in one transaction."""
         try:
-            with self._database.begin() as connection:
+            with read_then_write(self._database) as connection:
                 answered = self._answered(connection, job.idempotency)
                 if answered is not None:
                     return answered
@@ -217,7 +218,8 @@ class DbosTenantJobs:
     def _parents_end(self, connection: sa.Connection, sources: Collection[str]) -> float | None:
         """When the first of the fits to derive from expires; None if one is gone, or none is to be.
 
-        Their records are held until the transaction ends, so that none can be erased meanwhile.
+        Their records are held until the transaction ends, one of :func:`read_then_write`, so that
+        none can be erased meanwhile.
         """
         if self._parent is None:
             return None

@@ -17,6 +17,7 @@ from service.engine.availability import available
 from service.engine.port import JobRecord
 from service.engine.records import job_record
 from service.engine.tables import JOBS
+from service.engine.transactions import read_then_write
 
 LEASE_MARGIN_S: Final = 15.0
 """What a lease lasts beyond the time limit of an attempt."""
@@ -53,7 +54,7 @@ class WebhookLedger:
             # Mostly there is none, and SQLite is spared a transaction that writes.
             if connection.execute(due).first() is None:
                 return ()
-        with self._database.begin() as connection:
+        with read_then_write(self._database) as connection:
             ids = list(connection.execute(due.with_for_update(skip_locked=True)).scalars())
             rows = connection.execute(
                 sa.update(JOBS)
