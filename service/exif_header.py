@@ -19,6 +19,9 @@ FOCAL_LENGTH_IN_35MM_FILM: Final = 0xA405
 SHORT: Final = 3
 LONG: Final = 4
 
+MAX_ENTRIES: Final = 1_000
+"""No camera writes a tenth as many into a directory; a made-up one would keep the reader busy."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExifFacts:
@@ -48,11 +51,11 @@ def read_exif_facts(tiff: bytes) -> ExifFacts:
 
 
 def _directory(tiff: bytes, order: str, offset: int) -> Mapping[int, int]:
-    """Single SHORT and LONG values by tag, as far as the directory can be followed."""
+    """Single SHORT and LONG values by tag, as far as the directory can and need be followed."""
     values: dict[int, int] = {}
     try:
         (count,) = struct.unpack_from(f"{order}H", tiff, offset)
-        for entry in range(count):
+        for entry in range(min(count, MAX_ENTRIES)):
             position = offset + 2 + 12 * entry
             tag, kind = struct.unpack_from(f"{order}HH", tiff, position)
             if kind == SHORT:

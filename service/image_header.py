@@ -1,5 +1,8 @@
 """What a picture's header says of it, read without decoding a pixel.
 
+Of several EXIF blocks, which no container allows, one is read: the one that decoders take, the last
+of a PNG and the first of others.
+
 The API looks only this far: kind by magic bytes, size, EXIF orientation and focal length,
 animation. Decoders meet the caller's bytes in the child process alone, so this reads the three
 containers by itself.
@@ -25,6 +28,8 @@ JPEG_BARE_MARKERS = frozenset({0x01, *range(0xD0, 0xD9)})
 JPEG_SCAN = 0xDA
 JPEG_END = 0xD9
 JPEG_APP1 = 0xE1
+EXIF_MARK = b"Exif\0\0"
+PNG_START = 8
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -90,7 +95,7 @@ def _header(
 
 
 def _jpeg(content: bytes) -> ImageHeader:
-    exif = ExifFacts()
+    exif = b""
     position = 2
     for _ in range(MAX_SEGMENTS):
         if content[position] != 0xFF:
@@ -109,9 +114,10 @@ def _jpeg(content: bytes) -> ImageHeader:
         (length,) = struct.unpack_from(">H", content, position + 2)
         if marker in JPEG_FRAME_MARKERS:
             height, width = struct.unpack_from(">HH", content, position + 5)
-            return _header("image/jpeg", width, height, exif=exif, animated=False)
-        if marker == JPEG_APP1 and content[position + 4 : position + 10] == b"Exif\0\0":
-            exif = read_exif_facts(content[position + 10 : position + 2 + length])
+            facts = read_exif_facts(exif)
+            return _header("image/jpeg", width, height, exif=facts, animated=False)
+        if marker == JPEG_APP1 and content[position + 4 : position + 10] == EXIF_MARK:
+            exif = exif or content[position + 10 : position + 2 + length]
         position += 2 + length
     message = "it has no end of segments"
     raise DamagedImageError(message)
@@ -122,9 +128,9 @@ def _png(content: bytes) -> ImageHeader:
         message = "the header chunk is missing"
         raise DamagedImageError(message)
     width, height = struct.unpack_from(">II", content, 16)
-    exif = ExifFacts()
+    exif = b""
     animated = False
-    position = 8
+    position = PNG_START
     for _ in range(MAX_SEGMENTS):
         if position + 8 > len(content):
             break
@@ -133,9 +139,12 @@ def _png(content: bytes) -> ImageHeader:
         if kind == b"acTL":
             animated = True
         elif kind == b"eXIf":
-            exif = read_exif_facts(content[position + 8 : position + 8 + length])
+            exif = content[position + 8 : position + 8 + length]
+        elif kind == b"IHDR" and position > PNG_START:
+            message = "it has two header chunks"
+            raise DamagedImageError(message)
         position += 12 + length
-    return _header("image/png", width, height, exif=exif, animated=animated)
+    return _header("image/png", width, height, exif=read_exif_facts(exif), animated=animated)
 
 
 def _webp(content: bytes) -> ImageHeader:
@@ -162,11 +171,12 @@ def _webp(content: bytes) -> ImageHeader:
     animated = bool(flags & 0x02)
     width = int.from_bytes(sizes[:3], "little") + 1
     height = int.from_bytes(sizes[3:], "little") + 1
-    exif = ExifFacts()
-    for chunk, start, length in _riff_chunks(content):
-        if chunk == b"EXIF":
-            block = content[start : start + length]
-            exif = read_exif_facts(block.removeprefix(b"Exif\0\0"))
+    blocks = (
+        content[start : start + length]
+        for chunk, start, length in _riff_chunks(content)
+        if chunk == b"EXIF"
+    )
+    exif = read_exif_facts(next(blocks, b"").removeprefix(EXIF_MARK))
     return _header("image/webp", width, height, exif=exif, animated=animated)
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from fastapi import Request
+from starlette.concurrency import run_in_threadpool
 
 from api_schemas.derivations import (
     LEAST_OWN_TEXTURE,
@@ -62,16 +63,19 @@ async def read_derivation(
             accepted=f"{JSON}, {MULTIPART}",
         )
     _refuse_wrong_parts(asked, parts)
-    files = {
-        name: File(content=content, media_type=_CHECKS[name](content, max_pixels))
-        for name, content in parts.items()
-    }
-    return asked, Sent(text=text, files=files)
+    return asked, Sent(text=text, files=await run_in_threadpool(_checked, parts, max_pixels))
 
 
 def brings_texture(options: AnyDerivationOptions) -> bool:
     """Whether a texture of the caller's own is to be laid on the body."""
     return isinstance(options, TextureOptions) and options.colours is TextureColours.OWN
+
+
+def _checked(parts: Mapping[str, bytes], max_pixels: int) -> dict[str, File]:
+    return {
+        name: File(content=content, media_type=_CHECKS[name](content, max_pixels))
+        for name, content in parts.items()
+    }
 
 
 def _refuse_wrong_parts(asked: AnyDerivationOptions, parts: Mapping[str, bytes]) -> None:

@@ -1,11 +1,14 @@
 import io
+import struct
+import zlib
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image, ImageOps
 
-from service.exif_header import read_exif_facts
+from service import exif_header, image_header
+from service.exif_header import MAX_ENTRIES, read_exif_facts
 from service.image_header import DamagedImageError, UnknownImageError, read_image_header
 
 KINDS = {"JPEG": "image/jpeg", "PNG": "image/png", "WEBP": "image/webp"}
@@ -117,3 +120,76 @@ def test_a_size_of_zero_is_damage():
     content[16:20] = bytes(4)
     with pytest.raises(DamagedImageError):
         read_image_header(bytes(content))
+
+
+def png_chunk(kind: bytes, content: bytes) -> bytes:
+    check = struct.pack(">I", zlib.crc32(kind + content))
+    return struct.pack(">I", len(content)) + kind + content + check
+
+
+def turned(orientation: int) -> bytes:
+    exif = Image.Exif()
+    exif[0x0112] = orientation
+    return exif.tobytes().removeprefix(b"Exif\0\0")
+
+
+def with_exif_blocks(kind: str, *blocks: bytes) -> bytes:
+    """A picture of 40 x 30 with several EXIF blocks, one after the other."""
+    stream = io.BytesIO()
+    Image.new("RGB", (40, 30)).save(stream, kind, **({"exif": turned(1)} if kind == "WEBP" else {}))
+    content = stream.getvalue()
+    if kind == "JPEG":
+        marked = [b"Exif\0\0" + block for block in blocks]
+        segments = [b"\xff\xe1" + struct.pack(">H", 2 + len(each)) + each for each in marked]
+        return content[:2] + b"".join(segments) + content[2:]
+    if kind == "PNG":
+        start = content.index(b"IHDR") + 4 + 13 + 4
+        chunks = b"".join(png_chunk(b"eXIf", block) for block in blocks)
+        return content[:start] + chunks + content[start:]
+    picture = content[12 : content.index(b"EXIF")]
+    chunks = b"".join(b"EXIF" + struct.pack("<I", len(each)) + each for each in blocks)
+    return b"RIFF" + struct.pack("<I", 4 + len(picture) + len(chunks)) + b"WEBP" + picture + chunks
+
+
+@pytest.mark.parametrize("orientations", [(6, 1), (1, 6)])
+@pytest.mark.parametrize("kind", KINDS)
+def test_of_several_exif_blocks_the_one_is_read_that_a_decoder_takes(
+    kind, orientations, monkeypatch
+):
+    read: list[bytes] = []
+    monkeypatch.setattr(
+        image_header, "read_exif_facts", lambda block: read.append(block) or read_exif_facts(block)
+    )
+    content = with_exif_blocks(kind, *map(turned, orientations))
+    picture = Image.open(io.BytesIO(content))
+    picture.load()
+    header = read_image_header(content)
+    assert (header.width, header.height) == ImageOps.exif_transpose(picture).size
+    assert len(read) == 1
+
+
+def test_a_directory_is_read_no_further_than_any_camera_writes(monkeypatch):
+    unpacked: list[int] = []
+
+    class Counting:
+        error = struct.error
+
+        @staticmethod
+        def unpack_from(*arguments):
+            unpacked.append(1)
+            return struct.unpack_from(*arguments)
+
+    monkeypatch.setattr(exif_header, "struct", Counting)
+    entry = struct.pack("<HHIHH", 0x0112, 3, 1, 6, 0)
+    # Its pointer to a second directory leads to the first.
+    pointer = struct.pack("<HHII", 0x8769, 4, 1, 8)
+    block = b"II*\0\x08\0\0\0" + struct.pack("<H", 65_535) + pointer + entry * 65_534
+    assert read_exif_facts(block).orientation == 6
+    assert len(unpacked) < 5 * MAX_ENTRIES
+
+
+def test_a_png_with_two_header_chunks_is_damaged():
+    content = encoded("PNG", (40, 30))
+    second = png_chunk(b"IHDR", struct.pack(">IIBBBBB", 7000, 7000, 8, 2, 0, 0, 0))
+    with pytest.raises(DamagedImageError):
+        read_image_header(content[:33] + second + content[33:])
