@@ -1,30 +1,27 @@
 """From checked inputs to an accepted job: its blobs stored, its record written, its end awaited."""
 
-import contextlib
 import hashlib
 import re
 import time
-from collections.abc import Awaitable, Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Awaitable, Callable
+from functools import partial
 from typing import Annotated, Any, Final
 from uuid import uuid4
 
+from anyio import to_thread
 from fastapi import Header, Response
 from starlette.concurrency import run_in_threadpool
 
 from api_schemas.jobs import JobStanding
 from api_schemas.problems import problem
-from api_schemas.webhooks import WebhookTarget
 from service.api.context import ApiContext
+from service.api.job_inputs import Inputs, erase_at_once, store_inputs
 from service.api.problems import ProblemError, not_found
 from service.api.representation import POLL_AFTER_S, job_path
-from service.blobs import BlobsUnavailableError
 from service.engine.port import (
-    FIT,
     Idempotency,
     JobRecord,
     NewJob,
-    StoredBlob,
     Submission,
     SubmitOutcome,
     TenantJobs,
@@ -71,28 +68,6 @@ IdempotencyKey = Annotated[
 Prefer = Annotated[str | None, Header(description="`respond-async` or `wait=N`.")]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class File:
-    """Bytes to keep for a job."""
-
-    content: bytes
-    media_type: str
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Inputs:
-    """What a job of a kind is made of; ``options`` is the request as JSON.
-
-    ``sources`` are the fits, beside its own, that it has copies of.
-    """
-
-    kind: str = FIT
-    options: bytes
-    files: Mapping[str, File]
-    sources: tuple[str, ...] = ()
-    webhook: WebhookTarget | None
-
-
 async def accept(
     context: ApiContext,
     jobs: TenantJobs,
@@ -116,7 +91,10 @@ async def accept(
     if submission.outcome is SubmitOutcome.ACCEPTED:
         if check is not None:
             await check()
-        submission = await run_in_threadpool(_store, context, jobs, job_id, inputs, key)
+        submission = await to_thread.run_sync(
+            partial(_store, context, jobs, job_id, inputs, key),
+            limiter=context.copying if inputs.has_copies else None,
+        )
     return _accepted(submission)
 
 
@@ -161,40 +139,23 @@ def _store(
     inputs: Inputs,
     key: Idempotency | None,
 ) -> Submission:
-    try:
-        job = _stored(context, job_id, inputs, key)
-    except BlobsUnavailableError:
-        _erase_at_once(context, job_id)
-        raise
-    # Should the database go away before it answers, it may have said yes: the blobs stay then.
-    submission = jobs.submit(job)
-    if submission.outcome is not SubmitOutcome.ACCEPTED:
-        _erase_at_once(context, job_id)
-    return submission
-
-
-def _stored(context: ApiContext, job_id: str, inputs: Inputs, key: Idempotency | None) -> NewJob:
-    def stored(file: File) -> StoredBlob:
-        digest = context.blobs.put(job_id, file.content)
-        return StoredBlob(digest=digest, media_type=file.media_type)
-
-    return NewJob(
+    options, files = store_inputs(context, job_id, inputs)
+    job = NewJob(
         id=job_id,
         kind=inputs.kind,
-        options=stored(File(content=inputs.options, media_type="application/json")),
-        inputs={name: stored(file) for name, file in inputs.files.items()},
+        options=options,
+        inputs=files,
         sources=inputs.sources,
         idempotency=key,
         request_id=context.request_id,
         traceparent=current_traceparent(),
         webhook=inputs.webhook,
     )
-
-
-def _erase_at_once(context: ApiContext, job_id: str) -> None:
-    # If this fails too, the sweep comes to it.
-    with contextlib.suppress(BlobsUnavailableError):
-        context.blobs.erase(job_id)
+    # Should the database go away before it answers, it may have said yes: the blobs stay then.
+    submission = jobs.submit(job)
+    if submission.outcome is not SubmitOutcome.ACCEPTED:
+        erase_at_once(context, job_id)
+    return submission
 
 
 def _accepted(submission: Submission) -> JobRecord:

@@ -7,6 +7,7 @@ from collections.abc import AsyncIterator, Callable
 from contextlib import AbstractAsyncContextManager, asynccontextmanager, suppress
 from typing import Any, Final
 
+from anyio import CapacityLimiter
 from fastapi import FastAPI
 from starlette.middleware.cors import CORSMiddleware
 
@@ -34,6 +35,7 @@ from service.api.context import Parts
 from service.api.estimates import Estimates
 from service.api.event_feed import EventFeed
 from service.api.figures import Figures
+from service.api.job_inputs import COPIED_AT_ONCE
 from service.api.local_guard import LocalGuard
 from service.api.observation import Observation
 from service.api.openapi import complete_openapi
@@ -107,6 +109,7 @@ def create_app(
         feed=feed,
         figures=figures,
         draining=draining,
+        copying=CapacityLimiter(COPIED_AT_ONCE),
     )
     _surround(app, settings=settings, keys=keys, figures=figures)
     return app

@@ -4,6 +4,7 @@ import threading
 from dataclasses import dataclass
 from typing import Annotated, Final
 
+from anyio import CapacityLimiter
 from fastapi import Depends, Request
 
 from service.api.estimates import Estimates
@@ -20,7 +21,10 @@ SOLE_TENANT: Final = "default"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Parts:
-    """Settings, engine, blobs, estimates, events, figures; ``draining`` once told to stop."""
+    """Settings, engine, blobs, estimates, events, figures; ``draining`` once told to stop.
+
+    ``copying`` lets few requests at once copy what other jobs were made of.
+    """
 
     settings: Settings
     engine: JobEngine
@@ -29,6 +33,7 @@ class Parts:
     feed: EventFeed
     figures: Figures
     draining: threading.Event
+    copying: CapacityLimiter
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,6 +47,7 @@ class ApiContext:
     feed: EventFeed
     figures: Figures
     draining: threading.Event
+    copying: CapacityLimiter
     tenant: str
     jobs: TenantJobs
     images: TenantImages
@@ -59,6 +65,7 @@ def _context(request: Request) -> ApiContext:
         feed=parts.feed,
         figures=parts.figures,
         draining=parts.draining,
+        copying=parts.copying,
         tenant=tenant,
         jobs=parts.engine.of(tenant),
         images=parts.engine.images_of(tenant),

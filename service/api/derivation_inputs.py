@@ -6,13 +6,12 @@ from uuid import UUID
 from api_schemas.derivations import AnyDerivationOptions, CombinedOptions, DerivationKind
 from api_schemas.jobs import JobState
 from api_schemas.problems import FieldProblem
-from service.api.acceptance import File, Inputs
 from service.api.context import ApiContext
 from service.api.derivation_requests import brings_texture
+from service.api.job_inputs import Copy, File, Inputs
 from service.api.job_routes import find
-from service.api.problems import ProblemError, not_found
+from service.api.problems import ProblemError
 from service.api.results import no_result
-from service.blobs import BlobMissingError
 from service.engine.port import JobRecord, StoredBlob
 from service.inputs import IMAGE, OF_EACH_PICTURE, OF_ITS_FIT, PERSON, REQUEST, of_other
 from service.refusal import RefusedError, refused
@@ -21,7 +20,7 @@ from service.refusal import RefusedError, refused
 def derivation_inputs(
     context: ApiContext, fit_id: UUID, options: AnyDerivationOptions, sent: Mapping[str, File]
 ) -> Inputs:
-    """Copy what a derivation needs of its fit, and of others it names, beside what was sent.
+    """What a derivation needs of its fit, and of others it names, beside what was sent.
 
     Raises
     ------
@@ -33,16 +32,16 @@ def derivation_inputs(
         raise ProblemError(no_result(fit))
     # Who brings the colours needs none of the picture's.
     needed = (PERSON,) if brings_texture(options) else OF_ITS_FIT[DerivationKind(options.kind)]
-    files = _files_of(context, fit, needed)
+    copies = _copies_of(fit, needed)
     if isinstance(options, CombinedOptions):
-        _require_picture(files, fit_id, field="kind")
+        _require_picture(copies, fit_id, field="kind")
         for index, other in enumerate(options.fits):
             of_another = _picture_of_another(context, index, other, than=fit_id)
-            files |= {of_other(name, index): file for name, file in of_another.items()}
+            copies |= {of_other(name, index): copy for name, copy in of_another.items()}
     return Inputs(
         kind=options.kind,
         options=options.model_dump_json(exclude={"webhook"}).encode(),
-        files={**files, **sent},
+        files={**copies, **sent},
         sources=other_fits(options),
         webhook=options.webhook,
     )
@@ -53,26 +52,19 @@ def other_fits(options: AnyDerivationOptions) -> tuple[str, ...]:
     return tuple(map(str, options.fits)) if isinstance(options, CombinedOptions) else ()
 
 
-def _files_of(context: ApiContext, fit: JobRecord, needed: Collection[str]) -> dict[str, File]:
+def _copies_of(fit: JobRecord, needed: Collection[str]) -> dict[str, Copy]:
     """Copies of a fit's inputs and files, so far as it has them."""
     kept = dict(fit.inputs) | {REQUEST: fit.options}
     kept |= {
         artifact.name: StoredBlob(digest=artifact.sha256, media_type=artifact.media_type)
         for artifact in fit.artifacts
     }
-    try:
-        return {
-            name: File(content=context.blobs.get(fit.id, blob.digest), media_type=blob.media_type)
-            for name, blob in kept.items()
-            if name in needed
-        }
-    except BlobMissingError as error:
-        raise not_found(what="such fit any more") from error
+    return {name: Copy(scope=fit.id, blob=kept[name]) for name in needed if name in kept}
 
 
 def _picture_of_another(
     context: ApiContext, index: int, other: UUID, *, than: UUID
-) -> Mapping[str, File]:
+) -> Mapping[str, Copy]:
     """What a fit that a request names beside its own was made of, and its person."""
     field = f"fits.{index}"
     if other == than:
@@ -80,14 +72,14 @@ def _picture_of_another(
     record = context.jobs.job(str(other))
     if record is None or record.state is not JobState.SUCCEEDED:
         raise _unusable(field, f"The fit {other} has not succeeded here.")
-    files = _files_of(context, record, OF_EACH_PICTURE)
-    _require_picture(files, other, field=field)
-    return files
+    copies = _copies_of(record, OF_EACH_PICTURE)
+    _require_picture(copies, other, field=field)
+    return copies
 
 
-def _require_picture(files: Mapping[str, File], fit_id: UUID, *, field: str) -> None:
+def _require_picture(copies: Mapping[str, Copy], fit_id: UUID, *, field: str) -> None:
     """Refuse a fit of an earlier version, which kept less."""
-    missing = [name for name in (PERSON, IMAGE) if name not in files]
+    missing = [name for name in (PERSON, IMAGE) if name not in copies]
     if missing:
         raise refused(
             FieldProblem(

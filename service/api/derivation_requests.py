@@ -18,7 +18,7 @@ from api_schemas.derivations import (
     TextureOptions,
 )
 from api_schemas.problems import FieldProblem, problem
-from service.api.acceptance import File
+from service.api.job_inputs import File
 from service.api.json_bodies import JSON, media_type, read_json_text, unsupported
 from service.api.problems import ProblemError
 from service.api.uploads import MULTIPART, read_request_and_files

@@ -11,9 +11,7 @@ from api_schemas.jobs import Job
 from api_schemas.problems import problem
 from service.api.acceptance import (
     ACCEPTANCE_PROBLEMS,
-    File,
     IdempotencyKey,
-    Inputs,
     Prefer,
     accept,
     accepted,
@@ -22,11 +20,12 @@ from service.api.acceptance import (
 )
 from service.api.context import ApiContext, Context
 from service.api.derivation_inputs import other_fits
+from service.api.job_inputs import Copy, Inputs
 from service.api.job_routes import find
 from service.api.problems import ProblemError, documented, not_found
 from service.api.representation import represent, represent_derivation
 from service.blobs import BlobMissingError
-from service.engine.port import StoredBlob, TenantJobs
+from service.engine.port import TenantJobs
 from service.jobs import ACTIVE
 
 ROUTER: Final = APIRouter(prefix="/v1/fits")
@@ -98,20 +97,17 @@ def _inputs(context: ApiContext, jobs: TenantJobs, job_id: UUID) -> Inputs:
             )
         )
 
-    def file(blob: StoredBlob) -> File:
-        return File(content=context.blobs.get(record.id, blob.digest), media_type=blob.media_type)
-
     try:
-        options = file(record.options).content
-        return Inputs(
-            kind=record.kind,
-            options=options,
-            files={name: file(blob) for name, blob in record.inputs.items()},
-            sources=_sources(record.kind, options),
-            webhook=jobs.webhook_target(record.id),
-        )
+        options = context.blobs.get(record.id, record.options.digest)
     except BlobMissingError as error:
         raise not_found(what="such job any more") from error
+    return Inputs(
+        kind=record.kind,
+        options=options,
+        files={name: Copy(scope=record.id, blob=blob) for name, blob in record.inputs.items()},
+        sources=_sources(record.kind, options),
+        webhook=jobs.webhook_target(record.id),
+    )
 
 
 def _sources(kind: str, options: bytes) -> tuple[str, ...]:

@@ -11,9 +11,7 @@ from api_schemas.jobs import Job
 from api_schemas.requests import FitOfImage, FitOptions
 from service.api.acceptance import (
     ACCEPTANCE_PROBLEMS,
-    File,
     IdempotencyKey,
-    Inputs,
     Prefer,
     accept,
     accepted,
@@ -22,6 +20,7 @@ from service.api.acceptance import (
 )
 from service.api.context import ApiContext, Context
 from service.api.images import image_content
+from service.api.job_inputs import File, Inputs
 from service.api.json_bodies import JSON, json_content, media_type, read_json_text
 from service.api.problems import documented
 from service.api.representation import represent

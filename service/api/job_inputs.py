@@ -1,0 +1,92 @@
+"""What a job is made of, and how that comes into the job's own scope."""
+
+import contextlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Final
+
+from api_schemas.webhooks import WebhookTarget
+from service.api.context import ApiContext
+from service.api.json_bodies import JSON
+from service.api.problems import not_found
+from service.blobs import BlobMissingError, BlobsUnavailableError
+from service.engine.port import FIT, StoredBlob
+
+COPIED_AT_ONCE: Final = 2
+"""Jobs of a process whose copies are made at the same time: each holds one file in memory, and a
+request of some hundred bytes can ask for a gigabyte of them."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class File:
+    """Bytes that came with the request."""
+
+    content: bytes
+    media_type: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Copy:
+    """A blob of another job, to be copied."""
+
+    scope: str
+    blob: StoredBlob
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Inputs:
+    """What a job of a kind is made of; ``options`` is the request as JSON.
+
+    ``sources`` are the fits, beside its own, that it has copies of.
+    """
+
+    kind: str = FIT
+    options: bytes
+    files: Mapping[str, File | Copy]
+    sources: tuple[str, ...] = ()
+    webhook: WebhookTarget | None
+
+    @property
+    def has_copies(self) -> bool:
+        """Whether any of it is read from storage."""
+        return any(isinstance(each, Copy) for each in self.files.values())
+
+
+def store_inputs(
+    context: ApiContext, job_id: str, inputs: Inputs
+) -> tuple[StoredBlob, Mapping[str, StoredBlob]]:
+    """Put the request and the files into the job's scope, one after the other; all or nothing.
+
+    Raises
+    ------
+    ProblemError
+        If what is to be copied is gone.
+    BlobsUnavailableError
+        If the storage does not answer.
+    """
+    try:
+        options = context.blobs.put(job_id, inputs.options)
+        files = {name: _stored(context, job_id, file) for name, file in inputs.files.items()}
+    except Exception:
+        erase_at_once(context, job_id)
+        raise
+    return StoredBlob(digest=options, media_type=JSON), files
+
+
+def erase_at_once(context: ApiContext, job_id: str) -> None:
+    """Erase what was stored for a job that is not accepted."""
+    # If this fails too, the sweep comes to it.
+    with contextlib.suppress(BlobsUnavailableError):
+        context.blobs.erase(job_id)
+
+
+def _stored(context: ApiContext, job_id: str, file: File | Copy) -> StoredBlob:
+    if isinstance(file, File):
+        digest = context.blobs.put(job_id, file.content)
+        return StoredBlob(digest=digest, media_type=file.media_type)
+    try:
+        content = context.blobs.get(file.scope, file.blob.digest)
+    except BlobMissingError as error:
+        raise not_found(what="such job any more") from error
+    context.blobs.put(job_id, content)
+    return file.blob
