@@ -14,7 +14,7 @@ the body from outside (:mod:`fitter.energies.ease`).
 import numpy as np
 from jaxtyping import Float
 
-from fitter.energies.ease import bound_share, ease_loss, ease_weights
+from fitter.energies.ease import bound_share, common_offset, ease_loss, ease_weights
 from fitter.energies.rows import PositionRows
 from fitter.energies.scales import EnergyScales
 from fitter.evidence.correspondence_lines import CorrespondenceLines
@@ -27,8 +27,7 @@ def line_energy(rendering: Rendering, lines: CorrespondenceLines, scales: Energy
     residuals = _residuals(rendering, lines)
     share = bound_share(residuals, lines.cloth)
     loss = share * boundary_loss(residuals, scales.silhouette_eta)
-    eases = _cloth_lengths(lines) @ ease_loss(residuals, scales)
-    return float(_precisions(lines, scales) @ loss + eases)
+    return float(_precisions(lines, scales) @ loss) + _ease_energy(residuals, lines, scales)
 
 
 def line_rows(
@@ -48,14 +47,27 @@ def line_rows(
     )
     if not lines.cloth.any():
         return (bound,)
+    lengths = _cloth_lengths(lines)
+    offset = common_offset(residuals, lengths, scales)
     ease = PositionRows(
-        residuals=residuals + scales.ease_mean,
-        weights=_cloth_lengths(lines) * ease_weights(residuals, scales),
+        residuals=residuals + scales.ease_mean + offset,
+        weights=lengths * ease_weights(residuals + offset, scales),
         points=lines.points,
         derivatives=derivatives,
         of_ease=True,
     )
     return bound, ease
+
+
+def _ease_energy(
+    residuals: Float[np.ndarray, " k"], lines: CorrespondenceLines, scales: EnergyScales
+) -> float:
+    if not lines.cloth.any():
+        return 0.0
+    lengths = _cloth_lengths(lines)
+    offset = common_offset(residuals, lengths, scales)
+    prior = 0.5 * (offset / scales.ease_common_spread) ** 2
+    return float(lengths @ ease_loss(residuals + offset, scales)) + prior
 
 
 def _residuals(rendering: Rendering, lines: CorrespondenceLines) -> Float[np.ndarray, " k"]:

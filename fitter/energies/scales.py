@@ -41,6 +41,8 @@ class EnergyScales:
     ease_mean, ease_spread, ease_reach
         Mean and standard deviation of how far loose clothes stand off the body, and distance from
         the mean about which they say nothing more of it.
+    ease_common_spread
+        Standard deviation of an offset of that mean that all clothes of one person share.
     ease_correlation_length
         Pixels of outline whose ease counts once.
     pixels_per_metre
@@ -60,6 +62,7 @@ class EnergyScales:
     shading_eta: float
     ease_mean: float
     ease_spread: float
+    ease_common_spread: float
     ease_reach: float
     ease_correlation_length: float
     pixels_per_metre: float
@@ -97,6 +100,7 @@ _SHADING_NATS = 190.0
 # with the half-normal of 3 cm (mean 0) 8.0, counted once a garment 10.7.
 EASE_MEAN_M, _EASE_SPREAD_M, _EASE_REACH_M = 0.025, 0.02, 0.05
 _EASE_CORRELATION_METRES = 0.15
+_EASE_COMMON_M = 0.02
 
 
 def scales_at(camera: Camera, depth_m: float, *, boundary_eta_m: float) -> EnergyScales:
@@ -122,6 +126,7 @@ def scales_at(camera: Camera, depth_m: float, *, boundary_eta_m: float) -> Energ
         shading_eta=0.15,
         ease_mean=EASE_MEAN_M * pixels_per_metre,
         ease_spread=_EASE_SPREAD_M * pixels_per_metre,
+        ease_common_spread=_EASE_COMMON_M * pixels_per_metre,
         ease_reach=_EASE_REACH_M * pixels_per_metre,
         ease_correlation_length=_EASE_CORRELATION_METRES * pixels_per_metre,
         pixels_per_metre=pixels_per_metre,

@@ -1,44 +1,29 @@
-"""What the outline no longer says of the body once all loose clothes may be wider or tighter.
+"""What rows of ease say of the body once all loose clothes may be wider or tighter.
 
-Rows of ease r + μ (:mod:`fitter.energies.ease`) differ along the outline by the deviation τ, as if
-each length Λ of it were another garment. A person who dresses widely does so all over: with one
-offset δ ~ N(0, τ²) that every row shares, r + μ + δ, body and offset as one vector have the normal
-matrix
+Rows of ease r + μ + δ (:mod:`fitter.energies.ease`) share the offset δ ~ N(0, τ_δ²). Body and
+offset as one vector have the normal matrix
 
-    M    Jᵀw              J the rows' derivatives by the body, w their weights,
-    wᵀJ  Σ w + 1/τ²
+    JᵀWJ    Jᵀw               J the rows' derivatives by the body, w their weights, W = diag w,
+    wᵀJ     Σ w + 1/τ_δ²
 
-and marginalising the offset leaves M - (Jᵀw) (Jᵀw)ᵀ / (Σ w + 1/τ²) (Schur).
+and eliminating the offset leaves JᵀWJ - (Jᵀw) (Jᵀw)ᵀ / (Σ w + 1/τ_δ²) (Schur). With A = √W J and
+u = √w that is BᵀB of the rows
+
+    B = A - α u uᵀA,    α = (1 - √(1 - |u|² / (|u|² + 1/τ_δ²))) / |u|².
 """
 
 import numpy as np
-from jaxtyping import Float
 
-from fitter.body.tangent import linearise
-from fitter.energies.objective import Candidate, Objective
-from fitter.energies.rows import thinned
-from fitter.optimizer.normal_equations import MATRIX_ROWS, outline_rows
-from fitter.optimizer.row_jacobians import position_row_jacobian
+from fitter.energies.rows import PositionRows
+from fitter.energies.scales import EnergyScales
+from fitter.optimizer.row_jacobians import RowJacobian
 
 
-def information_lost_to_ease(
-    objective: Objective, candidate: Candidate
-) -> Float[np.ndarray, "columns columns"]:
-    """(Jᵀw) (Jᵀw)ᵀ / (Σ w + 1/τ²) over the full parameter vector, in nats.
-
-    The rows are those of the normal equations, so that the difference stays positive semidefinite.
-    Zero where no cloth is seen along the outline.
-    """
-    instruments = objective.instruments
-    frame = linearise(instruments.tangent, candidate.parameters)
-    mixed = np.zeros(candidate.parameters.pose.size + 3 + candidate.parameters.shape.size)
-    own = 1.0 / objective.scales.ease_spread**2
-    for rows in outline_rows(objective, candidate):
-        if not rows.of_ease:
-            continue
-        few = thinned(rows, MATRIX_ROWS)
-        vertices = instruments.tangent.vertices
-        body = position_row_jacobian(few, frame, vertices, candidate.vertices)
-        mixed += np.sqrt(few.weights) @ body
-        own += float(few.weights.sum())
-    return np.outer(mixed, mixed) / own
+def with_free_ease(jacobian: RowJacobian, rows: PositionRows, scales: EnergyScales) -> RowJacobian:
+    """B of rows of ease with the Jacobian A, (k, columns)."""
+    roots = np.sqrt(rows.weights)
+    own, prior = float(rows.weights.sum()), scales.ease_common_spread**-2
+    if own == 0.0:
+        return jacobian
+    share = (1.0 - np.sqrt(prior / (own + prior))) / own
+    return jacobian - share * np.outer(roots, roots @ jacobian)

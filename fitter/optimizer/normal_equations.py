@@ -24,6 +24,7 @@ from fitter.energies.rows import PositionRows, ShadingRows, thinned
 from fitter.energies.shading import shading_rows, thinned_shading
 from fitter.energies.silhouette import silhouette_rows
 from fitter.numerics.normals import add_normal_derivative
+from fitter.optimizer.ease_freedom import with_free_ease
 from fitter.optimizer.parameter_vector import as_vector
 from fitter.optimizer.row_jacobians import (
     RowJacobian,
@@ -41,8 +42,14 @@ Matrix = Float[np.ndarray, "columns columns"]
 Vector = Float[np.ndarray, " columns"]
 
 
-def normal_equations(objective: Objective, candidate: Candidate) -> tuple[Matrix, Vector]:
-    """Matrix and gradient over the full parameter vector, in nats."""
+def normal_equations(
+    objective: Objective, candidate: Candidate, *, marginal: bool = False
+) -> tuple[Matrix, Vector]:
+    """Matrix and gradient over the full parameter vector, in nats.
+
+    The matrix knows that the ease which all loose clothes share is free, where the energy takes its
+    most probable value: that of lines does. ``marginal``: where the energy holds it, too.
+    """
     instruments, evidence, scales = objective.instruments, objective.evidence, objective.scales
     rendering, parameters = candidate.rendering, candidate.parameters
     frame = linearise(instruments.tangent, parameters)
@@ -55,7 +62,10 @@ def normal_equations(objective: Objective, candidate: Candidate) -> tuple[Matrix
         scatter(rows, pull)
         few = thinned(rows, MATRIX_ROWS)
         vertices = instruments.tangent.vertices
-        jacobians.append(position_row_jacobian(few, frame, vertices, candidate.vertices))
+        jacobian = position_row_jacobian(few, frame, vertices, candidate.vertices)
+        if rows.of_ease and (marginal or evidence.lines is not None):
+            jacobian = with_free_ease(jacobian, few, scales)
+        jacobians.append(jacobian)
     for rows, support, attachments, positions in (
         (
             click_rows(candidate.landmarks, evidence.clicks, evidence.camera, scales),

@@ -6,7 +6,6 @@ from jaxtyping import Float
 from fitter.arrays import Shape
 from fitter.energies.attributes import attribute_slopes
 from fitter.energies.objective import Candidate, Objective
-from fitter.optimizer.ease_freedom import information_lost_to_ease
 from fitter.optimizer.free_space import FreeSpace, free_space, kept_directions
 from fitter.optimizer.light_freedom import information_lost_to_light
 from fitter.optimizer.normal_equations import normal_equations
@@ -23,11 +22,9 @@ def shape_covariance(
     from the picture: ``height_variance`` is the population's, given what is known, in its
     coefficient's unit; zero for a height that is known.
     """
-    matrix, _ = normal_equations(objective, candidate)
+    matrix, _ = normal_equations(objective, candidate, marginal=True)
     if objective.evidence.shading is not None:
         matrix -= information_lost_to_light(objective, candidate, objective.evidence.shading)
-    if objective.evidence.silhouette.cloth is not None:
-        matrix -= information_lost_to_ease(objective, candidate)
     space = free_space(objective.attributes.held, candidate.parameters)
     inner = space.directions.T @ matrix @ space.directions
     inverse = np.linalg.inv(inner + 1e-9 * np.eye(len(inner)))

@@ -4,21 +4,20 @@ import numpy as np
 import pytest
 
 from fitter.body.tangent import linearise
+from fitter.energies.correspondence_lines import line_energy
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.rows import PositionRows, thinned
 from fitter.evidence.silhouette_evidence import silhouette_evidence
-from fitter.optimizer import uncertainty
-from fitter.optimizer.ease_freedom import information_lost_to_ease
+from fitter.optimizer.ease_freedom import with_free_ease
 from fitter.optimizer.normal_equations import MATRIX_ROWS, normal_equations, outline_rows
 from fitter.optimizer.renewed_lines import with_lines_about
 from fitter.optimizer.row_jacobians import position_row_jacobian
 from fitter.optimizer.uncertainty import shape_covariance
+from fitter.render.rasterizer import render
 from tests.unit.optimizer.rendered_scene import rendered_scene
 
 
-def _dressed(
-    cloth: float | None, *, lines: bool = False, boundless: bool = False
-) -> tuple[Objective, Candidate]:
+def _dressed(cloth: float | None, *, lines: bool = False) -> tuple[Objective, Candidate]:
     """The body of a picture said to be cloth all over, with some probability."""
     scene = rendered_scene(1)
     mask = scene.objective.evidence.silhouette.mask
@@ -29,8 +28,6 @@ def _dressed(
             scene.objective.evidence, silhouette=silhouette_evidence(mask, cloth=of_cloth)
         ),
     )
-    if boundless:
-        objective = replace(objective, scales=replace(objective.scales, ease_reach=1e9))
     if lines:
         objective = with_lines_about(objective, scene.truth, scene.display)
     return objective, objective.evaluate(scene.truth)
@@ -40,77 +37,73 @@ def _ease_rows(objective: Objective, candidate: Candidate) -> list[PositionRows]
     return [rows for rows in outline_rows(objective, candidate) if rows.of_ease]
 
 
-@pytest.mark.parametrize("lines", [False, True])
-def test_the_covariance_is_that_of_body_and_offset_together(lines):
-    objective, candidate = _dressed(0.8, lines=lines)
-    matrix, _ = normal_equations(objective, candidate)
+def test_the_rows_are_those_of_body_and_offset_together_without_the_offset():
+    objective, candidate = _dressed(0.8, lines=True)
     frame = linearise(objective.instruments.tangent, candidate.parameters)
     vertices = objective.instruments.tangent.vertices
-    few = [thinned(rows, MATRIX_ROWS) for rows in _ease_rows(objective, candidate)]
-    assert len(few) == (1 if lines else 2)
-    body = np.vstack([position_row_jacobian(e, frame, vertices, candidate.vertices) for e in few])
-    offset = np.sqrt(np.concatenate([each.weights for each in few]))[:, None]
-    joint = np.hstack([body, offset]).T @ np.hstack([body, offset])
-    joint[:-1, :-1] = matrix
-    joint[-1, -1] += 1.0 / objective.scales.ease_spread**2
-    # The height, first of the shape, is held; the ridge is that of the covariance.
-    first = len(matrix) - len(candidate.parameters.shape)
-    free = np.delete(np.arange(len(joint)), first)
-    joint = joint[np.ix_(free, free)]
-    joint[:-1, :-1] += 1e-9 * np.eye(len(joint) - 1)
-    expected = np.linalg.inv(joint)[first:-1, first:-1]
-    found = shape_covariance(objective, candidate, height_variance=0.0)[1:, 1:]
-    np.testing.assert_allclose(found, expected, rtol=1e-6, atol=1e-9)
+    (every,) = _ease_rows(objective, candidate)
+    rows = thinned(every, MATRIX_ROWS)
+    body = position_row_jacobian(rows, frame, vertices, candidate.vertices)
+    roots, prior = np.sqrt(rows.weights), objective.scales.ease_common_spread**-2
+    together = np.hstack([body, roots[:, None]])
+    joint = together.T @ together
+    joint[-1, -1] += prior
+    expected = joint[:-1, :-1] - np.outer(joint[:-1, -1], joint[-1, :-1]) / joint[-1, -1]
+    free = with_free_ease(body, rows, objective.scales)
+    np.testing.assert_allclose(free.T @ free, expected, rtol=1e-9, atol=1e-9 * expected.max())
 
 
-def test_the_offset_pulls_as_a_mean_ease_that_is_wider():
-    objective, candidate = _dressed(1.0, boundless=True)
-    scales = objective.scales
-    wider = replace(objective, scales=replace(scales, ease_mean=scales.ease_mean + 1.0))
-    (matrix, gradient), (_, pulled) = (normal_equations(e, candidate) for e in (objective, wider))
-    weights = sum(float(rows.weights.sum()) for rows in _ease_rows(objective, candidate))
-    own = weights + 1.0 / scales.ease_spread**2
-    pull = pulled - gradient
-    # Of information in deviations of the body; few rows and the linear-blend tangent stand for all
-    # rows and the body's own derivative.
-    whitening = np.linalg.inv(np.linalg.cholesky(matrix + 1e-9 * np.eye(len(matrix))))
-    lost = whitening @ information_lost_to_ease(objective, candidate) @ whitening.T
-    expected = whitening @ pull
-    assert np.trace(lost) == pytest.approx(expected @ expected / own, rel=0.25)
-    assert expected @ lost @ expected > 0.8 * np.trace(lost) * (expected @ expected)
+def test_rows_without_weight_stay_as_they_are():
+    objective, candidate = _dressed(0.8, lines=True)
+    (rows,) = _ease_rows(objective, candidate)
+    nothing = replace(rows, weights=np.zeros_like(rows.weights))
+    jacobian = np.ones((len(rows.weights), 2))
+    np.testing.assert_array_equal(with_free_ease(jacobian, nothing, objective.scales), jacobian)
+
+
+def test_lines_push_as_the_slope_of_an_energy_whose_offset_follows():
+    objective, candidate = _dressed(1.0, lines=True)
+    lines, scales = objective.evidence.lines, objective.scales
+    assert lines is not None
+    wider = np.random.default_rng(0).normal(0.0, 1.0, candidate.vertices.shape)
+    push = sum(
+        float(((rows.weights * rows.residuals)[:, None] * along).sum())
+        for rows in outline_rows(objective, candidate)
+        for along in [np.einsum("kqi,kqi->kq", rows.derivatives, wider[rows.points])]
+    )
+    step = 1e-6
+
+    def energy(by: float) -> float:
+        vertices = candidate.vertices + by * wider
+        moved = render(vertices, objective.instruments.model.triangles, objective.evidence.camera)
+        return line_energy(moved, lines, scales)
+
+    slope = (energy(step) - energy(-step)) / (2.0 * step)
+    assert push == pytest.approx(slope, rel=1e-4)
 
 
 @pytest.mark.parametrize("lines", [False, True])
-def test_a_free_offset_takes_information_and_never_more_than_there_is(lines):
+def test_a_shape_is_less_certain_under_an_ease_that_is_not_known(lines, monkeypatch):
     objective, candidate = _dressed(1.0, lines=lines)
-    matrix, _ = normal_equations(objective, candidate)
-    lost = information_lost_to_ease(objective, candidate)
-    scale = np.sqrt(matrix.diagonal() + 1e-9)
-    of_rest = np.linalg.eigvalsh((matrix - lost) / np.outer(scale, scale))
-    assert np.trace(lost / np.outer(scale, scale)) > 0.05
-    assert of_rest.min() > -1e-9
-
-
-def test_a_shape_is_less_certain_under_an_ease_that_is_not_known(monkeypatch):
-    objective, candidate = _dressed(1.0)
-    found = shape_covariance(objective, candidate, height_variance=0.0)[1:, 1:]
-    monkeypatch.setattr(uncertainty, "information_lost_to_ease", lambda *_: 0.0)
-    known = shape_covariance(objective, candidate, height_variance=0.0)[1:, 1:]
-    gain = np.linalg.eigvalsh(found - known)
+    free = shape_covariance(objective, candidate, height_variance=0.0)
+    monkeypatch.setattr("fitter.optimizer.normal_equations.with_free_ease", lambda rows, *_: rows)
+    held = shape_covariance(objective, candidate, height_variance=0.0)
+    gain = np.linalg.eigvalsh((free - held)[1:, 1:])
     assert gain.min() > -1e-9
     assert gain.max() > 0.002
 
 
-def test_tight_clothes_have_no_offset(monkeypatch):
+def test_only_lines_let_the_ease_go_while_a_body_is_searched_for():
+    for lines in (False, True):
+        objective, candidate = _dressed(1.0, lines=lines)
+        search, _ = normal_equations(objective, candidate)
+        marginal, _ = normal_equations(objective, candidate, marginal=True)
+        assert np.array_equal(search, marginal) is lines
+
+
+def test_tight_clothes_have_no_rows_of_ease():
     objective, candidate = _dressed(None)
-    found = shape_covariance(objective, candidate, height_variance=0.3)
-    bare, seen = _dressed(0.0)
-    assert not information_lost_to_ease(bare, seen).any()
-
-    def never(*_):
-        pytest.fail("tight clothes have no ease")
-
-    monkeypatch.setattr(uncertainty, "information_lost_to_ease", never)
-    again = shape_covariance(objective, candidate, height_variance=0.3)
-    np.testing.assert_array_equal(found, again)
     assert not _ease_rows(objective, candidate)
+    matrix, _ = normal_equations(objective, candidate)
+    again, _ = normal_equations(objective, candidate, marginal=True)
+    np.testing.assert_array_equal(matrix, again)
