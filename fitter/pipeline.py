@@ -20,7 +20,7 @@ from fitter.pose_init.points import clicked_points
 from fitter.progress import Observer, Stage, ignore_progress
 from fitter.remarks import FitWarning
 from fitter.reporting import fit_warnings, limb_facings, outcome_of
-from fitter.request import Cues, FitRequest
+from fitter.request import Cues, FitRequest, SurroundingsKind
 from fitter.result import FitResult, Pictures, StageBody
 from fitter.stage_clock import StageClock
 from fitter.stages.clothing import clothing_remarks, where_bare
@@ -162,7 +162,8 @@ def fit(
         + segmentation.warnings
         + clothing_warnings
         + fit_warnings(overlap, facings)
-        + (_SHADING_MISSING if shading_missing else ()),
+        + (_SHADING_MISSING if shading_missing else ())
+        + _surroundings_missing(request, shaded),
         stage_seconds=clock.seconds,
         pictures=Pictures(
             image=observation.display,
@@ -181,6 +182,21 @@ _SHADING_MISSING = (
         ),
     ),
 )
+
+
+_SURROUNDINGS_MISSING = FitWarning(
+    code="surroundings-not-found",
+    message=(
+        "Too little bare surface is visible to tell the light from all round from the lamp: the "
+        "light is that of Eq. 1, a lamp and a constant."
+    ),
+)
+
+
+def _surroundings_missing(request: FitRequest, shaded: ShadedFit | None) -> tuple[FitWarning, ...]:
+    wanted = request.light.surroundings is SurroundingsKind.SPHERICAL_HARMONICS
+    missing = wanted and shaded is not None and shaded.light.surroundings is None
+    return (_SURROUNDINGS_MISSING,) if missing else ()
 
 
 def _stage(body: FittableBody, objective: Objective, name: str, candidate: Candidate) -> StageBody:

@@ -6,6 +6,8 @@ from numba import njit
 
 from fitter.energies._silhouette_kernels import _distance_to, _runs
 
+_FAR_REACHES = 2.0
+
 
 @no_type_check
 @njit(cache=True, fastmath=True)
@@ -17,7 +19,9 @@ def clothed_mismatch(
     ``model`` holds face ids. A pixel of the model beyond the observed region costs as
     :func:`robust_mismatch` says, times ``tight``, and the ease that its nearest cloth would have;
     a pixel of the region that the model does not cover costs the one as far as it is bare and the
-    other, times ``loose``, as far as it is cloth, which within the ``mean`` ease is a gain.
+    other, times ``loose``, as far as it is cloth, which within the ``mean`` ease is a gain. What no
+    ease explains costs ``floor`` at least: a body that has left its clothes is not the cheaper for
+    it.
     """
     runs, counts = _runs(model)
     total = 0.0
@@ -42,5 +46,7 @@ def clothed_mismatch(
             ease = beyond / (damping * damping)
             if not covered:
                 bound *= 1.0 - share
+                if beyond > _FAR_REACHES * reach and bound < floor:
+                    bound = floor
             total += confidence[i, j] * (tight * bound + loose * share * ease)
     return total

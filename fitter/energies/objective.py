@@ -148,7 +148,7 @@ class Objective:
 
     def overlap(self, candidate: Candidate) -> float:
         """Intersection over union of the body's silhouette and the observed one."""
-        return silhouette_overlap(candidate.rendering, self.evidence.silhouette)
+        return silhouette_overlap(candidate.rendering, self.evidence.silhouette, self.scales)
 
     def with_lines(self, lines: CorrespondenceLines) -> "Objective":
         """The same objective with another outline to meet."""

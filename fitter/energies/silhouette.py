@@ -9,6 +9,7 @@ repeat themselves it is a negative log-likelihood. Where loose cloth is seen the
 body from outside (:mod:`fitter.energies.ease`), and a pixel costs the derivative of that function.
 """
 
+import cv2
 import numpy as np
 from jaxtyping import Bool, Float, Integer
 
@@ -21,6 +22,7 @@ from fitter.energies._silhouette_kernels import (
 from fitter.energies.ease import bound_share, ease_weights
 from fitter.energies.rows import PositionRows
 from fitter.energies.scales import EnergyScales
+from fitter.evidence.loose_outline import FARTHEST_M
 from fitter.evidence.silhouette_evidence import SilhouetteEvidence
 from fitter.numerics.robust import boundary_weights
 from fitter.render.contours import ModelEdges
@@ -152,15 +154,19 @@ def _rows(
     return bound, ease
 
 
-def silhouette_overlap(rendering: Rendering, evidence: SilhouetteEvidence) -> float:
+def silhouette_overlap(
+    rendering: Rendering, evidence: SilhouetteEvidence, scales: EnergyScales
+) -> float:
     """Intersection over union of the model's region and the observed one.
 
-    What loose clothes add to the body counts to neither.
+    What loose clothes add to the body counts to neither, as far as clothes reach.
     """
     model = rendering.silhouette
     union = float(np.count_nonzero(model | evidence.mask))
     if evidence.cloth is not None:
-        union -= float(evidence.cloth[evidence.mask & ~model].sum())
+        reach = FARTHEST_M * scales.pixels_per_metre
+        around = cv2.distanceTransform((~model).astype(np.uint8), cv2.DIST_L2, 3) <= reach
+        union -= float(evidence.cloth[evidence.mask & ~model & around].sum())
     return np.count_nonzero(model & evidence.mask) / union if union else 0.0
 
 

@@ -31,6 +31,7 @@ degrees off, at 8 it was 4 and 6, and nearly the same from every guess."""
 _LIGHT_ITERATIONS = 8
 # Of the lamp's light, where Eq. 1 found no ambient light to begin with.
 _LEAST_FIRST_SURROUNDINGS = 0.02
+_LEAST_LIT = 30
 # A few vertices lie on hair, cloth or in a fold; this percentile is the darkest skin.
 _DARKEST_PERCENTILE = 3.0
 
@@ -132,10 +133,15 @@ def with_new_light(
 def with_new_shadows(
     objective: Objective, candidate: Candidate, state: ShadingEvidence
 ) -> ShadingEvidence:
-    """The vertices in the shadows the light casts on a body, and round their borders."""
+    """The vertices in the shadows the light casts on a body, and round their borders.
+
+    Where they hide all there is to see the light is mistaken, and the shadows stay as they were.
+    """
     shadowed = _in_shadow(objective, candidate, state)
     edges = objective.instruments.topology.edges
-    return replace(state, shadowed=grown(shadowed, edges, PENUMBRA_RINGS))
+    renewed = replace(state, shadowed=grown(shadowed, edges, PENUMBRA_RINGS))
+    left = np.count_nonzero(explained_vertices(candidate.rendering, renewed))
+    return renewed if left >= _LEAST_LIT else state
 
 
 def with_explained_shadows(

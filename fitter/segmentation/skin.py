@@ -70,8 +70,8 @@ class SkinMap:
         (h, w) whether a pixel of the person has the skin's colour rather than another, whatever is
         usual of its part.
     learnt_from
-        What taught the skin's colour: ``face``, ``hands`` or nothing, when the parts' own shares
-        are all that is known.
+        What taught the skin's colour: ``face``, ``hands`` or nothing, as where the picture has no
+        colours: the parts' own shares are then all that is known.
     """
 
     probability: GreyImage
@@ -167,7 +167,12 @@ def _nearest_of(region: Mask) -> Integer[np.ndarray, "h w"]:
 def _skin_colours(
     features: Features, regions: PersonRegions, parts: Integer[np.ndarray, " s"]
 ) -> tuple[ColourMixture | None, tuple[str, ...]]:
-    """The face is the anchor; hands are believed where they look like it."""
+    """The face is the anchor; hands are believed where they look like it.
+
+    In a picture without colours everything looks like the face, and nothing is learnt.
+    """
+    if not _has_colours(features):
+        return None, ()
     rows, columns = np.nonzero(regions.person)
     kinds = np.array([name.rpartition("_")[2] for name in regions.part_names])[parts]
     learnt_from: list[str] = []
@@ -191,6 +196,12 @@ def _skin_colours(
     if not learnt_from:
         return None, ()
     return _skin_gaussian(samples), tuple(learnt_from)
+
+
+def _has_colours(features: Features) -> bool:
+    """Whether the person shows more than one chroma, as in no black-and-white picture."""
+    low, high = np.percentile(features[:, :2], [2.0, 98.0], axis=0)
+    return bool((high - low).max() > STEPS * _CHROMA_DEVIATION)
 
 
 def _without_hair(features: Features) -> Features:

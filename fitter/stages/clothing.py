@@ -106,7 +106,8 @@ def clothing_remarks(
     evidence = objective.evidence
     if evidence.clothes is None:
         return (), ()
-    share = float(evidence.silhouette.cloth_at(evidence.silhouette.boundary_points).mean())
+    along = evidence.silhouette.cloth_at(evidence.silhouette.boundary_points)
+    share = float(along.mean()) if len(along) else 0.0
     metres = objective.scales.ease_mean / objective.scales.pixels_per_metre
     assumption = Assumption(
         quantity="outline",
@@ -124,8 +125,9 @@ def clothing_remarks(
 _NO_SKIN = FitWarning(
     code="skin-not-found",
     message=(
-        "Neither face nor hands show the colour of the person's skin: which parts are bare is "
-        "guessed. Click the nose or the eyes if they are seen."
+        "Neither face nor hands show the colour of the person's skin, or the picture has no "
+        "colours: which parts are bare is guessed. Click the nose or the eyes if they are seen; "
+        "send the picture in colour if there is one."
     ),
 )
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitter.energies.ease import bound_share, ease_loss, ease_weights
+from fitter.energies.ease import bound_share, common_offset, ease_loss, ease_weights
 from fitter.energies.edges import edge_energy, edge_rows
 from fitter.energies.scales import scales_at
 from fitter.energies.silhouette import silhouette_energy, silhouette_overlap, silhouette_rows
@@ -21,6 +21,15 @@ NEAR = scales_at(CAMERA, 3.0, boundary_eta_m=0.02)
 def dressed(cloth: float) -> SilhouetteEvidence:
     """A box as it is seen, all of it cloth with some probability."""
     mask = rendered(WIDTH, HEIGHT)[0].silhouette
+    return silhouette_evidence(mask, cloth=np.full(mask.shape, cloth, dtype=np.float32))
+
+
+LARGE = (200, 300)
+"""Pixels of a box that reaches farther than any clothes do."""
+
+
+def within_large(cloth: float) -> SilhouetteEvidence:
+    mask = rendered(*LARGE)[0].silhouette
     return silhouette_evidence(mask, cloth=np.full(mask.shape, cloth, dtype=np.float32))
 
 
@@ -50,7 +59,8 @@ def test_without_cloth_the_cost_is_that_of_a_tight_outline():
         seen = rendered(WIDTH, HEIGHT, shift)[0]
         expected = silhouette_energy(seen, tight, SCALES)
         assert silhouette_energy(seen, evidence, SCALES) == pytest.approx(expected, rel=1e-6)
-        assert silhouette_overlap(seen, evidence) == pytest.approx(silhouette_overlap(seen, tight))
+        overlaps = [silhouette_overlap(seen, each, SCALES) for each in (evidence, tight)]
+        assert overlaps[0] == pytest.approx(overlaps[1])
 
 
 @pytest.mark.parametrize("inside", [2.0, 4.0, 6.0])
@@ -82,6 +92,14 @@ def test_clothes_cost_least_about_their_usual_ease():
     assert min(at, key=at.__getitem__) == usual
 
 
+def test_a_body_that_has_left_its_clothes_is_not_the_cheaper_for_it():
+    costs = [
+        silhouette_energy(rendered(size * WIDTH, size * HEIGHT)[0], dressed(1.0), NEAR)
+        for size in (0.6, 0.4, 0.2)
+    ]
+    assert costs == sorted(costs)
+
+
 @pytest.mark.parametrize(("inside", "outward"), [(0.0, False), (-4.0, False), (12.0, True)])
 def test_rows_push_a_body_toward_the_usual_ease(inside, outward):
     seen, edges = rendered(WIDTH - 2 * inside, HEIGHT)
@@ -95,8 +113,14 @@ def test_rows_push_a_body_toward_the_usual_ease(inside, outward):
 
 def test_the_overlap_does_not_count_what_clothes_add():
     seen = rendered(WIDTH - 20, HEIGHT)[0]
-    assert silhouette_overlap(seen, dressed(1.0)) == pytest.approx(1.0, abs=0.01)
-    assert silhouette_overlap(seen, dressed(0.0)) < 0.7
+    assert silhouette_overlap(seen, dressed(1.0), NEAR) == pytest.approx(1.0, abs=0.01)
+    assert silhouette_overlap(seen, dressed(0.0), NEAR) < 0.7
+
+
+def test_the_overlap_counts_clothes_that_no_body_fills():
+    lost = rendered(0.2 * LARGE[0], 0.2 * LARGE[1])[0]
+    assert silhouette_overlap(lost, within_large(1.0), NEAR) < 0.5
+    assert silhouette_overlap(rendered(*LARGE)[0], within_large(1.0), NEAR) == 1.0
 
 
 class TestEdges:
@@ -123,3 +147,27 @@ class TestEdges:
         left = (box(WIDTH, HEIGHT)[0][:, 0] < 0.0).astype(float)
         both = [edge_energy(edges, ramp, NEAR, part) for part in (left, 1.0 - left)]
         assert sum(both) == pytest.approx(edge_energy(edges, ramp, NEAR))
+
+
+class TestCommonOffset:
+    LENGTHS = np.full(400, 2.0)
+
+    def test_it_is_the_most_probable_one(self):
+        residuals = np.random.default_rng(0).normal(-1.8 * NEAR.ease_mean, 1.0, 400)
+
+        def energy(offset: float) -> float:
+            prior = 0.5 * (offset / NEAR.ease_common_spread) ** 2
+            return float(self.LENGTHS @ ease_loss(residuals + offset, NEAR)) + prior
+
+        found = common_offset(residuals, self.LENGTHS, NEAR)
+        assert found > 0.5 * NEAR.ease_mean
+        for step in (-0.05, 0.05):
+            assert energy(found) < energy(found + step)
+
+    def test_clothes_as_usual_have_none(self):
+        assert common_offset(np.full(400, -NEAR.ease_mean), self.LENGTHS, NEAR) == 0.0
+
+    def test_what_hardly_shows_cloth_says_little(self):
+        residuals = np.full(400, -1.8 * NEAR.ease_mean)
+        little = common_offset(residuals, 1e-6 * self.LENGTHS, NEAR)
+        assert 0.0 < little < 0.01 * common_offset(residuals, self.LENGTHS, NEAR)

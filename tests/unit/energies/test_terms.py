@@ -69,7 +69,7 @@ class TestSilhouette:
         rendering, _ = rendered(60, 120)
         evidence = silhouette_evidence(rendering.silhouette)
         assert silhouette_energy(rendering, evidence, SCALES) == 0.0
-        assert silhouette_overlap(rendering, evidence) == 1.0
+        assert silhouette_overlap(rendering, evidence, SCALES) == 1.0
 
     @pytest.mark.parametrize("shift", [2.0, 4.0])
     def test_a_shifted_outline_costs_the_robust_square_of_the_shift(self, shift):
@@ -107,7 +107,7 @@ class TestSilhouette:
         away, edges = rendered(60, 120, 5000.0)
         evidence = silhouette_evidence(truth.silhouette)
         assert silhouette_energy(away, evidence, SCALES) > 0.0
-        assert silhouette_overlap(away, evidence) == 0.0
+        assert silhouette_overlap(away, evidence, SCALES) == 0.0
         assert all(len(r.residuals) == 0 for r in silhouette_rows(away, edges, evidence, SCALES))
 
     def test_the_energy_is_that_of_whole_distance_maps(self):

@@ -5,9 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitter.energies.shading import explained_vertices, usable_vertices
+from fitter.energies.objective import Objective
+from fitter.energies.shading import explained_vertices, seen_vertices, usable_vertices
+from fitter.evidence.intensity import IntensityMap
 from fitter.optimizer.alternation import ShadedFit, fit_shading
-from fitter.optimizer.gauss_newton import minimize_gauss_newton
+from fitter.optimizer.gauss_newton import Minimum, minimize_gauss_newton
 from fitter.optimizer.light_solve import (
     LightEstimate,
     LitSurface,
@@ -15,11 +17,11 @@ from fitter.optimizer.light_solve import (
     guessed_lights,
     surroundings_prior,
 )
-from fitter.optimizer.light_step import with_explained_shadows
-from fitter.parameters import Light, LightKind, Reflectance
+from fitter.optimizer.light_step import first_state, with_explained_shadows, with_new_shadows
+from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
 from fitter.render.light import direction_to_light
 from fitter.render.reflectance import shade
-from fitter.render.shadow import lamp_seen
+from fitter.render.shadow import cast_shadow, lamp_seen
 from fitter.render.surroundings import irradiance, mean_irradiance, uniform_surroundings
 from fitter.request import LightGuess, SurroundingsKind
 from tests.unit.optimizer.rendered_scene import LIGHT, RenderedScene, rendered_scene
@@ -202,3 +204,61 @@ def test_surroundings_leave_equation_1_as_it_was():
         explained_vertices(found.minimum.candidate.rendering, found.evidence),
         usable_vertices(found.minimum.candidate.rendering, found.evidence),
     )
+
+
+def as_it_is(objective: Objective, parameters: BodyParameters) -> Minimum:
+    """A search that finds nothing better."""
+    return Minimum(candidate=objective.evaluate(parameters), converged=True, evaluations=1)
+
+
+def seeing_only(scene: RenderedScene, chosen: np.ndarray) -> IntensityMap:
+    """The picture, of which no more is trusted than the pixels of some vertices."""
+    rendering = scene.objective.evaluate(scene.truth).rendering
+    seen = seen_vertices(rendering, scene.intensity)
+    counts = [np.zeros(scene.intensity.trusted.shape, dtype=np.int64) for _ in range(2)]
+    for count, vertices in zip(counts, (chosen, ~chosen), strict=True):
+        columns, rows = np.floor(rendering.projected[vertices & seen]).astype(int).T
+        np.add.at(count, (rows, columns), 1)
+    only = (counts[0] > 0) & (counts[1] == 0)
+    return replace(scene.intensity, trusted=scene.intensity.trusted & only)
+
+
+def test_a_light_whose_shadows_hide_all_there_is_to_see_is_not_believed():
+    high = replace(LIGHT, azimuth=0.0, elevation=1.2)
+    dark = rendered_scene(1, high)
+    candidate = dark.objective.evaluate(dark.truth)
+    triangles = dark.instruments.model.triangles
+    centre = dark.truth.translation
+    hidden = cast_shadow(candidate.vertices, triangles, light=high, body_centre=centre)
+    seen = seen_vertices(candidate.rendering, dark.intensity)
+    intensity = seeing_only(dark, hidden & seen)
+    state = first_state(dark.objective, candidate, intensity, (high,), centre)
+    lit = replace(state, light=high)
+    kept = with_new_shadows(dark.objective, candidate, lit)
+    assert explained_vertices(candidate.rendering, kept).any()
+    for kind in SurroundingsKind:
+        found = fit_shading(
+            dark.objective, candidate, intensity, (high,), search=as_it_is, surroundings=kind
+        )
+        assert found is None or np.isfinite(found.reflectance.albedo).all()
+
+
+def test_half_a_face_does_not_tell_surroundings_from_the_lamp():
+    plain = rendered_scene(1)
+    model, candidate = plain.instruments.model, plain.objective.evaluate(plain.truth)
+    head = np.zeros(len(candidate.vertices), dtype=np.bool_)
+    triangles = model.triangles[model.part_of_triangle == model.part_names.index("head")]
+    head[np.unique(triangles)] = True
+    columns = candidate.rendering.projected[:, 0]
+    intensity = seeing_only(plain, head & (columns < np.median(columns[head])))
+    found = fit_shading(
+        plain.objective,
+        candidate,
+        intensity,
+        guessed_lights(LightGuess()),
+        search=as_it_is,
+        surroundings=SurroundingsKind.SPHERICAL_HARMONICS,
+    )
+    assert found is not None
+    assert found.light.surroundings is None
+    assert degrees_between(found.light, LIGHT) < 10.0

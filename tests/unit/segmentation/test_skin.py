@@ -132,3 +132,15 @@ def test_the_face_is_where_it_was_clicked_or_else_where_a_body_shows_its_nose():
     np.testing.assert_array_equal(face_point(clicked, np.zeros(2)), [12.0, 20.0])
     np.testing.assert_array_equal(face_point(np.empty((0, 2)), np.ones(2)), [1.0, 1.0])
     assert face_point(np.empty((0, 2)), None) is None
+
+
+def test_a_picture_without_colours_teaches_none():
+    """Cloth as bright as the face would pass for skin."""
+    picture, regions = person(chest=(0.3, 0.36, 0.42))
+    assert skin_map(picture, regions).learnt_from == ("face", "hands")
+    grey = np.repeat(picture.mean(axis=2, keepdims=True), 3, axis=2)
+    skin = skin_map(grey, regions)
+    assert skin.learnt_from == ()
+    assert not skin.coloured.any()
+    assert within(skin, "chest") < 0.2
+    assert within(skin, "face") > 0.6

@@ -1,10 +1,15 @@
 """When clothes said to be loose are hardly there."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from fitter.evidence.loose_outline import LooseClothes
+from fitter.evidence.silhouette_evidence import silhouette_evidence
 from fitter.segmentation.skin import PersonRegions, SkinMap
-from fitter.stages.clothing import looks_undressed
+from fitter.stages.clothing import clothing_remarks, looks_undressed
+from tests.unit.optimizer.rendered_scene import rendered_scene
 
 PARTS = ("head", "pelvis", "spine", "chest", "left_thigh", "right_thigh")
 SIDE = 20
@@ -53,3 +58,17 @@ def test_thighs_out_of_sight_say_nothing():
     hidden = ("left_thigh", "right_thigh")
     assert not looks_undressed(*_shown(UNDERWEAR, unseen=hidden))
     assert looks_undressed(*_shown(UNDERWEAR, unseen=hidden[:1]))
+
+
+def test_an_outline_that_is_the_picture_s_border_has_no_share_of_clothes():
+    scene = rendered_scene(1)
+    whole = np.ones(scene.intensity.trusted.shape, dtype=np.bool_)
+    cloth = np.ones(whole.shape, dtype=np.float32)
+    vertices = len(scene.objective.instruments.model.mean_vertices)
+    evidence = replace(
+        scene.objective.evidence,
+        silhouette=silhouette_evidence(whole, cloth=cloth),
+        clothes=LooseClothes(bare=np.zeros(vertices), learnt_from=("face",), looks_undressed=False),
+    )
+    (assumption,), _ = clothing_remarks(replace(scene.objective, evidence=evidence))
+    assert "along 0% of the outline" in assumption.reason
