@@ -11,8 +11,12 @@ import numpy as np
 from jaxtyping import Bool, UInt8
 
 from fitter.applications.atlas import drawn_on, triangles_of_texels
+from fitter.applications.texture import SIZES
 from fitter.body.model import BodyModel
 from fitter.errors import InvalidInputError
+
+LEAST_SIDE = 64
+"""Texels: a smaller atlas shows nothing."""
 
 TINT_OPACITY = 72
 """Of a part, of 255: what is painted beneath stays visible."""
@@ -47,14 +51,19 @@ def painted_texture(
     Raises
     ------
     InvalidInputError
-        If it is not square.
+        If it is not square, too small or too large.
     """
     height, width = painted.shape[:2]
+    reason = None
     if height != width:
+        reason = "the atlas is square"
+    elif not LEAST_SIDE <= width <= SIZES[-1]:
+        reason = f"the atlas has between {LEAST_SIDE} and {SIZES[-1]} a side"
+    if reason is not None:
         raise InvalidInputError(
             code="texture-size",
             field=field,
-            reason=f"The texture measures {width} x {height} texels; the atlas is square.",
+            reason=f"The texture measures {width} x {height} texels; {reason}.",
             remedy="Paint on the atlas that comes with every texture.",
         )
     inside = triangles_of_texels(model, height) >= 0

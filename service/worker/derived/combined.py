@@ -5,7 +5,7 @@ from typing import cast
 
 from api_schemas.derivation_results import CombinedResult
 from api_schemas.derivations import CombinedOptions, DerivationKind
-from api_schemas.requests import FitOptions
+from api_schemas.requests import FitOptions, OptimizerKind
 from api_schemas.results import FitResult, FitWarning
 from fitter.applications.fitted_person import FittedPerson
 from fitter.applications.previews import View, preview
@@ -113,8 +113,10 @@ def _others(inputs: Mapping[str, bytes], count: int) -> list[dict[str, bytes]]:
 
 
 def _request(inputs: Mapping[str, bytes], max_pixels: int) -> FitRequest:
+    """What the fit was asked for; it begins where the fit ended, which needs no direct search."""
+    options = FitOptions.model_validate_json(inputs[REQUEST])
     return fit_request(
-        FitOptions.model_validate_json(inputs[REQUEST]),
+        options.model_copy(update={"optimizer": OptimizerKind.GAUSS_NEWTON}),
         image=inputs[IMAGE],
         mask=inputs.get(MASK),
         max_pixels=max_pixels,

@@ -4,7 +4,14 @@ import numpy as np
 import pytest
 
 from fitter.applications.atlas import triangles_of_texels
-from fitter.applications.own_texture import LINE, TINT_OPACITY, atlas_drawing, painted_texture
+from fitter.applications.own_texture import (
+    LEAST_SIDE,
+    LINE,
+    TINT_OPACITY,
+    atlas_drawing,
+    painted_texture,
+)
+from fitter.applications.texture import SIZES
 from fitter.body.model import BodyModel
 from fitter.errors import InvalidInputError
 from tests.unit.applications.bodies import packaged
@@ -44,9 +51,10 @@ def test_islands_go_on_into_their_margins(model, parts):
     assert (levels[beside] == 90).all()
 
 
-def test_a_texture_that_is_not_square_is_refused_with_the_field(model):
-    with pytest.raises(InvalidInputError, match="300 x 200") as caught:
-        painted_texture(np.zeros((200, 300, 3), np.uint8), model, field="texture")
+@pytest.mark.parametrize("size", [(200, 300), (LEAST_SIDE - 1,) * 2, (SIZES[-1] + 1,) * 2])
+def test_a_texture_of_a_size_that_no_atlas_has_is_refused_with_the_field(model, size):
+    with pytest.raises(InvalidInputError, match="texels") as caught:
+        painted_texture(np.zeros((*size, 3), np.uint8), model, field="texture")
     assert caught.value.field == "texture"
 
 

@@ -2,6 +2,7 @@
 
 import io
 import json
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
 from uuid import UUID
@@ -12,18 +13,20 @@ from PIL import Image
 
 from api_schemas.derivation_results import DerivationResult
 from api_schemas.derivations import (
+    LEAST_OWN_TEXTURE,
     TEXTURE_SIZES,
     DerivationKind,
     DerivationRequest,
     NamedPose,
 )
 from fitter.applications.fitted_person import FittedPerson
+from fitter.applications.own_texture import LEAST_SIDE
 from fitter.applications.poses import NAMED_POSES, REST
 from fitter.applications.texture import SIZES
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.camera import Camera
 from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
-from fitter.request import Gender
+from fitter.request import FitRequest, Gender, OptimizerKind
 from service.demo_sample import load_sample
 from service.inputs import (
     CLIP,
@@ -39,6 +42,7 @@ from service.inputs import (
 )
 from service.submission import check_submission
 from service.worker.artifacts import MEDIA_TYPES, with_result_document
+from service.worker.derived import combined
 from service.worker.derivers import MODULES
 from service.worker.pipeline import derive, run
 from service.worker.pipeline_port import (
@@ -236,6 +240,24 @@ def test_fits_that_were_told_other_heights_are_not_combined():
     assert caught.value.error.field == "fits.0"
 
 
+def test_pictures_are_searched_by_gauss_newton_however_their_fits_were(monkeypatch):
+    class EnoughError(Exception):
+        pass
+
+    asked: list[FitRequest] = []
+
+    def noted(_: object, requests: Sequence[FitRequest], **__: object) -> None:
+        asked.extend(requests)
+        raise EnoughError
+
+    monkeypatch.setattr(combined, "joint_fit", noted)
+    simplex = json.loads(sample_inputs()[REQUEST]) | {"optimizer": "simplex"}
+    told = json.dumps(simplex).encode()
+    with pytest.raises(EnoughError):
+        derived(files={REQUEST: told, of_other(REQUEST, 0): told}, kind="combined", fits=FITS[:1])
+    assert [each.optimizer for each in asked] == [OptimizerKind.GAUSS_NEWTON] * 2
+
+
 def test_a_texture_with_its_light_divided_out_needs_a_fit_with_shading():
     with pytest.raises(UnusableInputError) as caught:
         derived(kind="texture", colours="albedo")
@@ -292,6 +314,7 @@ def test_a_texture_that_cannot_be_laid_on_the_body_is_refused_with_the_part(cont
 
 def test_the_sizes_of_textures_on_the_wire_are_the_fitter_s():
     assert TEXTURE_SIZES == SIZES
+    assert LEAST_OWN_TEXTURE == LEAST_SIDE
 
 
 def test_a_clip_that_comes_along_is_what_moves_the_body_and_says_its_errors():
