@@ -12,7 +12,7 @@ from service.api.job_inputs import Copy, File, Inputs
 from service.api.job_routes import find
 from service.api.problems import ProblemError
 from service.api.results import no_result
-from service.engine.port import JobRecord, StoredBlob
+from service.engine.port import JobExpiredError, JobRecord, StoredBlob
 from service.inputs import IMAGE, OF_EACH_PICTURE, OF_ITS_FIT, PERSON, REQUEST, of_other
 from service.refusal import RefusedError, refused
 
@@ -69,7 +69,10 @@ def _picture_of_another(
     field = f"fits.{index}"
     if other == than:
         raise _unusable(field, f"The fit {other} is the one it is derived from.")
-    record = context.jobs.job(str(other))
+    try:
+        record = context.jobs.job(str(other))
+    except JobExpiredError as error:
+        raise _unusable(field, f"The fit {other} has expired.") from error
     if record is None or record.state is not JobState.SUCCEEDED:
         raise _unusable(field, f"The fit {other} has not succeeded here.")
     copies = _copies_of(record, OF_EACH_PICTURE)

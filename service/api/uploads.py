@@ -91,17 +91,40 @@ async def _parts(
 
 async def _form(request: Request, known: Sequence[str]) -> FormData:
     try:
-        return await request.form(
+        form = await request.form(
             max_files=len(PARTS), max_fields=len(PARTS), max_part_size=MAX_REQUEST_PART_BYTES
         )
     except HTTPException as error:
-        raise ProblemError(
-            problem(
-                "malformed-request",
-                detail=f"The multipart body cannot be read: {error.detail}",
-                remedy=f"Send these parts and no others: {', '.join(known)}.",
-            )
-        ) from error
+        raise _malformed(error.detail, known) from error
+    except UnicodeError as error:
+        raise _malformed(_NO_TEXT, known) from error
+    if not all(_is_text(text) for item in form.multi_items() for text in item):
+        await form.close()
+        raise _malformed(_NO_TEXT, known)
+    return form
+
+
+_NO_TEXT: Final = "In the charset that it names, it is no text."
+
+
+def _is_text(value: UploadFile | str) -> bool:
+    """Whether a name or a content can be written: some charsets can say halves of characters."""
+    if isinstance(value, str):
+        try:
+            value.encode()
+        except UnicodeEncodeError:
+            return False
+    return True
+
+
+def _malformed(reason: str, known: Sequence[str]) -> ProblemError:
+    return ProblemError(
+        problem(
+            "malformed-request",
+            detail=f"The multipart body cannot be read: {reason}",
+            remedy=f"Send these parts and no others: {', '.join(known)}.",
+        )
+    )
 
 
 def _check_parts(form: FormData, *, needed: Sequence[str], known: Sequence[str]) -> None:

@@ -113,6 +113,23 @@ def test_a_broken_multipart_body_is_malformed(service: Service, content, content
     checked(service.client.post("/v1/fits", content=content, headers=headers), 400)
 
 
+@pytest.mark.parametrize(
+    ("charset", "name", "content"),
+    [
+        ("utf-7", "request", "+2AA-"),
+        ("utf-7", "+2AA-", "{}"),
+        ("unicode_escape", "request", r"\ud800"),
+        ("undefined", "request", "{}"),
+    ],
+)
+def test_a_form_that_is_no_text_in_its_charset_is_malformed(
+    service: Service, charset, name, content
+):
+    form = f'--x\r\nContent-Disposition: form-data; name="{name}"\r\n\r\n{content}\r\n--x--\r\n'
+    headers = {"Content-Type": f"multipart/form-data; boundary=x; charset={charset}"}
+    checked(service.client.post("/v1/fits", content=form.encode(), headers=headers), 400)
+
+
 def test_a_body_cut_off_before_its_parts_end_lacks_them(service: Service):
     headers = {"Content-Type": "multipart/form-data; boundary=x"}
     content = b'--x\r\nContent-Disposition: form-data; name="image"\r\n\r\ncut'
