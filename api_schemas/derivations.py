@@ -260,7 +260,10 @@ class DerivationLinks(WireModel):
 
 
 class Derivation(JobStanding):
-    """One accepted derivation; it is erased with its fit, and expires when the fit does."""
+    """One accepted derivation; it is erased with its fit, and expires when the fit does.
+
+    A combined one goes with any of its fits.
+    """
 
     kind: DerivationKind
     fit_id: UUID

@@ -71,12 +71,7 @@ _SUBMISSION: Final[dict[str, Any]] = {
                     "additionalProperties": False,
                     "required": ["request"],
                     "properties": {
-                        "request": {
-                            "anyOf": [
-                                {"$ref": "#/components/schemas/AnimationOptions"},
-                                {"$ref": "#/components/schemas/TextureOptions"},
-                            ]
-                        },
+                        "request": {"$ref": "#/components/schemas/DerivationRequest"},
                         CLIP: {
                             "type": "string",
                             "format": "binary",
