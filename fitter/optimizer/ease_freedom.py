@@ -12,6 +12,8 @@ u = √w that is BᵀB of the rows
     B = A - α u uᵀA,    α = (1 - √(1 - |u|² / (|u|² + 1/τ_δ²))) / |u|².
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from fitter.energies.rows import PositionRows
@@ -19,11 +21,15 @@ from fitter.energies.scales import EnergyScales
 from fitter.optimizer.row_jacobians import RowJacobian
 
 
-def with_free_ease(jacobian: RowJacobian, rows: PositionRows, scales: EnergyScales) -> RowJacobian:
-    """B of rows of ease with the Jacobian A, (k, columns)."""
-    roots = np.sqrt(rows.weights)
-    own, prior = float(rows.weights.sum()), scales.ease_common_spread**-2
+def with_free_ease(
+    eases: Sequence[tuple[RowJacobian, PositionRows]], scales: EnergyScales
+) -> RowJacobian:
+    """B of all rows of ease together, each kind with its Jacobian A, (k, columns)."""
+    jacobian = np.concatenate([each for each, _ in eases])
+    weights = np.concatenate([rows.weights for _, rows in eases])
+    roots, own = np.sqrt(weights), float(weights.sum())
     if own == 0.0:
         return jacobian
+    prior = scales.ease_common_spread**-2
     share = (1.0 - np.sqrt(prior / (own + prior))) / own
     return jacobian - share * np.outer(roots, roots @ jacobian)

@@ -55,6 +55,7 @@ def normal_equations(
     frame = linearise(instruments.tangent, parameters)
     pull = np.zeros_like(candidate.vertices)
     jacobians: list[RowJacobian] = []
+    eases: list[tuple[RowJacobian, PositionRows]] = []
     for rows in (
         *outline_rows(objective, candidate),
         edge_rows(rendering, candidate.edges, evidence.edges, scales, evidence.bare),
@@ -64,8 +65,11 @@ def normal_equations(
         vertices = instruments.tangent.vertices
         jacobian = position_row_jacobian(few, frame, vertices, candidate.vertices)
         if rows.of_ease and (marginal or evidence.lines is not None):
-            jacobian = with_free_ease(jacobian, few, scales)
-        jacobians.append(jacobian)
+            eases.append((jacobian, few))
+        else:
+            jacobians.append(jacobian)
+    if eases:
+        jacobians.append(with_free_ease(eases, scales))
     for rows, support, attachments, positions in (
         (
             click_rows(candidate.landmarks, evidence.clicks, evidence.camera, scales),

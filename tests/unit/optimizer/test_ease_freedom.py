@@ -37,19 +37,23 @@ def _ease_rows(objective: Objective, candidate: Candidate) -> list[PositionRows]
     return [rows for rows in outline_rows(objective, candidate) if rows.of_ease]
 
 
-def test_the_rows_are_those_of_body_and_offset_together_without_the_offset():
-    objective, candidate = _dressed(0.8, lines=True)
+@pytest.mark.parametrize("lines", [False, True])
+def test_the_rows_are_those_of_body_and_offset_together_without_the_offset(lines):
+    objective, candidate = _dressed(0.8, lines=lines)
     frame = linearise(objective.instruments.tangent, candidate.parameters)
     vertices = objective.instruments.tangent.vertices
-    (every,) = _ease_rows(objective, candidate)
-    rows = thinned(every, MATRIX_ROWS)
-    body = position_row_jacobian(rows, frame, vertices, candidate.vertices)
-    roots, prior = np.sqrt(rows.weights), objective.scales.ease_common_spread**-2
+    kinds = [thinned(rows, MATRIX_ROWS) for rows in _ease_rows(objective, candidate)]
+    assert len(kinds) == (1 if lines else 2)
+    eases = [
+        (position_row_jacobian(rows, frame, vertices, candidate.vertices), rows) for rows in kinds
+    ]
+    body = np.vstack([jacobian for jacobian, _ in eases])
+    roots = np.sqrt(np.concatenate([rows.weights for rows in kinds]))
     together = np.hstack([body, roots[:, None]])
     joint = together.T @ together
-    joint[-1, -1] += prior
+    joint[-1, -1] += objective.scales.ease_common_spread**-2
     expected = joint[:-1, :-1] - np.outer(joint[:-1, -1], joint[-1, :-1]) / joint[-1, -1]
-    free = with_free_ease(body, rows, objective.scales)
+    free = with_free_ease(eases, objective.scales)
     np.testing.assert_allclose(free.T @ free, expected, rtol=1e-9, atol=1e-9 * expected.max())
 
 
@@ -58,7 +62,8 @@ def test_rows_without_weight_stay_as_they_are():
     (rows,) = _ease_rows(objective, candidate)
     nothing = replace(rows, weights=np.zeros_like(rows.weights))
     jacobian = np.ones((len(rows.weights), 2))
-    np.testing.assert_array_equal(with_free_ease(jacobian, nothing, objective.scales), jacobian)
+    found = with_free_ease([(jacobian, nothing)], objective.scales)
+    np.testing.assert_array_equal(found, jacobian)
 
 
 def test_lines_push_as_the_slope_of_an_energy_whose_offset_follows():
@@ -86,7 +91,10 @@ def test_lines_push_as_the_slope_of_an_energy_whose_offset_follows():
 def test_a_shape_is_less_certain_under_an_ease_that_is_not_known(lines, monkeypatch):
     objective, candidate = _dressed(1.0, lines=lines)
     free = shape_covariance(objective, candidate, height_variance=0.0)
-    monkeypatch.setattr("fitter.optimizer.normal_equations.with_free_ease", lambda rows, *_: rows)
+    monkeypatch.setattr(
+        "fitter.optimizer.normal_equations.with_free_ease",
+        lambda eases, _: np.concatenate([jacobian for jacobian, _ in eases]),
+    )
     held = shape_covariance(objective, candidate, height_variance=0.0)
     gain = np.linalg.eigvalsh((free - held)[1:, 1:])
     assert gain.min() > -1e-9
