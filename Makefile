@@ -1,4 +1,5 @@
-# Two commands: `make demo` shows a whole fit over HTTP, `make test` passes the tests.
+# Two commands: `make demo` shows a whole fit over HTTP, `make test` passes the tests that need no
+# patience; `make test-rest` passes all others.
 # Everything is installed into .venv from requirements.lock; a second run installs nothing.
 
 PYTHON ?= python3
@@ -8,13 +9,29 @@ SINGLE_THREADED := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
 # Tests of one file share services and fits, so whole files are dealt out; long ones come first.
 SIDE_BY_SIDE := --numprocesses 2 --dist loadfile --no-loadscope-reorder
 
-.PHONY: demo test lint serve train report openapi page lock clean
+PYTEST := $(SINGLE_THREADED) $(VENV)/bin/python -m pytest $(SIDE_BY_SIDE)
+# Compiled tests and modules are kept: every process, and each of the services that tests start,
+# would compile them anew.
+unexport PYTHONDONTWRITEBYTECODE
+
+.PHONY: demo test test-rest blender lint serve train report openapi page wheel lock clean
 
 demo: $(STAMP)
 	$(VENV)/bin/maquette demo
 
 test: $(STAMP)
-	$(SINGLE_THREADED) $(VENV)/bin/python -m pytest $(SIDE_BY_SIDE)
+	$(PYTEST) -m "not rest"
+
+test-rest: $(STAMP)
+	$(PYTEST) -m rest
+
+# Blender's importer is one of the readers that tests/foreign asks; it is large and wants Python 3.11.
+blender: .venv-blender/.installed
+
+.venv-blender/.installed:
+	$(PYTHON) -m venv .venv-blender
+	.venv-blender/bin/python -m pip install -q --disable-pip-version-check bpy==5.0.1
+	touch $@
 
 lint: $(STAMP)
 	$(VENV)/bin/ruff check .
@@ -38,10 +55,14 @@ openapi: $(STAMP)
 page:
 	cd service/page && npm ci && npm run check && npm test && npm run build
 
+# Into dist/, with the source distribution that builds to the same wheel.
+wheel: $(STAMP)
+	$(VENV)/bin/python -m hatchling build
+
 lock:
 	$(VENV)/bin/pip install -q pip-tools
 	$(VENV)/bin/pip-compile -q --no-emit-index-url --no-emit-trusted-host --no-emit-find-links \
-		--strip-extras --extra dev --extra s3 --extra tracing -o requirements.lock pyproject.toml
+		--strip-extras --extra dev --extra s3 --extra tracing --extra usdz -o requirements.lock pyproject.toml
 
 $(STAMP): pyproject.toml requirements.lock
 	$(PYTHON) -c "import sys; sys.exit(sys.version_info < (3, 11) and 'Maquette needs Python 3.11 or newer; set PYTHON=...')"
@@ -53,4 +74,4 @@ $(STAMP): pyproject.toml requirements.lock
 	touch $(STAMP)
 
 clean:
-	rm -rf $(VENV) maquette-data demo-output
+	rm -rf $(VENV) .venv-blender maquette-data demo-output dist

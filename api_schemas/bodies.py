@@ -39,7 +39,7 @@ class EstimatedMeasurement(WireModel):
 
 
 class BodyEstimate(WireModel):
-    """The most probable body of whoever has the known measurements.
+    """The most probable body of a person with the known measurements.
 
     ``shape`` are coefficients in standard deviations, the first of them the height.
     ``plausibility`` is the share of the population whose measurements of the given names are

@@ -23,6 +23,9 @@ from api_schemas.results import (
 class DerivedFiles(WireModel):
     """What all results of derivations have in common."""
 
+    # What is always answered is said to be: ``kind`` tells one from another.
+    model_config = ConfigDict(json_schema_serialization_defaults_required=True)
+
     artifacts: tuple[Artifact, ...]
 
 

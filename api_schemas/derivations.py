@@ -141,15 +141,19 @@ class AnimationOptions(DerivationOptions):
 
     kind: Literal["animation"]
     start_s: float = Field(
-        default=0.0, ge=0.0, le=3_600.0, description="Where the stretch of the file begins."
+        default=0.0,
+        ge=0.0,
+        le=3_600.0,
+        description="Where the stretch begins, of the file or of a walk without end.",
     )
     duration_s: float | None = Field(
         default=None,
         gt=0.0,
         le=3_600.0,
         description=(
-            "How long the stretch is; null goes on to the file's end. An animation has 30 frames a "
-            "second and 360 in all at most: what is longer is cut, with a warning."
+            "How long the stretch is; null goes on to the file's end, or is three strides of the "
+            "walk. An animation has 30 frames a second and 360 in all at most: what is longer is "
+            "cut, with a warning."
         ),
     )
 

@@ -40,8 +40,9 @@ def _metres(value: object) -> object:
 
 HeightM = Annotated[
     float,
-    BeforeValidator(_metres),
+    # First, for behind a validator pydantic writes bounds into schemas that no schema knows.
     Field(ge=MIN_HEIGHT_M, le=MAX_HEIGHT_M, description="Stature in metres.", examples=[1.68]),
+    BeforeValidator(_metres),
 ]
 WeightKg = Annotated[
     float,

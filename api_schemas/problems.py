@@ -80,6 +80,18 @@ _TYPES: Final = (
         description="The path exists but takes other methods; the Allow header lists them.",
     ),
     ProblemType(
+        slug="not-acceptable",
+        title="Nothing that is accepted can be sent",
+        status=406,
+        description="The Accept header names no format in which this can be had.",
+    ),
+    ProblemType(
+        slug="request-timeout",
+        title="The request came too slowly",
+        status=408,
+        description="The head or the body of the request was not whole in time; see its code.",
+    ),
+    ProblemType(
         slug="no-result",
         title="The job has no result",
         status=409,
@@ -172,10 +184,25 @@ _TYPES: Final = (
         description="The database, the disk or the workers are not available at the moment.",
     ),
     ProblemType(
+        slug="too-many-connections",
+        title="All connections are busy",
+        status=503,
+        description="Too many clients are connected; try again after the time in Retry-After.",
+    ),
+    ProblemType(
         slug="time-limit-exceeded",
         title="The fit took too long",
         status=504,
         description="The fit was stopped at this service's time limit.",
+    ),
+    ProblemType(
+        slug="insufficient-storage",
+        title="There is no room on the disk",
+        status=507,
+        description=(
+            "Less of the service's disk is free than it keeps for what runs: nothing new is stored "
+            "until room is made. What is stored can be read and erased."
+        ),
     ),
     ProblemType(
         slug="quota-exceeded",

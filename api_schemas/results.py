@@ -112,6 +112,19 @@ class Measurement(WireModel):
     source: str
 
 
+class StageMeasurement(WireModel):
+    """A measurement of a stage's body; the result's measurements say how each is taken."""
+
+    name: str
+    value: float
+    unit: str
+    standard_error: float | None
+    given: bool = Field(description="Whether the request gave it.")
+    # The next version leaves these two out: they stand in the result's own measurements.
+    definition: str = Field(json_schema_extra={"deprecated": True})
+    source: str = Field(json_schema_extra={"deprecated": True})
+
+
 class Stage(WireModel):
     """The body at the end of a stage of the fit."""
 
@@ -119,7 +132,7 @@ class Stage(WireModel):
     energies: dict[str, float]
     silhouette_overlap: float
     body: BodyResult
-    measurements: tuple[Measurement, ...]
+    measurements: tuple[StageMeasurement, ...]
 
 
 class LimbFacing(WireModel):

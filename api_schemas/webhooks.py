@@ -48,9 +48,9 @@ def _usable_secret(secret: str) -> str:
 class WebhookTarget(WireModel):
     """Where to send the notice of the job's end.
 
-    The address must be public: private, loopback and link-local ones are refused, and redirects are
-    not followed. Without a ``secret`` the service's own signs the notice; where it has none, a
-    secret is needed.
+    The address must be public: private, loopback and link-local ones are refused, ports other than
+    443 and 80 as well, and redirects are not followed. Without a ``secret`` the service's own signs
+    the notice; where it has none, a secret is needed.
     """
 
     url: str = Field(

@@ -4,15 +4,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-import numpy as np
-from jaxtyping import Float
-
 from fitter.arrays import Image, Mask, Vertices
-from fitter.camera import Camera, FocalLengthSource
 from fitter.measurement.quantity import Measurement
-from fitter.parameters import BodyParameters, Light, Reflectance
+from fitter.parameters import BodyParameters
+from fitter.person.fitted_person import FittedPerson
 from fitter.remarks import Assumption, FitWarning
-from fitter.request import Cues, Facing, Gender, OptimizerKind
+from fitter.render.camera import Camera, FocalLengthSource
+from fitter.request import Cues, Facing, OptimizerKind
 from fitter.segmentation.trimap import Trimap
 
 
@@ -90,36 +88,30 @@ class Pictures:
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class LitBody:
-    """The body that was found in a picture, and the light on it.
+class PictureFit:
+    """The person as found in one picture.
 
-    ``light`` and ``reflectance`` are None for SE, which does not estimate them. ``image_camera``
-    is that of the upright original, vertices lie in its frame, metres. ``shape_covariance`` is
-    that of the body's shape coefficients, zero along what was given.
+    ``posed_vertices`` lie in the camera frame, metres.
     """
 
-    gender: Gender
+    person: FittedPerson
     height_m: float
     cues: Cues
     outcome: Outcome
-    image_camera: Camera
-    body: BodyParameters
-    shape_covariance: Float[np.ndarray, "n n"] | None
     posed_vertices: Vertices
-    light: Light | None
-    reflectance: Reflectance | None
-    albedo_rgb: Vertices | None
     silhouette_overlap: float
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class FitResult(LitBody):
-    """The whole result; canonical vertices are in the body frame, metres.
+class FitResult:
+    """The whole result of a fit.
 
     ``given`` names the measurements the request gave, its height as stature. ``camera`` refers to
-    the working picture. ``stage_seconds`` is wall time by stage name.
+    the working picture. ``canonical_vertices`` are in the body frame, metres. ``stage_seconds`` is
+    wall time by stage name.
     """
 
+    found: PictureFit
     given: tuple[str, ...]
     optimizer: OptimizerKind
     camera: Camera
@@ -135,6 +127,11 @@ class FitResult(LitBody):
     stage_seconds: Mapping[str, float]
     pictures: Pictures
 
+    @property
+    def person(self) -> FittedPerson:
+        """Who was found."""
+        return self.found.person
+
 
 def before_shading(result: FitResult) -> FitResult | None:
     """The same fit as silhouette and edges left it, before shading moved the body (E1, not E2).
@@ -142,22 +139,28 @@ def before_shading(result: FitResult) -> FitResult | None:
     None where shading was not used, so that this is the result itself. What is not of the body
     (evaluations, times, warnings) stays that of the whole fit.
     """
-    if result.reflectance is None:
+    if result.person.reflectance is None:
         return None
     stage = next((stage for stage in result.stages if stage.name == "SE"), None)
     if stage is None:
         return None
     return replace(
         result,
-        cues=Cues.SE,
-        body=stage.body,
-        shape_covariance=None,
-        posed_vertices=stage.posed_vertices,
+        found=replace(
+            result.found,
+            person=replace(
+                result.person,
+                body=stage.body,
+                light=None,
+                reflectance=None,
+                albedo_rgb=None,
+                shape_covariance=None,
+            ),
+            cues=Cues.SE,
+            posed_vertices=stage.posed_vertices,
+            silhouette_overlap=stage.silhouette_overlap,
+        ),
         canonical_vertices=stage.canonical_vertices,
-        light=None,
-        reflectance=None,
-        albedo_rgb=None,
         energies=stage.energies,
-        silhouette_overlap=stage.silhouette_overlap,
         measurements=stage.measurements,
     )

@@ -8,13 +8,10 @@ import argparse
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
-
-if TYPE_CHECKING:
-    from service.settings import Settings
+from typing import Final
 
 UNUSABLE: Final = 2
-"""Exit status where settings, arguments or what they name cannot be used."""
+"""Exit status where arguments, or what they name, cannot be used; that of settings is another."""
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -29,6 +26,9 @@ def _parser() -> argparse.ArgumentParser:
         prog="maquette",
         description="A measured 3D body from a single picture. "
         "The service is configured by environment variables named MAQUETTE_...; see the README.",
+    )
+    parser.add_argument(
+        "--version", action=_Version, nargs=0, help="print the version of what is installed"
     )
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
 
@@ -91,6 +91,13 @@ def _parser() -> argparse.ArgumentParser:
         help="folder of female.npz or male.npz (default: the packaged body models)",
     )
     fit.add_argument(
+        "--formats",
+        type=_formats,
+        default=(),
+        metavar="FORMAT,...",
+        help="write every mesh as obj, ply, stl or usdz too",
+    )
+    fit.add_argument(
         "--output",
         type=Path,
         default=Path("maquette-fit"),
@@ -118,115 +125,122 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _serve(parsed: argparse.Namespace) -> int:
-    from service.logs import configure_logging
-    from service.serve import WORKER_COMMAND, listen, serve
+class _Version(argparse.Action):
+    """Looks the version up when it is asked for, and not whenever a command is run."""
 
-    settings = _settings(
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        from importlib.metadata import PackageNotFoundError, version
+
+        try:
+            print(f"maquette {version('maquette')}")
+        except PackageNotFoundError:
+            parser.exit(UNUSABLE, "maquette is not installed here: its version is not known.\n")
+        parser.exit()
+
+
+def _formats(text: str) -> tuple[str, ...]:
+    from service.representation.formats import (
+        MESH_FORMATS,
+        USD_MISSING,
+        USD_REMEDY,
+        USDZ,
+        written_here,
+    )
+
+    endings = tuple(dict.fromkeys(each.strip().lstrip(".").lower() for each in text.split(",")))
+    for ending in endings:
+        if ending not in MESH_FORMATS:
+            message = f"'{ending}' is none of {', '.join(MESH_FORMATS)}; GLB is always written"
+            raise argparse.ArgumentTypeError(message)
+    if USDZ.ending in endings and USDZ not in written_here():
+        message = f"{USD_MISSING} {USD_REMEDY}."
+        raise argparse.ArgumentTypeError(message)
+    return endings
+
+
+def _serve(parsed: argparse.Namespace) -> int:
+    from service.commands.serve import WORKER_COMMAND, listen, serve
+    from service.startup.begin import begin, run_told
+
+    settings = begin(
         "serve",
-        **{
+        {
             name: value
             for name in ("host", "port", "data_dir", "models_dir")
             if (value := getattr(parsed, name)) is not None
         },
     )
-    try:
-        listener = listen(settings)
-    except OSError as error:
-        print(
-            f"maquette serve: cannot listen on {settings.host}:{settings.port} "
-            f"({error.strerror}). Stop what listens there, or choose another port with --port.",
-            file=sys.stderr,
-        )
-        return UNUSABLE
-    configure_logging(settings.log_level, settings.log_format)
-    return _told(
-        "serve",
-        lambda: serve(
+
+    def run() -> int:
+        try:
+            listener = listen(settings)
+        except OSError as error:
+            print(
+                f"maquette serve: cannot listen on {settings.host}:{settings.port} "
+                f"({error.strerror}). Stop what listens there, or choose another port with --port.",
+                file=sys.stderr,
+            )
+            return UNUSABLE
+        return serve(
             settings,
             listener,
             worker_command=None if parsed.no_worker else WORKER_COMMAND,
             announce=lambda text: print(text, flush=True),
-        ),
-    )
+        )
+
+    return run_told("serve", run)
 
 
 def _worker(_: argparse.Namespace) -> int:
-    from service.logs import configure_logging
+    from service.startup.begin import begin, run_told
     from service.worker.main import run_worker
 
-    settings = _settings("worker")
-    configure_logging(settings.log_level, settings.log_format)
-    return _told("worker", lambda: run_worker(settings, follow_stdin=False))
+    settings = begin("worker")
+    return run_told("worker", lambda: run_worker(settings, follow_stdin=False))
 
 
 def _prepare(_: argparse.Namespace) -> int:
-    from service.logs import configure_logging
-    from service.prepare_command import prepare
+    from service.commands.prepare import prepare
+    from service.startup.begin import begin, run_told
 
-    settings = _settings("prepare")
-    configure_logging(settings.log_level, settings.log_format)
-    return _told("prepare", lambda: prepare(settings))
+    settings = begin("prepare")
+    return run_told("prepare", lambda: prepare(settings))
 
 
 def _keys(parsed: argparse.Namespace) -> int:
-    from service import key_commands
+    from service.commands import keys
     from service.engine.keys import Role
+    from service.startup.begin import read_settings, run_told, warn_of_unknown_names
 
-    settings = _settings("keys")
+    settings = read_settings("keys")
+    warn_of_unknown_names()
     commands: dict[str, Callable[[], int]] = {
-        "create": lambda: key_commands.create_key(
-            settings, tenant=parsed.tenant, role=Role(parsed.role)
-        ),
-        "list": lambda: key_commands.list_keys(settings),
-        "revoke": lambda: key_commands.revoke_key(settings, identity=parsed.id),
+        "create": lambda: keys.create_key(settings, tenant=parsed.tenant, role=Role(parsed.role)),
+        "list": lambda: keys.list_keys(settings),
+        "revoke": lambda: keys.revoke_key(settings, identity=parsed.id),
     }
-    return _told("keys", commands[parsed.action])
+    return run_told("keys", commands[parsed.action])
 
 
 def _health(parsed: argparse.Namespace) -> int:
-    settings = _settings("health")
+    from service.startup.begin import read_settings, warn_of_unknown_names
+
+    settings = read_settings("health")
+    warn_of_unknown_names()
     if parsed.worker:
-        from service.worker_health import worker_health
+        from service.commands.worker_health import worker_health
 
         return worker_health(settings)
-    from service.api_health import api_health
+    from service.commands.api_health import api_health
 
     return api_health(settings)
 
 
-def _settings(command: str, **given: object) -> "Settings":
-    from pydantic import ValidationError
-
-    from service.settings import Settings
-
-    try:
-        return Settings(**given)  # pyright: ignore[reportArgumentType]
-    except ValidationError as error:
-        for fault in error.errors():
-            name = "".join(str(part) for part in fault["loc"])
-            print(f"maquette {command}: {name}: {fault['msg']}.", file=sys.stderr)
-        sys.exit(UNUSABLE)
-
-
-def _told(command: str, run: Callable[[], int | None]) -> int:
-    """Run a command; what only then turns out to be set wrong is said in a line."""
-    from service.engine.database import DatabaseUnusableError
-    from service.engine.port import EngineUnavailableError
-    from service.settings import SettingError
-
-    try:
-        return run() or 0
-    except (DatabaseUnusableError, SettingError) as error:
-        print(f"maquette {command}: {error}", file=sys.stderr)
-    except EngineUnavailableError:
-        print(f"maquette {command}: the database is not available.", file=sys.stderr)
-    return UNUSABLE
-
-
 def _fit(parsed: argparse.Namespace) -> int:
-    from service.local_fit import FitArguments, fit_locally
+    from service.commands.fit import FitArguments, fit_locally
+    from service.startup.begin import read_settings
 
+    read_settings("fit")
     return fit_locally(
         FitArguments(
             image=parsed.image,
@@ -234,6 +248,7 @@ def _fit(parsed: argparse.Namespace) -> int:
             mask=parsed.mask,
             models=parsed.models,
             output=parsed.output,
+            formats=parsed.formats,
             overrides={
                 name: value
                 for name in (
@@ -252,14 +267,18 @@ def _fit(parsed: argparse.Namespace) -> int:
 
 
 def _demo(parsed: argparse.Namespace) -> int:
-    from service.demo import run_demo
+    from service.commands.demo import run_demo
+    from service.startup.begin import read_settings
 
+    read_settings("demo")
     return run_demo(parsed.output)
 
 
 def _warm_up(_: argparse.Namespace) -> int:
-    from service.local_fit import warm_up
+    from service.commands.fit import warm_up
+    from service.startup.begin import read_settings
 
+    read_settings("warm-up")
     return warm_up()
 
 

@@ -1,33 +1,65 @@
-"""Every setting of the service, once. Built in the entry point and passed down."""
+"""Every setting of the service, once. Built in the entry point and passed down.
 
-import ipaddress
+One table, however long: each setting stands with its bounds and what it means. What a text must be
+to stand for a folder, an address or a list is in :mod:`service.setting_types`.
+"""
+
 import os
-import re
 from pathlib import Path
 from typing import Final, Literal
-from urllib.parse import urlsplit
 
 from pydantic import Field, ValidationInfo, field_validator
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
-from api_schemas.webhooks import secret_key
+from service.setting_addresses import is_loopback
+from service.setting_types import (
+    BucketUrl,
+    DatabaseUrl,
+    HostNames,
+    ModelFolder,
+    NamedFolder,
+    Origins,
+    Pauses,
+    Ports,
+    WebAddress,
+    WebhookSecret,
+    split_list,
+)
 
 PREFIX: Final = "MAQUETTE_"
 
+DAY_S: Final = 86_400.0
+SHORTEST_PACE_S: Final = 0.01
+"""What is done more often than this takes a processor for itself."""
+
+LONGEST_RETENTION_HOURS: Final = 87_600.0
+"""Ten years."""
+
+LARGEST_BODY_BYTES: Final = 2_000_000_000
+"""A body is held in memory."""
+
+MOST_PROCESSES: Final = 1_024
+SILENT_BEATS: Final = 2.0
+"""Heartbeats that may at least go missing before a worker is taken for dead."""
+
 
 class SettingError(Exception):
-    """A setting cannot be followed; found out only when it was tried."""
+    """A setting cannot be followed; found out only when it was tried.
 
-    def __init__(self, reason: str, *, name: str) -> None:
-        super().__init__(f"{PREFIX}{name.upper()}: {reason}")
-        self.name = name
-        self.reason = reason
+    The message is one line: the variable, its ``value`` without secrets, and the reason with what
+    to do.
+    """
+
+    def __init__(self, reason: str, *, name: str, value: object) -> None:
+        super().__init__(f"{PREFIX}{name.upper()}={value}: {reason}")
 
 
 class Settings(BaseSettings):
     """Read from environment variables named ``MAQUETTE_`` and the field's name in capitals."""
 
-    model_config = SettingsConfigDict(env_prefix=PREFIX, frozen=True, extra="forbid")
+    model_config = SettingsConfigDict(
+        env_prefix=PREFIX, frozen=True, extra="forbid", allow_inf_nan=False
+    )
 
     host: str = Field(default="127.0.0.1", description="Address the API listens on.")
     port: int = Field(default=8000, ge=0, le=65535, description="Port the API listens on.")
@@ -39,74 +71,125 @@ class Settings(BaseSettings):
             "tenant, and the service listens on loopback addresses only."
         ),
     )
-    cors_origins: str = Field(
+    cors_origins: Origins = Field(
         default="",
         description="Origins whose pages may call the API from a browser, separated by commas.",
     )
-    data_dir: Path = Field(
+    data_dir: NamedFolder = Field(
         default=Path("maquette-data"),
         description="Folder of the embedded database, the pictures and the results.",
     )
-    database_url: str | None = Field(
+    database_url: DatabaseUrl | None = Field(
         default=None,
+        repr=False,
         description="`postgresql://...` for several machines; SQLite in the data folder if unset.",
     )
-    blob_url: str | None = Field(
+    blob_url: BucketUrl | None = Field(
         default=None,
         description=(
             "`s3://bucket/prefix` for pictures and results in object storage (credentials from "
             "`AWS_ACCESS_KEY_ID` and so on); the data folder if unset."
         ),
     )
-    s3_endpoint_url: str | None = Field(
+    s3_endpoint_url: WebAddress | None = Field(
         default=None, description="Address of an S3-compatible server; Amazon's own if unset."
     )
     s3_region: str | None = Field(
         default=None,
         description="Region of the bucket; the S3 client's own if unset.",
     )
-    models_dir: Path | None = Field(
+    models_dir: ModelFolder | None = Field(
         default=None,
         description="Folder with `female.npz` and `male.npz`; the packaged body models if unset.",
     )
     max_upload_bytes: int = Field(
-        default=50_000_000, ge=1, description="Largest request body accepted."
+        default=50_000_000,
+        ge=1,
+        le=LARGEST_BODY_BYTES,
+        description="Largest request body accepted.",
     )
     max_pixels: int = Field(
-        default=50_000_000, ge=1, description="Largest picture accepted, in pixels."
+        default=50_000_000,
+        ge=1,
+        le=1_000_000_000,
+        description="Largest picture accepted, in pixels.",
     )
     max_queued: int = Field(
-        default=1_000, ge=1, description="Jobs that may wait before new ones are refused (503)."
+        default=1_000,
+        ge=1,
+        le=1_000_000,
+        description="Jobs that may wait before new ones are refused (503).",
     )
     max_queued_per_tenant: int = Field(
         default=200,
         ge=1,
+        le=1_000_000,
         description="Jobs of one tenant that may wait before its new ones are refused (429).",
     )
     max_images_per_tenant: int = Field(
         default=1_000,
         ge=1,
+        le=1_000_000,
         description="Uploaded pictures kept for one tenant before more are refused (507).",
     )
     max_image_bytes_per_tenant: int = Field(
         default=5_000_000_000,
         ge=1,
+        le=1_000_000_000_000_000,
         description="Bytes of uploaded pictures kept for one tenant before more are refused (507).",
     )
     requests_per_minute: int = Field(
         default=1_200,
         ge=1,
-        description="Requests of one API key, at each API process, before it is refused (429).",
+        le=1_000_000,
+        description=(
+            "Requests of one API key a minute, at all API processes together, before it is refused "
+            "(429)."
+        ),
+    )
+    max_connections: int = Field(
+        default=800,
+        ge=1,
+        le=100_000,
+        description=(
+            "Connections open to one API process before further ones are refused (503); those that "
+            "ask nothing make room first. Each takes a file descriptor (`ulimit -n`)."
+        ),
+    )
+    head_time_limit_s: float = Field(
+        default=20.0,
+        ge=SHORTEST_PACE_S,
+        le=3_600.0,
+        description="How long the head of a request may take (408).",
+    )
+    body_time_limit_s: float = Field(
+        default=30.0,
+        ge=SHORTEST_PACE_S,
+        le=3_600.0,
+        description=(
+            "How long the body of a request may take (408), beside the time that "
+            "`MAQUETTE_BODY_BYTES_PER_S` gives it."
+        ),
+    )
+    body_bytes_per_s: int = Field(
+        default=4_000,
+        ge=1,
+        le=1_000_000_000,
+        description="A body gets a second more for each so many bytes that came.",
     )
     retention_hours: float = Field(
         default=168.0,
         gt=0.0,
+        le=LONGEST_RETENTION_HOURS,
         description="A job is erased, with its picture and results, this long after its end.",
     )
     sweep_interval_s: float = Field(
-        default=60.0, gt=0.0, description="How often what has expired is looked for and erased."
+        default=60.0,
+        ge=SHORTEST_PACE_S,
+        le=DAY_S,
+        description="How often what has expired is looked for and erased.",
     )
-    webhook_secret: str | None = Field(
+    webhook_secret: WebhookSecret | None = Field(
         default=None,
         repr=False,
         description=(
@@ -114,17 +197,24 @@ class Settings(BaseSettings):
             "bring no secret of their own; those are refused if unset."
         ),
     )
-    webhook_hosts: str = Field(
+    webhook_hosts: HostNames = Field(
         default="",
         description=(
-            "Hosts, separated by commas, that notices may be sent to even if their addresses are "
-            "not public: for development and for receivers on the same network."
+            "Hosts, separated by commas, that notices may be sent to at any port, even if their "
+            "addresses are not public: for development and for receivers on the same network."
         ),
     )
-    webhook_time_limit_s: float = Field(
-        default=15.0, gt=0.0, description="How long one attempt to send a notice may take."
+    webhook_ports: Ports = Field(
+        default="443,80",
+        description="Ports, separated by commas, that notices may be sent to at all other hosts.",
     )
-    webhook_pauses_s: str = Field(
+    webhook_time_limit_s: float = Field(
+        default=15.0,
+        ge=SHORTEST_PACE_S,
+        le=600.0,
+        description="How long one attempt to send a notice may take.",
+    )
+    webhook_pauses_s: Pauses = Field(
         default="5,300,1800,7200,18000,36000,50400,72000,86400",
         description=(
             "Seconds between the attempts to send a notice, separated by commas; after the last "
@@ -134,55 +224,90 @@ class Settings(BaseSettings):
     worker_processes: int = Field(
         default_factory=lambda: os.cpu_count() or 1,
         ge=1,
+        le=MOST_PROCESSES,
         description="Fits one worker runs side by side; the number of CPU cores if unset.",
     )
     estimator_processes: int = Field(
         default=1,
         ge=1,
+        le=MOST_PROCESSES,
         description=(
-            "Processes beside the API that answer bodies and initial poses, one question at a time "
-            "each; about 400 MB each."
+            "Processes beside the API that answer bodies and initial poses and write other "
+            "formats, one question at a time each; about 400 MB each, 100 more once they wrote "
+            "USDZ."
         ),
     )
     job_time_limit_s: float = Field(
-        default=600.0, gt=0.0, description="A fit is stopped after this many seconds."
+        default=600.0,
+        ge=SHORTEST_PACE_S,
+        le=DAY_S,
+        description="A fit is stopped after this many seconds.",
     )
     max_crashes: int = Field(
-        default=3, ge=1, description="A job whose process died this often is given up."
+        default=3,
+        ge=1,
+        le=1_000_000,
+        description="A job whose process died this often is given up.",
     )
     child_memory_mb: int = Field(
-        default=4_096, ge=256, description="Address space of the process that makes one fit."
+        default=4_096,
+        ge=256,
+        le=1_048_576,
+        description="Address space of the process that makes one fit.",
     )
     drain_s: float = Field(
         default=20.0,
         ge=0.0,
+        le=DAY_S,
         description="How long a stopping worker waits for its fits before handing them back.",
     )
     stop_delay_s: float = Field(
         default=0.0,
         ge=0.0,
+        le=3_600.0,
         description=(
             "How long a stopping API still answers while it reports itself not ready, so that a "
             "load balancer can turn away from it."
         ),
     )
     heartbeat_s: float = Field(
-        default=2.0, gt=0.0, description="How often a worker says that it is alive."
+        default=2.0,
+        ge=SHORTEST_PACE_S,
+        le=3_600.0,
+        description="How often a worker says that it is alive.",
     )
     dead_after_s: float = Field(
-        default=15.0, gt=0.0, description="A worker silent for this long has its fits taken over."
+        default=15.0,
+        ge=SHORTEST_PACE_S,
+        le=DAY_S,
+        description="A worker silent for this long has its fits taken over.",
     )
     queue_poll_s: float = Field(
-        default=0.1, gt=0.0, description="How often an idle worker looks for jobs."
+        default=0.1,
+        ge=SHORTEST_PACE_S,
+        le=3_600.0,
+        description="How often an idle worker looks for jobs.",
     )
     cancel_poll_s: float = Field(
-        default=0.1, gt=0.0, description="How often a running fit looks whether it was canceled."
+        default=0.1,
+        ge=SHORTEST_PACE_S,
+        le=3_600.0,
+        description="How often a running fit looks whether it was canceled.",
     )
     progress_interval_s: float = Field(
-        default=0.2, gt=0.0, description="The shortest time between two stored progress reports."
+        default=0.2,
+        ge=SHORTEST_PACE_S,
+        le=3_600.0,
+        description="The shortest time between two stored progress reports.",
     )
     min_free_disk_mb: int = Field(
-        default=200, ge=0, description="With less free disk the service reports itself not ready."
+        default=200,
+        ge=0,
+        le=1_000_000_000,
+        description=(
+            "With less free disk the service is not ready, refuses new work (507) and begins no "
+            "job that waits."
+        ),
     )
     log_level: Literal["DEBUG", "INFO", "WARNING", "ERROR"] = Field(
         default="INFO", description="DEBUG, INFO, WARNING or ERROR."
@@ -190,7 +315,7 @@ class Settings(BaseSettings):
     log_format: Literal["text", "json"] = Field(
         default="text", description="`json` for one object a line, `text` for people."
     )
-    traces_endpoint: str | None = Field(
+    traces_endpoint: WebAddress | None = Field(
         default=None,
         description=(
             "Address of an OTLP/HTTP collector (`http://host:4318`) to send traces to; none are "
@@ -211,57 +336,37 @@ class Settings(BaseSettings):
             raise ValueError(message)
         return authentication
 
-    @field_validator("webhook_secret")
+    @field_validator("dead_after_s")
     @classmethod
-    def _is_a_usable_secret(cls, secret: str | None) -> str | None:
-        if secret is not None:
-            secret_key(secret)
-        return secret
-
-    @field_validator("webhook_pauses_s")
-    @classmethod
-    def _are_pauses(cls, pauses: str) -> str:
-        if not all(re.fullmatch(r"\s*\d{1,6}(\.\d+)?\s*", each) for each in pauses.split(",")):
-            message = "write seconds separated by commas, as in 5,300,1800"
+    def _outlasts_heartbeats(cls, dead_after_s: float, info: ValidationInfo) -> float:
+        heartbeat_s = info.data.get("heartbeat_s", 0.0)
+        if dead_after_s < SILENT_BEATS * heartbeat_s:
+            message = (
+                f"with a heart that beats every {heartbeat_s:g} s ({PREFIX}HEARTBEAT_S) every "
+                f"worker would be taken for dead: set at least {SILENT_BEATS * heartbeat_s:g}"
+            )
             raise ValueError(message)
-        return pauses
+        return dead_after_s
 
-    @field_validator("blob_url")
-    @classmethod
-    def _is_a_bucket(cls, url: str | None) -> str | None:
-        if url is not None and (urlsplit(url).scheme != "s3" or not urlsplit(url).netloc):
-            message = "write it as s3://bucket or s3://bucket/prefix"
-            raise ValueError(message)
-        return url
+    @property
+    def is_database_embedded(self) -> bool:
+        """Whether the database is a file in the data folder."""
+        return self.database_url is None
 
-    @field_validator("cors_origins")
-    @classmethod
-    def _are_origins(cls, origins: str) -> str:
-        for origin in split_list(origins):
-            parts = urlsplit(origin)
-            if (
-                parts.scheme not in ("http", "https")
-                or origin != f"{parts.scheme}://{parts.netloc}"
-            ):
-                message = (
-                    f"{origin!r} is no origin; write scheme, host and port, as in https://host"
-                )
-                raise ValueError(message)
-        return origins
+    @property
+    def uses_data_folder(self) -> bool:
+        """Whether anything is kept in the data folder."""
+        return self.is_database_embedded or self.blob_url is None
 
-    @field_validator("models_dir")
-    @classmethod
-    def _both_models_are_there(cls, folder: Path | None) -> Path | None:
-        for name in ("female.npz", "male.npz"):
-            if folder is not None and not (folder / name).is_file():
-                message = f"no {name} in {folder}: train one, or copy the packaged one there"
-                raise ValueError(message)
-        return folder
+    @property
+    def database_file(self) -> Path:
+        """Where the embedded database is, if there is one."""
+        return self.data_dir.resolve() / "maquette.sqlite"
 
     @property
     def system_database_url(self) -> str:
         """The database of jobs: the one named, or the embedded one."""
-        return self.database_url or f"sqlite:///{self.data_dir.resolve() / 'maquette.sqlite'}"
+        return self.database_url or f"sqlite:///{self.database_file}"
 
     @property
     def allowed_origins(self) -> tuple[str, ...]:
@@ -272,6 +377,11 @@ class Settings(BaseSettings):
     def allowed_webhook_hosts(self) -> tuple[str, ...]:
         """Hosts that notices may be sent to wherever they are."""
         return split_list(self.webhook_hosts.lower())
+
+    @property
+    def allowed_webhook_ports(self) -> tuple[int, ...]:
+        """Ports that notices may be sent to."""
+        return tuple(int(port) for port in split_list(self.webhook_ports))
 
     @property
     def webhook_schedule_s(self) -> tuple[float, ...]:
@@ -293,20 +403,12 @@ class Settings(BaseSettings):
         """The folder of pictures and results."""
         return self.data_dir.resolve() / "blobs"
 
+    @property
+    def ballast_file(self) -> Path:
+        """What is given up when erasing needs room on a full disk."""
+        return self.data_dir.resolve() / "ballast"
+
     def environment(self) -> dict[str, str]:
         """Write these settings as the environment of another process that is to share them."""
         values = self.model_dump(mode="json", exclude_none=True)
         return {f"{PREFIX}{name.upper()}": str(value) for name, value in values.items()}
-
-
-def is_loopback(host: str) -> bool:
-    """Say whether an address, or the name ``localhost``, is reached from this machine only."""
-    try:
-        return ipaddress.ip_address(host.strip("[]")).is_loopback
-    except ValueError:
-        return host == "localhost"
-
-
-def split_list(text: str) -> tuple[str, ...]:
-    """Read a list separated by commas."""
-    return tuple(each.strip() for each in text.split(",") if each.strip())

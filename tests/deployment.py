@@ -1,5 +1,6 @@
 """A whole service whose processes are killed at random and started again."""
 
+import contextlib
 import os
 import random
 import signal
@@ -15,7 +16,9 @@ from pathlib import Path
 from tests.process_table import Process, processes_with
 
 REPOSITORY = Path(__file__).parents[1]
-STOPPED_WITHIN_S = 60.0
+STOPPED_WITHIN_S = 600.0
+PORTS_FROM = 20_000
+PORT_RANGE = Path("/proc/sys/net/ipv4/ip_local_port_range")
 FORK_SERVER = "multiprocessing.forkserver"
 FOLDER_VARIABLE = "MAQUETTE_DATA_DIR"
 
@@ -196,9 +199,16 @@ def _kill(pid: int) -> None:
 
 
 def _free_port() -> int:
-    with socket.socket() as listener:
-        listener.bind(("127.0.0.1", 0))
-        return listener.getsockname()[1]
+    """A port that no outgoing connection gets, so that it is there for an API started again.
+
+    Where all are given to outgoing connections it is one of those.
+    """
+    ports_to = int(PORT_RANGE.read_text().split()[0])
+    while True:
+        port = random.randrange(PORTS_FROM, ports_to) if ports_to > PORTS_FROM else 0
+        with socket.socket() as listener, contextlib.suppress(OSError):
+            listener.bind(("127.0.0.1", port))
+            return listener.getsockname()[1]
 
 
 def wait_for(condition: Callable[[], bool], *, within_s: float) -> bool:

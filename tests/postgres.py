@@ -31,4 +31,4 @@ def fresh_database() -> Iterator[str]:
 
 def administration() -> psycopg.Connection:
     """A connection beside the databases under test."""
-    return psycopg.connect(f"{SERVER}/postgres", autocommit=True, connect_timeout=3)
+    return psycopg.connect(f"{SERVER}/postgres", autocommit=True, connect_timeout=60)

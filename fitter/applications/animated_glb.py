@@ -7,14 +7,14 @@ body is and which way it faces is animated on the node, so that the mesh itself 
 import numpy as np
 from jaxtyping import Float, Float32
 
+from fitter.applications.gltf_skin import Skin
 from fitter.applications.motion import MovingBody
-from fitter.applications.principal_frames import PrincipalFrames
-from fitter.applications.skin import Skin
+from fitter.applications.principal_frames import PrincipalFrames, with_rest
 from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
 from fitter.export.glb import BinaryChunk, Target, pack_glb
-from fitter.export.gltf import add_body_mesh, unit_normals
-from fitter.export.plain_gltf import plain_document
+from fitter.export.gltf_document import Frame, Node, gltf_document
+from fitter.export.gltf_mesh import BODY_NODE, add_body_mesh, unit_normals
 from fitter.parameters import Reflectance
 
 
@@ -27,9 +27,11 @@ def morphed_glb(
     albedo_rgb: Vertices | None,
 ) -> bytes:
     """Exact SCAPE bodies as one mesh with morph targets, every frame with weights of its own."""
-    document = plain_document(
+    document = gltf_document(
+        [BODY_NODE | _placement(body)],
         model,
         name="body_animated",
+        frame=Frame.ON_THE_GROUND,
         extras={
             "method": "exact SCAPE bodies in a basis of morph targets",
             "morph_targets": len(frames.targets),
@@ -55,11 +57,10 @@ def morphed_glb(
             frames.targets, _normal_targets(body, frames, model), strict=True
         )
     ]
-    _first(document, "meshes")["weights"] = [0.0] * len(frames.targets)
+    document["meshes"][0]["weights"] = frames.weights[0].tolist()
     animation = _Animation(binary, body)
     animation.place(0)
     animation.sampled(0, "weights", frames.weights.ravel())
-    document["nodes"] = [{"mesh": 0, "name": "body"} | _placement(body)]
     document["animations"] = [animation.document("motion")]
     return pack_glb(document, binary)
 
@@ -73,9 +74,14 @@ def skinned_glb(
     albedo_rgb: Vertices | None,
 ) -> bytes:
     """The body as a skin on its bones, for programs that go on animating: approximate."""
-    document = plain_document(
+    # Node 0 is the mesh, the bones follow: a skinned mesh below another node is not moved by it.
+    first = 1
+    offsets = _bone_offsets(skin, model)
+    document = gltf_document(
+        [BODY_NODE | {"skin": 0}, *_bone_nodes(body, offsets[0], model, first)],
         model,
         name="body_skinned",
+        frame=Frame.ON_THE_GROUND,
         extras={
             "method": "linear blending on 17 bones: approximate, not SCAPE",
             "bound_in_frame": skin.frame,
@@ -84,10 +90,15 @@ def skinned_glb(
         },
     )
     binary = BinaryChunk()
+    # Bound where it stands in that frame, so that readers without skins show it on the ground.
+    placement = np.eye(4)
+    placement[:3, :3] = body.rotations[skin.frame]
+    placement[:3, 3] = body.roots[skin.frame]
+    inverse_bind = skin.inverse_bind @ np.linalg.inv(placement)
     primitive = add_body_mesh(
         document,
         binary,
-        vertices=skin.vertices,
+        vertices=skin.vertices @ placement[:3, :3].T + placement[:3, 3],
         triangles=model.triangles,
         reflectance=reflectance,
         albedo_rgb=albedo_rgb,
@@ -100,9 +111,7 @@ def skinned_glb(
     attributes["WEIGHTS_0"] = binary.add(
         skin.weights.astype(np.float32), target=Target.VERTEX_ATTRIBUTE
     )
-    matrices = skin.inverse_bind.transpose(0, 2, 1).reshape(-1, 16).astype(np.float32)
-    # Node 0 is the mesh, the bones follow: a skinned mesh below another node is not moved by it.
-    first = 1
+    matrices = inverse_bind.transpose(0, 2, 1).reshape(-1, 16).astype(np.float32)
     bones = [first + part for part in range(len(model.part_names))]
     document["skins"] = [
         {
@@ -112,17 +121,11 @@ def skinned_glb(
             "inverseBindMatrices": binary.add(matrices, target=None),
         }
     ]
-    _first(document, "scenes")["nodes"] = [0, bones[0]]
-    offsets = _bone_offsets(skin, model)
     animation = _Animation(binary, body)
     animation.place(bones[0])
     for part, node in enumerate(bones[1:], start=1):
         animation.sampled(node, "translation", offsets[:, part])
         animation.rotated(node, body.motion.poses[:, part])
-    document["nodes"] = [
-        {"name": "body", "mesh": 0, "skin": 0},
-        *_bone_nodes(body, offsets[0], model, first),
-    ]
     document["animations"] = [animation.document("motion")]
     return pack_glb(document, binary)
 
@@ -178,14 +181,16 @@ def _normal_targets(
 ) -> Float32[np.ndarray, "k m 3"]:
     """Changes of the normals that come nearest to the true ones over all frames."""
     base = unit_normals(frames.base.astype(np.float64), model.triangles)
-    # Least squares, normal by normal: pinv(W) (N_t - N_0), summed frame by frame to save memory.
-    inverse = np.linalg.pinv(frames.weights.astype(np.float64))
-    targets = np.zeros((len(frames.targets), *base.shape))
+    # Least squares, normal by normal: pinv(W) (N_t - N_0) with W the changes of the weights, summed
+    # frame by frame to save memory. The last weight never changes.
+    weights = frames.weights[:, :-1].astype(np.float64)
+    inverse = np.linalg.pinv(weights - weights[0])
+    targets = np.zeros((len(inverse), *base.shape))
     for frame, shape in enumerate(body.shapes):
         change = unit_normals(shape.astype(np.float64), model.triangles) - base
         for target, share in zip(targets, inverse[:, frame], strict=True):
             target += share * change
-    return targets.astype(np.float32)
+    return with_rest(targets, weights[0]).astype(np.float32)
 
 
 def _bone_offsets(skin: Skin, model: BodyModel) -> Float[np.ndarray, "t p 3"]:
@@ -197,12 +202,12 @@ def _bone_offsets(skin: Skin, model: BodyModel) -> Float[np.ndarray, "t p 3"]:
 
 def _bone_nodes(
     body: MovingBody, offsets: Float[np.ndarray, "p 3"], model: BodyModel, first: int
-) -> list[dict[str, object]]:
+) -> list[Node]:
     """The bones in the first frame."""
-    nodes: list[dict[str, object]] = []
+    nodes: list[Node] = []
     for part, name in enumerate(model.part_names):
         children = [first + int(child) for child in np.flatnonzero(model.part_parent == part)]
-        node: dict[str, object] = {"name": name}
+        node: Node = {"name": name}
         if children:
             node["children"] = children
         if model.part_parent[part] < 0:
@@ -214,16 +219,9 @@ def _bone_nodes(
     return nodes
 
 
-def _placement(body: MovingBody) -> dict[str, object]:
+def _placement(body: MovingBody) -> Node:
     """Position and rotation of the first frame."""
     return {
         "translation": body.roots[0].tolist(),
         "rotation": quaternions(body.motion.poses[:1, 0])[0].tolist(),
     }
-
-
-def _first(document: dict[str, object], kind: str) -> dict[str, object]:
-    """The only mesh or scene of a document."""
-    only = document[kind]
-    assert isinstance(only, list)
-    return only[0]

@@ -7,16 +7,17 @@ from dataclasses import dataclass
 from fitter.applications.animated_glb import morphed_glb, skinned_glb
 from fitter.applications.bvh import BvhClip
 from fitter.applications.filmstrip import film, strip
-from fitter.applications.fitted_person import FittedPerson
+from fitter.applications.gltf_skin import skin_of
 from fitter.applications.grounding import grounded, sliding_m
 from fitter.applications.motion import Motion, moving_body
 from fitter.applications.principal_frames import principal_frames
 from fitter.applications.retarget import retarget
 from fitter.applications.rig import Rig
-from fitter.applications.skin import skin_of
+from fitter.applications.walk import stride_of, walk
 from fitter.body.scape import ScapeEvaluator
 from fitter.errors import InvalidInputError
 from fitter.export.display import png
+from fitter.person.fitted_person import FittedPerson
 from fitter.remarks import FitWarning
 
 MOST_FRAMES = 360
@@ -110,23 +111,48 @@ def motion_of_clip(
         wanted = min(wanted, max(1, round(duration_s / clip.frame_time_s)))
     frames = min((wanted + step - 1) // step, MOST_FRAMES)
     retargeted = retarget(clip, rig, slice(first, first + frames * step, step))
-    warnings: tuple[FitWarning, ...] = ()
-    if frames * step < wanted:
-        shown_s = frames * step * clip.frame_time_s
-        warnings = (
-            FitWarning(
-                code="clip-cut",
-                message=(
-                    f"{shown_s:.2f} of {wanted * clip.frame_time_s:.2f} s are shown: an animation "
-                    f"has {MOST_FRAMES} frames at most. Ask for a later stretch to see the rest."
-                ),
-            ),
-        )
     return ChosenMotion(
         motion=retargeted.motion,
         source=f"BVH with the names of {retargeted.naming}",
-        warnings=warnings,
+        warnings=_told_if_cut(frames * step, wanted, clip.frame_time_s),
     )
+
+
+def motion_of_walk(
+    rig: Rig, *, start_s: float = 0.0, duration_s: float | None = None
+) -> ChosenMotion:
+    """A stretch of the walk that ships with the package, which has no end.
+
+    Parameters
+    ----------
+    rig
+        The person's skeleton.
+    start_s, duration_s
+        Which stretch; None is three strides. What is longer than there may be frames is cut, with
+        a warning.
+    """
+    frame_time_s = stride_of(rig).frame_time_s
+    first = round(start_s / frame_time_s)
+    source = "the walk that ships with the package"
+    if duration_s is None:
+        return ChosenMotion(motion=walk(rig, first=first), source=source, warnings=())
+    wanted = max(1, round(duration_s / frame_time_s))
+    frames = min(wanted, MOST_FRAMES)
+    return ChosenMotion(
+        motion=walk(rig, first=first, frames=frames),
+        source=source,
+        warnings=_told_if_cut(frames, wanted, frame_time_s),
+    )
+
+
+def _told_if_cut(shown: int, wanted: int, frame_time_s: float) -> tuple[FitWarning, ...]:
+    if shown >= wanted:
+        return ()
+    message = (
+        f"{shown * frame_time_s:.2f} of {wanted * frame_time_s:.2f} s are shown: an animation "
+        f"has {MOST_FRAMES} frames at most. Ask for a later stretch to see the rest."
+    )
+    return (FitWarning(code="clip-cut", message=message),)
 
 
 def animate(person: FittedPerson, evaluator: ScapeEvaluator, motion: Motion) -> Animation:

@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Integer, UInt8
 
 from fitter.body.model import BodyModel
-from fitter.camera import Camera
+from fitter.render.camera import Camera
 from fitter.render.rasterizer import render
 
 MARGIN_SHARE = 16 / 1024
@@ -85,7 +85,7 @@ def drawn_on(
         outside, cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
     )
     nearest = np.asarray(labels, dtype=np.intp)
-    # Labels number the texels inside: which number is whose is told by these texels themselves.
+    # Connected components of the texels inside; the texels themselves tell which label is which.
     of_label = np.zeros(int(nearest.max()) + 1, dtype=np.intp)
     of_label[nearest[inside]] = np.arange(len(levels))
     margin = (outside > 0) & (distance <= MARGIN_SHARE * len(inside))

@@ -9,13 +9,13 @@ from PIL import Image as PillowImage
 from fitter.applications.motion import MovingBody
 from fitter.arrays import Triangles, Vertices
 from fitter.body.scape import CAMERA_AXES
-from fitter.camera import Camera
 from fitter.export.views import (
     CANONICAL_DISTANCE_M,
     clay_panel,
     framing_camera,
     turned_about_vertical,
 )
+from fitter.render.camera import Camera
 
 MOMENTS = 8
 

@@ -9,9 +9,9 @@ import numpy as np
 from jaxtyping import Float, Integer
 
 from fitter.arrays import GreyImage, Image, Mask, Points2D, Triangles, Vertices
-from fitter.camera import Camera
 from fitter.evidence.sampling import sample
 from fitter.numerics.vectors import unit_vectors
+from fitter.render.camera import Camera
 from fitter.render.rasterizer import DEPTH_TOLERANCE_M, Rendering, render
 
 GRAZING, SQUARE = 0.2, 0.5

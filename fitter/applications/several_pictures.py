@@ -14,10 +14,9 @@ import numpy as np
 from jaxtyping import Float
 from scipy.stats import chi2
 
-from fitter.applications.fitted_person import FittedPerson
 from fitter.arrays import Shape
 from fitter.errors import InvalidInputError
-from fitter.result import LitBody
+from fitter.person.fitted_person import FittedPerson
 
 SHARED_ERROR = 0.4
 """Correlation of the errors of two pictures of one person, by which k pictures count as
@@ -115,7 +114,7 @@ def counted_as(pictures: int) -> float:
     return pictures / (1.0 + (pictures - 1) * SHARED_ERROR)
 
 
-def known_covariance(person: FittedPerson | LitBody) -> Float[np.ndarray, "n n"]:
+def known_covariance(person: FittedPerson) -> Float[np.ndarray, "n n"]:
     """How certain the shape of a fit is; fits that do not know have been refused."""
     assert person.shape_covariance is not None
     return person.shape_covariance

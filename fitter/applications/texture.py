@@ -13,7 +13,6 @@ import numpy as np
 from jaxtyping import Bool, Float, Integer, UInt8
 
 from fitter.applications.atlas import Atlas, atlas_of, drawn_on
-from fitter.applications.fitted_person import FittedPerson, require_model
 from fitter.applications.seen_surface import SeenSurface, SurfacePoints, smooth_step
 from fitter.arrays import Image, Mask, Vector3
 from fitter.body.scape import ScapeEvaluator
@@ -24,6 +23,7 @@ from fitter.observation.colour import display_from_linear, luminance_of
 from fitter.observation.resampling import linear_working_picture, working_size
 from fitter.optimizer.hidden_reflectance import HiddenVertices
 from fitter.parameters import Light, Reflectance
+from fitter.person.fitted_person import FittedPerson, require_model
 from fitter.render.rasterizer import Rendering
 from fitter.render.reflectance import shading_terms
 from fitter.render.shadow import cast_shadow, penumbra

@@ -10,18 +10,17 @@ from typing import Any
 import numpy as np
 from jaxtyping import Integer
 
-from fitter.applications.fitted_person import FittedPerson
 from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
 from fitter.body.scape import CAMERA_AXES
 from fitter.export.glb import BinaryChunk, Target, pack_glb
-from fitter.export.gltf import (
-    NEUTRAL_ROUGHNESS,
-    generator_name,
-    light_and_node,
-    model_provenance,
-    unit_normals,
-)
+from fitter.export.gltf_camera import CAMERA_NODE, camera_description
+from fitter.export.gltf_document import Frame, Node, gltf_document
+from fitter.export.gltf_light import PUNCTUAL, light_and_node
+from fitter.export.gltf_mesh import BODY_NODE, NEUTRAL_ROUGHNESS, unit_normals
+from fitter.person.fitted_person import FittedPerson
+
+UNLIT = "KHR_materials_unlit"
 
 
 def textured_glb(
@@ -29,29 +28,28 @@ def textured_glb(
     model: BodyModel,
     picture: bytes,
     *,
+    person: FittedPerson,
     media_type: str = "image/png",
     colour_scale: float = 1.0,
     is_albedo: bool = False,
-    lit_as: FittedPerson | None = None,
     extras: Mapping[str, object],
 ) -> bytes:
-    """The body with a picture on its skin.
+    """The body with a picture on its skin, before the camera of its fit.
 
     Parameters
     ----------
     vertices
-        (m, 3) metres, y up: the axes of the file.
+        (m, 3) where the person stands, metres, in the camera's axes with y up.
     model
         Whose triangles and atlas.
+    person
+        Whose camera the file gets and, for an albedo texture, whose light.
     picture, media_type
         The texture, PNG or JPEG, its rows from the top of the atlas.
     colour_scale
         Linear values are the texture's times this.
     is_albedo
         A texture without light, to be lit; one that has its light painted in is shown as it is.
-    lit_as
-        Whose light to put in the file for that, with the body where that person stands. Where there
-        is none, whoever shows the file lights it.
     extras
         What else is said of it; JSON values.
     """
@@ -82,33 +80,26 @@ def textured_glb(
             "roughnessFactor": NEUTRAL_ROUGHNESS,
         },
     }
-    nodes: list[dict[str, object]] = [{"mesh": 0, "name": "body"}]
-    document: dict[str, Any] = {}
+    nodes: list[Node] = [BODY_NODE, CAMERA_NODE]
+    extensions: dict[str, object] = {}
+    used: list[str] = []
     if not is_albedo:
-        material["extensions"] = {"KHR_materials_unlit": {}}
-        document["extensionsUsed"] = ["KHR_materials_unlit"]
-    elif lit_as is not None and lit_as.light is not None and lit_as.reflectance is not None:
+        material["extensions"] = {UNLIT: {}}
+        used = [UNLIT]
+    elif person.light is not None and person.reflectance is not None:
         light, node = light_and_node(
-            lit_as.light,
-            body_centre=lit_as.body.translation,
+            person.light,
+            body_centre=person.body.translation,
             colour_scale=colour_scale,
-            reflectance=lit_as.reflectance,
+            reflectance=person.reflectance,
         )
         nodes.append(node)
-        document["extensions"] = {"KHR_lights_punctual": {"lights": [light]}}
-        document["extensionsUsed"] = ["KHR_lights_punctual"]
-    said = {
-        "generator": generator_name(),
-        "gender": model.gender,
-        "frame": "metres, +y up",
-        "body_model": model_provenance(model),
-        **extras,
-    }
-    document |= {
-        "asset": {"version": "2.0", "generator": generator_name(), "extras": said},
-        "scene": 0,
-        "scenes": [{"name": "body_textured", "nodes": list(range(len(nodes))), "extras": said}],
-        "nodes": nodes,
+        extensions = {PUNCTUAL: {"lights": [light]}}
+        used = [PUNCTUAL]
+    document = gltf_document(
+        nodes, model, name="body_textured", frame=Frame.CAMERA, extras=extras
+    ) | {
+        "cameras": [camera_description(person.camera)],
         "meshes": [{"name": "body", "primitives": [primitive]}],
         "materials": [material],
         "textures": [{"source": 0, "sampler": 0}],
@@ -116,6 +107,10 @@ def textured_glb(
         "samplers": [{"magFilter": 9729, "minFilter": 9987, "wrapS": 33071, "wrapT": 33071}],
         "images": [{"bufferView": binary.add_file(picture), "mimeType": media_type}],
     }
+    if extensions:
+        document["extensions"] = extensions
+    if used:
+        document["extensionsUsed"] = used
     return pack_glb(document, binary)
 
 

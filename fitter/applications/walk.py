@@ -9,6 +9,8 @@ the pelvis. A man of 1.80 m walks 1.26 m/s by them, his pelvis rises and falls b
 swinging foot stays 18 mm clear of the ground.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from fitter.applications.motion import Motion
@@ -24,21 +26,45 @@ STRIDES_PER_PENDULUM = 0.60
 walk a little faster than their legs would swing by themselves (54 strides a minute at 0.9 m)."""
 
 
-def walk(rig: Rig, *, strides: int = 3) -> Motion:
-    """Walking on the spot, to be put on the ground (:mod:`fitter.applications.grounding`).
+USUAL_STRIDES = 3
 
-    A whole number of strides, the last frame one before the first: it can be played in a loop.
-    """
+
+@dataclass(frozen=True, slots=True)
+class Stride:
+    """A stride of a person: how long it takes, and in how many frames it is shown."""
+
+    duration_s: float
+    frames: int
+
+    @property
+    def frame_time_s(self) -> float:
+        """Seconds from frame to frame."""
+        return self.duration_s / self.frames
+
+
+def stride_of(rig: Rig) -> Stride:
+    """The stride at a person's own pace, by the length of the leg."""
     leg_m = float(
         np.linalg.norm(rig.bone("left_thigh", "left_shin"))
         + np.linalg.norm(rig.bone("left_shin", "left_foot"))
     )
-    stride_s = 2.0 * np.pi * STRIDES_PER_PENDULUM * np.sqrt(leg_m / STANDARD_GRAVITY)
-    count = max(2, round(stride_s * FRAMES_PER_SECOND))
-    phases = np.arange(strides * count) / count
+    duration_s = float(2.0 * np.pi * STRIDES_PER_PENDULUM * np.sqrt(leg_m / STANDARD_GRAVITY))
+    return Stride(duration_s, max(2, round(duration_s * FRAMES_PER_SECOND)))
+
+
+def walk(rig: Rig, *, first: int = 0, frames: int | None = None) -> Motion:
+    """Walking on the spot, to be put on the ground (:mod:`fitter.applications.grounding`).
+
+    ``frames`` of a walk without end, from the ``first`` on; frame 0 is a strike of the left heel.
+    Without a number, three whole strides: the last frame is one before the first, so that they can
+    be played in a loop.
+    """
+    stride = stride_of(rig)
+    count = USUAL_STRIDES * stride.frames if frames is None else frames
+    phases = np.arange(first, first + count) % stride.frames / stride.frames
     poses = np.stack([angled_pose(rig, stride_angles(phase)) for phase in phases])
     return Motion(
-        frame_time_s=stride_s / count,
+        frame_time_s=stride.frame_time_s,
         poses=poses,
         roots=np.zeros((len(poses), 3)),
         lifts_m=np.zeros(len(poses)),

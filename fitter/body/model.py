@@ -98,3 +98,8 @@ class BodyModel:
     mirror: Integer[np.ndarray, " m"]
     canonical_pose: Pose
     standing_pose: Pose
+
+    @property
+    def checksum(self) -> str:
+        """Of the file it was read from; empty for a model that never was one."""
+        return str(self.header.get("checksum", ""))

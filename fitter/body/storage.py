@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from fitter.array_archive import read_arrays, write_arrays
 from fitter.body.model import BodyModel, SparseRows
 from fitter.body.model_checks import FIELDS, FORMAT_VERSION, model_faults
 from fitter.errors import ModelFileError
+from fitter.numerics.array_archive import read_arrays, write_arrays
 
 REMAKE = (
     "Make the file again: `python -m fitter.training` for the packaged models, or "

@@ -8,10 +8,10 @@ from jaxtyping import Float
 
 from fitter.arrays import Points2D, Points3D
 from fitter.body.model import SparseRows
-from fitter.camera import Camera
 from fitter.energies.rows import PositionRows
 from fitter.energies.scales import EnergyScales
 from fitter.numerics.robust import huber, huber_weights
+from fitter.render.camera import Camera
 from fitter.request import Click
 
 

@@ -5,7 +5,7 @@ boundary plus the ease e ≥ 0 of the clothes. With r how far the body's contour
 observed outline, e = -r. Three things are known of it where cloth is seen with probability c:
 
 - a body outside its clothes is as unlikely as one outside a tight outline: ρ_η(r)/σ² for r > 0;
-- clothes stand off by an ease of mean μ and deviation τ, people's tailors being what they are:
+- clothes stand off by an ease of mean μ and deviation τ:
   ρ_κ(r + μ)/τ², flat beyond κ, where a skirt or a cape says nothing of the leg beneath;
 - the ease of one garment repeats itself over a length Λ.
 

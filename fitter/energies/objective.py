@@ -14,12 +14,11 @@ from jaxtyping import Float
 from fitter.arrays import PerVertex, Points3D, Vertices
 from fitter.body.pose_prior import prior_residuals
 from fitter.body.skeleton import regress
-from fitter.camera import Camera
 from fitter.energies.attributes import NOTHING_KNOWN, KnownAttributes, attribute_energy
 from fitter.energies.clicks import ClickEvidence, click_energy
 from fitter.energies.correspondence_lines import line_energy
 from fitter.energies.edges import edge_energy
-from fitter.energies.instruments import BodyInstruments
+from fitter.energies.fitting_operators import FittingOperators
 from fitter.energies.penetration import penetration_energy, sphere_positions
 from fitter.energies.priors import ShapePrior, lean_residual
 from fitter.energies.scales import EnergyScales
@@ -31,6 +30,7 @@ from fitter.evidence.edge_cost import EdgeCostMap
 from fitter.evidence.loose_outline import LooseClothes
 from fitter.evidence.silhouette_evidence import SilhouetteEvidence
 from fitter.parameters import BodyParameters
+from fitter.render.camera import Camera
 from fitter.render.contours import ModelEdges, model_edges
 from fitter.render.rasterizer import Rendering, render
 
@@ -88,13 +88,13 @@ class Candidate:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Objective:
-    """An energy over bodies: instruments, evidence, scales and what is known, all fixed.
+    """An energy over bodies: operators, evidence, scales and what is known, all fixed.
 
     Held attributes are no energy: a search keeps to the bodies that have them. ``shape_prior`` is
     that of the population, unless other pictures of the person say more.
     """
 
-    instruments: BodyInstruments
+    operators: FittingOperators
     evidence: PictureEvidence
     scales: EnergyScales
     shape_prior: ShapePrior
@@ -108,22 +108,22 @@ class Objective:
         NumericalError
             If a term is not finite.
         """
-        instruments, evidence, scales = self.instruments, self.evidence, self.scales
-        vertices = instruments.evaluator.vertices(parameters)
-        rendering = render(vertices, instruments.model.triangles, evidence.camera)
-        edges = model_edges(rendering, instruments.topology)
+        operators, evidence, scales = self.operators, self.evidence, self.scales
+        vertices = operators.evaluator.vertices(parameters)
+        rendering = render(vertices, operators.model.triangles, evidence.camera)
+        edges = model_edges(rendering, operators.topology)
         landmarks = regress(evidence.clicks.landmarks, vertices)
-        spheres, radii = sphere_positions(instruments.penetration, vertices)
+        spheres, radii = sphere_positions(operators.penetration, vertices)
         energies = {
             "silhouette": silhouette_energy(rendering, evidence.silhouette, scales)
             if evidence.lines is None
             else line_energy(rendering, evidence.lines, scales),
             "edges": edge_energy(edges, evidence.edges, scales, evidence.bare),
-            "penetration": penetration_energy(spheres, radii, instruments.penetration, scales),
+            "penetration": penetration_energy(spheres, radii, operators.penetration, scales),
             "clicks": click_energy(landmarks, evidence.clicks, evidence.camera, scales),
             "shape_prior": self.shape_prior.energy(parameters.shape),
             "pose_prior": 0.5
-            * float((prior_residuals(instruments.pose_prior, parameters.pose) ** 2).sum()),
+            * float((prior_residuals(operators.pose_prior, parameters.pose) ** 2).sum()),
         }
         lean, _ = lean_residual(parameters.pose)
         energies["pose_prior"] += 0.5 * lean * lean

@@ -9,7 +9,7 @@ body's distance, so that a fit does not depend on the size of the picture.
 
 from dataclasses import dataclass
 
-from fitter.camera import Camera
+from fitter.render.camera import Camera
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

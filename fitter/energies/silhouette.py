@@ -167,7 +167,7 @@ def silhouette_overlap(
         reach = FARTHEST_M * scales.pixels_per_metre
         around = cv2.distanceTransform((~model).astype(np.uint8), cv2.DIST_L2, 3) <= reach
         union -= float(evidence.cloth[evidence.mask & ~model & around].sum())
-    return np.count_nonzero(model & evidence.mask) / union if union else 0.0
+    return float(np.count_nonzero(model & evidence.mask) / union if union else 0.0)
 
 
 def _nearest_facing_alike(

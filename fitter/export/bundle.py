@@ -14,11 +14,10 @@ from fitter.export.pictures import (
 )
 from fitter.export.views import views_picture
 from fitter.observation.decoding import decode_picture
-from fitter.parameters import Reflectance
 from fitter.render.rasterizer import render
 from fitter.render.reflectance import shading_terms
 from fitter.render.shadow import lamp_seen
-from fitter.result import FitResult, LitBody, before_shading
+from fitter.result import FitResult, PictureFit, before_shading
 
 
 def artifacts(result: FitResult, *, model: BodyModel, image: bytes) -> dict[str, bytes]:
@@ -39,16 +38,16 @@ def artifacts(result: FitResult, *, model: BodyModel, image: bytes) -> dict[str,
         The caller's encoded picture.
     """
     triangles = model.triangles
-    camera = drawing_camera(result.image_camera)
+    camera = drawing_camera(result.person.camera)
     files = {
-        "body_posed.glb": body_posed_glb(result, model),
+        "body_posed.glb": body_posed_glb(result.found, model),
         "body_canonical.glb": body_canonical_glb(result, model),
         "segmentation.png": png(mask_levels(result.pictures.segmentation, result.camera, camera)),
-        "overlay.png": overlay_png(result, model=model, image=image),
+        "overlay.png": overlay_png(result.found, model=model, image=image),
         "views.png": png(
             views_picture(
-                posed_vertices=result.posed_vertices,
-                root=result.body.translation,
+                posed_vertices=result.found.posed_vertices,
+                root=result.person.body.translation,
                 canonical_vertices=result.canonical_vertices,
                 triangles=triangles,
             )
@@ -56,52 +55,51 @@ def artifacts(result: FitResult, *, model: BodyModel, image: bytes) -> dict[str,
     }
     if result.pictures.trimap is not None:
         files["trimap.png"] = png(trimap_levels(result.pictures.trimap, result.camera, camera))
-    if result.reflectance is not None:
-        files |= _reflectance_pictures(result, result.reflectance, model)
+    files |= _reflectance_pictures(result.found, model)
     outlined = before_shading(result)
     if outlined is not None:
-        files["body_posed_se.glb"] = body_posed_glb(outlined, model)
+        files["body_posed_se.glb"] = body_posed_glb(outlined.found, model)
         files["body_canonical_se.glb"] = body_canonical_glb(outlined, model)
     return files
 
 
-def overlay_png(result: LitBody, *, model: BodyModel, image: bytes) -> bytes:
+def overlay_png(found: PictureFit, *, model: BodyModel, image: bytes) -> bytes:
     """``overlay.png``: the body's outline over the caller's encoded picture."""
-    image_camera = result.image_camera
+    image_camera = found.person.camera
     camera = drawing_camera(image_camera)
     picture = decode_picture(
         image, field="image", max_pixels=image_camera.width * image_camera.height
     )
     drawn = drawing_picture(picture.pixels, image_camera, camera)
-    return png(overlay_picture(drawn, result.posed_vertices, model.triangles, camera))
+    return png(overlay_picture(drawn, found.posed_vertices, model.triangles, camera))
 
 
-def _reflectance_pictures(
-    result: FitResult, reflectance: Reflectance, model: BodyModel
-) -> dict[str, bytes]:
+def _reflectance_pictures(found: PictureFit, model: BodyModel) -> dict[str, bytes]:
     """Fig. 7: albedo, the Lambertian part of Eq. 1, and all of it, as the camera sees them.
 
     With surroundings where the light has them, and then with cast shadows.
     """
-    if result.light is None:
+    light, reflectance = found.person.light, found.person.reflectance
+    if light is None or reflectance is None:
         return {}
-    camera = finer(drawing_camera(result.image_camera), SUPERSAMPLING)
-    rendering = render(result.posed_vertices, model.triangles, camera)
+    camera = finer(drawing_camera(found.person.camera), SUPERSAMPLING)
+    rendering = render(found.posed_vertices, model.triangles, camera)
     terms = shading_terms(
-        result.posed_vertices,
+        found.posed_vertices,
         rendering.vertex_normals,
-        light=result.light,
-        body_centre=result.body.translation,
+        light=light,
+        body_centre=found.person.body.translation,
         specular_exponent=reflectance.specular_exponent,
         lit=lamp_seen(
-            result.posed_vertices,
+            found.posed_vertices,
             model.triangles,
-            light=result.light,
-            body_centre=result.body.translation,
+            light=light,
+            body_centre=found.person.body.translation,
         ),
     )
     lambertian = reflectance.ambient + reflectance.albedo * terms.diffuse
-    albedo = reflectance.albedo if result.albedo_rgb is None else result.albedo_rgb
+    colour = found.person.albedo_rgb
+    albedo = reflectance.albedo if colour is None else colour
     values = {
         "albedo.png": albedo,
         "shading_lambertian.png": lambertian,

@@ -5,7 +5,7 @@ import numpy as np
 from jaxtyping import Float, UInt8
 
 from fitter.arrays import GreyImage
-from fitter.camera import Camera
+from fitter.render.camera import Camera
 
 _COMPRESSION = (
     *(cv2.IMWRITE_PNG_COMPRESSION, 1),

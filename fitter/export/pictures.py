@@ -5,11 +5,11 @@ import numpy as np
 from jaxtyping import Float, UInt8
 
 from fitter.arrays import Mask, PerVertex, Triangles, Vertices
-from fitter.camera import Camera
 from fitter.export.display import block_means, to_levels
 from fitter.numerics.mesh_topology import mesh_topology
 from fitter.observation.colour import display_from_linear
 from fitter.observation.resampling import WorkingSize, linear_working_picture
+from fitter.render.camera import Camera
 from fitter.render.contours import model_edges
 from fitter.render.interpolation import shade_image
 from fitter.render.rasterizer import Rendering, render

@@ -22,7 +22,7 @@ def tapes_json(result: FitResult, measuring: MeasuringBody) -> bytes:
     lowest = float(result.canonical_vertices[:, 1].min())
     lines = {
         name: (line - [0.0, lowest, 0.0]).round(DECIMALS).tolist()
-        for name, line in tape_lines(measuring, result.body.shape).items()
+        for name, line in tape_lines(measuring, result.person.body.shape).items()
     }
     document = {"frame": "metres, +y up", "lines": lines}
     return json.dumps(document, separators=(",", ":")).encode()

@@ -9,9 +9,9 @@ from jaxtyping import UInt8
 
 from fitter.arrays import Triangles, Vector3, Vertices
 from fitter.body.scape import CAMERA_AXES
-from fitter.camera import Camera
 from fitter.export.display import block_means, finer, to_levels
 from fitter.observation.colour import display_from_linear
+from fitter.render.camera import Camera
 from fitter.render.interpolation import shade_image
 from fitter.render.rasterizer import render
 

@@ -76,8 +76,8 @@ def side_warnings(clicks: Mapping[str, Click]) -> tuple[FitWarning, ...]:
     """Warnings where left and right contradict each other.
 
     With the trunk upright, the left of a person seen from the front lies to the right, and of one
-    seen from behind to the left. Shoulders and hips must tell the same, and whoever shows both
-    eyes is seen from the front. Legs and arms may cross; one eye or a nose may be looking over a
+    seen from behind to the left. Shoulders and hips must agree, and a person who shows both eyes
+    is seen from the front. Legs and arms may cross; one eye or a nose may be looking over a
     shoulder.
     """
     trunk = _trunk(clicks)

@@ -3,15 +3,15 @@
 import math
 from dataclasses import dataclass
 
-from fitter.camera import (
+from fitter.errors import InvalidInputError
+from fitter.observation.exif import ExifTags
+from fitter.remarks import Assumption
+from fitter.render.camera import (
     ASSUMED_FOCAL_LENGTH_MM,
     FULL_FRAME_DIAGONAL_MM,
     FocalLengthSource,
     focal_length_px_from_35mm,
 )
-from fitter.errors import InvalidInputError
-from fitter.observation.exif import ExifTags
-from fitter.remarks import Assumption
 from fitter.request import FitRequest
 
 PLAUSIBLE_35MM = (5.0, 5000.0)

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitter.arrays import GreyImage, Image, Mask
-from fitter.camera import Camera, FocalLengthSource
 from fitter.observation.clicks import check_clicks, side_warnings
 from fitter.observation.colour import display_from_linear, luminance_of
 from fitter.observation.decoding import decode_picture
@@ -15,6 +14,7 @@ from fitter.observation.masks import decode_mask
 from fitter.observation.resampling import linear_working_picture, working_size
 from fitter.observation.subject import check_subject
 from fitter.remarks import Assumption, FitWarning
+from fitter.render.camera import Camera, FocalLengthSource
 from fitter.request import Click, Clothing, FitRequest
 
 

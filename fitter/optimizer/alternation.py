@@ -192,7 +192,7 @@ def _with_new_reflectance(
     smoothness: float,
     graduation: tuple[tuple[float, int], ...],
 ) -> ShadingEvidence:
-    rendering, sample = candidate.rendering, objective.instruments.shaded
+    rendering, sample = candidate.rendering, objective.operators.shaded
     explained = explained_vertices(rendering, state)
     part = mesh_part(grown(explained[sample.vertices], sample.edges, _MARGIN_RINGS), sample.edges)
     chosen = sample.vertices[part.vertices]
@@ -258,7 +258,7 @@ def _with_new_reflectance(
 
 def _hidden(objective: Objective, candidate: Candidate, state: ShadingEvidence) -> HiddenVertices:
     """The vertices that took no part in the search for the reflectance."""
-    edges = objective.instruments.topology.edges
+    edges = objective.operators.topology.edges
     lengths = _edge_lengths(candidate.vertices, edges)
     return HiddenVertices.of(explained_vertices(candidate.rendering, state), edges, lengths)
 

@@ -50,7 +50,7 @@ def minimize_gauss_newton(
     max_evaluations: int,
     on_energies: EnergyObserver,
 ) -> Minimum:
-    """Minimise from ``start`` until steps settle nothing or no damping helps.
+    """Minimise from ``start`` until steps gain less than the tolerance or no damping helps.
 
     ``start`` has the attributes the objective holds.
     """

@@ -37,8 +37,8 @@ def information_lost_to_light(
     """
     rows = shading_rows(candidate.rendering, evidence, objective.scales)
     rows = thinned_shading(rows, MATRIX_SHADING_ROWS)
-    frame = linearise(objective.instruments.tangent, candidate.parameters)
-    body = shading_row_jacobian(rows, frame, objective.instruments, candidate)
+    frame = linearise(objective.operators.tangent, candidate.parameters)
+    body = shading_row_jacobian(rows, frame, objective.operators, candidate)
     light = np.sqrt(rows.weights)[:, None] * light_slopes(
         candidate.rendering, evidence, rows.vertices
     )

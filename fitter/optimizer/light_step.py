@@ -56,7 +56,7 @@ def first_state(
         reflectance=Reflectance(
             albedo=np.ones(m), specularity=np.ones(m), ambient=0.0, specular_exponent=1.0
         ),
-        vertex_areas=objective.instruments.shaded.areas,
+        vertex_areas=objective.operators.shaded.areas,
         shadowed=np.zeros(m, dtype=np.bool_),
         eta=eta,
     )
@@ -138,7 +138,7 @@ def with_new_shadows(
     Where they hide all there is to see the light is mistaken, and the shadows stay as they were.
     """
     shadowed = _in_shadow(objective, candidate, state)
-    edges = objective.instruments.topology.edges
+    edges = objective.operators.topology.edges
     renewed = replace(state, shadowed=grown(shadowed, edges, PENUMBRA_RINGS))
     left = np.count_nonzero(explained_vertices(candidate.rendering, renewed))
     return renewed if left >= _LEAST_LIT else state
@@ -153,7 +153,7 @@ def with_explained_shadows(
     depends on the body, and on what the body does not have, such as hair.
     """
     shadowed = _in_shadow(objective, candidate, state)
-    edges = objective.instruments.topology.edges
+    edges = objective.operators.topology.edges
     lamp = shading_terms(
         candidate.vertices,
         candidate.rendering.vertex_normals,
@@ -174,7 +174,7 @@ def _in_shadow(
 ) -> Bool[np.ndarray, " m"]:
     return cast_shadow(
         candidate.vertices,
-        objective.instruments.model.triangles,
+        objective.operators.model.triangles,
         light=state.light,
         body_centre=state.body_centre,
     )

@@ -16,7 +16,7 @@ from fitter.energies.attributes import attribute_residuals, attribute_slopes
 from fitter.energies.clicks import click_rows
 from fitter.energies.correspondence_lines import line_rows
 from fitter.energies.edges import edge_rows
-from fitter.energies.instruments import BodyInstruments
+from fitter.energies.fitting_operators import FittingOperators
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.penetration import penetration_rows
 from fitter.energies.priors import lean_residual
@@ -50,9 +50,9 @@ def normal_equations(
     The matrix knows that the ease which all loose clothes share is free, where the energy takes its
     most probable value: that of lines does. ``marginal``: where the energy holds it, too.
     """
-    instruments, evidence, scales = objective.instruments, objective.evidence, objective.scales
+    operators, evidence, scales = objective.operators, objective.evidence, objective.scales
     rendering, parameters = candidate.rendering, candidate.parameters
-    frame = linearise(instruments.tangent, parameters)
+    frame = linearise(operators.tangent, parameters)
     pull = np.zeros_like(candidate.vertices)
     jacobians: list[RowJacobian] = []
     eases: list[tuple[RowJacobian, PositionRows]] = []
@@ -62,7 +62,7 @@ def normal_equations(
     ):
         scatter(rows, pull)
         few = thinned(rows, MATRIX_ROWS)
-        vertices = instruments.tangent.vertices
+        vertices = operators.tangent.vertices
         jacobian = position_row_jacobian(few, frame, vertices, candidate.vertices)
         if rows.of_ease and (marginal or evidence.lines is not None):
             eases.append((jacobian, few))
@@ -74,13 +74,13 @@ def normal_equations(
         (
             click_rows(candidate.landmarks, evidence.clicks, evidence.camera, scales),
             evidence.clicks.landmarks,
-            _attachments_of(instruments, evidence.clicks.landmarks.names),
+            _attachments_of(operators, evidence.clicks.landmarks.names),
             candidate.landmarks,
         ),
         (
-            penetration_rows(candidate.spheres, candidate.radii, instruments.penetration, scales),
-            instruments.penetration.centres,
-            instruments.sphere_attachments,
+            penetration_rows(candidate.spheres, candidate.radii, operators.penetration, scales),
+            operators.penetration.centres,
+            operators.sphere_attachments,
             candidate.spheres,
         ),
     ):
@@ -92,10 +92,10 @@ def normal_equations(
         rows = shading_rows(rendering, evidence.shading, scales)
         _add_shading_pull(objective, candidate, rows, pull)
         few = thinned_shading(rows, MATRIX_SHADING_ROWS)
-        jacobians.append(shading_row_jacobian(few, frame, instruments, candidate))
+        jacobians.append(shading_row_jacobian(few, frame, operators, candidate))
     every = np.concatenate(jacobians)
     matrix = every.T @ every
-    gradient = as_vector(instruments.evaluator.derivative(parameters, pull))
+    gradient = as_vector(operators.evaluator.derivative(parameters, pull))
     _add_priors(objective, candidate, matrix, gradient)
     return matrix, gradient
 
@@ -108,8 +108,8 @@ def outline_rows(objective: Objective, candidate: Candidate) -> tuple[PositionRo
     return silhouette_rows(candidate.rendering, candidate.edges, evidence.silhouette, scales)
 
 
-def _attachments_of(instruments: BodyInstruments, names: tuple[str, ...]) -> Attachments:
-    every, order = instruments.landmark_attachments, instruments.model.landmarks.names
+def _attachments_of(operators: FittingOperators, names: tuple[str, ...]) -> Attachments:
+    every, order = operators.landmark_attachments, operators.model.landmarks.names
     rows = [order.index(name) for name in names]
     return Attachments(
         part_weights=every.part_weights[rows],
@@ -124,7 +124,7 @@ def _add_priors(
     """Add the quadratic forms of the priors and of what the caller knows, in place."""
     parameters = candidate.parameters
     pose_size = parameters.pose.size
-    terms = prior_terms(objective.instruments.pose_prior, parameters.pose)
+    terms = prior_terms(objective.operators.pose_prior, parameters.pose)
     blocks = np.einsum("pra,prb->pab", terms.jacobian, terms.jacobian)
     for part, block in enumerate(blocks):
         span = slice(3 * part, 3 * part + 3)
@@ -154,11 +154,11 @@ def _add_shading_pull(
     force = (rows.weights * rows.residuals)[:, None]
     # No vertex has two rows.
     pull[rows.vertices] += force * rows.position_derivatives
-    instruments = objective.instruments
+    operators = objective.operators
     add_normal_derivative(
         candidate.vertices,
-        instruments.model.triangles,
-        instruments.rings,
+        operators.model.triangles,
+        operators.rings,
         rows.vertices,
         force * rows.normal_derivatives,
         pull,

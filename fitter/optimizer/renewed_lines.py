@@ -19,10 +19,10 @@ def with_lines_about(objective: Objective, body: BodyParameters, display: Image)
 
     ``display`` (h, w, 3) holds the picture's display values in [0, 1].
     """
-    instruments, evidence = objective.instruments, objective.evidence
-    vertices = instruments.evaluator.vertices(body)
-    rendering = render(vertices, instruments.model.triangles, evidence.camera)
-    edges = model_edges(rendering, instruments.topology)
+    operators, evidence = objective.operators, objective.evidence
+    vertices = operators.evaluator.vertices(body)
+    rendering = render(vertices, operators.model.triangles, evidence.camera)
+    edges = model_edges(rendering, operators.topology)
     silhouette = evidence.silhouette
     clothes = None
     if silhouette.cloth is not None:

@@ -11,7 +11,7 @@ from jaxtyping import Float
 from fitter.arrays import Points3D, Vertices
 from fitter.body.model import SparseRows
 from fitter.body.tangent import Attachments, Linearisation
-from fitter.energies.instruments import BodyInstruments
+from fitter.energies.fitting_operators import FittingOperators
 from fitter.energies.objective import Candidate
 from fitter.energies.rows import PositionRows, ShadingRows
 from fitter.optimizer import _row_kernels as kernels
@@ -53,15 +53,15 @@ def position_row_jacobian(
 
 
 def shading_row_jacobian(
-    rows: ShadingRows, frame: Linearisation, instruments: BodyInstruments, candidate: Candidate
+    rows: ShadingRows, frame: Linearisation, operators: FittingOperators, candidate: Candidate
 ) -> RowJacobian:
     """√w ∂r of each row, through the vertex and through its normal.
 
     The normal turns with the body (:func:`fitter.body.tangent.direction_jacobian`), and changes
     with the shape as on the body at rest.
     """
-    attachments = instruments.tangent.vertices
-    model = instruments.model
+    attachments = operators.tangent.vertices
+    model = operators.model
     rest = model.mean_vertices + np.tensordot(candidate.parameters.shape, model.shape_basis, axes=1)
     result = _empty(len(rows.residuals), frame)
     kernels.shading_row_jacobian(
@@ -81,8 +81,8 @@ def shading_row_jacobian(
         frame.joint_offsets,
         rest,
         model.triangles,
-        instruments.rings.pointers,
-        instruments.rings.triangles,
+        operators.rings.pointers,
+        operators.rings.triangles,
         result,
     )
     return result

@@ -16,11 +16,11 @@ from jaxtyping import Bool, Float
 
 from fitter.body.pose_prior import PosePrior
 from fitter.body.skeleton import descendants
-from fitter.camera import Camera
 from fitter.pose_init.click_spread import click_spreads_m
 from fitter.pose_init.landmark_rig import LandmarkRig
 from fitter.pose_init.limbs import LIMBS, MIDDLES, limb_slant
 from fitter.pose_init.points import ClickedPoints
+from fitter.render.camera import Camera
 from fitter.request import Facing
 
 TRUNK_LEAN_SPREAD = 0.2

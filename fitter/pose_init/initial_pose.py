@@ -23,7 +23,6 @@ from fitter.arrays import Shape
 from fitter.body.pose_prior import pose_prior
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.skeleton import regress
-from fitter.camera import Camera
 from fitter.parameters import BodyParameters
 from fitter.pose_init.click_fit import FittedPoses, fit_clicks
 from fitter.pose_init.click_problem import ClickProblem, click_problem
@@ -38,6 +37,7 @@ from fitter.pose_init.perspective import PerspectiveLifting
 from fitter.pose_init.points import ClickedPoints
 from fitter.pose_init.reference_limb import ReferenceLimb, reference_limb
 from fitter.pose_init.trunk_points import TrunkPoints, trunk_points
+from fitter.render.camera import Camera
 from fitter.request import Facing
 
 _SETTLING_ITERATIONS = 3

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from fitter.camera import Camera
 from fitter.pose_init.lifting import CrossPieceEnds, LimbEnds
+from fitter.render.camera import Camera
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -7,8 +7,8 @@ import numpy as np
 from jaxtyping import Bool, Float, Integer
 
 from fitter.arrays import GreyImage, Mask, Normals, Triangles, Vertices
-from fitter.camera import Camera
 from fitter.render import _kernels
+from fitter.render.camera import Camera
 
 NEAR_PLANE_M = 0.05
 """Triangles with a corner nearer than this are dropped: nobody is photographed from 5 cm."""

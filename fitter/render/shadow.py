@@ -4,9 +4,9 @@ import numpy as np
 from jaxtyping import Bool, Integer
 
 from fitter.arrays import PerVertex, Triangles, Vector3, Vertices
-from fitter.camera import Camera
 from fitter.numerics.mesh_parts import grown
 from fitter.parameters import Light, LightKind
+from fitter.render.camera import Camera
 from fitter.render.light import direction_to_light, light_position
 from fitter.render.rasterizer import NEAR_PLANE_M, render
 

@@ -19,18 +19,18 @@ from fitter.training.build import (
     train_model,
     write_model,
 )
-from fitter.training.held_out_errors import held_out_errors
-from fitter.training.makehuman import makehuman_folder
-from fitter.training.model_pictures import write_pictures
+from fitter.training.makehuman.meshes import makehuman_folder
 from fitter.training.own_bodies.command import (
     report_on_meshes,
     train_on_meshes,
     write_template,
 )
+from fitter.training.people.population import residual_table
 from fitter.training.plan import Plan
-from fitter.training.population import residual_table
-from fitter.training.report import report_lines
-from fitter.training.reported import Reported
+from fitter.training.report.held_out_errors import held_out_errors
+from fitter.training.report.model_pictures import write_pictures
+from fitter.training.report.reported import Reported
+from fitter.training.report.sections import report_lines
 
 HELD_OUT = 200
 """Subjects of the packaged models never trained on."""
@@ -45,7 +45,7 @@ def main(arguments: Sequence[str]) -> int:
     try:
         for line in _lines(options):
             print(line, flush=True)
-    except FitterError as error:
+    except (FitterError, ModuleNotFoundError) as error:
         print(error, file=sys.stderr)
         return 1
     return 0

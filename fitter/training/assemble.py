@@ -7,49 +7,41 @@ import numpy as np
 from jaxtyping import Float, Integer
 from scipy import sparse
 
-from fitter.arrays import Pose, Shape, Triangles, Vertices
+from fitter.arrays import Shape, Triangles, Vertices
 from fitter.body.model import BodyModel, SparseRows
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.stature import stature_m
 from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
 from fitter.parameters import BodyParameters
-from fitter.training.attribute_axes import Attribute
-from fitter.training.attribute_spaces import attribute_space
-from fitter.training.joints import fit_joint_regressor, regressed_joints, rest_joints_of
-from fitter.training.makehuman import BaseMesh
-from fitter.training.named_poses import canonical_pose, standing_pose
-from fitter.training.part_tree import PART_NAMES, PART_PARENT, mirrored_part, part_index
-from fitter.training.parts import Parts, cut_into_parts
-from fitter.training.pose_term import PoseExample, PoseTerm, pose_feature_joints, train_pose_term
-from fitter.training.principal_shapes import principal_shapes
-from fitter.training.random_poses import random_pose
-from fitter.training.surface import triangle_areas, vertex_masses
+from fitter.training.articulation.joints import (
+    fit_joint_regressor,
+    regressed_joints,
+    rest_joints_of,
+)
+from fitter.training.articulation.named_poses import canonical_pose, standing_pose
+from fitter.training.articulation.part_tree import (
+    PART_NAMES,
+    PART_PARENT,
+    mirrored_part,
+    part_index,
+)
+from fitter.training.articulation.parts import Parts, cut_into_parts
+from fitter.training.articulation.pose_term import (
+    PoseExample,
+    PoseTerm,
+    pose_feature_joints,
+    train_pose_term,
+)
+from fitter.training.articulation.random_poses import random_pose
+from fitter.training.articulation.registered_bodies import RegisteredBodies
+from fitter.training.makehuman.meshes import BaseMesh
+from fitter.training.shapes.attribute_spaces import attribute_space
+from fitter.training.shapes.height_rotation import Attribute
+from fitter.training.shapes.principal_shapes import principal_shapes
+from fitter.training.shapes.surface import triangle_areas, vertex_masses
 
 SHAPE_COUNT = 20
 """n in the paper's experiments."""
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class RegisteredBodies:
-    """Bodies on one mesh, at rest in one pose, body frame, metres.
-
-    Attributes
-    ----------
-    rest
-        (s, m, 3).
-    joints
-        (s, p, 3) true centres about which the parts turn.
-    posed
-        Body of an index in a pose: a rig's answer here, registered scans for those who have them.
-    measurements
-        (s, k) in any units, that the shape space shall keep beside the vertices; None to keep
-        vertices alone.
-    """
-
-    rest: Float[np.ndarray, "s m 3"]
-    joints: Float[np.ndarray, "s p 3"]
-    posed: Callable[[int, Pose], Vertices]
-    measurements: Float[np.ndarray, "s k"] | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -9,21 +9,17 @@ from jaxtyping import Float
 
 from fitter.body.model import BodyModel, SparseRows
 from fitter.body.storage import load_body_model, save_body_model
-from fitter.training.assemble import (
-    RegisteredBodies,
-    assemble_body_model,
-    model_arrays,
-    with_height_axis,
-)
-from fitter.training.body_space import BodySpace, load_body_space
-from fitter.training.bone_centres import with_skin_centres
-from fitter.training.header_figures import header_figures
-from fitter.training.held_out_errors import HeldOutErrors, held_out_errors
-from fitter.training.inner_points import with_inner_points
-from fitter.training.landmarks import body_landmarks
-from fitter.training.makehuman import load_base_mesh
-from fitter.training.plan import Plan
-from fitter.training.population import (
+from fitter.training.articulation.bone_centres import with_skin_centres
+from fitter.training.articulation.inner_points import with_inner_points
+from fitter.training.articulation.registered_bodies import RegisteredBodies
+from fitter.training.articulation.rig import load_rig
+from fitter.training.articulation.rigged_bodies import RiggedMesh, rigged_bodies, rigged_mesh
+from fitter.training.articulation.volume_learning import with_volume_learned
+from fitter.training.assemble import assemble_body_model, model_arrays, with_height_axis
+from fitter.training.makehuman.body_space import BodySpace, load_body_space
+from fitter.training.makehuman.landmarks import body_landmarks
+from fitter.training.makehuman.meshes import load_base_mesh
+from fitter.training.people.population import (
     Population,
     load_population,
     packaged_population_path,
@@ -31,10 +27,10 @@ from fitter.training.population import (
     save_population,
     solve_population,
 )
-from fitter.training.provenance import provenance
-from fitter.training.rig import load_rig
-from fitter.training.rigged_bodies import RiggedMesh, rigged_bodies, rigged_mesh
-from fitter.training.volume_learning import with_volume_learned
+from fitter.training.plan import Plan
+from fitter.training.report.header_figures import header_figures
+from fitter.training.report.held_out_errors import HeldOutErrors, held_out_errors
+from fitter.training.report.provenance import provenance
 
 GENDERS = ("female", "male")
 

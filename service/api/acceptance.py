@@ -17,7 +17,7 @@ from api_schemas.problems import problem
 from service.api.context import ApiContext
 from service.api.job_inputs import Inputs, erase_at_once, store_inputs
 from service.api.problems import ProblemError, not_found
-from service.api.representation import POLL_AFTER_S, job_path
+from service.api.room import no_room, storing
 from service.engine.port import (
     Idempotency,
     JobRecord,
@@ -26,14 +26,15 @@ from service.engine.port import (
     SubmitOutcome,
     TenantJobs,
 )
-from service.jobs import ACTIVE
-from service.tracing import current_traceparent
+from service.jobs.states import ACTIVE
+from service.process.tracing import current_traceparent
+from service.representation.jobs import POLL_AFTER_S, job_path
 
 MAX_WAIT_S: Final = 60
 
 
 def accepted(kind: type[JobStanding]) -> dict[int | str, dict[str, Any]]:
-    """Describe the answers to whoever has a job accepted, for the OpenAPI document."""
+    """Describe the answers to an accepted job, for the OpenAPI document."""
     return {
         200: {"model": kind, "description": "Ended within the time of `Prefer: wait`."},
         202: {
@@ -51,6 +52,7 @@ ACCEPTANCE_PROBLEMS: Final = (
     "invalid-request",
     "too-many-requests",
     "queue-full",
+    "insufficient-storage",
     "not-ready",
     "internal-error",
 )
@@ -86,15 +88,16 @@ async def accept(
         If the job is not accepted.
     """
     job_id = str(uuid4())
-    # From here on the job's scope is erased by itself unless the job is accepted.
-    submission = await run_in_threadpool(jobs.reserve, job_id, key)
-    if submission.outcome is SubmitOutcome.ACCEPTED:
-        if check is not None:
-            await check()
-        submission = await to_thread.run_sync(
-            partial(_store, context, jobs, job_id, inputs, key),
-            limiter=context.copying if inputs.has_copies else None,
-        )
+    with storing():
+        # From here on the job's scope is erased by itself unless the job is accepted.
+        submission = await run_in_threadpool(_reserve, context, jobs, job_id, inputs, key)
+        if submission.outcome is SubmitOutcome.ACCEPTED:
+            if check is not None:
+                await check()
+            submission = await to_thread.run_sync(
+                partial(_store, context, jobs, job_id, inputs, key),
+                limiter=context.copying if inputs.has_copies else None,
+            )
     return _accepted(submission)
 
 
@@ -132,6 +135,18 @@ async def answer(
     return job
 
 
+def _reserve(
+    context: ApiContext, jobs: TenantJobs, job_id: str, inputs: Inputs, key: Idempotency | None
+) -> Submission:
+    if context.disk.has_room_for(inputs.brought_bytes):
+        return jobs.reserve(job_id, key)
+    # Not even the scope is noted; but an earlier answer takes no room.
+    repeated = jobs.repeated(key)
+    if repeated is None:
+        raise no_room()
+    return repeated
+
+
 def _store(
     context: ApiContext,
     jobs: TenantJobs,
@@ -139,17 +154,17 @@ def _store(
     inputs: Inputs,
     key: Idempotency | None,
 ) -> Submission:
-    options, files = store_inputs(context, job_id, inputs)
+    stored = store_inputs(context, job_id, inputs)
     job = NewJob(
         id=job_id,
         kind=inputs.kind,
-        options=options,
-        inputs=files,
+        options=stored.options,
+        inputs=stored.files,
         sources=inputs.sources,
         idempotency=key,
         request_id=context.request_id,
         traceparent=current_traceparent(),
-        webhook=inputs.webhook,
+        webhook=stored.webhook,
     )
     # Should the database go away before it answers, it may have said yes: the blobs stay then.
     submission = jobs.submit(job)

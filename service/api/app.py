@@ -4,7 +4,7 @@ import asyncio
 import json
 import threading
 from collections.abc import AsyncIterator, Callable
-from contextlib import AbstractAsyncContextManager, asynccontextmanager, suppress
+from contextlib import AbstractAsyncContextManager, AsyncExitStack, asynccontextmanager, suppress
 from typing import Any, Final
 
 from anyio import CapacityLimiter
@@ -12,6 +12,7 @@ from fastapi import FastAPI
 from starlette.middleware.cors import CORSMiddleware
 
 from service.api import (
+    about,
     bodies,
     body_models,
     derivations,
@@ -31,10 +32,10 @@ from service.api import (
 )
 from service.api.authentication import Authentication, KeySource, KnownKeys
 from service.api.body_limit import BodyLimit
+from service.api.body_time import BodyTimeLimit
 from service.api.context import Parts
 from service.api.estimates import Estimates
 from service.api.event_feed import EventFeed
-from service.api.figures import Figures
 from service.api.job_inputs import COPIED_AT_ONCE
 from service.api.local_guard import LocalGuard
 from service.api.observation import Observation
@@ -42,9 +43,12 @@ from service.api.openapi import complete_openapi
 from service.api.problems import install_problem_handlers
 from service.api.rate_limit import RateLimit
 from service.api.security_headers import SecurityHeaders
+from service.api.service_metrics import ServiceMetrics
 from service.blobs import BlobStore
 from service.engine.port import JobEngine
+from service.engine.token_port import SharedTokens
 from service.estimates.port import Estimator
+from service.process.disk import Disk
 from service.settings import Settings
 
 API_VERSION: Final = "1.0.0"
@@ -59,6 +63,7 @@ CORS_REQUEST_HEADERS: Final = (
     "Content-Type",
     "Idempotency-Key",
     "If-None-Match",
+    "If-Range",
     "Last-Event-ID",
     "Prefer",
     "Range",
@@ -80,49 +85,65 @@ def create_app(
     settings: Settings,
     engine: JobEngine,
     blobs: BlobStore,
+    disk: Disk,
     estimator: Estimator,
     keys: KeySource,
+    tokens: SharedTokens,
     draining: threading.Event,
 ) -> FastAPI:
-    """Build the application on an engine, blobs, estimators and keys that outlive it.
+    """Build the application on what outlives it: engine, blobs, disk, estimators, keys, tokens.
 
     ``draining`` is set once the process is told to stop: it is then no longer ready, and event
     streams end.
     """
     feed = EventFeed(engine, draining)
+    rate_limit = None
+    if settings.authentication == "keys":
+        rate_limit = RateLimit(tokens, per_minute=settings.requests_per_minute)
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
-        following = asyncio.create_task(feed.run())
-        yield
-        following.cancel()
-        with suppress(asyncio.CancelledError):
-            await following
+        async with AsyncExitStack() as stack:
+            if rate_limit is not None:
+                await stack.enter_async_context(rate_limit.giving_back())
+            following = asyncio.create_task(feed.run())
+            yield
+            following.cancel()
+            with suppress(asyncio.CancelledError):
+                await following
 
     app = _resources(lifespan)
-    figures = Figures(engine)
+    metrics = ServiceMetrics(engine, disk)
     app.state.parts = Parts(
         settings=settings,
         engine=engine,
         blobs=blobs,
-        estimates=Estimates(estimator, figures),
+        disk=disk,
+        estimates=Estimates(estimator, metrics),
         feed=feed,
-        figures=figures,
+        metrics=metrics,
         draining=draining,
         copying=CapacityLimiter(COPIED_AT_ONCE),
     )
-    _surround(app, settings=settings, keys=keys, figures=figures)
+    _surround(app, settings=settings, keys=keys, rate_limit=rate_limit, metrics=metrics)
     return app
 
 
-def _surround(app: FastAPI, *, settings: Settings, keys: KeySource, figures: Figures) -> None:
+def _surround(
+    app: FastAPI,
+    *,
+    settings: Settings,
+    keys: KeySource,
+    rate_limit: RateLimit | None,
+    metrics: ServiceMetrics,
+) -> None:
     """Put the layers round the resources, innermost first."""
     needs_keys = settings.authentication == "keys"
     app.add_middleware(BodyLimit, max_bytes=settings.max_upload_bytes + MULTIPART_OVERHEAD_BYTES)
     app.add_middleware(
         Authentication,
         keys=KnownKeys(keys) if needs_keys else None,
-        rate_limit=RateLimit(per_minute=settings.requests_per_minute),
+        rate_limit=rate_limit,
     )
     if settings.allowed_origins:
         # Outside of authentication: a browser asks for leave without a key.
@@ -135,8 +156,14 @@ def _surround(app: FastAPI, *, settings: Settings, keys: KeySource, figures: Fig
         )
     if not needs_keys:
         app.add_middleware(LocalGuard, allowed_origins=settings.allowed_origins)
+    # Outside of all that reads bodies, and of what throws them away.
+    app.add_middleware(
+        BodyTimeLimit,
+        time_limit_s=settings.body_time_limit_s,
+        bytes_per_s=settings.body_bytes_per_s,
+    )
     app.add_middleware(SecurityHeaders, cross_origin=bool(settings.allowed_origins))
-    app.add_middleware(Observation, figures=figures)
+    app.add_middleware(Observation, metrics=metrics)
 
 
 def openapi_text() -> str:
@@ -148,7 +175,11 @@ def _resources(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]] 
     app = FastAPI(
         title="Maquette",
         version=API_VERSION,
-        summary="Human body shape, pose, light and measurements from a single picture.",
+        summary=about.SUMMARY,
+        description=about.DESCRIPTION,
+        license_info=dict(about.LICENCE),
+        openapi_tags=[dict(tag) for tag in about.TAGS],
+        servers=[dict(server) for server in about.SERVERS],
         lifespan=lifespan,
         docs_url=None,
         redoc_url=None,

@@ -28,7 +28,7 @@ REFRESH_S: Final = 5.0
 """A revoked key is refused after this time at the latest."""
 
 RETRY_UNKNOWN_S: Final = 0.5
-"""A key unknown so far is looked for in the database no more often than this, whoever asks."""
+"""Unknown keys make the database be asked no more often than this in all."""
 
 NO_KEY: Final = "There is no API key."
 UNKNOWN_KEY: Final = "The API key is unknown or revoked."
@@ -85,10 +85,12 @@ class Authentication:
     """ASGI middleware: sets ``request.state.tenant``, or answers 401, 403 or 429.
 
     Without ``keys`` everybody is the sole tenant; the settings see to it that the service is then
-    reached from its own machine only.
+    reached from its own machine only. Without a ``rate_limit`` a key may ask as often as it likes.
     """
 
-    def __init__(self, app: ASGIApp, *, keys: KnownKeys | None, rate_limit: RateLimit) -> None:
+    def __init__(
+        self, app: ASGIApp, *, keys: KnownKeys | None, rate_limit: RateLimit | None
+    ) -> None:
         self._app = app
         self._keys = keys
         self._rate_limit = rate_limit
@@ -124,9 +126,10 @@ class Authentication:
         for_metrics = path == METRICS_PATH
         if (key.role is Role.METRICS) != for_metrics:
             raise _forbidden(key)
-        retry_after_s = self._rate_limit.take(key.id)
-        if retry_after_s:
-            raise _too_many(retry_after_s)
+        if self._rate_limit is not None:
+            retry_after_s = await self._rate_limit.take(key.id)
+            if retry_after_s:
+                raise _too_many(retry_after_s)
         return key.tenant
 
 

@@ -1,27 +1,30 @@
 """Bodies without a picture: known measurements in, the most probable body out, at once."""
 
 import base64
-from typing import Annotated, Any, Final
+from typing import Any, Final
 
-from fastapi import APIRouter, Header, Request, Response
+from fastapi import APIRouter, Request, Response
 
 from api_schemas.bodies import BodyEstimate, BodyRequest
+from service.api.artifacts import BINARY, AcceptHeader
 from service.api.context import Context
 from service.api.estimates import ESTIMATE_PROBLEMS
 from service.api.json_bodies import JSON, json_body, json_content, read_json
+from service.api.negotiation import not_acceptable, preferred
 from service.api.problems import documented
 from service.estimates.messages import BodyTask
+from service.representation.formats import GLB, MESH_FORMATS, written_here
+from service.representation.measurement_table import CSV, measurements_csv
 
 ROUTER: Final = APIRouter(prefix="/v1/bodies", tags=["estimates"])
 
-GLB: Final = "model/gltf-binary"
-
+_BY_MEDIA_TYPE: Final = {each.media_type: each for each in MESH_FORMATS.values()}
 _ANSWER: Final[dict[int | str, dict[str, Any]]] = {
     200: {
-        "description": "The most probable body; as a GLB file if `Accept` asks for one.",
+        "description": "The most probable body; as a file if `Accept` asks for one.",
         "content": {
             JSON: json_content(BodyEstimate),
-            GLB: {"schema": {"type": "string", "format": "binary"}},
+            **dict.fromkeys((GLB, *_BY_MEDIA_TYPE, CSV), BINARY),
         },
     }
 }
@@ -32,28 +35,39 @@ _ANSWER: Final[dict[int | str, dict[str, Any]]] = {
     response_class=Response,
     summary="Estimate a body from measurements",
     openapi_extra=json_body(BodyRequest),
-    responses=_ANSWER | documented(*ESTIMATE_PROBLEMS),
+    responses=_ANSWER | documented("not-acceptable", *ESTIMATE_PROBLEMS),
 )
 async def estimate_body(
     request: Request,
     context: Context,
-    # Of headers of this name OpenAPI takes the answers' media types to say enough.
-    accept: Annotated[str | None, Header(include_in_schema=False)] = None,
+    accept: AcceptHeader = None,
 ) -> Response:
     """Return the most probable body of a gender and of any known measurements.
 
     With its measurements, between which values 95 % of such people lie, and the mesh if asked for:
-    by `include_glb` in the JSON, by `Accept: model/gltf-binary` as the file itself.
+    by `include_glb` in the JSON, by `Accept: model/gltf-binary`, `model/obj`, `model/ply`,
+    `model/stl` or `model/vnd.usdz+zip` as the file itself. `Accept: text/csv` answers with the
+    measurements as a table. Of types wanted alike the one named first counts.
     """
+    offered = (JSON, GLB, *(each.media_type for each in written_here()), CSV)
+    wanted = preferred(accept, offered)
+    if wanted is None:
+        raise not_acceptable(accept, what="A body", offered=offered)
     asked = await read_json(request, BodyRequest)
-    as_file = GLB in (accept or "").lower()
+    as_mesh = wanted == GLB or wanted in _BY_MEDIA_TYPE
     found = await context.estimates.body(
-        BodyTask(request=asked, with_glb=as_file or asked.include_glb)
+        BodyTask(request=asked, with_glb=as_mesh or (asked.include_glb and wanted == JSON))
     )
     headers = {"Cache-Control": "no-store", "Vary": "Accept"}
-    if as_file:
-        return Response(found.glb, media_type=GLB, headers=headers)
     estimate = found.estimate
+    if wanted == CSV:
+        table = measurements_csv(estimate.measurements)
+        return Response(table, media_type=CSV, headers=headers)
+    if wanted == GLB:
+        return Response(found.glb, media_type=GLB, headers=headers)
+    if as_mesh:
+        mesh = await context.estimates.convert(found.glb, _BY_MEDIA_TYPE[wanted])
+        return Response(mesh, media_type=wanted, headers=headers)
     if asked.include_glb:
         glb = base64.b64encode(found.glb).decode()
         estimate = estimate.model_copy(update={"glb": glb})

@@ -9,10 +9,11 @@ from fastapi import Depends, Request
 
 from service.api.estimates import Estimates
 from service.api.event_feed import EventFeed
-from service.api.figures import Figures
+from service.api.service_metrics import ServiceMetrics
 from service.blobs import BlobStore
 from service.engine.image_port import TenantImages
 from service.engine.port import JobEngine, TenantJobs
+from service.process.disk import Disk
 from service.settings import Settings
 
 SOLE_TENANT: Final = "default"
@@ -21,7 +22,7 @@ SOLE_TENANT: Final = "default"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Parts:
-    """Settings, engine, blobs, estimates, events, figures; ``draining`` once told to stop.
+    """Settings, engine, blobs, disk, estimates, events, metrics; ``draining`` once told to stop.
 
     ``copying`` lets few requests at once copy what other jobs were made of.
     """
@@ -29,9 +30,10 @@ class Parts:
     settings: Settings
     engine: JobEngine
     blobs: BlobStore
+    disk: Disk
     estimates: Estimates
     feed: EventFeed
-    figures: Figures
+    metrics: ServiceMetrics
     draining: threading.Event
     copying: CapacityLimiter
 
@@ -43,9 +45,10 @@ class ApiContext:
     settings: Settings
     engine: JobEngine
     blobs: BlobStore
+    disk: Disk
     estimates: Estimates
     feed: EventFeed
-    figures: Figures
+    metrics: ServiceMetrics
     draining: threading.Event
     copying: CapacityLimiter
     tenant: str
@@ -61,9 +64,10 @@ def _context(request: Request) -> ApiContext:
         settings=parts.settings,
         engine=parts.engine,
         blobs=parts.blobs,
+        disk=parts.disk,
         estimates=parts.estimates,
         feed=parts.feed,
-        figures=parts.figures,
+        metrics=parts.metrics,
         draining=parts.draining,
         copying=parts.copying,
         tenant=tenant,

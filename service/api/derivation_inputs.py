@@ -13,8 +13,8 @@ from service.api.job_routes import find
 from service.api.problems import ProblemError
 from service.api.results import no_result
 from service.engine.port import JobExpiredError, JobRecord, StoredBlob
-from service.inputs import IMAGE, OF_EACH_PICTURE, OF_ITS_FIT, PERSON, REQUEST, of_other
-from service.refusal import RefusedError, refused
+from service.jobs.inputs import IMAGE, OF_EACH_PICTURE, OF_ITS_FIT, PERSON, REQUEST, of_other
+from service.submissions.refusal import RefusedError, refused
 
 
 def derivation_inputs(

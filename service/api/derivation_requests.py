@@ -22,10 +22,10 @@ from service.api.job_inputs import File
 from service.api.json_bodies import JSON, media_type, read_json_text, unsupported
 from service.api.problems import ProblemError
 from service.api.uploads import MULTIPART, read_request_and_files
-from service.inputs import CLIP, TEXTURE
-from service.refusal import refused
-from service.submission import check_picture
-from service.validation import parsed
+from service.jobs.inputs import CLIP, TEXTURE
+from service.submissions.refusal import refused
+from service.submissions.submission import check_picture
+from service.submissions.validation import parsed
 
 MAX_CLIP_BYTES: Final = 32 * 1024 * 1024
 """What the fitter reads at most; a minute of motion capture is a tenth of it."""

@@ -22,10 +22,19 @@ from service.api.acceptance import (
     answer,
     idempotency,
 )
+from service.api.artifacts import (
+    NEGOTIATION,
+    AcceptHeader,
+    ArtifactName,
+    IfRange,
+    RangeHeader,
+    answer_artifact,
+    file_answers,
+)
 from service.api.context import ApiContext, Context
 from service.api.derivation_inputs import derivation_inputs
 from service.api.derivation_requests import read_derivation
-from service.api.events import STREAM, LastEventId, event_stream
+from service.api.events import EVENT_ANSWERS, LastEventId, event_stream
 from service.api.fit_inputs import serve_blob
 from service.api.job_routes import (
     JOB_PROBLEMS,
@@ -45,16 +54,11 @@ from service.api.json_bodies import (
     json_content,
 )
 from service.api.problems import documented
-from service.api.representation import derivations_path, represent_derivation
-from service.api.results import (
-    RangeHeader,
-    file_answers,
-    serve_file,
-    serve_result,
-)
+from service.api.results import serve_result
 from service.api.uploads import MULTIPART
 from service.engine.port import JobRecord
-from service.inputs import CLIP, TEXTURE
+from service.jobs.inputs import CLIP, TEXTURE
+from service.representation.jobs import derivations_path, represent_derivation
 from service.webhooks.targets import check_webhook
 
 ROUTER: Final = APIRouter(prefix="/v1/fits/{fit_id}/derivations", tags=["derivations"])
@@ -226,11 +230,11 @@ def erase_derivation(fit_id: UUID, derivation_id: UUID, context: Context) -> Res
     "/{derivation_id}/events",
     summary="Follow a derivation",
     response_class=StreamingResponse,
-    responses={200: STREAM} | documented(*JOB_PROBLEMS),
+    responses=EVENT_ANSWERS,
 )
 def follow_derivation(
     fit_id: UUID, derivation_id: UUID, context: Context, last_event_id: LastEventId = None
-) -> StreamingResponse:
+) -> Response:
     """Stream state changes, stages and progress, as for fits."""
     jobs = context.jobs.derivations(str(fit_id))
     return event_stream(context, jobs, derivation_id, last_event_id)
@@ -275,22 +279,32 @@ def derivation_result(
 @ROUTER.get(
     "/{derivation_id}/artifacts/{name}",
     summary="A file of a derivation",
+    description="Return a file: `report.pdf`, `body_reposed.glb` and so on, as the job's links "
+    f"name them, or `body_reposed.obj` and so on.{NEGOTIATION}",
     response_class=Response,
-    responses=file_answers(
-        "text/html", "application/pdf", "model/gltf-binary", "image/png", "image/webp"
-    ),
+    responses=file_answers("text/html", "application/pdf", "image/png", "image/webp"),
 )
-def derivation_artifact(
+async def derivation_artifact(
     fit_id: UUID,
     derivation_id: UUID,
-    name: str,
+    name: ArtifactName,
     context: Context,
     if_none_match: IfNoneMatch = None,
     range_header: RangeHeader = None,
+    if_range: IfRange = None,
+    accept: AcceptHeader = None,
 ) -> Response:
-    """Return a file: `report.pdf` and so on, as the job's links name them."""
-    record = _find(context, fit_id, derivation_id)
-    return serve_file(context, record, name, range_header=range_header, if_none_match=if_none_match)
+    """Return a file, a part of it, or the same mesh in another format."""
+    return await answer_artifact(
+        context,
+        context.jobs.derivations(str(fit_id)),
+        derivation_id,
+        name,
+        accept=accept,
+        range_header=range_header,
+        if_range=if_range,
+        if_none_match=if_none_match,
+    )
 
 
 def _find(context: ApiContext, fit_id: UUID, derivation_id: UUID) -> JobRecord:

@@ -9,9 +9,9 @@ from anyio import CapacityLimiter, to_thread
 
 from api_schemas.initial_poses import InitialPose
 from api_schemas.problems import problem
-from service.api.figures import Figures
 from service.api.problems import ProblemError
-from service.estimates.messages import BodyTask, InitialPoseTask
+from service.api.service_metrics import ServiceMetrics
+from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask
 from service.estimates.port import (
     EstimatedBody,
     Estimator,
@@ -19,7 +19,8 @@ from service.estimates.port import (
     EstimatorTimeoutError,
     EstimatorUnavailableError,
 )
-from service.refusal import RefusedError
+from service.representation.formats import MeshFormat
+from service.submissions.refusal import RefusedError
 
 SPARE_THREADS: Final = 4
 """Beyond what the estimator takes at once: in these, one too many is turned away at once."""
@@ -55,9 +56,9 @@ class Estimates:
     held up.
     """
 
-    def __init__(self, estimator: Estimator, figures: Figures) -> None:
+    def __init__(self, estimator: Estimator, metrics: ServiceMetrics) -> None:
         self._estimator = estimator
-        self._figures = figures
+        self._metrics = metrics
         self._threads = CapacityLimiter(estimator.capacity + SPARE_THREADS)
 
     async def body(self, task: BodyTask) -> EstimatedBody:
@@ -76,10 +77,15 @@ class Estimates:
         """Pose the mean person by clicks; raises as :meth:`body` does."""
         return await self._answer("initial_pose", partial(self._estimator.initial_pose, task))
 
-    async def refuse_nobody(self, task: BodyTask) -> None:
-        """Raise :class:`service.refusal.RefusedError` if nobody has what is known.
+    async def convert(self, glb: bytes, kind: MeshFormat) -> bytes:
+        """Write the body of a GLB file in another format; raises as :meth:`body` does."""
+        task = ConversionTask(ending=kind.ending)
+        return await self._answer("conversion", partial(self._estimator.convert, task, glb))
 
-        Where the estimator is not at hand nothing is said: whoever asks finds out later.
+    async def refuse_nobody(self, task: BodyTask) -> None:
+        """Raise :class:`service.submissions.refusal.RefusedError` if nobody has what is known.
+
+        If no estimator is ready nothing is checked: the caller finds out later.
         """
         try:
             await self._in_thread(
@@ -120,7 +126,7 @@ class Estimates:
             outcome = OUTCOMES.get(type(error), "failed")
             raise
         finally:
-            self._figures.count_estimate(
+            self._metrics.count_estimate(
                 question=name, outcome=outcome, seconds=time.monotonic() - started
             )
 

@@ -47,7 +47,7 @@ class EventFeed:
 
     @property
     def is_ending(self) -> bool:
-        """Whether the process is being stopped: whoever follows a job is to ask another one."""
+        """Whether the process is stopping: clients that follow a job should ask another one."""
         return self._draining.is_set()
 
     async def run(self) -> None:

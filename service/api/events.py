@@ -5,7 +5,7 @@ from collections.abc import AsyncIterator
 from typing import Annotated, Any, Final
 from uuid import UUID
 
-from fastapi import APIRouter, Header
+from fastapi import APIRouter, Header, Response
 from fastapi.responses import StreamingResponse
 from fastapi.sse import KEEPALIVE_COMMENT, format_sse_event
 from starlette.concurrency import run_in_threadpool
@@ -15,6 +15,7 @@ from service.api.context import ApiContext, Context
 from service.api.job_routes import JOB_PROBLEMS, find
 from service.api.problems import documented
 from service.engine.port import JobEvent, TenantJobs
+from service.jobs.states import TERMINAL
 
 ROUTER: Final = APIRouter(prefix="/v1/fits", tags=["fits"])
 
@@ -23,11 +24,15 @@ RECONNECT_MS: Final = 1_000
 
 LastEventId = Annotated[int | None, Header(ge=0, description="Resume after this event.")]
 
-STREAM: Final[dict[str, Any]] = {
+ITEMS: Final = "x-itemSchema"
+"""OpenAPI 3.2 has `itemSchema` for the items of a stream; in 3.1 it may be said by an extension."""
+
+_STREAM: Final[dict[str, Any]] = {
     "description": "Events until the job ends; the last one is `end`.",
     "content": {
         "text/event-stream": {
-            "itemSchema": {
+            "schema": {"type": "string"},
+            ITEMS: {
                 "type": "object",
                 "required": ["event", "data", "id"],
                 "properties": {
@@ -40,33 +45,46 @@ STREAM: Final[dict[str, Any]] = {
                     "id": {"type": "string"},
                     "retry": {"type": "integer"},
                 },
-            }
+            },
         }
     },
 }
+
+EVENT_ANSWERS: Final[dict[int | str, dict[str, Any]]] = {
+    200: _STREAM,
+    204: {
+        "description": "The job has ended, and there is no event after `Last-Event-ID`: an "
+        "`EventSource` does not reconnect."
+    },
+} | documented(*JOB_PROBLEMS)
 
 
 @ROUTER.get(
     "/{fit_id}/events",
     summary="Follow a job",
     response_class=StreamingResponse,
-    responses={200: STREAM} | documented(*JOB_PROBLEMS),
+    responses=EVENT_ANSWERS,
 )
-def follow(fit_id: UUID, context: Context, last_event_id: LastEventId = None) -> StreamingResponse:
+def follow(fit_id: UUID, context: Context, last_event_id: LastEventId = None) -> Response:
     """Stream state changes, stages, progress and energies.
 
-    All events since the job was accepted are kept: whoever comes late or reconnects misses none.
+    All events since the job was accepted are kept: a client that comes late or reconnects misses
+    none.
     """
     return event_stream(context, context.jobs, fit_id, last_event_id)
 
 
 def event_stream(
     context: ApiContext, jobs: TenantJobs, job_id: UUID, last_event_id: int | None
-) -> StreamingResponse:
-    """Answer with the events of a job, as they come; 404 if there is no such job."""
-    find(jobs, job_id)
+) -> Response:
+    """Answer with the events of a job, as they come; 204 after its end, 404 if there is none."""
+    record = find(jobs, job_id)
+    # An event number that never existed: send all that follow.
+    seen = min(last_event_id or 0, record.last_event)
+    if record.state in TERMINAL and seen == record.last_event:
+        return Response(status_code=204)
     return StreamingResponse(
-        _stream(context, jobs, str(job_id), last_event_id or 0),
+        _stream(context, jobs, str(job_id), seen),
         media_type="text/event-stream",
         headers={"Cache-Control": "no-store", "X-Accel-Buffering": "no"},
     )

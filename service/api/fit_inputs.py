@@ -1,4 +1,4 @@
-"""What a job was made of: its picture and its request, for whoever looks at it again later."""
+"""What a job was made of: its picture and its request, to be looked at again later."""
 
 from typing import Final
 from uuid import UUID
@@ -11,7 +11,7 @@ from service.api.json_bodies import JSON
 from service.api.problems import documented, not_found
 from service.blobs import BlobMissingError
 from service.engine.port import JobRecord, StoredBlob
-from service.inputs import IMAGE, MASK
+from service.jobs.inputs import IMAGE, MASK
 
 ROUTER: Final = APIRouter(prefix="/v1/fits", tags=["fits"])
 

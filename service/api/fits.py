@@ -21,7 +21,7 @@ from service.api.job_routes import (
     page_of,
 )
 from service.api.problems import documented
-from service.api.representation import represent
+from service.representation.jobs import represent
 
 ROUTER: Final = APIRouter(prefix="/v1/fits", tags=["fits"])
 

@@ -32,6 +32,7 @@ def ready(context: Context) -> Ready:
     """
     if context.draining.is_set():
         raise _not_ready(code="draining", detail="This process is being stopped.")
+    _check_disk(context)
     context.engine.check_writable()
     _check_storage(context)
     workers = sum(worker.alive is True for worker in context.engine.workers())
@@ -40,10 +41,13 @@ def ready(context: Context) -> Ready:
     return Ready(workers=workers, queued=context.engine.queued())
 
 
-def _check_storage(context: ApiContext) -> None:
-    free = context.blobs.free_bytes()
-    if free is not None and free < context.settings.min_free_disk_mb * 1_000_000:
+def _check_disk(context: ApiContext) -> None:
+    # First: a database on a full disk cannot be written, and would be told to be away.
+    if not context.disk.has_room_for():
         raise _not_ready(code="disk-full", detail="The disk of the data folder is nearly full.")
+
+
+def _check_storage(context: ApiContext) -> None:
     try:
         context.blobs.check_writable()
     except StorageFullError as error:

@@ -14,11 +14,12 @@ from api_schemas.problems import FieldProblem, problem
 from service.api.context import ApiContext, Context
 from service.api.json_bodies import JSON, json_content
 from service.api.problems import ProblemError, documented, not_found
+from service.api.room import no_room, storing
 from service.api.uploads import read_image
 from service.blobs import BlobMissingError, BlobsUnavailableError
 from service.engine.image_port import ImageQuotaError, ImageRecord, KeptImage, NewImage
-from service.refusal import RefusedError, refused
-from service.submission import check_picture
+from service.submissions.refusal import RefusedError, refused
+from service.submissions.submission import check_picture
 
 ROUTER: Final = APIRouter(prefix="/v1/images", tags=["images"])
 
@@ -70,6 +71,7 @@ _LOCATION: Final = {
         "unsupported-media-type",
         "invalid-request",
         "quota-exceeded",
+        "insufficient-storage",
         "not-ready",
         "internal-error",
     ),
@@ -81,7 +83,8 @@ async def upload_image(request: Request, response: Response, context: Context) -
     were made of it have a copy of their own.
     """
     content = await read_image(request)
-    kept = await run_in_threadpool(_keep, context, content)
+    with storing():
+        kept = await run_in_threadpool(_keep, context, content)
     response.status_code = 201 if kept.is_new else 200
     response.headers["Location"] = f"/v1/images/{kept.record.id}"
     return _represent(kept.record)
@@ -160,6 +163,8 @@ def _keep(context: ApiContext, content: bytes) -> KeptImage:
     earlier = context.images.renew(image_id)
     if earlier is not None:
         return KeptImage(record=earlier, is_new=False)
+    if not context.disk.has_room_for(len(content)):
+        raise no_room()
     scope = str(uuid4())
     # From here on the scope is erased by itself unless the picture is kept.
     try:

@@ -47,15 +47,28 @@ class Inputs:
     webhook: WebhookTarget | None
 
     @property
+    def brought_bytes(self) -> int:
+        """How much of it came with the request."""
+        brought = (each for each in self.files.values() if isinstance(each, File))
+        return len(self.options) + sum(len(file.content) for file in brought)
+
+    @property
     def has_copies(self) -> bool:
         """Whether any of it is read from storage."""
         return any(isinstance(each, Copy) for each in self.files.values())
 
 
-def store_inputs(
-    context: ApiContext, job_id: str, inputs: Inputs
-) -> tuple[StoredBlob, Mapping[str, StoredBlob]]:
-    """Put the request and the files into the job's scope, one after the other; all or nothing.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StoredInputs:
+    """The same as blobs in the job's scope."""
+
+    options: StoredBlob
+    files: Mapping[str, StoredBlob]
+    webhook: StoredBlob | None
+
+
+def store_inputs(context: ApiContext, job_id: str, inputs: Inputs) -> StoredInputs:
+    """Put it all into the job's scope, one file after the other; all or nothing.
 
     Raises
     ------
@@ -65,12 +78,16 @@ def store_inputs(
         If the storage does not answer.
     """
     try:
-        options = context.blobs.put(job_id, inputs.options)
-        files = {name: _stored(context, job_id, file) for name, file in inputs.files.items()}
+        return StoredInputs(
+            options=_stored_json(context, job_id, inputs.options),
+            files={name: _stored(context, job_id, file) for name, file in inputs.files.items()},
+            webhook=None
+            if inputs.webhook is None
+            else _stored_json(context, job_id, inputs.webhook.model_dump_json().encode()),
+        )
     except Exception:
         erase_at_once(context, job_id)
         raise
-    return StoredBlob(digest=options, media_type=JSON), files
 
 
 def erase_at_once(context: ApiContext, job_id: str) -> None:
@@ -78,6 +95,10 @@ def erase_at_once(context: ApiContext, job_id: str) -> None:
     # If this fails too, the sweep comes to it.
     with contextlib.suppress(BlobsUnavailableError):
         context.blobs.erase(job_id)
+
+
+def _stored_json(context: ApiContext, job_id: str, text: bytes) -> StoredBlob:
+    return StoredBlob(digest=context.blobs.put(job_id, text), media_type=JSON)
 
 
 def _stored(context: ApiContext, job_id: str, file: File | Copy) -> StoredBlob:

@@ -11,9 +11,9 @@ from api_schemas.jobs import JobState
 from api_schemas.problems import FieldProblem, field_problem
 from service.api.context import ApiContext
 from service.api.problems import ProblemError, not_found
-from service.api.representation import POLL_AFTER_S
 from service.engine.port import JobRecord, TenantJobs
-from service.jobs import ACTIVE, TERMINAL
+from service.jobs.states import ACTIVE, TERMINAL
+from service.representation.jobs import POLL_AFTER_S
 
 MAX_PAGE: Final = 200
 

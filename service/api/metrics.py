@@ -1,4 +1,4 @@
-"""The figures of :mod:`service.api.figures`, for Prometheus to fetch."""
+"""The figures of :mod:`service.api.service_metrics`, for Prometheus to fetch."""
 
 from typing import Final
 
@@ -25,4 +25,4 @@ ROUTER: Final = APIRouter(tags=["health"])
 )
 def metrics(context: Context) -> Response:
     """Return queue, workers, endings, durations and requests; needs a key made for metrics."""
-    return Response(context.figures.exposition(), media_type=CONTENT_TYPE_LATEST)
+    return Response(context.metrics.exposition(), media_type=CONTENT_TYPE_LATEST)

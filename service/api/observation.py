@@ -12,10 +12,10 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from api_schemas.problems import problem
-from service.api.figures import Figures
 from service.api.problems import problem_response
-from service.logs import fields, log_context
-from service.tracing import span
+from service.api.service_metrics import ServiceMetrics
+from service.process.logs import fields, log_context
+from service.process.tracing import span
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -28,9 +28,9 @@ QUIET: Final = ("/healthz/", "/metrics")
 class Observation:
     """ASGI middleware, outermost of ours: sees every answer, and turns a fault into one."""
 
-    def __init__(self, app: ASGIApp, *, figures: Figures) -> None:
+    def __init__(self, app: ASGIApp, *, metrics: ServiceMetrics) -> None:
         self._app = app
-        self._figures = figures
+        self._metrics = metrics
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass the request on under its id."""
@@ -57,7 +57,7 @@ class Observation:
             current.update_name(f"{request.method} {route}")
             current.set_attribute("http.route", route)
             current.set_attribute("http.response.status_code", status)
-            self._figures.count(method=request.method, route=route, status=status, seconds=seconds)
+            self._metrics.count(method=request.method, route=route, status=status, seconds=seconds)
             LOG.log(
                 logging.DEBUG if request.url.path.startswith(QUIET) else logging.INFO,
                 "%s %s",

@@ -8,22 +8,40 @@ from pydantic.json_schema import models_json_schema
 
 from api_schemas.bodies import BodyEstimate, BodyRequest
 from api_schemas.derivation_results import DerivationResult
-from api_schemas.derivations import DerivationEvent, DerivationRequest
+from api_schemas.derivations import (
+    MOST_OTHER_FITS,
+    TEXTURE_SIZES,
+    DerivationEvent,
+    DerivationRequest,
+)
 from api_schemas.images import UploadedImage
 from api_schemas.initial_poses import InitialPose, InitialPoseRequest
 from api_schemas.jobs import EventData
+from api_schemas.known import MAX_HEIGHT_M, MIN_HEIGHT_M
+from api_schemas.points import (
+    LIMB_POINT_NAMES,
+    MIN_EXTENT,
+    MIN_LIMB_POINTS,
+    MIN_TRUNK_POINTS,
+    TRUNK_POINT_NAMES,
+)
 from api_schemas.problems import PROBLEM_MEDIA_TYPE, Problem
 from api_schemas.requests import FitOfImage, FitOptions, FitRequest
 from api_schemas.webhooks import WebhookEvent
 from service.api.examples import ANSWERS, DERIVATION_NOTICE, NOTICE, REQUESTS, Examples
 from service.api.json_bodies import JSON, json_content
-from service.api.links import LINKS
 from service.api.problems import documented
+from service.representation.links import LINKS
 
 _ANSWERED_EVERYWHERE = {
     str(status): answer
     for status, answer in documented(
-        "unauthorized", "forbidden", "method-not-allowed", "too-many-requests"
+        "unauthorized",
+        "forbidden",
+        "method-not-allowed",
+        "request-timeout",
+        "too-many-requests",
+        "too-many-connections",
     ).items()
 }
 
@@ -91,6 +109,21 @@ _WEBHOOKS: dict[str, Any] = {
 }
 
 
+_LIMITS: dict[str, Any] = {
+    "description": "Limits of several fields together, for clients that check before they send.",
+    "points": {
+        "limb_names": LIMB_POINT_NAMES,
+        "trunk_names": TRUNK_POINT_NAMES,
+        "least_limb_points": MIN_LIMB_POINTS,
+        "least_trunk_points": MIN_TRUNK_POINTS,
+        "least_extent": MIN_EXTENT,
+    },
+    "height_m": {"least": MIN_HEIGHT_M, "most": MAX_HEIGHT_M},
+    "texture_sizes": TEXTURE_SIZES,
+    "most_other_fits": MOST_OTHER_FITS,
+}
+
+
 def complete_openapi(document: dict[str, Any]) -> dict[str, Any]:
     """Add the types that are only referred to, and drop FastAPI's own error format."""
     schemas: dict[str, Any] = document.setdefault("components", {}).setdefault("schemas", {})
@@ -105,6 +138,7 @@ def complete_openapi(document: dict[str, Any]) -> dict[str, Any]:
         for operation in path.values():
             _complete_operation(operation)
     document["webhooks"] = _WEBHOOKS
+    document["x-limits"] = _LIMITS
     for name in ("HTTPValidationError", "ValidationError"):
         schemas.pop(name, None)
     document["components"]["schemas"] = dict(sorted(schemas.items()))

@@ -13,9 +13,9 @@ from starlette.exceptions import HTTPException
 
 from api_schemas.problems import PROBLEM_MEDIA_TYPE, PROBLEM_TYPES, Problem, field_problem, problem
 from service.blobs import BlobsUnavailableError, StorageFullError
-from service.engine.port import EngineUnavailableError, JobExpiredError
-from service.refusal import RefusedError
-from service.validation import field_problems
+from service.engine.port import EngineFullError, EngineUnavailableError, JobExpiredError
+from service.submissions.refusal import RefusedError
+from service.submissions.validation import field_problems
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -71,13 +71,17 @@ def problem_response(
 ) -> Response:
     """Answer with a problem."""
     located = reason.model_copy(update={"instance": request.url.path})
-    retry = {"Retry-After": str(RETRY_AFTER_S)} if reason.status in (429, 503) else {}
     return Response(
         located.model_dump_json(),
         status_code=reason.status,
         media_type=PROBLEM_MEDIA_TYPE,
-        headers=retry | dict(headers or {}),
+        headers=retry_header(reason) | dict(headers or {}),
     )
+
+
+def retry_header(reason: Problem) -> dict[str, str]:
+    """Say when to try again, where trying again is the remedy."""
+    return {"Retry-After": str(RETRY_AFTER_S)} if reason.status in (429, 503) else {}
 
 
 def install_problem_handlers(app: FastAPI) -> None:
@@ -129,11 +133,20 @@ def _on_http(request: Request, error: Exception) -> Response:
 
 
 def _on_unavailable(request: Request, error: Exception) -> Response:
-    LOG.error("%s %s: the database is away.", request.method, request.url.path, exc_info=error)
+    full = isinstance(error, EngineFullError)
+    LOG.error(
+        "%s %s: the database is %s.",
+        request.method,
+        request.url.path,
+        "full" if full else "away",
+        exc_info=None if full else error,
+    )
     reason = problem(
         "not-ready",
-        code="database-unavailable",
-        detail="The database of jobs is not available.",
+        code="disk-full" if full else "database-unavailable",
+        detail="The disk of the database is full."
+        if full
+        else "The database of jobs is not available.",
         remedy="Try again after the time in Retry-After; nothing was changed.",
     )
     return problem_response(request, reason)

@@ -1,35 +1,198 @@
-"""How often one API key may ask: a bucket of tokens that fills evenly."""
+"""How often one API key may ask, at all API processes together.
 
-import math
+The bucket of a key is shared (:mod:`service.engine.token_port`). A process takes some tokens at a
+time from it and spends them in memory, so that few requests cost an exchange. Beside it each
+process keeps a bucket of its own of what it let pass: no request passes that this one refuses, and
+it alone counts while the shared one is out of reach or slow to answer. What passed meanwhile is
+taken from the shared one afterwards.
+"""
+
+import asyncio
+import logging
 import time
-from collections.abc import Callable
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass
+from functools import partial
+from typing import Final
+
+from anyio import CapacityLimiter, to_thread
+
+from service.api.token_bucket import TokenBucket, whole_seconds
+from service.engine.port import EngineUnavailableError
+from service.engine.token_port import SharedTokens
+
+LOG: Final = logging.getLogger(__name__)
+
+ALLOTMENTS: Final = 20
+"""An allotment is this part of the capacity: what a process may hold and others cannot have."""
+
+UNSPENT_S: Final = 5.0
+"""Tokens of a key that has not asked for this long are given back."""
+
+PATIENCE_S: Final = 1.0
+"""An exchange is waited for no longer than this; it goes on, and counts when it is done."""
+
+RETRY_AWAY_S: Final = 1.0
+"""Shared buckets that were out of reach are tried again after this time."""
+
+EXCHANGES_AT_ONCE: Final = 4
+"""Threads and connections that exchanges may occupy, however slow the database is."""
 
 
 @dataclass(slots=True)
-class _Bucket:
-    tokens: float
-    filled_at: float
+class _Account:
+    """A key as this process knows it; times are those of its own clock."""
+
+    own: TokenBucket
+    met_at: float
+    refused_until: float
+    held: int = 0
+    unpaid: int = 0
+    waiting: int = 0
+    exchange: asyncio.Task[None] | None = None
+    is_late: bool = False
 
 
 class RateLimit:
-    """At most ``per_minute`` requests a minute and key, in this process; bursts of as many."""
+    """At most ``per_minute`` requests a minute and key; bursts of as many.
 
-    def __init__(self, *, per_minute: int, monotonic: Callable[[], float] = time.monotonic) -> None:
+    To be used from one event loop, which the exchanges do not hold up.
+    """
+
+    def __init__(
+        self,
+        shared: SharedTokens,
+        *,
+        per_minute: int,
+        patience_s: float = PATIENCE_S,
+        monotonic: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._shared = shared
         self._capacity = float(per_minute)
         self._per_second = per_minute / 60.0
+        self._allotment = max(1, per_minute // ALLOTMENTS)
+        self._patience_s = patience_s
         self._monotonic = monotonic
-        self._buckets: dict[str, _Bucket] = {}
+        self._accounts: dict[str, _Account] = {}
+        self._exchanging = CapacityLimiter(EXCHANGES_AT_ONCE)
+        self._away_until: float | None = None
 
-    def take(self, key: str) -> int:
+    async def take(self, key: str) -> int:
         """Take a token; returns 0, or the whole seconds until there is one."""
+        account = self._account(key)
+        account.waiting += 1
+        try:
+            while (retry_after_s := self._answer(account)) is None:
+                # One exchange for all who wait.
+                exchange = account.exchange or self._begin_exchange(key, account)
+                done, _ = await asyncio.wait({exchange}, timeout=self._patience_s)
+                if not done:
+                    account.is_late = True
+        finally:
+            account.waiting -= 1
+        return retry_after_s
+
+    @asynccontextmanager
+    async def giving_back(self) -> AsyncIterator[None]:
+        """Give back what is not spent: from time to time, and all of it at the end."""
+        regularly = asyncio.create_task(self._give_back_regularly())
+        try:
+            yield
+        finally:
+            regularly.cancel()
+            with suppress(asyncio.CancelledError):
+                await regularly
+            await self.give_back(unspent_s=0.0)
+
+    async def give_back(self, *, unspent_s: float = UNSPENT_S) -> None:
+        """Give back the tokens of keys that did not ask for a while, and forget idle keys."""
         now = self._monotonic()
-        bucket = self._buckets.setdefault(key, _Bucket(self._capacity, now))
-        bucket.tokens = min(
-            self._capacity, bucket.tokens + (now - bucket.filled_at) * self._per_second
-        )
-        bucket.filled_at = now
-        if bucket.tokens < 1.0:
-            return max(1, math.ceil((1.0 - bucket.tokens) / self._per_second))
-        bucket.tokens -= 1.0
+        exchanges: list[asyncio.Task[None]] = []
+        for key, account in list(self._accounts.items()):
+            if account.waiting or account.exchange or now - account.met_at < unspent_s:
+                continue
+            account.own.fill(now)
+            if account.held > 0:
+                exchanges.append(self._begin_exchange(key, account))
+            elif account.own.is_full and now >= account.refused_until:
+                del self._accounts[key]
+        if exchanges:
+            await asyncio.wait(exchanges, timeout=self._patience_s)
+
+    def _account(self, key: str) -> _Account:
+        account = self._accounts.get(key)
+        if account is None:
+            now = self._monotonic()
+            own = TokenBucket(self._capacity, self._per_second, self._capacity, now)
+            account = self._accounts[key] = _Account(own, met_at=now, refused_until=now)
+        return account
+
+    def _answer(self, account: _Account) -> int | None:
+        """Answer as :meth:`take` does; None if an exchange must tell."""
+        now = self._monotonic()
+        account.met_at = now
+        account.own.fill(now)
+        if account.own.wait_s > 0.0:
+            return whole_seconds(account.own.wait_s)
+        if account.held > 0:
+            account.held -= 1
+        elif now < account.refused_until:
+            return whole_seconds(account.refused_until - now)
+        elif not account.is_late and not self._is_away(now):
+            return None
+        else:
+            account.unpaid += 1
+        account.own.tokens -= 1.0
         return 0
+
+    def _is_away(self, now: float) -> bool:
+        return self._away_until is not None and now < self._away_until
+
+    def _begin_exchange(self, key: str, account: _Account) -> asyncio.Task[None]:
+        account.exchange = asyncio.create_task(self._exchange(key, account))
+        return account.exchange
+
+    async def _exchange(self, key: str, account: _Account) -> None:
+        """Bring the account up to date; whatever befalls the shared bucket, it raises nothing."""
+        returned, account.held = account.held, 0
+        # The rest has come in again meanwhile, into the shared bucket too.
+        account.unpaid = min(account.unpaid, int(self._capacity - account.own.tokens))
+        # What those who wait spend at once nobody holds.
+        needed = max(self._allotment, account.waiting) if account.waiting else 0
+        wanted = account.unpaid + needed
+        exchange = partial(self._shared.exchange, key, returned=returned, wanted=wanted)
+        try:
+            grant = await to_thread.run_sync(exchange, limiter=self._exchanging)
+        except EngineUnavailableError as error:
+            self._note_away(error)
+            return
+        except Exception as error:
+            LOG.exception("Tokens cannot be exchanged.")
+            self._note_away(error)
+            return
+        finally:
+            account.exchange = None
+            account.is_late = False
+        if self._away_until is not None:
+            self._away_until = None
+            LOG.info("The limit of requests is shared with the other processes again.")
+        paid = min(grant.tokens, account.unpaid)
+        account.unpaid -= paid
+        account.held += grant.tokens - paid
+        if grant.tokens < wanted:
+            account.refused_until = self._monotonic() + whole_seconds(grant.wait_s)
+
+    def _note_away(self, error: Exception) -> None:
+        if self._away_until is None:
+            cause = error.__cause__ or error
+            LOG.warning(
+                "The database is not available (%s); this process limits requests by itself.",
+                getattr(cause, "orig", cause),
+            )
+        self._away_until = self._monotonic() + RETRY_AWAY_S
+
+    async def _give_back_regularly(self) -> None:
+        while True:
+            await asyncio.sleep(UNSPENT_S)
+            await self.give_back()

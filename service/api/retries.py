@@ -23,10 +23,11 @@ from service.api.derivation_inputs import other_fits
 from service.api.job_inputs import Copy, Inputs
 from service.api.job_routes import find
 from service.api.problems import ProblemError, documented, not_found
-from service.api.representation import represent, represent_derivation
 from service.blobs import BlobMissingError
 from service.engine.port import TenantJobs
-from service.jobs import ACTIVE
+from service.jobs.states import ACTIVE
+from service.representation.jobs import represent, represent_derivation
+from service.webhooks.targets import read_target
 
 ROUTER: Final = APIRouter(prefix="/v1/fits")
 
@@ -50,7 +51,7 @@ async def retry(
 ) -> Job:
     """Accept a new job on the picture and the request of one that has ended.
 
-    It has a copy of its own of both, and its end is told to whom the first one's was.
+    It has a copy of its own of both, and its notice goes where the first one's went.
     """
     jobs = context.jobs
     inputs = await run_in_threadpool(_inputs, context, jobs, fit_id)
@@ -77,7 +78,7 @@ async def retry_derivation(
 ) -> Derivation:
     """Accept a new job on all that one that has ended was made of.
 
-    It has a copy of its own of that, and its end is told to whom the first one's was.
+    It has a copy of its own of that, and its notice goes where the first one's went.
     """
     jobs = context.jobs.derivations(str(fit_id))
     inputs = await run_in_threadpool(_inputs, context, jobs, derivation_id)
@@ -99,6 +100,7 @@ def _inputs(context: ApiContext, jobs: TenantJobs, job_id: UUID) -> Inputs:
 
     try:
         options = context.blobs.get(record.id, record.options.digest)
+        webhook = read_target(context.blobs, record)
     except BlobMissingError as error:
         raise not_found(what="such job any more") from error
     return Inputs(
@@ -106,7 +108,7 @@ def _inputs(context: ApiContext, jobs: TenantJobs, job_id: UUID) -> Inputs:
         options=options,
         files={name: Copy(scope=record.id, blob=blob) for name, blob in record.inputs.items()},
         sources=_sources(record.kind, options),
-        webhook=jobs.webhook_target(record.id),
+        webhook=webhook,
     )
 
 

@@ -7,6 +7,8 @@ from typing import Final
 import uvicorn
 from starlette.types import ASGIApp
 
+from service.api.connection_limits import ConnectionLimits, limited_protocol
+
 GRACE_S: Final = 5
 """How long open requests may take to end; event streams end by themselves at once."""
 
@@ -15,11 +17,20 @@ class ApiServer(uvicorn.Server):
     """Serves an application until SIGTERM or SIGINT, and for ``stop_delay_s`` after it."""
 
     def __init__(
-        self, app: ASGIApp, *, log_level: str, draining: threading.Event, stop_delay_s: float
+        self,
+        app: ASGIApp,
+        *,
+        limits: ConnectionLimits,
+        log_level: str,
+        draining: threading.Event,
+        stop_delay_s: float,
     ) -> None:
         super().__init__(
             uvicorn.Config(
                 app,
+                # Whatever else is installed: each of uvicorn's others has other rooms inside.
+                http=limited_protocol(limits),
+                ws="none",
                 log_config=None,
                 log_level=log_level.lower(),
                 # Requests are logged where their ids are known.

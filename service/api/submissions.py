@@ -23,12 +23,12 @@ from service.api.images import image_content
 from service.api.job_inputs import File, Inputs
 from service.api.json_bodies import JSON, json_content, media_type, read_json_text
 from service.api.problems import documented
-from service.api.representation import represent
 from service.api.uploads import Upload, read_upload
 from service.estimates.messages import BodyTask
-from service.inputs import IMAGE, MASK
-from service.submission import CheckedSubmission, check_parts, check_submission
-from service.validation import parsed
+from service.jobs.inputs import IMAGE, MASK
+from service.representation.jobs import represent
+from service.submissions.submission import CheckedSubmission, check_parts, check_submission
+from service.submissions.validation import parsed
 from service.webhooks.targets import check_webhook
 
 ROUTER: Final = APIRouter(prefix="/v1/fits", tags=["fits"])

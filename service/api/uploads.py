@@ -12,6 +12,8 @@ from starlette.exceptions import HTTPException
 from api_schemas.problems import FieldProblem, field_problem, problem
 from service.api.json_bodies import media_type, unsupported
 from service.api.problems import ProblemError
+from service.api.room import no_room
+from service.blobs.local import FULL
 
 NEEDED_PARTS: Final = ("image", "request")
 PARTS: Final = (*NEEDED_PARTS, "mask")
@@ -98,6 +100,11 @@ async def _form(request: Request, known: Sequence[str]) -> FormData:
         raise _malformed(error.detail, known) from error
     except UnicodeError as error:
         raise _malformed(_NO_TEXT, known) from error
+    except OSError as error:
+        # Large parts are laid down in the folder of temporary files until they are whole.
+        if error.errno in FULL:
+            raise no_room() from error
+        raise
     if not all(_is_text(text) for item in form.multi_items() for text in item):
         await form.close()
         raise _malformed(_NO_TEXT, known)

@@ -2,7 +2,8 @@
 
 Blobs live in scopes, one a job, named by their content. Nothing is shared between scopes, so
 erasing a job erases one scope and nothing needs counting. The database holds names of blobs only:
-what a caller sent (picture, mask, points) and what was made of it is here and nowhere else.
+what a caller sent (picture, mask, points, whom to tell and by what secret) and what was made of it
+is here and nowhere else.
 """
 
 from service.blobs.port import BlobMissingError, BlobStore, BlobsUnavailableError, StorageFullError

@@ -16,11 +16,15 @@ from pathlib import Path
 from typing import BinaryIO, Final
 
 from service.blobs.port import BlobMissingError, BlobsUnavailableError, StorageFullError
+from service.process.private_files import make_private_folder
 
 FULL: Final = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
 
 NAMELESS_UNKNOWN: Final = frozenset({errno.EOPNOTSUPP, errno.EISDIR, errno.EINVAL})
 """What file systems without nameless files answer, NFS among them."""
+
+SCOPE_DEPTH: Final = 3
+"""Folders of ours above a blob."""
 
 
 class LocalBlobStore:
@@ -32,7 +36,7 @@ class LocalBlobStore:
     def prepare(self) -> None:
         """Make the folder, unless it is there."""
         with _told():
-            self.root.mkdir(parents=True, exist_ok=True)
+            make_private_folder(self.root)
 
     def put(self, scope: str, content: bytes) -> str:
         """Store ``content`` and return its SHA-256, its name in the scope.
@@ -80,15 +84,10 @@ class LocalBlobStore:
     def check_writable(self) -> None:
         """Write and remove a file."""
         scope = f".probe-{uuid.uuid4().hex}"
-        self.put(scope, b"probe")
-        self.erase(scope)
-
-    def free_bytes(self) -> int | None:
-        """Room left on the disk."""
-        folder = self.root
-        while not folder.exists():
-            folder = folder.parent
-        return shutil.disk_usage(folder).free
+        try:
+            self.put(scope, b"probe")
+        finally:
+            self.erase(scope)
 
     def _folder(self, scope: str) -> Path:
         return self.root / scope[:2] / scope
@@ -107,7 +106,8 @@ def _told() -> Iterator[None]:
 
 
 def _write(path: Path, content: bytes) -> None:
-    path.parent.mkdir(parents=True, exist_ok=True)
+    for folder in reversed(path.parents[:SCOPE_DEPTH]):
+        make_private_folder(folder)
     try:
         handle = os.open(path.parent, os.O_TMPFILE | os.O_WRONLY, 0o600)
     except OSError as error:
@@ -125,7 +125,7 @@ def _write(path: Path, content: bytes) -> None:
 
 
 def _write_named(path: Path, content: bytes) -> None:
-    """Where a file must have a name: whoever dies here leaves it, until its scope is erased."""
+    """Where a file needs a name: a process that dies here leaves it until its scope is erased."""
     handle, name = tempfile.mkstemp(dir=path.parent, prefix=".new-")
     temporary = Path(name)
     try:

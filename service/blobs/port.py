@@ -47,7 +47,3 @@ class BlobStore(Protocol):
     def check_writable(self) -> None:
         """Store and remove a blob of a few bytes, or raise."""
         ...
-
-    def free_bytes(self) -> int | None:
-        """Room left, or None where the store has no such thing."""
-        ...

@@ -108,10 +108,6 @@ class S3BlobStore:
         self.put(scope, b"probe")
         self.erase(scope)
 
-    def free_bytes(self) -> int | None:
-        """Object storage tells no room left."""
-        return None
-
     def _key(self, scope: str, name: str) -> str:
         return f"{self._prefix}{scope}/{name}"
 

@@ -23,7 +23,7 @@ def open_blob_store(settings: Settings) -> BlobStore:
         from service.blobs.s3 import S3BlobStore
     except ImportError as error:
         message = "S3 needs the client; install it with: pip install 'maquette[s3]'"
-        raise SettingError(message, name="blob_url") from error
+        raise SettingError(message, name="blob_url", value=settings.blob_url) from error
     return S3BlobStore(
         bucket=url.netloc,
         prefix=url.path,

@@ -11,7 +11,6 @@ import sqlalchemy as sa
 
 from api_schemas.jobs import EventKind, JobState
 from api_schemas.problems import Problem, problem
-from service.engine.patience import patiently
 from service.engine.port import AttemptResult, Directive, Ending, JobRecord, Report
 from service.engine.records import (
     ARTIFACTS,
@@ -21,6 +20,7 @@ from service.engine.records import (
     job_record,
     move_job,
 )
+from service.engine.retrying import retry_while_database_is_away
 from service.engine.statistics import count_durations
 from service.engine.tables import JOBS
 
@@ -53,7 +53,7 @@ class RecordedAttempt:
         """The job as it was when the attempt began."""
         return self._job
 
-    @patiently
+    @retry_while_database_is_away
     def report(self, report: Report) -> None:
         """Store progress and its event; never let the share go down."""
         with self._database.begin() as connection:
@@ -77,7 +77,7 @@ class RecordedAttempt:
             if row is not None:
                 append_event(connection, job_record(row), EventKind.PROGRESS, report.energies)
 
-    @patiently
+    @retry_while_database_is_away
     def directive(self) -> Directive:
         """Ask whether the attempt is still wanted."""
         query = sa.select(JOBS.c.cancel_requested).where(*_current(self._job))
@@ -107,7 +107,7 @@ class AttemptLog:
         self._max_crashes = max_crashes
         self._retention_s = retention_s
 
-    @patiently
+    @retry_while_database_is_away
     def begin(self, job_id: str) -> RecordedAttempt | None:
         """Claim the next attempt; None when there is nothing (more) to do for this job."""
         with self._database.begin() as connection:
@@ -147,7 +147,7 @@ class AttemptLog:
             )
         return None if job is None else RecordedAttempt(self._database, job)
 
-    @patiently
+    @retry_while_database_is_away
     def count_crash(self, attempt: RecordedAttempt) -> None:
         """Note that the process of this attempt died of itself."""
         with self._database.begin() as connection:
@@ -155,7 +155,7 @@ class AttemptLog:
                 sa.update(JOBS).where(*_current(attempt.job)).values(crashes=JOBS.c.crashes + 1)
             )
 
-    @patiently
+    @retry_while_database_is_away
     def end(self, job_id: str, attempt: int, result: AttemptResult) -> JobRecord | None:
         """Publish the result; None if the attempt was superseded or the job erased."""
         state = FINAL_STATES[result.ending]
@@ -179,13 +179,13 @@ class AttemptLog:
                 )
             return ended
 
-    @patiently
+    @retry_while_database_is_away
     def exists(self, job_id: str) -> bool:
         """Say whether the job has not been erased."""
         with self._database.connect() as connection:
             return find_job(connection, job_id) is not None
 
-    @patiently
+    @retry_while_database_is_away
     def hand_back(self) -> None:
         """Return this worker's running jobs to the queue, as if they had not been begun."""
         with self._database.begin() as connection:

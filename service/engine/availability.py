@@ -7,7 +7,8 @@ from typing import ParamSpec, TypeVar
 from sqlalchemy.exc import OperationalError
 from sqlalchemy.exc import TimeoutError as PoolTimeoutError
 
-from service.engine.port import EngineUnavailableError
+from service.engine.driver_errors import is_full
+from service.engine.port import EngineFullError, EngineUnavailableError
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -21,6 +22,7 @@ def available(operation: Callable[P, T]) -> Callable[P, T]:
         try:
             return operation(*args, **kwargs)
         except (OperationalError, PoolTimeoutError) as error:
-            raise EngineUnavailableError from error
+            kind = EngineFullError if is_full(error) else EngineUnavailableError
+            raise kind from error
 
     return wrapper

@@ -1,25 +1,32 @@
 """Open and prepare the database: SQLite in WAL mode, or Postgres."""
 
-import sqlite3
-import sys
+import contextlib
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import sqlalchemy as sa
-from dbos import DBOS
 from sqlalchemy import event
+from sqlalchemy.exc import ArgumentError, DBAPIError
 
+from service.engine.driver_errors import refusal
 from service.engine.facts import read_fact, write_fact
-from service.engine.patience import patiently
+from service.engine.port import DatabaseUnusableError
+from service.engine.retrying import retry_while_database_is_away
+from service.engine.sqlite_file import (
+    check_sqlite_version,
+    configure_connection,
+    prepare_file,
+    secure_file,
+)
 from service.engine.tables import JOBS, METADATA
 from service.engine.transactions import read_then_write
+from service.setting_addresses import without_secrets
 
-BUSY_TIMEOUT_MS: Final = 30_000
 MIGRATION_LOCK: Final = 0x6D617175
 """Key of the Postgres advisory lock held while tables are created."""
 
-
-SCHEMA_VERSION: Final = "4"
+SCHEMA_VERSION: Final = "5"
 SCHEMA_FACT: Final = "schema_version"
 
 POSTGRES_CONNECTION: Final = {
@@ -32,10 +39,6 @@ POSTGRES_CONNECTION: Final = {
 }
 
 
-class DatabaseUnusableError(Exception):
-    """The database cannot be used as it is; the message says what to do."""
-
-
 def open_database(url: str, *, connections: int = 20) -> sa.Engine:
     """Open a pool of at most ``connections``; creates the folder of an SQLite file, nothing else.
 
@@ -43,8 +46,8 @@ def open_database(url: str, *, connections: int = 20) -> sa.Engine:
     """
     parsed = sa.make_url(url)
     if parsed.get_backend_name() == "sqlite":
-        _check_sqlite_version()
-        Path(parsed.database or "").parent.mkdir(parents=True, exist_ok=True)
+        check_sqlite_version()
+        secure_file(Path(parsed.database or ""))
         engine = sa.create_engine(
             parsed,
             pool_size=connections,
@@ -52,7 +55,7 @@ def open_database(url: str, *, connections: int = 20) -> sa.Engine:
             pool_timeout=30,
             hide_parameters=True,
         )
-        event.listen(engine, "connect", _configure_sqlite)
+        event.listen(engine, "connect", configure_connection)
         return engine
     return sa.create_engine(
         parsed.set(drivername="postgresql+psycopg"),
@@ -67,30 +70,72 @@ def open_database(url: str, *, connections: int = 20) -> sa.Engine:
     )
 
 
-@patiently
-def prepare_database(url: str) -> None:
-    """Create or migrate all tables; safe to run in several processes at once.
+@retry_while_database_is_away
+def check_database(url: str) -> None:
+    """Look whether the database answers and has no tables of another version.
 
-    A database that is not there yet is waited for.
+    A database that does not answer is waited for.
 
     Raises
     ------
     DatabaseUnusableError
-        If it is there and cannot be used as it is.
+        If it answers and cannot be used as it is.
     """
-    engine = open_database(url, connections=2)
-    try:
+    with _opened(url) as engine:
+        _check_schema(engine)
+
+
+@retry_while_database_is_away
+def prepare_database(url: str) -> None:
+    """Create or migrate all tables; safe to run in several processes at once.
+
+    Waits and raises as :func:`check_database` does.
+    """
+    # Only here: it takes half a second to load.
+    from dbos import DBOS
+
+    with _opened(url) as engine:
         _check_schema(engine)
         if engine.dialect.name == "sqlite":
-            _prepare_sqlite_file(engine)
+            prepare_file(engine)
         DBOS.migrate(url)
         with read_then_write(engine) as connection:
             if engine.dialect.name == "postgresql":
                 connection.execute(sa.select(sa.func.pg_advisory_xact_lock(MIGRATION_LOCK)))
             METADATA.create_all(connection)
             write_fact(connection, SCHEMA_FACT, SCHEMA_VERSION)
+
+
+@contextlib.contextmanager
+def _opened(url: str) -> Iterator[sa.Engine]:
+    """Open the database for a moment; errors that will not pass name its address."""
+    try:
+        engine = open_database(url, connections=2)
+    except ArgumentError as error:
+        raise _unusable(url, "it cannot be read") from error
+    try:
+        yield engine
+    except DBAPIError as error:
+        reason = refusal(error)
+        if reason is None:
+            raise
+        raise _unusable(url, reason) from error
     finally:
         engine.dispose()
+
+
+def _unusable(url: str, reason: str) -> DatabaseUnusableError:
+    if url.startswith("sqlite"):
+        file = Path(url.partition("///")[2])
+        return DatabaseUnusableError(
+            f"MAQUETTE_DATA_DIR={file.parent}: its {file.name} cannot be used ({reason}); put a "
+            "copy back that can be, let the user that runs the service own it, or choose another "
+            "folder"
+        )
+    return DatabaseUnusableError(
+        f"MAQUETTE_DATABASE_URL={without_secrets(url)}: the database cannot be used ({reason}); "
+        "correct address, name, user or password, or have the database made and its rights given"
+    )
 
 
 def _check_schema(engine: sa.Engine) -> None:
@@ -105,40 +150,3 @@ def _check_schema(engine: sa.Engine) -> None:
             "new MAQUETTE_DATA_DIR or MAQUETTE_DATABASE_URL."
         )
         raise DatabaseUnusableError(message)
-
-
-def _check_sqlite_version() -> None:
-    # From Python 3.12 on DBOS reads the clock by unixepoch('subsec'), NULL in an older SQLite.
-    if sys.version_info >= (3, 12) and sqlite3.sqlite_version_info < (3, 42):
-        message = (
-            f"SQLite {sqlite3.sqlite_version} is too old. Use a Python built with SQLite 3.42 or "
-            "newer, or set MAQUETTE_DATABASE_URL to a Postgres database."
-        )
-        raise DatabaseUnusableError(message)
-
-
-def _configure_sqlite(connection: Any, _: object) -> None:
-    # IMMEDIATE: a transaction that reads and then writes would otherwise fail instead of waiting.
-    connection.isolation_level = "IMMEDIATE"
-    for pragma in (
-        f"busy_timeout={BUSY_TIMEOUT_MS}",
-        "foreign_keys=ON",
-        "synchronous=FULL",
-        # Erased rows are overwritten, not only unlinked.
-        "secure_delete=ON",
-    ):
-        connection.execute(f"PRAGMA {pragma}")
-
-
-def _prepare_sqlite_file(engine: sa.Engine) -> None:
-    # auto_vacuum takes effect only before the first table; DBOS sets neither of the two.
-    connection = engine.raw_connection()
-    try:
-        connection.driver_connection.isolation_level = None  # pyright: ignore
-        cursor = connection.cursor()
-        cursor.execute("PRAGMA auto_vacuum=INCREMENTAL")
-        cursor.execute("PRAGMA journal_mode=WAL")
-        cursor.close()
-    finally:
-        connection.invalidate()
-        connection.close()

@@ -13,6 +13,7 @@ from api_schemas.body_models import BodyModels
 from api_schemas.jobs import JobState, WebhookState
 from service.blobs import BlobStore
 from service.engine.availability import available
+from service.engine.ballast import Ballast
 from service.engine.facts import read_fact, touch_fact
 from service.engine.image_port import ImageQuota
 from service.engine.images import StoredImages
@@ -48,6 +49,7 @@ class DbosJobEngine:
         sweep_interval_s: float,
         heartbeat_s: float,
         dead_after_s: float,
+        ballast: Ballast,
     ) -> None:
         self._database = database
         self._max_queued = max_queued
@@ -55,13 +57,16 @@ class DbosJobEngine:
         self._image_quota = image_quota
         self._retention_s = retention_s
         self._heartbeat_s = heartbeat_s
+        self._ballast = ballast
         self._client = DBOSClient(
             system_database_engine=database,
             serializer=DBOSPortableJSONSerializer(),
             application_name=APPLICATION,
         )
         self._watch = WorkerWatch(dead_after_s=dead_after_s)
-        self._sweeper = Sweeper(database, self._client, blobs, interval_s=sweep_interval_s)
+        self._sweeper = Sweeper(
+            database, self._client, blobs, interval_s=sweep_interval_s, ballast=ballast
+        )
         self._stopped = threading.Event()
         self._watching = threading.Thread(target=self._watch_workers, name="watch", daemon=True)
 
@@ -88,6 +93,7 @@ class DbosJobEngine:
             max_queued=self._max_queued,
             max_queued_per_tenant=self._max_queued_per_tenant,
             retention_s=self._retention_s,
+            ballast=self._ballast,
         )
 
     def images_of(self, tenant: str) -> StoredImages:
@@ -97,6 +103,7 @@ class DbosJobEngine:
             database=self._database,
             retention_s=self._retention_s,
             quota=self._image_quota,
+            ballast=self._ballast,
         )
 
     @available

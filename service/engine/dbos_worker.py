@@ -6,32 +6,32 @@ import os
 import threading
 import time
 import uuid
-from typing import Any, Final
+from typing import Final
 
 import sqlalchemy as sa
-from dbos import DBOS, DBOSClient, DBOSPortableJSONSerializer, Queue
+from dbos import DBOS, DBOSClient, DBOSPortableJSONSerializer
 from opentelemetry.trace import SpanKind
 
 from api_schemas.body_models import BodyModels
 from service.blobs import BlobStore, BlobsUnavailableError
 from service.engine.attempts import AttemptLog, result_from_json, result_to_json
+from service.engine.dbos_internals import pace_queue, put_back_executions_of, stop_claiming
 from service.engine.dbos_jobs import BODY_MODELS_FACT
+from service.engine.executions import Executions
 from service.engine.facts import write_fact
-from service.engine.heartbeat import Heartbeat, executions_table
-from service.engine.places import Places
+from service.engine.heartbeat import Heartbeat
 from service.engine.port import AttemptHandler, Ending
 from service.engine.queue import APPLICATION, EXECUTION_VERSION, QUEUE, WORKFLOW
-from service.logs import fields, log_context
-from service.tracing import span
+from service.engine.worker_slots import WorkerSlots
+from service.process.disk import Disk
+from service.process.logs import fields, log_context
+from service.process.tracing import span
 
 LOG: Final = logging.getLogger(__name__)
 
 MAX_RECOVERIES: Final = 10
 """How many workers may die over one job. Larger than the limit on crashes of the fit's own process,
 because a worker dies for reasons that are not the picture's: restarts, machines, chaos tests."""
-
-LOOK_S: Final = 0.01
-"""How long DBOS itself pauses between two looks for jobs: what paces it are the places."""
 
 OUTCOME_WAIT_S: Final = 2.0
 OUTCOME_POLL_S: Final = 0.02
@@ -51,13 +51,17 @@ class DbosWorkerEngine:
         dead_after_s: float,
         queue_poll_s: float,
         retention_s: float,
+        disk: Disk,
     ) -> None:
         # Never reused: two live workers under one name would run each other's jobs again.
         self.executor_id = f"{os.uname().nodename[:20]}-{uuid.uuid4().hex}"
         self._database = database
         self._blobs = blobs
         self._queue_poll_s = queue_poll_s
-        self._places = Places(processes, poll_s=queue_poll_s)
+        self._disk = disk
+        self._is_holding_back = False
+        self._slots = WorkerSlots(processes, poll_s=queue_poll_s)
+        self._executions = Executions(database)
         self._attempts = AttemptLog(
             database,
             executor_id=self.executor_id,
@@ -70,10 +74,10 @@ class DbosWorkerEngine:
             interval_s=heartbeat_s,
             dead_after_s=dead_after_s,
             retention_s=retention_s,
-            # Private, but the public resume_workflow forgets how often a job was recovered.
-            recover=lambda dead: DBOS._recover_pending_workflows(dead),  # noqa: SLF001
+            executions=self._executions,
+            recover=put_back_executions_of,
             put_back=lambda job_id: DBOS.resume_workflow(job_id, queue_name=QUEUE),
-            holds=self._places.held,
+            holds=self._slots.held,
         )
         self._handing_back = threading.Event()
         self._dbos: DBOS | None = None
@@ -96,7 +100,12 @@ class DbosWorkerEngine:
         self._store_body_models(body_models)
         self._heartbeat.register()
         DBOS.launch()
-        self._take_over_pace(self._dbos)
+        pace_queue(
+            self._dbos,
+            QUEUE,
+            await_turn=self._slots.await_turn,
+            usable_slots=self._usable_slots,
+        )
         self._heartbeat.start()
 
     def stop(self, *, drain_s: float) -> None:
@@ -107,10 +116,9 @@ class DbosWorkerEngine:
         """
         if self._dbos is None:
             return
-        for stop in self._dbos.background_thread_stop_events:
-            stop.set()
-        self._places.close()
-        if not self._places.all_left(within_s=drain_s):
+        stop_claiming(self._dbos)
+        self._slots.close()
+        if not self._slots.all_left(within_s=drain_s):
             self._handing_back.set()
             self._attempts.hand_back()
         else:
@@ -120,15 +128,10 @@ class DbosWorkerEngine:
     def _wait_for_outcomes(self) -> None:
         # DBOS notes the end of a workflow after the workflow has returned. Were the process to end
         # in between, another worker would replay the workflow from its checkpoints, in vain.
-        executions = executions_table(self._database)
-        query = sa.select(sa.func.count()).where(
-            executions.c.executor_id == self.executor_id, executions.c.status == "PENDING"
-        )
         deadline = time.monotonic() + OUTCOME_WAIT_S
         while time.monotonic() < deadline:
-            with self._database.connect() as connection:
-                if connection.execute(query).scalar_one() == 0:
-                    return
+            if not self._executions.held_by(self.executor_id):
+                return
             time.sleep(OUTCOME_POLL_S)
 
     def _register(self, handler: AttemptHandler) -> None:
@@ -142,7 +145,7 @@ class DbosWorkerEngine:
 
         @DBOS.workflow(name=WORKFLOW, max_recovery_attempts=MAX_RECOVERIES)
         def fit(job_id: str) -> None:
-            with self._places.taken_by(job_id):
+            with self._slots.taken_by(job_id):
                 result = run(job_id)
                 if result is not None:
                     publish(job_id, result)
@@ -206,23 +209,16 @@ class DbosWorkerEngine:
             polling_interval_sec=self._queue_poll_s,
         )
 
-    def _take_over_pace(self, dbos: DBOS) -> None:
-        # DBOS keeps limit and pace in the database, one for all workers, and asks for them before
-        # each look for jobs; ours are each machine's own, and it is kept waiting for its turn here.
-        # What stands there is the floor, should this private way in ever be gone.
-        system_database = dbos._sys_db  # noqa: SLF001
-        get_queue = system_database.get_queue
-
-        def get_queue_in_turn(name: str, **options: Any) -> Queue | None:
-            if name == QUEUE:
-                self._places.await_turn()
-            queue = get_queue(name, **options)
-            if queue is not None and queue.name == QUEUE:
-                queue._worker_concurrency = self._places.count  # noqa: SLF001
-                queue._polling_interval_sec = LOOK_S  # noqa: SLF001
-            return queue
-
-        system_database.get_queue = get_queue_in_turn
+    def _usable_slots(self) -> int:
+        # What waits is safe, and what runs needs the room that is left for its results.
+        is_short = not self._disk.has_room_for()
+        if is_short != self._is_holding_back:
+            self._is_holding_back = is_short
+            if is_short:
+                LOG.warning("Too little of the disk is free: no job that waits is begun.")
+            else:
+                LOG.info("There is room on the disk again: jobs are begun.")
+        return 0 if is_short else self._slots.count
 
     def _store_body_models(self, body_models: BodyModels) -> None:
         with self._database.begin() as connection:

@@ -2,8 +2,8 @@
 
 Blobs are not in the database, so no transaction covers both. A scope that is to be erased stands in
 a table of its own, entered in the transaction that forgets the job, and is taken out only after its
-blobs are gone: whoever dies in between, the next sweep goes on. A submission enters its scope
-before it stores the first byte and takes it out when the job is accepted.
+blobs are gone: if the process dies in between, the next sweep goes on. A submission enters its
+scope before it stores the first byte and takes it out when the job is accepted.
 """
 
 import logging
@@ -27,6 +27,8 @@ scope is erased once more after this time."""
 
 TOMBSTONES_KEPT_S: Final = 90 * 86_400.0
 BATCH: Final = 200
+EXPIRED_AT_ONCE: Final = 50
+"""Jobs, with all their events: so that one transaction finds room in the ballast of a full disk."""
 
 POSTPONED_S: Final = 600.0
 """A scope that could not be erased is tried again after this time; others do not wait for it."""
@@ -116,7 +118,7 @@ def expire_jobs(connection: sa.Connection) -> int:
         connection.execute(
             sa.select(JOBS.c.id)
             .where(JOBS.c.expires_at <= now)
-            .limit(BATCH)
+            .limit(EXPIRED_AT_ONCE)
             # Two processes may sweep at once.
             .with_for_update(skip_locked=True)
         ).scalars()

@@ -1,7 +1,7 @@
 """A worker's heartbeat, and the taking over of fits whose worker died.
 
 Open-source DBOS recovers a process's own jobs when it starts again under the same name. Our workers
-never reuse a name, so each of them also looks after the others: whoever holds running jobs and is
+never reuse a name, so each of them also looks after the others: one that holds running jobs and is
 not alive has them put back into the queue.
 """
 
@@ -17,17 +17,21 @@ from sqlalchemy.exc import OperationalError
 from api_schemas.jobs import JobState
 from api_schemas.problems import problem
 from service.engine.attempts import given_up
+from service.engine.executions import EXHAUSTED, Executions
 from service.engine.liveness import WorkerWatch, this_process
 from service.engine.records import end_job
 from service.engine.tables import JOBS, WORKERS
-from service.jobs import ACTIVE
+from service.jobs.states import ACTIVE
 
 LOG: Final = logging.getLogger(__name__)
 
-DBOS_TERMINAL: Final = ("SUCCESS", "ERROR", "CANCELLED", "MAX_RECOVERY_ATTEMPTS_EXCEEDED")
 RECONCILE_AFTER_S: Final = 5.0
 """How long a job may stand as active although its execution has ended: the time between the last
 checkpoint and DBOS's own note of it, many times over."""
+
+RECONCILED_AT_ONCE: Final = 1_000
+"""So many active jobs are looked at by a beat, those first that may have been claimed: what runs,
+then what has waited longest."""
 
 DROPPED_AFTER_S: Final = 20.0
 """How long an execution may stand as run by a worker that does not run it. Putting one back early
@@ -45,7 +49,8 @@ class Heartbeat:
         interval_s: float,
         dead_after_s: float,
         retention_s: float,
-        recover: Callable[[list[str]], object],
+        executions: Executions,
+        recover: Callable[[Collection[str]], object],
         put_back: Callable[[str], object],
         holds: Callable[[], Collection[str]],
     ) -> None:
@@ -53,6 +58,7 @@ class Heartbeat:
         self._executor_id = executor_id
         self._interval_s = interval_s
         self._retention_s = retention_s
+        self._executions = executions
         self._recover = recover
         self._put_back = put_back
         self._holds = holds
@@ -114,18 +120,12 @@ class Heartbeat:
                 )
 
     def _take_over(self) -> None:
-        executions = executions_table(self._database)
+        # In this order: a worker makes itself known before it claims anything.
+        holders = self._executions.holders()
         with self._database.connect() as connection:
             workers = connection.execute(sa.select(WORKERS)).all()
-            holders = set(
-                connection.execute(
-                    sa.select(executions.c.executor_id)
-                    .where(executions.c.status == "PENDING")
-                    .distinct()
-                ).scalars()
-            )
         alive = self._watch.alive(workers) | {self._executor_id}
-        dead = sorted(holder for holder in holders - alive if holder is not None)
+        dead = sorted(holders - alive)
         if dead:
             LOG.warning("Taking over the fits of %s.", ", ".join(dead))
             self._recover(dead)
@@ -139,12 +139,7 @@ class Heartbeat:
 
         That happens when DBOS itself cannot write what a fit returned, the disk being full.
         """
-        executions = executions_table(self._database)
-        query = sa.select(executions.c.workflow_uuid).where(
-            executions.c.executor_id == self._executor_id, executions.c.status == "PENDING"
-        )
-        with self._database.connect() as connection:
-            pending = set(connection.execute(query).scalars())
+        pending = self._executions.held_by(self._executor_id)
         now = time.monotonic()
         dropped = pending - set(self._holds())
         self._dropped_since = {each: self._dropped_since.get(each, now) for each in dropped}
@@ -156,17 +151,15 @@ class Heartbeat:
 
     def _reconcile(self) -> None:
         """End the records of jobs whose execution DBOS has given up, so that none waits forever."""
-        executions = executions_table(self._database)
         query = (
-            sa.select(JOBS.c.id, executions.c.status)
-            .join(executions, executions.c.workflow_uuid == JOBS.c.id)
-            .where(
-                JOBS.c.state.in_([state.value for state in ACTIVE]),
-                executions.c.status.in_(DBOS_TERMINAL),
-            )
+            sa.select(JOBS.c.id)
+            .where(JOBS.c.state.in_([state.value for state in ACTIVE]))
+            .order_by(JOBS.c.state == JobState.QUEUED.value, JOBS.c.created_at)
+            .limit(RECONCILED_AT_ONCE)
         )
         with self._database.connect() as connection:
-            ended = {row.id: row.status for row in connection.execute(query)}
+            active = connection.execute(query).scalars().all()
+        ended = self._executions.ended(active)
         now = time.monotonic()
         self._ended_since = {job_id: self._ended_since.get(job_id, now) for job_id in ended}
         for job_id, since in self._ended_since.items():
@@ -177,7 +170,7 @@ class Heartbeat:
         LOG.error("Job %s was left %s by its execution; it is ended here.", job_id, status)
         reason = (
             given_up("Every worker that took this job died over it.")
-            if status == "MAX_RECOVERY_ATTEMPTS_EXCEEDED"
+            if status == EXHAUSTED
             else problem(
                 "fit-failed",
                 detail="The fit's execution ended without a result.",
@@ -192,14 +185,3 @@ class Heartbeat:
                 retention_s=self._retention_s,
                 values={"problem": reason.model_dump_json()},
             )
-
-
-def executions_table(database: sa.Engine) -> sa.TableClause:
-    """DBOS's table of executions: the few columns its public functions cannot select by."""
-    return sa.table(
-        "workflow_status",
-        sa.column("workflow_uuid", sa.Text),
-        sa.column("status", sa.Text),
-        sa.column("executor_id", sa.Text),
-        schema="dbos" if database.dialect.name == "postgresql" else None,
-    )

@@ -1,4 +1,4 @@
-"""What the API asks of whoever keeps uploaded pictures."""
+"""What the API asks of the store of uploaded pictures."""
 
 from dataclasses import dataclass
 from typing import Protocol

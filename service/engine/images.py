@@ -12,6 +12,7 @@ import sqlalchemy as sa
 from sqlalchemy.exc import IntegrityError
 
 from service.engine.availability import available
+from service.engine.ballast import Ballast
 from service.engine.expiry import ABANDONED_AFTER_S, enter_erasures, take_out
 from service.engine.image_port import ImageQuota, ImageQuotaError, ImageRecord, KeptImage, NewImage
 from service.engine.tables import IMAGES
@@ -21,12 +22,19 @@ class StoredImages:
     """Keep, look up and forget pictures; see :class:`service.engine.port.TenantImages`."""
 
     def __init__(
-        self, tenant: str, *, database: sa.Engine, retention_s: float, quota: ImageQuota
+        self,
+        tenant: str,
+        *,
+        database: sa.Engine,
+        retention_s: float,
+        quota: ImageQuota,
+        ballast: Ballast,
     ) -> None:
         self._tenant = tenant
         self._database = database
         self._retention_s = retention_s
         self._quota = quota
+        self._ballast = ballast
 
     @available
     def find(self, image_id: str) -> ImageRecord | None:
@@ -68,6 +76,9 @@ class StoredImages:
     @available
     def erase(self, image_id: str) -> str | None:
         """Forget the picture; returns its scope, which is the caller's to erase."""
+        return self._ballast.spend_on(lambda: self._erase(image_id))
+
+    def _erase(self, image_id: str) -> str | None:
         with self._database.begin() as connection:
             return self._forget(connection, image_id, IMAGES.c.expires_at > time.time())
 

@@ -9,7 +9,6 @@ from api_schemas.body_models import BodyModels
 from api_schemas.jobs import EventData, EventKind, JobState, WebhookState
 from api_schemas.problems import Problem
 from api_schemas.results import Artifact
-from api_schemas.webhooks import WebhookTarget
 from service.engine.image_port import TenantImages
 
 FIT: Final = "fit"
@@ -38,8 +37,8 @@ class NewJob:
 
     ``inputs`` is what else it needs, by name; ``sources`` are the fits, beside its own, whose
     pictures are among them: it is erased and expires with the first of them. ``request_id`` and
-    ``traceparent`` name the HTTP request it came with, in logs and traces; ``webhook`` is whom to
-    tell of its end.
+    ``traceparent`` name the HTTP request it came with, in logs and traces; ``webhook`` is a blob
+    too, a :class:`api_schemas.webhooks.WebhookTarget` as JSON: whom to tell of its end.
     """
 
     id: str
@@ -50,13 +49,17 @@ class NewJob:
     idempotency: Idempotency | None = None
     request_id: str | None = None
     traceparent: str | None = None
-    webhook: WebhookTarget | None = None
+    webhook: StoredBlob | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WebhookRecord:
-    """Where the notice of a job's end stands; times are seconds since the epoch."""
+    """Where the notice of a job's end stands; times are seconds since the epoch.
 
+    ``target`` is the blob that says whom to tell.
+    """
+
+    target: StoredBlob
     state: WebhookState
     attempts: int
     last_status: int | None
@@ -106,6 +109,14 @@ class JobEvent:
 
 class EngineUnavailableError(Exception):
     """The engine's database is away or full; nothing was changed."""
+
+
+class EngineFullError(EngineUnavailableError):
+    """The disk of the engine's database has no room; nothing was changed."""
+
+
+class DatabaseUnusableError(Exception):
+    """The database cannot be used as it is; the message, one line, says what to do."""
 
 
 class JobExpiredError(Exception):
@@ -160,6 +171,10 @@ class TenantJobs(Protocol):
         """
         ...
 
+    def repeated(self, idempotency: Idempotency | None) -> Submission | None:
+        """Return what a submission with an earlier one's key is answered; None if it is new."""
+        ...
+
     def submit(self, job: NewJob) -> Submission:
         """Accept a job durably, or say why not; its scope was reserved before."""
         ...
@@ -184,10 +199,6 @@ class TenantJobs(Protocol):
         Returns the scopes of their blobs, none if there was no such job. They are the caller's to
         erase; should the caller not come to it, they are erased by the sweep.
         """
-        ...
-
-    def webhook_target(self, job_id: str) -> WebhookTarget | None:
-        """Return whom to tell of the job's end; None if nobody, or if there is no such job."""
         ...
 
     def events(self, job_id: str, *, after: int) -> Sequence[JobEvent]:

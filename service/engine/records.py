@@ -14,9 +14,9 @@ from api_schemas.results import Artifact
 from service.engine.port import JobRecord, StoredBlob, WebhookRecord
 from service.engine.statistics import count_ending
 from service.engine.tables import EVENTS, JOBS
-from service.jobs import may_become
+from service.jobs.states import may_become
 
-OPTIONS_MEDIA_TYPE: Final = "application/json"
+JSON: Final = "application/json"
 ARTIFACTS: Final = TypeAdapter(tuple[Artifact, ...])
 INPUTS: Final = TypeAdapter(dict[str, StoredBlob])
 
@@ -40,7 +40,7 @@ def job_record(values: sa.RowMapping) -> JobRecord:
         problem=None
         if values["problem"] is None
         else Problem.model_validate_json(values["problem"]),
-        options=StoredBlob(digest=values["options_digest"], media_type=OPTIONS_MEDIA_TYPE),
+        options=StoredBlob(digest=values["options_digest"], media_type=JSON),
         inputs=INPUTS.validate_json(values["inputs"]),
         artifacts=ARTIFACTS.validate_json(values["artifacts"]),
         fingerprint=values["fingerprint"],
@@ -50,6 +50,7 @@ def job_record(values: sa.RowMapping) -> JobRecord:
         webhook=None
         if values["webhook_state"] is None
         else WebhookRecord(
+            target=StoredBlob(digest=values["webhook_target"], media_type=JSON),
             state=WebhookState(values["webhook_state"]),
             attempts=values["webhook_attempts"],
             last_status=values["webhook_status"],

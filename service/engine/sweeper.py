@@ -9,6 +9,7 @@ from dbos import DBOSClient
 from sqlalchemy.exc import OperationalError
 
 from service.blobs import BlobStore, BlobsUnavailableError
+from service.engine.ballast import Ballast
 from service.engine.expiry import (
     ClockGuard,
     drop_old_tombstones,
@@ -19,6 +20,7 @@ from service.engine.expiry import (
     postpone,
     take_out,
 )
+from service.engine.rate_tokens import drop_full_buckets
 from service.engine.transactions import read_then_write
 
 LOG: Final = logging.getLogger(__name__)
@@ -28,12 +30,19 @@ class Sweeper:
     """Sweeps every ``interval_s``; several processes may do so on one database."""
 
     def __init__(
-        self, database: sa.Engine, client: DBOSClient, blobs: BlobStore, *, interval_s: float
+        self,
+        database: sa.Engine,
+        client: DBOSClient,
+        blobs: BlobStore,
+        *,
+        interval_s: float,
+        ballast: Ballast,
     ) -> None:
         self._database = database
         self._client = client
         self._blobs = blobs
         self._interval_s = interval_s
+        self._ballast = ballast
         self._clock = ClockGuard()
         self._stopped = threading.Event()
         self._thread = threading.Thread(target=self._run, name="sweeper", daemon=True)
@@ -51,12 +60,9 @@ class Sweeper:
         """Expire and erase what is due; returns how many scopes were erased."""
         if self._clock.is_settled():
             while not self._stopped.is_set():
-                with read_then_write(self._database) as connection:
-                    if expire_jobs(connection) == 0:
-                        break
-            with self._database.begin() as connection:
-                expire_images(connection)
-                drop_old_tombstones(connection)
+                if self._ballast.spend_on(self._expire_jobs) == 0:
+                    break
+            self._ballast.spend_on(self._expire_others)
         erased = 0
         while not self._stopped.is_set():
             with self._database.connect() as connection:
@@ -65,8 +71,19 @@ class Sweeper:
                 break
             erased += sum(self._erase(scope) for scope in scopes)
         if erased:
-            forget_pages(self._database)
+            self._ballast.spend_on(lambda: forget_pages(self._database))
+        self._ballast.fill()
         return erased
+
+    def _expire_jobs(self) -> int:
+        with read_then_write(self._database) as connection:
+            return expire_jobs(connection)
+
+    def _expire_others(self) -> None:
+        with self._database.begin() as connection:
+            expire_images(connection)
+            drop_old_tombstones(connection)
+            drop_full_buckets(connection)
 
     def _erase(self, scope: str) -> bool:
         try:
@@ -76,12 +93,15 @@ class Sweeper:
             with self._database.begin() as connection:
                 postpone(connection, scope)
             return False
+        self._ballast.spend_on(lambda: self._forget(scope))
+        return True
+
+    def _forget(self, scope: str) -> None:
         # What DBOS knows of it too: a no-op where DELETE came to it already.
         self._client.cancel_workflow(scope)
         self._client.delete_workflow(scope)
         with self._database.begin() as connection:
             take_out(connection, scope)
-        return True
 
     def _run(self) -> None:
         while not self._stopped.wait(self._interval_s):

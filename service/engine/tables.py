@@ -31,8 +31,7 @@ JOBS = sa.Table(
     sa.Column("request_id", sa.String(64)),
     sa.Column("traceparent", sa.String(64)),
     sa.Column("last_event", sa.Integer, nullable=False),
-    sa.Column("webhook_url", sa.Text),
-    sa.Column("webhook_secret", sa.String(128)),
+    sa.Column("webhook_target", sa.String(64)),
     sa.Column("webhook_state", sa.String(16)),
     sa.Column("webhook_due_at", sa.Double),
     sa.Column("webhook_attempts", sa.Integer, nullable=False, default=0),
@@ -46,7 +45,9 @@ JOBS = sa.Table(
     sa.Index("maquette_jobs_webhooks", "webhook_due_at"),
 )
 """Fits, and what is derived from them: these name their fit as ``parent_id``. ``inputs`` are blobs
-in the job's own scope, by name, as JSON."""
+in the job's own scope, by name, as JSON; ``webhook_target`` is the digest of another, which holds
+whom to tell of the end and the secret to sign with: a database keeps what was deleted from it, in
+dead rows, logs and copies."""
 
 SOURCES = sa.Table(
     "maquette_sources",
@@ -125,6 +126,18 @@ API_KEYS = sa.Table(
     sa.Column("created_at", sa.Double, nullable=False),
     sa.Column("revoked_at", sa.Double),
 )
+
+RATE_TOKENS = sa.Table(
+    "maquette_rate_tokens",
+    METADATA,
+    sa.Column("key_id", sa.String(16), primary_key=True),
+    sa.Column("tokens", sa.Double, nullable=False),
+    sa.Column("granted", sa.Integer, nullable=False),
+    sa.Column("filled_at", sa.Double, nullable=False),
+)
+"""How many requests an API key has left: what there was at ``filled_at``, by the database's clock.
+``granted`` is what was taken last: a statement can return only what it leaves behind. There is one
+row a key, so no index by age, which would have to be written with every exchange."""
 
 OUTCOMES = sa.Table(
     "maquette_outcomes",

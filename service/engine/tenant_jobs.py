@@ -1,15 +1,18 @@
 """The jobs of one tenant: our records, with DBOS's queue behind them."""
 
+import logging
 import time
 from collections.abc import Collection, Sequence
+from typing import Final
 
 import sqlalchemy as sa
 from dbos import DBOSClient, EnqueueOptions
-from sqlalchemy.exc import IntegrityError
+from sqlalchemy.exc import IntegrityError, OperationalError
 
 from api_schemas.jobs import EventData, EventKind, JobState, WebhookState
-from api_schemas.webhooks import WebhookTarget
 from service.engine.availability import available
+from service.engine.ballast import Ballast
+from service.engine.driver_errors import is_full
 from service.engine.expiry import (
     ABANDONED_AFTER_S,
     enter_erasures,
@@ -31,6 +34,8 @@ from service.engine.records import INPUTS, append_event, end_job, job_record
 from service.engine.tables import EVENTS, JOBS, SOURCES, TOMBSTONES
 from service.engine.transactions import read_then_write
 
+LOG: Final = logging.getLogger(__name__)
+
 
 class DbosTenantJobs:
     """Accept, look up, stop and erase jobs; see :class:`service.engine.port.TenantJobs`."""
@@ -44,6 +49,7 @@ class DbosTenantJobs:
         max_queued: int,
         max_queued_per_tenant: int,
         retention_s: float,
+        ballast: Ballast,
         parent: str | None = None,
     ) -> None:
         self._tenant = tenant
@@ -53,6 +59,7 @@ class DbosTenantJobs:
         self._max_queued = max_queued
         self._max_queued_per_tenant = max_queued_per_tenant
         self._retention_s = retention_s
+        self._ballast = ballast
 
     def derivations(self, fit_id: str) -> "DbosTenantJobs":
         """Return the jobs derived from a fit of this tenant."""
@@ -63,6 +70,7 @@ class DbosTenantJobs:
             max_queued=self._max_queued,
             max_queued_per_tenant=self._max_queued_per_tenant,
             retention_s=self._retention_s,
+            ballast=self._ballast,
             parent=fit_id,
         )
 
@@ -75,6 +83,12 @@ class DbosTenantJobs:
                 return answered
             enter_erasures(connection, [job_id], due_at=time.time() + ABANDONED_AFTER_S)
         return Submission(outcome=SubmitOutcome.ACCEPTED, job=None)
+
+    @available
+    def repeated(self, idempotency: Idempotency | None) -> Submission | None:
+        """Return the answer to an earlier submission with this key."""
+        with self._database.connect() as connection:
+            return self._earlier(connection, idempotency)
 
     @available
     def submit(self, job: NewJob) -> Submission:
@@ -101,7 +115,7 @@ class DbosTenantJobs:
         except IntegrityError:
             # Two requests with one new key raced; the other one is stored by now.
             with self._database.begin() as connection:
-                repeated = self._repeated(connection, job.idempotency)
+                repeated = self._earlier(connection, job.idempotency)
             if repeated is None:
                 raise
             return repeated
@@ -146,6 +160,9 @@ class DbosTenantJobs:
         A running job keeps its place in DBOS: if its worker is dead, the next one must find the
         job, see the request and end it.
         """
+        return self._ballast.spend_on(lambda: self._cancel(job_id))
+
+    def _cancel(self, job_id: str) -> JobRecord | None:
         with self._database.begin() as connection:
             canceled = end_job(
                 connection,
@@ -169,26 +186,28 @@ class DbosTenantJobs:
     @available
     def erase(self, job_id: str) -> Sequence[str]:
         """Delete records, events and queue entries; a running attempt finds itself superseded."""
+        forgotten = self._ballast.spend_on(lambda: self._forget(job_id))
+        if forgotten:
+            try:
+                self._ballast.spend_on(lambda: self._forget_traces(forgotten))
+            except OperationalError as error:
+                if not is_full(error):
+                    raise
+                LOG.warning("The disk is full; the sweep comes to what is left of a job.")
+        return forgotten
+
+    def _forget(self, job_id: str) -> Sequence[str]:
         with self._database.begin() as connection:
             forgotten = forget_job(connection, job_id, *self._ours())
             if not forgotten:
                 self._find(connection, job_id)
+        return forgotten
+
+    def _forget_traces(self, forgotten: Sequence[str]) -> None:
         for each in forgotten:
             self._client.cancel_workflow(each)
             self._client.delete_workflow(each)
-        if forgotten:
-            forget_pages(self._database)
-        return forgotten
-
-    @available
-    def webhook_target(self, job_id: str) -> WebhookTarget | None:
-        """Return whom to tell of the job's end."""
-        query = sa.select(JOBS.c.webhook_url, JOBS.c.webhook_secret).where(*self._own(job_id))
-        with self._database.connect() as connection:
-            row = connection.execute(query).one_or_none()
-        if row is None or row.webhook_url is None:
-            return None
-        return WebhookTarget(url=row.webhook_url, secret=row.webhook_secret)
+        forget_pages(self._database)
 
     @available
     def events(self, job_id: str, *, after: int) -> Sequence[JobEvent]:
@@ -232,7 +251,7 @@ class DbosTenantJobs:
                 JOBS.c.parent_id.is_(None),
                 JOBS.c.expires_at > time.time(),
             )
-            # In one order, lest two transactions wait for each other.
+            # Always in the same order, so that two transactions cannot deadlock.
             .order_by(JOBS.c.id)
             .with_for_update()
         ).scalars()
@@ -261,7 +280,7 @@ class DbosTenantJobs:
         self, connection: sa.Connection, idempotency: Idempotency | None
     ) -> Submission | None:
         """Return what a submission is answered without being accepted; None if there is room."""
-        repeated = self._repeated(connection, idempotency)
+        repeated = self._earlier(connection, idempotency)
         if repeated is not None:
             return repeated
         refused = self._no_room(connection)
@@ -281,7 +300,7 @@ class DbosTenantJobs:
             return SubmitOutcome.TENANT_FULL
         return None
 
-    def _repeated(
+    def _earlier(
         self, connection: sa.Connection, idempotency: Idempotency | None
     ) -> Submission | None:
         if idempotency is None:
@@ -328,8 +347,7 @@ class DbosTenantJobs:
                     request_id=job.request_id,
                     traceparent=job.traceparent,
                     last_event=1,
-                    webhook_url=job.webhook.url if job.webhook else None,
-                    webhook_secret=job.webhook.secret if job.webhook else None,
+                    webhook_target=job.webhook.digest if job.webhook else None,
                     webhook_state=WebhookState.WAITING.value if job.webhook else None,
                 )
                 .returning(JOBS)

@@ -25,11 +25,9 @@ LEASE_MARGIN_S: Final = 15.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DueWebhook:
-    """A notice claimed for its ``attempt``, counted from 1; ``secret`` is the caller's, if any."""
+    """A notice claimed for its ``attempt``, counted from 1."""
 
     job: JobRecord
-    url: str
-    secret: str | None
     attempt: int
 
 
@@ -66,13 +64,7 @@ class WebhookLedger:
                 .returning(JOBS)
             ).mappings()
             return [
-                DueWebhook(
-                    job=job_record(row),
-                    url=row["webhook_url"],
-                    secret=row["webhook_secret"],
-                    attempt=row["webhook_attempts"],
-                )
-                for row in rows
+                DueWebhook(job=job_record(row), attempt=row["webhook_attempts"]) for row in rows
             ]
 
     @available
@@ -95,9 +87,9 @@ class WebhookLedger:
         )
 
     @available
-    def hand_back(self, due: DueWebhook) -> None:
-        """Make a claimed notice due at once, as if it had not been claimed."""
-        self._write(due, webhook_due_at=time.time(), webhook_attempts=due.attempt - 1)
+    def hand_back(self, due: DueWebhook, *, in_s: float = 0.0) -> None:
+        """Make a claimed notice due again, as if it had not been claimed."""
+        self._write(due, webhook_due_at=time.time() + in_s, webhook_attempts=due.attempt - 1)
 
     def _write(self, due: DueWebhook, **values: object) -> None:
         with self._database.begin() as connection:

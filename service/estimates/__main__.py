@@ -1,10 +1,10 @@
 """An estimator of the API that started it: ``python -m service.estimates SOCKET``."""
 
+import sys
+
 from service.estimates.main import run_estimator
-from service.logs import configure_logging
-from service.settings import Settings
+from service.startup.begin import begin, run_told
 
 if __name__ == "__main__":
-    settings = Settings()
-    configure_logging(settings.log_level)
-    run_estimator(settings)
+    settings = begin("estimator")
+    sys.exit(run_told("estimator", lambda: run_estimator(settings)))

@@ -5,15 +5,15 @@ from pathlib import Path
 from typing import Protocol, cast
 
 from api_schemas.initial_poses import InitialPose
-from service.estimates.messages import BodyTask, InitialPoseTask
+from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask
 from service.estimates.port import EstimatedBody
 
 
 class Answers(Protocol):
-    """A module with these three functions.
+    """A module with these four functions.
 
-    The last two raise :class:`service.worker.pipeline_port.UnusableInputError` where the question
-    is at fault.
+    ``body`` and ``initial_pose`` raise
+    :class:`service.worker.pipeline_port.UnusableInputError` where the question is at fault.
     """
 
     def prepare(self, models: Path | None) -> None:
@@ -26,6 +26,10 @@ class Answers(Protocol):
 
     def initial_pose(self, task: InitialPoseTask, models: Path | None) -> InitialPose:
         """Pose the mean person by clicks."""
+        ...
+
+    def conversion(self, task: ConversionTask, glb: bytes) -> bytes:
+        """Write the body of a GLB file in another format."""
         ...
 
 

@@ -5,16 +5,18 @@ from pathlib import Path
 from api_schemas.bodies import BodyRequest
 from api_schemas.initial_poses import InitialPose
 from fitter.errors import InvalidInputError
-from fitter.estimate.body_estimate import estimate_body
+from fitter.export.formats import converted
+from fitter.export.gltf_document import Frame
 from fitter.export.plain_gltf import plain_glb
-from fitter.fittable import fittable_body
-from fitter.initial_body import initial_body
+from fitter.fits.initial_body import initial_body
+from fitter.fits.prepared_model import prepared_model
+from fitter.population.body_estimate import estimate_body
 from fitter.request import STATURE, Gender, KnownMeasurement
-from service.demo_sample import load_sample
+from service.demo_data.sample import load_sample
 from service.estimates import translate
-from service.estimates.messages import BodyTask, InitialPoseTask
+from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask
 from service.estimates.port import EstimatedBody
-from service.submission import check_submission
+from service.submissions.submission import check_submission
 from service.worker.pipeline_port import UnusableInputError
 from service.worker.translate import field_problem, known_measurements
 
@@ -46,12 +48,12 @@ def prepare(models: Path | None) -> None:
 def body(task: BodyTask, models: Path | None) -> EstimatedBody:
     """Estimate a body from measurements."""
     gender = Gender(task.request.gender)
-    fittable = fittable_body(gender, models=models)
+    fittable = prepared_model(gender, models=models)
     try:
         estimate = estimate_body(fittable.population, _known(task.request))
     except InvalidInputError as error:
         raise UnusableInputError(field_problem(error)) from error
-    model = fittable.instruments.model
+    model = fittable.operators.model
     answer = translate.body_estimate(estimate, model)
     glb = b""
     if task.with_glb:
@@ -59,6 +61,7 @@ def body(task: BodyTask, models: Path | None) -> EstimatedBody:
             estimate.canonical_vertices,
             model,
             name="body",
+            frame=Frame.STANDING,
             extras={
                 "known": {
                     measurement.name: measurement.value
@@ -74,7 +77,7 @@ def body(task: BodyTask, models: Path | None) -> EstimatedBody:
 def initial_pose(task: InitialPoseTask, models: Path | None) -> InitialPose:
     """Pose the mean person by clicks."""
     request = translate.subject_request(task.subject)
-    fittable = fittable_body(request.gender, models=models)
+    fittable = prepared_model(request.gender, models=models)
     try:
         initial = initial_body(
             request,
@@ -85,7 +88,12 @@ def initial_pose(task: InitialPoseTask, models: Path | None) -> InitialPose:
         )
     except InvalidInputError as error:
         raise UnusableInputError(field_problem(error)) from error
-    return translate.initial_pose(initial, request, fittable.instruments.model.part_names)
+    return translate.initial_pose(initial, request, fittable.operators.model.part_names)
+
+
+def conversion(task: ConversionTask, glb: bytes) -> bytes:
+    """Write the body of a GLB file in another format."""
+    return converted(glb, task.ending)
 
 
 def _known(request: BodyRequest) -> dict[str, KnownMeasurement]:

@@ -7,6 +7,7 @@ import sys
 from multiprocessing.connection import Connection
 from typing import Final
 
+from fitter.errors import ModelFileError
 from service.estimates.answering import Answers, load_answers
 from service.estimates.messages import (
     READY,
@@ -14,12 +15,16 @@ from service.estimates.messages import (
     Answer,
     BodyAnswer,
     BodyTask,
+    ConversionAnswer,
+    ConversionTask,
     FaultAnswer,
     InitialPoseAnswer,
     RefusalAnswer,
 )
+from service.process.kernels import keep_kernels
 from service.settings import Settings
 from service.worker.main import THREAD_LIMITS
+from service.worker.model_files import unusable_models
 from service.worker.pipeline_port import UnusableInputError
 
 LOG: Final = logging.getLogger(__name__)
@@ -32,15 +37,20 @@ def run_estimator(settings: Settings, *, answers: str = ANSWERS_MODULE) -> None:
     connection = Connection(int(sys.argv[-1]))
     for variable in THREAD_LIMITS:
         os.environ.setdefault(variable, "1")
+    keep_kernels()
     limit = settings.child_memory_mb * 1024 * 1024
     resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     module = load_answers(answers)
-    module.prepare(settings.models_dir)
+    try:
+        module.prepare(settings.models_dir)
+    except ModelFileError as error:
+        raise unusable_models(settings, str(error)) from error
     try:
         connection.send_bytes(READY)
         while True:
-            answer, file = _answer(module, connection.recv_bytes(), settings)
+            question, brought = connection.recv_bytes(), connection.recv_bytes()
+            answer, file = _answer(module, question, brought, settings)
             connection.send_bytes(answer.model_dump_json().encode())
             connection.send_bytes(file)
     except (EOFError, OSError):
@@ -48,12 +58,16 @@ def run_estimator(settings: Settings, *, answers: str = ANSWERS_MODULE) -> None:
         return
 
 
-def _answer(module: Answers, text: bytes, settings: Settings) -> tuple[Answer, bytes]:
+def _answer(
+    module: Answers, text: bytes, brought: bytes, settings: Settings
+) -> tuple[Answer, bytes]:
     try:
         task = TASKS.validate_json(text)
         if isinstance(task, BodyTask):
             body = module.body(task, settings.models_dir)
             return BodyAnswer(estimate=body.estimate), body.glb
+        if isinstance(task, ConversionTask):
+            return ConversionAnswer(), module.conversion(task, brought)
         return InitialPoseAnswer(pose=module.initial_pose(task, settings.models_dir)), b""
     except UnusableInputError as error:
         return RefusalAnswer(error=error.error), b""

@@ -1,6 +1,6 @@
 """What the API and its estimator tell each other, as JSON over a socket.
 
-An answer is two messages: the JSON, and the bytes of a file, which may be none.
+Questions and answers are two messages each: the JSON, and the bytes of a file, which may be none.
 """
 
 from typing import Annotated, Final, Literal
@@ -35,6 +35,13 @@ class InitialPoseTask(WireModel):
     exif_focal_length_35mm: float | None
 
 
+class ConversionTask(WireModel):
+    """Write the body of the GLB file that comes along in the format of this ending."""
+
+    kind: Literal["conversion"] = "conversion"
+    ending: str
+
+
 class BodyAnswer(WireModel):
     """The estimated body."""
 
@@ -47,6 +54,12 @@ class InitialPoseAnswer(WireModel):
 
     kind: Literal["initial_pose"] = "initial_pose"
     pose: InitialPose
+
+
+class ConversionAnswer(WireModel):
+    """The file that comes along is what was asked for."""
+
+    kind: Literal["conversion"] = "conversion"
 
 
 class RefusalAnswer(WireModel):
@@ -62,9 +75,10 @@ class FaultAnswer(WireModel):
     kind: Literal["fault"] = "fault"
 
 
-Task = Annotated[BodyTask | InitialPoseTask, Field(discriminator="kind")]
+Task = Annotated[BodyTask | InitialPoseTask | ConversionTask, Field(discriminator="kind")]
 Answer = Annotated[
-    BodyAnswer | InitialPoseAnswer | RefusalAnswer | FaultAnswer, Field(discriminator="kind")
+    BodyAnswer | InitialPoseAnswer | ConversionAnswer | RefusalAnswer | FaultAnswer,
+    Field(discriminator="kind"),
 ]
 TASKS: Final[TypeAdapter[Task]] = TypeAdapter(Task)
 ANSWERS: Final[TypeAdapter[Answer]] = TypeAdapter(Answer)

@@ -12,9 +12,12 @@ from service.estimates.messages import (
     Answer,
     BodyAnswer,
     BodyTask,
+    ConversionAnswer,
+    ConversionTask,
     InitialPoseAnswer,
     InitialPoseTask,
     RefusalAnswer,
+    Task,
 )
 from service.estimates.port import (
     EstimatedBody,
@@ -22,7 +25,7 @@ from service.estimates.port import (
     EstimatorUnavailableError,
 )
 from service.estimates.process import EstimatorProcess
-from service.refusal import refused
+from service.submissions.refusal import refused
 
 MOST_WAITING: Final = 20
 """Questions a process may have waiting: some two seconds' worth. More are told to come back."""
@@ -71,6 +74,13 @@ class EstimatorPool:
             raise EstimatorFailedError
         return answer.pose
 
+    def convert(self, task: ConversionTask, glb: bytes) -> bytes:
+        """Write the body of a GLB file in another format."""
+        answer, file = self._ask(task, brought=glb, patient=True)
+        if not isinstance(answer, ConversionAnswer):
+            raise EstimatorFailedError
+        return file
+
     def stop(self) -> None:
         """End the processes; questions that are being answered fail."""
         self._stopping.set()
@@ -78,9 +88,9 @@ class EstimatorPool:
         for process in self._processes:
             process.stop()
 
-    def _ask(self, task: BodyTask | InitialPoseTask, *, patient: bool) -> tuple[Answer, bytes]:
+    def _ask(self, task: Task, *, patient: bool, brought: bytes = b"") -> tuple[Answer, bytes]:
         with self._process(timeout_s=None if patient else MOMENT_S) as process:
-            raw = process.ask(task.model_dump_json().encode(), patient=patient)
+            raw = process.ask(task.model_dump_json().encode(), brought, patient=patient)
         answer = ANSWERS.validate_json(raw.text)
         if isinstance(answer, RefusalAnswer):
             raise refused(answer.error, slug="unusable-input")

@@ -5,7 +5,7 @@ from typing import Protocol
 
 from api_schemas.bodies import BodyEstimate
 from api_schemas.initial_poses import InitialPose
-from service.estimates.messages import BodyTask, InitialPoseTask
+from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -31,8 +31,8 @@ class EstimatorTimeoutError(EstimatorFailedError):
 class Estimator(Protocol):
     """Answers questions, in the order they come.
 
-    Both methods raise :class:`service.refusal.RefusedError` where the question is at fault, and
-    one of the errors above.
+    Its methods raise :class:`service.submissions.refusal.RefusedError` where the question is at
+    fault, and one of the errors above.
     """
 
     @property
@@ -53,4 +53,8 @@ class Estimator(Protocol):
 
     def initial_pose(self, task: InitialPoseTask) -> InitialPose:
         """Pose the mean person by clicks."""
+        ...
+
+    def convert(self, task: ConversionTask, glb: bytes) -> bytes:
+        """Write the body of one of the service's GLB files in another format."""
         ...

@@ -50,8 +50,8 @@ class EstimatorProcess:
         self._stopped = False
         self._start()
 
-    def ask(self, task: bytes, *, patient: bool = True) -> RawAnswer:
-        """Put a question and wait for its answer.
+    def ask(self, task: bytes, file: bytes = b"", *, patient: bool = True) -> RawAnswer:
+        """Put a question, with the file that belongs to it if any, and wait for its answer.
 
         A process that is starting is waited for only by who is ``patient``.
 
@@ -69,6 +69,7 @@ class EstimatorProcess:
         self._await_ready(READY_WITHIN_S if patient else 0.0)
         try:
             self._connection.send_bytes(task)
+            self._connection.send_bytes(file)
             if not self._connection.poll(ANSWER_WITHIN_S):
                 LOG.error("An estimator did not answer within %.0f s.", ANSWER_WITHIN_S)
                 self._end()

@@ -12,8 +12,8 @@ from api_schemas import results as wire_results
 from api_schemas.known import STATURE
 from api_schemas.points import points_by_name
 from fitter.body.model import BodyModel
-from fitter.estimate.body_estimate import BodyEstimate
-from fitter.initial_body import InitialBody
+from fitter.fits.initial_body import InitialBody
+from fitter.population.body_estimate import BodyEstimate
 from fitter.request import Click, Facing, FitRequest, Gender
 from service.worker.translate import SEEN, body_result, camera_result, known_measurements
 
@@ -74,7 +74,7 @@ def initial_pose(
 
 
 def body_estimate(estimate: BodyEstimate, model: BodyModel) -> wire_bodies.BodyEstimate:
-    """Translate an estimated body; its file is added by whoever answers."""
+    """Translate an estimated body; the caller adds its file."""
     measurements = tuple(
         wire_bodies.EstimatedMeasurement(
             name=each.measurement.name,

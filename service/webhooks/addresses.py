@@ -1,4 +1,4 @@
-"""Which addresses a notice may go to: public ones, and hosts the settings name.
+"""Which addresses a notice may go to: public ones at usual ports, and hosts the settings name.
 
 A caller chooses the address, and the service stands where the caller may not: a notice to a private
 address would be a request from inside somebody's network. A name is looked up once, what it stands
@@ -11,15 +11,22 @@ import socket
 from collections.abc import Collection, Sequence
 from typing import Final
 
+import httpx
+
 IPAddress = ipaddress.IPv4Address | ipaddress.IPv6Address
 
 GLOBAL_UNICAST: Final = ipaddress.IPv6Network("2000::/3")
 NAT64: Final = ipaddress.IPv6Network("64:ff9b::/96")
 LOW_32_BITS: Final = 0xFFFFFFFF
+DEFAULT_PORTS: Final = {"http": 80, "https": 443}
 
 
 class AddressRefusedError(Exception):
-    """The name is unknown, or stands for no address a notice may go to; the message says which."""
+    """The name is unknown, or stands for no address a notice may go to; the message says which.
+
+    That is for whoever runs the service: callers who were told could find out by trying which names
+    there are in the network that the service stands in.
+    """
 
 
 def is_public(address: IPAddress) -> bool:
@@ -49,6 +56,16 @@ def is_refused_outright(host: str, allowed_hosts: Collection[str]) -> bool:
         return not is_public(ipaddress.ip_address(host))
     except ValueError:
         return host == "localhost" or host.endswith(".localhost")
+
+
+def port_of(url: httpx.URL) -> int:
+    """The port of an address, named or usual."""
+    return DEFAULT_PORTS[url.scheme] if url.port is None else url.port
+
+
+def is_port_refused(url: httpx.URL, allowed_hosts: Collection[str], ports: Collection[int]) -> bool:
+    """Say whether an address has a port that notices are not sent to; a named host has any."""
+    return url.host not in allowed_hosts and port_of(url) not in ports
 
 
 async def resolve(host: str, port: int, allowed_hosts: Collection[str]) -> Sequence[IPAddress]:

@@ -7,17 +7,20 @@ import threading
 import time
 from collections.abc import Sequence
 from datetime import UTC, datetime
+from functools import partial
 from typing import Final
 
 from api_schemas.derivations import DerivationEvent, DerivationEventType
 from api_schemas.jobs import WebhookState
 from api_schemas.webhooks import WebhookEvent, WebhookEventType
-from service.api.representation import represent, represent_derivation
+from service.blobs import BlobMissingError, BlobStore, BlobsUnavailableError
 from service.engine.port import EngineUnavailableError, JobRecord
 from service.engine.webhooks import DueWebhook, WebhookLedger
-from service.logs import fields
+from service.process.logs import fields
+from service.representation.jobs import represent, represent_derivation
 from service.webhooks.sending import Answer, Sender
 from service.webhooks.signing import signed_headers
+from service.webhooks.targets import read_target
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -29,6 +32,9 @@ JITTER: Final = 0.1
 """Pauses are longer by up to this share, so that what failed together is not repeated together."""
 
 LONGEST_PAUSE_S: Final = 86_400.0
+STORAGE_PAUSE_S: Final = 30.0
+"""How long a storage that does not tell whom to tell is left alone."""
+
 USER_AGENT: Final = "Maquette (Standard Webhooks)"
 
 
@@ -52,7 +58,7 @@ def notice(job: JobRecord) -> bytes:
 
 
 class Deliverer:
-    """Delivers at least once: who dies over an attempt leaves it due again after its lease.
+    """Delivers at least once: an attempt whose process dies is made again after its lease.
 
     Several processes may do so on one database. ``pauses_s`` are those between the attempts, after
     which a notice is given up; ``secret`` signs where the caller brought none.
@@ -62,12 +68,14 @@ class Deliverer:
         self,
         ledger: WebhookLedger,
         sender: Sender,
+        blobs: BlobStore,
         *,
         secret: str | None,
         pauses_s: Sequence[float],
     ) -> None:
         self._ledger = ledger
         self._sender = sender
+        self._blobs = blobs
         self._secret = secret
         self._pauses_s = pauses_s
         self._stopped = threading.Event()
@@ -115,6 +123,11 @@ class Deliverer:
             except asyncio.CancelledError:
                 await asyncio.to_thread(self._ledger.hand_back, due)
                 raise
+            except BlobsUnavailableError:
+                LOG.warning("The storage is not available; a notice is sent later.")
+                later = partial(self._ledger.hand_back, due, in_s=STORAGE_PAUSE_S)
+                await asyncio.to_thread(later)
+                return
             await asyncio.to_thread(self._settle, due, answer)
         except EngineUnavailableError:
             LOG.warning("The database is not available; a notice may be sent again.")
@@ -122,7 +135,13 @@ class Deliverer:
             LOG.exception("Sending a notice failed.", extra=fields(job=due.job.id))
 
     async def _send(self, due: DueWebhook) -> Answer:
-        secret = due.secret or self._secret
+        try:
+            target = await asyncio.to_thread(read_target, self._blobs, due.job)
+        except BlobMissingError:
+            target = None
+        if target is None:
+            return Answer(error="What the job was made of is gone.")
+        secret = target.secret or self._secret
         if secret is None:
             return Answer(error="The service has no secret any more to sign with.")
         body = notice(due.job)
@@ -130,7 +149,7 @@ class Deliverer:
             notice_id=due.job.id, timestamp=int(time.time()), body=body, secret=secret
         )
         return await self._sender.post(
-            due.url,
+            target.url,
             headers={"content-type": "application/json", "user-agent": USER_AGENT, **headers},
             body=body,
         )
@@ -148,7 +167,12 @@ class Deliverer:
             logging.INFO if answer.is_accepted else logging.WARNING,
             "A notice was sent." if answer.is_accepted else "A notice was not accepted.",
             # Its address may hold a secret of the receiver's.
-            extra=fields(job=due.job.id, attempt=due.attempt, webhook=state, error=answer.error),
+            extra=fields(
+                job=due.job.id,
+                attempt=due.attempt,
+                webhook=state,
+                error=answer.cause or answer.error,
+            ),
         )
 
     def _pause_s(self, attempt: int, answer: Answer) -> float | None:

@@ -2,27 +2,35 @@
 
 import asyncio
 import ssl
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
 import httpx
 
-from service.webhooks.addresses import AddressRefusedError, IPAddress, resolve
+from service.webhooks.addresses import (
+    AddressRefusedError,
+    IPAddress,
+    is_port_refused,
+    port_of,
+    resolve,
+)
 
 CONNECT_WITHIN_S: Final = 5.0
-DEFAULT_PORTS: Final = {"http": 80, "https": 443}
+LOOK_UP_WITHIN_S: Final = 5.0
+NO_PUBLIC_ADDRESS: Final = "The receiver's name stands for no public address."
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Answer:
     """What came of an attempt: the receiver's status, or the reason why there is none.
 
-    ``retry_after_s`` is what the receiver asked for, if it did.
+    ``retry_after_s`` is what the receiver asked for, if it did; ``cause`` is for logs alone.
     """
 
     status: int | None = None
     error: str | None = None
+    cause: str | None = None
     retry_after_s: float | None = None
 
     @property
@@ -37,39 +45,60 @@ class Answer:
 
 
 class Sender:
-    """Posts to public addresses, and to ``allowed_hosts`` wherever they are.
+    """Posts to public addresses at ``ports``, and to ``allowed_hosts`` wherever they are.
 
     Nothing of this process goes along: no proxy, no cookies, no credentials. Redirects are not
-    followed, and of the answer only the head is read.
+    followed, and of the answer only the head is read. A name that stands for nothing public is told
+    in the same words, and after the same time, whether it is known here or not.
     """
 
     def __init__(
         self,
         *,
         allowed_hosts: Collection[str],
+        ports: Collection[int],
         time_limit_s: float,
         tls: ssl.SSLContext | None = None,
     ) -> None:
         self._allowed_hosts = allowed_hosts
+        self._ports = ports
         self._time_limit_s = time_limit_s
         self._tls = tls or httpx.create_ssl_context()
 
     async def post(self, url: str, *, headers: Mapping[str, str], body: bytes) -> Answer:
         """Send; never raises for what the receiver or the way to it does."""
+        loop = asyncio.get_running_loop()
+        began = loop.time()
+        told_at = began + min(LOOK_UP_WITHIN_S, self._time_limit_s)
         try:
-            async with asyncio.timeout(self._time_limit_s):
-                return await self._post(httpx.URL(url), headers, body)
+            target = httpx.URL(url)
+            if is_port_refused(target, self._allowed_hosts, self._ports):
+                return Answer(error="Notices are not sent to the receiver's port.")
+            async with asyncio.timeout_at(told_at):
+                addresses = await resolve(
+                    target.raw_host.decode(), port_of(target), self._allowed_hosts
+                )
+        except (AddressRefusedError, TimeoutError) as error:
+            await asyncio.sleep(told_at - loop.time())
+            return Answer(error=NO_PUBLIC_ADDRESS, cause=str(error) or "The look-up took too long.")
+        except httpx.InvalidURL:
+            return Answer(error="This is no address of a web server.")
+        try:
+            async with asyncio.timeout_at(began + self._time_limit_s):
+                return await self._post(addresses, target, headers, body)
         except TimeoutError:
             return Answer(error=f"No answer within {self._time_limit_s:g} s.")
-        except AddressRefusedError as error:
-            return Answer(error=str(error))
-        except (httpx.HTTPError, httpx.InvalidURL, ssl.SSLError) as error:
+        except (httpx.HTTPError, ssl.SSLError) as error:
             # By kind alone: the message may quote the address, or what is there.
             return Answer(error=f"No connection, or none that lasted ({type(error).__name__}).")
 
-    async def _post(self, url: httpx.URL, headers: Mapping[str, str], body: bytes) -> Answer:
-        port = url.port or DEFAULT_PORTS[url.scheme]
-        addresses = await resolve(url.raw_host.decode(), port, self._allowed_hosts)
+    async def _post(
+        self,
+        addresses: Sequence[IPAddress],
+        url: httpx.URL,
+        headers: Mapping[str, str],
+        body: bytes,
+    ) -> Answer:
         for address in addresses[:-1]:
             try:
                 return await self._post_to(address, url, headers, body)
@@ -84,7 +113,8 @@ class Sender:
             httpx.AsyncClient(
                 verify=self._tls,
                 trust_env=False,
-                timeout=httpx.Timeout(self._time_limit_s, connect=CONNECT_WITHIN_S),
+                # Who calls limits all of it: of two limits that end together chance would tell one.
+                timeout=httpx.Timeout(None, connect=CONNECT_WITHIN_S),
             ) as client,
             client.stream(
                 "POST",

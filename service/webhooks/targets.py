@@ -1,12 +1,29 @@
-"""Whether a notice may be sent where a request wants it, as far as that can be told at once."""
+"""Whom to tell of a job's end: whether a request may want that, and how it is found again."""
 
 import httpx
 
 from api_schemas.problems import FieldProblem
 from api_schemas.webhooks import WebhookTarget
-from service.refusal import refused
+from service.blobs import BlobStore
+from service.engine.port import JobRecord
 from service.settings import Settings
-from service.webhooks.addresses import is_refused_outright
+from service.submissions.refusal import refused
+from service.webhooks.addresses import is_port_refused, is_refused_outright, port_of
+
+
+def read_target(blobs: BlobStore, job: JobRecord) -> WebhookTarget | None:
+    """Read whom to tell of a job's end; None if nobody.
+
+    Raises
+    ------
+    BlobMissingError
+        If the job was erased meanwhile.
+    BlobsUnavailableError
+        If the storage does not answer.
+    """
+    if job.webhook is None:
+        return None
+    return WebhookTarget.model_validate_json(blobs.get(job.id, job.webhook.target.digest))
 
 
 def check_webhook(target: WebhookTarget | None, settings: Settings) -> None:
@@ -20,7 +37,7 @@ def check_webhook(target: WebhookTarget | None, settings: Settings) -> None:
     if target is None:
         return
     try:
-        host = httpx.URL(target.url).host
+        url = httpx.URL(target.url)
     except httpx.InvalidURL as error:
         raise refused(
             FieldProblem(
@@ -30,7 +47,7 @@ def check_webhook(target: WebhookTarget | None, settings: Settings) -> None:
                 remedy="Send an address such as https://example.org/hooks/maquette.",
             )
         ) from error
-    if is_refused_outright(host, settings.allowed_webhook_hosts):
+    if is_refused_outright(url.host, settings.allowed_webhook_hosts):
         raise refused(
             FieldProblem(
                 field="webhook.url",
@@ -38,6 +55,17 @@ def check_webhook(target: WebhookTarget | None, settings: Settings) -> None:
                 reason="Notices are sent to public addresses only.",
                 remedy="Name a public host; whoever runs the service may allow others by "
                 "MAQUETTE_WEBHOOK_HOSTS.",
+            )
+        )
+    if is_port_refused(url, settings.allowed_webhook_hosts, settings.allowed_webhook_ports):
+        ports = " or ".join(map(str, settings.allowed_webhook_ports))
+        raise refused(
+            FieldProblem(
+                field="webhook.url",
+                code="port-not-allowed",
+                reason=f"Notices are not sent to port {port_of(url)}.",
+                remedy=f"Receive them at port {ports}; whoever runs the service may allow others "
+                "by MAQUETTE_WEBHOOK_PORTS.",
             )
         )
     if target.secret is None and settings.webhook_secret is None:

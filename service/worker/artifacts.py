@@ -7,7 +7,7 @@ from typing import Final, TypeVar
 
 from api_schemas.derivation_results import DerivedFiles
 from api_schemas.results import Artifact, FitResult
-from service.inputs import RESULT
+from service.jobs.inputs import RESULT
 
 MEDIA_TYPES: Final[Mapping[str, str]] = {
     ".glb": "model/gltf-binary",

@@ -24,8 +24,8 @@ from api_schemas.problems import Problem, field_problem, problem
 from api_schemas.requests import FitOptions
 from fitter.errors import ModelFileError
 from service.engine.port import FIT, Report
-from service.inputs import IMAGE, MASK
-from service.logs import LogContext, configure_logging, log_context
+from service.jobs.inputs import IMAGE, MASK
+from service.process.logs import LogContext, configure_logging, log_context
 from service.worker.artifacts import with_result_document
 from service.worker.messages import (
     MESSAGES,
@@ -35,6 +35,7 @@ from service.worker.messages import (
     Message,
     ProblemMessage,
     ProgressMessage,
+    UnusableModelsMessage,
 )
 from service.worker.pipeline_port import (
     DerivationInput,
@@ -89,11 +90,10 @@ def describe(pipeline: str, models: Path | None, connection: Connection) -> None
     """Tell the worker which body models there are."""
     _follow_worker(connection)
     try:
-        description = load_pipeline(pipeline).describe(models)
+        message: Message = DescriptionMessage(body_models=load_pipeline(pipeline).describe(models))
     except ModelFileError as error:
-        LOG.error("The body models cannot be used. %s", error)
-        return
-    _send(connection, DescriptionMessage(body_models=description))
+        message = UnusableModelsMessage(reason=str(error))
+    _send(connection, message)
 
 
 def _work(

@@ -14,9 +14,9 @@ from api_schemas.body_models import BodyModels
 from api_schemas.results import Artifact
 from service.blobs import BlobMissingError, BlobStore, BlobsUnavailableError
 from service.engine.port import Attempt, AttemptResult, Directive, Ending, JobRecord, Report
-from service.logs import current_log_context
+from service.process.logs import current_log_context
+from service.process.tracing import StageSpans, span
 from service.settings import Settings
-from service.tracing import StageSpans, span
 from service.worker import child
 from service.worker.artifacts import describe_artifact
 from service.worker.endings import input_gone, no_process, no_storage, too_slow
@@ -29,8 +29,10 @@ from service.worker.messages import (
     Message,
     ProblemMessage,
     ProgressMessage,
+    UnusableModelsMessage,
 )
-from service.worker.patience import patient_with_storage
+from service.worker.model_files import unusable_models
+from service.worker.retrying import retry_while_storage_is_away
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -44,7 +46,8 @@ JOIN_S: Final = 1.0
 """How long the exit code of a child that has closed its pipe is waited for."""
 
 DESCRIPTIONS: Final = 3
-"""How often the body models are asked for: whoever reads them may be killed for other reasons."""
+"""How often the body models are asked for: the process that reads them may be killed for other
+reasons."""
 
 STOPPED: Final = {
     Directive.CANCELED: AttemptResult(ending=Ending.CANCELED),
@@ -72,8 +75,10 @@ class ChildRunner:
 
         Raises
         ------
+        SettingError
+            If they cannot be used.
         RuntimeError
-            If they cannot be used; the child's log says why.
+            If the process that reads them dies, however often.
         """
         for _ in range(DESCRIPTIONS):
             connection, process = self._processes.start(
@@ -83,15 +88,15 @@ class ChildRunner:
                 message = MESSAGES.validate_json(connection.recv_bytes())
             except (EOFError, OSError):
                 process.join(JOIN_S)
-                if process.exitcode == 0:
-                    break
                 LOG.warning("Reading the body models died, exit code %s.", process.exitcode)
             else:
+                if isinstance(message, UnusableModelsMessage):
+                    raise unusable_models(self._settings, message.reason)
                 assert isinstance(message, DescriptionMessage)
                 return message.body_models
             finally:
                 end(connection, process)
-        message = "The body models cannot be used; the line above says why."
+        message = "The body models cannot be read; the lines above say more."
         raise RuntimeError(message)
 
     def run(self, attempt: Attempt) -> AttemptResult:
@@ -130,7 +135,7 @@ class ChildRunner:
             end(connection, process)
 
     def _input(self, job: JobRecord) -> Iterator[bytes]:
-        read = patient_with_storage(self._blobs.get)
+        read = retry_while_storage_is_away(self._blobs.get)
         for part in (job.options, *job.inputs.values()):
             yield read(job.id, part.digest)
 
@@ -186,7 +191,7 @@ class ChildRunner:
                 )
 
     def _store(self, scope: str, files: Mapping[str, bytes]) -> tuple[Artifact, ...]:
-        put = patient_with_storage(self._blobs.put)
+        put = retry_while_storage_is_away(self._blobs.put)
         with span("store result"):
             for content in files.values():
                 put(scope, content)

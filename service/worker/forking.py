@@ -7,7 +7,7 @@ from multiprocessing import forkserver, get_context
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerContext, ForkServerProcess
 
-from service.patience import patient_with
+from service.process.retrying import retry_with_pauses
 
 
 class NoProcessError(Exception):
@@ -15,7 +15,7 @@ class NoProcessError(Exception):
 
 
 class ForkedProcesses:
-    """Starts processes; whoever starts one ends it by :func:`end`.
+    """Starts processes; the caller ends each by :func:`end`.
 
     A fork takes 0.02 s where a fresh interpreter takes most of a second, and the server itself
     stays without threads, which is what makes forking safe. A server that dies is started again.
@@ -29,7 +29,7 @@ class ForkedProcesses:
         """Start the server, which loads the numerics by itself."""
         forkserver.ensure_running()
 
-    @patient_with(NoProcessError, "fork server")
+    @retry_with_pauses(NoProcessError, "fork server")
     def start(
         self, target: Callable[..., None], *arguments: object
     ) -> tuple[Connection, ForkServerProcess]:

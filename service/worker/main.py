@@ -8,6 +8,10 @@ import threading
 from typing import Final
 
 from service.blobs import open_blob_store
+from service.process.data_folder import prepare_data_folder
+from service.process.disk import open_disk
+from service.process.interpreter import SAFE_PATH_VARIABLE
+from service.process.kernels import keep_kernels
 from service.settings import Settings
 from service.worker.child_process import ChildRunner
 
@@ -28,6 +32,8 @@ THREAD_LIMITS: Final = (
 SPARE_CONNECTIONS: Final = 6
 """To the database, beside one a fit: heartbeat, queue, notifications, and DBOS's own writes."""
 
+READ_AT_ONCE: Final = 4_096
+
 
 def run_worker(
     settings: Settings, *, follow_stdin: bool, pipeline: str = PIPELINE, preload: str = PRELOAD
@@ -37,17 +43,21 @@ def run_worker(
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda _number, _frame: stop.set())
     if follow_stdin:
-        # The pipe of whoever started this worker: its end is the end of the starter.
+        # The starter holds the other end of this pipe: when it closes, the starter is gone.
         threading.Thread(target=_wait_for_end_of_input, args=(stop,), daemon=True).start()
     for variable in THREAD_LIMITS:
         os.environ.setdefault(variable, "1")
+    # The fork server and its resource tracker are started by `python -c`.
+    os.environ[SAFE_PATH_VARIABLE] = "1"
+    keep_kernels()
+    prepare_data_folder(settings)
     blobs = open_blob_store(settings)
     runner = ChildRunner(settings, blobs, pipeline=pipeline, preload=preload)
     runner.begin_preloading()
     # Imported while the fork server loads the numerics: each takes a good part of a second.
     from service.engine.database import open_database, prepare_database
     from service.engine.dbos_worker import DbosWorkerEngine
-    from service.tracing import start_tracing
+    from service.process.tracing import start_tracing
 
     tracing = start_tracing(settings, role="worker")
     prepare_database(settings.system_database_url)
@@ -63,6 +73,7 @@ def run_worker(
         dead_after_s=settings.dead_after_s,
         queue_poll_s=settings.queue_poll_s,
         retention_s=settings.retention_s,
+        disk=open_disk(settings),
     )
     engine.start(runner.run, body_models=runner.describe())
     LOG.info("Worker %s is ready.", engine.executor_id)
@@ -76,5 +87,7 @@ def run_worker(
 
 
 def _wait_for_end_of_input(stop: threading.Event) -> None:
-    sys.stdin.buffer.read()
+    # Not through sys.stdin: a reader that holds its lock keeps the interpreter from ending.
+    while os.read(sys.stdin.fileno(), READ_AT_ONCE):
+        pass
     stop.set()

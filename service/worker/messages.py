@@ -46,8 +46,20 @@ class DescriptionMessage(WireModel):
     body_models: BodyModels
 
 
+class UnusableModelsMessage(WireModel):
+    """The body models cannot be used."""
+
+    kind: Literal["unusable-models"] = "unusable-models"
+    reason: str
+
+
 Message = Annotated[
-    ProgressMessage | FileMessage | DoneMessage | ProblemMessage | DescriptionMessage,
+    ProgressMessage
+    | FileMessage
+    | DoneMessage
+    | ProblemMessage
+    | DescriptionMessage
+    | UnusableModelsMessage,
     Field(discriminator="kind"),
 ]
 MESSAGES: Final[TypeAdapter[Message]] = TypeAdapter(Message)

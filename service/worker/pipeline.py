@@ -7,12 +7,11 @@ from api_schemas.body_models import BodyModelInfo, BodyModels
 from api_schemas.derivations import DerivationKind
 from api_schemas.requests import Gender
 from fitter import request as fitter_request
-from fitter.applications.fitted_person import fitted_person
 from fitter.errors import InvalidInputError
 from fitter.export import artifacts, tapes_json
-from fitter.fittable import fittable_body
+from fitter.fits.pipeline import fit
+from fitter.fits.prepared_model import prepared_model
 from fitter.observation.subject import MEAN_HEIGHT_M
-from fitter.pipeline import fit
 from service.engine.port import Report
 from service.worker import translate
 from service.worker.derivers import load_deriver
@@ -36,11 +35,11 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
             models=job.models,
             observer=lambda progress: observe(translate.report(progress)),
         )
-        body = fittable_body(result.gender, models=job.models)
-        model = body.instruments.model
+        prepared = prepared_model(result.person.gender, models=job.models)
+        model = prepared.operators.model
         files = artifacts(result, model=model, image=job.image)
-        files["person.npz"] = fitted_person(result, model).to_bytes()
-        files["tapes.json"] = tapes_json(result, body.measuring)
+        files["person.npz"] = result.person.to_bytes()
+        files["tapes.json"] = tapes_json(result, prepared.measuring)
     except InvalidInputError as error:
         raise UnusableInputError(translate.field_problem(error)) from error
     return PipelineOutput(
@@ -63,7 +62,7 @@ def describe(models: Path | None) -> BodyModels:
 
 def _model_info(gender: Gender, models: Path | None) -> BodyModelInfo:
     fitted = fitter_request.Gender(gender.value)
-    model = fittable_body(fitted, models=models).instruments.model
+    model = prepared_model(fitted, models=models).operators.model
     header = model.header
     return BodyModelInfo(
         gender=gender,

@@ -46,7 +46,7 @@ class PipelineOutput:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DerivationInput:
-    """What is to be derived, and the inputs of that kind, by the names of :mod:`service.inputs`.
+    """What is to be derived, and the inputs of that kind by name (:mod:`service.jobs.inputs`).
 
     ``fit_id`` is that of the fit it is derived from, None where the service keeps none.
     """

@@ -8,7 +8,7 @@ from service.settings import Settings
 from service.worker import pipeline
 from service.worker.rehearsal import rehearse
 
-# The worker asks for the same at once, and is told what is wrong with a model.
+# The worker loads the same models at once and reports what is wrong with them.
 with suppress(ModelFileError):
     models = Settings().models_dir
     pipeline.describe(models)

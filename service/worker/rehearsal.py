@@ -9,8 +9,8 @@ from typing import Final
 from PIL import Image
 
 from fitter.errors import ModelFileError
-from service.demo_sample import Sample, load_sample
-from service.submission import check_submission
+from service.demo_data.sample import Sample, load_sample
+from service.submissions.submission import check_submission
 from service.worker import pipeline
 from service.worker.artifacts import with_result_document
 from service.worker.pipeline_port import PipelineInput
@@ -30,7 +30,7 @@ def rehearse(models: Path | None) -> None:
     up; a fork without takes 0.15 to 0.25 s of processor longer for its fit. Fits are functions of
     their requests: nothing of the sample is left for them.
 
-    A sample that cannot be fitted, as by models that know nobody like him, is told and no more.
+    A sample that cannot be fitted, as with models trained on other people, is logged and no more.
 
     Raises
     ------

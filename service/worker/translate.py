@@ -12,11 +12,11 @@ from api_schemas import results as wire
 from api_schemas.derivation_results import CombinedPicture
 from api_schemas.points import points_by_name
 from api_schemas.problems import FieldProblem
-from fitter.camera import Camera
 from fitter.errors import InvalidInputError
+from fitter.fits.progress import Progress
 from fitter.measurement.quantity import Measurement
 from fitter.parameters import BodyParameters, Light, LightKind, Reflectance, Surroundings
-from fitter.progress import Progress
+from fitter.render.camera import Camera
 from fitter.request import (
     Click,
     Clothing,
@@ -29,7 +29,7 @@ from fitter.request import (
     OptimizerKind,
     SurroundingsKind,
 )
-from fitter.result import OUTCOME_EXPLANATIONS, FitResult, LimbFacing, LitBody, StageBody
+from fitter.result import OUTCOME_EXPLANATIONS, FitResult, LimbFacing, PictureFit, StageBody
 from service.engine.port import Report
 
 SEEN = 2
@@ -103,22 +103,23 @@ def field_problem(error: InvalidInputError) -> FieldProblem:
 
 def fit_result(result: FitResult, *, part_names: Sequence[str]) -> wire.FitResult:
     """Translate a result; its files are listed later, when they exist."""
+    found, person = result.found, result.person
     return wire.FitResult(
-        gender=wire_request.Gender(result.gender.value),
-        height_m=result.height_m,
-        cues=wire_request.Cues(result.cues.value),
+        gender=wire_request.Gender(person.gender.value),
+        height_m=found.height_m,
+        cues=wire_request.Cues(found.cues.value),
         optimizer=wire_request.OptimizerKind(result.optimizer.value),
-        outcome=wire.Outcome(result.outcome.value),
-        outcome_explanation=OUTCOME_EXPLANATIONS[result.outcome],
+        outcome=wire.Outcome(found.outcome.value),
+        outcome_explanation=OUTCOME_EXPLANATIONS[found.outcome],
         camera=camera_result(result.camera),
-        image_camera=camera_result(result.image_camera),
+        image_camera=camera_result(person.camera),
         focal_length_source=wire.FocalLengthSource(result.focal_length_source.value),
-        body=body_result(result.body, part_names),
-        light=None if result.light is None else _light(result.light),
-        reflectance=None if result.reflectance is None else _reflectance(result.reflectance),
+        body=body_result(person.body, part_names),
+        light=None if person.light is None else _light(person.light),
+        reflectance=None if person.reflectance is None else _reflectance(person.reflectance),
         energies=dict(result.energies),
         evaluations=result.evaluations,
-        silhouette_overlap=result.silhouette_overlap,
+        silhouette_overlap=found.silhouette_overlap,
         measurements=measurement_results(result.measurements, result.given),
         stages=tuple(_stage(stage, part_names, result.given) for stage in result.stages),
         limb_facing=tuple(_limb_facing(facing) for facing in result.limb_facing),
@@ -135,18 +136,19 @@ def fit_result(result: FitResult, *, part_names: Sequence[str]) -> wire.FitResul
 
 
 def combined_picture(
-    body: LitBody, *, number: int, fit_id: UUID, part_names: Sequence[str]
+    found: PictureFit, *, number: int, fit_id: UUID, part_names: Sequence[str]
 ) -> CombinedPicture:
     """Translate the person in one of several pictures."""
+    person = found.person
     return CombinedPicture(
         number=number,
         fit_id=fit_id,
-        outcome=wire.Outcome(body.outcome.value),
-        image_camera=camera_result(body.image_camera),
-        body=body_result(body.body, part_names),
-        light=None if body.light is None else _light(body.light),
-        reflectance=None if body.reflectance is None else _reflectance(body.reflectance),
-        silhouette_overlap=body.silhouette_overlap,
+        outcome=wire.Outcome(found.outcome.value),
+        image_camera=camera_result(person.camera),
+        body=body_result(person.body, part_names),
+        light=None if person.light is None else _light(person.light),
+        reflectance=None if person.reflectance is None else _reflectance(person.reflectance),
+        silhouette_overlap=found.silhouette_overlap,
     )
 
 
@@ -230,7 +232,10 @@ def _stage(stage: StageBody, part_names: Sequence[str], given: Sequence[str]) ->
         energies=dict(stage.energies),
         silhouette_overlap=stage.silhouette_overlap,
         body=body_result(stage.body, part_names),
-        measurements=measurement_results(stage.measurements, given),
+        measurements=tuple(
+            wire.StageMeasurement(**each.model_dump())
+            for each in measurement_results(stage.measurements, given)
+        ),
     )
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import httpx
 
-from fitter.training.text_tables import note_lines, table_lines
+from fitter.training.report.text_tables import note_lines, table_lines
 from tests.benchmarks.served import NO_WORKER, ready, running
 from tests.benchmarks.spent import late, median
 from tests.deployment import Deployment, Kind

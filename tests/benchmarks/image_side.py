@@ -13,7 +13,6 @@ import numpy as np
 import trimesh
 from PIL import Image as PillowImage
 
-from fitter.camera import Camera
 from fitter.evidence.edge_cost import edge_cost_map
 from fitter.evidence.intensity import intensity_map
 from fitter.evidence.silhouette_evidence import silhouette_evidence
@@ -21,6 +20,7 @@ from fitter.numerics.mesh_topology import mesh_topology
 from fitter.observation.colour import linear_from_display, luminance_of
 from fitter.observation.observation import observe
 from fitter.parameters import Light, LightKind, Reflectance
+from fitter.render.camera import Camera
 from fitter.render.contours import model_edges
 from fitter.render.interpolation import shade_image
 from fitter.render.rasterizer import Rendering, render

@@ -7,7 +7,7 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 
 from fitter.request import FitRequest
-from fitter.training.text_tables import note_lines, table_lines
+from fitter.training.report.text_tables import note_lines, table_lines
 
 PRELOADED = "service.worker.preload"
 """What the worker's fork server imports before it forks."""
@@ -94,22 +94,22 @@ def _request(width: int, height: int) -> FitRequest:
 
 
 def _imported(answer: Connection) -> None:
-    import fitter.pipeline
+    import fitter.fits.pipeline
 
-    assert fitter.pipeline.fit
+    assert fitter.fits.pipeline.fit
     answer.send(_peak_mib())
 
 
 def _prepared(answer: Connection) -> None:
-    from fitter.fittable import packaged_body
+    from fitter.fits.prepared_model import prepared_model
     from fitter.request import Gender
 
-    packaged_body(Gender.MALE)
+    prepared_model(Gender.MALE)
     answer.send(_peak_mib())
 
 
 def _fitted(width: int, height: int) -> None:
-    from fitter.pipeline import fit
+    from fitter.fits.pipeline import fit
 
     fit(_request(width, height))
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import httpx
 
-from fitter.training.text_tables import note_lines, table_lines
+from fitter.training.report.text_tables import note_lines, table_lines
 from tests.benchmarks.served import NO_WORKER, ready, running, used_s
 from tests.deployment import Deployment, Kind
 from tests.submissions import Submission, small_submissions
@@ -107,7 +107,7 @@ def _used(deployment: Deployment) -> list[float]:
 
 def _loop(answer: Connection) -> None:
     from api_schemas.requests import FitOptions
-    from service.submission import check_submission
+    from service.submissions.submission import check_submission
     from service.worker import pipeline
     from service.worker.artifacts import with_result_document
     from service.worker.pipeline_port import PipelineInput

@@ -10,7 +10,7 @@ from pathlib import Path
 import httpx
 from playwright.sync_api import Browser, sync_playwright
 
-from fitter.training.text_tables import note_lines, table_lines
+from fitter.training.report.text_tables import note_lines, table_lines
 from tests.benchmarks.spent import late, median
 from tests.e2e.page.browser import chromium
 from tests.e2e.page.visitor import LIMBS, Visitor

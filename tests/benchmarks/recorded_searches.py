@@ -5,12 +5,12 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 from fitter.energies.objective import Objective
+from fitter.fits import descents
 from fitter.optimizer.alternation import BodySearch
 from fitter.optimizer.gauss_newton import EnergyObserver, Minimum
 from fitter.optimizer.search import body_search
 from fitter.parameters import BodyParameters
 from fitter.request import OptimizerKind
-from fitter.stages import descents
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from PIL import Image as PillowImage
 
-from fitter.pipeline import fit
+from fitter.fits.pipeline import fit
 from fitter.request import Click, Cues, FitRequest
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import read_case

@@ -9,16 +9,16 @@ import qdldl
 import trimesh
 from scipy import sparse
 
-from fitter.camera import Camera
+from fitter.fits import descents
+from fitter.fits.progress import Stage
 from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
 from fitter.numerics.mesh_topology import mesh_topology
 from fitter.numerics.supernodal import supernodal_factor
 from fitter.optimizer.search import limits_of
-from fitter.progress import Stage
+from fitter.render.camera import Camera
 from fitter.render.contours import model_edges
 from fitter.render.rasterizer import render
-from fitter.stages import descents
-from fitter.training.text_tables import note_lines, table_lines
+from fitter.training.report.text_tables import note_lines, table_lines
 from tests.benchmarks.requests import suite_requests, warm_up
 from tests.benchmarks.spent import TimedFit, median, timed, timed_fit
 

@@ -3,12 +3,12 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from fitter.fits.pipeline import fit
 from fitter.optimizer.gauss_newton import Minimum, minimize_gauss_newton
 from fitter.optimizer.search import limits_of
 from fitter.optimizer.simplex import minimize_simplex
-from fitter.pipeline import fit
 from fitter.request import FitRequest, OptimizerKind, OutlineKind
-from fitter.training.text_tables import note_lines, table_lines
+from fitter.training.report.text_tables import note_lines, table_lines
 from tests.benchmarks.recorded_searches import Search, recorded_searches
 from tests.benchmarks.requests import suite_requests, warm_up
 from tests.benchmarks.spent import Spent, median, timed

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import httpx
 
-from fitter.training.text_tables import note_lines, table_lines
+from fitter.training.report.text_tables import note_lines, table_lines
 from tests.benchmarks.crowd import crowd
 from tests.benchmarks.served import NO_WORKER, all_ended, ready, running
 from tests.deployment import Deployment, Kind, wait_for

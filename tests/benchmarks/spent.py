@@ -11,9 +11,9 @@ from typing import TypeVar
 import numpy as np
 
 from fitter.export import artifacts
-from fitter.fittable import packaged_body
-from fitter.pipeline import fit
-from fitter.progress import Progress, Stage
+from fitter.fits.pipeline import fit
+from fitter.fits.prepared_model import prepared_model
+from fitter.fits.progress import Progress, Stage
 from fitter.request import FitRequest
 from fitter.result import FitResult
 
@@ -70,7 +70,7 @@ def timed_fit(request: FitRequest) -> TimedFit:
     result = fit(request, observer=observe)
     end = now()
     ends = [*list(begins.values())[1:], end]
-    model = packaged_body(result.gender).instruments.model
+    model = prepared_model(result.person.gender).operators.model
     _, export = timed(lambda: artifacts(result, model=model, image=request.image))
     return TimedFit(
         result=result,

@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator, Sequence
 
-from fitter.progress import Stage
-from fitter.training.text_tables import note_lines, table_lines
+from fitter.fits.progress import Stage
+from fitter.training.report.text_tables import note_lines, table_lines
 from tests.benchmarks.requests import suite_requests, warm_up
 from tests.benchmarks.spent import Spent, TimedFit, late, median, timed_fit
 

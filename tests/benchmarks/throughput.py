@@ -6,8 +6,8 @@ from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from multiprocessing.synchronize import Barrier
 
-from fitter.pipeline import fit
-from fitter.training.text_tables import note_lines, table_lines
+from fitter.fits.pipeline import fit
+from fitter.training.report.text_tables import note_lines, table_lines
 from tests.benchmarks.requests import suite_requests, warm_up
 
 PROCESSES = (1, 2)

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import httpx
 
-from fitter.progress import Stage
+from fitter.fits.progress import Stage
 from fitter.request import FitRequest
-from fitter.training.text_tables import note_lines, table_lines
+from fitter.training.report.text_tables import note_lines, table_lines
 from tests.benchmarks.requests import suite_requests
 from tests.benchmarks.spent import late, median
 from tests.e2e.service import running_service

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import httpx
 
-from fitter.training.text_tables import note_lines, table_lines
+from fitter.training.report.text_tables import note_lines, table_lines
 from tests.benchmarks.served import NO_WORKER, all_ended, ready, running, used_s
 from tests.deployment import Commands, Deployment, Kind
 from tests.integration.service.fake_pipeline import scripted_image

@@ -10,7 +10,7 @@ import httpx
 
 from tests.submissions import Submission
 
-PATIENCE_S = 180.0
+PATIENCE_S = 600.0
 PAUSE_S = 0.1
 ACTIVE = frozenset({"queued", "running"})
 

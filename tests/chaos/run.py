@@ -23,7 +23,7 @@ MID_POST_S = 0.03
 """So long a submission takes: some kills of the API fall within one."""
 
 LOOK_S = 0.02
-ENDED_WITHIN_S = 600.0
+ENDED_WITHIN_S = 1_200.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -118,6 +118,10 @@ BREAKING: dict[str, tuple[Callable[[Document], object], str]] = {
         lambda d: schemas(d)["WebhookEvent"]["properties"].pop("timestamp"),
         ".timestamp is gone",
     ),
+    "event's field": (
+        lambda d: schemas(d)["EventData"]["properties"].pop("progress"),
+        "text/event-stream.items.data.contentSchema.progress is gone",
+    ),
 }
 
 
@@ -127,6 +131,22 @@ def test_what_breaks_callers_is_named(change: Callable[[Document], object], said
     change(changed)
     found = breaking_changes(exported(), changed)
     assert any(said in each for each in found), found
+
+
+def test_events_are_compared_with_those_of_the_newest_release():
+    changed = exported()
+    schemas(changed)["EventData"]["properties"].pop("progress")
+    found = breaking_changes(NEWEST, changed)
+    assert any("text/event-stream" in each for each in found), found
+
+
+def test_bounds_of_heights_are_compared_with_those_of_the_newest_release():
+    changed = exported()
+    narrower = schemas(changed)["FitRequest"]["properties"]["height_m"]["anyOf"][0]
+    assert narrower["minimum"] == 1.2
+    narrower["minimum"] = 1.5
+    found = breaking_changes(NEWEST, changed)
+    assert any("height_m" in each for each in found), found
 
 
 def new_path(document: Document) -> None:

@@ -3,11 +3,12 @@
 import io
 import json
 
+import httpx
 import numpy as np
 import pytest
 from PIL import Image
 
-from tests.e2e.service import ended_job, running_service
+from tests.e2e.service import ended_job
 
 SIZE = (300, 400)
 POINTS = {
@@ -46,9 +47,8 @@ NOISE = encoded(noise(), "PNG")
 
 
 @pytest.fixture(scope="module")
-def client(tmp_path_factory: pytest.TempPathFactory):
-    with running_service(tmp_path_factory.mktemp("data")) as running:
-        yield running
+def client(service: httpx.Client) -> httpx.Client:
+    return service
 
 
 @pytest.mark.parametrize(

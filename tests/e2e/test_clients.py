@@ -5,14 +5,13 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 
 import httpx
 import pytest
 
 from tests.contract.document import EXPORTED
-from tests.e2e.service import REPOSITORY, running_service
+from tests.e2e.service import REPOSITORY, fits
 from tests.npm_packages import installed
 
 CLIENTS = REPOSITORY / "tests" / "clients"
@@ -20,12 +19,6 @@ SAMPLE = [
     str(REPOSITORY / "service" / "demo_data" / name) for name in ("sample.jpg", "request.json")
 ]
 TOOLS = Path(sys.executable).parent
-
-
-@pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
-    with running_service(tmp_path_factory.mktemp("service")) as client:
-        yield client
 
 
 def run(*command: str | Path, cwd: Path, **variables: str) -> str:
@@ -41,14 +34,16 @@ def run(*command: str | Path, cwd: Path, **variables: str) -> str:
     return done.stdout
 
 
-def check(output: str, service: httpx.Client) -> None:
-    """Check what a client found, and that it erased the job."""
+def check(output: str, service: httpx.Client, before: set[str]) -> None:
+    """Check what a client found both ways, and that it erased what it sent."""
     found = json.loads(output.splitlines()[-1])
     request = json.loads(Path(SAMPLE[1]).read_text())
-    assert found["measurements"]["stature"] == pytest.approx(100 * request["height_m"], abs=0.01)
-    assert 40 < found["measurements"]["weight"] < 150
-    assert (found["glb"], found["erased"]) == ("glTF", 204)
-    assert service.get("/v1/fits").json()["jobs"] == []
+    as_form, as_json = found["measurements"]
+    assert as_form["stature"] == pytest.approx(100 * request["height_m"], abs=0.01)
+    assert 40 < as_form["weight"] < 150
+    assert as_json == pytest.approx(as_form, rel=1e-6)
+    assert (found["glb"], found["ends"], found["erased"]) == ("glTF", 1, [204, 204, 204])
+    assert fits(service) == before
 
 
 def test_a_generated_python_client_fits_the_sample(service: httpx.Client, tmp_path: Path):
@@ -62,7 +57,8 @@ def test_a_generated_python_client_fits_the_sample(service: httpx.Client, tmp_pa
     shutil.copy(CLIENTS / "python" / "fit.py", tmp_path)
     # The use of what was generated; the generator's own code would not pass.
     run(TOOLS / "pyright", "--pythonpath", sys.executable, "fit.py", cwd=tmp_path)
-    check(run(sys.executable, "fit.py", service.base_url, *SAMPLE, cwd=tmp_path), service)
+    before = fits(service)
+    check(run(sys.executable, "fit.py", service.base_url, *SAMPLE, cwd=tmp_path), service, before)
 
 
 @pytest.fixture(scope="module")
@@ -83,4 +79,20 @@ def test_a_generated_typescript_client_fits_the_sample(
         cwd=tmp_path,
     )
     run(tools / "tsc", cwd=tmp_path)
-    check(run("node", "built/fit.js", service.base_url, *SAMPLE, cwd=tmp_path), service)
+    before = fits(service)
+    check(run("node", "built/fit.js", service.base_url, *SAMPLE, cwd=tmp_path), service, before)
+
+
+def test_a_client_of_a_generator_that_knows_one_content_type_sends_a_form(
+    service: httpx.Client, tmp_path: Path
+):
+    sources = CLIENTS / "hey_api"
+    modules = installed(sources) / "node_modules"
+    for name in ("fit.ts", "openapi-ts.config.js", "tsconfig.json", "package.json"):
+        shutil.copy(sources / name, tmp_path)
+    (tmp_path / "node_modules").symlink_to(modules)
+    run(modules / ".bin" / "openapi-ts", cwd=tmp_path, OPENAPI=str(EXPORTED))
+    run(modules / ".bin" / "tsc", cwd=tmp_path)
+    found = json.loads(run("node", "built/fit.js", service.base_url, *SAMPLE, cwd=tmp_path))
+    assert 40 < found["measurements"]["weight"] < 150
+    assert found["erased"] == 204

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from api_schemas.results import FitResult
-from service.demo_sample import load_sample
+from service.demo_data.sample import load_sample
 from tests.e2e.service import FIT_WITHIN_S, REPOSITORY
 
 PROMISED = {

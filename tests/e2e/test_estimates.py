@@ -6,35 +6,36 @@ from pathlib import Path
 import httpx
 import trimesh
 
-from service.demo_sample import load_sample
-from tests.e2e.service import running_service, wait_for_estimator
+from service.demo_data.sample import load_sample
+from tests.e2e.service import fits
 
 STOUT = {"weight_kg": 70.0, "measurements": {"waist_girth_navel": 160.0}}
 
 
-def test_bodies_poses_and_contradictions_are_answered_at_once(tmp_path: Path):
+def test_bodies_poses_and_contradictions_are_answered_at_once(
+    service: httpx.Client, tmp_path: Path
+):
+    client, before = service, fits(service)
     sample = load_sample()
     subject = json.loads(sample.request)
-    with running_service(tmp_path) as client:
-        wait_for_estimator(client)
-        known = {"gender": "female", "height_m": 1.68, "weight_kg": 64.5}
-        estimate = client.post("/v1/bodies", json=known).raise_for_status().json()
-        weight = next(each for each in estimate["measurements"] if each["name"] == "weight")
-        assert abs(weight["value"] - 64.5) < 0.1
-        glb = client.post("/v1/bodies", json=known, headers={"Accept": "model/gltf-binary"})
-        (tmp_path / "body.glb").write_bytes(glb.content)
-        mesh = trimesh.load_mesh(tmp_path / "body.glb")
-        assert mesh.is_watertight
-        assert 50.0 < 1000.0 * mesh.volume < 80.0
+    known = {"gender": "female", "height_m": 1.68, "weight_kg": 64.5}
+    estimate = client.post("/v1/bodies", json=known).raise_for_status().json()
+    weight = next(each for each in estimate["measurements"] if each["name"] == "weight")
+    assert abs(weight["value"] - 64.5) < 0.1
+    glb = client.post("/v1/bodies", json=known, headers={"Accept": "model/gltf-binary"})
+    (tmp_path / "body.glb").write_bytes(glb.content)
+    mesh = trimesh.load_mesh(tmp_path / "body.glb")
+    assert mesh.is_watertight
+    assert 50.0 < 1000.0 * mesh.volume < 80.0
 
-        picture = {"image": ("sample.jpg", sample.image, "image/jpeg")}
-        image = client.post("/v1/images", files=picture).raise_for_status().json()
-        asked = subject | {"image_id": image["id"]}
-        pose = client.post("/v1/initial-poses", json=asked).raise_for_status().json()
-        assert pose["camera"]["width"] == image["width"]
-        assert pose["focal_length_source"] == "exif_35mm_equivalent"
+    picture = {"image": ("sample.jpg", sample.image, "image/jpeg")}
+    image = client.post("/v1/images", files=picture).raise_for_status().json()
+    asked = subject | {"image_id": image["id"]}
+    pose = client.post("/v1/initial-poses", json=asked).raise_for_status().json()
+    assert pose["camera"]["width"] == image["width"]
+    assert pose["focal_length_source"] == "exif_35mm_equivalent"
 
-        refused = client.post("/v1/fits", json=asked | STOUT)
-        assert refused.status_code == httpx.codes.UNPROCESSABLE_ENTITY
-        assert refused.json()["code"] == "contradictory-measurements"
-        assert client.get("/v1/fits").json()["jobs"] == []
+    refused = client.post("/v1/fits", json=asked | STOUT)
+    assert refused.status_code == httpx.codes.UNPROCESSABLE_ENTITY
+    assert refused.json()["code"] == "contradictory-measurements"
+    assert fits(client) == before

@@ -2,43 +2,43 @@
 
 import json
 
+import httpx
 import numpy as np
 import pytest
 import trimesh
 
-from tests.e2e.service import REPOSITORY, ended_job, running_service
+from tests.e2e.service import ended_job
+from tests.shared_data import SHARED_DATA, needs_shared
 
-PICTURE = REPOSITORY.parent / "shared" / "data" / "real" / "durer_adam_1507.jpg"
+PICTURE = SHARED_DATA / "real" / "durer_adam_1507.jpg"
+DESCRIPTION = PICTURE.with_suffix(".json")
 
-pytestmark = pytest.mark.skipif(
-    not PICTURE.exists(), reason="the painting is not shipped with the project"
-)
+pytestmark = [needs_shared(PICTURE), needs_shared(DESCRIPTION)]
 
 
 @pytest.fixture(scope="module")
-def fit(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict, dict[str, bytes]]:
+def fit(service: httpx.Client) -> tuple[dict, dict[str, bytes]]:
     """The result document and the files of the fit."""
-    described = json.loads(PICTURE.with_suffix(".json").read_text())
+    described = json.loads(DESCRIPTION.read_text())
     request = {
         "gender": described["gender"],
         "height_m": described["height_m"],
         "points": described["points"],
     }
-    with running_service(tmp_path_factory.mktemp("data")) as client:
-        job = ended_job(
-            client,
-            client.post(
-                "/v1/fits",
-                files={"image": (PICTURE.name, PICTURE.read_bytes(), "image/jpeg")},
-                data={"request": json.dumps(request)},
-            ),
-        )
-        assert job["state"] == "succeeded", job["problem"]
-        result = client.get(job["links"]["result"]).raise_for_status().json()
-        files = {
-            name: client.get(path).raise_for_status().content
-            for name, path in job["links"]["artifacts"].items()
-        }
+    job = ended_job(
+        service,
+        service.post(
+            "/v1/fits",
+            files={"image": (PICTURE.name, PICTURE.read_bytes(), "image/jpeg")},
+            data={"request": json.dumps(request)},
+        ),
+    )
+    assert job["state"] == "succeeded", job["problem"]
+    result = service.get(job["links"]["result"]).raise_for_status().json()
+    files = {
+        name: service.get(path).raise_for_status().content
+        for name, path in job["links"]["artifacts"].items()
+    }
     return result, files
 
 

@@ -14,10 +14,10 @@ from unittest.mock import patch
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from fitter import pipeline
 from fitter.arrays import Pose
 from fitter.body.pose_prior import PosePrior, joint_angles
-from fitter.fittable import FittableBody
+from fitter.fits import pipeline
+from fitter.fits.prepared_model import PreparedModel
 from fitter.pose_init.initial_pose import InitialPose, PoseHypothesis
 from tests.evaluation.people import load_person
 from tests.evaluation.people_table import PEOPLE
@@ -39,15 +39,15 @@ def true_pose(staged: Staged) -> Pose:
 
 @contextmanager
 def held_at_true_pose(case: Case) -> Iterator[None]:
-    """Within it, :func:`fitter.pipeline.fit` holds the pose of this case's person."""
+    """Within it, :func:`fitter.fits.pipeline.fit` holds the pose of this case's person."""
     staged = stage(load_person(PEOPLE[case.person]), case)
     pose, place = true_pose(staged), staged.in_camera(root_joint(staged))
-    find_body, find_pose = pipeline.fittable_body, pipeline.initialize_pose
+    find_body, find_pose = pipeline.prepared_model, pipeline.initialize_pose
 
-    def body(*arguments: Any, **options: Any) -> FittableBody:
+    def body(*arguments: Any, **options: Any) -> PreparedModel:
         found = find_body(*arguments, **options)
-        narrow = narrowed(found.instruments.pose_prior, pose)
-        return replace(found, instruments=replace(found.instruments, pose_prior=narrow))
+        narrow = narrowed(found.operators.pose_prior, pose)
+        return replace(found, operators=replace(found.operators, pose_prior=narrow))
 
     def initial(*arguments: Any, **options: Any) -> InitialPose:
         found = find_pose(*arguments, **options)
@@ -58,7 +58,7 @@ def held_at_true_pose(case: Case) -> Iterator[None]:
         )
 
     with (
-        patch.object(pipeline, "fittable_body", body),
+        patch.object(pipeline, "prepared_model", body),
         patch.object(pipeline, "initialize_pose", initial),
     ):
         yield

@@ -9,7 +9,7 @@ from jaxtyping import Bool, Float
 from fitter.body.model import BodyModel
 from fitter.energies.shading import seen_vertices
 from fitter.evidence.intensity import intensity_map
-from fitter.fittable import packaged_body
+from fitter.fits.prepared_model import prepared_model
 from fitter.observation.colour import linear_from_display, luminance_of
 from fitter.render.rasterizer import render
 from fitter.render.reflectance import shade
@@ -66,25 +66,26 @@ def in_both_lights(cases: Sequence[Case]) -> Iterator[InLight]:
 
 def light_figures(result: FitResult) -> LightFigures:
     """Compare a result with the picture it was fitted to."""
-    light, reflectance = result.light, result.reflectance
+    light, reflectance = result.person.light, result.person.reflectance
     assert light is not None
     assert reflectance is not None
-    instruments = packaged_body(result.gender).instruments
-    model, areas = instruments.model, instruments.shaded.areas
+    operators = prepared_model(result.person.gender).operators
+    model, areas = operators.model, operators.shaded.areas
     display = result.pictures.image
     intensity = intensity_map(
         luminance_of(linear_from_display(display)), display, result.pictures.segmentation
     )
-    rendering = render(result.posed_vertices, model.triangles, result.camera)
-    centre = result.body.translation
-    shadow = cast_shadow(result.posed_vertices, model.triangles, light=light, body_centre=centre)
+    vertices = result.found.posed_vertices
+    rendering = render(vertices, model.triangles, result.camera)
+    centre = result.person.body.translation
+    shadow = cast_shadow(vertices, model.triangles, light=light, body_centre=centre)
     predicted = shade(
-        result.posed_vertices,
+        vertices,
         rendering.vertex_normals,
         light=light,
         body_centre=centre,
         reflectance=reflectance,
-        lit=lamp_seen(result.posed_vertices, model.triangles, light=light, body_centre=centre),
+        lit=lamp_seen(vertices, model.triangles, light=light, body_centre=centre),
     )
     counted = areas > 0.0
     seen = seen_vertices(rendering, intensity) & counted

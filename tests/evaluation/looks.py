@@ -13,7 +13,7 @@ from PIL import Image as PillowImage
 
 from fitter.arrays import Vertices
 from fitter.request import Gender
-from fitter.training.makehuman import makehuman_folder
+from fitter.training.makehuman.meshes import makehuman_folder
 from tests.evaluation.noise import smooth_step, value_noise
 from tests.evaluation.scene import Hair, Look
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float, Integer
 
-from fitter.training.makehuman import makehuman_folder
+from fitter.training.makehuman.meshes import makehuman_folder
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -16,11 +16,11 @@ from scipy import sparse
 
 from fitter.arrays import Pose, Vertices
 from fitter.request import Gender
-from fitter.training.joints import joint_rows_of_bones
-from fitter.training.makehuman import BaseMesh, load_base_mesh, makehuman_folder
-from fitter.training.relaxed_hands import with_curled_fingers
-from fitter.training.rig import bone_heads, load_rig, posed_vertices
-from fitter.training.rigged_bodies import RiggedMesh, rigged_mesh
+from fitter.training.articulation.joints import joint_rows_of_bones
+from fitter.training.articulation.relaxed_hands import with_curled_fingers
+from fitter.training.articulation.rig import bone_heads, load_rig, posed_vertices
+from fitter.training.articulation.rigged_bodies import RiggedMesh, rigged_mesh
+from fitter.training.makehuman.meshes import BaseMesh, load_base_mesh, makehuman_folder
 from tests.evaluation.scene import PersonSource
 
 PEOPLE_FOLDER = Path(__file__).parent / "data" / "people"

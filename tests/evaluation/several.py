@@ -1,8 +1,4 @@
-"""How measurements and poses gain with more pictures of one person.
-
-``fused`` is the shape that the finished fits agree on, ``refitted`` that of the pictures searched
-again, each under what the others say.
-"""
+"""How measurements and poses gain with more pictures of one person."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -10,22 +6,19 @@ from itertools import combinations
 
 import numpy as np
 
-from fitter.applications.fitted_person import FittedPerson, fitted_person
 from fitter.arrays import Vertices
 from fitter.body.skeleton import regress
-from fitter.fittable import packaged_body
-from fitter.joint_fit import JointFit, joint_fit
+from fitter.fits.joint_fit import JointFit, joint_fit
+from fitter.fits.prepared_model import prepared_model
 from fitter.measurement.anthropometry import measure
 from fitter.measurement.quantity import Measurement
+from fitter.person.fitted_person import FittedPerson
 from fitter.request import Cues, FitRequest
 from tests.evaluation.landmark_points import packaged_model
 from tests.evaluation.limbs_in_depth import wrong_limbs
 from tests.evaluation.scene import Case
 from tests.evaluation.suite import Told, fit_case, fit_request, joint_error_mm
 from tests.evaluation.truth import TrueBody
-
-ROUNDS = {"fused": 0, "refitted": 1}
-"""Over the pictures, by the way they are combined."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,14 +31,13 @@ class Posed:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class SeveralPictures:
-    """What so many pictures of one person say; ``way`` is None for one picture alone.
+    """What so many pictures of one person say.
 
     ``errors`` and ``standard_errors`` are by measurement; ``before`` and ``after`` hold the poses
     in the pictures, by their own fits and with the shape that they have in common.
     """
 
     pictures: int
-    way: str | None
     errors: dict[str, float]
     standard_errors: dict[str, float]
     before: tuple[Posed, ...]
@@ -76,27 +68,25 @@ def several_pictures(cases: Sequence[Case], names: Sequence[str]) -> Iterator[Se
     for person in dict.fromkeys(case.person for case in cases):
         fits = [_fitted(case) for case in cases if case.person == person]
         for each in fits:
-            yield _compared([each], each.measurements, (each.posed,), None, names)
+            yield _compared([each], each.measurements, (each.posed,), names)
         for count in range(2, len(fits) + 1):
             for chosen in combinations(fits, count):
-                for way, rounds in ROUNDS.items():
-                    found = joint_fit(
-                        [each.person for each in chosen],
-                        [each.request for each in chosen],
-                        rounds=rounds,
-                        observe=lambda _: None,
-                    )
-                    after = [
-                        _posed(picture.posed_vertices, each.true_joints, each.person)
-                        for picture, each in zip(found.pictures, chosen, strict=True)
-                    ]
-                    yield _compared(chosen, _measured(found, chosen[0]), after, way, names)
+                found = joint_fit(
+                    [each.person for each in chosen],
+                    [each.request for each in chosen],
+                    observe=lambda _: None,
+                )
+                after = [
+                    _posed(picture.posed_vertices, each.true_joints, each.person)
+                    for picture, each in zip(found.pictures, chosen, strict=True)
+                ]
+                yield _compared(chosen, _measured(found, chosen[0]), after, names)
 
 
 def _fitted(case: Case) -> _Fitted:
     fitted = fit_case(case, Cues.SES, Told())
     result = fitted.result
-    person = fitted_person(result, packaged_model(result.gender))
+    person = result.person
     true_joints = np.array(fitted.files.scene["joints_m"])
     return _Fitted(
         person=person,
@@ -105,7 +95,7 @@ def _fitted(case: Case) -> _Fitted:
         given=result.given,
         truth=fitted.truth,
         true_joints=true_joints,
-        posed=_posed(result.posed_vertices, true_joints, person),
+        posed=_posed(result.found.posed_vertices, true_joints, person),
     )
 
 
@@ -119,7 +109,7 @@ def _posed(vertices: Vertices, true_joints: Vertices, person: FittedPerson) -> P
 
 def _measured(found: JointFit, first: _Fitted) -> tuple[Measurement, ...]:
     return measure(
-        packaged_body(first.person.gender).measuring,
+        prepared_model(first.person.gender).measuring,
         found.shape,
         shape_covariance=found.covariance,
         given=first.given,
@@ -131,14 +121,12 @@ def _compared(
     fits: Sequence[_Fitted],
     measurements: Sequence[Measurement],
     after: Sequence[Posed],
-    way: str | None,
     names: Sequence[str],
 ) -> SeveralPictures:
     found = {each.name: each for each in measurements}
     true = fits[0].truth.measurements
     return SeveralPictures(
         pictures=len(fits),
-        way=way,
         errors={name: found[name].value - true[name] for name in names},
         standard_errors={name: found[name].standard_error or 0.0 for name in names},
         before=tuple(each.posed for each in fits),

@@ -10,7 +10,7 @@ import numpy as np
 
 from fitter.arrays import PerVertex, Shape, Vertices
 from fitter.body.model import BodyModel
-from fitter.fittable import FittableBody, packaged_body
+from fitter.fits.prepared_model import PreparedModel, prepared_model
 from fitter.measurement.anthropometry import measure
 from fitter.numerics.meshes import vertex_areas
 from tests.evaluation.people import Person, rig_of_people
@@ -33,10 +33,10 @@ class ShapeLimit:
 
 def shape_limit(person: Person) -> ShapeLimit:
     """Of the coefficients nearest to a person."""
-    body = packaged_body(person.gender)
+    body = prepared_model(person.gender)
     shape = nearest_shape(person)
     areas = _areas_without_hands(body)
-    left_over = _centred(_rest(person) - _rest_of(body.instruments.model, shape), areas)
+    left_over = _centred(_rest(person) - _rest_of(body.operators.model, shape), areas)
     truth = true_body(person).measurements
     found = {each.name: each.value for each in measure(body.measuring, shape)}
     return ShapeLimit(
@@ -51,8 +51,8 @@ def nearest_shape(person: Person) -> Shape:
 
     Hands are left out: the people's fingers are straight, the model's relaxed.
     """
-    body = packaged_body(person.gender)
-    model = body.instruments.model
+    body = prepared_model(person.gender)
+    model = body.operators.model
     areas = _areas_without_hands(body)
     # Centred alike, neither side says where the body stands.
     missing = _centred(_rest(person) - model.mean_vertices, areas)
@@ -70,8 +70,8 @@ def _rest_of(model: BodyModel, shape: Shape) -> Vertices:
     return model.mean_vertices + np.tensordot(shape, model.shape_basis, axes=1)
 
 
-def _areas_without_hands(body: FittableBody) -> PerVertex:
-    model = body.instruments.model
+def _areas_without_hands(body: PreparedModel) -> PerVertex:
+    model = body.operators.model
     areas = vertex_areas(model.mean_vertices, model.triangles)
     for part in ("left_hand", "right_hand"):
         triangles = model.triangles[model.part_of_triangle == model.part_names.index(part)]

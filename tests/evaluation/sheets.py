@@ -8,8 +8,8 @@ import numpy as np
 from jaxtyping import Integer
 
 from fitter.arrays import GreyImage, Vertices
-from fitter.camera import Camera
-from fitter.fittable import packaged_body
+from fitter.fits.prepared_model import prepared_model
+from fitter.render.camera import Camera
 from fitter.render.interpolation import shade_image
 from fitter.render.rasterizer import render
 from tests.evaluation.landmark_points import packaged_model
@@ -51,11 +51,11 @@ def panel_name(case: str, number: int) -> str:
 
 
 def _panels(se: Fitted, ses: Fitted) -> Iterator[Picture]:
-    evaluator = packaged_body(se.result.gender).instruments.evaluator
+    evaluator = prepared_model(se.result.person.gender).operators.evaluator
     yield _at_height(_image(se))
     yield _outlines(se, evaluator.vertices(se.result.stages[0].body))
     for fitted in (se, ses):
-        yield _outlines(fitted, fitted.result.posed_vertices)
+        yield _outlines(fitted, fitted.result.found.posed_vertices)
     true = _in_camera_axes(se.truth.canonical)
     found = [_in_camera_axes(fitted.result.canonical_vertices) for fitted in (se, ses)]
     for body in (true, *found):
@@ -79,7 +79,7 @@ def _outlines(fitted: Fitted, vertices: Vertices) -> Picture:
     true = resampled(
         fitted.files.body_mask, 1.0 / working_scale(result), (camera.height, camera.width)
     )
-    found = render(vertices, packaged_model(result.gender).triangles, camera).silhouette
+    found = render(vertices, packaged_model(result.person.gender).triangles, camera).silhouette
     drawn = _image(fitted)
     for mask, colour in ((true, TRUE_COLOUR), (found, FOUND_COLOUR)):
         contours, _ = cv2.findContours(mask.astype(np.uint8), cv2.RETR_CCOMP, cv2.CHAIN_APPROX_NONE)
@@ -123,7 +123,7 @@ def _drawn(
         width=width,
         height=HEIGHT,
     )
-    seen = render(turned, packaged_model(fitted.result.gender).triangles, camera)
+    seen = render(turned, packaged_model(fitted.result.person.gender).triangles, camera)
     if values is None:
         toward_light = np.array([0.4, -0.5, -0.77])
         values = 0.15 + 0.8 * np.clip(seen.vertex_normals @ toward_light, 0.0, 1.0)

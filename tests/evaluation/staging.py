@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Pose, Vertices
-from fitter.camera import Camera, focal_length_px_from_35mm
+from fitter.render.camera import Camera, focal_length_px_from_35mm
 from tests.evaluation.makehuman_faces import faces_of_group
 from tests.evaluation.people import (
     Person,

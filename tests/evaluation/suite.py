@@ -9,8 +9,8 @@ import numpy as np
 
 from fitter.arrays import Mask
 from fitter.body.skeleton import regress
+from fitter.fits.pipeline import fit
 from fitter.parameters import Light
-from fitter.pipeline import fit
 from fitter.render.light import direction_to_light
 from fitter.render.rasterizer import render
 from fitter.request import (
@@ -143,7 +143,7 @@ def score(fitted: Fitted) -> Scored:
         case=fitted.case,
         half=PEOPLE[fitted.case.person].half,
         cues=fitted.cues,
-        outcome=result.outcome.value,
+        outcome=result.found.outcome.value,
         errors={name: found[name].value - value for name, value in truth.measurements.items()},
         standard_errors={
             name: each.standard_error
@@ -157,7 +157,7 @@ def score(fitted: Fitted) -> Scored:
             resampled(result.pictures.segmentation, working_scale(result), files.body_mask.shape),
             files.person_mask,
         ),
-        light_degrees=light_error(result.light, light_from_document(scene["light"])),
+        light_degrees=light_error(result.person.light, light_from_document(scene["light"])),
         wrong_limbs=wrong_limbs(joints, true_joints),
         seconds=fitted.seconds,
     )
@@ -206,7 +206,9 @@ def _vertex_error_mm(found: np.ndarray, true: np.ndarray) -> float:
 
 
 def _joints(result: FitResult) -> np.ndarray:
-    return regress(packaged_model(result.gender).joint_regressor, result.posed_vertices)
+    return regress(
+        packaged_model(result.person.gender).joint_regressor, result.found.posed_vertices
+    )
 
 
 def joint_error_mm(found: np.ndarray, true: np.ndarray) -> float:
@@ -217,13 +219,13 @@ def joint_error_mm(found: np.ndarray, true: np.ndarray) -> float:
 
 def _silhouette(result: FitResult) -> Mask:
     """The fitted body's silhouette on the picture as it was sent."""
-    triangles = packaged_model(result.gender).triangles
-    return render(result.posed_vertices, triangles, result.image_camera).silhouette
+    triangles = packaged_model(result.person.gender).triangles
+    return render(result.found.posed_vertices, triangles, result.person.camera).silhouette
 
 
 def working_scale(result: FitResult) -> float:
     """Working pixels a pixel of the picture as it was sent."""
-    return result.camera.focal_length_px / result.image_camera.focal_length_px
+    return result.camera.focal_length_px / result.person.camera.focal_length_px
 
 
 def resampled(mask: Mask, scale: float, shape: tuple[int, ...]) -> Mask:

@@ -160,13 +160,13 @@ def several_lines(found: Sequence[SeveralPictures]) -> list[str]:
     The poses are those in the pictures, by their own fits and with the shape in common; limbs are
     wrong in so many of them.
     """
-    heading = f"{'pictures':18s}{'choices':>8s}" + "".join(
+    heading = f"{'pictures':10s}{'choices':>8s}" + "".join(
         f"{f'{name} {unit}':>16s}{'s.e.':>6s}" for name, _, unit in MEASUREMENTS
     )
     lines = [f"{heading}{'95 % hold':>11s}{'joints mm':>14s}{'limbs wrong':>16s}"]
-    for count, way in sorted({(each.pictures, each.way or "") for each in found}):
-        these = [each for each in found if (each.pictures, each.way or "") == (count, way)]
-        line = f"{f'{count} {way}':18s}{len(these):8d}"
+    for count in sorted({each.pictures for each in found}):
+        these = [each for each in found if each.pictures == count]
+        line = f"{count:<10d}{len(these):8d}"
         within: list[bool] = []
         for _, key, _ in MEASUREMENTS:
             away = np.abs([each.errors[key] for each in these])

@@ -7,7 +7,7 @@ from jaxtyping import Float
 
 from fitter.arrays import Vertices
 from fitter.body.skeleton import regress
-from fitter.fittable import packaged_body
+from fitter.fits.prepared_model import prepared_model
 from fitter.measurement.affine_body import AffineBody
 from fitter.measurement.anthropometry import measure
 from fitter.parameters import Light, LightKind
@@ -33,7 +33,7 @@ def true_body(person: Person) -> TrueBody:
 
     Their canonical and standing pose are the body model's, taken by MakeHuman's rig.
     """
-    model, measuring = packaged_model(person.gender), packaged_body(person.gender).measuring
+    model, measuring = packaged_model(person.gender), prepared_model(person.gender).measuring
     canonical = posed_body(person, model.canonical_pose)
     standing = posed_body(person, model.standing_pose)
     fixed = replace(

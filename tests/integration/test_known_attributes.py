@@ -5,11 +5,11 @@ from dataclasses import replace
 import pytest
 
 from fitter.errors import InvalidInputError
-from fitter.pipeline import fit
+from fitter.fits.pipeline import fit
 from fitter.request import Cues, FitRequest, KnownMeasurement
 from fitter.result import FitResult, StageBody
-from service.demo_sample import load_sample
-from service.submission import check_submission
+from service.demo_data.sample import load_sample
+from service.submissions.submission import check_submission
 from service.worker.translate import fit_request
 
 SAMPLE = load_sample()
@@ -50,11 +50,11 @@ def test_a_fit_has_what_it_was_given_from_its_first_body_to_its_last():
     for found in (*result.stages, result):
         assert values(found)["weight"] == pytest.approx(truth["weight"], abs=0.01)
         assert values(found)["hip_girth"] == pytest.approx(truth["hip_girth"], abs=0.01)
-        assert values(found)["stature"] == pytest.approx(100.0 * result.height_m, abs=0.01)
+        assert values(found)["stature"] == pytest.approx(100.0 * result.found.height_m, abs=0.01)
     waist = values(result)["waist_girth_navel"]
     assert waist == pytest.approx(truth["waist_girth_navel"], abs=0.5)
     assert result.energies["attributes"] < 1.0
-    assert result.silhouette_overlap > 0.9
+    assert result.found.silhouette_overlap > 0.9
     errors = {each.name: each.standard_error or 0.0 for each in result.measurements}
     assert {errors[name] for name in ("stature", "weight", "hip_girth")} == {0.0}
     assert 0.2 < errors["waist_girth_navel"] < 0.5
@@ -65,12 +65,12 @@ def test_without_a_height_the_most_probable_one_is_held_and_said():
     request = replace(sample_request(inseam=truth["inseam"], weight=truth["weight"]), height_m=None)
     result = fit(request)
     (height,) = (each for each in result.assumptions if each.quantity == "height_m")
-    assert height.value == result.height_m
+    assert height.value == result.found.height_m
     assert "inseam" in height.reason
     assert values(result)["inseam"] == pytest.approx(truth["inseam"], abs=0.01)
     assert values(result)["weight"] == pytest.approx(truth["weight"], abs=0.01)
     stature = next(each for each in result.measurements if each.name == "stature")
-    assert stature.value == pytest.approx(100.0 * result.height_m, abs=0.01)
+    assert stature.value == pytest.approx(100.0 * result.found.height_m, abs=0.01)
     assert stature.standard_error is not None
     assert 1.0 < stature.standard_error < 7.0
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from fitter.pipeline import fit
+from fitter.fits.pipeline import fit
 from fitter.request import Clothing, Cues
 from fitter.result import FitResult
 from tests.evaluation.cases import CASES
@@ -52,8 +52,8 @@ def test_the_result_says_how_the_outline_was_taken(fits):
 
 def test_a_body_within_loose_clothes_is_no_poor_fit(fits):
     result = fits[Clothing.LOOSE]
-    assert result.outcome.value == "converged"
-    assert result.silhouette_overlap > 0.9
+    assert result.found.outcome.value == "converged"
+    assert result.found.silhouette_overlap > 0.9
     assert not [warning for warning in result.warnings if warning.code == "low-silhouette-overlap"]
 
 

@@ -17,17 +17,18 @@ from fitter.body.shape_space import rest_vertices, shape_for_height
 from fitter.body.skeleton import regress
 from fitter.body.stature import stature_m
 from fitter.body.storage import load_body_model
-from fitter.fittable import fittable_body
-from fitter.initial_body import initial_body
+from fitter.fits.initial_body import initial_body
+from fitter.fits.prepared_model import prepared_model
 from fitter.observation.clicks import POINT_NAMES
 from fitter.parameters import BodyParameters
 from fitter.request import Click, FitRequest, Gender
 from fitter.training.__main__ import main
+from fitter.training.own_bodies.command import GUIDE
 from fitter.training.own_bodies.folder import read_own_bodies
 from fitter.training.own_bodies.learning import OwnPlan, split_subjects
 from fitter.training.own_bodies.template import packaged_template
-from fitter.training.principal_shapes import project
-from fitter.training.surface import vertex_masses
+from fitter.training.shapes.principal_shapes import project
+from fitter.training.shapes.surface import vertex_masses
 from tests.unit.training.own_bodies.bodies_folder import (
     DECLARED,
     packaged,
@@ -39,7 +40,6 @@ from tests.unit.training.own_bodies.bodies_folder import (
 pytestmark = pytest.mark.slow
 
 SUBJECTS, HELD_OUT, SPANNED = 25, 2, 6
-DOCUMENT = Path(__file__).parents[2] / "OWN_BODIES.md"
 SHAPES = random_shapes(SUBJECTS, axes=SPANNED)
 
 
@@ -50,7 +50,7 @@ def run(command: str, meshes: Path, models: Path, *more: str) -> int:
 
 def documented(command: str) -> list[str]:
     """The arguments that OWN_BODIES.md gives for a command."""
-    lines = DOCUMENT.read_text(encoding="utf-8").splitlines()
+    lines = GUIDE.read_text(encoding="utf-8").splitlines()
     (line,) = (line for line in lines if f"-m fitter.training {command}" in line)
     return shlex.split(line.partition("-m fitter.training ")[2])
 
@@ -134,8 +134,8 @@ def test_a_folder_that_has_changed_is_not_reported_on(meshes, models, tmp_path, 
 
 def test_clicks_on_a_person_give_their_body_in_the_users_own_model(models):
     """The whole way of a fit before it looks at pixels: pose, limbs, distance, height."""
-    body = fittable_body(Gender.FEMALE, models=models)
-    model, evaluator = body.instruments.model, body.instruments.evaluator
+    body = prepared_model(Gender.FEMALE, models=models)
+    model, evaluator = body.operators.model, body.operators.evaluator
     truth = BodyParameters(
         pose=model.canonical_pose,
         translation=np.array([0.0, 0.0, 2.6]),
@@ -163,7 +163,7 @@ def test_clicks_on_a_person_give_their_body_in_the_users_own_model(models):
 
 def test_the_documented_descriptions_are_read(tmp_path):
     """Of bodies.json and poses.json, with meshes as they declare them."""
-    blocks = re.findall(r"```json\n(.*?)```", DOCUMENT.read_text(encoding="utf-8"), re.DOTALL)
+    blocks = re.findall(r"```json\n(.*?)```", GUIDE.read_text(encoding="utf-8"), re.DOTALL)
     bodies, poses = (json.loads(block) for block in blocks)
     for path in write_bodies(tmp_path, SHAPES[:4], **bodies):
         x, y, z = np.load(path).T
@@ -215,7 +215,7 @@ def test_a_topology_of_ones_own_needs_nothing_of_the_packaged_surface(tmp_path, 
     model = load_body_model(models / "female.npz")
     assert not model.pose_right_hand_sides.any()
     assert not any("packaged" in text for text in model.header["sources"])
-    body = fittable_body(Gender.FEMALE, models=models).instruments.evaluator
+    body = prepared_model(Gender.FEMALE, models=models).operators.evaluator
     assert isinstance(body, ScapeEvaluator)
 
 

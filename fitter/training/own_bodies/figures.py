@@ -10,8 +10,8 @@ from fitter.body.model import BodyModel
 from fitter.body.scape import ScapeEvaluator
 from fitter.parameters import BodyParameters
 from fitter.training.assemble import height_attribute
-from fitter.training.attribute_axes import attribute_changes
-from fitter.training.evaluation import (
+from fitter.training.own_bodies.folder import PosedScan
+from fitter.training.report.evaluation import (
     CHECKED_AT_DEVIATIONS,
     VertexError,
     bodies_as_axes,
@@ -20,7 +20,7 @@ from fitter.training.evaluation import (
     vertex_error,
     without_pose_term,
 )
-from fitter.training.own_bodies.folder import PosedScan
+from fitter.training.shapes.height_rotation import attribute_changes
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -18,6 +18,7 @@ from jaxtyping import Float
 
 from fitter.arrays import Pose, Vertices
 from fitter.errors import MeshFolderError
+from fitter.training.articulation.part_tree import PART_NAMES
 from fitter.training.own_bodies.frame import Frame, read_frame
 from fitter.training.own_bodies.json_entries import Entries, read_entries
 from fitter.training.own_bodies.mesh_files import READERS, read_mesh
@@ -31,7 +32,6 @@ from fitter.training.own_bodies.registration import (
 )
 from fitter.training.own_bodies.template import Template, same_surface
 from fitter.training.own_bodies.template_files import BODIES_FILE, TEMPLATE_FILE, read_template
-from fitter.training.part_tree import PART_NAMES
 
 POSES_FILE = "poses.json"
 REST_FOLDER = "rest"

@@ -12,8 +12,8 @@ from fitter.body.model import BodyModel
 from fitter.body.scape import ScapeEvaluator
 from fitter.errors import MeshFolderError
 from fitter.parameters import BodyParameters
+from fitter.training.articulation.pose_term import PoseExample
 from fitter.training.assemble import ShapeSpace, learn_body_model
-from fitter.training.evaluation import bodies_as_axes
 from fitter.training.own_bodies.figures import OwnErrors, header_entry, own_errors
 from fitter.training.own_bodies.folder import LEAST_SUBJECTS, REST_FOLDER, OwnBodies, PosedScan
 from fitter.training.own_bodies.part_poses import refined_pose, solved_pose
@@ -24,10 +24,10 @@ from fitter.training.own_bodies.pose_terms import (
     packaged_pose_term,
 )
 from fitter.training.own_bodies.template import packaged_template, same_surface
-from fitter.training.pose_term import PoseExample
-from fitter.training.principal_shapes import centred
-from fitter.training.provenance import model_statistics
-from fitter.training.surface import vertex_areas, vertex_masses
+from fitter.training.report.evaluation import bodies_as_axes
+from fitter.training.report.provenance import model_statistics
+from fitter.training.shapes.principal_shapes import centred
+from fitter.training.shapes.surface import vertex_areas, vertex_masses
 
 LEAST_AXIS_M = 1e-4
 """An axis that moves the skin by less than this at one deviation, root mean square, is rounding:

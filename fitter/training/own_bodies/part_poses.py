@@ -18,9 +18,9 @@ from jaxtyping import Float
 
 from fitter.arrays import PerVertex, Pose, Vertices
 from fitter.body.skeleton import global_rotations
-from fitter.training.named_poses import relative_pose
-from fitter.training.part_tree import PART_NAMES, PART_PARENT
-from fitter.training.parts import Parts
+from fitter.training.articulation.named_poses import relative_pose
+from fitter.training.articulation.part_tree import PART_NAMES, PART_PARENT
+from fitter.training.articulation.parts import Parts
 
 SCALE_M = 0.01
 """Of the robust weight: skin that lies this far from a rigid motion counts a quarter."""

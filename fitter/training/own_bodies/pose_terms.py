@@ -10,11 +10,16 @@ from scipy.sparse.linalg import splu
 
 from fitter.body.model import BodyModel
 from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
+from fitter.training.articulation.parts import Parts
+from fitter.training.articulation.pose_term import (
+    PoseExample,
+    PoseTerm,
+    pose_feature_joints,
+    train_pose_term,
+)
 from fitter.training.assemble import ShapeSpace
-from fitter.training.parts import Parts
-from fitter.training.pose_term import PoseExample, PoseTerm, pose_feature_joints, train_pose_term
-from fitter.training.principal_shapes import project
-from fitter.training.surface import vertex_masses
+from fitter.training.shapes.principal_shapes import project
+from fitter.training.shapes.surface import vertex_masses
 
 LEAST_STRENGTH = 0.2
 """A feature keeps at least this share of its strength on the new mean body: bodies far from the

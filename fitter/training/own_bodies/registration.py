@@ -13,10 +13,10 @@ from fitter.arrays import Triangles, Vertices
 from fitter.body.model_checks import HEIGHT_RANGE_M
 from fitter.body.skeleton import regress
 from fitter.errors import MeshFolderError
+from fitter.training.articulation.part_tree import part_index
 from fitter.training.own_bodies.frame import METRES, Frame, axes_entry
 from fitter.training.own_bodies.mesh_files import MeshFile
 from fitter.training.own_bodies.template import Template
-from fitter.training.part_tree import part_index
 
 STRANGE_RATIO = 2.0
 STRANGE_SHARE = 0.1

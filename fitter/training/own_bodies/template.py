@@ -12,10 +12,10 @@ from scipy.spatial import KDTree
 from fitter.arrays import Triangles, Vertices
 from fitter.body.model import BodyModel
 from fitter.numerics.gradient_operators import gradient_operator, weighted_laplacian
+from fitter.training.articulation.part_tree import PART_NAMES
+from fitter.training.articulation.parts import Parts
 from fitter.training.assemble import BodyMesh
-from fitter.training.part_tree import PART_NAMES
-from fitter.training.parts import Parts
-from fitter.training.surface import triangle_areas, vertex_areas
+from fitter.training.shapes.surface import triangle_areas, vertex_areas
 
 JOINT_LANDMARKS: Mapping[str, str] = {
     "shoulder": "upper_arm",

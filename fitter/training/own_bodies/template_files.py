@@ -11,8 +11,10 @@ from fitter.arrays import Triangles, Vertices
 from fitter.body.model import SparseRows
 from fitter.body.model_checks import involution_fault, shares_fault
 from fitter.errors import MeshFolderError
-from fitter.fittable import needed_landmarks
+from fitter.fits.prepared_model import needed_landmarks
 from fitter.numerics.mesh_faults import closed_surface_fault, solid_fault
+from fitter.training.articulation.part_tree import PART_NAMES
+from fitter.training.articulation.parts import Parts, cut_into_parts, joined_parts
 from fitter.training.assemble import BodyMesh
 from fitter.training.own_bodies.frame import BODY_FRAME, Frame, axes_entry
 from fitter.training.own_bodies.json_entries import Entries, numbers, read_entries, whole_numbers
@@ -23,8 +25,6 @@ from fitter.training.own_bodies.template import (
     blended_weights,
     nearest_mirror,
 )
-from fitter.training.part_tree import PART_NAMES
-from fitter.training.parts import Parts, cut_into_parts, joined_parts
 
 TEMPLATE_FILE = "template.json"
 BODIES_FILE = "bodies.json"

@@ -6,13 +6,17 @@ from typing import cast
 from api_schemas.derivation_results import AnimationResult
 from api_schemas.derivations import AnimationOptions, DerivationKind
 from api_schemas.results import FitWarning
-from fitter.applications.animation import ChosenMotion, animate, motion_of_clip
+from fitter.applications.animation import (
+    ChosenMotion,
+    animate,
+    motion_of_clip,
+    motion_of_walk,
+)
 from fitter.applications.bvh import parse_bvh
 from fitter.applications.rig import Rig, rig_of
-from fitter.applications.walk import walk
 from service.engine.port import Report
-from service.inputs import CLIP, PERSON
-from service.worker.derived.person import person_and_instruments
+from service.jobs.inputs import CLIP, PERSON
+from service.worker.derived.person import person_and_operators
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 
 STAGE = DerivationKind.ANIMATION.value
@@ -22,11 +26,11 @@ def derive(job: DerivationInput, observe: Callable[[Report], None]) -> Derivatio
     """Set the body in motion; see :class:`service.worker.derivers.Deriver`."""
     observe(Report(stage=STAGE, progress=0.0))
     options = cast("AnimationOptions", job.options)
-    person, instruments = person_and_instruments(job.inputs[PERSON], job.models)
-    rig = rig_of(instruments.model, person.body.shape)
+    person, operators = person_and_operators(job.inputs[PERSON], job.models)
+    rig = rig_of(operators.model, person.body.shape)
     chosen = _chosen(job.inputs.get(CLIP), options, rig)
     observe(Report(stage=STAGE, progress=0.1))
-    made = animate(person, instruments.evaluator, chosen.motion)
+    made = animate(person, operators.evaluator, chosen.motion)
     return DerivationOutput(
         result=AnimationResult(
             source=chosen.source,
@@ -50,9 +54,7 @@ def derive(job: DerivationInput, observe: Callable[[Report], None]) -> Derivatio
 
 def _chosen(clip: bytes | None, options: AnimationOptions, rig: Rig) -> ChosenMotion:
     if clip is None:
-        return ChosenMotion(
-            motion=walk(rig), source="the walk that ships with the package", warnings=()
-        )
+        return motion_of_walk(rig, start_s=options.start_s, duration_s=options.duration_s)
     return motion_of_clip(
         parse_bvh(clip, field=CLIP), rig, start_s=options.start_s, duration_s=options.duration_s
     )

@@ -9,10 +9,11 @@ from api_schemas.derivations import CaricatureOptions, DerivationKind
 from fitter.applications.caricature import caricature
 from fitter.applications.previews import View, preview
 from fitter.export.display import png
+from fitter.export.gltf_document import Frame
 from fitter.export.plain_gltf import plain_glb
 from service.engine.port import Report
-from service.inputs import PERSON
-from service.worker.derived.person import person_and_instruments
+from service.jobs.inputs import PERSON
+from service.worker.derived.person import person_and_operators
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 
 STAGE = DerivationKind.CARICATURE.value
@@ -22,8 +23,8 @@ def derive(job: DerivationInput, observe: Callable[[Report], None]) -> Derivatio
     """Exaggerate; see :class:`service.worker.derivers.Deriver`."""
     observe(Report(stage=STAGE, progress=0.0))
     options = cast("CaricatureOptions", job.options)
-    person, instruments = person_and_instruments(job.inputs[PERSON], job.models)
-    model, evaluator = instruments.model, instruments.evaluator
+    person, operators = person_and_operators(job.inputs[PERSON], job.models)
+    model, evaluator = operators.model, operators.evaluator
     found = caricature(evaluator, person.body.shape, options.factor)
     observe(Report(stage=STAGE, progress=0.7))
     fitted = evaluator.body_frame_vertices(person.body)
@@ -53,6 +54,7 @@ def derive(job: DerivationInput, observe: Callable[[Report], None]) -> Derivatio
                 exaggerated,
                 model,
                 name="body_caricature",
+                frame=Frame.CAMERA_TURNED,
                 extras={
                     "factor": found.factor,
                     "coefficient": found.coefficient,

@@ -7,7 +7,6 @@ from api_schemas.derivation_results import CombinedResult
 from api_schemas.derivations import CombinedOptions, DerivationKind
 from api_schemas.requests import FitOptions, OptimizerKind
 from api_schemas.results import FitResult, FitWarning
-from fitter.applications.fitted_person import FittedPerson
 from fitter.applications.previews import View, preview
 from fitter.applications.several_pictures import CombinedShape
 from fitter.arrays import Vertices
@@ -15,15 +14,17 @@ from fitter.body.model import BodyModel
 from fitter.export import overlay_png
 from fitter.export.display import png
 from fitter.export.gltf import body_posed_glb
+from fitter.export.gltf_document import Frame
 from fitter.export.plain_gltf import plain_glb
-from fitter.fittable import fittable_body
-from fitter.joint_fit import joint_fit
+from fitter.fits.joint_fit import joint_fit
+from fitter.fits.prepared_model import prepared_model
 from fitter.measurement.anthropometry import measure
+from fitter.person.fitted_person import FittedPerson
 from fitter.request import FitRequest
-from fitter.result import LitBody
+from fitter.result import PictureFit
 from service.engine.port import Report
-from service.inputs import IMAGE, MASK, OF_EACH_PICTURE, PERSON, REQUEST, RESULT, of_other
-from service.worker.derived.person import person_and_instruments
+from service.jobs.inputs import IMAGE, MASK, OF_EACH_PICTURE, PERSON, REQUEST, RESULT, of_other
+from service.worker.derived.person import person_and_operators
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 from service.worker.translate import combined_picture, fit_request, measurement_results
 
@@ -41,7 +42,7 @@ def derive(job: DerivationInput, observe: Callable[[Report], None]) -> Derivatio
     observe(Report(stage=STAGE, progress=0.0))
     options = cast("CombinedOptions", job.options)
     fit = FitResult.model_validate_json(job.inputs[RESULT])
-    first, instruments = person_and_instruments(job.inputs[PERSON], job.models)
+    first, operators = person_and_operators(job.inputs[PERSON], job.models)
     pictures = [job.inputs, *_others(job.inputs, len(options.fits))]
     people = [first, *(FittedPerson.from_bytes(each[PERSON]) for each in pictures[1:])]
     found = joint_fit(
@@ -50,8 +51,8 @@ def derive(job: DerivationInput, observe: Callable[[Report], None]) -> Derivatio
         models=job.models,
         observe=lambda share: observe(Report(stage=STAGE, progress=_FITTED * share)),
     )
-    model = instruments.model
-    measuring = fittable_body(first.gender, models=job.models).measuring
+    model = operators.model
+    measuring = prepared_model(first.gender, models=job.models).measuring
     given = [each.name for each in fit.measurements if each.given]
     measurements = measure(
         measuring,
@@ -82,9 +83,10 @@ def derive(job: DerivationInput, observe: Callable[[Report], None]) -> Derivatio
                 body,
                 model,
                 name="body_combined",
+                frame=Frame.STANDING,
                 extras={"pictures": len(people)},
-                reflectance=found.pictures[0].reflectance,
-                albedo_rgb=found.pictures[0].albedo_rgb,
+                reflectance=found.pictures[0].person.reflectance,
+                albedo_rgb=found.pictures[0].person.albedo_rgb,
             ),
             "combined.png": png(
                 preview(
@@ -124,7 +126,7 @@ def _request(inputs: Mapping[str, bytes], max_pixels: int) -> FitRequest:
 
 
 def _files_of_pictures(
-    bodies: Sequence[LitBody], model: BodyModel, images: Sequence[bytes]
+    bodies: Sequence[PictureFit], model: BodyModel, images: Sequence[bytes]
 ) -> dict[str, bytes]:
     files: dict[str, bytes] = {}
     for number, (body, image) in enumerate(zip(bodies, images, strict=True), start=1):

@@ -13,8 +13,8 @@ from fitter.export.display import png
 from fitter.observation.decoding import decode_picture
 from fitter.parameters import BodyParameters
 from service.engine.port import Report
-from service.inputs import IMAGE, OVERLAY, PERSON
-from service.worker.derived.person import person_and_instruments
+from service.jobs.inputs import IMAGE, OVERLAY, PERSON
+from service.worker.derived.person import person_and_operators
 from service.worker.derived.pose import pose_named
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 
@@ -25,8 +25,8 @@ def derive(job: DerivationInput, observe: Callable[[Report], None]) -> Derivatio
     """Draw the figure; see :class:`service.worker.derivers.Deriver`."""
     observe(Report(stage=STAGE, progress=0.0))
     options = cast("FigureOptions", job.options)
-    person, instruments = person_and_instruments(job.inputs[PERSON], job.models)
-    model, evaluator = instruments.model, instruments.evaluator
+    person, operators = person_and_operators(job.inputs[PERSON], job.models)
+    model, evaluator = operators.model, operators.evaluator
     picture, overlay = (
         decode_picture(job.inputs[name], field="image", max_pixels=job.max_pixels).pixels
         for name in (IMAGE, OVERLAY)

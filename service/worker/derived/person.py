@@ -2,14 +2,14 @@
 
 from pathlib import Path
 
-from fitter.applications.fitted_person import FittedPerson, require_model
-from fitter.energies.instruments import BodyInstruments
-from fitter.fittable import fittable_body
+from fitter.energies.fitting_operators import FittingOperators
+from fitter.fits.prepared_model import prepared_model
+from fitter.person.fitted_person import FittedPerson, require_model
 
 
-def person_and_instruments(
+def person_and_operators(
     person_file: bytes, models: Path | None
-) -> tuple[FittedPerson, BodyInstruments]:
+) -> tuple[FittedPerson, FittingOperators]:
     """Read ``person.npz`` and prepare the body model it was fitted with.
 
     Raises
@@ -18,6 +18,6 @@ def person_and_instruments(
         If it was fitted with another body model than there is now.
     """
     person = FittedPerson.from_bytes(person_file)
-    instruments = fittable_body(person.gender, models=models).instruments
-    require_model(person, instruments.model)
-    return person, instruments
+    operators = prepared_model(person.gender, models=models).operators
+    require_model(person, operators.model)
+    return person, operators

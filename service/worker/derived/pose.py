@@ -12,12 +12,13 @@ from fitter.applications.previews import View, preview
 from fitter.applications.rig import Rig, rig_of
 from fitter.arrays import Pose
 from fitter.export.display import png
+from fitter.export.gltf_document import Frame
 from fitter.export.plain_gltf import plain_glb
 from fitter.parameters import BodyParameters
 from service.engine.port import Report
-from service.inputs import PERSON
+from service.jobs.inputs import PERSON
 from service.worker import translate
-from service.worker.derived.person import person_and_instruments
+from service.worker.derived.person import person_and_operators
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 
 STAGE = DerivationKind.POSE.value
@@ -34,12 +35,12 @@ def derive(job: DerivationInput, observe: Callable[[Report], None]) -> Derivatio
     """Pose anew; see :class:`service.worker.derivers.Deriver`."""
     observe(Report(stage=STAGE, progress=0.0))
     options = cast("PoseOptions", job.options)
-    person, instruments = person_and_instruments(job.inputs[PERSON], job.models)
-    model = instruments.model
+    person, operators = person_and_operators(job.inputs[PERSON], job.models)
+    model = operators.model
     rig = rig_of(model, person.body.shape)
     pose = spelled_pose(rig, options.rotations, beginning=pose_named(rig, options.pose))
     body = BodyParameters(pose=pose, translation=np.zeros(3), shape=person.body.shape)
-    vertices = instruments.evaluator.body_frame_vertices(body)
+    vertices = operators.evaluator.body_frame_vertices(body)
     observe(Report(stage=STAGE, progress=0.5))
     views = [
         View(label=label, vertices=vertices, degrees=degrees)
@@ -52,6 +53,7 @@ def derive(job: DerivationInput, observe: Callable[[Report], None]) -> Derivatio
                 vertices,
                 model,
                 name="body_reposed",
+                frame=Frame.ON_THE_GROUND,
                 extras={"pose": options.pose.value},
                 reflectance=person.reflectance,
                 albedo_rgb=person.albedo_rgb,

@@ -9,20 +9,20 @@ from jaxtyping import UInt8
 
 from api_schemas.derivation_results import TextureResult
 from api_schemas.derivations import DerivationKind, TextureColours, TextureOptions
-from fitter.applications.fitted_person import FittedPerson
 from fitter.applications.own_texture import atlas_drawing, painted_texture
 from fitter.applications.texture import albedo_texture, picture_texture
 from fitter.applications.textured_glb import in_file_axes, textured_glb
 from fitter.arrays import Mask
-from fitter.camera import Camera
-from fitter.energies.instruments import BodyInstruments
+from fitter.energies.fitting_operators import FittingOperators
 from fitter.errors import InvalidInputError
 from fitter.export.display import png
 from fitter.observation.colour import linear_from_display
 from fitter.observation.decoding import decode_coverage, decode_picture
+from fitter.person.fitted_person import FittedPerson
+from fitter.render.camera import Camera
 from service.engine.port import Report
-from service.inputs import IMAGE, PERSON, SEGMENTATION, TEXTURE
-from service.worker.derived.person import person_and_instruments
+from service.jobs.inputs import IMAGE, PERSON, SEGMENTATION, TEXTURE
+from service.worker.derived.person import person_and_operators
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 
 STAGE = DerivationKind.TEXTURE.value
@@ -38,11 +38,11 @@ def derive(job: DerivationInput, observe: Callable[[Report], None]) -> Derivatio
     """
     observe(Report(stage=STAGE, progress=0.0))
     options = cast("TextureOptions", job.options)
-    person, instruments = person_and_instruments(job.inputs[PERSON], job.models)
+    person, operators = person_and_operators(job.inputs[PERSON], job.models)
     laid = _painted if options.colours is TextureColours.OWN else _pictured
-    result, levels, coverage = laid(job, options, person, instruments)
+    result, levels, coverage = laid(job, options, person, operators)
     observe(Report(stage=STAGE, progress=0.8))
-    model, evaluator = instruments.model, instruments.evaluator
+    model, evaluator = operators.model, operators.evaluator
     texture = png(levels)
     return DerivationOutput(
         result=result,
@@ -51,9 +51,9 @@ def derive(job: DerivationInput, observe: Callable[[Report], None]) -> Derivatio
                 in_file_axes(evaluator.vertices(person.body)),
                 model,
                 texture,
+                person=person,
                 colour_scale=result.scale,
                 is_albedo=options.colours is not TextureColours.PICTURE,
-                lit_as=person,
                 extras={
                     "colours": options.colours.value,
                     "seen_share": result.seen_share,
@@ -72,7 +72,7 @@ _Laid = tuple[TextureResult, UInt8[np.ndarray, "n n 3"], UInt8[np.ndarray, "n n"
 
 
 def _pictured(
-    job: DerivationInput, options: TextureOptions, person: FittedPerson, body: BodyInstruments
+    job: DerivationInput, options: TextureOptions, person: FittedPerson, body: FittingOperators
 ) -> _Laid:
     picture = decode_picture(job.inputs[IMAGE], field="image", max_pixels=job.max_pixels)
     mask = _person_in(job.inputs[SEGMENTATION], person.camera, max_pixels=job.max_pixels)
@@ -99,7 +99,7 @@ def _pictured(
 
 
 def _painted(
-    job: DerivationInput, options: TextureOptions, person: FittedPerson, body: BodyInstruments
+    job: DerivationInput, options: TextureOptions, person: FittedPerson, body: FittingOperators
 ) -> _Laid:
     del person
     painted = decode_picture(job.inputs[TEXTURE], field=TEXTURE, max_pixels=job.max_pixels)

@@ -7,7 +7,7 @@ from api_schemas.derivation_results import ReportResult
 from api_schemas.derivations import DerivationKind
 from api_schemas.results import FitResult
 from service.engine.port import Report
-from service.inputs import RESULT
+from service.jobs.inputs import RESULT
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 from service.worker.report.content import report_content
 from service.worker.report.page_html import report_html

@@ -10,8 +10,8 @@ from PIL import Image
 
 from fitter.export.display import png
 from fitter.export.views import sides_pictures
-from service.inputs import OVERLAY, PERSON
-from service.worker.derived.person import person_and_instruments
+from service.jobs.inputs import OVERLAY, PERSON
+from service.worker.derived.person import person_and_operators
 
 SKIN: Final[Mapping[str, str]] = {"albedo.png": "Albedo", "shading.png": "Shading"}
 """What there is after a fit by shading."""
@@ -67,11 +67,11 @@ def report_pictures(inputs: Mapping[str, bytes], *, models: Path | None) -> Repo
 
 
 def _sides(person_file: bytes, models: Path | None) -> tuple[Picture, ...]:
-    person, instruments = person_and_instruments(person_file, models)
+    person, operators = person_and_operators(person_file, models)
     sides = sides_pictures(
-        instruments.evaluator.vertices(person.body),
+        operators.evaluator.vertices(person.body),
         person.body.translation,
-        instruments.model.triangles,
+        operators.model.triangles,
     )
     return tuple(_drawing(png(levels), side.capitalize()) for side, levels in sides.items())
 

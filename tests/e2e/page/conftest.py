@@ -4,21 +4,10 @@ import httpx
 import pytest
 from playwright.sync_api import Browser, expect, sync_playwright
 
-from service.demo_sample import load_sample
 from tests.e2e.page.browser import chromium
-from tests.e2e.page.visitor import Visitor
-from tests.e2e.service import ended_job, running_service, wait_for_estimator
+from tests.e2e.page.visitor import GIVEN_UP_AFTER_MS, Visitor
 
-expect.set_options(timeout=30_000)
-"""For machines that are busy; what is there is not waited for."""
-
-
-@pytest.fixture(scope="package")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
-    """One real service for all tests of the page."""
-    with running_service(tmp_path_factory.mktemp("service")) as client:
-        wait_for_estimator(client)
-        yield client
+expect.set_options(timeout=GIVEN_UP_AFTER_MS)
 
 
 @pytest.fixture(scope="package")
@@ -34,14 +23,10 @@ def visitor(browser: Browser, service: httpx.Client) -> Iterator[Visitor]:
         yield someone
 
 
-@pytest.fixture(scope="package")
-def finished_fit(service: httpx.Client) -> str:
-    """The id of a fit of the sample that has succeeded."""
-    sample = load_sample()
-    files = {
-        "image": ("sample.jpg", sample.image, "image/jpeg"),
-        "request": ("request.json", sample.request, "application/json"),
-    }
-    job = ended_job(service, service.post("/v1/fits", files=files))
-    assert job["state"] == "succeeded"
-    return job["id"]
+@pytest.fixture
+def bare_fit(service: httpx.Client, finished_fit: str) -> str:
+    """The id of that fit, of which nothing is made yet, whatever other tests made of it."""
+    derivations = f"/v1/fits/{finished_fit}/derivations"
+    for each in service.get(derivations).raise_for_status().json()["derivations"]:
+        service.delete(each["links"]["self"]).raise_for_status()
+    return finished_fit

@@ -11,7 +11,7 @@ import pytest
 from PIL import Image
 from playwright.sync_api import expect
 
-from service.demo_sample import FOLDER
+from service.demo_data.sample import FOLDER
 from tests.e2e.page.visitor import SAMPLE_SIZE, VISIBLY, Visitor
 from tests.e2e.service import REPOSITORY
 
@@ -88,6 +88,8 @@ def test_a_tape_and_a_mask_reach_the_fit_and_come_back_with_it(
 def test_light_and_clothes_that_were_told_reach_the_fit_and_come_back_with_it(visitor: Visitor):
     page = visitor.page
     visitor.open_sample(with_points=True)
+    # With the body come questions, which move what lies below them.
+    expect(page.locator(".live-outline")).to_be_attached()
     page.get_by_role("heading", name="Lens and light").click()
     ball = page.get_by_role("slider", name="Direction of the light")
     expect(ball).to_have_attribute("aria-valuetext", "left to the fit")

@@ -6,7 +6,7 @@ import math
 import pytest
 from playwright.sync_api import expect
 
-from tests.e2e.page.visitor import LIMBS, Visitor
+from tests.e2e.page.visitor import LIMBS, SAMPLE_SIZE, Visitor
 
 
 @pytest.fixture
@@ -50,8 +50,8 @@ def test_a_point_is_dragged_only_by_a_real_movement_and_nudged_by_keys(clicking:
     page.mouse.down()
     page.mouse.move(at[0] + 4, at[1])
     page.mouse.up()
-    assert clicking.place_of("left_shoulder") == (x, y)
     expect(clicking.points()).to_have_count(3)
+    assert clicking.place_of("left_shoulder") == (x, y)
 
     other = clicking.on_stage(251.4, 225.2)
     before = clicking.place_of("right_shoulder")
@@ -59,14 +59,18 @@ def test_a_point_is_dragged_only_by_a_real_movement_and_nudged_by_keys(clicking:
     page.mouse.down()
     page.mouse.move(other[0] + 30, other[1] + 10, steps=4)
     page.mouse.up()
-    after = clicking.place_of("right_shoulder")
-    assert math.dist(after, (before[0] + 30, before[1] + 10)) < 2.0
+    dragged = (before[0] + 30, before[1] + 10)
+    clicking.wait_for_place("right_shoulder", dragged, within_px=2.0)
     expect(clicking.points()).to_have_count(3)
+    after = clicking.place_of("right_shoulder")
     page.keyboard.press("Shift+ArrowLeft")
-    assert clicking.place_of("right_shoulder")[0] < after[0] - 1.0
+    # Ten pixels of the picture.
+    shown_px = page.locator(".stage-picture").bounding_box()["width"]
+    nudged = (after[0] - 10.0 * shown_px / SAMPLE_SIZE[0], after[1])
+    clicking.wait_for_place("right_shoulder", nudged, within_px=0.01)
     page.keyboard.press("Control+z")
     page.keyboard.press("Control+z")
-    assert math.dist(clicking.place_of("right_shoulder"), before) < 0.01
+    clicking.wait_for_place("right_shoulder", before, within_px=0.01)
 
 
 def test_points_can_be_skipped_hidden_removed_and_swapped(clicking: Visitor):
@@ -93,13 +97,13 @@ def test_swapped_sides_are_asked_about_and_mended_by_one_click(clicking: Visitor
     left, right = clicking.place_of("left_shoulder"), clicking.place_of("right_shoulder")
     page.get_by_role("button", name="They face me: swap").click()
     expect(question).to_be_hidden()
-    assert clicking.place_of("left_shoulder") == right
-    assert clicking.place_of("right_shoulder") == left
+    clicking.wait_for_place("left_shoulder", right)
+    clicking.wait_for_place("right_shoulder", left)
     page.keyboard.press("Control+z")
     expect(question).to_be_visible()
     page.get_by_role("button", name="I see their back").click()
     expect(question).to_be_hidden()
-    assert clicking.place_of("left_shoulder") == left
+    clicking.wait_for_place("left_shoulder", left)
 
 
 def test_all_of_it_works_without_a_mouse(clicking: Visitor):
@@ -112,11 +116,12 @@ def test_all_of_it_works_without_a_mouse(clicking: Visitor):
     expect(page.locator(".loupe")).to_be_visible()
     page.keyboard.press("s")
     expect(page.locator(".next-name")).to_have_text("Left elbow")
-    width = page.locator(".stage-picture").bounding_box()["width"]
+    picture = page.locator(".stage-picture")
+    width = picture.bounding_box()["width"]
     page.keyboard.press("+")
-    assert page.locator(".stage-picture").bounding_box()["width"] > 1.2 * width
+    clicking.wait_for_width(picture, 1.2 * width)
     page.keyboard.press("0")
-    assert page.locator(".stage-picture").bounding_box()["width"] == pytest.approx(width, abs=0.5)
+    clicking.wait_for_width(picture, width - 0.5, width + 0.5)
 
 
 def test_the_picture_zooms_about_the_pointer_and_pans(clicking: Visitor):
@@ -127,19 +132,20 @@ def test_the_picture_zooms_about_the_pointer_and_pans(clicking: Visitor):
     for _ in range(6):
         page.mouse.wheel(0, -200)
     # Six times exp(0.3).
-    expected_px = 5.9 * whole["width"]
-    clicking.wait_for_width(page.locator(".stage-picture"), expected_px)
-    wide = page.locator(".stage-picture").bounding_box()
+    picture = page.locator(".stage-picture")
+    clicking.wait_for_width(picture, 5.9 * whole["width"])
+    wide = picture.bounding_box()
     page.mouse.click(*at)
     box = clicking.stage.bounding_box()
-    x, y = clicking.place_of("left_shoulder")
-    assert math.dist((box["x"] + x, box["y"] + y), at) < 1.0
+    clicking.wait_for_place("left_shoulder", (at[0] - box["x"], at[1] - box["y"]), within_px=1.0)
     page.mouse.move(at[0] + 80, at[1] + 80)
     page.mouse.down()
     page.mouse.move(at[0] + 140, at[1] + 120, steps=5)
     page.mouse.up()
-    moved = page.locator(".stage-picture").bounding_box()
-    assert moved["x"] == pytest.approx(wide["x"] + 60, abs=3)
+    page.wait_for_function(
+        "([picture, x]) => Math.abs(picture.getBoundingClientRect().x - x) <= 3",
+        arg=[picture.element_handle(), wide["x"] + 60],
+    )
     expect(clicking.points()).to_have_count(1)
 
 

@@ -65,6 +65,14 @@ def test_the_sample_becomes_a_body_with_measurements_to_be_kept_and_erased(
     download.value.save_as(kept)
     document = read_glb(kept.read_bytes()).document
     assert document["scenes"][0]["name"] == "body_posed"
+    for name, begins in (
+        ("body_canonical.obj", b"# Maquette"),
+        ("measurements.csv", b"name,value"),
+    ):
+        with page.expect_download() as download:
+            page.get_by_role("button", name=re.compile(f"^{re.escape(name)}")).click()
+        assert download.value.path().read_bytes().startswith(begins)
+        assert download.value.suggested_filename == name
 
     # Its link opens it in another browser, which can change it; erasing it is for all.
     link = page.url
@@ -76,7 +84,7 @@ def test_the_sample_becomes_a_body_with_measurements_to_be_kept_and_erased(
         expect(other.page.get_by_label("Height", exact=True)).to_have_value("180.4")
     page.get_by_role("button", name="Delete this fit").click()
     page.get_by_role("button", name="Delete", exact=True).click()
-    expect(visitor.stage).to_be_visible()
+    visitor.wait_for_stage()
     page.goto(link)
     expect(page.get_by_role("heading", name="This fit is gone")).to_be_visible()
 
@@ -88,7 +96,7 @@ def test_a_fit_can_be_canceled_and_another_begun_meanwhile(visitor: Visitor):
     visitor.submit()
     expect(page.get_by_role("progressbar", name="Progress of the fit")).to_be_visible()
     page.get_by_role("link", name="New").click()
-    expect(visitor.stage).to_be_visible()
+    visitor.wait_for_stage()
     visitor.submit()
     page.get_by_role("button", name="Cancel").click()
     expect(page.get_by_role("heading", name="The fit was canceled")).to_be_visible()

@@ -1,5 +1,7 @@
 import contextlib
-from collections.abc import Iterator
+import functools
+import logging
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import psycopg
@@ -8,19 +10,48 @@ import pytest
 from tests.integration.service.harness import Machine, Service, running_service
 from tests.postgres import fresh_database
 
+DATABASES = ("sqlite", "postgres")
 
-@pytest.fixture(params=["sqlite", "postgres"])
+
+@contextlib.contextmanager
+def fresh_machine(database: str, folder: Path) -> Iterator[Machine]:
+    """A machine with nothing on it; skips where there is no server of its database."""
+    if database == "sqlite":
+        yield Machine(folder)
+        return
+    with contextlib.ExitStack() as stack:
+        try:
+            url = stack.enter_context(fresh_database())
+        except psycopg.OperationalError as error:
+            pytest.skip(f"no Postgres answers at 127.0.0.1:5432 ({error})")
+        yield Machine(folder, database_url=url)
+
+
+@pytest.fixture(params=DATABASES)
 def machine(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Machine]:
     """A fresh machine, once with the embedded database and once with Postgres."""
-    if request.param == "sqlite":
-        yield Machine(tmp_path)
-    else:
-        with contextlib.ExitStack() as stack:
-            try:
-                url = stack.enter_context(fresh_database())
-            except psycopg.OperationalError as error:
-                pytest.skip(f"no Postgres answers at 127.0.0.1:5432 ({error})")
-            yield Machine(tmp_path, database_url=url)
+    with fresh_machine(request.param, tmp_path) as fresh:
+        yield fresh
+
+
+@pytest.fixture(scope="session")
+def started(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[str], Service]]:
+    """Gives the service on a database, which is started when it is first asked for."""
+    with contextlib.ExitStack() as stack:
+
+        @functools.cache
+        def start(database: str) -> Service:
+            folder = tmp_path_factory.mktemp(database)
+            fresh = stack.enter_context(fresh_machine(database, folder))
+            return stack.enter_context(running_service(fresh))
+
+        yield start
+
+
+@pytest.fixture(params=DATABASES)
+def either(request: pytest.FixtureRequest, started: Callable[[str], Service]) -> Service:
+    """A service on each database, the same for all tests: who uses it leaves nothing running."""
+    return started(request.param)
 
 
 @pytest.fixture
@@ -34,3 +65,11 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
     """One service for all the tests of a module that leave it as it was."""
     with running_service(Machine(tmp_path_factory.mktemp("service"))) as running:
         yield running
+
+
+@pytest.fixture
+def no_fault_is_logged(caplog: pytest.LogCaptureFixture) -> Iterator[None]:
+    """What fails in a callback is told to nobody else."""
+    yield
+    faults = [record for record in caplog.get_records("call") if record.levelno >= logging.ERROR]
+    assert [record.getMessage() for record in faults] == []

@@ -13,7 +13,7 @@ from api_schemas.initial_poses import InitialPose, LimbReading
 from api_schemas.problems import FieldProblem
 from api_schemas.requests import Facing
 from api_schemas.results import BodyResult, CameraResult, FocalLengthSource, PartRotation
-from service.estimates.messages import BodyTask, InitialPoseTask
+from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask
 from service.estimates.port import EstimatedBody
 from service.worker.pipeline_port import UnusableInputError
 from tests.integration.service.fake_pipeline import NOBODYS_WEIGHT_KG
@@ -94,6 +94,10 @@ def initial_pose(task: InitialPoseTask, models: Path | None) -> InitialPose:
         assumptions=(),
         warnings=(),
     )
+
+
+def conversion(task: ConversionTask, glb: bytes) -> bytes:
+    return f"{task.ending} of {len(glb)} bytes".encode()
 
 
 def _obey(name: str, value: object) -> None:

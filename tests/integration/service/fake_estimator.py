@@ -1,7 +1,7 @@
 """An estimator with the fake answers: ``python -m tests.integration.service.fake_estimator``."""
 
 from service.estimates.main import run_estimator
-from service.logs import configure_logging
+from service.process.logs import configure_logging
 from service.settings import Settings
 
 if __name__ == "__main__":

@@ -1,4 +1,7 @@
-"""A pipeline that does what the picture tells it: the script is JSON behind a PNG header."""
+"""A pipeline that does what the picture tells it: the script is JSON behind a PNG header.
+
+``gate`` keeps a job from ending until the file of this name exists.
+"""
 
 import ctypes
 import json
@@ -44,7 +47,7 @@ from api_schemas.results import (
     PartRotation,
 )
 from service.engine.port import Report
-from service.inputs import CLIP, IMAGE, PERSON, REQUEST, RESULT, TEXTURE, of_other
+from service.jobs.inputs import CLIP, IMAGE, PERSON, REQUEST, RESULT, TEXTURE, of_other
 from service.worker.pipeline_port import (
     DerivationInput,
     DerivationOutput,
@@ -55,6 +58,8 @@ from service.worker.pipeline_port import (
 
 STAGES = ("observation", "initial_pose", "segmentation", "silhouette_and_edges", "measurement")
 SCRIPT_MARK = b"#script:"
+
+GATE_LOOK_S = 0.01
 
 NOBODYS_WEIGHT_KG = 33.0
 """Contradicts whatever else is given, as the estimator says too."""
@@ -99,7 +104,7 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
                 remedy="Leave out the least certain.",
             )
         )
-    _go_on({name: value for name, value in script.items() if name != "seconds"})
+    _go_on(script | {"seconds": 0.0})
     return PipelineOutput(
         result=_result(job),
         artifacts={
@@ -221,6 +226,8 @@ def _begin(script: dict[str, Any]) -> None:
 
 def _go_on(script: dict[str, Any]) -> None:
     _work(script.get("seconds", 0.0), burn=script.get("burn", False))
+    while "gate" in script and not Path(script["gate"]).exists():
+        time.sleep(GATE_LOOK_S)
     if script.get("fault"):
         message = "a fault in the fake"
         raise RuntimeError(message)

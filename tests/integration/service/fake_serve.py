@@ -7,8 +7,8 @@ import argparse
 import sys
 from pathlib import Path
 
-from service.logs import configure_logging
-from service.serve import ESTIMATOR_COMMAND, listen, serve
+from service.commands.serve import ESTIMATOR_COMMAND, listen, serve
+from service.process.logs import configure_logging
 from service.settings import Settings
 
 ESTIMATORS = {

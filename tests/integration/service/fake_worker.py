@@ -5,7 +5,7 @@ FAKE = "tests.integration.service.fake_pipeline"
 
 def main() -> None:
     # Imported here: every forked child imports this module again, and is to start quickly.
-    from service.logs import configure_logging
+    from service.process.logs import configure_logging
     from service.settings import Settings
     from service.worker.main import run_worker
 

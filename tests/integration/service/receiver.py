@@ -64,7 +64,7 @@ def receiving() -> Iterator[Receiver]:
             receiver.notices.append(
                 Notice(self.path, {k.lower(): v for k, v in self.headers.items()}, body)
             )
-            receiver.gate.wait(30.0)
+            receiver.gate.wait()
             with contextlib.suppress(BrokenPipeError, ConnectionResetError):
                 self.send_response(receiver.statuses.pop(0) if receiver.statuses else 204)
                 for name, value in receiver.headers.items():

@@ -2,18 +2,18 @@
 
 import pytest
 
-from tests.integration.service.harness import Machine, Service, running_service
+from tests.integration.service.harness import Service
 from tests.integration.service.test_derivations import derived, fitted, post, problem
 
 
-def test_fits_of_one_person_are_combined(machine: Machine):
-    with running_service(machine) as service:
-        one, other = fitted(service), fitted(service)
-        body = {"kind": "combined", "fits": [other.rpartition("/")[2]]}
-        job = service.ended(derived(service, one, body))
-        assert job["state"] == "succeeded"
-        result = service.client.get(job["links"]["result"]).json()
-        assert (result["kind"], result["pictures"]) == ("combined", 2)
+def test_fits_of_one_person_are_combined(either: Service):
+    service = either
+    one, other = fitted(service), fitted(service)
+    body = {"kind": "combined", "fits": [other.rpartition("/")[2]]}
+    job = service.ended(derived(service, one, body))
+    assert job["state"] == "succeeded"
+    result = service.client.get(job["links"]["result"]).json()
+    assert (result["kind"], result["pictures"]) == ("combined", 2)
 
 
 def test_a_fit_of_an_earlier_version_that_kept_less_is_not_combined(service: Service):

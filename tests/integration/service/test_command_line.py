@@ -1,18 +1,21 @@
 """``maquette fit`` and ``maquette demo`` with the fake pipeline."""
 
+import csv
 import json
 import socket
 import sys
 from dataclasses import replace
+from importlib.metadata import version
 from pathlib import Path
 
 import pytest
 
 from api_schemas.results import FitResult
 from service.cli import main
-from service.demo import run_demo
-from service.demo_sample import Sample, load_sample
-from service.local_fit import FitArguments, fit_locally, warm_up
+from service.commands.demo import run_demo
+from service.commands.fit import FitArguments, fit_locally, warm_up
+from service.demo_data.sample import Sample, load_sample
+from service.representation.formats import OBJ, PLY, STL
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import POINTS, QUICK, REQUEST
 
@@ -54,6 +57,31 @@ def test_a_fit_without_a_service_writes_its_files_and_prints_its_measurements(tm
     assert "waist girth" in printed
     assert f"{FAKE_WAIST:.1f}" in printed
     assert "focal_length_px" in printed
+
+
+def test_a_fit_without_a_service_writes_its_measurements_as_a_table(tmp_path):
+    assert fit_locally(arguments(tmp_path, REQUEST), pipeline=FAKE) == 0
+    with (tmp_path / "out" / "measurements.csv").open(newline="") as table:
+        (row,) = csv.DictReader(table)
+    assert (row["name"], float(row["value"]), row["unit"]) == ("waist_girth", FAKE_WAIST, "cm")
+
+
+@pytest.mark.parametrize(("formats", "told"), [("fbx", "'fbx'"), ("obj,", "''"), ("glb", "'glb'")])
+def test_a_format_nobody_writes_is_named_with_those_there_are(capsys, formats, told):
+    with pytest.raises(SystemExit) as ended:
+        main(["fit", "picture.png", "--points", "points.json", "--formats", formats])
+    assert ended.value.code == 2
+    said = capsys.readouterr().err
+    assert told in said
+    assert "obj, ply, stl, usdz" in said
+
+
+def test_usdz_without_its_library_is_told_before_the_fit_begins(capsys, monkeypatch):
+    monkeypatch.setattr("service.representation.formats.written_here", lambda: (OBJ, PLY, STL))
+    with pytest.raises(SystemExit) as ended:
+        main(["fit", "picture.png", "--points", "points.json", "--formats", "obj,usdz"])
+    assert ended.value.code == 2
+    assert "usd-core" in capsys.readouterr().err
 
 
 def test_a_folder_without_models_is_told(tmp_path, capsys):
@@ -135,7 +163,7 @@ def test_a_demo_whose_fit_fails_says_why(tmp_path, capsys):
 
 
 def test_warming_up_says_what_it_needs(tmp_path, monkeypatch):
-    monkeypatch.setattr("service.local_fit.load_sample", sample)
+    monkeypatch.setattr("service.commands.fit.load_sample", sample)
     assert warm_up(pipeline=FAKE) == 0
 
 
@@ -145,6 +173,13 @@ def test_help_names_every_command(capsys):
     assert ended.value.code == 0
     printed = capsys.readouterr().out
     assert all(name in printed for name in ("serve", "worker", "fit", "demo", "warm-up", "openapi"))
+
+
+def test_the_version_is_that_of_the_installed_package(capsys):
+    with pytest.raises(SystemExit) as ended:
+        main(["--version"])
+    assert ended.value.code == 0
+    assert capsys.readouterr().out == f"maquette {version('maquette')}\n"
 
 
 def test_the_exported_contract_can_be_printed(tmp_path):
@@ -171,5 +206,5 @@ def test_a_setting_that_is_no_number_is_named(capsys, monkeypatch):
     monkeypatch.setenv("MAQUETTE_PORT", "abc")
     with pytest.raises(SystemExit) as ended:
         main(["serve"])
-    assert ended.value.code == 2
-    assert "port" in capsys.readouterr().err
+    assert ended.value.code == 78
+    assert "MAQUETTE_PORT=abc" in capsys.readouterr().err

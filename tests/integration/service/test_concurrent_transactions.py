@@ -118,7 +118,7 @@ def test_a_notice_is_claimed_by_one_of_two_who_find_it_due(
 ):
     ledger = WebhookLedger(database, time_limit_s=10.0)
     fitted(engine, database, "told", kept_s=100.0)
-    due = {"webhook_state": "due", "webhook_due_at": 1.0, "webhook_url": "https://example.org/"}
+    due = {"webhook_state": "due", "webhook_due_at": 1.0, "webhook_target": "0" * 64}
     with database.begin() as connection:
         connection.execute(sa.update(JOBS).values(due))
     # The first look is without a transaction.

@@ -8,7 +8,7 @@ import sqlalchemy as sa
 
 from service.engine.database import open_database, prepare_database
 from service.engine.facts import read_fact, write_fact
-from tests.integration.service.harness import Machine
+from tests.integration.service.harness import PATIENCE_S, Machine
 
 FACT = "something"
 
@@ -52,6 +52,6 @@ def test_of_two_who_write_at_once_none_fails(database: sa.Engine):
         # It stands before the row that the first has not committed.
         other.join(timeout=0.5)
         assert other.is_alive()
-    other.join(timeout=30.0)
+    other.join(timeout=PATIENCE_S)
     assert not failures
     assert stored(database) == "second"

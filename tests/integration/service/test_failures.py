@@ -8,6 +8,7 @@ import pytest
 
 from tests.integration.service.fake_pipeline import NOBODYS_WEIGHT_KG, UNNOTICED_WEIGHT_KG
 from tests.integration.service.harness import (
+    PATIENCE_S,
     REQUEST,
     Machine,
     Service,
@@ -98,7 +99,7 @@ def test_a_fit_past_its_time_limit_is_stopped(tmp_path: Path):
     note = tmp_path / "pids"
     machine = Machine(tmp_path / "data", settings={"job_time_limit_s": 0.5})
     with running_service(machine) as service:
-        script = {"seconds": 60, "burn": True, "note_pid": str(note)}
+        script = {"seconds": 3600, "burn": True, "note_pid": str(note)}
         job = service.ended(service.submit(script))
         assert job["state"] == "timed_out"
         assert job["problem"]["type"] == "/problems/time-limit-exceeded"
@@ -106,14 +107,15 @@ def test_a_fit_past_its_time_limit_is_stopped(tmp_path: Path):
 
 
 def test_a_killed_workers_fit_is_run_again_by_another(machine: Machine, tmp_path: Path):
-    note = tmp_path / "pids"
+    note, gate = tmp_path / "pids", tmp_path / "gate"
     with running_service(machine, api_only=True) as service:
         with running_worker(machine) as first:
-            path = service.submit({"seconds": 1.0, "burn": True, "note_pid": str(note)})
+            path = service.submit({"gate": str(gate), "note_pid": str(note)})
             (pid,) = eventually(lambda: pids_noted(note), what="the fit runs")
             first.kill()
             first.wait()
         eventually(lambda: not is_running(pid), what="the fit dies with its worker")
+        gate.touch()
         with running_worker(machine):
             job = service.ended(path)
             assert job["state"] == "succeeded"
@@ -124,12 +126,14 @@ def test_a_killed_workers_fit_is_run_again_by_another(machine: Machine, tmp_path
 
 
 def test_a_worker_restarted_by_its_supervisor_goes_on(embedded: Machine, tmp_path: Path):
-    note = tmp_path / "pids"
+    note, gate = tmp_path / "pids", tmp_path / "gate"
     with running_service(embedded) as service:
-        path = service.submit({"seconds": 1.0, "note_pid": str(note)})
-        eventually(lambda: pids_noted(note), what="the fit runs")
+        path = service.submit({"gate": str(gate), "note_pid": str(note)})
+        (pid,) = eventually(lambda: pids_noted(note), what="the fit runs")
         worker = _worker_of(service.process.pid)
         os.kill(worker, signal.SIGKILL)
+        eventually(lambda: not is_running(pid), what="the fit dies with its worker")
+        gate.touch()
         job = service.ended(path)
         assert job["state"] == "succeeded"
         assert job["attempt"] == 2
@@ -139,7 +143,7 @@ def test_killing_the_service_ends_its_worker_and_the_fit(embedded: Machine, tmp_
     note = tmp_path / "pids"
     machine = Machine(embedded.data_dir, settings={"drain_s": 0.0})
     with running_service(machine) as service:
-        path = service.submit({"seconds": 60, "note_pid": str(note)})
+        path = service.submit({"seconds": 3600, "note_pid": str(note)})
         (pid,) = eventually(lambda: pids_noted(note), what="the fit runs")
         worker = _worker_of(service.process.pid)
         service.process.kill()
@@ -162,14 +166,16 @@ def test_accepted_jobs_survive_the_death_of_the_service(machine: Machine):
 
 
 def test_a_stopping_worker_finishes_what_it_began(embedded: Machine, tmp_path: Path):
-    note = tmp_path / "pids"
+    note, gate = tmp_path / "pids", tmp_path / "gate"
+    patient = Machine(embedded.data_dir, settings={"drain_s": PATIENCE_S})
     with running_service(embedded, api_only=True) as service:
-        with running_worker(embedded) as worker:
-            path = service.submit({"seconds": 1.0, "note_pid": str(note)})
+        with running_worker(patient) as worker:
+            path = service.submit({"gate": str(gate), "note_pid": str(note)})
             eventually(lambda: pids_noted(note), what="the fit runs")
             waiting = service.submit({"seconds": 0.0})
             worker.send_signal(signal.SIGTERM)
-            assert worker.wait(timeout=60.0) == 0
+            gate.touch()
+            assert worker.wait(timeout=PATIENCE_S) == 0
         job = service.job(path)
         assert job["state"] == "succeeded"
         assert job["attempt"] == 1
@@ -177,16 +183,17 @@ def test_a_stopping_worker_finishes_what_it_began(embedded: Machine, tmp_path: P
 
 
 def test_a_stopping_worker_hands_back_what_it_cannot_finish(embedded: Machine, tmp_path: Path):
-    note = tmp_path / "pids"
+    note, gate = tmp_path / "pids", tmp_path / "gate"
     impatient = Machine(embedded.data_dir, settings={"drain_s": 0.1})
     with running_service(embedded, api_only=True) as service:
         with running_worker(impatient) as worker:
-            path = service.submit({"seconds": 2.0, "note_pid": str(note)})
+            path = service.submit({"gate": str(gate), "note_pid": str(note)})
             (pid,) = eventually(lambda: pids_noted(note), what="the fit runs")
             worker.send_signal(signal.SIGTERM)
-            assert worker.wait(timeout=60.0) == 0
+            assert worker.wait(timeout=PATIENCE_S) == 0
         assert service.state(path) == "queued"
         eventually(lambda: not is_running(pid), what="the fit ends")
+        gate.touch()
         with running_worker(embedded):
             assert service.ended(path)["state"] == "succeeded"
 
@@ -197,7 +204,7 @@ def test_a_job_canceled_while_its_worker_is_dead_is_not_run_again(
     note = tmp_path / "pids"
     with running_service(embedded, api_only=True) as service:
         with running_worker(embedded) as worker:
-            path = service.submit({"seconds": 60, "note_pid": str(note)})
+            path = service.submit({"seconds": 3600, "note_pid": str(note)})
             eventually(lambda: pids_noted(note), what="the fit runs")
             worker.kill()
             worker.wait()
@@ -212,7 +219,7 @@ def test_the_service_stops_cleanly_when_told_to(embedded: Machine, signal_number
     with running_service(embedded) as service:
         worker = _worker_of(service.process.pid)
         service.process.send_signal(signal_number)
-        service.process.wait(timeout=60.0)
+        service.process.wait(timeout=PATIENCE_S)
         assert not is_running(worker)
 
 

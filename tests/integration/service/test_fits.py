@@ -20,30 +20,30 @@ from tests.integration.service.harness import (
 )
 
 
-def test_a_picture_goes_in_and_a_result_with_its_files_comes_out(machine: Machine):
-    with running_service(machine) as service:
-        response = service.post({"seconds": 0.2})
-        assert response.status_code == 202
-        path = response.headers["Location"]
-        assert int(response.headers["Retry-After"]) > 0
-        assert Job.model_validate_json(response.content).links.self == path
+def test_a_picture_goes_in_and_a_result_with_its_files_comes_out(either: Service):
+    service = either
+    response = service.post({"seconds": 0.2})
+    assert response.status_code == 202
+    path = response.headers["Location"]
+    assert int(response.headers["Retry-After"]) > 0
+    assert Job.model_validate_json(response.content).links.self == path
 
-        job = service.ended(path)
-        assert job["state"] == "succeeded"
-        assert job["progress"] == 1.0
-        assert job["attempt"] == 1
-        assert job["problem"] is None
+    job = service.ended(path)
+    assert job["state"] == "succeeded"
+    assert job["progress"] == 1.0
+    assert job["attempt"] == 1
+    assert job["problem"] is None
 
-        document = service.client.get(job["links"]["result"])
-        result = FitResult.model_validate_json(document.content)
-        assert result.height_m == REQUEST["height_m"]
-        names = {artifact.name for artifact in result.artifacts}
-        assert names == {"body_posed.glb", "overlay.png", "person.npz"}
-        for artifact in result.artifacts:
-            file = service.client.get(job["links"]["artifacts"][artifact.name])
-            assert file.headers["content-type"] == artifact.media_type
-            assert len(file.content) == artifact.size
-            assert hashlib.sha256(file.content).hexdigest() == artifact.sha256
+    document = service.client.get(job["links"]["result"])
+    result = FitResult.model_validate_json(document.content)
+    assert result.height_m == REQUEST["height_m"]
+    names = {artifact.name for artifact in result.artifacts}
+    assert names == {"body_posed.glb", "overlay.png", "person.npz"}
+    for artifact in result.artifacts:
+        file = service.client.get(job["links"]["artifacts"][artifact.name])
+        assert file.headers["content-type"] == artifact.media_type
+        assert len(file.content) == artifact.size
+        assert hashlib.sha256(file.content).hexdigest() == artifact.sha256
 
 
 def test_known_measurements_reach_the_fit_and_the_result_says_they_were_given(service: Service):
@@ -139,6 +139,22 @@ def test_artifacts_have_strong_tags_and_ranges(service: Service):
     assert beyond.headers["Content-Range"] == f"bytes */{len(whole.content)}"
 
 
+def test_a_part_of_another_file_than_was_begun_is_the_whole(service: Service):
+    path = service.submit()
+    url = service.ended(path)["links"]["artifacts"]["body_posed.glb"]
+    whole = service.client.get(url)
+    tag = whole.headers["ETag"]
+    part = {"Range": "bytes=4-9"}
+    same = service.client.get(url, headers=part | {"If-Range": tag})
+    assert (same.status_code, same.content) == (206, whole.content[4:10])
+    for other in (f"W/{tag}", '"another"', "Tue, 05 May 2026 09:30:03 GMT"):
+        beyond = {"Range": f"bytes={len(whole.content)}-"}
+        for asked in (part, beyond, {}):
+            answer = service.client.get(url, headers=asked | {"If-Range": other})
+            assert (answer.status_code, answer.content) == (200, whole.content), (other, asked)
+            assert "Content-Range" not in answer.headers
+
+
 def test_jobs_are_listed_newest_first_in_pages(embedded: Machine):
     with running_service(embedded) as service:
         paths = [service.submit() for _ in range(5)]
@@ -158,7 +174,7 @@ def test_jobs_are_listed_newest_first_in_pages(embedded: Machine):
 
 def test_canceling_a_running_fit_kills_its_process(service: Service, tmp_path: Path):
     note = tmp_path / "pids"
-    path = service.submit({"seconds": 60, "burn": True, "note_pid": str(note)})
+    path = service.submit({"seconds": 3600, "burn": True, "note_pid": str(note)})
     (pid,) = eventually(lambda: pids_noted(note), what="the fit runs")
     response = service.client.post(f"{path}/cancel")
     assert response.status_code == 202
@@ -178,41 +194,44 @@ def test_canceling_a_waiting_job_ends_it_at_once(embedded: Machine):
         assert [event["event"] for event in service.events(path)] == ["state", "end"]
 
 
-def test_erasing_leaves_nothing_of_a_job_on_the_disk(embedded: Machine):
+def test_erasing_leaves_nothing_of_a_job_on_the_disk(service: Service):
+    data = service.machine.data_dir
     secret = "spoor-7c1e"
-    with running_service(embedded) as service:
-        response = service.post(
-            {"secret": secret}, request=REQUEST | {"focal_length_px": 713.28459}
-        )
-        path = response.headers["Location"]
-        service.ended(path)
-        assert _files_with(embedded.data_dir, secret)
-        assert _files_with(embedded.data_dir, "713.28459")
-        assert service.client.delete(path).status_code == 204
-        for gone in (path, f"{path}/result", f"{path}/events", f"{path}/artifacts/overlay.png"):
-            assert service.client.get(gone).status_code == 404
-        assert service.client.delete(path).status_code == 404
-        assert _files_with(embedded.data_dir, secret) == []
-        assert _files_with(embedded.data_dir, "713.28459") == []
+    response = service.post({"secret": secret}, request=REQUEST | {"focal_length_px": 713.28459})
+    path = response.headers["Location"]
+    service.ended(path)
+    assert _files_with(data, secret)
+    assert _files_with(data, "713.28459")
+    assert service.client.delete(path).status_code == 204
+    for gone in (path, f"{path}/result", f"{path}/events", f"{path}/artifacts/overlay.png"):
+        assert service.client.get(gone).status_code == 404
+    assert service.client.delete(path).status_code == 404
+    for trace in (secret, "713.28459"):
+        eventually(lambda trace=trace: not _files_with(data, trace), what=trace)
 
 
 def _files_with(folder: Path, text: str) -> list[Path]:
-    return [
-        path for path in folder.rglob("*") if path.is_file() and text.encode() in path.read_bytes()
-    ]
+    return [path for path in folder.rglob("*") if text.encode() in _content(path)]
+
+
+def _content(path: Path) -> bytes:
+    try:
+        return path.read_bytes() if path.is_file() else b""
+    except FileNotFoundError:  # erased while we look
+        return b""
 
 
 def test_erasing_a_running_fit_kills_its_process_and_keeps_no_files(
-    embedded: Machine, tmp_path: Path
+    service: Service, tmp_path: Path
 ):
     note = tmp_path / "pids"
-    with running_service(embedded) as service:
-        path = service.submit({"seconds": 60, "burn": True, "note_pid": str(note)})
-        (pid,) = eventually(lambda: pids_noted(note), what="the fit runs")
-        assert service.client.delete(path).status_code == 204
-        eventually(lambda: not is_running(pid), what="the process is gone")
-        assert service.ended(service.submit())["state"] == "succeeded"
-        assert not list((embedded.data_dir / "blobs").rglob(Path(path).name))
+    path = service.submit({"seconds": 3600, "burn": True, "note_pid": str(note)})
+    (pid,) = eventually(lambda: pids_noted(note), what="the fit runs")
+    assert service.client.delete(path).status_code == 204
+    eventually(lambda: not is_running(pid), what="the process is gone")
+    assert service.ended(service.submit())["state"] == "succeeded"
+    blobs = service.machine.data_dir / "blobs"
+    eventually(lambda: not list(blobs.rglob(Path(path).name)), what="its files are gone")
 
 
 def test_the_same_idempotency_key_gives_the_same_job(service: Service):
@@ -243,13 +262,13 @@ def test_twenty_requests_with_one_new_key_make_one_job(service: Service):
 
 
 def test_a_caller_may_wait_for_the_end(service: Service):
-    done = service.post({"seconds": 0.3}, headers={"Prefer": "wait=20"})
+    done = service.post({"seconds": 0.3}, headers={"Prefer": "wait=60"})
     assert done.status_code == 200
     assert done.json()["state"] == "succeeded"
-    assert done.headers["Preference-Applied"] == "wait=20"
-    pending = service.post({"seconds": 5}, headers={"Prefer": "respond-async, wait=1"})
+    assert done.headers["Preference-Applied"] == "wait=60"
+    pending = service.post({"seconds": 3600}, headers={"Prefer": "respond-async, wait=1"})
     assert pending.status_code == 202
-    assert pending.json()["state"] == "running"
+    assert pending.json()["state"] in ("queued", "running")
     service.client.delete(pending.headers["Location"])
 
 
@@ -279,32 +298,34 @@ def test_health_tells_whether_a_worker_is_alive(embedded: Machine):
         assert service.client.get("/v1/body-models").status_code == 503
 
 
-def test_a_job_that_has_ended_is_retried_on_the_same_input(machine: Machine):
-    with running_service(machine) as service:
-        script: dict[str, object] = {"seconds": 60}
-        first = service.submit(script)
-        refused = service.client.post(f"{first}/retry")
-        assert (refused.status_code, refused.json()["code"]) == (409, "not-ended")
-        assert service.job(first)["links"]["retry"] is None
-        service.client.post(f"{first}/cancel")
-        link = service.ended(first)["links"]["retry"]
+def test_a_job_that_has_ended_is_retried_on_the_same_input(either: Service):
+    service = either
+    script: dict[str, object] = {"seconds": 3600}
+    first = service.submit(script)
+    refused = service.client.post(f"{first}/retry")
+    assert (refused.status_code, refused.json()["code"]) == (409, "not-ended")
+    assert service.job(first)["links"]["retry"] is None
+    service.client.post(f"{first}/cancel")
+    link = service.ended(first)["links"]["retry"]
 
-        answers = [
-            service.client.post(link, headers={"Idempotency-Key": key}) for key in ("a", "a", "b")
-        ]
-        assert [answer.status_code for answer in answers] == [202] * 3
-        again, same, other = (answer.headers["Location"] for answer in answers)
-        assert again == same
-        assert len({first, again, other}) == 3
-        assert service.client.delete(first).status_code == 204
-        assert service.client.get(f"{again}/image").content == scripted_image(script)
-        assert service.client.get(f"{again}/request").json()["height_m"] == REQUEST["height_m"]
-        assert service.client.post(link).status_code == 404
+    answers = [
+        service.client.post(link, headers={"Idempotency-Key": key}) for key in ("a", "a", "b")
+    ]
+    assert [answer.status_code for answer in answers] == [202] * 3
+    again, same, other = (answer.headers["Location"] for answer in answers)
+    assert again == same
+    assert len({first, again, other}) == 3
+    assert service.client.delete(first).status_code == 204
+    assert service.client.get(f"{again}/image").content == scripted_image(script)
+    assert service.client.get(f"{again}/request").json()["height_m"] == REQUEST["height_m"]
+    assert service.client.post(link).status_code == 404
+    for running in (again, other):
+        assert service.client.delete(running).status_code == 204
 
 
 def test_a_retry_is_waited_for_if_the_caller_prefers(service: Service):
     first = service.submit({"unusable": True})
     service.ended(first)
-    answer = service.client.post(f"{first}/retry", headers={"Prefer": "wait=30"})
+    answer = service.client.post(f"{first}/retry", headers={"Prefer": "wait=60"})
     assert (answer.status_code, answer.json()["state"]) == (200, "failed")
-    assert answer.headers["Preference-Applied"] == "wait=30"
+    assert answer.headers["Preference-Applied"] == "wait=60"

@@ -1,13 +1,34 @@
 """``maquette health``, as a container engine asks it."""
 
+import os
+import signal
+import subprocess
+import threading
+import time
 from urllib.parse import urlsplit
 
 import pytest
 
 from service.cli import main
-from tests.integration.service.harness import Machine, Service, running_service
+from service.commands import api_health, worker_health
+from service.settings import Settings
+from tests.integration.service.harness import (
+    PATIENCE_S,
+    QUICK,
+    Machine,
+    Service,
+    eventually,
+    running_service,
+    running_worker,
+)
 
 HEALTHY, UNHEALTHY = 0, 1
+
+
+@pytest.fixture(autouse=True)
+def _patience(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(api_health, "TIMEOUT_S", PATIENCE_S)
+    monkeypatch.setattr(worker_health, "LATE_S", PATIENCE_S)
 
 
 def health(machine: Machine, monkeypatch: pytest.MonkeyPatch, *arguments: str) -> int:
@@ -30,6 +51,34 @@ def test_api_and_worker_are_healthy_while_both_run(machine, monkeypatch):
         told = listening(machine, service)
         assert health(told, monkeypatch) == HEALTHY
         assert health(told, monkeypatch, "--worker") == HEALTHY
+
+
+def stop(worker: subprocess.Popen[str]) -> None:
+    """Let no thread of it go on."""
+    worker.send_signal(signal.SIGSTOP)
+    os.waitid(os.P_PID, worker.pid, os.WSTOPPED)
+
+
+def test_a_beat_that_is_late_is_waited_for_and_one_that_does_not_come_is_not(
+    embedded, monkeypatch, capsys
+):
+    settings = Settings(data_dir=embedded.data_dir, **QUICK)
+    found: list[int] = []
+    with running_service(embedded, api_only=True), running_worker(embedded) as worker:
+        eventually(lambda: worker_health.worker_health(settings) == HEALTHY, what="it has begun")
+        stop(worker)
+        asking = threading.Thread(
+            target=lambda: found.append(worker_health.worker_health(settings))
+        )
+        asking.start()
+        time.sleep(5.0 * settings.heartbeat_s)
+        worker.send_signal(signal.SIGCONT)
+        asking.join()
+        assert found == [HEALTHY]
+        stop(worker)
+        monkeypatch.setattr(worker_health, "LATE_S", 0.0)
+        assert worker_health.worker_health(settings) == UNHEALTHY
+        assert "no worker" in capsys.readouterr().err
 
 
 def test_without_a_worker_neither_is_healthy_and_it_is_said_why(embedded, monkeypatch, capsys):

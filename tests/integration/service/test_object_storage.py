@@ -1,6 +1,7 @@
 """Blobs in S3-compatible storage, over real HTTP against an emulated server."""
 
 import hashlib
+import os
 from collections.abc import Iterator
 
 import pytest
@@ -113,6 +114,21 @@ def test_preparing_makes_tables_and_bucket_and_may_be_repeated(storage, monkeypa
     place = storage.client.get_bucket_location(Bucket=storage.bucket)
     assert place["LocationConstraint"] == REGION
     assert (tmp_path / "maquette.sqlite").is_file()
+
+
+@pytest.mark.usefixtures("_credentials")
+def test_a_bucket_that_cannot_be_made_is_told_in_a_line(monkeypatch, tmp_path, capsys):
+    monkeypatch.setattr("service.blobs.s3.ATTEMPTS", 1)
+    monkeypatch.setattr("service.process.retrying.RETRY_FOR_S", 0.0)
+    monkeypatch.setenv("MAQUETTE_DATA_DIR", str(tmp_path))
+    nowhere = {"blob_url": "s3://bucket", "s3_endpoint_url": "http://127.0.0.1:9"}
+    for name, value in (nowhere | {"s3_region": REGION}).items():
+        monkeypatch.setenv(f"MAQUETTE_{name.upper()}", value)
+    with pytest.raises(SystemExit) as ended:
+        main(["prepare"])
+    assert ended.value.code == os.EX_UNAVAILABLE
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "the storage is not available" in line
 
 
 def test_preparing_without_a_bucket_makes_the_folder(monkeypatch, tmp_path):

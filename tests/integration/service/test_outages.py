@@ -17,6 +17,7 @@ from tests.integration.service.harness import (
     Machine,
     Service,
     eventually,
+    is_running,
     pids_noted,
     running_service,
 )
@@ -25,18 +26,24 @@ from tests.process_table import processes_with
 
 SHIFTED_CLOCK = Path(__file__).parent / "shifted_clock"
 OUTAGE_S = 10.0
+WHILE_S = 1.0
+"""Time for what must not happen. Nothing is to be done by the end of either."""
+
 BEYOND_RETENTION_S = 30 * 86_400.0
 
 
 def test_what_is_accepted_survives_a_full_disk(embedded: Machine, tmp_path: Path):
-    note = tmp_path / "pids"
+    note, gate = tmp_path / "pids", tmp_path / "gate"
     with running_service(embedded) as service:
-        path = service.submit({"seconds": 1.0, "note_pid": str(note)})
-        eventually(lambda: pids_noted(note), what="the fit runs")
+        path = service.submit({"gate": str(gate), "note_pid": str(note)})
+        (pid,) = eventually(lambda: pids_noted(note), what="the fit runs")
         with full_disk(embedded):
             refused = [service.post({"number": number}) for number in range(3)]
-            time.sleep(2.0)
-        assert {answer.status_code for answer in refused} == {503}
+            gate.touch()
+            eventually(lambda: not is_running(pid), what="the fit is done")
+            time.sleep(WHILE_S)
+        assert {answer.status_code for answer in refused} == {507}
+        assert {answer.json()["type"] for answer in refused} == {"/problems/insufficient-storage"}
         assert all(answer.headers["Retry-After"] for answer in refused)
         job = service.ended(path)
         assert (job["state"], job["attempt"]) == ("succeeded", 1)
@@ -46,11 +53,12 @@ def test_what_is_accepted_survives_a_full_disk(embedded: Machine, tmp_path: Path
 
 
 def test_a_locked_embedded_database_is_waited_for(embedded: Machine, tmp_path: Path):
-    note = tmp_path / "pids"
+    note, gate = tmp_path / "pids", tmp_path / "gate"
     with running_service(embedded) as service:
-        path = service.submit({"seconds": 1.0, "note_pid": str(note)})
+        path = service.submit({"gate": str(gate), "note_pid": str(note)})
         eventually(lambda: pids_noted(note), what="the fit runs")
         with locked(embedded):
+            gate.touch()
             posted = in_background(lambda: service.post({"number": 1}))
             time.sleep(OUTAGE_S)
             assert service.client.get(path).status_code == 200
@@ -64,14 +72,15 @@ def test_a_locked_embedded_database_is_waited_for(embedded: Machine, tmp_path: P
 
 @pytest.mark.parametrize("machine", ["postgres"], indirect=True)
 def test_a_database_server_that_goes_away_is_waited_for(machine: Machine, tmp_path: Path):
-    note = tmp_path / "pids"
+    note, gate = tmp_path / "pids", tmp_path / "gate"
     with running_service(machine) as service:
-        path = service.submit({"seconds": 2.0, "note_pid": str(note)})
+        path = service.submit({"gate": str(gate), "note_pid": str(note)})
         waiting = [service.submit({"number": number}) for number in range(4)]
         eventually(lambda: pids_noted(note), what="the fit runs")
         with no_connections(machine):
             assert_refused_for_now(service.post())
             assert_refused_for_now(service.client.get(path))
+            gate.touch()
             time.sleep(OUTAGE_S)
         for each in (path, *waiting):
             job = service.ended(each)
@@ -83,7 +92,7 @@ def test_a_database_server_that_goes_away_is_waited_for(machine: Machine, tmp_pa
 def test_a_clock_that_jumps_erases_nothing_and_kills_nobody(
     machine: Machine, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
-    clock, note = tmp_path / "clock", tmp_path / "pids"
+    clock, note, gate = (tmp_path / name for name in ("clock", "pids", "gate"))
     set_clock(clock, 0.0)
     monkeypatch.setenv("SHIFTED_CLOCK", str(clock))
     monkeypatch.setenv("PYTHONPATH", str(SHIFTED_CLOCK), prepend=":")
@@ -95,13 +104,14 @@ def test_a_clock_that_jumps_erases_nothing_and_kills_nobody(
     with running_service(jumping) as service:
         done = service.submit()
         service.ended(done)
-        running = service.submit({"seconds": 2.0, "note_pid": str(note)})
+        running = service.submit({"gate": str(gate), "note_pid": str(note)})
         eventually(lambda: pids_noted(note), what="the fit runs")
         for jump in (BEYOND_RETENTION_S, -BEYOND_RETENTION_S, 0.0):
             set_clock(clock, jump)
             # The server renews its date about once a second.
             eventually(lambda jump=jump: abs(clock_ahead_s(service) - jump) < 3_600.0)
-            time.sleep(1.0)
+            time.sleep(WHILE_S)
+        gate.touch()
         for path in (done, running):
             job = service.ended(path)
             assert (job["state"], job["attempt"]) == ("succeeded", 1)

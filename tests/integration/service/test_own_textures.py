@@ -21,7 +21,7 @@ def post_texture(service: Service, fit: str, content: bytes, **changes: Any) -> 
 
 def test_a_texture_of_one_s_own_comes_along_with_the_request(service: Service):
     painted = scripted_image(width=256, height=256)
-    job = post_texture(service, fitted(service), painted, headers={"Prefer": "wait=30"}).json()
+    job = service.ended(post_texture(service, fitted(service), painted).headers["Location"])
     assert job["state"] == "succeeded"
     result = service.client.get(job["links"]["result"]).json()
     assert (result["colours"], result["size"]) == ("own", len(painted))

@@ -5,6 +5,7 @@ import json
 import re
 import signal
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -13,6 +14,7 @@ from api_schemas.jobs import Job
 from api_schemas.webhooks import WebhookEvent
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
+    PATIENCE_S,
     REQUEST,
     Machine,
     Service,
@@ -67,12 +69,14 @@ def given_up(service: Service) -> float:
 
 
 def test_the_end_of_a_job_is_told_signed_and_repeated_until_it_is_accepted(
-    machine: Machine, receiver: Receiver
+    machine: Machine, receiver: Receiver, tmp_path: Path
 ):
+    gate = tmp_path / "gate"
     receiver.statuses = [500, 302, 200]
     receiver.headers = {"Location": receiver.url("/elsewhere")}
     with running_service(with_settings(machine)) as service:
-        path = submitted(service, {"seconds": 0.3}, url=receiver.url("/a?b=c"), secret=SECRET)
+        script: dict[str, object] = {"gate": str(gate)}
+        path = submitted(service, script, url=receiver.url("/a?b=c"), secret=SECRET)
         assert service.job(path)["webhook"] == {
             "state": "waiting",
             "attempts": 0,
@@ -80,6 +84,7 @@ def test_the_end_of_a_job_is_told_signed_and_repeated_until_it_is_accepted(
             "last_error": None,
             "next_attempt_at": None,
         }
+        gate.touch()
         assert settled(service, path) == {
             "state": "delivered",
             "attempts": 3,
@@ -116,8 +121,8 @@ def test_failures_are_told_with_their_problem(
 
 def test_a_canceled_job_is_told_and_an_erased_one_is_not(embedded: Machine, receiver: Receiver):
     with running_service(with_settings(embedded)) as service:
-        erased = submitted(service, {"seconds": 60}, url=receiver.url("/erased"), secret=SECRET)
-        canceled = submitted(service, {"seconds": 60}, url=receiver.url(), secret=SECRET)
+        erased = submitted(service, {"seconds": 3600}, url=receiver.url("/erased"), secret=SECRET)
+        canceled = submitted(service, {"seconds": 3600}, url=receiver.url(), secret=SECRET)
         assert service.client.delete(erased).status_code == 204
         service.client.post(f"{canceled}/cancel")
         assert settled(service, canceled)["state"] == "delivered"
@@ -179,13 +184,14 @@ def test_a_receiver_that_does_not_answer_is_left_at_the_time_limit(
 
 def test_a_notice_outlives_kill_9_of_the_api(machine: Machine, receiver: Receiver):
     receiver.statuses = [503]
-    settings = with_settings(machine, webhook_pauses_s="1.0")
+    settings = with_settings(machine, webhook_pauses_s="3600")
     with running_service(settings) as service:
         path = submitted(service, url=receiver.url(), secret=SECRET)
         eventually(lambda: service.job(path)["webhook"]["last_status"] == 503)
         service.process.send_signal(signal.SIGKILL)
         service.process.wait()
     assert len(receiver.notices) == 1
+    settings.rewrite(path, webhook_due_at=1.0)
     with running_service(settings) as service:
         assert settled(service, path)["attempts"] == 2
     assert len(receiver.notices) == 2
@@ -194,7 +200,7 @@ def test_a_notice_outlives_kill_9_of_the_api(machine: Machine, receiver: Receive
 
 def test_a_stopping_api_hands_an_attempt_back(embedded: Machine, receiver: Receiver):
     receiver.gate.clear()
-    with running_service(with_settings(embedded)) as service:
+    with running_service(with_settings(embedded, webhook_time_limit_s=PATIENCE_S)) as service:
         path = submitted(service, url=receiver.url(), secret=SECRET)
         eventually(lambda: receiver.notices)
         service.process.send_signal(signal.SIGTERM)
@@ -223,15 +229,30 @@ def test_an_address_that_is_not_public_is_refused_at_once(service: Service, url:
     assert problem["field"] == "webhook.url"
 
 
+@pytest.mark.parametrize("url", ["https://example.org:8443/", "http://example.org:22/"])
+def test_another_port_than_the_usual_is_refused_at_once(service: Service, url: str):
+    answer = service.post(request=REQUEST | {"webhook": {"url": url, "secret": SECRET}})
+    problem = answer.json()
+    assert (answer.status_code, problem["code"]) == (422, "port-not-allowed")
+    assert problem["field"] == "webhook.url"
+    assert "443 or 80" in problem["remedy"]
+
+
 def test_a_name_that_stands_for_this_machine_is_refused_when_it_is_looked_up(
     embedded: Machine, receiver: Receiver
 ):
-    settings = with_settings(embedded, webhook_hosts="", webhook_pauses_s="0")
+    settings = with_settings(
+        embedded,
+        webhook_hosts="",
+        webhook_ports=str(receiver.port),
+        webhook_pauses_s="0",
+        webhook_time_limit_s=0.5,
+    )
     with running_service(settings) as service:
         path = submitted(service, url=receiver.url(host="127.1"), secret=SECRET)
         webhook = settled(service, path)
     assert webhook["state"] == "given_up"
-    assert webhook["last_error"] == "The receiver's address is not public."
+    assert webhook["last_error"] == "The receiver's name stands for no public address."
     assert receiver.notices == []
 
 

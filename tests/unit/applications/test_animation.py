@@ -8,17 +8,22 @@ from PIL import Image
 from scipy.spatial.transform import Rotation
 
 from fitter.applications.animated_glb import morphed_glb, quaternions, skinned_glb
-from fitter.applications.animation import MOST_FRAMES, animate, motion_of_clip
+from fitter.applications.animation import (
+    MOST_FRAMES,
+    animate,
+    motion_of_clip,
+    motion_of_walk,
+)
 from fitter.applications.bvh import parse_bvh
-from fitter.applications.fitted_person import FittedPerson
+from fitter.applications.gltf_skin import skin_of
 from fitter.applications.grounding import grounded
 from fitter.applications.motion import moving_body, unturned
 from fitter.applications.poses import named_pose
 from fitter.applications.principal_frames import ERROR_GOAL_M, principal_frames
-from fitter.applications.skin import skin_of
-from fitter.applications.walk import walk
+from fitter.applications.walk import stride_of, walk
 from fitter.errors import InvalidInputError
 from fitter.parameters import BodyParameters
+from fitter.person.fitted_person import FittedPerson
 from fitter.request import Gender
 from tests.unit.applications.bodies import packaged
 from tests.unit.applications.bvh_files import MIXAMO, bvh_of
@@ -34,7 +39,7 @@ def body():
 @pytest.fixture(scope="module")
 def moving(body):
     """A stride, turning a little, so that the whole body's rotation matters."""
-    motion = walk(body.rig, strides=1)
+    motion = walk(body.rig, frames=stride_of(body.rig).frames)
     motion.poses[:, 0, 1] = np.linspace(0.0, 1.0, len(motion.poses))
     return grounded(moving_body(body.evaluator, body.shape, motion), body.model)
 
@@ -79,17 +84,22 @@ def test_principal_frames_are_within_the_error_they_state(moving, exact):
 
 def test_principal_frames_begin_with_the_first_body_itself(moving, exact):
     np.testing.assert_array_equal(exact.base, moving.shapes[0])
-    np.testing.assert_array_equal(exact.weights[0], 0.0)
-    assert np.abs(exact.weights).max() <= 1.0 + 1e-6
+    first = np.einsum("k,kmi->mi", exact.weights[0], exact.targets)
+    np.testing.assert_allclose(first, 0.0, atol=1e-6)
 
 
-def test_bodies_that_span_a_plane_need_two_targets():
+def test_weights_are_what_programs_that_clamp_them_play(exact):
+    assert exact.weights.min() == 0.0
+    assert exact.weights.max() == 1.0
+
+
+def test_bodies_that_span_a_plane_need_two_targets_and_the_one_that_cancels_them():
     rng = np.random.default_rng(2)
     base, first, second = rng.normal(size=(3, 40, 3)).astype(np.float32)
     steps = rng.normal(size=(9, 2)).astype(np.float32)
     shapes = base + np.einsum("tk,kmi->tmi", steps, np.stack([first, second]))
     found = principal_frames(shapes)
-    assert len(found.targets) == 2
+    assert len(found.targets) == 3
     assert found.largest_error_m < 1e-5
 
 
@@ -98,7 +108,7 @@ def test_a_body_that_does_not_move_has_no_error():
     for frames in (1, 3):
         found = principal_frames(shapes[:frames].astype(np.float32))
         assert found.largest_error_m == 0.0
-        assert len(found.targets) == 1
+        assert len(found.targets) == 2
         np.testing.assert_array_equal(found.targets, 0.0)
         assert np.isfinite(found.weights).all()
 
@@ -206,6 +216,28 @@ def test_a_clip_that_is_too_long_is_cut_and_says_so(body):
     assert "12.00 of 13.00 s" in warning.message
 
 
+def test_a_stretch_of_the_walk_is_what_was_asked_for(body):
+    whole = motion_of_walk(body.rig)
+    frame_time_s = whole.motion.frame_time_s
+    assert len(whole.motion.poses) == 3 * stride_of(body.rig).frames
+    found = motion_of_walk(body.rig, start_s=7 * frame_time_s, duration_s=20 * frame_time_s)
+    np.testing.assert_allclose(found.motion.poses, whole.motion.poses[7:27])
+    assert (found.motion.frame_time_s, found.warnings) == (frame_time_s, ())
+    # It has no end, and no stretch lies outside of it.
+    later = motion_of_walk(body.rig, start_s=3_600.0, duration_s=1e-3).motion
+    assert len(later.poses) == 1
+    later = motion_of_walk(body.rig, start_s=1.0).motion
+    assert len(later.poses) == len(whole.motion.poses)
+
+
+def test_a_walk_that_is_too_long_is_cut_and_says_so(body):
+    found = motion_of_walk(body.rig, duration_s=20.0)
+    assert len(found.motion.poses) == MOST_FRAMES
+    (warning,) = found.warnings
+    assert warning.code == "clip-cut"
+    assert " of 20." in warning.message or " of 19.9" in warning.message
+
+
 @pytest.mark.parametrize("start_s", [-0.1, 3.0, 1e9])
 def test_a_stretch_outside_the_clip_is_refused(body, start_s):
     with pytest.raises(InvalidInputError) as caught:
@@ -227,7 +259,7 @@ def animation(body):
         reflectance=reflectance_of(body.model),
         albedo_rgb=None,
     )
-    return animate(person, body.evaluator, walk(body.rig, strides=1))
+    return animate(person, body.evaluator, walk(body.rig, frames=stride_of(body.rig).frames))
 
 
 def test_an_animation_states_in_its_files_what_it_reports(animation):

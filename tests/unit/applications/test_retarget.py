@@ -1,5 +1,3 @@
-from pathlib import Path
-
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -9,10 +7,11 @@ from fitter.applications.poses import NAMED_POSES, named_pose, shortest_rotation
 from fitter.applications.retarget import retarget
 from fitter.body.skeleton import global_rotations, posed_joints
 from fitter.errors import InvalidInputError
+from tests.shared_data import SHARED_DATA, needs_shared
 from tests.unit.applications.bodies import packaged
 from tests.unit.applications.bvh_files import CMU, MIXAMO, NAMES, bvh_of
 
-MOCAP = Path(__file__).parents[4] / "shared" / "data" / "mocap"
+CLIP = SHARED_DATA / "mocap" / "cmu_131_01.bvh"
 
 Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 BACK_TO_FRONT = np.diag([-1.0, 1.0, -1.0])
@@ -191,10 +190,10 @@ def test_hips_in_another_unit_than_the_bones_are_refused(body, poses, roots):
     assert caught.value.code == "bvh-too-far"
 
 
-@pytest.mark.skipif(not MOCAP.is_dir(), reason="the folder of motion-capture data is missing")
+@needs_shared(CLIP)
 def test_a_real_clip_moves_hands_and_feet_as_its_own_skeleton_does(body):
     """In lengths of a limb, ours are where the source's are, but for proportions."""
-    clip = parse_bvh((MOCAP / "cmu_131_01.bvh").read_bytes())
+    clip = parse_bvh(CLIP.read_bytes())
     found = retarget(clip, body.rig, slice(0, None, 40))
     assert found.naming == "CMU"
     _, positions = clip.motion(slice(0, None, 40))

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from fitter.applications.atlas import atlas_of, drawn_on
-from fitter.applications.fitted_person import FittedPerson
 from fitter.applications.texture import (
     TexelOrigin,
     Texture,
@@ -16,11 +15,12 @@ from fitter.applications.texture import (
     picture_texture,
 )
 from fitter.applications.textured_glb import in_file_axes, textured_glb
-from fitter.camera import Camera
 from fitter.errors import InvalidInputError
 from fitter.export.display import png
 from fitter.observation.colour import linear_from_display
 from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
+from fitter.person.fitted_person import FittedPerson
+from fitter.render.camera import Camera
 from fitter.render.interpolation import shade_image
 from fitter.render.rasterizer import render
 from fitter.render.reflectance import shade, shading_terms
@@ -254,8 +254,8 @@ def test_the_file_holds_the_body_its_texture_and_its_light(sitter, texture, with
         in_file_axes(vertices),
         model,
         picture,
+        person=sitter.person,
         is_albedo=with_light,
-        lit_as=sitter.person,
         extras={"seen_share": texture.seen_share},
     )
     glb = read_glb(content)

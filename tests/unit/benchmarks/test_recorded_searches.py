@@ -2,10 +2,9 @@
 
 import pytest
 
-from fitter import pipeline
+from fitter.fits import descents, pipeline
 from fitter.optimizer.gauss_newton import minimize_gauss_newton
 from fitter.optimizer.search import body_search
-from fitter.stages import descents
 from tests.benchmarks.recorded_searches import recorded_searches
 from tests.benchmarks.requests import suite_requests
 
@@ -21,7 +20,7 @@ def test_a_recorded_search_is_the_one_the_fit_made():
         watched = pipeline.fit(request)
     assert dict(watched.energies) == pytest.approx(dict(unwatched.energies))
     last = searches[-1]
-    assert last.end.candidate.parameters is watched.body
+    assert last.end.candidate.parameters is watched.found.person.body
     again = minimize_gauss_newton(
         last.objective, last.start, max_evaluations=last.end.evaluations, on_energies=ignore
     )

@@ -5,8 +5,8 @@ import io
 import pytest
 from PIL import Image as PillowImage
 
-from fitter.camera import FocalLengthSource
 from fitter.observation.observation import observe
+from fitter.render.camera import FocalLengthSource
 from fitter.request import Cues
 from tests.benchmarks.requests import resized
 from tests.evaluation.cases import CASES

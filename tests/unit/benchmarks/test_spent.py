@@ -2,7 +2,7 @@
 
 import pytest
 
-from fitter.progress import Stage
+from fitter.fits.progress import Stage
 from tests.benchmarks import spent
 from tests.benchmarks.requests import suite_requests
 

@@ -14,8 +14,8 @@ from fitter.body.pose_prior import PosePrior
 from fitter.body.skeleton import global_rotations, regress
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.numerics.rotations import rotation_matrices
-from fitter.training.named_poses import relative_pose, rotation_between
-from fitter.training.plausible_poses import excess_degrees, model_pose_prior
+from fitter.training.articulation.named_poses import relative_pose, rotation_between
+from fitter.training.articulation.plausible_poses import excess_degrees, model_pose_prior
 
 ADMITTED, REFUSED = 1.0, 20.0
 """Degrees beyond the limits at the worst joint."""
@@ -152,21 +152,18 @@ def impossible(rig: Rig) -> dict[str, Pose]:
     return poses
 
 
-POSSIBLE, IMPOSSIBLE = tuple(possible(rig_of("female"))), tuple(impossible(rig_of("female")))
-
-
-@pytest.mark.parametrize("name", POSSIBLE)
-def test_ordinary_poses_lie_within_the_limits(rig, name):
-    assert rig.excess(possible(rig)[name]) < ADMITTED
+def test_ordinary_poses_lie_within_the_limits(rig):
+    beyond = {name: rig.excess(pose) for name, pose in possible(rig).items()}
+    assert {name: degrees for name, degrees in beyond.items() if degrees >= ADMITTED} == {}
 
 
 def test_the_pose_of_the_height_lies_within_them_but_for_straightened_elbows(rig):
     assert rig.excess(rig.model.standing_pose) < STRAIGHTENED
 
 
-@pytest.mark.parametrize("name", IMPOSSIBLE)
-def test_what_no_joint_can_do_lies_beyond_them(rig, name):
-    assert rig.excess(impossible(rig)[name]) > REFUSED
+def test_what_no_joint_can_do_lies_beyond_them(rig):
+    beyond = {name: rig.excess(pose) for name, pose in impossible(rig).items()}
+    assert {name: degrees for name, degrees in beyond.items() if degrees <= REFUSED} == {}
 
 
 @pytest.mark.parametrize("name", ["sitting", "arms crossed", "hands on hips"])

@@ -360,9 +360,7 @@ def test_any_number_that_is_changed_is_noticed(saved, name, end):
 
 
 @given(place=st.floats(0.0, 1.0), bit=st.integers(0, 7))
-@settings(
-    max_examples=100, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 def test_a_flipped_bit_is_refused_or_changes_nothing(saved, place, bit):
     content = bytearray(saved.read_bytes())
     content[int(place * (len(content) - 1))] ^= 1 << bit

@@ -13,8 +13,7 @@ from scipy.spatial import KDTree
 
 from fitter.arrays import Pose
 from fitter.body.skeleton import global_rotations, regress
-from fitter.camera import Camera
-from fitter.energies.instruments import BodyInstruments
+from fitter.energies.fitting_operators import FittingOperators
 from fitter.energies.penetration import (
     penetration_energy,
     penetration_proxy,
@@ -23,12 +22,13 @@ from fitter.energies.penetration import (
     sphere_positions,
 )
 from fitter.energies.scales import scales_at
-from fitter.fittable import packaged_body
+from fitter.fits.prepared_model import prepared_model
 from fitter.numerics.normals import summed_cross_products
 from fitter.numerics.rotations import compose
 from fitter.parameters import BodyParameters
+from fitter.render.camera import Camera
 from fitter.request import Gender
-from fitter.training.named_poses import relative_pose, rotation_between
+from fitter.training.articulation.named_poses import relative_pose, rotation_between
 
 CAMERA = Camera(focal_length_px=300.0, centre_x=100.0, centre_y=100.0, width=200, height=200)
 SCALES = scales_at(CAMERA, 3.0, boundary_eta_m=0.06)
@@ -40,8 +40,8 @@ class Body:
     """The mean body of a gender."""
 
     def __init__(self, gender: Gender) -> None:
-        self.instruments: BodyInstruments = packaged_body(gender).instruments
-        self.model = self.instruments.model
+        self.operators: FittingOperators = prepared_model(gender).operators
+        self.model = self.operators.model
         self.joints = regress(self.model.joint_regressor, self.model.mean_vertices)
         dominant = self.model.skinning_parts[:, 0]
         self.members = {name: dominant == part for part, name in enumerate(self.model.part_names)}
@@ -51,16 +51,16 @@ class Body:
 
     def vertices(self, pose: Pose, shape: np.ndarray | None = None) -> np.ndarray:
         shape = np.zeros(len(self.model.shape_basis)) if shape is None else shape
-        return self.instruments.evaluator.body_frame_vertices(
+        return self.operators.evaluator.body_frame_vertices(
             BodyParameters(pose=pose, translation=np.zeros(3), shape=shape)
         )
 
     def spheres(self, pose: Pose, shape: np.ndarray | None = None):
-        return sphere_positions(self.instruments.penetration, self.vertices(pose, shape))
+        return sphere_positions(self.operators.penetration, self.vertices(pose, shape))
 
     def energy(self, pose: Pose, shape: np.ndarray | None = None) -> float:
         spheres, radii = self.spheres(pose, shape)
-        return penetration_energy(spheres, radii, self.instruments.penetration, SCALES)
+        return penetration_energy(spheres, radii, self.operators.penetration, SCALES)
 
     def depth_mm(self, pose: Pose, limb: tuple[str, ...], other: tuple[str, ...]) -> float:
         """How far vertices of a limb lie behind the nearest skin of other parts."""
@@ -134,14 +134,14 @@ def test_nothing_touches_in_the_canonical_and_the_standing_pose(body):
 
 def test_spheres_keep_within_the_skin(body):
     spheres, radii = body.spheres(body.model.canonical_pose)
-    used = np.unique(body.instruments.penetration.pairs)
+    used = np.unique(body.operators.penetration.pairs)
     nearest, _ = KDTree(body.vertices(body.model.canonical_pose)).query(spheres[used])
     assert (radii[used] <= nearest + 1e-9).all()
     assert len(used) > 100
 
 
 def test_every_large_part_is_filled(body):
-    proxy = body.instruments.penetration
+    proxy = body.operators.penetration
     _, radii = body.spheres(body.model.canonical_pose)
     for name, least_mm in {"head": 60, "chest": 80, "pelvis": 80, "left_thigh": 70}.items():
         assert 1000.0 * max(radii[np.array(proxy.centres.names) == name]) > least_mm
@@ -175,7 +175,7 @@ def test_its_slope_pushes_the_limb_out(body, case):
 @pytest.mark.parametrize("case", CASES)
 def test_its_rows_have_the_energys_slope_by_the_spheres(body, case):
     pose = CASES[case][0](body, 0.8)
-    proxy = body.instruments.penetration
+    proxy = body.operators.penetration
     spheres, radii = body.spheres(pose)
     rows = penetration_rows(spheres, radii, proxy, SCALES)
     slope = np.zeros_like(spheres)
@@ -197,7 +197,9 @@ def test_a_small_optimisation_frees_the_limb(body, case):
         held = 0.5 * float((turn**2).sum()) / FREEDOM_RADIANS**2
         return body.energy(turned(body, pose, joints, turn)) + held
 
-    found = minimize(cost, np.zeros(3 * len(joints)), method="L-BFGS-B", options={"maxiter": 40})
+    # To its end: cut off on the way, the woman's forearm is 35.4 to 36.9 mm deep by how a
+    # processor rounds, at the end 36.6 on all.
+    found = minimize(cost, np.zeros(3 * len(joints)), method="BFGS", jac="3-point")
     freed = turned(body, pose, joints, found.x)
     assert body.energy(freed) < 0.3
     before, after = (body.depth_mm(each, limb, other) for each in (pose, freed))

@@ -10,7 +10,6 @@ from scipy.spatial import KDTree
 from fitter.body.model import SparseRows
 from fitter.body.scape import increment
 from fitter.body.skeleton import regress
-from fitter.camera import Camera
 from fitter.energies._silhouette_kernels import nearest_within
 from fitter.energies.clicks import ClickEvidence, click_energy, click_evidence, click_rows
 from fitter.energies.edges import edge_energy, edge_rows
@@ -32,11 +31,12 @@ from fitter.energies.silhouette import silhouette_energy, silhouette_overlap, si
 from fitter.evidence.edge_cost import EdgeCostMap
 from fitter.evidence.intensity import IntensityMap
 from fitter.evidence.silhouette_evidence import silhouette_evidence
-from fitter.fittable import packaged_body
+from fitter.fits.prepared_model import prepared_model
 from fitter.numerics.mesh_topology import mesh_topology
 from fitter.numerics.normals import add_normal_derivative
 from fitter.numerics.rotations import compose
 from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
+from fitter.render.camera import Camera
 from fitter.render.contours import model_edges
 from fitter.render.rasterizer import render
 from fitter.request import Click, Gender
@@ -251,8 +251,8 @@ class TestPenetration:
             assert slope[index] == pytest.approx((plus - minus) / 2e-7, rel=1e-4, abs=1e-3)
 
     def test_an_arm_pushed_into_the_trunk_is_penalised(self):
-        instruments = packaged_body(Gender.FEMALE).instruments
-        model = instruments.model
+        operators = prepared_model(Gender.FEMALE).operators
+        model = operators.model
         body = BodyParameters(
             pose=model.canonical_pose,
             translation=np.zeros(3),
@@ -263,9 +263,9 @@ class TestPenetration:
         pushed = increment(body, pose=turn, translation=np.zeros(3), shape=0.0 * body.shape)
 
         def energy(parameters: BodyParameters) -> float:
-            vertices = instruments.evaluator.vertices(parameters)
-            spheres, radii = sphere_positions(instruments.penetration, vertices)
-            return penetration_energy(spheres, radii, instruments.penetration, SCALES)
+            vertices = operators.evaluator.vertices(parameters)
+            spheres, radii = sphere_positions(operators.penetration, vertices)
+            return penetration_energy(spheres, radii, operators.penetration, SCALES)
 
         assert energy(body) == 0.0
         assert energy(pushed) > 10.0
@@ -274,15 +274,15 @@ class TestPenetration:
 @pytest.fixture(scope="module")
 def lit():
     """A packaged body whose picture is a plane of intensity, so that slopes are exact."""
-    instruments = packaged_body(Gender.MALE).instruments
-    model = instruments.model
+    operators = prepared_model(Gender.MALE).operators
+    model = operators.model
     camera = Camera(focal_length_px=300.0, centre_x=100.0, centre_y=150.0, width=200, height=300)
     body = BodyParameters(
         pose=model.canonical_pose,
         translation=np.array([0.0, 0.0, 2.8]),
         shape=np.zeros(len(model.shape_basis)),
     )
-    rendering = render(instruments.evaluator.vertices(body), model.triangles, camera)
+    rendering = render(operators.evaluator.vertices(body), model.triangles, camera)
     y, x = np.mgrid[:300, :200]
     evidence = ShadingEvidence(
         intensity=IntensityMap(
@@ -297,11 +297,11 @@ def lit():
             ambient=0.05,
             specular_exponent=10.0,
         ),
-        vertex_areas=instruments.shaded.areas,
+        vertex_areas=operators.shaded.areas,
         shadowed=np.zeros(len(rendering.vertices), dtype=bool),
         eta=0.1,
     )
-    return instruments, rendering, evidence
+    return operators, rendering, evidence
 
 
 class TestShading:
@@ -313,8 +313,8 @@ class TestShading:
         assert hopeless == pytest.approx(SCALES.shading_weight, rel=0.05)
 
     def test_rows_are_the_slope_of_the_energy(self, lit):
-        instruments, rendering, evidence = lit
-        triangles = instruments.model.triangles
+        operators, rendering, evidence = lit
+        triangles = operators.model.triangles
         direction = rendering.vertex_normals * (1 + rendering.vertices[:, 1:2])
         step = 2e-6
         behind, ahead = (
@@ -333,7 +333,7 @@ class TestShading:
         add_normal_derivative(
             rendering.vertices,
             triangles,
-            instruments.rings,
+            operators.rings,
             rows.vertices,
             force * rows.normal_derivatives,
             pull,

@@ -16,6 +16,8 @@ from tests.evaluation.staging import stage
 from tests.evaluation.stance_kinds import Kind
 from tests.unit.training.makehuman_data import needs_makehuman
 
+pytestmark = pytest.mark.slow
+
 LARGEST_BYTES = {"demo": 150_000}
 LARGEST_OTHER_BYTES = 110_000
 LARGEST_SUM_BYTES = 6_000_000

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from fitter.body.pose_prior import prior_residuals
-from fitter.energies.instruments import body_instruments
-from fitter.fittable import packaged_body
+from fitter.energies.fitting_operators import fitting_operators
+from fitter.fits.prepared_model import prepared_model
 from fitter.parameters import BodyParameters
 from tests.evaluation.cases import CASES, DEMO
 from tests.evaluation.held_pose import HELD_WITHIN_RADIANS, narrowed, true_pose
@@ -26,14 +26,14 @@ def test_the_fitters_body_in_the_true_pose_lies_on_the_true_body(name):
         translation=staged.in_camera(root_joint(staged)),
         shape=nearest_shape(person),
     )
-    vertices = packaged_body(person.gender).instruments.evaluator.vertices(parameters)
+    vertices = prepared_model(person.gender).operators.evaluator.vertices(parameters)
     away = vertices - staged.in_camera(staged.body)
     # The root joints of rig and model are a centimetre or two apart; fingers are not posed alike.
     assert np.median(np.linalg.norm(away - np.median(away, axis=0), axis=1)) < 0.01
 
 
 def test_a_narrowed_prior_expects_one_pose_of_every_joint():
-    prior = body_instruments(packaged_body(PEOPLE[DEMO.person].gender).instruments.model).pose_prior
+    prior = fitting_operators(prepared_model(PEOPLE[DEMO.person].gender).operators.model).pose_prior
     pose = np.random.default_rng(0).normal(scale=0.4, size=prior.mean.shape)
     narrow = narrowed(prior, pose)
     assert np.allclose(prior_residuals(narrow, pose), 0.0)

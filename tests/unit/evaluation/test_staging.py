@@ -10,7 +10,7 @@ from tests.evaluation.staging import Staged, lamp_place, root_joint, stage
 from tests.evaluation.truth import true_body, true_joints, true_light
 from tests.unit.training.makehuman_data import needs_makehuman
 
-pytestmark = needs_makehuman
+pytestmark = [pytest.mark.slow, needs_makehuman]
 
 
 def _staged(name: str) -> Staged:

@@ -3,7 +3,7 @@ import pytest
 
 from fitter.body.skeleton import global_rotations
 from fitter.request import Gender
-from fitter.training.part_tree import PART_PARENT, part_index
+from fitter.training.articulation.part_tree import PART_PARENT, part_index
 from tests.evaluation.landmark_points import packaged_model
 from tests.evaluation.scene import Arm, Leg, Stance
 from tests.evaluation.stances import pose_of, standing_on_both_feet

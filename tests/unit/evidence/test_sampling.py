@@ -1,5 +1,5 @@
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from fitter.evidence.sampling import sample
@@ -21,7 +21,6 @@ def test_a_plane_is_reproduced_with_its_slope():
     np.testing.assert_allclose(slopes, np.broadcast_to([2.0, -3.0], (50, 2)), atol=1e-4)
 
 
-@settings(deadline=None)
 @given(x=st.floats(-5, 20), y=st.floats(-5, 17))
 def test_slopes_match_finite_differences_inside_a_cell_and_beyond_the_border(x: float, y: float):
     step = 1e-3

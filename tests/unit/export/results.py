@@ -3,10 +3,11 @@
 import numpy as np
 
 from fitter.body.model import BodyModel
-from fitter.camera import Camera, FocalLengthSource
 from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
+from fitter.person.fitted_person import FittedPerson
+from fitter.render.camera import Camera, FocalLengthSource
 from fitter.request import Cues, Gender, OptimizerKind
-from fitter.result import FitResult, Outcome, Pictures, StageBody
+from fitter.result import FitResult, Outcome, PictureFit, Pictures, StageBody
 from fitter.segmentation.trimap import TrimapLabel
 
 CAMERA = Camera(focal_length_px=700.0, centre_x=250.0, centre_y=200.0, width=480, height=400)
@@ -55,26 +56,32 @@ def result_of(
     trimap[30:50, 80:160] = TrimapLabel.LIKELY_BACKGROUND
     if reflectance is None and light is not None:
         reflectance = reflectance_of(model)
-    return FitResult(
+    person = FittedPerson(
         gender=Gender.FEMALE,
-        height_m=1.3,
-        given=("stature",),
-        cues=Cues.SE if light is None else Cues.SES,
-        optimizer=OptimizerKind.GAUSS_NEWTON,
-        outcome=Outcome.CONVERGED,
-        camera=working,
-        image_camera=CAMERA,
-        focal_length_source=FocalLengthSource.CALLER,
+        model_checksum=model.checksum,
         body=body,
-        shape_covariance=np.diag([0.0, 0.04]),
-        posed_vertices=posed,
-        canonical_vertices=model.mean_vertices,
+        camera=CAMERA,
         light=light,
         reflectance=None if light is None else reflectance,
-        albedo_rgb=albedo_rgb,
+        albedo_rgb=None if light is None else albedo_rgb,
+        shape_covariance=np.diag([0.0, 0.04]),
+    )
+    return FitResult(
+        found=PictureFit(
+            person=person,
+            height_m=1.3,
+            cues=Cues.SE if light is None else Cues.SES,
+            outcome=Outcome.CONVERGED,
+            posed_vertices=posed,
+            silhouette_overlap=0.9,
+        ),
+        given=("stature",),
+        optimizer=OptimizerKind.GAUSS_NEWTON,
+        camera=working,
+        focal_length_source=FocalLengthSource.CALLER,
+        canonical_vertices=model.mean_vertices,
         energies={},
         evaluations=1,
-        silhouette_overlap=0.9,
         stages=(outlined,),
         measurements=(),
         limb_facing=(),

@@ -6,7 +6,8 @@ import pytest
 import trimesh
 from scipy.spatial.transform import Rotation
 
-from fitter.export.gltf import body_canonical_glb, body_posed_glb, quaternion_from_z_to
+from fitter.export.gltf import body_canonical_glb, body_posed_glb
+from fitter.export.gltf_light import quaternion_from_z_to
 from fitter.render.shadow import cast_shadow
 from fitter.render.surroundings import irradiance
 from tests.unit.body.synthetic_model import bar_model
@@ -28,7 +29,7 @@ def result(model):
 
 @pytest.fixture(scope="module")
 def posed(result, model):
-    return read_glb(body_posed_glb(result, model))
+    return read_glb(body_posed_glb(result.found, model))
 
 
 def light_of(glb):
@@ -38,9 +39,11 @@ def light_of(glb):
 
 
 def test_another_reader_finds_the_same_vertices_and_triangles_in_the_same_order(result, model):
-    scene = trimesh.load(io.BytesIO(body_posed_glb(result, model)), file_type="glb", process=False)
+    scene = trimesh.load(
+        io.BytesIO(body_posed_glb(result.found, model)), file_type="glb", process=False
+    )
     (mesh,) = scene.geometry.values()
-    np.testing.assert_allclose(mesh.vertices, result.posed_vertices * TO_GLTF, atol=1e-6)
+    np.testing.assert_allclose(mesh.vertices, result.found.posed_vertices * TO_GLTF, atol=1e-6)
     np.testing.assert_array_equal(mesh.faces, model.triangles)
     assert mesh.volume > 0.0, "turning the axes has not turned the surface inside out"
 
@@ -57,7 +60,7 @@ def test_the_gltf_camera_projects_the_file_to_the_same_pixels(result, posed):
     # glTF knows no principal point: the extras restore it.
     extras = camera["extras"]
     pixels += np.array([extras["cx_px"], extras["cy_px"]]) - size / 2
-    np.testing.assert_allclose(pixels, CAMERA.project(result.posed_vertices), atol=1e-3)
+    np.testing.assert_allclose(pixels, CAMERA.project(result.found.posed_vertices), atol=1e-3)
     assert extras["fx_px"] == extras["fy_px"] == CAMERA.focal_length_px
     assert (extras["width_px"], extras["height_px"]) == (CAMERA.width, CAMERA.height)
 
@@ -65,15 +68,15 @@ def test_the_gltf_camera_projects_the_file_to_the_same_pixels(result, posed):
 def test_a_point_light_stands_and_shines_as_in_equation_1(result, posed):
     light, node = light_of(posed)
     position = np.array(node["translation"]) * TO_GLTF
-    offset = position - result.body.translation
+    offset = position - result.person.body.translation
     assert np.linalg.norm(offset) == pytest.approx(POINT_LIGHT.distance)
     assert offset[0] > 0, "a positive azimuth comes from the right of the picture"
     assert offset[1] < 0, "a positive elevation comes from above"
     assert offset[2] < 0, "the light is on the camera's side"
     # Illuminance at the body's centre, divided by pi, is l = 1.
     assert light["intensity"] / POINT_LIGHT.distance**2 / np.pi == pytest.approx(1.0)
-    assert light["extras"]["ambient"] == result.reflectance.ambient
-    assert light["extras"]["specular_exponent"] == result.reflectance.specular_exponent
+    assert light["extras"]["ambient"] == result.person.reflectance.ambient
+    assert light["extras"]["specular_exponent"] == result.person.reflectance.specular_exponent
 
 
 def test_surroundings_stand_in_the_files_axes_beside_what_shadows_leave_of_the_lamp(model, posed):
@@ -81,17 +84,17 @@ def test_surroundings_stand_in_the_files_axes_beside_what_shadows_leave_of_the_l
     surroundings = np.concatenate([[1.2], 0.1 * rng.standard_normal(8)])
     light = replace(POINT_LIGHT, surroundings=surroundings)
     result = result_of(model, light=light)
-    glb = read_glb(body_posed_glb(result, model))
+    glb = read_glb(body_posed_glb(result.found, model))
     found = np.array(light_of(glb)[0]["extras"]["surroundings"])
     normals = glb.attribute("NORMAL").astype(float)
     np.testing.assert_allclose(
         irradiance(found, normals), irradiance(surroundings, normals * TO_GLTF), atol=1e-6
     )
     shadow = cast_shadow(
-        result.posed_vertices,
+        result.found.posed_vertices,
         model.triangles,
         light=light,
-        body_centre=result.body.translation,
+        body_centre=result.person.body.translation,
     )
     np.testing.assert_array_equal(glb.attribute("_LIT"), 1.0 - shadow)
     assert "surroundings" not in light_of(posed)[0]["extras"]
@@ -99,7 +102,7 @@ def test_surroundings_stand_in_the_files_axes_beside_what_shadows_leave_of_the_l
 
 
 def test_a_directional_light_shines_along_its_nodes_minus_z(model):
-    glb = read_glb(body_posed_glb(result_of(model, light=SUN), model))
+    glb = read_glb(body_posed_glb(result_of(model, light=SUN).found, model))
     light, node = light_of(glb)
     travels = Rotation.from_quat(node["rotation"]).apply([0.0, 0.0, -1.0]) * TO_GLTF
     toward = np.array(
@@ -121,32 +124,34 @@ def test_the_shortest_rotation_takes_z_to_the_direction(direction):
 
 
 def test_reflectance_is_kept_per_vertex(result, posed):
-    np.testing.assert_allclose(posed.attribute("_ALBEDO"), result.reflectance.albedo, rtol=1e-6)
     np.testing.assert_allclose(
-        posed.attribute("_SPECULARITY"), result.reflectance.specularity, rtol=1e-6
+        posed.attribute("_ALBEDO"), result.person.reflectance.albedo, rtol=1e-6
     )
-    grey = np.repeat(result.reflectance.albedo[:, None], 3, axis=1)
+    np.testing.assert_allclose(
+        posed.attribute("_SPECULARITY"), result.person.reflectance.specularity, rtol=1e-6
+    )
+    grey = np.repeat(result.person.reflectance.albedo[:, None], 3, axis=1)
     np.testing.assert_allclose(posed.attribute("COLOR_0"), grey, rtol=1e-6)
 
 
 def test_colours_are_used_where_they_were_estimated(model):
     m = len(model.mean_vertices)
     colours = np.random.default_rng(3).uniform(0.1, 0.9, size=(m, 3))
-    glb = read_glb(body_posed_glb(result_of(model, albedo_rgb=colours), model))
+    glb = read_glb(body_posed_glb(result_of(model, albedo_rgb=colours).found, model))
     np.testing.assert_allclose(glb.attribute("COLOR_0"), colours, rtol=1e-6)
 
 
 def test_albedo_above_one_is_a_darker_colour_under_a_stronger_light(model):
     bright = result_of(model, reflectance=reflectance_of(model, brightest=2.0))
-    glb = read_glb(body_posed_glb(bright, model))
+    glb = read_glb(body_posed_glb(bright.found, model))
     light, _ = light_of(glb)
     l_at_centre = light["intensity"] / POINT_LIGHT.distance**2 / np.pi
     assert l_at_centre > 1.5
     colours = glb.attribute("COLOR_0")[:, 0]
     assert colours.max() <= 1.0
-    below = bright.reflectance.albedo < l_at_centre
+    below = bright.person.reflectance.albedo < l_at_centre
     np.testing.assert_allclose(
-        (colours * l_at_centre)[below], bright.reflectance.albedo[below], rtol=1e-6
+        (colours * l_at_centre)[below], bright.person.reflectance.albedo[below], rtol=1e-6
     )
 
 
@@ -158,12 +163,12 @@ def test_the_highlight_is_as_high_as_blinn_phongs(result, posed):
     light, _ = light_of(posed)
     illuminance = light["intensity"] / POINT_LIGHT.distance**2
     peak = illuminance * f0 / (np.pi * alpha**2) / 4.0
-    assert peak == pytest.approx(result.reflectance.specularity.mean())
+    assert peak == pytest.approx(result.person.reflectance.specularity.mean())
     assert material["pbrMetallicRoughness"]["metallicFactor"] == 0.0
 
 
 def test_without_shading_there_is_neither_light_nor_reflectance(model):
-    glb = read_glb(body_posed_glb(result_of(model, light=None), model))
+    glb = read_glb(body_posed_glb(result_of(model, light=None).found, model))
     assert set(glb.attributes) == {"POSITION", "NORMAL"}
     assert "extensions" not in glb.document
     assert "extensionsUsed" not in glb.document
@@ -199,7 +204,7 @@ def test_buffers_are_aligned_and_bounds_are_exact(posed):
 
 
 def test_the_same_result_gives_the_same_bytes(result, model):
-    assert body_posed_glb(result, model) == body_posed_glb(result, model)
+    assert body_posed_glb(result.found, model) == body_posed_glb(result.found, model)
 
 
 def test_provenance_is_in_asset_and_scene(model):

@@ -152,6 +152,6 @@ def test_a_finer_camera_sees_the_same_with_more_pixels(ball):
 
 def test_the_fixture_result_lies_in_the_picture():
     result = result_of(bar_model())
-    pixels = CAMERA.project(result.posed_vertices)
+    pixels = CAMERA.project(result.found.posed_vertices)
     assert (pixels > 0).all()
     assert (pixels < [CAMERA.width, CAMERA.height]).all()

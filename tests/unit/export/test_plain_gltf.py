@@ -1,5 +1,6 @@
 import numpy as np
 
+from fitter.export.gltf_document import Frame
 from fitter.export.plain_gltf import plain_glb
 from fitter.parameters import Reflectance
 from tests.unit.body.synthetic_model import bar_model
@@ -8,7 +9,9 @@ from tests.unit.export.glb_reader import read_glb
 
 def written():
     model = bar_model()
-    content = plain_glb(model.mean_vertices, model, name="body", extras={"height_m": 1.7})
+    content = plain_glb(
+        model.mean_vertices, model, name="body", frame=Frame.STANDING, extras={"height_m": 1.7}
+    )
     return model, read_glb(content)
 
 
@@ -34,13 +37,14 @@ def test_provenance_and_extras_are_in_the_asset_and_in_the_scene():
     for extras in (glb.document["asset"]["extras"], glb.document["scenes"][0]["extras"]):
         assert extras["height_m"] == 1.7
         assert extras["gender"] == model.gender
-        assert extras["frame"] == "metres, +y up"
+        assert extras["frame"] == Frame.STANDING
 
 
 def test_the_same_body_gives_the_same_bytes():
     model = bar_model()
     first, second = (
-        plain_glb(model.mean_vertices, model, name="body", extras={}) for _ in range(2)
+        plain_glb(model.mean_vertices, model, name="body", frame=Frame.STANDING, extras={})
+        for _ in range(2)
     )
     assert first == second
 
@@ -54,7 +58,18 @@ def test_the_colours_of_the_skin_are_given_where_they_are_known():
         albedo=np.linspace(0.2, 0.6, count),
         specularity=np.full(count, 0.1),
     )
-    glb = read_glb(plain_glb(model.mean_vertices, model, name="body", extras={}, reflectance=skin))
+    glb = read_glb(
+        plain_glb(
+            model.mean_vertices,
+            model,
+            name="body",
+            frame=Frame.STANDING,
+            extras={},
+            reflectance=skin,
+        )
+    )
     assert np.abs(glb.attribute("_ALBEDO").ravel() - skin.albedo).max() < 1e-6
-    plain = read_glb(plain_glb(model.mean_vertices, model, name="body", extras={}))
+    plain = read_glb(
+        plain_glb(model.mean_vertices, model, name="body", frame=Frame.STANDING, extras={})
+    )
     assert "COLOR_0" not in plain.document["meshes"][0]["primitives"][0]["attributes"]

@@ -23,6 +23,6 @@ def test_lines_lie_in_the_frame_of_the_canonical_body():
     measuring = measuring_body(model, ScapeEvaluator(model), DEFINITIONS)
     document = json.loads(tapes_json(result, measuring))
     lowest = result.canonical_vertices[:, 1].min()
-    for name, line in tape_lines(measuring, result.body.shape).items():
+    for name, line in tape_lines(measuring, result.person.body.shape).items():
         expected = line - [0.0, lowest, 0.0]
         assert np.array(document["lines"][name]) == pytest.approx(expected, abs=6e-5)

@@ -18,7 +18,7 @@ from fitter.measurement.anthropometry import (
 )
 from fitter.measurement.mesh_measurement import in_body_frame, mesh_measurement_values
 from fitter.measurement.plane_cut import Plane, closed_length, hull_of, in_plane, plane_section
-from fitter.training.survey_moments import load_moments, packaged_moments_path
+from fitter.training.surveys.survey_moments import load_moments, packaged_moments_path
 
 GENDERS = ("female", "male")
 

@@ -67,7 +67,7 @@ def test_a_truncated_picture_is_refused(kind: str, share: float):
     assert code_of(data[: max(16, int(share * len(data)))]) == "image-damaged"
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(
     kind=st.sampled_from(["JPEG", "PNG", "WEBP"]),
     places=st.lists(st.floats(0, 1, exclude_max=True), min_size=1, max_size=8),

@@ -2,10 +2,10 @@ from typing import Any
 
 import pytest
 
-from fitter.camera import FocalLengthSource
 from fitter.errors import InvalidInputError
 from fitter.observation.exif import ExifTags
 from fitter.observation.focal_length import FocalLength, focal_length
+from fitter.render.camera import FocalLengthSource
 from tests.unit.observation.pictures import request
 
 

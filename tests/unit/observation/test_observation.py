@@ -4,7 +4,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image as PillowImage
 
-from fitter.camera import FocalLengthSource
 from fitter.errors import InvalidInputError
 from fitter.observation.colour import display_from_linear, linear_from_display, luminance_of
 from fitter.observation.observation import observe
@@ -15,6 +14,7 @@ from fitter.observation.resampling import (
     working_coverage,
     working_size,
 )
+from fitter.render.camera import FocalLengthSource
 from fitter.request import LightGuess
 from tests.unit.observation.pictures import HEIGHT, WIDTH, encode, noise, request, standing_clicks
 

@@ -12,18 +12,18 @@ from fitter.arrays import Image
 from fitter.body.pose_prior import mean_pose
 from fitter.body.scape import increment
 from fitter.body.skeleton import regress
-from fitter.camera import Camera
 from fitter.energies.clicks import click_evidence
-from fitter.energies.instruments import BodyInstruments
+from fitter.energies.fitting_operators import FittingOperators
 from fitter.energies.objective import Objective, PictureEvidence
 from fitter.energies.priors import population_prior
 from fitter.energies.scales import NEAR_BOUNDARY_ETA_M, scales_at
 from fitter.evidence.edge_cost import edge_cost_map
 from fitter.evidence.intensity import IntensityMap, intensity_map
 from fitter.evidence.silhouette_evidence import silhouette_evidence
-from fitter.fittable import packaged_body
+from fitter.fits.prepared_model import prepared_model
 from fitter.observation.colour import display_from_linear
 from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
+from fitter.render.camera import Camera
 from fitter.render.interpolation import shade_image
 from fitter.render.rasterizer import render
 from fitter.render.reflectance import shade
@@ -46,20 +46,20 @@ class RenderedScene:
 
     truth: BodyParameters
     start: BodyParameters
-    instruments: BodyInstruments
+    operators: FittingOperators
     objective: Objective
     intensity: IntensityMap
     display: Image
 
     def posed_error_mm(self, parameters: BodyParameters) -> float:
         """Mean distance of vertices from the truth, with the depth of the whole body left out."""
-        evaluator = self.instruments.evaluator
+        evaluator = self.operators.evaluator
         difference = evaluator.vertices(parameters) - evaluator.vertices(self.truth)
         return 1000 * float(np.linalg.norm(difference - difference.mean(axis=0), axis=1).mean())
 
     def shape_error_mm(self, parameters: BodyParameters) -> float:
         """Mean distance of vertices at rest."""
-        basis = self.instruments.model.shape_basis
+        basis = self.operators.model.shape_basis
         difference = np.tensordot(parameters.shape - self.truth.shape, basis, axes=1)
         return 1000 * float(np.linalg.norm(difference - difference.mean(axis=0), axis=1).mean())
 
@@ -67,10 +67,10 @@ class RenderedScene:
 def rendered_scene(seed: int, light: Light = LIGHT) -> RenderedScene:
     """A standing man of random shape near the mean pose, in ambient light or in surroundings."""
     rng = np.random.default_rng(seed)
-    instruments = packaged_body(Gender.MALE).instruments
-    model, evaluator = instruments.model, instruments.evaluator
+    operators = prepared_model(Gender.MALE).operators
+    model, evaluator = operators.model, operators.evaluator
     p, n = len(model.part_names), len(model.shape_basis)
-    pose = mean_pose(instruments.pose_prior) + 0.06 * rng.standard_normal((p, 3))
+    pose = mean_pose(operators.pose_prior) + 0.06 * rng.standard_normal((p, 3))
     shape = np.concatenate([[0.0], rng.standard_normal(n - 1)])
     truth = BodyParameters(pose=pose, translation=np.array([0.0, 0.0, DEPTH_M]), shape=shape)
     start = increment(
@@ -105,7 +105,7 @@ def rendered_scene(seed: int, light: Light = LIGHT) -> RenderedScene:
         for x, y in [landmarks[model.landmarks.names.index(name)] + 2.0 * rng.standard_normal(2)]
     }
     objective = Objective(
-        instruments=instruments,
+        operators=operators,
         evidence=PictureEvidence(
             camera=CAMERA,
             clicks=click_evidence(model.landmarks, clicks),
@@ -119,7 +119,7 @@ def rendered_scene(seed: int, light: Light = LIGHT) -> RenderedScene:
     return RenderedScene(
         truth=truth,
         start=start,
-        instruments=instruments,
+        operators=operators,
         objective=objective,
         intensity=intensity_map(luminance.astype(np.float32), display, mask),
         display=display,

@@ -40,8 +40,8 @@ def _ease_rows(objective: Objective, candidate: Candidate) -> list[PositionRows]
 @pytest.mark.parametrize("lines", [False, True])
 def test_the_rows_are_those_of_body_and_offset_together_without_the_offset(lines):
     objective, candidate = _dressed(0.8, lines=lines)
-    frame = linearise(objective.instruments.tangent, candidate.parameters)
-    vertices = objective.instruments.tangent.vertices
+    frame = linearise(objective.operators.tangent, candidate.parameters)
+    vertices = objective.operators.tangent.vertices
     kinds = [thinned(rows, MATRIX_ROWS) for rows in _ease_rows(objective, candidate)]
     assert len(kinds) == (1 if lines else 2)
     eases = [
@@ -80,7 +80,7 @@ def test_lines_push_as_the_slope_of_an_energy_whose_offset_follows():
 
     def energy(by: float) -> float:
         vertices = candidate.vertices + by * wider
-        moved = render(vertices, objective.instruments.model.triangles, objective.evidence.camera)
+        moved = render(vertices, objective.operators.model.triangles, objective.evidence.camera)
         return line_energy(moved, lines, scales)
 
     slope = (energy(step) - energy(-step)) / (2.0 * step)

@@ -20,7 +20,7 @@ SURROUNDED = replace(
 
 def _lit(light: Light) -> tuple[Objective, Candidate, ShadingEvidence]:
     scene = rendered_scene(2)
-    m = len(scene.instruments.model.mean_vertices)
+    m = len(scene.operators.model.mean_vertices)
     evidence = ShadingEvidence(
         intensity=scene.intensity,
         light=light,
@@ -31,7 +31,7 @@ def _lit(light: Light) -> tuple[Objective, Candidate, ShadingEvidence]:
             ambient=0.06 if light.surroundings is None else 0.0,
             specular_exponent=12.0,
         ),
-        vertex_areas=scene.instruments.shaded.areas,
+        vertex_areas=scene.operators.shaded.areas,
         shadowed=np.zeros(m, dtype=np.bool_),
         eta=0.04,
         lit=None if light.surroundings is None else np.where(np.arange(m) % 5 == 0, 0.0, 1.0),

@@ -41,20 +41,20 @@ def test_the_truth_has_no_silhouette_energy(scene):
 
 
 def test_gauss_newton_finds_the_way_back_from_perturbed_bodies():
-    # A start may lie in the basin of another minimum, where the spine bends for the pelvis.
-    posed, shapes, reached = [], [], 0
-    for seed in range(6):
+    posed, shapes = [], []
+    for seed in range(12):
         scene = rendered_scene(seed)
         found = minimize_gauss_newton(
             scene.objective, scene.start, max_evaluations=100, on_energies=ignore
         ).candidate
+        assert scene.objective.overlap(found) > 0.96
+        assert found.total < scene.objective.evaluate(scene.truth).total
         posed.append(scene.posed_error_mm(found.parameters) / scene.posed_error_mm(scene.start))
         shapes.append(scene.shape_error_mm(found.parameters) / scene.shape_error_mm(scene.start))
-        assert scene.objective.overlap(found) > 0.96
-        reached += found.total < 1.5 * scene.objective.evaluate(scene.truth).total + 5.0
-    assert reached >= 5
-    assert np.median(posed) < 0.5
-    assert np.median(shapes) < 0.7
+    # Depth is poorly seen, and a spine may bend for the pelvis: rounding alone takes one body from
+    # 0.33 to 0.56 of its first error. The means over twelve are 0.41 to 0.44 and 0.62 by processor.
+    assert np.exp(np.log(posed).mean()) < 0.5
+    assert np.mean(shapes) < 0.7
 
 
 def test_the_energy_never_rises_from_step_to_step(scene):

@@ -24,7 +24,7 @@ def scene() -> RenderedScene:
 
 def test_rows_of_two_points_are_the_dense_jacobian_contracted(scene):
     rng = np.random.default_rng(0)
-    vertices = scene.instruments.evaluator.vertices(scene.start)
+    vertices = scene.operators.evaluator.vertices(scene.start)
     points = rng.integers(len(vertices), size=(ROWS, 2))
     rows = PositionRows(
         residuals=rng.standard_normal(ROWS),
@@ -32,7 +32,7 @@ def test_rows_of_two_points_are_the_dense_jacobian_contracted(scene):
         points=points,
         derivatives=rng.standard_normal((ROWS, 2, 3)),
     )
-    tangent = scene.instruments.tangent
+    tangent = scene.operators.tangent
     frame = linearise(tangent, scene.start)
     dense = point_jacobian(
         frame, attached_vertices(tangent, points.ravel()), vertices[points.ravel()]
@@ -47,8 +47,8 @@ def test_rows_of_two_points_are_the_dense_jacobian_contracted(scene):
 
 def test_shading_rows_are_the_dense_jacobians_contracted(scene):
     rng = np.random.default_rng(1)
-    instruments = scene.instruments
-    model, tangent = instruments.model, instruments.tangent
+    operators = scene.operators
+    model, tangent = operators.model, operators.tangent
     candidate = scene.objective.evaluate(scene.start)
     rows = ShadingRows(
         residuals=rng.standard_normal(ROWS),
@@ -60,9 +60,7 @@ def test_shading_rows_are_the_dense_jacobians_contracted(scene):
     frame = linearise(tangent, scene.start)
     attachments = attached_vertices(tangent, rows.vertices)
     rest = model.mean_vertices + np.tensordot(scene.start.shape, model.shape_basis, axes=1)
-    change = normal_change(
-        rest, model.triangles, instruments.rings, rows.vertices, model.shape_basis
-    )
+    change = normal_change(rest, model.triangles, operators.rings, rows.vertices, model.shape_basis)
     by_normal = direction_jacobian(
         frame, attachments, candidate.rendering.vertex_normals[rows.vertices], change
     )
@@ -70,7 +68,7 @@ def test_shading_rows_are_the_dense_jacobians_contracted(scene):
     expected = np.einsum("ki,kic->kc", rows.position_derivatives, by_position)
     expected += np.einsum("ki,kic->kc", rows.normal_derivatives, by_normal)
     np.testing.assert_allclose(
-        shading_row_jacobian(rows, frame, instruments, candidate),
+        shading_row_jacobian(rows, frame, operators, candidate),
         np.sqrt(rows.weights)[:, None] * expected,
         atol=1e-9,
     )

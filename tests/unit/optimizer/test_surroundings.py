@@ -157,7 +157,7 @@ def test_what_is_found_explains_the_picture_in_shadows_too(scene, shaded):
     final = shaded.minimum.candidate
     lit = lamp_seen(
         final.vertices,
-        scene.instruments.model.triangles,
+        scene.operators.model.triangles,
         light=shaded.light,
         body_centre=final.parameters.translation,
     )
@@ -227,7 +227,7 @@ def test_a_light_whose_shadows_hide_all_there_is_to_see_is_not_believed():
     high = replace(LIGHT, azimuth=0.0, elevation=1.2)
     dark = rendered_scene(1, high)
     candidate = dark.objective.evaluate(dark.truth)
-    triangles = dark.instruments.model.triangles
+    triangles = dark.operators.model.triangles
     centre = dark.truth.translation
     hidden = cast_shadow(candidate.vertices, triangles, light=high, body_centre=centre)
     seen = seen_vertices(candidate.rendering, dark.intensity)
@@ -245,7 +245,7 @@ def test_a_light_whose_shadows_hide_all_there_is_to_see_is_not_believed():
 
 def test_half_a_face_does_not_tell_surroundings_from_the_lamp():
     plain = rendered_scene(1)
-    model, candidate = plain.instruments.model, plain.objective.evaluate(plain.truth)
+    model, candidate = plain.operators.model, plain.objective.evaluate(plain.truth)
     head = np.zeros(len(candidate.vertices), dtype=np.bool_)
     triangles = model.triangles[model.part_of_triangle == model.part_names.index("head")]
     head[np.unique(triangles)] = True

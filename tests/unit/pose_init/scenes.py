@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fitter.camera import Camera
 from fitter.pose_init.click_fit import FittedPoses
 from fitter.pose_init.click_problem import ClickProblem, click_problem
 from fitter.pose_init.hypotheses import refined_hypotheses
@@ -14,6 +13,7 @@ from fitter.pose_init.limbs import LIMBS, MIDDLES, limb_lengths_m
 from fitter.pose_init.perspective import PerspectiveLifting
 from fitter.pose_init.points import ClickedPoints
 from fitter.pose_init.trunk_points import trunk_points
+from fitter.render.camera import Camera
 from fitter.request import Facing
 from tests.unit.pose_init.stick_figure import plausible_pose, stick_figure, stick_prior
 

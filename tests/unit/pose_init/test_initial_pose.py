@@ -10,12 +10,12 @@ from fitter.body.scape import ScapeEvaluator
 from fitter.body.shape_space import shape_for_height
 from fitter.body.skeleton import regress
 from fitter.body.storage import load_body_model, packaged_model_path
-from fitter.camera import Camera
 from fitter.errors import InvalidInputError
 from fitter.parameters import BodyParameters
 from fitter.pose_init.initial_pose import InitialPose, initialize_pose
 from fitter.pose_init.landmark_rig import landmark_rig
 from fitter.pose_init.points import ClickedPoints
+from fitter.render.camera import Camera
 from fitter.request import Facing
 from tests.unit.pose_init.scenes import CLICKED
 from tests.unit.pose_init.stick_figure import plausible_pose

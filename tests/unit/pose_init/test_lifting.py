@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fitter.camera import Camera
 from fitter.pose_init.lifting import FAR, NEAR
 from fitter.pose_init.orthographic import OrthographicLifting
 from fitter.pose_init.perspective import PerspectiveLifting
+from fitter.render.camera import Camera
 
 CAMERA = Camera(focal_length_px=600.0, centre_x=320.0, centre_y=240.0, width=640, height=480)
 LEE_CHEN = PerspectiveLifting(camera=CAMERA)

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from fitter.body.pose_prior import mean_pose
-from fitter.camera import Camera
 from fitter.pose_init.landmark_rig import pose_landmarks
 from fitter.pose_init.limbs import LIMB_NAMES, MIDDLES, limb_named
 from fitter.pose_init.perspective import PerspectiveLifting
 from fitter.pose_init.reference_limb import reference_limb
 from fitter.pose_init.start_poses import start_poses
+from fitter.render.camera import Camera
 from tests.unit.pose_init.scenes import LENGTHS, PRIOR, RIG
 
 CAMERA = Camera(focal_length_px=600.0, centre_x=320.0, centre_y=240.0, width=640, height=480)

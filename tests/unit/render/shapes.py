@@ -3,7 +3,7 @@
 import numpy as np
 import trimesh
 
-from fitter.camera import Camera
+from fitter.render.camera import Camera
 
 
 def sphere(

@@ -3,8 +3,8 @@ import pytest
 import trimesh
 from scipy.spatial.transform import Rotation
 
-from fitter.camera import Camera
 from fitter.numerics.mesh_topology import mesh_topology
+from fitter.render.camera import Camera
 from fitter.render.contours import ModelEdges, model_edges
 from fitter.render.rasterizer import Rendering, render
 from tests.unit.render.shapes import box, camera, sphere, together

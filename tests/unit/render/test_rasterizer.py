@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from fitter.camera import Camera
+from fitter.render.camera import Camera
 from fitter.render.rasterizer import Rendering, render
 from tests.unit.render.shapes import box, camera, sphere, together
 
@@ -54,7 +54,7 @@ def test_sphere_depth_is_where_each_ray_meets_the_sphere():
     np.testing.assert_allclose(rendering.depth[inside], expected, atol=1e-3)
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(seed=st.integers(0, 2**31))
 def test_pictures_agree_with_casting_a_ray_at_every_triangle(seed: int):
     random = np.random.default_rng(seed)

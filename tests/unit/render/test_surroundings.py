@@ -151,7 +151,8 @@ def test_a_point_in_shadow_shows_its_albedo_times_the_surroundings():
     shadow = scene.lit == 0.0
     expected = scene.reflectance.albedo * irradiance(scene.light.surroundings, scene.normals)
     np.testing.assert_allclose(scene.shade()[shadow], expected[shadow], rtol=1e-12)
-    assert (scene.shade()[~shadow] >= expected[~shadow]).all()
+    # Those that face away from the lamp show as much as in a shadow.
+    assert (scene.shade()[~shadow] > expected[~shadow] - 1e-12).all()
 
 
 def test_brightness_is_linear_in_albedo_and_specularity_with_surroundings():

@@ -12,8 +12,8 @@ from api_schemas.results import Artifact
 from service.api.context import ApiContext
 from service.api.derivation_inputs import derivation_inputs
 from service.engine.port import JobExpiredError, StoredBlob
-from service.inputs import IMAGE, PERSON
-from service.refusal import RefusedError
+from service.jobs.inputs import IMAGE, PERSON
+from service.submissions.refusal import RefusedError
 
 OWN = UUID("7c9e6679-7425-40de-944b-e07fc1f90ae7")
 EXPIRED = UUID("0d3c1b6e-52a4-4f0e-9e37-0a4f6c2f7d10")

@@ -9,8 +9,8 @@ from starlette.requests import Request
 
 from service.api import derivation_requests
 from service.api.derivation_requests import read_derivation
-from service.inputs import TEXTURE
-from service.submission import check_picture
+from service.jobs.inputs import TEXTURE
+from service.submissions.submission import check_picture
 from tests.integration.service.fake_pipeline import scripted_image
 
 

@@ -19,16 +19,16 @@ from api_schemas.derivations import (
     DerivationRequest,
     NamedPose,
 )
-from fitter.applications.fitted_person import FittedPerson
 from fitter.applications.own_texture import LEAST_SIDE
 from fitter.applications.poses import NAMED_POSES, REST
 from fitter.applications.texture import SIZES
 from fitter.body.storage import load_body_model, packaged_model_path
-from fitter.camera import Camera
 from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
+from fitter.person.fitted_person import FittedPerson
+from fitter.render.camera import Camera
 from fitter.request import FitRequest, Gender, OptimizerKind
-from service.demo_sample import load_sample
-from service.inputs import (
+from service.demo_data.sample import load_sample
+from service.jobs.inputs import (
     CLIP,
     IMAGE,
     OF_ITS_FIT,
@@ -40,7 +40,7 @@ from service.inputs import (
     TEXTURE,
     of_other,
 )
-from service.submission import check_submission
+from service.submissions.submission import check_submission
 from service.worker.artifacts import MEDIA_TYPES, with_result_document
 from service.worker.derived import combined
 from service.worker.derivers import MODULES
@@ -185,6 +185,12 @@ def test_a_named_pose_departs_where_it_is_told_to():
         if one["rotation"] != pytest.approx(other["rotation"], abs=1e-9)
     ]
     assert changed == [("head", pytest.approx((0.0, 0.3, 0.0)))]
+
+
+@pytest.mark.parametrize(("duration_s", "frames"), [(0.001, 1), (0.2, 6)])
+def test_a_walk_is_as_long_as_it_is_asked_to_be(duration_s: float, frames: int):
+    result = derived(kind="animation", start_s=100.0, duration_s=duration_s).result.model_dump()
+    assert (result["frames"], result["warnings"]) == (frames, ())
 
 
 def shape_of(inputs: dict[str, bytes], name: str = PERSON) -> np.ndarray:

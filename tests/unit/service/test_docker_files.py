@@ -144,41 +144,6 @@ def test_a_worker_is_given_longer_than_it_takes_to_stop():
     assert float(SERVICES["worker"]["stop_grace_period"].removesuffix("s")) >= drain_s + 5.0
 
 
-def test_other_peoples_images_are_named_with_their_version():
-    for name in ("database", "storage"):
-        assert re.fullmatch(r"[\w./-]+:v?\d+[\w.-]*", SERVICES[name]["image"])
-
-
-def test_the_base_can_be_chosen_and_names_python_and_debian():
-    (base,) = (operand for name, operand in instructions() if name == "ARG" and "BASE" in operand)
-    found = re.fullmatch(r"BASE_IMAGE=python:3\.(\d+)-slim-\w+", base)
-    assert found
-    required = tomllib.loads((REPOSITORY / "pyproject.toml").read_text())["project"]
-    assert f">=3.{min(int(found[1]), 11)}" == required["requires-python"]
-    stages = [operand for name, operand in instructions() if name == "FROM"]
-    assert all(stage.startswith("${BASE_IMAGE}") for stage in stages)
-
-
-def test_the_image_runs_as_a_user_who_owns_the_data_folder_alone():
-    (user,) = of_the_image("USER")
-    assert re.fullmatch(r"[1-9]\d*:[1-9]\d*", user)
-    assert all(SERVICES[name]["user"] == user for name in OURS)
-    assert not any("--chown" in operand for operand in of_the_image("COPY"))
-    (made,) = of_the_image("RUN")
-    assert re.findall(r"install -d -o maquette -g maquette (.*)", made) == ["/data"]
-    assert image_environment()["MAQUETTE_DATA_DIR"] == "/data"
-
-
-def test_kernels_are_compiled_for_the_processor_they_are_run_for():
-    built = [operand for name, operand in instructions() if name == "ENV"][1]
-    kind = ["NUMBA_CPU_NAME=${KERNEL_CPU}", "NUMBA_CPU_FEATURES="]
-    assert built.split()[:2] == kind
-    assert all(pair in of_the_image("ENV")[0].split() for pair in kind)
-    defaults = [operand for name, operand in instructions() if operand.startswith("KERNEL_CPU=")]
-    assert len(defaults) == 2
-    assert len(set(defaults)) == 1
-
-
 def test_what_is_copied_exists_and_is_let_through():
     let_through = {
         line.removeprefix("!")
@@ -199,25 +164,32 @@ def test_what_is_copied_exists_and_is_let_through():
     assert set(packages["build"]["targets"]["wheel"]["packages"]) <= copied
 
 
-def test_versions_come_from_the_lock_file_which_names_no_place():
-    assert any(
-        name == "RUN" and "install -c requirements.lock -r runtime.txt" in operand
-        for name, operand in instructions()
-    )
+def test_the_lock_file_names_versions_and_no_place():
     lock = (REPOSITORY / "requirements.lock").read_text()
     assert "://" not in lock
     lines = [line for line in lock.splitlines() if line and not line.lstrip().startswith("#")]
     assert all(re.fullmatch(r"[\w.-]+==[\w.]+( ; .+)?", line) for line in lines)
 
 
-def test_the_image_gets_what_the_service_runs_on_and_no_tools():
+def runtime_requirements(*extras: str) -> set[str]:
+    """What the image is built with, by name."""
+    project = REPOSITORY / "pyproject.toml"
     printed = subprocess.run(
-        [sys.executable, DOCKER / "runtime_requirements.py", REPOSITORY / "pyproject.toml"],
+        [sys.executable, DOCKER / "runtime_requirements.py", project, *extras],
         check=True,
         capture_output=True,
         text=True,
     ).stdout.split()
-    names = {re.split(r"[\[<>=]", line)[0] for line in printed}
+    return {re.split(r"[\[<>=]", line)[0] for line in printed}
+
+
+def test_usdz_comes_into_the_image_where_it_is_asked_for():
+    assert "usd-core" not in runtime_requirements()
+    assert "usd-core" in runtime_requirements("usdz")
+
+
+def test_the_image_gets_what_the_service_runs_on_and_no_tools():
+    names = runtime_requirements()
     assert {"dbos", "numba", "boto3", "opentelemetry-sdk"} <= names
     assert names.isdisjoint({"pytest", "ruff", "pyright", "moto", "mitsuba"})
 

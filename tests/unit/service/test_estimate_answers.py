@@ -5,10 +5,10 @@ import pytest
 from api_schemas.bodies import BodyRequest
 from api_schemas.known import UncertainMeasurement
 from api_schemas.requests import Facing, Gender, Limb
-from service.demo_sample import load_sample
+from service.demo_data.sample import load_sample
 from service.estimates.answers import body, initial_pose
 from service.estimates.messages import BodyTask, InitialPoseTask
-from service.submission import check_submission
+from service.submissions.submission import check_submission
 from service.worker.pipeline_port import UnusableInputError
 
 

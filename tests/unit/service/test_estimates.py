@@ -9,16 +9,18 @@ from api_schemas.initial_poses import InitialPose
 from api_schemas.problems import FieldProblem
 from api_schemas.requests import Gender
 from service.api.estimates import Estimates
-from service.api.figures import Figures
 from service.api.problems import ProblemError
-from service.estimates.messages import BodyTask, InitialPoseTask
+from service.api.service_metrics import ServiceMetrics
+from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask
 from service.estimates.port import (
     EstimatedBody,
     EstimatorFailedError,
     EstimatorTimeoutError,
     EstimatorUnavailableError,
 )
-from service.refusal import RefusedError, refused
+from service.process.disk import Disk
+from service.representation.formats import OBJ
+from service.submissions.refusal import RefusedError, refused
 
 TASK = BodyTask(request=BodyRequest(gender=Gender.MALE), with_glb=False)
 NOBODY = refused(
@@ -30,7 +32,7 @@ class NoEngine:
     """No figures but those counted here are asked for."""
 
 
-FIGURES = Figures(NoEngine())
+METRICS = ServiceMetrics(NoEngine(), Disk(None, reserve_bytes=0))
 
 
 class RaisingEstimator:
@@ -49,6 +51,9 @@ class RaisingEstimator:
     def initial_pose(self, task: InitialPoseTask) -> InitialPose:
         raise self.error
 
+    def convert(self, task: ConversionTask, glb: bytes) -> bytes:
+        raise self.error
+
 
 @pytest.mark.parametrize(
     ("error", "status", "code", "retry"),
@@ -59,16 +64,18 @@ class RaisingEstimator:
     ],
 )
 def test_an_estimator_s_troubles_are_problems(error, status, code, retry):
-    with pytest.raises(ProblemError) as caught:
-        asyncio.run(Estimates(RaisingEstimator(error), FIGURES).body(TASK))
-    assert (caught.value.problem.status, caught.value.problem.code) == (status, code)
-    assert ("Retry-After" in caught.value.headers) is retry
+    estimates = Estimates(RaisingEstimator(error), METRICS)
+    for question in (estimates.body(TASK), estimates.convert(b"glTF", OBJ)):
+        with pytest.raises(ProblemError) as caught:
+            asyncio.run(question)
+        assert (caught.value.problem.status, caught.value.problem.code) == (status, code)
+        assert ("Retry-After" in caught.value.headers) is retry
 
 
 def test_who_is_nobody_is_refused_and_other_troubles_are_left_to_the_job():
     with pytest.raises(RefusedError):
-        asyncio.run(Estimates(RaisingEstimator(NOBODY), FIGURES).refuse_nobody(TASK))
+        asyncio.run(Estimates(RaisingEstimator(NOBODY), METRICS).refuse_nobody(TASK))
     for error in (EstimatorUnavailableError(), EstimatorTimeoutError(), EstimatorFailedError()):
         estimator = RaisingEstimator(error)
-        asyncio.run(Estimates(estimator, FIGURES).refuse_nobody(TASK))
+        asyncio.run(Estimates(estimator, METRICS).refuse_nobody(TASK))
         assert estimator.patient is False

@@ -7,9 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image, ImageOps
 
-from service import exif_header, image_header
-from service.exif_header import MAX_ENTRIES, read_exif_facts
-from service.image_header import DamagedImageError, UnknownImageError, read_image_header
+from service.submissions import exif_header, image_header
+from service.submissions.exif_header import MAX_ENTRIES, read_exif_facts
+from service.submissions.image_header import DamagedImageError, UnknownImageError, read_image_header
 
 KINDS = {"JPEG": "image/jpeg", "PNG": "image/png", "WEBP": "image/webp"}
 

@@ -17,6 +17,7 @@ from service.api.problems import ProblemError
 from service.blobs import BlobsUnavailableError
 from service.blobs.local import LocalBlobStore
 from service.engine.port import StoredBlob, Submission, SubmitOutcome, TenantJobs
+from service.process.disk import Disk
 
 JOB, FIT, OTHER = "0job", "1fit", "2fit"
 
@@ -60,7 +61,15 @@ def blobs(tmp_path: Path) -> WatchedBlobs:
 
 def context_of(blobs: WatchedBlobs) -> ApiContext:
     copying = CapacityLimiter(COPIED_AT_ONCE)
-    return cast("ApiContext", SimpleNamespace(blobs=blobs, copying=copying, request_id=None))
+    return cast(
+        "ApiContext",
+        SimpleNamespace(
+            blobs=blobs,
+            disk=Disk(None, reserve_bytes=1),
+            copying=copying,
+            request_id=None,
+        ),
+    )
 
 
 def copies(blobs: WatchedBlobs) -> Inputs:
@@ -90,7 +99,7 @@ def accept_one(context: ApiContext, inputs: Inputs, jobs: Jobs) -> Any:
 
 
 def test_each_file_is_put_before_the_next_is_read(blobs: WatchedBlobs):
-    options, files = store_inputs(context_of(blobs), JOB, copies(blobs))
+    stored = store_inputs(context_of(blobs), JOB, copies(blobs))
     assert blobs.asked == [
         ("put", "{}"),
         ("put", "sent"),
@@ -99,8 +108,9 @@ def test_each_file_is_put_before_the_next_is_read(blobs: WatchedBlobs):
         ("get", OTHER),
         ("put", OTHER),
     ]
-    assert blobs.names(JOB) == {options.digest, *(blob.digest for blob in files.values())}
-    assert files[FIT].media_type == "image/png"
+    digests = {stored.options.digest, *(blob.digest for blob in stored.files.values())}
+    assert blobs.names(JOB) == digests
+    assert stored.files[FIT].media_type == "image/png"
 
 
 def test_nothing_is_left_where_a_fit_is_erased_meanwhile(blobs: WatchedBlobs):

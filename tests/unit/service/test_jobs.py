@@ -1,5 +1,5 @@
 from api_schemas.jobs import JobState
-from service.jobs import ACTIVE, TERMINAL, TRANSITIONS, may_become
+from service.jobs.states import ACTIVE, TERMINAL, TRANSITIONS, may_become
 
 
 def test_every_state_is_either_active_or_terminal():

@@ -8,9 +8,10 @@ import pytest
 from starlette.requests import ClientDisconnect
 from starlette.types import Message, Receive, Scope, Send
 
-from service.api.figures import Figures
 from service.api.observation import Observation
+from service.api.service_metrics import ServiceMetrics
 from service.engine.port import JobEngine
+from service.process.disk import Disk
 
 SCOPE = {
     "type": "http",
@@ -36,7 +37,9 @@ def answers(error: Exception) -> list[Message]:
     async def send(message: Message) -> None:
         sent.append(message)
 
-    observed = Observation(application, figures=Figures(create_autospec(JobEngine)))
+    observed = Observation(
+        application, metrics=ServiceMetrics(create_autospec(JobEngine), Disk(None, reserve_bytes=0))
+    )
     asyncio.run(observed(dict(SCOPE), nothing, send))
     return sent
 

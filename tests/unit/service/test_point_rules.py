@@ -14,8 +14,8 @@ from api_schemas.points import (
 from fitter.errors import InvalidInputError
 from fitter.observation import clicks as fitter_rule
 from fitter.request import Click
-from service.point_rules import checked_points
-from service.refusal import RefusedError
+from service.submissions.point_rules import checked_points
+from service.submissions.refusal import RefusedError
 
 
 def test_both_rules_have_the_same_names_and_numbers():

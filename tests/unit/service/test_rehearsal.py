@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from fitter.errors import ModelFileError
-from service.submission import check_submission
+from service.submissions.submission import check_submission
 from service.worker import pipeline, rehearsal
 from service.worker.main import THREAD_LIMITS
 from service.worker.pipeline_port import PipelineInput, PipelineOutput

@@ -69,6 +69,14 @@ def test_origins_are_read_as_a_list_and_a_page_is_no_origin():
         Settings(cors_origins="*")
 
 
+@pytest.mark.parametrize("ports", ["", "http", "0", "443,70000", "443;80"])
+def test_ports_of_receivers_are_ports(ports: str):
+    assert Settings().allowed_webhook_ports == (443, 80)
+    assert Settings(webhook_ports="8443, 443").allowed_webhook_ports == (8443, 443)
+    with pytest.raises(ValidationError, match="65535"):
+        Settings(webhook_ports=ports)
+
+
 def test_object_storage_is_named_by_bucket():
     assert Settings(blob_url="s3://bucket/prefix").blob_url == "s3://bucket/prefix"
     with pytest.raises(ValidationError, match="s3://"):
@@ -81,6 +89,68 @@ def test_object_storage_is_named_by_bucket():
 def test_a_senseless_setting_is_refused(name, value):
     with pytest.raises(ValidationError, match=name):
         Settings(**{name: value})
+
+
+def numbers(kind: type) -> list[str]:
+    return [name for name, field in Settings.model_fields.items() if field.annotation is kind]
+
+
+@pytest.mark.parametrize("value", ["inf", "-inf", "nan", "1e308"])
+@pytest.mark.parametrize("name", numbers(float))
+def test_no_time_is_endless_or_none(name: str, value: str):
+    with pytest.raises(ValidationError, match=name):
+        Settings(**{name: value})
+
+
+@pytest.mark.parametrize("name", numbers(int))
+def test_every_count_has_a_bound(name: str):
+    with pytest.raises(ValidationError, match=name):
+        Settings(**{name: 10**30})
+
+
+def test_the_longest_times_allowed_can_be_counted_with():
+    longest = Settings(retention_hours=87_600, drain_s=86_400, sweep_interval_s=86_400)
+    assert longest.retention_s == 10 * 365 * 86_400
+
+
+def test_a_worker_is_not_taken_for_dead_between_two_beats():
+    with pytest.raises(ValidationError, match="at least 20"):
+        Settings(heartbeat_s=10.0, dead_after_s=15.0)
+    assert Settings(heartbeat_s=10.0, dead_after_s=20.0).dead_after_s == 20.0
+
+
+@pytest.mark.parametrize("scheme", ["postgresql", "postgres", "postgresql+psycopg"])
+def test_a_postgres_database_may_be_called_by_its_short_name(scheme: str):
+    settings = Settings(database_url=f"{scheme}://user:p%40ss@host:5433/name?sslmode=require")
+    address = "postgresql://user:p%40ss@host:5433/name?sslmode=require"
+    assert settings.system_database_url == address
+    assert "p%40ss" not in repr(settings)
+
+
+@pytest.mark.parametrize(
+    "url", ["", "mysql://host/name", "sqlite:///file", "host/name", "postgresql://host:many/name"]
+)
+def test_another_database_is_refused(url: str):
+    with pytest.raises(ValidationError, match="postgresql://"):
+        Settings(database_url=url)
+
+
+@pytest.mark.parametrize("hosts", ["https://host", "host:8080", "a.example, b.example/hook"])
+def test_hosts_for_notices_are_names_alone(hosts: str):
+    with pytest.raises(ValidationError, match="is no host"):
+        Settings(webhook_hosts=hosts)
+    assert Settings(webhook_hosts="localhost, 127.0.0.1, ::1").allowed_webhook_hosts
+
+
+def test_a_collector_is_named_by_its_web_address():
+    assert Settings(traces_endpoint="http://127.0.0.1:4318").traces_endpoint
+    with pytest.raises(ValidationError, match="https://"):
+        Settings(traces_endpoint="127.0.0.1:4318")
+
+
+def test_a_data_folder_has_a_name():
+    with pytest.raises(ValidationError, match="name a folder"):
+        Settings(data_dir="")
 
 
 def test_the_pauses_between_notices_are_seconds():

@@ -3,8 +3,8 @@ import json
 import pytest
 
 from api_schemas.points import POINT_NAMES, Point
-from service.refusal import RefusedError
-from service.submission import CheckedSubmission, check_submission
+from service.submissions.refusal import RefusedError
+from service.submissions.submission import CheckedSubmission, check_submission
 from tests.integration.service.fake_pipeline import scripted_image
 
 POINTS = {

@@ -12,12 +12,13 @@ from api_schemas.points import Point
 from api_schemas.requests import FitOptions
 from fitter import request as fitter_request
 from fitter import result as fitter_result
-from fitter.camera import Camera, FocalLengthSource
 from fitter.errors import InvalidInputError
+from fitter.fits.progress import Progress, Stage
 from fitter.measurement.quantity import Measurement
 from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
-from fitter.progress import Progress, Stage
+from fitter.person.fitted_person import FittedPerson
 from fitter.remarks import Assumption, FitWarning
+from fitter.render.camera import Camera, FocalLengthSource
 from service.worker import translate
 
 PARTS = ("pelvis", "spine")
@@ -163,20 +164,11 @@ def result(*, light: Light | None) -> fitter_result.FitResult:
         source="ISO",
     )
     camera = Camera(focal_length_px=500.0, centre_x=32.0, centre_y=24.0, width=64, height=48)
-    return fitter_result.FitResult(
+    person = FittedPerson(
         gender=fitter_request.Gender.FEMALE,
-        height_m=1.65,
-        given=("weight",),
-        cues=fitter_request.Cues.SES,
-        optimizer=fitter_request.OptimizerKind.GAUSS_NEWTON,
-        outcome=fitter_result.Outcome.CONVERGED,
-        camera=camera,
-        image_camera=camera.scaled(2.0, width=128, height=96),
-        focal_length_source=FocalLengthSource.ASSUMED,
+        model_checksum="",
         body=body,
-        shape_covariance=None,
-        posed_vertices=np.zeros((3, 3)),
-        canonical_vertices=np.zeros((3, 3)),
+        camera=camera.scaled(2.0, width=128, height=96),
         light=light,
         reflectance=None
         if light is None
@@ -187,9 +179,24 @@ def result(*, light: Light | None) -> fitter_result.FitResult:
             specular_exponent=8.0,
         ),
         albedo_rgb=None,
+        shape_covariance=None,
+    )
+    return fitter_result.FitResult(
+        found=fitter_result.PictureFit(
+            person=person,
+            height_m=1.65,
+            cues=fitter_request.Cues.SES,
+            outcome=fitter_result.Outcome.CONVERGED,
+            posed_vertices=np.zeros((3, 3)),
+            silhouette_overlap=0.93,
+        ),
+        given=("weight",),
+        optimizer=fitter_request.OptimizerKind.GAUSS_NEWTON,
+        camera=camera,
+        focal_length_source=FocalLengthSource.ASSUMED,
+        canonical_vertices=np.zeros((3, 3)),
         energies={"silhouette": 1.5},
         evaluations=12,
-        silhouette_overlap=0.93,
         stages=(
             fitter_result.StageBody(
                 name="SE",

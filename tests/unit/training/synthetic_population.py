@@ -6,10 +6,15 @@ from scipy import sparse
 
 from fitter.body.model import SparseRows
 from fitter.body.skeleton import global_rotations, posed_joints
-from fitter.training.assemble import RegisteredBodies
-from fitter.training.makehuman import BaseMesh
-from fitter.training.part_tree import PART_NAMES, PART_PARENT, mirrored_part, part_index
-from fitter.training.skinning import blend_linear
+from fitter.training.articulation.part_tree import (
+    PART_NAMES,
+    PART_PARENT,
+    mirrored_part,
+    part_index,
+)
+from fitter.training.articulation.registered_bodies import RegisteredBodies
+from fitter.training.articulation.skinning import blend_linear
+from fitter.training.makehuman.meshes import BaseMesh
 
 SPHERE = trimesh.creation.icosphere(subdivisions=3)
 MEAN = np.asarray(SPHERE.vertices) * [0.3, 0.9, 0.2]

@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 
 from fitter.measurement.definitions import load_definitions
-from fitter.training.age_effect import age_effect
-from fitter.training.civilians import Civilian
-from fitter.training.survey import load_statistics, packaged_statistics_path, regression
+from fitter.training.surveys.age_effect import age_effect
+from fitter.training.surveys.civilians import Civilian
+from fitter.training.surveys.survey import load_statistics, packaged_statistics_path, regression
 
 DEFINITIONS = load_definitions()
 NAMES = [definition.about.name for definition in DEFINITIONS]

@@ -13,16 +13,16 @@ from fitter.body.shape_space import rest_vertices
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.numerics.meshes import enclosed_volume
 from fitter.parameters import BodyParameters
-from fitter.training.articulation_figures import compared_poses, posed_volumes
-from fitter.training.assemble import RegisteredBodies
-from fitter.training.body_regions import vertex_regions
-from fitter.training.plausible_poses import (
+from fitter.training.articulation.plausible_poses import (
     ADMITTED_DEGREES,
     excess_degrees,
     model_pose_prior,
     plausible_poses,
 )
-from fitter.training.random_poses import random_pose
+from fitter.training.articulation.random_poses import random_pose
+from fitter.training.articulation.registered_bodies import RegisteredBodies
+from fitter.training.report.articulation_figures import compared_poses, posed_volumes
+from fitter.training.report.body_regions import vertex_regions
 
 SHAPES = np.random.default_rng(3).normal(size=(2, 20))
 

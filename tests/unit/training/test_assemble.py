@@ -9,16 +9,16 @@ from fitter.body.skeleton import regress
 from fitter.body.storage import load_body_model, save_body_model
 from fitter.numerics.meshes import enclosed_volume
 from fitter.parameters import BodyParameters
+from fitter.training.articulation.part_tree import part_index
+from fitter.training.articulation.pose_term import PoseExample
 from fitter.training.assemble import (
     assemble_body_model,
     height_attribute,
     mirrored_example,
     model_arrays,
 )
-from fitter.training.comparison_figures import comparison_figures
-from fitter.training.evaluation import height_axes, posed_error, shape_error
-from fitter.training.part_tree import part_index
-from fitter.training.pose_term import PoseExample
+from fitter.training.report.comparison_figures import comparison_figures
+from fitter.training.report.evaluation import height_axes, posed_error, shape_error
 from tests.unit.training.synthetic_population import landmarks, part_weights, population, surface
 
 HEADER = {

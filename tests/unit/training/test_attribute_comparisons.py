@@ -1,6 +1,6 @@
 import numpy as np
 
-from fitter.training.attribute_comparisons import (
+from fitter.training.shapes.attribute_comparisons import (
     allen_leak,
     allen_map,
     blanz_vetter_axes,

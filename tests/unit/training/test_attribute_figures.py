@@ -7,16 +7,16 @@ from fitter.body.scape import ScapeEvaluator
 from fitter.body.shape_space import rest_vertices
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.parameters import BodyParameters
-from fitter.training.assemble import RegisteredBodies
-from fitter.training.attribute_figures import (
+from fitter.training.articulation.registered_bodies import RegisteredBodies
+from fitter.training.report.attribute_figures import (
     MeasuredAttribute,
     attribute_figures,
     attribute_lines,
 )
-from fitter.training.comparison_figures import comparison_lines
-from fitter.training.evaluation import VertexError
-from fitter.training.held_out_errors import HeldOutErrors
-from fitter.training.reported import Reported
+from fitter.training.report.comparison_figures import comparison_lines
+from fitter.training.report.evaluation import VertexError
+from fitter.training.report.held_out_errors import HeldOutErrors
+from fitter.training.report.reported import Reported
 
 SHAPES = np.random.default_rng(4).normal(size=(30, 20))
 

@@ -5,13 +5,13 @@ from fitter.body.scape import ScapeEvaluator
 from fitter.body.shape_space import height_of_shape, rest_vertices
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.errors import DefinitionError
-from fitter.training.attribute_axes import attribute_changes
-from fitter.training.attribute_spaces import attribute_space, gram_of_axes
-from fitter.training.attributes import (
+from fitter.training.shapes.attribute_spaces import attribute_space, gram_of_axes
+from fitter.training.shapes.attributes import (
     measurement_attribute,
     path_between_landmarks,
     surface_length_attribute,
 )
+from fitter.training.shapes.height_rotation import attribute_changes
 
 COEFFICIENTS = np.random.default_rng(5).normal(size=(60, 20))
 

@@ -1,6 +1,6 @@
 import numpy as np
 
-from fitter.training.bilinear_ridge import BilinearSums, solve_bilinear
+from fitter.training.articulation.bilinear_ridge import BilinearSums, solve_bilinear
 
 RNG = np.random.default_rng(12)
 FEATURES, SHAPES, OUTPUTS = 4, 3, 6

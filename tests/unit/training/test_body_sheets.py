@@ -1,7 +1,7 @@
 import numpy as np
 import trimesh
 
-from fitter.training.body_sheets import (
+from fitter.training.report.body_sheets import (
     FLOOR_M,
     FRONT,
     LINE_COLOUR,

@@ -5,9 +5,13 @@ from functools import cache
 import numpy as np
 import pytest
 
-from fitter.training import bone_centres
-from fitter.training.bone_centres import sample_sources, turning_bones, with_skin_centres
-from fitter.training.rig import Rig, bone_heads
+from fitter.training.articulation import bone_centres
+from fitter.training.articulation.bone_centres import (
+    sample_sources,
+    turning_bones,
+    with_skin_centres,
+)
+from fitter.training.articulation.rig import Rig, bone_heads
 from tests.unit.training.makehuman_data import base_mesh, body_space, needs_makehuman
 from tests.unit.training.rigged_neutral import neutral_source, rig
 

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from fitter.training.civilian_figures import figures_of_civilians, figures_of_people
-from fitter.training.civilians import load_civilians, packaged_civilians_path
+from fitter.training.report.civilian_figures import figures_of_civilians, figures_of_people
+from fitter.training.surveys.civilians import load_civilians, packaged_civilians_path
 
 
 def test_people_are_told_by_their_index_and_the_geometric_mean_of_their_waists():

@@ -3,8 +3,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fitter.training.civilian_files import civilian_statistics, read_people
-from fitter.training.civilians import (
+from fitter.training.surveys.civilian_files import civilian_statistics, read_people
+from fitter.training.surveys.civilians import (
     AGES,
     BMI_RANGE,
     draw_civilian,

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from fitter.errors import NumericalError
-from fitter.training.cuts import limb_cut, trunk_cut
+from fitter.training.surveys.cuts import limb_cut, trunk_cut
 from tests.unit.measurement.solids import prism, tube
 
 UP = np.array([0.0, 1.0, 0.0])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fitter.body.skeleton import global_rotations, posed_joints
-from fitter.training.extreme_poses import (
+from fitter.training.articulation.extreme_poses import (
     ELBOW_BENT_DEGREES,
     HIP_ABDUCTED_DEGREES,
     HIP_FLEXED_DEGREES,
@@ -12,8 +12,8 @@ from fitter.training.extreme_poses import (
     SHOULDER_RAISED_DEGREES,
     extreme_poses,
 )
-from fitter.training.named_poses import canonical_pose
-from fitter.training.part_tree import PART_NAMES, PART_PARENT, part_index
+from fitter.training.articulation.named_poses import canonical_pose
+from fitter.training.articulation.part_tree import PART_NAMES, PART_PARENT, part_index
 from tests.unit.pose_init.stick_figure import stick_figure
 
 JOINTS = stick_figure().rest_joints

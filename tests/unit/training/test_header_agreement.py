@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from fitter.body.storage import load_body_model, packaged_model_path
-from fitter.training.assemble import RegisteredBodies
-from fitter.training.evaluation import VertexError
-from fitter.training.header_agreement import agreement_lines, disagreements
-from fitter.training.held_out_errors import HeldOutErrors, header_entry
-from fitter.training.reported import Reported
+from fitter.training.articulation.registered_bodies import RegisteredBodies
+from fitter.training.report.evaluation import VertexError
+from fitter.training.report.header_agreement import agreement_lines, disagreements
+from fitter.training.report.held_out_errors import HeldOutErrors, header_entry
+from fitter.training.report.reported import Reported
 
 SMALL = VertexError(by_vertex=1.0, by_area=2.0)
 ERRORS = HeldOutErrors(

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from fitter.body.model import SparseRows
-from fitter.training.inner_points import inner_weights, nearest
-from fitter.training.landmarks import with_rows
+from fitter.training.articulation.inner_points import inner_weights, nearest
+from fitter.training.makehuman.landmarks import with_rows
 
 
 def limb(bend: float, thickness: float, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:

@@ -1,112 +1,92 @@
 """Where subjects come from: the committed population, the cache, or solving."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from pathlib import Path
-from types import SimpleNamespace
-from typing import cast
 
 import numpy as np
 import pytest
 
 from fitter.body.storage import load_body_model, packaged_model_path
-from fitter.training import build
-from fitter.training.evaluation import joint_distances, shape_coefficients, shape_error
-from fitter.training.makehuman import makehuman_folder
-from fitter.training.population import packaged_population_path
+from fitter.training.build import (
+    GENDERS,
+    Materials,
+    held_out_bodies,
+    read_materials,
+    solved_population,
+    subjects,
+)
+from fitter.training.makehuman.meshes import makehuman_folder
+from fitter.training.people.population import (
+    Population,
+    load_population,
+    packaged_population_path,
+    save_population,
+)
+from fitter.training.report.evaluation import joint_distances, shape_coefficients, shape_error
 from tests.unit.training.makehuman_data import needs_makehuman
+
+pytestmark = [pytest.mark.slow, needs_makehuman]
 
 TOLERANCE_MM = 1e-3
 
 
-@dataclass
-class Kept:
-    """Files of so many subjects each, and how many were solved."""
-
-    sizes: Mapping[Path, int]
-    solved: list[int] = field(default_factory=list)
-    saved: list[Path] = field(default_factory=list)
-
-    def load(self, path: Path, space: object, *, count: int) -> SimpleNamespace:
-        del space
-        return people(min(count, self.sizes[path]), path)
-
-    def solve(self, workshop: object, count: int, seed: int, *, processes: int) -> SimpleNamespace:
-        del workshop, seed, processes
-        self.solved.append(count)
-        return people(count, None)
-
-    def save(self, path: Path, population: object) -> None:
-        del population
-        self.saved.append(path)
+@pytest.fixture(scope="module")
+def materials() -> Materials:
+    return read_materials(makehuman_folder())
 
 
-def people(count: int, source: Path | None) -> SimpleNamespace:
-    return SimpleNamespace(source_vertices=np.zeros((count, 1, 3)), source=source)
+@pytest.fixture(scope="module")
+def committed(materials: Materials) -> Population:
+    """A few of the committed women."""
+    return load_population(packaged_population_path("female"), materials.spaces["female"], count=6)
 
 
-@pytest.fixture
-def kept(monkeypatch, tmp_path) -> Kept:
-    cached = tmp_path / "population_female_1.npz"
-    cached.touch()
-    found = Kept({packaged_population_path("female"): 1300, cached: 2000})
-    monkeypatch.setattr(build, "load_population", found.load)
-    monkeypatch.setattr(build, "solve_population", found.solve)
-    monkeypatch.setattr(build, "save_population", found.save)
-    monkeypatch.setattr(build, "prepare", lambda space, landmarks: None)
-    return found
+def kept(cache: Path, seed: int, population: Population) -> None:
+    save_population(cache / f"population_female_{seed}.npz", population)
 
 
-def population(cache: Path | None, *, count: int = 200, seed: int = 1, anew: bool = False):
-    materials = SimpleNamespace(spaces={"female": None}, landmarks=None)
-    found = build.solved_population(
-        cast("build.Materials", materials),
-        "female",
-        count=count,
-        seed=seed,
-        cache=cache,
-        anew=anew,
+def read(materials: Materials, cache: Path, seed: int, *, count: int) -> Population:
+    path = cache / f"population_female_{seed}.npz"
+    return load_population(path, materials.spaces["female"], count=count)
+
+
+def same(one: Population, other: Population) -> bool:
+    return np.array_equal(one.source_vertices, other.source_vertices)
+
+
+def test_the_committed_population_is_enough_for_its_seed(materials, committed, tmp_path):
+    kept(tmp_path, 1, subjects(committed, slice(3, 6)))
+    found = solved_population(materials, "female", count=3, seed=1, cache=tmp_path)
+    assert same(found, subjects(committed, slice(0, 3)))
+
+
+def test_subjects_of_another_seed_come_from_the_cache(materials, committed, tmp_path):
+    others = subjects(committed, slice(3, 6))
+    kept(tmp_path, 2, others)
+    assert same(solved_population(materials, "female", count=3, seed=2, cache=tmp_path), others)
+
+
+@pytest.mark.parametrize(("seed", "anew"), [(2, False), (1, True)])
+def test_else_they_are_solved_and_the_cache_keeps_them(materials, committed, tmp_path, seed, anew):
+    stale = subjects(committed, slice(5, 6))
+    kept(tmp_path, seed, stale)  # too few, or not to be read
+    count = 1 if anew else 2
+    found = solved_population(
+        materials, "female", count=count, seed=seed, cache=tmp_path, anew=anew
     )
-    return cast("SimpleNamespace", found)
+    assert len(found.source_vertices) == count
+    assert not same(subjects(found, slice(0, 1)), stale)
+    np.testing.assert_allclose(
+        read(materials, tmp_path, seed, count=count).source_vertices,
+        found.source_vertices,
+        atol=1e-4,
+    )
 
 
-def test_the_committed_population_is_enough_for_its_seed(kept, tmp_path):
-    found = population(tmp_path, count=1300)
-    assert found.source == packaged_population_path("female")
-    assert kept.solved == []
-
-
-def test_more_subjects_than_are_committed_come_from_the_cache(kept, tmp_path):
-    assert population(tmp_path, count=1500).source == tmp_path / "population_female_1.npz"
-    assert kept.solved == []
-
-
-@pytest.mark.parametrize("wanted", [{"seed": 2}, {"count": 2500}, {"anew": True}])
-def test_else_they_are_solved_and_the_cache_keeps_them(kept, tmp_path, wanted):
-    found = population(tmp_path, **wanted)
-    assert found.source is None
-    assert kept.solved == [wanted.get("count", 200)]
-    assert kept.saved == [tmp_path / f"population_female_{wanted.get('seed', 1)}.npz"]
-
-
-def test_without_a_cache_nothing_is_written(kept):
-    population(None, seed=3)
-    assert kept.solved == [200]
-    assert kept.saved == []
-
-
-@pytest.mark.slow
-@needs_makehuman
-def test_the_committed_held_out_subjects_give_the_figures_that_headers_claim(monkeypatch):
-    def refuse(*arguments: object, **options: object) -> None:
-        message = "subjects must not be solved"
-        raise AssertionError(message)
-
-    monkeypatch.setattr(build, "solve_population", refuse)
-    materials = build.read_materials(makehuman_folder())
-    for gender in build.GENDERS:
+def test_the_committed_held_out_subjects_give_the_figures_that_headers_claim(materials):
+    for gender in GENDERS:
         model = load_body_model(packaged_model_path(gender))
-        bodies = build.held_out_bodies(materials, model, cache=None)
+        bodies = held_out_bodies(materials, model, cache=None)
         claimed = model.header["held_out_errors"]
         assert isinstance(claimed, Mapping)
         assert len(bodies.rest) == claimed["subjects"]

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from fitter.measurement.plane_cut import Plane, in_plane, plane_section, whole_mesh
-from fitter.training.body_space import average_traits, source_vertices
-from fitter.training.knee_rings import with_knee_rings
+from fitter.training.makehuman.body_space import average_traits, source_vertices
+from fitter.training.makehuman.knee_rings import with_knee_rings
 from tests.unit.training.makehuman_data import base_mesh, body_space, needs_makehuman
 
 GROUPS = {"joint-l-knee": [0], "joint-l-upper-leg": [1], "joint-l-ankle": [2]}

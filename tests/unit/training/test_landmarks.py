@@ -3,9 +3,9 @@ import pytest
 
 from fitter.body.model import SparseRows
 from fitter.body.skeleton import regress
-from fitter.training.body_space import average_traits, source_vertices
-from fitter.training.landmarks import INNER_JOINTS, body_landmarks
-from fitter.training.makehuman import makehuman_folder
+from fitter.training.makehuman.body_space import average_traits, source_vertices
+from fitter.training.makehuman.landmarks import INNER_JOINTS
+from tests.unit.training import makehuman_data
 from tests.unit.training.makehuman_data import base_mesh, body_space, needs_makehuman
 
 pytestmark = needs_makehuman
@@ -13,8 +13,7 @@ pytestmark = needs_makehuman
 
 @pytest.fixture(scope="module")
 def landmarks() -> SparseRows:
-    spaces = [body_space("female"), body_space("male")]
-    return body_landmarks(makehuman_folder(), base_mesh(), spaces)
+    return makehuman_data.landmarks()
 
 
 def points(landmarks: SparseRows, gender: str) -> dict[str, np.ndarray]:

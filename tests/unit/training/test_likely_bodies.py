@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from fitter.training.likely_bodies import body_of_weight, random_shapes, weight_direction
+from fitter.training.shapes.likely_bodies import body_of_weight, random_shapes, weight_direction
 
 GRADIENT = np.array([5.0, 3.0, 0.0, -4.0])
 

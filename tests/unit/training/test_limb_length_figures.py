@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from fitter.body.storage import load_body_model, packaged_model_path
-from fitter.training.limb_length_figures import LIMBS, LimbLengthFigures, limb_length_figures
-from fitter.training.survey_moments import load_moments, packaged_moments_path
+from fitter.training.report.limb_length_figures import LIMBS, LimbLengthFigures, limb_length_figures
+from fitter.training.surveys.survey_moments import load_moments, packaged_moments_path
 
 LARGEST_ERROR_MM = {
     "upper arm": 5.0,

@@ -1,11 +1,16 @@
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from fitter.numerics.meshes import enclosed_volume, triangle_neighbours
-from fitter.training.makehuman import BaseMesh, load_targets, makehuman_folder
+from fitter.training.makehuman.meshes import DATA_PACKAGE, BaseMesh, load_targets, makehuman_folder
 from tests.unit.training.makehuman_data import base_mesh, needs_makehuman
 
 pytestmark = needs_makehuman
+
+
+REPOSITORY = Path(__file__).parents[3]
 
 
 @pytest.fixture(scope="module")
@@ -62,3 +67,8 @@ def test_mirrored_targets_move_mirrored_vertices(base: BaseMesh):
     )
     assert np.abs(left).max() > 0.005
     np.testing.assert_allclose(left[base.source_mirror] * [-1.0, 1.0, 1.0], right, atol=2e-4)
+
+
+def test_who_lacks_the_package_is_told_of_the_version_that_the_tests_have():
+    required = (REPOSITORY / "requirements-training.txt").read_text().splitlines()
+    assert DATA_PACKAGE in required

@@ -5,9 +5,9 @@ import pytest
 
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.measurement.definitions import load_definitions
-from fitter.training.measured_people import drawn_measurements
-from fitter.training.measurement_figures import measurement_figures
-from fitter.training.survey_moments import load_moments, packaged_moments_path
+from fitter.training.report.measured_people import drawn_measurements
+from fitter.training.report.measurement_figures import measurement_figures
+from fitter.training.surveys.survey_moments import load_moments, packaged_moments_path
 
 DEFINITIONS = load_definitions()
 SURVEYED = [definition for definition in DEFINITIONS if definition.about.survey.fields]

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from fitter.body.storage import load_body_model, packaged_model_path
-from fitter.training.mesh_balance import region_meshes
-from fitter.training.refinement_effect import refinement_effect
+from fitter.training.report.mesh_balance import region_meshes
+from fitter.training.report.refinement_effect import refinement_effect
 
 
 @pytest.fixture(scope="module")

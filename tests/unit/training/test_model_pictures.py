@@ -2,7 +2,7 @@ import cv2
 import pytest
 
 from fitter.body.storage import load_body_model, packaged_model_path
-from fitter.training.model_pictures import write_pictures
+from fitter.training.report.model_pictures import write_pictures
 
 pytestmark = pytest.mark.slow
 

@@ -1,7 +1,7 @@
 import numpy as np
 import trimesh
 
-from fitter.training.parts import cut_into_parts
+from fitter.training.articulation.parts import cut_into_parts
 
 SPHERE = trimesh.creation.icosphere(subdivisions=2)
 TRIANGLES = np.asarray(SPHERE.faces)

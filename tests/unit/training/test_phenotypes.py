@@ -3,8 +3,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fitter.training.body_space import average_traits, source_vertices, target_coefficients
-from fitter.training.phenotypes import (
+from fitter.training.makehuman.body_space import (
+    average_traits,
+    source_vertices,
+    target_coefficients,
+)
+from fitter.training.makehuman.phenotypes import (
     ANCHORS,
     free_axes,
     hat_slopes,

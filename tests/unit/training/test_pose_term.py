@@ -6,15 +6,15 @@ from fitter.body.pose_features import pose_features
 from fitter.body.scape import ScapeEvaluator
 from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
 from fitter.parameters import BodyParameters
-from fitter.training.part_tree import PART_NAMES, PART_PARENT, part_index
-from fitter.training.parts import Parts, cut_into_parts
-from fitter.training.pose_term import (
+from fitter.training.articulation.part_tree import PART_NAMES, PART_PARENT, part_index
+from fitter.training.articulation.parts import Parts, cut_into_parts
+from fitter.training.articulation.pose_term import (
     PoseExample,
     PoseTerm,
     pose_feature_joints,
     train_pose_term,
 )
-from fitter.training.surface import triangle_areas
+from fitter.training.shapes.surface import triangle_areas
 
 FOOT, SHIN = part_index("left_foot"), part_index("left_shin")
 SPHERE = trimesh.creation.icosphere(subdivisions=4)

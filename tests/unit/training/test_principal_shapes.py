@@ -1,6 +1,6 @@
 import numpy as np
 
-from fitter.training.principal_shapes import centred, principal_shapes, project
+from fitter.training.shapes.principal_shapes import centred, principal_shapes, project
 
 RNG = np.random.default_rng(2)
 MASSES = RNG.uniform(0.1, 1.0, 50)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fitter.training.relaxed_hands import (
+from fitter.training.articulation.relaxed_hands import (
     FINGERS,
     JOINT_SHARES,
     RELAXED,
@@ -11,7 +11,7 @@ from fitter.training.relaxed_hands import (
     finger_rotations,
     with_curled_fingers,
 )
-from fitter.training.rig import bone_heads
+from fitter.training.articulation.rig import bone_heads
 from tests.unit.training.makehuman_data import base_mesh, needs_makehuman
 from tests.unit.training.rigged_neutral import mesh, neutral_source, rig
 

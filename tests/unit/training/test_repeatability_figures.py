@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from fitter.body.storage import load_body_model, packaged_model_path
-from fitter.training.repeatability_figures import repeatability_figures
+from fitter.training.report.repeatability_figures import repeatability_figures
 
 
 @pytest.mark.parametrize("gender", ["female", "male"])

@@ -7,18 +7,18 @@ import pytest
 from fitter.body.storage import load_body_model
 from fitter.training.assemble import assemble_body_model, height_attribute
 from fitter.training.build import subjects, write_model
-from fitter.training.evaluation import VertexError
-from fitter.training.held_out_errors import HeldOutErrors, header_entry
+from fitter.training.people.population import Population
 from fitter.training.plan import Plan
-from fitter.training.population import Population
-from fitter.training.provenance import (
+from fitter.training.report.evaluation import VertexError
+from fitter.training.report.held_out_errors import HeldOutErrors, header_entry
+from fitter.training.report.provenance import (
     model_statistics,
     provenance,
     residual_lines,
     residuals,
 )
-from fitter.training.reported import Reported
-from fitter.training.summary_figures import goals, summary_lines
+from fitter.training.report.reported import Reported
+from fitter.training.report.summary_figures import goals, summary_lines
 from tests.unit.training.synthetic_population import landmarks, part_weights, population, surface
 
 PLAN = Plan(subjects=4, held_out=2, examples=0, seed=7)

@@ -2,10 +2,16 @@ import numpy as np
 from scipy import sparse
 
 from fitter.numerics.rotations import rotation_matrices
-from fitter.training.part_tree import PART_NAMES, part_index
-from fitter.training.rig import Rig, bone_heads, bone_rotations, part_weights, posed_vertices
-from fitter.training.rig_drives import bone_drives, rest_axis
-from fitter.training.skinning import blend_dual_quaternion, blend_linear
+from fitter.training.articulation.part_tree import PART_NAMES, part_index
+from fitter.training.articulation.rig import (
+    Rig,
+    bone_heads,
+    bone_rotations,
+    part_weights,
+    posed_vertices,
+)
+from fitter.training.articulation.rig_drives import bone_drives, rest_axis
+from fitter.training.articulation.skinning import blend_dual_quaternion, blend_linear
 
 BONES = {
     "root": "",

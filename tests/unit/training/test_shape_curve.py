@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from fitter.training.shape_curve import error_by_count, error_by_metric, region_errors
-from fitter.training.surface import vertex_areas
+from fitter.training.report.shape_curve import error_by_count, error_by_metric, region_errors
+from fitter.training.shapes.surface import vertex_areas
 from tests.unit.training.synthetic_population import MEAN, TRIANGLES, population
 
 TRAINING, HELD_OUT = population(60, 1).rest, population(12, 2).rest

@@ -5,7 +5,7 @@ from fitter.body.scape import ScapeEvaluator
 from fitter.body.shape_space import rest_vertices
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.measurement.anthropometry import measurement_values, measuring_body
-from fitter.training.measured_people import measured_bodies
+from fitter.training.report.measured_people import measured_bodies
 
 SHAPES = np.random.default_rng(2).normal(size=(3, 20))
 

@@ -4,12 +4,9 @@ import numpy as np
 import pytest
 
 from fitter.numerics.meshes import enclosed_volume
-from fitter.training._subject_kernels import volume_and_pull
-from fitter.training.body_space import average_traits, source_vertices
-from fitter.training.cuts import limb_cut, trunk_cut
-from fitter.training.landmarks import body_landmarks
-from fitter.training.makehuman import makehuman_folder
-from fitter.training.population import (
+from fitter.training.makehuman.body_space import average_traits, source_vertices
+from fitter.training.people._subject_kernels import volume_and_pull
+from fitter.training.people.population import (
     Workshop,
     load_population,
     packaged_population_path,
@@ -17,26 +14,26 @@ from fitter.training.population import (
     save_population,
     solve_population,
 )
-from fitter.training.subject_fit import (
+from fitter.training.people.subject_fit import (
     Placed,
     Wanted,
     fit_subject,
     measured,
     place,
 )
-from fitter.training.survey_measurements import (
+from fitter.training.surveys.cuts import limb_cut, trunk_cut
+from fitter.training.surveys.survey_measurements import (
     MEASUREMENTS,
     measured_lengths,
     place_measurements,
 )
 from tests.unit.measurement.solids import sphere
-from tests.unit.training.makehuman_data import base_mesh, body_space, needs_makehuman
+from tests.unit.training.makehuman_data import body_space, landmarks, needs_makehuman
 
 
 @pytest.fixture(scope="module")
 def workshop() -> Workshop:
-    spaces = [body_space("female"), body_space("male")]
-    return prepare(spaces[0], body_landmarks(makehuman_folder(), base_mesh(), spaces))
+    return prepare(body_space("female"), landmarks())
 
 
 def placed_on(workshop: Workshop, parameters: np.ndarray) -> Placed:

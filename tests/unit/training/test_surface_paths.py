@@ -1,7 +1,7 @@
 import numpy as np
 import trimesh
 
-from fitter.training.surface_paths import SurfacePath, shortest_path
+from fitter.training.shapes.surface_paths import SurfacePath, shortest_path
 
 SPHERE = trimesh.creation.icosphere(subdivisions=3)
 VERTICES, TRIANGLES = np.asarray(SPHERE.vertices), np.asarray(SPHERE.faces, dtype=np.int32)

@@ -3,16 +3,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fitter.training.civilians import Civilian, load_civilians, packaged_civilians_path
-from fitter.training.survey import (
+from fitter.training.surveys.civilians import Civilian, load_civilians, packaged_civilians_path
+from fitter.training.surveys.survey import (
     draw_measurements,
     load_statistics,
     on_the_model,
     packaged_statistics_path,
     regression,
 )
-from fitter.training.survey_files import save_statistics, statistics_from_survey
-from fitter.training.survey_measurements import MEASUREMENTS
+from fitter.training.surveys.survey_files import save_statistics, statistics_from_survey
+from fitter.training.surveys.survey_measurements import MEASUREMENTS
 
 GENDERS = ("female", "male")
 

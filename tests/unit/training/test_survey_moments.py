@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from fitter.measurement.definitions import load_definitions
-from fitter.training.survey import load_statistics, packaged_statistics_path
-from fitter.training.survey_files import RELAXED_SHARE, SOURCE_NAMES
-from fitter.training.survey_moments import (
+from fitter.training.surveys.survey import load_statistics, packaged_statistics_path
+from fitter.training.surveys.survey_files import RELAXED_SHARE, SOURCE_NAMES
+from fitter.training.surveys.survey_moments import (
     FIELDS,
     load_moments,
     moments_from_survey,

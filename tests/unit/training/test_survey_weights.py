@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from fitter.training.survey_weights import (
+from fitter.training.surveys.survey_weights import (
     Target,
     TooFewPeopleError,
     effective_count,

@@ -1,4 +1,4 @@
-from fitter.training.text_tables import NOTE_WIDTH, note_lines, table_lines
+from fitter.training.report.text_tables import NOTE_WIDTH, note_lines, table_lines
 
 
 def test_numbers_line_up_under_their_heads():

@@ -5,10 +5,10 @@ import pytest
 
 from fitter.arrays import Pose
 from fitter.numerics.meshes import enclosed_volume
-from fitter.training.extreme_poses import extreme_poses
-from fitter.training.part_tree import PART_NAMES, PART_PARENT, part_index
-from fitter.training.rig import bone_heads, posed_vertices
-from fitter.training.volume_keeping import volume_change
+from fitter.training.articulation.extreme_poses import extreme_poses
+from fitter.training.articulation.part_tree import PART_NAMES, PART_PARENT, part_index
+from fitter.training.articulation.rig import bone_heads, posed_vertices
+from fitter.training.articulation.volume_keeping import volume_change
 from tests.unit.training.makehuman_data import needs_makehuman
 from tests.unit.training.rigged_neutral import mesh, neutral_body, neutral_source, rig
 

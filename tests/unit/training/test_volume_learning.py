@@ -12,9 +12,9 @@ from fitter.body.shape_space import rest_vertices
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.numerics.meshes import enclosed_volume
 from fitter.parameters import BodyParameters
-from fitter.training.likely_bodies import random_shapes
-from fitter.training.random_poses import random_pose
-from fitter.training.volume_learning import with_volume_learned
+from fitter.training.articulation.random_poses import random_pose
+from fitter.training.articulation.volume_learning import with_volume_learned
+from fitter.training.shapes.likely_bodies import random_shapes
 
 SAMPLES = 30
 

@@ -5,7 +5,7 @@ import { Choice } from "../ui/Choice";
 import { ProblemNote } from "../ui/ProblemNote";
 import { FIRST_WISHES, KINDS, kindLabel } from "./kinds";
 import { useDerivations } from "./follow";
-import { Made } from "./Made";
+import { DerivationCard } from "./DerivationCard";
 import { OPTIONS } from "./Options";
 
 interface Props {
@@ -49,7 +49,7 @@ export function DerivedPanel({ fit, hasLight }: Props) {
       {problem && <ProblemNote problem={problem} />}
       <ul class="derived">
         {list.map((each) => (
-          <Made key={each.id} made={each} onRetry={() => void retry(each)} onErase={() => void erase(each)} />
+          <DerivationCard key={each.id} made={each} onRetry={() => void retry(each)} onErase={() => void erase(each)} />
         ))}
       </ul>
     </section>

@@ -1,7 +1,8 @@
 // What can be chosen of the kind that is to be made.
 import type { Job, NamedPose, TextureColours, TextureSize } from "../api/types";
 import { Choice } from "../ui/Choice";
-import { DEGREES, FACTORS, POSES, TEXTURE_SIZES } from "./kinds";
+import { LIMITS } from "../api/limits";
+import { DEGREES, FACTORS, POSES } from "./kinds";
 import type { Wishes } from "./kinds";
 import { OtherFits } from "./OtherFits";
 
@@ -121,7 +122,7 @@ function TextureSide({ wishes, onWish }: Wished) {
         value={wishes.size}
         onChange={(event) => onWish({ size: Number(event.currentTarget.value) as TextureSize })}
       >
-        {TEXTURE_SIZES.map((size) => (
+        {LIMITS.textureSizes.map((size) => (
           <option key={size} value={size}>
             {size} × {size}
           </option>

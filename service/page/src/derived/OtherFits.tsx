@@ -6,7 +6,7 @@ import type { FitOptions, Job } from "../api/types";
 import { isActive } from "../fit/watch";
 import { entries, jobs, seen } from "../history/store";
 import type { Entry } from "../history/store";
-import { MOST_OTHER_FITS } from "./kinds";
+import { LIMITS } from "../api/limits";
 import { toldAlike } from "./sameperson";
 
 interface Props {
@@ -27,7 +27,7 @@ export function OtherFits({ fit, chosen, onChoose }: Props) {
             <input
               type="checkbox"
               checked={isChosen}
-              disabled={!isChosen && chosen.length >= MOST_OTHER_FITS}
+              disabled={!isChosen && chosen.length >= LIMITS.otherFits}
               onChange={() => onChoose(isChosen ? chosen.filter((each) => each !== id) : [...chosen, id])}
             />
             <img src={thumbnail} alt="" />

@@ -28,9 +28,6 @@ export const FIRST_WISHES: Wishes = {
 };
 export const FACTORS = { least: 0, most: 5, step: 0.25 } as const;
 export const DEGREES = { least: -180, most: 180, step: 15 } as const;
-export const TEXTURE_SIZES: readonly TextureSize[] = [512, 1024, 2048];
-/** Twelve pictures of one person in all. */
-export const MOST_OTHER_FITS = 11;
 
 export const POSES: readonly { value: NamedPose; label: string }[] = [
   { value: "standing", label: "Standing" },

@@ -1,4 +1,5 @@
 // What is known of the person, as typed; nothing typed means unknown.
+import { LIMITS } from "../api/limits";
 import type { FitOptions, Gender, KnownMeasurements } from "../api/types";
 
 export interface Person {
@@ -31,7 +32,6 @@ export const NOBODY: Person = { gender: null, units: "metric", height: "", inche
 const TAPE_ERROR_CM = 1;
 const TAPE_RANGE_CM = [10, 200] as const;
 
-export const HEIGHT_RANGE_M = [1.2, 2.3] as const;
 const INCH_M = 0.0254;
 const INCH_CM = 100 * INCH_M;
 const POUND_KG = 0.45359237;
@@ -59,7 +59,7 @@ export function weightKg(person: Person): number | null {
 export function heightFault(person: Person): string | null {
   const height = heightM(person);
   if (height === null) return null;
-  const [low, high] = HEIGHT_RANGE_M;
+  const [low, high] = LIMITS.heightM;
   if (height >= low && height <= high) return null;
   if (Number.isNaN(height)) return "A number is needed here.";
   return person.units === "metric"

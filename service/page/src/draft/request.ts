@@ -59,7 +59,7 @@ export function draftedInitialPose(subject: Subject, width: number, height: numb
 }
 
 /** Take up what an earlier fit was asked for. */
-export function useRequest(asked: FitOptions): void {
+export function loadDraft(asked: FitOptions): void {
   const units = person.value.units;
   person.value = {
     ...NOBODY,

@@ -1,5 +1,5 @@
 // Where the light comes from: a ball to be lit by dragging.
-import { useEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef } from "preact/hooks";
 import type { LightGuess } from "../api/types";
 import { cues, light, surroundings } from "../draft/draft";
 import { Choice } from "../ui/Choice";
@@ -66,7 +66,8 @@ export function LightPanel() {
 
 function Ball({ guess }: { guess: LightGuess | null }) {
   const canvas = useRef<HTMLCanvasElement>(null);
-  useEffect(() => drawBall(canvas.current!, guess), [guess]);
+  // Before it is shown: what it says and what is seen are never of two lights.
+  useLayoutEffect(() => drawBall(canvas.current!, guess), [guess]);
   const set = (azimuth: number, elevation: number) => {
     const azimuth_deg = Math.round(Math.max(-90, Math.min(90, azimuth)));
     const elevation_deg = Math.round(Math.max(-90, Math.min(90, elevation)));

@@ -5,7 +5,7 @@ import type { FitOptions, Job } from "../api/types";
 import { change, points, useMask, usePicture } from "../draft/draft";
 import { openPicture } from "../draft/picture";
 import type { Picture } from "../draft/picture";
-import { useRequest } from "../draft/request";
+import { loadDraft } from "../draft/request";
 import { skipRest } from "../points/placed";
 import { go } from "../route";
 
@@ -27,7 +27,7 @@ export async function trySample(name: string, withPoints: boolean): Promise<void
   await openFile(file, `${name}.jpg`);
   if (!withPoints) return;
   const asked = (await (await fetch(`/page/${name}.json`)).json()) as FitOptions;
-  useRequest(asked);
+  loadDraft(asked);
   // Its points are all there are: none is asked for.
   change(skipRest(points.value));
 }
@@ -39,7 +39,7 @@ export async function openAgain(picture: Picture, job: Job): Promise<void> {
     job.links.mask ? getFile(job.links.mask).then((file) => openPicture(file, "the mask of that fit")) : null,
   ]);
   await openFile(picture.file, picture.name);
-  useRequest(asked);
+  loadDraft(asked);
   useMask(mask);
 }
 

@@ -34,10 +34,6 @@ export const POINT_NAMES: readonly PointName[] = POINTS.map((point) => point.nam
 export const LIMB_POINTS: readonly PointName[] = POINT_NAMES.slice(0, 12);
 export const TRUNK_POINTS: readonly PointName[] = ["left_shoulder", "right_shoulder", "left_hip", "right_hip"];
 
-/** Of the twelve limb points so many are needed, and so many of them shoulders or hips. */
-export const MIN_LIMB_POINTS = 6;
-export const MIN_TRUNK_POINTS = 2;
-
 export const BONES: readonly (readonly [PointName, PointName])[] = [
   ["left_shoulder", "right_shoulder"],
   ["left_hip", "right_hip"],

@@ -1,5 +1,6 @@
 // Placed points as a value, and what can be done to it; every change gives a new value.
-import { LIMB_POINTS, MIN_LIMB_POINTS, MIN_TRUNK_POINTS, POINT_NAMES, TRUNK_POINTS, mirrored } from "./catalogue";
+import { LIMITS } from "../api/limits";
+import { LIMB_POINTS, POINT_NAMES, TRUNK_POINTS, mirrored } from "./catalogue";
 import type { PointName } from "./catalogue";
 
 export interface Place {
@@ -79,8 +80,8 @@ export interface Missing {
 export function missing(points: Points): Missing {
   const count = (names: readonly PointName[]) => names.filter((name) => points.placed[name]).length;
   return {
-    limbs: Math.max(0, MIN_LIMB_POINTS - count(LIMB_POINTS)),
-    trunk: Math.max(0, MIN_TRUNK_POINTS - count(TRUNK_POINTS)),
+    limbs: Math.max(0, LIMITS.limbPoints - count(LIMB_POINTS)),
+    trunk: Math.max(0, LIMITS.trunkPoints - count(TRUNK_POINTS)),
   };
 }
 

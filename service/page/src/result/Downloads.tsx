@@ -1,10 +1,11 @@
 // The files of a result.
 import type { FitResult, Job } from "../api/types";
 import { FILE_LABELS, FileButton } from "./FileButton";
+import { tableOf } from "./files";
 
 export function Downloads({ job, result }: { job: Job; result: FitResult }) {
   const sizes = new Map((result.artifacts ?? []).map((artifact) => [artifact.name, artifact.size]));
-  const links = Object.entries(job.links.artifacts ?? {});
+  const links = [...Object.entries(job.links.artifacts ?? {}), tableOf(job)];
   const rank = (name: string) => Object.keys(FILE_LABELS).indexOf(name) + (name in FILE_LABELS ? 0 : 100);
   return (
     <details class="section fold-section">

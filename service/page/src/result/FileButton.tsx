@@ -1,4 +1,4 @@
-// A file of a result: what it is, and how to keep it.
+// A file of a result: what it is, and how to keep it, a mesh in other formats too.
 import { useSignal } from "@preact/signals";
 import { getFile } from "../api/calls";
 import { problemFrom } from "../api/client";
@@ -14,6 +14,7 @@ export const FILE_LABELS: Readonly<Record<string, string>> = {
   "body_canonical_se.glb": "Upright body before shading refined it",
   "tapes.json": "Where each measurement is taken",
   "result.json": "Everything found, as numbers",
+  "measurements.csv": "The measurements, for a spreadsheet",
   "person.npz": "The person as fitted, to make more of",
   "overlay.png": "Outline over the picture",
   "views.png": "The body from other sides",
@@ -43,21 +44,25 @@ export const FILE_LABELS: Readonly<Record<string, string>> = {
   "combined.png": "Beside the body by this fit alone",
 };
 
+/** What the service writes of any mesh when it is asked for. */
+const FORMATS = ["obj", "ply", "stl", "usdz"];
+
+/** The material of an OBJ with a texture is a file beside it. */
+const TEXTURED = "body_textured.glb";
+
 export function FileButton({ name, path, bytes }: { name: string; path: string; bytes?: number }) {
   const problem = useSignal<Problem | null>(null);
+  const keep = async (kept: string, from: string) => {
+    try {
+      saveFile(kept, await getFile(from));
+      problem.value = null;
+    } catch (error) {
+      problem.value = problemFrom(error);
+    }
+  };
   return (
     <>
-      <button
-        type="button"
-        onClick={async () => {
-          try {
-            saveFile(name, await getFile(path));
-            problem.value = null;
-          } catch (error) {
-            problem.value = problemFrom(error);
-          }
-        }}
-      >
+      <button class="download" type="button" onClick={() => keep(name, path)}>
         <Icon name="download" />
         <span>
           {name}
@@ -65,9 +70,28 @@ export function FileButton({ name, path, bytes }: { name: string; path: string; 
         </span>
         <small>{sizeText(bytes)}</small>
       </button>
+      {name.endsWith(".glb") && (
+        <p class="download-formats">
+          {[...FORMATS, ...(name === TEXTURED ? ["mtl"] : [])].map((ending) => (
+            <button
+              key={ending}
+              class="link"
+              type="button"
+              aria-label={withEnding(name, ending)}
+              onClick={() => keep(withEnding(name, ending), withEnding(path, ending))}
+            >
+              {ending.toUpperCase()}
+            </button>
+          ))}
+        </p>
+      )}
       {problem.value && <ProblemNote problem={problem.value} />}
     </>
   );
+}
+
+function withEnding(name: string, ending: string): string {
+  return name.replace(/glb$/, ending);
 }
 
 function sizeText(bytes: number | undefined): string {

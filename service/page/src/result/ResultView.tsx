@@ -27,7 +27,7 @@ export function ResultView({ job, picture }: { job: Job; picture: Picture | null
     );
   }
   return (
-    <main class="bench" aria-busy={files === null}>
+    <main class="bench" aria-busy={files === null} data-fit={job.id}>
       <div class="bench-stage">{files && picture && (
           <Look
             job={job}

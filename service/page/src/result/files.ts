@@ -54,6 +54,11 @@ export function useBodiesBeforeShading(job: Job, wanted: boolean): PosedAndUprig
   return bodies;
 }
 
+/** Name and path of the measurements as a table: written when it is asked for, so that no link leads to it. */
+export function tableOf(job: { links: { self: string } }): [string, string] {
+  return ["measurements.csv", `${job.links.self}/artifacts/measurements.csv`];
+}
+
 async function bodyOf(job: Job, name: string): Promise<GlbBody | null> {
   const path = job.links.artifacts?.[name];
   return path ? readGlb(await (await getFile(path)).arrayBuffer()) : null;
@@ -61,25 +66,26 @@ async function bodyOf(job: Job, name: string): Promise<GlbBody | null> {
 
 /** A picture of the result as an address for an element; null until it is there. */
 export function usePictureOf(job: { links: { artifacts?: Readonly<Record<string, string>> } }, name: string, wanted: boolean): string | null {
-  const [url, setUrl] = useState<string | null>(null);
+  const [made, setMade] = useState<{ path: string; url: string } | null>(null);
   const path = job.links.artifacts?.[name];
   useEffect(() => {
     if (!wanted || !path) return undefined;
-    let made: string | null = null;
+    let url: string | null = null;
     let gone = false;
     getFile(path).then(
       (file) => {
         if (gone) return;
-        made = URL.createObjectURL(file);
-        setUrl(made);
+        url = URL.createObjectURL(file);
+        setMade({ path, url });
       },
       () => undefined,
     );
     return () => {
       gone = true;
-      if (made) URL.revokeObjectURL(made);
-      setUrl(null);
+      if (url) URL.revokeObjectURL(url);
+      setMade(null);
     };
   }, [path, wanted]);
-  return url;
+  // Effects run after what they belong to is shown: until then the picture of another file is still there.
+  return wanted && made && made.path === path ? made.url : null;
 }

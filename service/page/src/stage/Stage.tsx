@@ -96,6 +96,7 @@ export function Stage() {
       ref={box}
       tabIndex={0}
       role="application"
+      aria-busy={size.value.width === 0}
       aria-label={`Picture to click on. ${name ? `Next: ${pointOf(name).label}.` : "All points are placed."}`}
       aria-describedby="stage-keys"
       onKeyDown={(event) => stageKeys(event, { zoom, whole, shown, aim, view })}

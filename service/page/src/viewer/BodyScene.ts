@@ -50,6 +50,8 @@ export class BodyScene {
   private readonly tapes: Tapes;
   private placement: Placement = "picture";
   private scheduled = 0;
+  /** Nothing is drawn before the canvas' size is known: it would be shown stretched. */
+  private isSized = false;
 
   constructor(
     canvas: HTMLCanvasElement,
@@ -120,7 +122,9 @@ export class BodyScene {
     if (width === 0 || height === 0) return;
     this.renderer.setSize(width, height, false);
     this.table.camera.aspect = width / height;
-    this.draw();
+    this.isSized = true;
+    // At once: another size has emptied the canvas.
+    this.render();
   }
 
   /** Turn by an arrow key; false of any other key, and over the picture. */
@@ -171,6 +175,7 @@ export class BodyScene {
   }
 
   private render(): void {
+    if (!this.isSized) return;
     const { mesh } = this.shown();
     const { camera } = this.table;
     if (this.placement === "picture") this.useFittedCamera();

@@ -26,6 +26,8 @@ export class DerivedScene {
   private readonly table: Turntable;
   private readonly mesh: Mesh<BufferGeometry, MeshBasicMaterial | MeshLambertMaterial>;
   private scheduled = 0;
+  /** Nothing is drawn before the canvas' size is known: it would be shown stretched. */
+  private isSized = false;
 
   constructor(canvas: HTMLCanvasElement, body: GlbBody, image: ImageBitmap | null) {
     this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: true });
@@ -40,7 +42,6 @@ export class DerivedScene {
     this.scene.add(this.mesh, this.table.camera, new AmbientLight(0xffffff, 0.9));
     const box = this.mesh.geometry.boundingBox!;
     this.table.lookAt({ centre: box.getCenter(new Vector3()), height: box.max.y - box.min.y }, 0);
-    this.draw();
   }
 
   turnBy(key: string): boolean {
@@ -52,7 +53,9 @@ export class DerivedScene {
     this.renderer.setSize(width, height, false);
     this.table.camera.aspect = width / height;
     this.table.camera.updateProjectionMatrix();
-    this.draw();
+    this.isSized = true;
+    // At once: another size has emptied the canvas.
+    this.render();
   }
 
   dispose(): void {
@@ -66,10 +69,13 @@ export class DerivedScene {
 
   private draw(): void {
     cancelAnimationFrame(this.scheduled);
-    this.scheduled = requestAnimationFrame(() => {
-      this.renderer.render(this.scene, this.table.camera);
-      this.renderer.domElement.dataset.shows = this.mesh.material.map ? "texture" : "clay";
-    });
+    this.scheduled = requestAnimationFrame(() => this.render());
+  }
+
+  private render(): void {
+    if (!this.isSized) return;
+    this.renderer.render(this.scene, this.table.camera);
+    this.renderer.domElement.dataset.shows = this.mesh.material.map ? "texture" : "clay";
   }
 }
 

@@ -12,8 +12,8 @@ from fitter.body.scape import ScapeEvaluator
 from fitter.body.shape_space import rest_vertices
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.parameters import BodyParameters
+from fitter.training.articulation.random_poses import random_pose
 from fitter.training.own_bodies.template import Template, packaged_template
-from fitter.training.random_poses import random_pose
 
 AXES = {"left": "+x", "up": "+y", "forward": "+z"}
 DECLARED = {"units": "m", "axes": AXES, "source": "drawn for a test", "licence": "CC0-1.0"}

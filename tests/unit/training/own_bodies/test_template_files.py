@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from fitter.errors import MeshFolderError
+from fitter.training.articulation.part_tree import PART_NAMES
 from fitter.training.own_bodies.frame import BODY_FRAME
 from fitter.training.own_bodies.template import same_surface
 from fitter.training.own_bodies.template_files import read_template, write_starting_folder
-from fitter.training.part_tree import PART_NAMES
 from tests.unit.training.own_bodies.bodies_folder import template
 
 

@@ -1,0 +1,79 @@
+"""The public names of the fitter and where they are defined."""
+
+from .errors import FitterError as FitterError
+from .errors import InvalidInputError as InvalidInputError
+from .errors import ModelFileError as ModelFileError
+from .errors import NumericalError as NumericalError
+from .fits.pipeline import fit as fit
+from .fits.progress import Progress as Progress
+from .fits.progress import Stage as Stage
+from .library import body_vertices as body_vertices
+from .library import estimate_body as estimate_body
+from .library import files_of as files_of
+from .library import measure as measure
+from .measurement.quantity import Measurement as Measurement
+from .parameters import BodyParameters as BodyParameters
+from .parameters import Light as Light
+from .parameters import LightKind as LightKind
+from .parameters import Reflectance as Reflectance
+from .person.fitted_person import FittedPerson as FittedPerson
+from .population.body_estimate import BodyEstimate as BodyEstimate
+from .remarks import Assumption as Assumption
+from .remarks import FitWarning as FitWarning
+from .render.camera import Camera as Camera
+from .request import Click as Click
+from .request import Clothing as Clothing
+from .request import Cues as Cues
+from .request import Facing as Facing
+from .request import FitRequest as FitRequest
+from .request import Gender as Gender
+from .request import KnownMeasurement as KnownMeasurement
+from .request import LightGuess as LightGuess
+from .request import OptimizerKind as OptimizerKind
+from .request import OutlineKind as OutlineKind
+from .request import SurroundingsKind as SurroundingsKind
+from .result import FitResult as FitResult
+from .result import LimbFacing as LimbFacing
+from .result import Outcome as Outcome
+from .result import PictureFit as PictureFit
+from .result import StageBody as StageBody
+
+__all__ = [
+    "Assumption",
+    "BodyEstimate",
+    "BodyParameters",
+    "Camera",
+    "Click",
+    "Clothing",
+    "Cues",
+    "Facing",
+    "FitRequest",
+    "FitResult",
+    "FitWarning",
+    "FittedPerson",
+    "FitterError",
+    "Gender",
+    "InvalidInputError",
+    "KnownMeasurement",
+    "Light",
+    "LightGuess",
+    "LightKind",
+    "LimbFacing",
+    "Measurement",
+    "ModelFileError",
+    "NumericalError",
+    "OptimizerKind",
+    "Outcome",
+    "OutlineKind",
+    "PictureFit",
+    "Progress",
+    "Reflectance",
+    "Stage",
+    "StageBody",
+    "SurroundingsKind",
+    "body_vertices",
+    "estimate_body",
+    "files_of",
+    "fit",
+    "measure",
+]

@@ -1,0 +1,54 @@
+"""From a GLB file of the service to the same body in another format."""
+
+from collections.abc import Callable, Mapping
+from typing import Final
+
+from fitter.export.formats.obj import mtl_file, obj_file
+from fitter.export.formats.shown_body import ShownBody, shown_body
+from fitter.export.formats.trimesh_files import ply_file, stl_file
+
+
+class UsdMissingError(Exception):
+    """USDZ was asked for, and Pixar's library is not installed."""
+
+
+class UntexturedError(Exception):
+    """A material file was asked for of a body without a texture."""
+
+
+def converted(glb: bytes, ending: str) -> bytes:
+    """The body of a GLB file in the format of an ending of :data:`FORMATS`.
+
+    Raises
+    ------
+    UsdMissingError
+        If it is ``usdz`` and ``usd-core`` is not installed.
+    UntexturedError
+        If it is ``mtl`` and the body has no texture.
+    """
+    return FORMATS[ending](shown_body(glb))
+
+
+def _mtl(body: ShownBody) -> bytes:
+    if body.texture is None:
+        raise UntexturedError
+    return mtl_file(body, body.texture)
+
+
+def _usdz(body: ShownBody) -> bytes:
+    try:
+        # An optional extra of 200 MB, loaded by whom it is asked of.
+        from fitter.export.formats.usdz import usdz_file
+    except ModuleNotFoundError as error:
+        raise UsdMissingError from error
+    return usdz_file(body)
+
+
+FORMATS: Final[Mapping[str, Callable[[ShownBody], bytes]]] = {
+    "obj": obj_file,
+    "mtl": _mtl,
+    "ply": ply_file,
+    "stl": stl_file,
+    "usdz": _usdz,
+}
+"""By the ending of a file's name; ``mtl`` is the material file of a textured OBJ."""

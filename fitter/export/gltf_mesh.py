@@ -1,0 +1,139 @@
+"""The body's mesh in a glTF document: its arrays, its colours and the material nearest to Eq. 1."""
+
+import numpy as np
+
+from fitter.arrays import Normals, PerVertex, Triangles, Vertices
+from fitter.export.glb import BinaryChunk, Target
+from fitter.export.gltf_document import Node
+from fitter.numerics.normals import summed_cross_products
+from fitter.parameters import Reflectance
+
+BODY_NODE: Node = {"mesh": 0, "name": "body"}
+
+NEUTRAL_ALBEDO = 0.6
+"""Base colour where no reflectance was estimated (SE)."""
+
+NEUTRAL_ROUGHNESS = 0.8
+
+DIELECTRIC_REFLECTANCE = 0.04
+"""glTF's reflectance at normal incidence, which KHR_materials_specular scales."""
+
+COLOUR_PERCENTILE = 99.0
+"""Albedo is relative to a light of intensity 1 and may exceed 1, colours may not: colours are
+albedo divided by this percentile where it exceeds 1, and the light is made as much stronger."""
+
+
+def add_body_mesh(
+    document: dict[str, object],
+    binary: BinaryChunk,
+    *,
+    vertices: Vertices,
+    triangles: Triangles,
+    reflectance: Reflectance | None,
+    albedo_rgb: Vertices | None,
+    lit: PerVertex | None = None,
+) -> dict[str, object]:
+    """Give a document its one mesh, of the body, and its material.
+
+    Parameters
+    ----------
+    document
+        Gets ``meshes``, ``materials`` and ``extensionsUsed``.
+    binary
+        Gets the arrays.
+    vertices, triangles
+        The body, in the axes of the file.
+    reflectance, albedo_rgb
+        Per vertex; a neutral colour where there is none.
+    lit
+        Per vertex, the share of the lamp that cast shadows leave; where that is known.
+
+    Returns
+    -------
+    dict
+        The mesh's primitive as it stands in the document, to be added to.
+    """
+
+    def attribute(values: np.ndarray, *, bounds: bool = False) -> int:
+        return binary.add(values.astype(np.float32), target=Target.VERTEX_ATTRIBUTE, bounds=bounds)
+
+    scale = colour_scale_of(reflectance, albedo_rgb)
+    attributes = {
+        "POSITION": attribute(vertices, bounds=True),
+        "NORMAL": attribute(unit_normals(vertices, triangles)),
+    }
+    if reflectance is not None:
+        colours = _colours(reflectance, albedo_rgb)
+        attributes["COLOR_0"] = attribute(np.clip(colours / scale, 0.0, 1.0))
+        attributes["_ALBEDO"] = attribute(reflectance.albedo)
+        attributes["_SPECULARITY"] = attribute(reflectance.specularity)
+    if lit is not None:
+        attributes["_LIT"] = attribute(lit)
+    index_type = np.uint16 if len(vertices) < np.iinfo(np.uint16).max else np.uint32
+    indices = binary.add(triangles.ravel().astype(index_type), target=Target.TRIANGLE_INDICES)
+    material, extensions = _material(reflectance, scale)
+    if "extensions" in document:
+        extensions = ["KHR_lights_punctual", *extensions]
+    if extensions:
+        document["extensionsUsed"] = sorted(extensions)
+    document["materials"] = [material]
+    primitive: dict[str, object] = {"attributes": attributes, "indices": indices, "material": 0}
+    document["meshes"] = [{"name": "body", "primitives": [primitive]}]
+    return primitive
+
+
+def unit_normals(vertices: Vertices, triangles: Triangles) -> Normals:
+    """Area-weighted unit normals; +z where the triangles round a vertex have none."""
+    sums = summed_cross_products(np.ascontiguousarray(vertices), triangles)
+    lengths = np.linalg.norm(sums, axis=1, keepdims=True)
+    return np.where(lengths > 0.0, sums / np.maximum(lengths, 1e-30), [0.0, 0.0, 1.0])
+
+
+def _material(
+    reflectance: Reflectance | None, colour_scale: float
+) -> tuple[dict[str, object], list[str]]:
+    """The nearest physically based material to Blinn-Phong, and the extensions it uses.
+
+    Roughness = (2 / (α + 2))^(1/4) gives GGX the width of the lobe (h . n)^α. Its height at the
+    mirror direction is F0 / (4 π roughness⁴) = F0 (α + 2) / (8 π); lit by π l it shall be s l, so
+    F0 = 8 s / (α + 2), expressed as a multiple of glTF's dielectric 0.04.
+    """
+    if reflectance is None:
+        return {
+            "name": "neutral",
+            "pbrMetallicRoughness": {
+                "baseColorFactor": [NEUTRAL_ALBEDO] * 3 + [1.0],
+                "metallicFactor": 0.0,
+                "roughnessFactor": NEUTRAL_ROUGHNESS,
+            },
+        }, []
+    exponent = reflectance.specular_exponent
+    mean_specularity = float(np.mean(reflectance.specularity)) / colour_scale
+    factor = 8.0 * mean_specularity / (exponent + 2.0) / DIELECTRIC_REFLECTANCE
+    return {
+        "name": "skin",
+        "pbrMetallicRoughness": {
+            "metallicFactor": 0.0,
+            "roughnessFactor": (2.0 / (exponent + 2.0)) ** 0.25,
+        },
+        "extensions": {"KHR_materials_specular": {"specularColorFactor": [factor] * 3}},
+        "extras": {
+            "specular_exponent": exponent,
+            "ambient": reflectance.ambient,
+            "mean_specularity": float(np.mean(reflectance.specularity)),
+        },
+    }, ["KHR_materials_specular"]
+
+
+def _colours(reflectance: Reflectance, albedo_rgb: Vertices | None) -> Vertices:
+    """Linear red, green and blue albedo per vertex; grey where only luminance was estimated."""
+    if albedo_rgb is not None:
+        return albedo_rgb
+    return np.repeat(reflectance.albedo[:, None], 3, axis=1)
+
+
+def colour_scale_of(reflectance: Reflectance | None, albedo_rgb: Vertices | None) -> float:
+    """What the file's colours are divided by, and its light is multiplied by."""
+    if reflectance is None:
+        return 1.0
+    return max(1.0, float(np.percentile(_colours(reflectance, albedo_rgb), COLOUR_PERCENTILE)))

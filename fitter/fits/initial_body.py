@@ -1,0 +1,180 @@
+"""The body before any picture is looked at: what clicks, gender, height and camera say (3.1)."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from fitter.arrays import Points2D, Vertices
+from fitter.body.skeleton import regress
+from fitter.fits.prepared_model import PreparedModel
+from fitter.fits.reporting import AMBIGUOUS_NATS
+from fitter.observation.clicks import POINT_NAMES, check_clicks, side_warnings
+from fitter.observation.exif import ExifTags
+from fitter.observation.focal_length import focal_length
+from fitter.observation.resampling import working_size
+from fitter.observation.subject import check_subject
+from fitter.parameters import BodyParameters
+from fitter.population.known_person import known_person
+from fitter.pose_init.initial_pose import PoseHypothesis, initialize_pose
+from fitter.pose_init.points import clicked_points
+from fitter.remarks import Assumption, FitWarning
+from fitter.render.camera import Camera, FocalLengthSource
+from fitter.render.outline import outline_loops
+from fitter.render.rasterizer import render
+from fitter.request import Facing, FitRequest
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LimbReading:
+    """Which way a limb faces in the best reading of the clicks.
+
+    ``alternative_nats`` is how much worse the best reading with the other facing explains clicks
+    and prior, None where there is none worth mentioning; ``ambiguous`` says that it is little.
+    """
+
+    limb: str
+    facing: Facing
+    ambiguous: bool
+    alternative_nats: float | None
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class InitialBody:
+    """The body a fit would begin from.
+
+    Attributes
+    ----------
+    height_m
+        The caller's, or the most probable, which is then among ``assumptions``.
+    camera
+        Of the whole picture.
+    body
+        Pose, position and the mean shape of the height and the known measurements.
+    vertices
+        (m, 3) camera frame, metres.
+    outline
+        Closed lines round silhouette and holes, continuous pixels of the whole picture.
+    landmarks
+        Where the body has the points that can be clicked, by name, continuous pixels.
+    limbs
+        The readings of all limbs.
+    residual_px
+        By click: distance to the body's landmark.
+    """
+
+    height_m: float
+    camera: Camera
+    focal_length_source: FocalLengthSource
+    body: BodyParameters
+    vertices: Vertices
+    outline: tuple[Points2D, ...]
+    landmarks: Mapping[str, Float[np.ndarray, "2"]]
+    limbs: tuple[LimbReading, ...]
+    residual_px: Mapping[str, float]
+    assumptions: tuple[Assumption, ...]
+    warnings: tuple[FitWarning, ...]
+
+
+def initial_body(
+    request: FitRequest,
+    prepared: PreparedModel,
+    *,
+    width: int,
+    height: int,
+    exif_focal_length_35mm: float | None,
+) -> InitialBody:
+    """Pose the mean person of the gender, height and known measurements by the clicks.
+
+    Parameters
+    ----------
+    request
+        As for a fit; its picture is not looked at and may be empty.
+    body
+        The gender's.
+    width, height
+        Size of the upright picture, pixels.
+    exif_focal_length_35mm
+        The picture's own 35 mm equivalent, where it is known; the caller's word goes before it.
+
+    Raises
+    ------
+    InvalidInputError
+        If clicks, height, measurements or focal length cannot be used.
+    """
+    check_subject(request)
+    check_clicks(request.clicks, width=width, height=height)
+    focal = focal_length(
+        request,
+        ExifTags(focal_length_35mm=exif_focal_length_35mm),
+        width=width,
+        height=height,
+        stored_width=width,
+    )
+    camera = Camera(
+        focal_length_px=focal.pixels,
+        centre_x=width / 2,
+        centre_y=height / 2,
+        width=width,
+        height=height,
+    )
+    evaluator = prepared.operators.evaluator
+    person = known_person(request, prepared.population, evaluator)
+    initial = initialize_pose(
+        evaluator,
+        camera=camera,
+        clicks=clicked_points(request.clicks),
+        shape=person.shape,
+        limb_facing=request.limb_facing,
+    )
+    vertices = evaluator.vertices(initial.parameters)
+    landmarks = prepared.operators.model.landmarks
+    projected = dict(
+        zip(landmarks.names, camera.project(regress(landmarks, vertices)), strict=True)
+    )
+    return InitialBody(
+        height_m=person.height_m,
+        camera=camera,
+        focal_length_source=focal.source,
+        body=initial.parameters,
+        vertices=vertices,
+        outline=_outline(vertices, prepared, camera),
+        landmarks={name: projected[name] for name in POINT_NAMES},
+        limbs=limb_readings(initial.hypotheses, request.limb_facing),
+        residual_px=initial.residual_px,
+        assumptions=focal.assumptions + person.assumptions,
+        warnings=side_warnings(request.clicks),
+    )
+
+
+def limb_readings(
+    hypotheses: Sequence[PoseHypothesis], said: Mapping[str, Facing]
+) -> tuple[LimbReading, ...]:
+    """How the readings of the clicks, best first, differ in each limb."""
+    best = hypotheses[0]
+    readings: list[LimbReading] = []
+    for limb, facing in best.facing.items():
+        others = [
+            hypothesis.energy - best.energy
+            for hypothesis in hypotheses
+            if hypothesis.facing[limb] is not facing
+        ]
+        nearest = min(others) if others and limb not in said else None
+        readings.append(
+            LimbReading(
+                limb=limb,
+                facing=facing,
+                ambiguous=nearest is not None and nearest < AMBIGUOUS_NATS,
+                alternative_nats=nearest,
+            )
+        )
+    return tuple(readings)
+
+
+def _outline(vertices: Vertices, prepared: PreparedModel, camera: Camera) -> tuple[Points2D, ...]:
+    """Found on a picture of the working size, told in pixels of the whole one."""
+    size = working_size(width=camera.width, height=camera.height)
+    coarse = camera.scaled(size.scale, width=size.width, height=size.height)
+    rendering = render(vertices, prepared.operators.model.triangles, coarse)
+    return tuple(loop / size.scale for loop in outline_loops(rendering.silhouette))

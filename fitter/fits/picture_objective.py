@@ -1,0 +1,128 @@
+"""The person cut out round a body, and E1 of the picture that body is near in."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from fitter.arrays import GreyImage
+from fitter.body.skeleton import regress
+from fitter.energies.attributes import KnownAttributes
+from fitter.energies.clicks import click_evidence
+from fitter.energies.objective import Objective, PictureEvidence
+from fitter.energies.priors import population_prior
+from fitter.energies.scales import scales_at
+from fitter.evidence.edge_cost import edge_cost_map
+from fitter.evidence.outline_confidence import outline_confidence
+from fitter.evidence.silhouette_evidence import silhouette_evidence
+from fitter.fits.clothing import dressed
+from fitter.fits.prepared_model import PreparedModel
+from fitter.observation.observation import Observation
+from fitter.parameters import BodyParameters
+from fitter.render.rasterizer import render
+from fitter.request import Clothing
+from fitter.segmentation.bones import clicked_bones, foot_bones
+from fitter.segmentation.grabcut import Segmentation, border_warnings, segment
+from fitter.segmentation.trimap import Trimap, first_band, trimap
+
+RESEGMENTED_BAND = 0.5
+"""Share of the first band's width in which the picture is cut again round the body found from the
+first cut (section 7 names this as future work): what the first cut took for the person far from
+any body, such as ground of the skin's colour, can no longer be taken."""
+
+DOUBTFUL_PARTS = ("head", "left_hand", "right_hand")
+"""Parts whose outline says little of the body: hair, and hands in a pose of their own."""
+
+_DOUBTFUL_MARGIN_M = 0.05
+
+_EDGE_THRESHOLD_M = 0.03
+"""How far from a model edge an image edge may lie and still attract it."""
+
+
+def segmented(
+    observation: Observation, prepared: PreparedModel, parameters: BodyParameters, narrowing: float
+) -> tuple[Trimap | None, Segmentation]:
+    """The caller's mask, or GrabCut from the tri-map round a body (section 3.2)."""
+    if observation.mask is not None:
+        return None, Segmentation(mask=observation.mask, warnings=border_warnings(observation.mask))
+    vertices = prepared.operators.evaluator.vertices(parameters)
+    silhouette = render(vertices, prepared.operators.model.triangles, observation.camera).silhouette
+    landmarks = prepared.operators.model.landmarks
+    points = observation.camera.project(regress(landmarks, vertices))
+    seen = dict(zip(landmarks.names, points, strict=True))
+    bones = np.concatenate(
+        [clicked_bones(observation.clicks), foot_bones(observation.clicks, seen)]
+    )
+    # The body within loose clothes does not say how far they reach.
+    share = narrowing if observation.clothing is Clothing.TIGHT else 1.0
+    labels = trimap(silhouette, bones, band=share * first_band(silhouette, bones))
+    return labels, segment(observation.display, labels)
+
+
+def silhouette_and_edges(
+    observation: Observation,
+    prepared: PreparedModel,
+    near: BodyParameters,
+    segmentation: Segmentation,
+    attributes: KnownAttributes,
+    *,
+    boundary_eta_m: float,
+) -> Objective:
+    """E1 of a picture, at the scales of a body near the person.
+
+    ``boundary_eta_m`` is how far off a boundary may be and still pull; see
+    :mod:`fitter.energies.scales`.
+    """
+    depth = float(near.translation[2])
+    pixels_per_metre = observation.camera.focal_length_px / depth
+    confidence = _outline_confidence(observation, prepared, near, pixels_per_metre)
+    objective = Objective(
+        operators=prepared.operators,
+        evidence=PictureEvidence(
+            camera=observation.camera,
+            clicks=click_evidence(prepared.operators.model.landmarks, observation.clicks),
+            silhouette=silhouette_evidence(segmentation.mask, confidence),
+            edges=edge_cost_map(
+                observation.display, threshold_px=_EDGE_THRESHOLD_M * pixels_per_metre
+            ),
+            shading=None,
+        ),
+        scales=scales_at(observation.camera, depth, boundary_eta_m=boundary_eta_m),
+        shape_prior=population_prior(len(near.shape)),
+        attributes=attributes,
+    )
+    return dressed(objective, observation, prepared, near)
+
+
+def with_silhouette(
+    objective: Objective,
+    segmentation: Segmentation,
+    observation: Observation,
+    prepared: PreparedModel,
+    near: BodyParameters,
+) -> Objective:
+    """The same picture with the person cut out anew round a body."""
+    evidence = objective.evidence
+    silhouette = silhouette_evidence(segmentation.mask, evidence.silhouette.confidence)
+    cut = replace(objective, evidence=replace(evidence, silhouette=silhouette))
+    return dressed(cut, observation, prepared, near)
+
+
+def _outline_confidence(
+    observation: Observation,
+    prepared: PreparedModel,
+    near: BodyParameters,
+    pixels_per_metre: float,
+) -> GreyImage:
+    """Little where a body near the person has its head and hands."""
+    model = prepared.operators.model
+    projected = observation.camera.project(prepared.operators.evaluator.vertices(near))
+    corners = [
+        model.triangles[model.part_of_triangle == model.part_names.index(part)]
+        for part in DOUBTFUL_PARTS
+    ]
+    return outline_confidence(
+        observation.camera.height,
+        observation.camera.width,
+        [projected[np.unique(triangles)] for triangles in corners],
+        margin_px=_DOUBTFUL_MARGIN_M * pixels_per_metre,
+    )

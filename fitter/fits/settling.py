@@ -1,0 +1,120 @@
+"""How every fit ends: from the minimum of silhouette and edges to a person in their light."""
+
+from dataclasses import dataclass, replace
+
+from fitter.body.model import BodyModel
+from fitter.energies.objective import Objective
+from fitter.evidence.intensity import IntensityMap, intensity_map
+from fitter.fits.clothing import where_bare
+from fitter.fits.descents import Descents
+from fitter.fits.reporting import outcome_of
+from fitter.observation.observation import Observation
+from fitter.optimizer.albedo_colour import albedo_rgb
+from fitter.optimizer.alternation import ShadedFit
+from fitter.optimizer.gauss_newton import EnergyObserver, Minimum
+from fitter.optimizer.light_solve import guessed_lights
+from fitter.optimizer.uncertainty import shape_covariance
+from fitter.person.fitted_person import FittedPerson
+from fitter.request import Cues, FitRequest
+from fitter.result import PictureFit
+from fitter.segmentation.grabcut import Segmentation
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Shaded:
+    """A picture searched to the end.
+
+    Attributes
+    ----------
+    objective
+        E1 of the picture, as the last search met it.
+    intensity
+        What shading was looked at in.
+    minimum
+        Of E2, or of E1 where there is no ``shading``.
+    shading
+        None for SE, and where shading says nothing.
+    """
+
+    objective: Objective
+    intensity: IntensityMap
+    minimum: Minimum
+    shading: ShadedFit | None
+
+
+def shade(
+    request: FitRequest,
+    observation: Observation,
+    segmentation: Segmentation,
+    searches: Descents,
+    objective: Objective,
+    outlined: Minimum,
+    report: EnergyObserver,
+) -> Shaded:
+    """From the minimum of E1, ``outlined``, on to that of E2 (section 5) if the cues say so."""
+    intensity = intensity_map(observation.luminance, observation.display, segmentation.mask)
+    shading: ShadedFit | None = None
+    if request.cues is Cues.SES:
+        objective, intensity = where_bare(objective, outlined.candidate, intensity)
+        lights = guessed_lights(request.light)
+        shading = searches.shading(objective, outlined.candidate, intensity, lights, report)
+    return Shaded(
+        objective=objective,
+        intensity=intensity,
+        minimum=outlined if shading is None else shading.minimum,
+        shading=shading,
+    )
+
+
+def settle(
+    request: FitRequest,
+    observation: Observation,
+    model: BodyModel,
+    searches: Descents,
+    shaded: Shaded,
+    *,
+    height_m: float,
+    height_variance: float,
+) -> tuple[PictureFit, Objective]:
+    """The person that the searches found, with light, reflectance and the shape's covariance.
+
+    Also returns E1 with the outline that this body meets, under which others can be compared with
+    it. ``height_variance`` is that of the first coefficient of the shape.
+    """
+    candidate, shading = shaded.minimum.candidate, shaded.shading
+    objective = searches.about(shaded.objective, candidate.parameters)
+    overlap = objective.overlap(candidate)
+    person = FittedPerson(
+        gender=request.gender,
+        model_checksum=model.checksum,
+        body=candidate.parameters,
+        camera=observation.image_camera,
+        light=None,
+        reflectance=None,
+        albedo_rgb=None,
+        shape_covariance=shape_covariance(
+            objective if shading is None else objective.with_shading(shading.evidence),
+            candidate,
+            height_variance=height_variance,
+        ),
+    )
+    if shading is not None:
+        colours = albedo_rgb(
+            candidate,
+            shading.reflectance.albedo,
+            observation.linear_rgb,
+            shaded.intensity,
+            shading.hidden,
+        )
+        person = replace(
+            person, light=shading.light, reflectance=shading.reflectance, albedo_rgb=colours
+        )
+    found = PictureFit(
+        person=person,
+        height_m=height_m,
+        cues=request.cues,
+        outcome=outcome_of(converged=shaded.minimum.converged, overlap=overlap),
+        posed_vertices=candidate.vertices,
+        silhouette_overlap=overlap,
+    )
+    return found, objective

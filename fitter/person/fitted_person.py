@@ -1,0 +1,202 @@
+"""What a finished fit knows that its applications need, in full precision, as one small file.
+
+``person.npz`` holds a JSON header and arrays in double precision, without pickle. Its fields:
+
+====================  ==========  ==================================================================
+``header``            bytes       format version, gender, checksum of the body model, kind of light
+``pose``              (p, 3)      as in :class:`~fitter.parameters.BodyParameters`
+``translation``       (3,)        root joint, camera frame, metres
+``shape``             (n,)        standard deviations
+``shape_covariance``  (n, n)      of ``shape``; where it is known
+``camera``            (5,)        focal length, principal point (x, y), width, height; pixels
+``light``             (3,)        azimuth, elevation (radians), distance (metres, infinite for a
+                                  directional light); SES only, as all that follows
+``surroundings``      (9,)        of the light, where they were fitted
+``eq_1``              (2,)        ambient, specular exponent
+``albedo``            (m,)        of luminance
+``specularity``       (m,)
+``albedo_rgb``        (m, 3)      where colour was estimated
+====================  ==========  ==================================================================
+"""
+
+import io
+import json
+import zipfile
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from fitter.arrays import Vertices
+from fitter.body.model import BodyModel
+from fitter.numerics.array_archive import write_arrays
+from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
+from fitter.person.person_checks import FORMAT_VERSION, checked_person, unusable_person
+from fitter.render.camera import Camera
+from fitter.request import Gender
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class FittedPerson:
+    """A fitted body with its camera, light and reflectance.
+
+    Attributes
+    ----------
+    gender, model_checksum
+        The body model it was fitted with; see :func:`require_model`.
+    body
+        Shape, pose and position in the camera frame.
+    camera
+        Of the upright original picture, whose size it carries.
+    light, reflectance
+        Θ_L and Θ_R of section 5; both None after a fit by silhouettes and edges alone.
+    albedo_rgb
+        (m, 3) linear red, green and blue albedo; None where no colour was estimated.
+    shape_covariance
+        (n, n) of the shape's coefficients; None for a body whose certainty is not known.
+    """
+
+    gender: Gender
+    model_checksum: str
+    body: BodyParameters
+    camera: Camera
+    light: Light | None
+    reflectance: Reflectance | None
+    albedo_rgb: Vertices | None
+    shape_covariance: Float[np.ndarray, "n n"] | None = None
+
+    def to_bytes(self) -> bytes:
+        """The file; the same person gives the same bytes."""
+        camera, light, reflectance = self.camera, self.light, self.reflectance
+        header = {
+            "format_version": FORMAT_VERSION,
+            "gender": self.gender.value,
+            "model_checksum": self.model_checksum,
+            "light": None if light is None else light.kind.value,
+        }
+        arrays = {
+            "header": np.frombuffer(json.dumps(header, sort_keys=True).encode(), dtype=np.uint8),
+            "pose": self.body.pose,
+            "translation": self.body.translation,
+            "shape": self.body.shape,
+            "camera": np.array(
+                [
+                    camera.focal_length_px,
+                    *(camera.centre_x, camera.centre_y),
+                    *(camera.width, camera.height),
+                ],
+                dtype=np.float64,
+            ),
+        }
+        if self.shape_covariance is not None:
+            arrays["shape_covariance"] = self.shape_covariance
+        if light is not None and reflectance is not None:
+            arrays |= {
+                "light": np.array([light.azimuth, light.elevation, light.distance]),
+                "eq_1": np.array([reflectance.ambient, reflectance.specular_exponent]),
+                "albedo": reflectance.albedo,
+                "specularity": reflectance.specularity,
+            }
+            if light.surroundings is not None:
+                arrays["surroundings"] = light.surroundings
+            if self.albedo_rgb is not None:
+                arrays["albedo_rgb"] = self.albedo_rgb
+        stream = io.BytesIO()
+        write_arrays(
+            stream,
+            {
+                name: array if name == "header" else np.ascontiguousarray(array, dtype="<f8")
+                for name, array in arrays.items()
+            },
+            # Deflated, 12,440 vertices take 452 kB instead of 501, and 16 ms instead of 1.
+            compression=zipfile.ZIP_STORED,
+        )
+        return stream.getvalue()
+
+    @classmethod
+    def from_bytes(cls, content: bytes) -> "FittedPerson":
+        """Read and check the file.
+
+        Raises
+        ------
+        InvalidInputError
+            If it is damaged, of another format version, or holds values no fit gives.
+        """
+        header, arrays = checked_person(content)
+        focal_length, centre_x, centre_y, width, height = arrays["camera"].tolist()
+        return cls(
+            gender=Gender(str(header["gender"])),
+            model_checksum=str(header["model_checksum"]),
+            body=BodyParameters(
+                pose=arrays["pose"], translation=arrays["translation"], shape=arrays["shape"]
+            ),
+            camera=Camera(
+                focal_length_px=focal_length,
+                centre_x=centre_x,
+                centre_y=centre_y,
+                width=int(width),
+                height=int(height),
+            ),
+            light=_light(header["light"], arrays),
+            reflectance=_reflectance(arrays) if header["light"] is not None else None,
+            albedo_rgb=arrays.get("albedo_rgb"),
+            shape_covariance=arrays.get("shape_covariance"),
+        )
+
+
+def require_model(person: FittedPerson, model: BodyModel) -> None:
+    """Check that a body model is the one the person was fitted with.
+
+    Raises
+    ------
+    InvalidInputError
+        If it is another: coefficients and vertices would mean something else.
+    """
+    if person.gender.value != model.gender:
+        raise unusable_person(
+            field="gender", reason=f"is {person.gender.value}, the body model's is {model.gender}"
+        )
+    if person.model_checksum != model.checksum:
+        raise unusable_person(
+            field="model_checksum", reason="is that of another body model than the service has now"
+        )
+    m, n, p = len(model.mean_vertices), len(model.shape_basis), len(model.part_names)
+    counts = {"pose": (len(person.body.pose), p), "shape": (len(person.body.shape), n)}
+    if person.reflectance is not None:
+        counts["albedo"] = (len(person.reflectance.albedo), m)
+    for field, (found, expected) in counts.items():
+        if found != expected:
+            raise unusable_person(
+                field=field, reason=f"has {found} rows, the body model wants {expected}"
+            )
+
+
+def _light(kind: object, arrays: Mapping[str, np.ndarray]) -> Light | None:
+    if kind is None:
+        return None
+    azimuth, elevation, distance = arrays["light"].tolist()
+    light = Light(
+        kind=LightKind(str(kind)),
+        azimuth=azimuth,
+        elevation=elevation,
+        distance=distance,
+        surroundings=arrays.get("surroundings"),
+    )
+    infinite = light.kind is LightKind.DIRECTIONAL
+    if not distance > 0.0 or np.isinf(distance) != infinite:
+        wanted = "infinite" if infinite else "positive and finite"
+        raise unusable_person(
+            field="light", reason=f"is {distance} m away, expected {wanted} for a {kind} light"
+        )
+    return light
+
+
+def _reflectance(arrays: Mapping[str, np.ndarray]) -> Reflectance:
+    ambient, exponent = arrays["eq_1"].tolist()
+    return Reflectance(
+        albedo=arrays["albedo"],
+        specularity=arrays["specularity"],
+        ambient=ambient,
+        specular_exponent=exponent,
+    )

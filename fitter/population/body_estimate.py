@@ -1,0 +1,108 @@
+"""The most probable body of a gender and known measurements, with what is left open."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.special import chdtrc
+
+from fitter.arrays import Shape, Vertices
+from fitter.measurement.anthropometry import measure
+from fitter.measurement.quantity import Measurement
+from fitter.population.known import conditioned_population
+from fitter.population.measured_population import MeasuredPopulation
+from fitter.request import KnownMeasurement
+
+INTERVAL_PROBABILITY = 0.95
+_INTERVAL_SD = 1.959964
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EstimatedMeasurement:
+    """A measurement of the estimated body.
+
+    Attributes
+    ----------
+    measurement
+        Its value, and as standard error how much people like this differ in it.
+    low, high
+        Between these lie 95 % of the people of whom the same is known.
+    given
+        Whether it was known.
+    """
+
+    measurement: Measurement
+    low: float
+    high: float
+    given: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class BodyEstimate:
+    """A body without a picture.
+
+    Attributes
+    ----------
+    shape
+        (n,) coefficients, standard deviations.
+    canonical_vertices
+        In the canonical pose, body frame, metres.
+    measurements
+        In the order of the definitions.
+    plausibility
+        Share of the population whose measurements of these names are together at least as
+        unusual; 1 where nothing was known.
+    """
+
+    shape: Shape
+    canonical_vertices: Vertices
+    measurements: tuple[EstimatedMeasurement, ...]
+    plausibility: float
+
+
+def estimate_body(
+    population: MeasuredPopulation, known: Mapping[str, KnownMeasurement]
+) -> BodyEstimate:
+    """Estimate the body of which some measurements are known, none to all.
+
+    Intervals are the population's spread given what is known, in the model's own terms (a Gaussian,
+    linearised at the estimate): how people differ who agree in what was given. They do not include
+    what the model itself gets wrong of a person.
+
+    Raises
+    ------
+    InvalidInputError
+        If a name is not measured, or nobody has such measurements.
+    """
+    conditioned = conditioned_population(population, known)
+    # What is held exactly has no spread; rounding would leave it a millionth of a unit.
+    held = {name for name, each in known.items() if not each.standard_error}
+    spreads = {
+        name: 0.0 if name in held else float(np.sqrt(max(variance, 0.0)))
+        for name, variance in zip(
+            population.names,
+            np.einsum(
+                "kn,nj,kj->k", conditioned.jacobian, conditioned.covariance, conditioned.jacobian
+            ),
+            strict=True,
+        )
+    }
+    return BodyEstimate(
+        shape=conditioned.shape,
+        canonical_vertices=population.body.canonical.at(conditioned.shape),
+        measurements=tuple(
+            _estimated(each, spreads[each.name], given=each.name in known)
+            for each in measure(population.body, conditioned.shape)
+        ),
+        plausibility=float(chdtrc(len(known), conditioned.squared_distance)) if known else 1.0,
+    )
+
+
+def _estimated(measurement: Measurement, spread: float, *, given: bool) -> EstimatedMeasurement:
+    margin = _INTERVAL_SD * spread
+    return EstimatedMeasurement(
+        measurement=replace(measurement, standard_error=spread),
+        low=max(measurement.value - margin, 0.0),
+        high=measurement.value + margin,
+        given=given,
+    )

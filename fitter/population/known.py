@@ -1,0 +1,165 @@
+"""What is known of somebody, and what is wrong with it where nobody is like that."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from jaxtyping import Float
+from scipy.special import chdtri
+
+from fitter.errors import InvalidInputError
+from fitter.population.conditional_shape import ConditionedShape, Conditions, condition_shape
+from fitter.population.measured_population import MeasuredPopulation
+from fitter.request import KnownMeasurement
+
+RAREST_SD = 5.0
+"""Who is further from the mean of the population in one measurement is one in two million, and the
+model, learned from a thousand, knows nothing of their shape."""
+
+_RAREST_SHARE = 5.733e-7
+"""The share of people beyond that, either side; several measurements together are judged by it."""
+
+_LEAST_SPREAD = 0.1
+"""Centimetres or kilograms: what follows from the others more closely than this is not told apart
+from what cannot differ at all."""
+
+_OTHER_UNITS: Mapping[str, Sequence[tuple[float, str]]] = {
+    "cm": ((100.0, "metres"), (0.1, "millimetres"), (2.54, "inches")),
+    "kg": ((0.453_592, "pounds"), (6.350_29, "stones"), (0.001, "grams")),
+}
+"""By unit: what a value has to be multiplied by if it was given in another."""
+
+
+def conditioned_population(
+    population: MeasuredPopulation, known: Mapping[str, KnownMeasurement]
+) -> ConditionedShape:
+    """The population given what is known of one of its people.
+
+    Raises
+    ------
+    InvalidInputError
+        ``unknown-value`` for a name that is not measured, ``out-of-range`` for a value nobody
+        has, ``contradictory-measurements`` where nobody has all of them together.
+    """
+    for name, measurement in known.items():
+        if name not in population.names:
+            raise InvalidInputError(
+                code="unknown-value",
+                field=measurement.field_of(name),
+                reason="There is no measurement of this name.",
+                remedy=f"Use one of {', '.join(population.names)}.",
+            )
+    conditioned = _condition(population, known)
+    if conditioned.met and conditioned.squared_distance <= _farthest(len(known)):
+        return conditioned
+    for name, measurement in known.items():
+        _check_alone(population, name, measurement)
+    raise _contradiction(population, known)
+
+
+def _condition(
+    population: MeasuredPopulation, known: Mapping[str, KnownMeasurement]
+) -> ConditionedShape:
+    return condition_shape(population.shapes, _conditions(population, known))
+
+
+def _conditions(
+    population: MeasuredPopulation, known: Mapping[str, KnownMeasurement]
+) -> Conditions:
+    return Conditions(
+        rows=[population.names.index(name) for name in known],
+        values=np.array([each.value for each in known.values()], dtype=np.float64),
+        variances=np.array([each.standard_error**2 for each in known.values()], dtype=np.float64),
+    )
+
+
+def _farthest(count: int) -> float:
+    """The χ² of ``count`` measurements that as few people exceed as one exceeds its limit."""
+    return float(chdtri(count, _RAREST_SHARE)) if count else 0.0
+
+
+def _check_alone(population: MeasuredPopulation, name: str, measurement: KnownMeasurement) -> None:
+    alone = population.only(name)
+    conditioned = _condition(alone, {name: measurement})
+    if conditioned.met and conditioned.squared_distance <= _farthest(1):
+        return
+    low, high = _reach(alone)
+    (unit,) = alone.units
+    reason = (
+        f"{measurement.value:g} {unit} is beyond what the bodies were learned from, about "
+        f"{low:.0f} to {high:.0f} {unit}."
+    )
+    for factor, other in _OTHER_UNITS[unit]:
+        if low <= measurement.value * factor <= high:
+            raise InvalidInputError(
+                code="out-of-range",
+                field=measurement.field_of(name),
+                reason=f"{reason} It looks like {other}.",
+                remedy=f"Send {measurement.value * factor:.4g}: this measurement is in {unit}.",
+            )
+    raise InvalidInputError(
+        code="out-of-range",
+        field=measurement.field_of(name),
+        reason=reason,
+        remedy=f"Check the value; this measurement is in {unit}.",
+    )
+
+
+def _reach(alone: MeasuredPopulation) -> tuple[float, float]:
+    """The one measurement of the most probable people at both limits."""
+    (slope,) = alone.shapes.jacobian_at_mean
+    axis = RAREST_SD * slope / np.linalg.norm(slope)
+    low, high = (float(alone.shapes.measure(sign * axis, [0])[0]) for sign in (-1.0, 1.0))
+    return low, high
+
+
+def _contradiction(
+    population: MeasuredPopulation, known: Mapping[str, KnownMeasurement]
+) -> InvalidInputError:
+    """Name the measurement that the others speak against most, and what they would expect.
+
+    Judged on the population linearised at its mean, where every question has an answer.
+    """
+    conditions = _conditions(population, known)
+    slopes = population.shapes.jacobian_at_mean[conditions.rows]
+    mean = population.shapes.mean[conditions.rows]
+    covariance = slopes @ slopes.T + np.diag(conditions.variances)
+    expectations = [
+        _expected(covariance, conditions.values - mean, one) for one in range(len(mean))
+    ]
+    surprises = [
+        abs(value - middle - expected) / spread
+        for value, middle, (expected, spread) in zip(
+            conditions.values, mean, expectations, strict=True
+        )
+    ]
+    most = int(np.argmax(surprises))
+    name = list(known)[most]
+    expected, spread = expectations[most]
+    middle = mean[most] + expected
+    unit = population.units[conditions.rows[most]]
+    return InvalidInputError(
+        code="contradictory-measurements",
+        field=known[name].field_of(name),
+        reason=(
+            "Nobody has all of these together: with "
+            f"{', '.join(other for other in known if other != name)} as given, {name} is "
+            f"expected between {middle - 2.0 * spread:.1f} and {middle + 2.0 * spread:.1f} {unit}, "
+            f"and {known[name].value:g} {unit} was given."
+        ),
+        remedy=(
+            "Check the values and how each is defined, leave out the least certain, or send "
+            "them with a 'standard_error'."
+        ),
+    )
+
+
+def _expected(
+    covariance: Float[np.ndarray, "r r"], offsets: Float[np.ndarray, " r"], one: int
+) -> tuple[float, float]:
+    """Mean and spread of one measurement's offset, given the offsets of the others."""
+    others = [row for row in range(len(offsets)) if row != one]
+    weights = np.linalg.lstsq(
+        covariance[np.ix_(others, others)], covariance[others, one], rcond=1e-10
+    )[0]
+    variance = covariance[one, one] - weights @ covariance[others, one]
+    return float(weights @ offsets[others]), float(np.sqrt(max(variance, _LEAST_SPREAD**2)))

@@ -1,1 +1,0 @@
-"""Steps that a fit of a new picture and the refit of a fitted one have in common."""

@@ -1,0 +1,185 @@
+"""MakeHuman's default rig, posed by the 17 parts: the truth the articulation is trained on.
+
+The paper learns its pose-dependent deformation from scans of people in many poses. Ours learns it
+from MakeHuman's skeleton of 163 bones and its painted skinning weights. Every bone follows one
+part, and takes a share of that part's turn or of the next one's: twist spreads along the forearm,
+a bend along the spine, and a raised arm lifts the collar bone. A vertex is half linear, half
+dual-quaternion skinned: the first sinks at bent elbows, the second bulges, their mean does neither.
+"""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float, Integer
+from scipy import sparse
+
+from fitter.arrays import Pose, Rotations, Vertices
+from fitter.body.skeleton import global_rotations
+from fitter.numerics.rotations import rotation_matrices
+from fitter.training.articulation.part_tree import PART_NAMES, PART_PARENT
+from fitter.training.articulation.rig_drives import BoneDrives, bone_drives
+from fitter.training.articulation.skinning import blend_half_dual_quaternion
+from fitter.training.articulation.twist import partial_rotations
+
+RIG_FILE = Path("rigs/standard/rig.default.json")
+WEIGHTS_FILE = Path("rigs/standard/weights.default.json")
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Rig:
+    """Bones in an order in which parents precede children; b of them, over v source vertices.
+
+    Attributes
+    ----------
+    bone_names, bone_parent
+        (b,) parent index, -1 for the root.
+    head_rows
+        (b, v) sparse: the centre about which a bone turns, as a mean of source vertices (helper
+        cubes inside the body), so that joints follow the shape linearly.
+    weights
+        (v, b) sparse skinning weights, rows sum to one.
+    drives
+        Which part's turn moves which bone, and how far.
+    """
+
+    bone_names: tuple[str, ...]
+    bone_parent: Integer[np.ndarray, " b"]
+    head_rows: sparse.csr_array
+    weights: sparse.csr_array
+    drives: BoneDrives
+
+
+def load_rig(assets: Path, groups: Mapping[str, Integer[np.ndarray, " g"]], count: int) -> Rig:
+    """Read the rig beside the base mesh.
+
+    Parameters
+    ----------
+    assets
+        Folder of MakeHuman's data, with ``rigs/`` in it.
+    groups
+        Vertex ids of each named group of the base mesh; helper cubes are named ``joint-...``.
+    count
+        Number of vertices of the base mesh, v.
+    """
+    bones = json.loads((assets / RIG_FILE).read_text())
+    names = _parents_first({name: str(bone["parent"]) for name, bone in bones.items()})
+    index = {name: k for k, name in enumerate(names)}
+    painted = json.loads((assets / WEIGHTS_FILE).read_text())["weights"]
+    rows, columns, values = [], [], []
+    for name in names:
+        for vertex, weight in painted[name]:
+            rows.append(vertex)
+            columns.append(index[name])
+            values.append(weight)
+    return Rig(
+        bone_names=names,
+        bone_parent=np.array([index.get(str(bones[name]["parent"]), -1) for name in names]),
+        head_rows=sparse.csr_array(
+            np.stack([_head_row(bones[name]["head"], groups, count) for name in names])
+        ),
+        weights=sparse.csr_array((values, (rows, columns)), shape=(count, len(names))),
+        drives=bone_drives(names),
+    )
+
+
+def bone_heads(rig: Rig, source_vertices: Vertices) -> Float[np.ndarray, "b 3"]:
+    """Centres of the bones of a subject at rest, from all v source vertices."""
+    return rig.head_rows @ source_vertices
+
+
+def part_weights(rig: Rig, skin: sparse.csr_array) -> Float[np.ndarray, "m p"]:
+    """Skinning weights summed over the bones of each part."""
+    gather = np.zeros((len(rig.bone_names), len(PART_NAMES)))
+    gather[np.arange(len(rig.bone_names)), rig.drives.part] = 1.0
+    return skin @ gather
+
+
+def bone_rotations(rig: Rig, pose: Pose) -> Rotations:
+    """Rotation of every bone from rest to pose, body frame.
+
+    Bone b of part p turns by R_parent(p) P(θ_p) P(θ_c): its own part's turn, taken in part, and a
+    share of the turn of the part c beyond it.
+    """
+    drives = rig.drives
+    parts = global_rotations(pose, PART_PARENT)
+    parents = PART_PARENT[drives.part]
+    base = np.where((parents < 0)[:, None, None], np.eye(3), parts[parents])
+    own = partial_rotations(pose[drives.part], drives.axis, drives.swing, drives.twist)
+    beyond = partial_rotations(
+        pose[drives.beyond], drives.beyond_axis, drives.beyond_swing, drives.beyond_twist
+    )
+    whole = (drives.swing == 1.0) & (drives.twist == 1.0)
+    own = np.where(whole[:, None, None], rotation_matrices(pose)[drives.part], own)
+    return base @ own @ beyond
+
+
+def posed_vertices(
+    rig: Rig,
+    skin: sparse.csr_array,
+    rest: Vertices,
+    heads: Float[np.ndarray, "b 3"],
+    pose: Pose,
+) -> Vertices:
+    """Pose a body.
+
+    Parameters
+    ----------
+    rig
+        From :func:`load_rig`.
+    skin
+        (m, b) the rows of the rig's weights that belong to the body's vertices.
+    rest
+        (m, 3) the body at rest, body frame, metres.
+    heads
+        (b, 3) its bone centres, from :func:`bone_heads`.
+    pose
+        (p, 3) as in :class:`fitter.parameters.BodyParameters`.
+
+    Returns
+    -------
+    (m, 3) in the body frame; the root bone's centre stays where it is.
+    """
+    rotations, translations = bone_motions(rig, heads, pose)
+    return blend_half_dual_quaternion(skin, rotations, translations, rest)
+
+
+def bone_motions(
+    rig: Rig, heads: Float[np.ndarray, "b 3"], pose: Pose
+) -> tuple[Rotations, Float[np.ndarray, "b 3"]]:
+    """Rigid motion x -> R x + t of every bone from rest to pose, body frame."""
+    rotations = bone_rotations(rig, pose)
+    centres = np.empty_like(heads)
+    for bone, parent in enumerate(rig.bone_parent):
+        if parent < 0:
+            centres[bone] = heads[bone]
+        else:
+            centres[bone] = centres[parent] + rotations[parent] @ (heads[bone] - heads[parent])
+    return rotations, centres - np.einsum("bij,bj->bi", rotations, heads)
+
+
+def _head_row(
+    head: Mapping[str, object], groups: Mapping[str, Integer[np.ndarray, " g"]], count: int
+) -> Float[np.ndarray, " v"]:
+    strategy = head["strategy"]
+    if strategy == "CUBE":
+        vertices = groups[str(head["cube_name"])]
+    elif strategy == "VERTEX":
+        vertices = np.array([head["vertex_index"]])
+    else:
+        vertices = np.array(head["vertex_indices"])
+    row = np.zeros(count)
+    np.add.at(row, vertices, 1.0 / len(vertices))
+    return row
+
+
+def _parents_first(parents: Mapping[str, str]) -> tuple[str, ...]:
+    ordered: list[str] = []
+    waiting = list(parents)
+    while waiting:
+        ready = [name for name in waiting if parents[name] not in waiting]
+        ordered.extend(ready)
+        waiting = [name for name in waiting if name not in ready]
+    return tuple(ordered)

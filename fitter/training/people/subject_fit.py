@@ -1,0 +1,191 @@
+"""Solve for the body that has a subject's measurements: Levenberg-Marquardt with bounds.
+
+Minimises Σ ((measured - wanted) / tolerance)² + Σ ((parameter - centre) / spread)². The prior's
+centre is drawn per subject, so that what no measurement decides varies from body to body.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Integer
+
+from fitter.arrays import Vertices
+from fitter.training.makehuman.body_space import BodySpace, Traits, target_coefficients
+from fitter.training.people._subject_kernels import add_targets, pulls_on_targets, volume_and_pull
+from fitter.training.surveys.survey_measurements import MEASUREMENTS, LinearForms
+
+DENSITY_KG_PER_M3 = 1000.0
+"""Of the whole body (section 6 takes the density of water)."""
+
+MAX_STEPS = 30
+FIRST_DAMPING = 1e-2
+SMALLEST_DAMPING = 1e-9
+LARGEST_DAMPING = 1e8
+RELATIVE_DECREASE = 1e-4
+"""A step that lowers the cost by a smaller share ends the search."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Wanted:
+    """A subject to be built.
+
+    ``measurements`` and ``tolerance`` (q,) are in the order of :data:`MEASUREMENTS`, metres and
+    kilograms; ``centre`` and ``spread`` (parameters,) are the prior's.
+    """
+
+    measurements: Float[np.ndarray, " q"]
+    tolerance: Float[np.ndarray, " q"]
+    centre: Float[np.ndarray, " p"]
+    spread: Float[np.ndarray, " p"]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Placed:
+    """A body space with cuts placed: linear forms before and by target.
+
+    Attributes
+    ----------
+    forms
+        The placement.
+    constant
+        (s, 3) the forms' differences on the base mesh.
+    by_target
+        (k, s, 3) their change by each target's coefficient.
+    body_base, body_targets
+        (m, 3) and (k, m, 3) the body's vertices alike, for its volume.
+    """
+
+    space: BodySpace
+    traits: Traits
+    forms: LinearForms
+    constant: Float[np.ndarray, "s 3"]
+    by_target: Float[np.ndarray, "k s 3"]
+    body_base: Vertices
+    body_targets: Float[np.ndarray, "k m 3"]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class _Linearised:
+    residuals: Float[np.ndarray, " r"]
+    jacobian: Float[np.ndarray, "r p"]
+
+    @property
+    def cost(self) -> float:
+        return float(self.residuals @ self.residuals)
+
+
+def place(
+    space: BodySpace,
+    traits: Traits,
+    forms: LinearForms,
+    body_targets: Float[np.ndarray, "k m 3"],
+) -> Placed:
+    """Apply the forms to the base mesh and to every target.
+
+    ``body_targets`` are the rows of the space's targets that belong to the body, made once.
+    """
+    used: Integer[np.ndarray, " u"] = np.unique(forms.differences.indices)
+    reduced = forms.differences[:, used]
+    targets = space.targets[:, used].transpose(1, 0, 2)
+    by_target = (reduced @ targets.reshape(len(used), -1)).reshape(-1, *targets.shape[1:])
+    return Placed(
+        space=space,
+        traits=traits,
+        forms=forms,
+        constant=reduced @ space.base.source_vertices[used],
+        by_target=np.ascontiguousarray(by_target.transpose(1, 0, 2), dtype=np.float64),
+        body_base=space.base.body(space.base.source_vertices),
+        body_targets=body_targets,
+    )
+
+
+def fit_subject(
+    placed: Placed, wanted: Wanted, start: Float[np.ndarray, " p"]
+) -> Float[np.ndarray, " p"]:
+    """Parameters of the body nearest to what is wanted, within the space's bounds."""
+    lower, upper = placed.space.lower, placed.space.upper
+    parameters = np.clip(start, lower, upper)
+    here = _linearise(placed, wanted, parameters)
+    damping = FIRST_DAMPING
+    for _ in range(MAX_STEPS):
+        step = _step(placed, wanted, parameters, here, damping)
+        if step is None:
+            break
+        parameters, there, damping = step
+        decrease = (here.cost - there.cost) / here.cost
+        here = there
+        if decrease < RELATIVE_DECREASE:
+            break
+    return parameters
+
+
+def _step(
+    placed: Placed,
+    wanted: Wanted,
+    parameters: Float[np.ndarray, " p"],
+    here: _Linearised,
+    damping: float,
+) -> tuple[Float[np.ndarray, " p"], _Linearised, float] | None:
+    """The next parameters, their linearisation and damping; None where no step lowers the cost."""
+    lower, upper = placed.space.lower, placed.space.upper
+    gradient = here.jacobian.T @ here.residuals
+    # A parameter at its bound that the descent pushes outwards stays there for this step.
+    held = ((parameters <= lower) & (gradient > 0.0)) | ((parameters >= upper) & (gradient < 0.0))
+    free = np.flatnonzero(~held)
+    curvature = here.jacobian[:, free].T @ here.jacobian[:, free]
+    while damping < LARGEST_DAMPING:
+        damped = curvature + damping * np.diag(np.diagonal(curvature))
+        trial = parameters.copy()
+        trial[free] -= np.linalg.solve(damped, gradient[free])
+        trial = np.clip(trial, lower, upper)
+        there = _linearise(placed, wanted, trial)
+        if there.cost < here.cost:
+            return trial, there, max(damping / 10.0, SMALLEST_DAMPING)
+        damping *= 10.0
+    return None
+
+
+def measured(
+    placed: Placed, parameters: Float[np.ndarray, " p"]
+) -> tuple[Float[np.ndarray, " q"], Float[np.ndarray, "q p"]]:
+    """All measurements of a body and their derivatives by the parameters."""
+    coefficients, by_parameter = target_coefficients(placed.space, placed.traits, parameters)
+    active = np.flatnonzero(coefficients)
+    moving = np.flatnonzero(by_parameter.any(axis=1))
+    differences = placed.constant + np.tensordot(
+        coefficients[active], placed.by_target[active], axes=1
+    )
+    forms = placed.forms
+    lengths = np.linalg.norm(differences, axis=1)
+    direction = np.eye(3)[np.maximum(forms.axis, 0)]
+    by_length = forms.axis < 0
+    direction[by_length] = differences[by_length] / lengths[by_length, None]
+    terms = np.einsum("sx,sx->s", direction, differences)
+    slopes = np.einsum("ksx,sx->sk", placed.by_target[moving], direction)
+    count = len(MEASUREMENTS)
+    values = np.bincount(forms.measurement, terms, minlength=count)
+    # Adds the terms of each measurement.
+    total = np.equal.outer(np.arange(count), forms.measurement).astype(np.float64)
+    by_target = total @ slopes
+    body = add_targets(placed.body_base, placed.body_targets, active, coefficients)
+    volume, pull = volume_and_pull(body, placed.space.base.triangles)
+    values[-1] = DENSITY_KG_PER_M3 * volume
+    by_target[-1] = DENSITY_KG_PER_M3 * pulls_on_targets(
+        pull.astype(np.float32), placed.body_targets, moving
+    )
+    return values, by_target @ by_parameter[moving]
+
+
+def _linearise(placed: Placed, wanted: Wanted, parameters: Float[np.ndarray, " p"]) -> _Linearised:
+    values, derivative = measured(placed, parameters)
+    return _Linearised(
+        residuals=np.concatenate(
+            [
+                (values - wanted.measurements) / wanted.tolerance,
+                (parameters - wanted.centre) / wanted.spread,
+            ]
+        ),
+        jacobian=np.concatenate(
+            [derivative / wanted.tolerance[:, None], np.diag(1.0 / wanted.spread)]
+        ),
+    )

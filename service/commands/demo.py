@@ -1,0 +1,153 @@
+"""``maquette demo``: a whole fit over HTTP, from starting the service to the files on disk."""
+
+import re
+import subprocess
+import tempfile
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import IO, Final
+
+import httpx
+from rich.console import Console
+
+from api_schemas.jobs import EventData, EventKind, Job, JobState
+from api_schemas.problems import PROBLEM_MEDIA_TYPE, Problem
+from api_schemas.results import FitResult
+from service.commands.terminal import print_problem, print_result, stage_bars
+from service.demo_data.sample import Sample, load_sample
+from service.process.interpreter import PYTHON
+
+SERVE_COMMAND: Final = (*PYTHON, "-m", "service.cli", "serve", "--port", "0")
+START_TIMEOUT_S: Final = 240.0
+"""A worker has fitted once before it is ready: with nothing compiled yet, that takes a minute."""
+
+READY_POLL_S: Final = 0.05
+
+
+class ServiceStartError(Exception):
+    """The service did not come up; the message says where its log is."""
+
+
+def run_demo(
+    output: Path,
+    *,
+    sample: Sample | None = None,
+    serve_command: Sequence[str] = SERVE_COMMAND,
+) -> int:
+    """Start a service, post the sample, follow it, print and keep what comes; return the status."""
+    console = Console()
+    started = time.monotonic()
+    sample = sample or load_sample()
+    output.mkdir(parents=True, exist_ok=True)
+    with (
+        tempfile.TemporaryDirectory(prefix="maquette-demo-") as data_dir,
+        (output / "service.log").open("w") as log,
+        _running_service(serve_command, Path(data_dir), log) as client,
+    ):
+        console.print(
+            f"The service listens on {client.base_url} ({time.monotonic() - started:.1f} s).",
+            highlight=False,
+        )
+        job = _submit(client, sample)
+        job = _follow(client, job, console)
+        if job.problem is not None or job.state is not JobState.SUCCEEDED:
+            _tell_failure(console, job)
+            return 1
+        result = _keep_files(client, job, output)
+    print_result(console, result, truth=sample.truth)
+    console.print(
+        f"{time.monotonic() - started:.1f} s from start to result. The pictures (overlay.png, "
+        "segmentation.png, albedo.png, shading.png ...), the bodies (body_posed.glb, "
+        f"body_canonical.glb) and result.json lie in {output}/.",
+        highlight=False,
+    )
+    return 0
+
+
+@contextmanager
+def _running_service(
+    command: Sequence[str], data_dir: Path, log: IO[str]
+) -> Iterator[httpx.Client]:
+    with subprocess.Popen(
+        [*command, "--data-dir", str(data_dir)], stdout=subprocess.PIPE, stderr=log, text=True
+    ) as process:
+        try:
+            with httpx.Client(base_url=_address(process), timeout=30.0) as client:
+                _wait_until_ready(client, process)
+                yield client
+        finally:
+            process.terminate()
+
+
+def _address(process: subprocess.Popen[str]) -> str:
+    assert process.stdout is not None
+    for line in process.stdout:
+        found = re.search(r"http://\S+:\d+", line)
+        if found:
+            return found[0]
+    message = "The service ended before it listened; see service.log in the output folder."
+    raise ServiceStartError(message)
+
+
+def _wait_until_ready(client: httpx.Client, process: subprocess.Popen[str]) -> None:
+    deadline = time.monotonic() + START_TIMEOUT_S
+    while time.monotonic() < deadline and process.poll() is None:
+        try:
+            if client.get("/healthz/ready").status_code == httpx.codes.OK:
+                return
+        except httpx.TransportError:
+            pass
+        time.sleep(READY_POLL_S)
+    message = "The service did not get ready; see service.log in the output folder."
+    raise ServiceStartError(message)
+
+
+def _submit(client: httpx.Client, sample: Sample) -> Job:
+    response = client.post(
+        "/v1/fits",
+        files={
+            "image": ("sample.jpg", sample.image, "image/jpeg"),
+            "request": ("request.json", sample.request, "application/json"),
+        },
+    )
+    if response.headers["content-type"] == PROBLEM_MEDIA_TYPE:
+        raise ServiceStartError(Problem.model_validate_json(response.content).detail)
+    return Job.model_validate_json(response.content)
+
+
+def _follow(client: httpx.Client, job: Job, console: Console) -> Job:
+    with (
+        stage_bars(console) as bars,
+        client.stream("GET", job.links.events, timeout=None) as response,
+    ):
+        for kind, data in _events(response):
+            bars.show(data.stage, data.progress)
+            if kind is EventKind.END and data.state is JobState.SUCCEEDED:
+                bars.finish()
+    return Job.model_validate_json(client.get(job.links.self).content)
+
+
+def _events(response: httpx.Response) -> Iterator[tuple[EventKind, EventData]]:
+    fields: dict[str, str] = {}
+    for line in response.iter_lines():
+        if line:
+            name, _, value = line.partition(": ")
+            fields[name] = value
+        elif "data" in fields:
+            yield EventKind(fields["event"]), EventData.model_validate_json(fields["data"])
+            fields = {}
+
+
+def _keep_files(client: httpx.Client, job: Job, output: Path) -> FitResult:
+    for name, path in job.links.artifacts.items():
+        (output / name).write_bytes(client.get(path).raise_for_status().content)
+    assert job.links.result is not None
+    return FitResult.model_validate_json(client.get(job.links.result).content)
+
+
+def _tell_failure(console: Console, job: Job) -> None:
+    console.print(f"The fit {job.state}.")
+    if job.problem is not None:
+        print_problem(console, job.problem)

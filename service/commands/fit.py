@@ -1,0 +1,188 @@
+"""``maquette fit``: one picture here and now, through the same checks and the same pipeline."""
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from rich.console import Console
+
+from api_schemas.derivations import CaricatureOptions
+from api_schemas.problems import Problem, field_problem, problem
+from api_schemas.requests import FitOptions
+from fitter.errors import ModelFileError
+from service.commands.terminal import print_problem, print_result, stage_bars
+from service.demo_data.sample import load_sample
+from service.jobs.inputs import PERSON
+from service.process.kernels import keep_kernels
+from service.representation.formats import GLB_ENDING
+from service.representation.measurement_table import TABLE, measurements_csv
+from service.settings import Settings
+from service.submissions.refusal import RefusedError
+from service.submissions.submission import check_submission
+from service.worker.artifacts import with_result_document
+from service.worker.pipeline_port import (
+    DerivationInput,
+    PipelineInput,
+    PipelineOutput,
+    UnusableInputError,
+    load_pipeline,
+)
+
+PIPELINE: Final = "service.worker.pipeline"
+UNUSABLE_INPUT: Final = 2
+"""Exit status when the input is at fault, as for wrong arguments."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FitArguments:
+    """What the command line says; ``overrides`` replace what the points file says.
+
+    ``models`` is the folder of the body models, None for the service's setting; ``formats`` are the
+    endings of what meshes are written as beside GLB.
+    """
+
+    image: Path
+    points: Path
+    mask: Path | None
+    models: Path | None
+    output: Path
+    overrides: Mapping[str, object]
+    formats: tuple[str, ...] = ()
+
+
+def request_from_file(text: str, overrides: Mapping[str, object]) -> bytes:
+    """Take the fields of a request out of a points file, which may hold other things besides.
+
+    Raises
+    ------
+    RefusedError
+        If the text is no JSON object.
+    """
+    try:
+        values = json.loads(text)
+    except json.JSONDecodeError as error:
+        raise RefusedError(_unreadable(str(error))) from error
+    if not isinstance(values, dict):
+        raise RefusedError(_unreadable("it is no object"))
+    known = {name: value for name, value in values.items() if name in FitOptions.model_fields}
+    return json.dumps(known | dict(overrides)).encode()
+
+
+def fit_locally(arguments: FitArguments, *, pipeline: str = PIPELINE) -> int:
+    """Fit, write all files to the output folder, print the measurements; return the exit status."""
+    console = Console()
+    try:
+        request = request_from_file(arguments.points.read_text(), arguments.overrides)
+        image = arguments.image.read_bytes()
+        mask = None if arguments.mask is None else arguments.mask.read_bytes()
+        output = _fit(
+            console,
+            request=request,
+            image=image,
+            mask=mask,
+            models=arguments.models,
+            pipeline=pipeline,
+        )
+    except ModelFileError as error:
+        console.print(f"[bold red]The body model cannot be used.[/] {error}", highlight=False)
+        return UNUSABLE_INPUT
+    except OSError as error:
+        console.print(f"[bold red]{error.strerror}:[/] {error.filename}")
+        return UNUSABLE_INPUT
+    except RefusedError as error:
+        print_problem(console, error.problem)
+        return UNUSABLE_INPUT
+    except UnusableInputError as error:
+        print_problem(console, field_problem("unusable-input", error.error))
+        return UNUSABLE_INPUT
+    arguments.output.mkdir(parents=True, exist_ok=True)
+    files = with_result_document(output.result, output.artifacts)
+    files |= _in_formats(output.artifacts, arguments.formats)
+    files[TABLE] = measurements_csv(output.result.measurements)
+    for name, content in files.items():
+        (arguments.output / name).write_bytes(content)
+    print_result(console, output.result)
+    console.print(f"{len(files)} files lie in {arguments.output}.", highlight=False)
+    return 0
+
+
+def warm_up(*, pipeline: str = PIPELINE) -> int:
+    """Fit the sample and exaggerate it, so that what is compiled at first use is compiled."""
+    console = Console()
+    sample = load_sample()
+    output = _fit(
+        console,
+        request=sample.request,
+        image=sample.image,
+        mask=None,
+        models=None,
+        pipeline=pipeline,
+    )
+    if PERSON in output.artifacts:
+        # A caricature asks where a surface runs through itself, which no fit does.
+        settings = Settings()
+        load_pipeline(pipeline).derive(
+            DerivationInput(
+                options=CaricatureOptions(kind="caricature", factor=1.1),
+                inputs={PERSON: output.artifacts[PERSON]},
+                max_pixels=settings.max_pixels,
+                models=settings.models_dir,
+            ),
+            lambda _: None,
+        )
+    return 0
+
+
+def _fit(
+    console: Console,
+    *,
+    request: bytes,
+    image: bytes,
+    mask: bytes | None,
+    models: Path | None,
+    pipeline: str,
+) -> PipelineOutput:
+    keep_kernels()
+    settings = Settings()
+    checked = check_submission(
+        request=request, image=image, mask=mask, max_pixels=settings.max_pixels
+    )
+    with stage_bars(console) as bars:
+        output = load_pipeline(pipeline).run(
+            PipelineInput(
+                options=checked.options,
+                image=image,
+                mask=mask,
+                max_pixels=settings.max_pixels,
+                models=models or settings.models_dir,
+            ),
+            lambda report: bars.show(report.stage, report.progress),
+        )
+        bars.finish()
+    return output
+
+
+def _in_formats(artifacts: Mapping[str, bytes], formats: Sequence[str]) -> dict[str, bytes]:
+    """Every mesh in every one of the formats, by file name."""
+    if not formats:
+        return {}
+    # Its libraries take a moment to load, which most fits need not wait for.
+    from fitter.export.formats import converted
+
+    return {
+        f"{name.removesuffix(GLB_ENDING)}.{ending}": converted(content, ending)
+        for name, content in artifacts.items()
+        if name.endswith(GLB_ENDING)
+        for ending in formats
+    }
+
+
+def _unreadable(why: str) -> Problem:
+    return problem(
+        "malformed-request",
+        detail=f"The points file cannot be read: {why}.",
+        remedy='Give a JSON file with an object {"points": {"left_shoulder": [x, y], ...}}.',
+        field="points",
+    )

@@ -1,0 +1,21 @@
+"""What the service stands on, looked at before anything is started."""
+
+from service.engine.database import check_database
+from service.process.data_folder import prepare_data_folder
+from service.settings import Settings
+from service.worker.model_files import check_models
+
+
+def check_ground(settings: Settings) -> None:
+    """Look at data folder, body models and database; a database that is away is waited for.
+
+    Raises
+    ------
+    SettingError
+        If folder or models cannot be used.
+    DatabaseUnusableError
+        If the database cannot.
+    """
+    prepare_data_folder(settings)
+    check_models(settings)
+    check_database(settings.system_database_url)

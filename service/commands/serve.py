@@ -1,0 +1,195 @@
+"""``maquette serve``: the API in this process, a worker and estimators in others."""
+
+import errno
+import logging
+import os
+import signal
+import socket
+import sys
+import threading
+from collections.abc import Callable, Sequence
+from typing import Final
+
+from service.blobs import open_blob_store
+from service.commands.ground import check_ground
+from service.engine.ballast import open_ballast
+from service.process.disk import open_disk
+from service.process.interpreter import PYTHON
+from service.process.supervisor import SupervisedWorker
+from service.process.tracing import start_tracing
+from service.settings import PREFIX, SettingError, Settings
+from service.startup.begin import UNUSABLE_SETTINGS
+
+LOG: Final = logging.getLogger(__name__)
+
+WORKER_COMMAND: Final = (*PYTHON, "-m", "service.worker")
+ESTIMATOR_COMMAND: Final = (*PYTHON, "-m", "service.estimates")
+STOP_MARGIN_S: Final = 5.0
+"""What a worker gets beyond its drain time before it is killed."""
+
+
+def listen(settings: Settings) -> socket.socket:
+    """Bind the API's address; port 0 takes a free one.
+
+    Raises
+    ------
+    OSError
+        If somebody else listens there.
+    SettingError
+        If the address can never be listened on.
+    """
+    family = socket.AF_INET6 if ":" in settings.host else socket.AF_INET
+    # With its protocol named, asyncio sends what is written at once: else each answer over a kept
+    # connection would wait for the acknowledgement of its headers, 40 ms.
+    listener = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        listener.bind((settings.host, settings.port))
+    except OSError as error:
+        listener.close()
+        if error.errno == errno.EADDRINUSE:
+            raise
+        reason = (
+            f"it cannot be listened on port {settings.port} there ({error.strerror}); name an "
+            "address of this machine, and a port above 1023"
+        )
+        raise SettingError(reason, name="host", value=settings.host) from error
+    return listener
+
+
+def serve(
+    settings: Settings,
+    listener: socket.socket,
+    *,
+    worker_command: Sequence[str] | None = WORKER_COMMAND,
+    estimator_command: Sequence[str] = ESTIMATOR_COMMAND,
+    announce: Callable[[str], None] = LOG.info,
+) -> int:
+    """Serve until interrupted; without a ``worker_command`` the workers run elsewhere.
+
+    Uvicorn is told to stop by SIGINT or SIGTERM and lets open requests end first. Returns the exit
+    status: that of unusable settings if the worker found them to be so.
+    """
+    worker = None
+
+    def stop_before_serving(_number: int, _frame: object) -> None:
+        sys.exit(_status(worker))
+
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, stop_before_serving)
+    # All that settings may have wrong comes to light before anything is started that has the same.
+    ballast = open_ballast(settings)
+    ballast.make_room()
+    check_ground(settings)
+    tracing = start_tracing(settings, role="api")
+    blobs = open_blob_store(settings)
+    environment = _environment(settings)
+    if worker_command is not None:
+        worker = SupervisedWorker(
+            worker_command,
+            environment=environment,
+            stop_timeout_s=settings.drain_s + STOP_MARGIN_S,
+            final_code=UNUSABLE_SETTINGS,
+            # As if we had been told to stop.
+            on_final_end=lambda: os.kill(os.getpid(), signal.SIGTERM),
+        )
+    # Imported while the others start: each takes a second or more to load.
+    from service.estimates.pool import EstimatorPool
+
+    estimators = EstimatorPool(
+        estimator_command,
+        environment=environment,
+        processes=settings.estimator_processes,
+    )
+    from service.api.app import create_app
+    from service.api.connection_limits import ConnectionLimits
+    from service.api.server import ApiServer
+    from service.engine.database import open_database, prepare_database
+    from service.engine.dbos_jobs import DbosJobEngine
+    from service.engine.image_port import ImageQuota
+    from service.engine.keys import KeyRing
+    from service.engine.rate_tokens import RateTokens
+    from service.engine.webhooks import WebhookLedger
+    from service.webhooks.delivery import Deliverer
+    from service.webhooks.sending import Sender
+
+    prepare_database(settings.system_database_url)
+    ballast.fill()
+    database = open_database(settings.system_database_url)
+    engine = DbosJobEngine(
+        database,
+        blobs,
+        max_queued=settings.max_queued,
+        max_queued_per_tenant=settings.tenant_queue_limit,
+        image_quota=ImageQuota(
+            images=settings.max_images_per_tenant, size=settings.max_image_bytes_per_tenant
+        ),
+        retention_s=settings.retention_s,
+        sweep_interval_s=settings.sweep_interval_s,
+        heartbeat_s=settings.heartbeat_s,
+        dead_after_s=settings.dead_after_s,
+        ballast=ballast,
+    )
+    webhooks = Deliverer(
+        WebhookLedger(database, time_limit_s=settings.webhook_time_limit_s),
+        Sender(
+            allowed_hosts=settings.allowed_webhook_hosts,
+            ports=settings.allowed_webhook_ports,
+            time_limit_s=settings.webhook_time_limit_s,
+        ),
+        blobs,
+        secret=settings.webhook_secret,
+        pauses_s=settings.webhook_schedule_s,
+    )
+    draining = threading.Event()
+    app = create_app(
+        settings=settings,
+        engine=engine,
+        blobs=blobs,
+        disk=open_disk(settings),
+        estimator=estimators,
+        keys=KeyRing(database),
+        tokens=RateTokens(database, per_minute=settings.requests_per_minute),
+        draining=draining,
+    )
+    server = ApiServer(
+        app,
+        limits=ConnectionLimits(
+            max_connections=settings.max_connections,
+            head_time_limit_s=settings.head_time_limit_s,
+            unread_body_time_limit_s=settings.body_time_limit_s,
+        ),
+        log_level=settings.log_level,
+        draining=draining,
+        stop_delay_s=settings.stop_delay_s,
+    )
+    # The server takes the signals while it runs, and raises them again when it is done: they must
+    # not end the process before the worker is stopped.
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, lambda *_: setattr(server, "should_exit", True))
+    host, port = listener.getsockname()[:2]
+    announce(f"Maquette listens on http://{host}:{port}, documented at /docs.")
+    engine.start()
+    webhooks.start()
+    try:
+        server.run(sockets=[listener])
+    finally:
+        if worker is not None:
+            worker.stop()
+        estimators.stop()
+        webhooks.stop()
+        engine.close()
+        tracing.stop()
+    return _status(worker)
+
+
+def _status(worker: SupervisedWorker | None) -> int:
+    return UNUSABLE_SETTINGS if worker is not None and worker.has_finally_ended else 0
+
+
+def _environment(settings: Settings) -> dict[str, str]:
+    """What the processes started from here find: our settings, and no slips of their names."""
+    others = {
+        name: value for name, value in os.environ.items() if not name.upper().startswith(PREFIX)
+    }
+    return others | settings.environment()

@@ -1,0 +1,117 @@
+"""What the command line shows: bars while a fit runs, tables afterwards."""
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from typing import Final
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, SpinnerColumn, TaskID, TextColumn, TimeElapsedColumn
+from rich.table import Table
+
+from api_schemas.problems import Problem
+from api_schemas.results import FitResult
+
+SHADED: Final = "SES"
+UNSHADED: Final = "SE"
+
+
+class StageBars:
+    """One bar a stage, running from its first report to the next stage's, and one for all."""
+
+    def __init__(self, progress: Progress) -> None:
+        self._progress = progress
+        self._whole = progress.add_task("whole fit", total=1.0)
+        self._stage: str | None = None
+        self._bar: TaskID | None = None
+
+    def show(self, stage: str | None, share: float) -> None:
+        """Take a report: the stage, and the share of the whole fit done."""
+        self._progress.update(self._whole, completed=share)
+        if stage is not None and stage != self._stage:
+            self._finish_stage()
+            self._stage = stage
+            self._bar = self._progress.add_task(stage.replace("_", " "), total=None)
+
+    def finish(self) -> None:
+        """The fit is done."""
+        self._finish_stage()
+        self._progress.update(self._whole, completed=1.0)
+
+    def _finish_stage(self) -> None:
+        if self._bar is not None:
+            self._progress.update(self._bar, total=1.0, completed=1.0)
+            self._progress.stop_task(self._bar)
+
+
+@contextmanager
+def stage_bars(console: Console) -> Iterator[StageBars]:
+    """Show the bars of one fit while the context lasts."""
+    with Progress(
+        SpinnerColumn(),
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TimeElapsedColumn(),
+        console=console,
+    ) as progress:
+        yield StageBars(progress)
+
+
+def print_problem(console: Console, problem: Problem) -> None:
+    """Tell what is wrong and what to do."""
+    console.print(f"[bold red]{problem.title}[/]", highlight=False)
+    for error in problem.errors:
+        console.print(f"  {error.field}: {error.reason} {error.remedy}", markup=False)
+    if not problem.errors:
+        console.print(f"  {problem.detail} {problem.remedy}", markup=False)
+
+
+def print_result(
+    console: Console, result: FitResult, *, truth: Mapping[str, float] | None = None
+) -> None:
+    """Print the measurements of SE and SES, beside the truth where there is one, and remarks."""
+    console.print(_measurements(result, truth or {}))
+    console.print(
+        f"Outcome: {result.outcome} ({result.outcome_explanation}) Silhouette overlap "
+        f"{result.silhouette_overlap:.3f}, {result.evaluations} evaluations, "
+        f"{sum(result.stage_seconds.values()):.1f} s.",
+        highlight=False,
+    )
+    for assumption in result.assumptions:
+        value = assumption.value
+        shown = f"{value:.4g}" if isinstance(value, float) else value
+        console.print(f"Assumed {assumption.quantity} = {shown}: {assumption.reason}", markup=False)
+    for warning in result.warnings:
+        console.print(f"Warning ({warning.code}): {warning.message}", markup=False)
+
+
+def _measurements(result: FitResult, truth: Mapping[str, float]) -> Table:
+    unshaded = next(
+        (
+            {each.name: each.value for each in stage.measurements}
+            for stage in result.stages
+            if stage.name == UNSHADED
+        ),
+        dict[str, float](),
+    )
+    shaded = result.cues == SHADED
+    table = Table(title=f"Measurements, {result.gender}, {result.height_m:.3f} m")
+    table.add_column("measurement")
+    table.add_column("unit")
+    for column in (UNSHADED, SHADED if shaded else None, "± (1 sd)"):
+        if column is not None:
+            table.add_column(column, justify="right")
+    if truth:
+        table.add_column("truth", justify="right")
+        table.add_column("error", justify="right")
+    for final in result.measurements:
+        earlier = unshaded.get(final.name, final.value)
+        row = [final.name.replace("_", " "), final.unit, f"{earlier:.1f}"]
+        if shaded:
+            row.append(f"{final.value:.1f}")
+        error = "" if final.standard_error is None else f"{final.standard_error:.1f}"
+        row.append("given" if final.given and error == "0.0" else error)
+        if truth:
+            true = truth.get(final.name)
+            row += ["", ""] if true is None else [f"{true:.1f}", f"{final.value - true:+.1f}"]
+        table.add_row(*row)
+    return table

@@ -1,0 +1,1 @@
+"""What every process of the service stands on: folders, logs, kernels, retries."""

@@ -1,0 +1,1 @@
+"""How jobs and their files are shown to callers."""

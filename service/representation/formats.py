@@ -1,0 +1,67 @@
+"""The formats a mesh can be had in beside GLB. They are written when they are asked for.
+
+GLB files are what is stored; all the others follow from one by
+:func:`fitter.export.formats.converted`, which no process of the API can load. What the API needs to
+know of a format is here.
+"""
+
+import hashlib
+import importlib.metadata
+import importlib.util
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Final
+
+GLB_ENDING: Final = ".glb"
+GLB: Final = "model/gltf-binary"
+
+WRITER_VERSION: Final = 1
+"""To be raised whenever :mod:`fitter.export.formats` writes other bytes than before."""
+
+USD_DISTRIBUTION: Final = "usd-core"
+USD_PACKAGE: Final = "pxr"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MeshFormat:
+    """A format; ``library`` is the distribution whose version its bytes depend on, if any."""
+
+    ending: str
+    media_type: str
+    library: str | None = None
+
+
+OBJ: Final = MeshFormat(ending="obj", media_type="model/obj")
+PLY: Final = MeshFormat(ending="ply", media_type="model/ply", library="trimesh")
+STL: Final = MeshFormat(ending="stl", media_type="model/stl", library="trimesh")
+USDZ: Final = MeshFormat(ending="usdz", media_type="model/vnd.usdz+zip", library=USD_DISTRIBUTION)
+MTL: Final = MeshFormat(ending="mtl", media_type="model/mtl")
+"""Not a mesh but the material of a textured OBJ."""
+
+MESH_FORMATS: Final[Mapping[str, MeshFormat]] = {
+    each.ending: each for each in (OBJ, PLY, STL, USDZ)
+}
+"""By their endings. IANA lists all but ``model/ply``, which many use."""
+
+USD_MISSING: Final = "USDZ is not written here: the package usd-core is not installed."
+USD_REMEDY: Final = "Install the extra `usdz` beside it (pip install usd-core)"
+
+
+def usd_is_installed() -> bool:
+    """Whether the optional library that writes USDZ is there; it is not loaded."""
+    return importlib.util.find_spec(USD_PACKAGE) is not None
+
+
+@cache
+def written_here() -> tuple[MeshFormat, ...]:
+    """The formats that can be written with what is installed."""
+    return tuple(each for each in MESH_FORMATS.values() if each is not USDZ or usd_is_installed())
+
+
+@cache
+def tag_of(sha256: str, kind: MeshFormat) -> str:
+    """What tells the bytes that a GLB of this digest becomes in a format from all others."""
+    version = "" if kind.library is None else importlib.metadata.version(kind.library)
+    said = f"{sha256} {kind.ending} {WRITER_VERSION} {version}"
+    return hashlib.sha256(said.encode()).hexdigest()

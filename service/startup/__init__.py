@@ -1,0 +1,1 @@
+"""How every process begins: its settings, and what is wrong with them."""

@@ -1,0 +1,70 @@
+"""How every command begins and ends: settings that cannot be followed are said in one line."""
+
+import logging
+import os
+import sys
+from collections.abc import Callable, Mapping
+from typing import Final
+
+from pydantic import ValidationError
+
+from service.process.logs import configure_logging
+from service.settings import SettingError, Settings
+from service.startup.setting_faults import fault_lines, unknown_names
+
+LOG: Final = logging.getLogger(__name__)
+
+UNUSABLE_SETTINGS: Final = os.EX_CONFIG
+"""Exit status 78 where starting again is of no use: settings, or what they name, cannot be used."""
+
+UNAVAILABLE: Final = os.EX_UNAVAILABLE
+"""Exit status 69 where a database or storage did not answer for as long as it is waited for."""
+
+NOTHING: Final[Mapping[str, object]] = {}
+
+
+def read_settings(command: str, given: Mapping[str, object] = NOTHING) -> Settings:
+    """Read the settings of a command, or end it; what was ``given`` as options goes before."""
+    try:
+        return Settings(**given)  # pyright: ignore[reportArgumentType]
+    except ValidationError as error:
+        for line in fault_lines(error, options=given):
+            print(f"maquette {command}: {line}", file=sys.stderr)
+        sys.exit(UNUSABLE_SETTINGS)
+
+
+def begin(command: str, given: Mapping[str, object] = NOTHING) -> Settings:
+    """Read the settings of a process that lasts, begin to log, and warn of unknown names."""
+    settings = read_settings(command, given)
+    configure_logging(settings.log_level, settings.log_format)
+    warn_of_unknown_names()
+    return settings
+
+
+def warn_of_unknown_names() -> None:
+    """Say which variables look like settings and are none."""
+    for name, meant in unknown_names(os.environ).items():
+        hint = "it is ignored" if meant is None else f"did you mean {meant}?"
+        LOG.warning("There is no setting %s; %s", name, hint)
+
+
+def run_told(command: str, run: Callable[[], int | None]) -> int:
+    """Run a command; what only then turns out to be unusable or away is said in a line."""
+    from sqlalchemy.exc import OperationalError
+
+    from service.blobs import BlobsUnavailableError
+    from service.engine.port import DatabaseUnusableError, EngineUnavailableError
+
+    try:
+        return run() or 0
+    except (DatabaseUnusableError, SettingError) as error:
+        print(f"maquette {command}: {error}", file=sys.stderr)
+        return UNUSABLE_SETTINGS
+    except (EngineUnavailableError, OperationalError) as error:
+        cause = getattr(error, "orig", None) or error.__cause__ or "no answer"
+        line = " ".join(str(cause).split())
+        print(f"maquette {command}: the database is not available ({line}).", file=sys.stderr)
+        return UNAVAILABLE
+    except BlobsUnavailableError as error:
+        print(f"maquette {command}: the storage is not available ({error}).", file=sys.stderr)
+        return UNAVAILABLE

@@ -1,0 +1,1 @@
+"""What is sent, checked before it is stored or decoded."""

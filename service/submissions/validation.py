@@ -1,0 +1,119 @@
+"""Pydantic's errors as field problems: which field, what is wrong, what to do."""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Final, TypeVar
+
+from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
+
+from api_schemas.problems import FieldProblem, problem
+from service.submissions.refusal import RefusedError, refused
+
+Model = TypeVar("Model", bound=BaseModel)
+
+Context = Mapping[str, Any]
+
+_BOUNDS: Final[Mapping[str, str]] = {
+    "greater_than": "gt",
+    "greater_than_equal": "ge",
+    "less_than": "lt",
+    "less_than_equal": "le",
+}
+_BOUND_WORDS: Final[Mapping[str, str]] = {
+    "gt": "greater than",
+    "ge": "at least",
+    "lt": "less than",
+    "le": "at most",
+}
+
+_REMEDIES: Final[Mapping[str, tuple[str, Callable[[Context], str]]]] = {
+    "missing": ("missing", lambda _: "Send this field."),
+    "extra_forbidden": ("unknown-field", lambda _: "Remove it, or correct its name."),
+    "enum": ("unknown-value", lambda context: f"Use {context['expected']}."),
+    "literal_error": ("unknown-value", lambda context: f"Use {context['expected']}."),
+    "finite_number": ("not-finite", lambda _: "Send a finite number."),
+    "too_long": ("wrong-length", lambda context: f"Send at most {context['max_length']} values."),
+    "too_short": (
+        "wrong-length",
+        lambda context: f"Send at least {context.get('min_length', 'the required')} values.",
+    ),
+    "json_invalid": ("invalid-json", lambda _: "Send well-formed JSON."),
+}
+
+
+def parsed(kind: type[Model], text: bytes, *, whole: str, called: str) -> Model:
+    """Read JSON text as a wire type.
+
+    Parameters
+    ----------
+    kind
+        The type.
+    text
+        The JSON text.
+    whole
+        Names what is at fault when no field of it is.
+    called
+        What the text is to the caller, for sentences: ``the body``.
+
+    Raises
+    ------
+    RefusedError
+        400 if it is not JSON, 422 if it is not of this type.
+    """
+    try:
+        return kind.model_validate_json(text)
+    except ValidationError as error:
+        errors = field_problems(error.errors(), whole=whole)
+        if not any(each.code == "invalid-json" for each in errors):
+            raise refused(*errors) from error
+        first = errors[0]
+        raise RefusedError(
+            problem(
+                "malformed-request",
+                detail=f"{called[:1].upper()}{called[1:]} is not JSON: {first.reason}",
+                remedy=first.remedy,
+                code=first.code,
+                field=whole,
+                errors=errors,
+            )
+        ) from error
+
+
+def field_problems(
+    errors: Sequence[ErrorDetails], *, whole: str = "request"
+) -> tuple[FieldProblem, ...]:
+    """Translate validation errors; ``whole`` names what is at fault when no field is."""
+    return tuple(_field_problem(error, whole) for error in errors)
+
+
+def _field_problem(error: ErrorDetails, whole: str) -> FieldProblem:
+    context: Context = error.get("ctx", {})
+    code, remedy = _code_and_remedy(error["type"], context)
+    return FieldProblem(
+        field=str(context.get("field") or _field(error["loc"]) or whole),
+        code=code,
+        reason=_sentence(str(context.get("reason") or error["msg"])),
+        remedy=str(context.get("remedy") or remedy),
+    )
+
+
+def _code_and_remedy(kind: str, context: Context) -> tuple[str, str]:
+    if kind in _BOUNDS:
+        bound = _BOUNDS[kind]
+        return "out-of-range", f"Send a number {_BOUND_WORDS[bound]} {context[bound]:g}."
+    if kind in _REMEDIES:
+        code, remedy = _REMEDIES[kind]
+        return code, remedy(context)
+    if "remedy" in context:  # a refusal of our own carries its code as the kind
+        return kind, ""
+    return "wrong-kind", "Correct the value as the schema in /openapi.json describes it."
+
+
+def _field(location: Sequence[str | int]) -> str:
+    # Parts in brackets are the alternatives of a union, or a mapping's key: not the caller's words.
+    parts = [str(part) for part in location if not (isinstance(part, str) and part[:1] == "[")]
+    return ".".join(part for part in parts if part not in ("body", "query", "path", "header"))
+
+
+def _sentence(text: str) -> str:
+    return text if text.endswith(".") else f"{text}."

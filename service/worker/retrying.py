@@ -1,0 +1,15 @@
+"""Trying again while the storage is full or away."""
+
+from collections.abc import Callable
+from typing import ParamSpec, TypeVar
+
+from service.blobs import BlobsUnavailableError
+from service.process.retrying import retry_with_pauses
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+def retry_while_storage_is_away(operation: Callable[P, T]) -> Callable[P, T]:
+    """Repeat an operation on blobs for up to two minutes: all of them may be repeated."""
+    return retry_with_pauses(BlobsUnavailableError, "storage")(operation)

@@ -1,0 +1,46 @@
+"""What holds of every test: which command runs it, when, and whether it may be skipped."""
+
+import os
+from collections.abc import Generator
+from typing import TypeVar
+
+import pytest
+from hypothesis import settings
+
+from tests.parts import begins, is_rest
+from tests.shared_data import NOT_SHIPPED
+
+Report = TypeVar("Report", pytest.TestReport, pytest.CollectReport)
+
+# Hypothesis' own profile for machines of which nothing is known: no example has a time limit,
+# slow drawing is no fault, and every machine tries the same examples.
+settings.load_profile("ci")
+
+
+@pytest.hookimpl(tryfirst=True)  # before pytest selects by the marker
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark what `make test-rest` runs, and put the longest files first."""
+    for item in items:
+        if is_rest(item.path, slow=item.get_closest_marker("slow") is not None):
+            item.add_marker("rest")
+    items.sort(key=lambda item: begins(item.path))
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport() -> Generator[None, pytest.TestReport, pytest.TestReport]:
+    return _not_skipped((yield))
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_make_collect_report() -> Generator[None, pytest.CollectReport, pytest.CollectReport]:
+    return _not_skipped((yield))
+
+
+def _not_skipped(report: Report) -> Report:
+    """The report; failed if something was skipped in CI, where everything that tests need is."""
+    if os.environ.get("CI") == "true" and report.skipped and not hasattr(report, "wasxfail"):
+        _, _, reason = report.longrepr
+        if NOT_SHIPPED not in reason:
+            report.outcome = "failed"
+            report.longrepr = f"Where CI is true no test may be skipped. {reason}"
+    return report

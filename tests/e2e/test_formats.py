@@ -1,0 +1,142 @@
+"""Files in other formats, by the service as a user starts it, read by other people's readers."""
+
+import csv
+import io
+import subprocess
+import sys
+from pathlib import Path
+
+import httpx
+import numpy as np
+import plyfile
+import pytest
+import stl.mesh
+import trimesh
+from pxr import Usd, UsdGeom, UsdValidation
+
+from tests.e2e.service import REPOSITORY, ended_job
+from tests.unit.export.glb_reader import read_glb
+
+SAMPLE = REPOSITORY / "service" / "demo_data"
+MICROMETRE = 1e-6
+BODIES = ("body_posed", "body_canonical", "body_posed_se", "body_canonical_se")
+
+
+@pytest.fixture(scope="module")
+def client(service: httpx.Client) -> httpx.Client:
+    return service
+
+
+@pytest.fixture(scope="module")
+def fit(client: httpx.Client, finished_fit: str) -> dict:
+    return client.get(f"/v1/fits/{finished_fit}").raise_for_status().json()
+
+
+def mesh_of(glb: bytes) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices and triangles of a GLB whose mesh its node leaves where it is."""
+    file = read_glb(glb)
+    primitive = file.document["meshes"][0]["primitives"][0]
+    assert not {"rotation", "translation", "matrix"} & set(file.document["nodes"][0])
+    return file.attribute("POSITION"), file.accessor(primitive["indices"]).reshape(-1, 3)
+
+
+def same(read: np.ndarray, vertices: np.ndarray) -> bool:
+    return read.shape == vertices.shape and np.abs(read - vertices).max() < MICROMETRE
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_every_format_holds_the_mesh_of_the_glb(client: httpx.Client, fit, tmp_path: Path, name):
+    files = f"{fit['links']['self']}/artifacts/{name}"
+    vertices, triangles = mesh_of(client.get(f"{files}.glb").content)
+    for ending in ("obj", "ply", "stl", "usdz"):
+        answer = client.get(f"{files}.{ending}").raise_for_status()
+        (tmp_path / f"body.{ending}").write_bytes(answer.content)
+        wanted = client.get(f"{files}.glb", headers={"Accept": answer.headers["content-type"]})
+        assert wanted.content == answer.content
+        assert wanted.headers["ETag"] == answer.headers["ETag"]
+        part = client.get(f"{files}.{ending}", headers={"Range": "bytes=100-199"})
+        assert part.content == answer.content[100:200]
+
+    obj = trimesh.load_mesh(tmp_path / "body.obj", process=False)
+    assert same(obj.vertices, vertices)
+    assert np.array_equal(obj.faces, triangles)
+    assert obj.is_watertight
+
+    ply = plyfile.PlyData.read(tmp_path / "body.ply")
+    assert same(np.column_stack([ply["vertex"][axis] for axis in "xyz"]), vertices)
+    assert np.array_equal(np.vstack(ply["face"]["vertex_indices"]), triangles)
+
+    assert same(stl.mesh.Mesh.from_file(str(tmp_path / "body.stl")).vectors, vertices[triangles])
+
+    stage = Usd.Stage.Open(str(tmp_path / "body.usdz"))
+    validators = UsdValidation.ValidationRegistry().GetOrLoadAllValidators()
+    assert not UsdValidation.ValidationContext(validators).Validate(stage)
+    (mesh,) = (UsdGeom.Mesh(prim) for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh))
+    assert same(np.array(mesh.GetPointsAttr().Get()), vertices)
+    corners = np.array(mesh.GetFaceVertexIndicesAttr().Get())
+    assert np.array_equal(corners.reshape(-1, 3), triangles)
+
+
+def test_measurements_are_the_results_with_their_units(client: httpx.Client, fit):
+    result = client.get(fit["links"]["result"]).json()
+    table = client.get(f"{fit['links']['self']}/artifacts/measurements.csv").text
+    rows = list(csv.DictReader(io.StringIO(table, newline="")))
+    assert [(row["name"], row["unit"], float(row["value"])) for row in rows] == [
+        (each["name"], each["unit"], each["value"]) for each in result["measurements"]
+    ]
+
+
+def test_a_textured_body_keeps_the_models_vertices_and_its_texture(
+    client: httpx.Client, fit, tmp_path: Path
+):
+    posed, triangles = mesh_of(
+        client.get(f"{fit['links']['self']}/artifacts/body_posed.glb").content
+    )
+    asked = {"kind": "texture", "colours": "picture", "size": 512}
+    job = ended_job(client, client.post(fit["links"]["derivations"], json=asked))
+    for name in ("body_textured.obj", "body_textured.mtl", "texture.png", "body_textured.usdz"):
+        answer = client.get(f"{job['links']['self']}/artifacts/{name}").raise_for_status()
+        (tmp_path / name).write_bytes(answer.content)
+    rows = (tmp_path / "body_textured.obj").read_text().splitlines()
+    vertices = np.array([row.split()[1:] for row in rows if row.startswith("v ")], float)
+    assert same(vertices, posed)
+    read = trimesh.load_mesh(tmp_path / "body_textured.obj", process=False)
+    assert same(read.triangles, posed[triangles])
+    assert read.visual.material.image.size == (512, 512)
+    stage = Usd.Stage.Open(str(tmp_path / "body_textured.usdz"))
+    (mesh,) = (UsdGeom.Mesh(prim) for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh))
+    assert same(np.array(mesh.GetPointsAttr().Get()), posed)
+
+
+def test_moving_bodies_stand_as_their_first_frame_has_them(client: httpx.Client, fit):
+    job = ended_job(client, client.post(fit["links"]["derivations"], json={"kind": "animation"}))
+    files = f"{job['links']['self']}/artifacts"
+    read = {
+        name: plyfile.PlyData.read(io.BytesIO(client.get(f"{files}/{name}.ply").content))["vertex"]
+        for name in ("body_animated", "body_skinned")
+    }
+    exact, skinned = (np.column_stack([vertex[axis] for axis in "xyz"]) for vertex in read.values())
+    assert exact[:, 1].min() == pytest.approx(0.0, abs=0.01)
+    result = client.get(job["links"]["result"]).json()
+    away = np.linalg.norm(exact - skinned, axis=1).max()
+    assert 1e3 * away <= result["skin_largest_error_mm"] + 0.1
+
+
+def test_the_command_line_writes_the_formats_it_is_asked_for(tmp_path: Path):
+    subprocess.run(
+        [
+            *(sys.executable, "-m", "service.cli", "fit", str(SAMPLE / "sample.jpg")),
+            *("--points", str(SAMPLE / "request.json"), "--output", str(tmp_path)),
+            *("--cues", "SE", "--formats", "obj,usdz"),
+        ],
+        cwd=REPOSITORY,
+        check=True,
+        capture_output=True,
+    )
+    written = {path.name for path in tmp_path.iterdir()}
+    assert {"body_posed.obj", "body_canonical.usdz", "measurements.csv"} <= written
+    assert not any(name.endswith((".ply", ".stl")) for name in written)
+    vertices, _ = mesh_of((tmp_path / "body_canonical.glb").read_bytes())
+    assert same(
+        trimesh.load_mesh(tmp_path / "body_canonical.obj", process=False).vertices, vertices
+    )

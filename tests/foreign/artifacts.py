@@ -1,0 +1,91 @@
+"""Every mesh file that leaves the service: of a fit of the sample, and of all that derives meshes.
+
+Made once for all tests of a run, by the pipeline that the workers run, and kept as files, because
+that is what foreign readers open.
+"""
+
+import fcntl
+import json
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from uuid import UUID
+
+from api_schemas.derivations import DerivationRequest
+from service.demo_data.sample import load_sample
+from service.jobs.inputs import IMAGE, OF_ITS_FIT, REQUEST, RESULT, of_other
+from service.submissions.submission import check_submission
+from service.worker.artifacts import with_result_document
+from service.worker.pipeline import derive, run
+from service.worker.pipeline_port import DerivationInput, PipelineInput
+
+MAX_PIXELS = 2_000_000
+OTHER_FIT = "a2d6a7b0-3a0b-4a7c-8f9e-5f4f0d9f5b11"
+FIT = "0d3c1b6e-52a4-4f0e-9e37-0a4f6c2f7d10"
+
+DERIVED: Mapping[str, dict[str, object]] = {
+    "texture": {"kind": "texture", "colours": "picture", "size": 512},
+    "albedo_texture": {"kind": "texture", "colours": "albedo", "size": 512},
+    "pose": {"kind": "pose", "pose": "t_pose"},
+    "animation": {"kind": "animation"},
+    "caricature": {"kind": "caricature", "factor": 1.5},
+    "combined": {"kind": "combined", "fits": [OTHER_FIT]},
+}
+"""What makes meshes, by the name of the folder its files are put in."""
+
+GLB_FILES = (
+    "fit/body_canonical.glb",
+    "fit/body_canonical_se.glb",
+    "fit/body_posed.glb",
+    "fit/body_posed_se.glb",
+    "texture/body_textured.glb",
+    "albedo_texture/body_textured.glb",
+    "pose/body_reposed.glb",
+    "animation/body_animated.glb",
+    "animation/body_skinned.glb",
+    "caricature/body_caricature.glb",
+    "combined/body_combined.glb",
+    "combined/body_posed_1.glb",
+    "combined/body_posed_2.glb",
+)
+
+
+def made_in(folder: Path) -> Path:
+    """Make all files below the folder unless another process did, and return where they lie."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with (folder / "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        stamp = folder / "complete"
+        if not stamp.exists():
+            for name, files in _made():
+                (folder / name).mkdir(exist_ok=True)
+                for each, content in files.items():
+                    (folder / name / each).write_bytes(content)
+            stamp.touch()
+    return folder
+
+
+def _made() -> Iterator[tuple[str, Mapping[str, bytes]]]:
+    sample = load_sample()
+    options = check_submission(
+        request=sample.request, image=sample.image, mask=None, max_pixels=MAX_PIXELS
+    ).options
+    output = run(
+        PipelineInput(options=options, image=sample.image, mask=None, max_pixels=MAX_PIXELS),
+        lambda _: None,
+    )
+    fit = with_result_document(output.result, output.artifacts)
+    yield "fit", fit
+    there = fit | {IMAGE: sample.image, REQUEST: options.model_dump_json().encode()}
+    for name, asked in DERIVED.items():
+        request = DerivationRequest.model_validate_json(json.dumps(asked))
+        kind = request.root.kind
+        inputs = {each: there[each] for each in OF_ITS_FIT[kind] if each in there}
+        if kind == "combined":
+            inputs |= {of_other(each, 0): there[each] for each in inputs if each != RESULT}
+        made = derive(
+            DerivationInput(
+                options=request.root, inputs=inputs, max_pixels=MAX_PIXELS, fit_id=UUID(FIT)
+            ),
+            lambda _: None,
+        )
+        yield name, with_result_document(made.result, made.artifacts)

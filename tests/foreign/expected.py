@@ -1,0 +1,145 @@
+"""What each mesh file is to show, from the parameters of results and from no reader of files.
+
+Axes of the file, metres. Of an animation the body is the exact SCAPE body of three frames.
+"""
+
+import json
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from fitter.applications.grounding import grounded
+from fitter.applications.motion import moving_body
+from fitter.applications.rig import rig_of
+from fitter.applications.walk import walk
+from fitter.arrays import Vertices
+from fitter.body.scape import CAMERA_AXES
+from fitter.fits.prepared_model import PreparedModel, prepared_model
+from fitter.parameters import BodyParameters
+from fitter.request import Gender
+
+ROUNDING_M = 2e-5
+"""Files hold single precision; parameters lie some metres from the origin."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Shown:
+    """What a reader is to find.
+
+    ``frames`` are the bodies at the beginning, the middle and the end; one where nothing moves.
+    ``tolerance_m`` bounds how far any vertex may be from there.
+    """
+
+    frames: tuple[Vertices, ...]
+    vertices: int
+    triangles: int
+    tolerance_m: float = ROUNDING_M
+    cameras: int = 0
+    lights: int = 0
+    texture: bool = False
+    morph_targets: int = 0
+    bones: int = 0
+
+    def agrees(self, low: Iterable[float], high: Iterable[float], *, frame: int = 0) -> bool:
+        """Whether a bounding box is that of a frame's body."""
+        body = self.frames[frame]
+        box = np.array([body.min(axis=0), body.max(axis=0)])
+        found = np.array([list(low), list(high)], dtype=float)
+        return bool(np.abs(found - box).max() <= self.tolerance_m)
+
+
+def shown_by(name: str, files: Path) -> Shown:
+    """What the file of :data:`tests.foreign.artifacts.GLB_FILES` is to show."""
+    return _SHOWN[name](_Results(files))
+
+
+class _Results:
+    """Result documents of the fit and of what was derived from it."""
+
+    def __init__(self, files: Path) -> None:
+        self._files = files
+        gender = Gender(self.of("fit")["gender"])
+        self.fitted: PreparedModel = _prepared(gender)
+        self.model = self.fitted.operators.model
+        self.evaluator = self.fitted.operators.evaluator
+
+    def of(self, folder: str) -> Mapping[str, Any]:
+        return json.loads((self._files / folder / "result.json").read_text())
+
+    def stage(self, name: str) -> Mapping[str, Any]:
+        return next(each for each in self.of("fit")["stages"] if each["name"] == name)["body"]
+
+    def shown(self, *frames: Vertices, **more: Any) -> Shown:
+        counts = {"vertices": len(self.model.mean_vertices), "triangles": len(self.model.triangles)}
+        return Shown(frames=frames, **(counts | more))
+
+    def posed(self, body: Mapping[str, Any], **more: Any) -> Shown:
+        """A body before its camera."""
+        vertices = self.evaluator.vertices(_parameters(body)) * CAMERA_AXES
+        return self.shown(vertices, cameras=1, **more)
+
+    def textured(self, **more: Any) -> Shown:
+        corners = len(self.model.uv)
+        return self.posed(self.of("fit")["body"], vertices=corners, texture=True, **more)
+
+    def canonical(self, shape: Iterable[float]) -> Shown:
+        return self.shown(_standing(self.fitted.measuring.canonical.at(np.array(list(shape)))))
+
+    def upright(self, body: BodyParameters) -> Shown:
+        return self.shown(_standing(self.evaluator.body_frame_vertices(body)))
+
+    def animated(self, *, error: str, **more: Any) -> Shown:
+        """The walk that ships with the package, by exact SCAPE."""
+        shape = np.array(self.of("fit")["body"]["shape"])
+        motion = walk(rig_of(self.model, shape))
+        body = grounded(moving_body(self.evaluator, shape, motion), self.model)
+        last = len(body.shapes) - 1
+        stated_m = 1e-3 * self.of("animation")[error]
+        frames = tuple(body.vertices(frame) for frame in (0, last // 2, last))
+        return self.shown(*frames, tolerance_m=stated_m + ROUNDING_M, **more)
+
+
+@cache
+def _prepared(gender: Gender) -> PreparedModel:
+    return prepared_model(gender, models=None)
+
+
+def _parameters(body: Mapping[str, Any]) -> BodyParameters:
+    return BodyParameters(
+        pose=np.array([each["rotation"] for each in body["pose"]]),
+        translation=np.array(body.get("translation_m", np.zeros(3))),
+        shape=np.array(body["shape"]),
+    )
+
+
+def _standing(vertices: Vertices) -> Vertices:
+    return vertices - np.array([0.0, vertices[:, 1].min(), 0.0])
+
+
+_SHOWN: Mapping[str, Callable[[_Results], Shown]] = {
+    "fit/body_canonical.glb": lambda r: r.canonical(r.of("fit")["body"]["shape"]),
+    "fit/body_canonical_se.glb": lambda r: r.canonical(r.stage("SE")["shape"]),
+    "fit/body_posed.glb": lambda r: r.posed(r.of("fit")["body"], lights=1),
+    "fit/body_posed_se.glb": lambda r: r.posed(r.stage("SE")),
+    "texture/body_textured.glb": lambda r: r.textured(),
+    "albedo_texture/body_textured.glb": lambda r: r.textured(lights=1),
+    "pose/body_reposed.glb": lambda r: r.upright(
+        _parameters(r.of("pose") | {"shape": r.of("fit")["body"]["shape"]})
+    ),
+    "animation/body_animated.glb": lambda r: r.animated(
+        error="morph_largest_error_mm", morph_targets=r.of("animation")["morph_targets"]
+    ),
+    "animation/body_skinned.glb": lambda r: r.animated(
+        error="skin_largest_error_mm", bones=len(r.model.part_names)
+    ),
+    "caricature/body_caricature.glb": lambda r: r.upright(
+        _parameters(r.of("fit")["body"] | {"shape": r.of("caricature")["shape"]})
+    ),
+    "combined/body_combined.glb": lambda r: r.canonical(r.of("combined")["shape"]),
+    "combined/body_posed_1.glb": lambda r: r.posed(r.of("combined")["bodies"][0]["body"], lights=1),
+    "combined/body_posed_2.glb": lambda r: r.posed(r.of("combined")["bodies"][1]["body"], lights=1),
+}

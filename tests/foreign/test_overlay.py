@@ -1,0 +1,110 @@
+"""The README draws the body over the picture: by trimesh, and by three.js in a browser."""
+
+import contextlib
+import functools
+import http.server
+import io
+import os
+import shutil
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+from playwright.sync_api import sync_playwright
+
+from fitter.fits.prepared_model import prepared_model
+from fitter.person.fitted_person import FittedPerson
+from fitter.render.rasterizer import render
+from service.demo_data.sample import FOLDER
+from tests.e2e.page.browser import chromium
+from tests.readme import block
+
+MAGENTA = (255, 0, 255)
+"""No body is of this colour."""
+
+
+@pytest.fixture
+def folder(files: Path, tmp_path: Path) -> Path:
+    """What the README's commands have left, and the sample where they expect it."""
+    for name in ("body_posed.glb", "result.json"):
+        shutil.copy(files / "fit" / name, tmp_path)
+    (tmp_path / "service" / "demo_data").mkdir(parents=True)
+    shutil.copy(FOLDER / "sample.jpg", tmp_path / "service" / "demo_data")
+    return tmp_path
+
+
+def test_trimesh_draws_the_body_where_the_picture_has_it(files: Path, folder: Path):
+    done = subprocess.run(
+        [sys.executable, "-c", block("trimesh")],
+        cwd=folder,
+        env=os.environ | {"PYTHONWARNINGS": "default"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    drawn = np.asarray(Image.open(folder / "drawn.png"))
+    sample = np.asarray(Image.open(FOLDER / "sample.jpg").convert("RGB"))
+    check((drawn != sample).any(axis=2), files)
+
+
+def test_three_js_draws_the_body_where_the_picture_has_it(
+    files: Path, folder: Path, npm_readers: Path
+):
+    (folder / "index.html").write_text(block("three"))
+    shutil.copy(FOLDER / "sample.jpg", folder)
+    (folder / "three").symlink_to(npm_readers / "node_modules" / "three")
+    faults: list[str] = []
+    with (
+        served(folder) as address,
+        sync_playwright() as playwright,
+        chromium(playwright) as browser,
+    ):
+        page = browser.new_page(viewport={"width": 720, "height": 960})
+        page.on("pageerror", lambda error: faults.append(str(error)))
+        page.goto(address)
+        page.wait_for_selector("canvas", timeout=120_000)
+        # What shows through is not the body.
+        page.add_style_tag(content="img { visibility: hidden } body { background: #f0f }")
+        seen = np.asarray(Image.open(io.BytesIO(page.screenshot())).convert("RGB"))
+    assert faults == []
+    check((seen != MAGENTA).any(axis=2), files)
+
+
+def check(drawn: np.ndarray, files: Path) -> None:
+    """Compare with where our own rasteriser has the body, and with where the person was found."""
+    fitted = FittedPerson.from_bytes((files / "fit" / "person.npz").read_bytes())
+    evaluator = prepared_model(fitted.gender, models=None).operators.evaluator
+    body = evaluator.vertices(fitted.body)
+    own = render(body, evaluator.model.triangles, fitted.camera).silhouette
+    person = np.asarray(Image.open(files / "fit" / "segmentation.png").convert("L")) > 127
+    assert drawn.shape == own.shape == person.shape
+    assert overlap(drawn, own) > 0.98
+    assert overlap(drawn, person) > 0.93
+
+
+def overlap(one: np.ndarray, other: np.ndarray) -> float:
+    return (one & other).sum() / (one | other).sum()
+
+
+@contextlib.contextmanager
+def served(folder: Path) -> Iterator[str]:
+    handler = functools.partial(Quiet, directory=str(folder))
+    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
+        thread = threading.Thread(target=server.serve_forever)
+        thread.start()
+        try:
+            yield f"http://127.0.0.1:{server.server_address[1]}/index.html"
+        finally:
+            server.shutdown()
+            thread.join()
+
+
+class Quiet(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *_: object) -> None:
+        """Nobody reads it."""

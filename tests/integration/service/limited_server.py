@@ -1,0 +1,193 @@
+"""Our server in this process, its limits the test's own, and callers that send as they like.
+
+The application does what the test tells it to. What is late is so by a limit that is short; what is
+not has hours. That a limit is over is known by another connection that it has ended.
+"""
+
+import contextlib
+import http.client
+import math
+import socket
+import threading
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any, cast
+
+from anyio import to_thread
+from fastapi import FastAPI, Request
+from fastapi.responses import PlainTextResponse, Response, StreamingResponse
+
+from api_schemas.problems import PROBLEM_MEDIA_TYPE, Problem
+from service.api.body_time import BodyTimeLimit
+from service.api.connection_limits import ConnectionLimits, LimitedProtocol
+from service.api.problems import install_problem_handlers
+from service.api.server import ApiServer
+from tests.integration.service.harness import PATIENCE_S, eventually
+
+SHORT_S = 0.3
+FAIR_S = 2.0
+"""Enough for what is sent at once, also by a machine that is busy."""
+
+LONG_S = 3600.0
+HEAD = "{method} {path} HTTP/1.1\r\nHost: 127.0.0.1\r\n"
+
+
+@dataclass
+class Served:
+    """A server, and what holds its application up."""
+
+    server: ApiServer
+    port: int
+    entered: threading.Semaphore
+    """One for each request to /held that began."""
+    released: threading.Event = field(default_factory=threading.Event)
+
+    @property
+    def connections(self) -> list[LimitedProtocol]:
+        return cast("list[LimitedProtocol]", list(self.server.server_state.connections))
+
+    def has_connections(self, number: int) -> None:
+        eventually(lambda: len(self.connections) == number, what=f"{number} connections")
+
+    def has_begun_heads(self, number: int) -> None:
+        def begun() -> bool:
+            return sum(bool(each.conn.trailing_data[0]) for each in self.connections) == number
+
+        eventually(begun, what=f"{number} heads begun")
+
+
+def application(
+    entered: threading.Semaphore, released: threading.Event, *, body_s: float, bytes_per_s: int
+) -> FastAPI:
+    async def quick(_: Request) -> Response:
+        return PlainTextResponse("quick")
+
+    async def held(_: Request) -> Response:
+        entered.release()
+        await to_thread.run_sync(released.wait)
+        return PlainTextResponse("held")
+
+    async def length(request: Request) -> Response:
+        return PlainTextResponse(str(len(await request.body())))
+
+    async def held_length(request: Request) -> Response:
+        entered.release()
+        await to_thread.run_sync(released.wait)
+        return await length(request)
+
+    async def stream(_: Request) -> Response:
+        async def events() -> Any:
+            yield "first\n"
+            await to_thread.run_sync(released.wait)
+            yield "second\n"
+
+        return StreamingResponse(events(), media_type="text/event-stream")
+
+    app = FastAPI()
+    install_problem_handlers(app)
+    app.add_middleware(BodyTimeLimit, time_limit_s=body_s, bytes_per_s=bytes_per_s)
+    for resource in (quick, held, length, held_length, stream):
+        path = f"/{resource.__name__.replace('_', '-')}"
+        app.add_route(path, resource, methods=["GET", "POST"])
+    return app
+
+
+@contextlib.contextmanager
+def serving(
+    *,
+    max_connections: int = 100,
+    head_s: float = LONG_S,
+    body_s: float = LONG_S,
+    bytes_per_s: int = 10**9,
+) -> Iterator[Served]:
+    """Serve in a thread; the ends of answers are watched by the test, not by time."""
+    entered, released = threading.Semaphore(0), threading.Event()
+    server = ApiServer(
+        application(entered, released, body_s=body_s, bytes_per_s=bytes_per_s),
+        limits=ConnectionLimits(
+            max_connections=max_connections,
+            head_time_limit_s=head_s,
+            unread_body_time_limit_s=body_s,
+        ),
+        log_level="WARNING",
+        draining=threading.Event(),
+        stop_delay_s=0.0,
+    )
+    server.config.timeout_keep_alive = int(LONG_S)
+    listener = socket.create_server(("127.0.0.1", 0))
+    thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
+    thread.start()
+    try:
+        eventually(lambda: server.started, what="serving")
+        yield Served(server, listener.getsockname()[1], entered, released)
+    finally:
+        released.set()
+        server.should_exit = True
+        thread.join()
+
+
+class Caller:
+    """A connection of a client that sends and reads as it likes."""
+
+    def __init__(self, port: int) -> None:
+        self.socket = socket.create_connection(("127.0.0.1", port), timeout=PATIENCE_S)
+
+    def __enter__(self) -> "Caller":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.socket.close()
+
+    def send(self, text: str | bytes) -> None:
+        self.socket.sendall(text if isinstance(text, bytes) else text.encode())
+
+    def ask(self, path: str, *, method: str = "GET", headers: str = "") -> None:
+        self.send(HEAD.format(method=method, path=path) + headers + "\r\n")
+
+    def answer(self) -> tuple[http.client.HTTPResponse, bytes]:
+        answer = http.client.HTTPResponse(self.socket)
+        answer.begin()
+        return answer, answer.read()
+
+    def followed(self, path: str) -> http.client.HTTPResponse:
+        """Follow a stream, and return when it has begun."""
+        self.ask(path)
+        stream = http.client.HTTPResponse(self.socket)
+        stream.begin()
+        assert stream.readline()
+        return stream
+
+    def status(self) -> int:
+        return self.answer()[0].status
+
+    def read(self, size: int) -> bytes:
+        content = bytearray()
+        while len(content) < size and (part := self.socket.recv(size - len(content))):
+            content += part
+        return bytes(content)
+
+    def is_ended(self) -> bool:
+        """Wait for the connection's end, which nothing may precede."""
+        return self.socket.recv(1) == b""
+
+    def problem(self, status: int) -> Problem:
+        """Read a problem, and that the connection ends with it."""
+        answer, body = self.answer()
+        assert answer.status == status
+        assert answer.headers["content-type"] == PROBLEM_MEDIA_TYPE
+        assert answer.headers["connection"] == "close"
+        assert self.is_ended()
+        return Problem.model_validate_json(body)
+
+
+def let_a_head_be_late(served: Served) -> None:
+    """Return when a head that begins now is late."""
+    with Caller(served.port) as slow:
+        slow.send("GET /quick HTTP/1.1\r\nHo")
+        slow.problem(408)
+
+
+def let_pass(served: Served, seconds: float) -> None:
+    """Return when so long a limit is over, of a server whose heads have ``SHORT_S``."""
+    for _ in range(math.ceil(seconds / SHORT_S) + 1):
+        let_a_head_be_late(served)

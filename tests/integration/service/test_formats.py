@@ -1,0 +1,254 @@
+"""Meshes in other formats and measurements as tables: by name, by Accept, and what there is not."""
+
+import csv
+import io
+from pathlib import Path
+
+import httpx
+import pytest
+
+from api_schemas.problems import Problem
+from tests.integration.service.harness import Machine, Service, eventually, running_service
+from tests.integration.service.test_bad_input import checked
+from tests.integration.service.test_derivations import derived, fitted
+
+BROWSER = "text/html,application/xhtml+xml,application/xml;q=0.9,image/avif,image/webp,*/*;q=0.8"
+MESH_TYPES = {
+    "obj": "model/obj",
+    "ply": "model/ply",
+    "stl": "model/stl",
+    "usdz": "model/vnd.usdz+zip",
+}
+GLB = "model/gltf-binary"
+GLB_BYTES = 260
+"""Of the mesh of a pretended fit."""
+
+WITHOUT_USD = Path(__file__).parent / "without_usd"
+
+
+@pytest.fixture(scope="module")
+def files(service: Service) -> str:
+    """Where the files of a fit lie."""
+    wait_for_estimator(service)
+    return f"{fitted(service)}/artifacts"
+
+
+def wait_for_estimator(service: Service) -> None:
+    eventually(
+        lambda: service.client.post("/v1/bodies", json={"gender": "male"}).status_code == 200,
+        what="the estimator answers",
+    )
+
+
+def get(service: Service, path: str, **headers: str) -> httpx.Response:
+    return service.client.get(
+        path, headers={name.replace("_", "-"): value for name, value in headers.items()}
+    )
+
+
+def without_accept(service: Service, path: str) -> httpx.Response:
+    request = service.client.build_request("GET", path)
+    del request.headers["Accept"]
+    return service.client.send(request)
+
+
+@pytest.mark.parametrize(("ending", "media_type"), MESH_TYPES.items())
+def test_a_mesh_is_had_in_another_format_by_its_name(service: Service, files, ending, media_type):
+    answer = get(service, f"{files}/body_posed.{ending}", Accept="image/png")
+    assert answer.status_code == 200
+    assert answer.headers["content-type"] == media_type
+    assert answer.content == f"{ending} of {GLB_BYTES} bytes".encode()
+    assert "Vary" not in answer.headers
+
+
+def test_each_format_has_a_tag_of_its_own_and_ranges(service: Service, files):
+    endings = ("glb", *MESH_TYPES)
+    tags = [get(service, f"{files}/body_posed.{each}").headers["ETag"] for each in endings]
+    assert len(set(tags)) == len(endings)
+    url = f"{files}/body_posed.ply"
+    whole = get(service, url)
+    assert "immutable" in whole.headers["Cache-Control"]
+    assert get(service, url, If_None_Match=whole.headers["ETag"]).status_code == 304
+    assert get(service, url, If_None_Match=tags[0]).status_code == 200
+    part = get(service, url, Range="bytes=0-2")
+    assert (part.status_code, part.content) == (206, b"ply")
+    assert part.headers["Content-Range"] == f"bytes 0-2/{len(whole.content)}"
+    assert get(service, url, Range="bytes=999-").status_code == 416
+
+
+@pytest.mark.parametrize(
+    ("accept", "media_type"),
+    [
+        ("*/*", GLB),
+        (BROWSER, GLB),
+        ("application/octet-stream", GLB),
+        ("model/*", GLB),
+        ("nonsense", GLB),
+        ("model/obj", "model/obj"),
+        ("Model/PLY", "model/ply"),
+        ("model/stl;q=0.5, model/vnd.usdz+zip", "model/vnd.usdz+zip"),
+        ("model/fbx, model/obj;q=0.1", "model/obj"),
+        ("*/*;q=0.1, model/ply", "model/ply"),
+        ("model/gltf-binary;q=0, */*", "model/obj"),
+    ],
+)
+def test_a_glb_is_answered_as_it_is_wanted(service: Service, files, accept, media_type):
+    answer = get(service, f"{files}/body_posed.glb", Accept=accept)
+    assert (answer.status_code, answer.headers["content-type"]) == (200, media_type)
+    assert answer.headers["Vary"] == "Accept"
+    tag = answer.headers["ETag"]
+    again = get(service, f"{files}/body_posed.glb", Accept=accept, If_None_Match=tag)
+    assert (again.status_code, again.headers["Vary"]) == (304, "Accept")
+
+
+def test_who_says_nothing_of_formats_gets_what_is_stored(service: Service, files):
+    answer = without_accept(service, f"{files}/body_posed.glb")
+    assert answer.headers["content-type"] == GLB
+    assert len(answer.content) == GLB_BYTES
+    picture = get(service, f"{files}/overlay.png", Accept="model/obj")
+    assert picture.headers["content-type"] == "image/png"
+
+
+@pytest.mark.parametrize(
+    "accept", ["model/fbx", "application/json", "model/*;q=0", "x/" + "y" * 999]
+)
+def test_what_nobody_can_write_is_not_acceptable(service: Service, files, accept):
+    answer = get(service, f"{files}/body_posed.glb", Accept=accept)
+    problem = checked(answer, 406)
+    assert (problem.code, problem.field) == ("not-acceptable", "Accept")
+    assert all(media_type in problem.remedy for media_type in (GLB, *MESH_TYPES.values()))
+    assert len(problem.detail) < 200
+    assert answer.headers["Vary"] == "Accept"
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("body_posed.fbx", "body_posed.xyz", "body_posed", "body_posed.", ".obj"),
+        *("body_posed.mtl", "overlay.obj", "person.usdz", "measurements.json", "result.csv"),
+    ],
+)
+def test_a_file_that_is_not_there_is_told_with_those_that_are(service: Service, files, name):
+    problem = checked(get(service, f"{files}/{name}"), 404)
+    assert f"'{name}'" in problem.detail
+    assert "body_posed (.glb, .obj, .ply, .stl, .usdz)" in problem.remedy
+    for there in ("overlay.png", "person.npz", "measurements.csv", "result.json"):
+        assert there in problem.remedy
+
+
+def test_a_job_that_has_no_files_says_where_it_stands(service: Service):
+    path = service.submit({"unusable": True})
+    service.ended(path)
+    for name in ("body_posed.obj", "measurements.csv"):
+        problem = checked(get(service, f"{path}/artifacts/{name}"), 404)
+        assert "failed" in problem.remedy
+
+
+def test_measurements_are_a_table_with_units(service: Service, files):
+    answer = get(service, f"{files}/measurements.csv")
+    assert answer.headers["content-type"] == "text/csv; charset=utf-8"
+    (row,) = csv.DictReader(io.StringIO(answer.text))
+    told = get(service, files.replace("/artifacts", "/result")).json()["measurements"][0]
+    assert (row["name"], row["unit"], float(row["value"])) == ("waist_girth", "cm", told["value"])
+    assert (row["standard_error"], row["given"]) == ("1.0", "false")
+    tag = answer.headers["ETag"]
+    assert get(service, f"{files}/measurements.csv", If_None_Match=tag).status_code == 304
+
+
+def test_what_is_derived_is_had_in_other_formats_too(service: Service):
+    fit, other = fitted(service), fitted(service)
+    made = {}
+    for request in (
+        {"kind": "pose"},
+        {"kind": "texture", "colours": "picture"},
+        {"kind": "combined", "fits": [other.rpartition("/")[2]]},
+        {"kind": "report"},
+    ):
+        path = derived(service, fit, request)
+        assert service.ended(path)["state"] == "succeeded"
+        made[request["kind"]] = f"{path}/artifacts"
+    assert get(service, f"{made['pose']}/body_reposed.stl").content == b"stl of 4 bytes"
+    wanted = get(service, f"{made['pose']}/body_reposed.glb", Accept="model/obj")
+    assert wanted.content == b"obj of 4 bytes"
+    material = get(service, f"{made['texture']}/body_textured.mtl")
+    assert (material.content, material.headers["content-type"]) == (b"mtl of 4 bytes", "model/mtl")
+    table = get(service, f"{made['combined']}/measurements.csv")
+    assert table.text.startswith("name,value,unit,")
+    for kind in ("report", "pose"):
+        problem = checked(get(service, f"{made[kind]}/measurements.csv"), 404)
+        assert "measurements" not in problem.remedy
+
+
+def test_files_that_are_not_listed_stay_out_of_the_links(service: Service, files):
+    links = service.job(files.replace("/artifacts", ""))["links"]["artifacts"]
+    assert set(links) == {"body_posed.glb", "overlay.png", "person.npz", "result.json"}
+
+
+@pytest.mark.parametrize(
+    ("accept", "media_type"),
+    [
+        ("*/*", "application/json"),
+        (BROWSER, "application/json"),
+        ("application/octet-stream, */*;q=0.1", "application/json"),
+        ("model/gltf-binary, application/json", GLB),
+        ("application/json;q=0.9, model/ply", "model/ply"),
+        ("model/vnd.usdz+zip", "model/vnd.usdz+zip"),
+        ("text/csv", "text/csv; charset=utf-8"),
+    ],
+)
+def test_a_body_of_measurements_is_answered_as_it_is_wanted(service: Service, accept, media_type):
+    answer = service.client.post("/v1/bodies", json={"gender": "male"}, headers={"Accept": accept})
+    assert (answer.status_code, answer.headers["content-type"]) == (200, media_type)
+    assert answer.headers["Vary"] == "Accept"
+
+
+def test_a_body_s_mesh_and_table_are_its_own(service: Service):
+    def post(accept: str) -> httpx.Response:
+        return service.client.post(
+            "/v1/bodies", json={"gender": "male"}, headers={"Accept": accept}
+        )
+
+    assert post("model/obj").content == f"obj of {GLB_BYTES} bytes".encode()
+    (row,) = csv.DictReader(io.StringIO(post("text/csv").text))
+    assert (row["name"], row["unit"], row["low"], row["high"]) == (
+        "waist_girth_navel",
+        "cm",
+        "70.0",
+        "90.0",
+    )
+    assert checked(post("model/fbx"), 406).code == "not-acceptable"
+
+
+def test_a_conversion_is_counted_among_the_estimates(service: Service, files):
+    get(service, f"{files}/body_posed.stl")
+    figures = service.client.get("/metrics").text
+    assert 'maquette_estimates_total{outcome="answered",question="conversion"}' in figures
+
+
+def test_without_an_estimator_stored_files_are_there_and_others_are_for_later(tmp_path):
+    with running_service(Machine(tmp_path), estimator="broken") as service:
+        files = f"{fitted(service)}/artifacts"
+        assert get(service, f"{files}/body_posed.glb").status_code == 200
+        assert get(service, f"{files}/measurements.csv").status_code == 200
+        answer = get(service, f"{files}/body_posed.obj")
+        assert checked(answer, 503).code == "estimator-unavailable"
+        assert int(answer.headers["Retry-After"]) > 0
+
+
+def test_without_its_library_usdz_is_not_offered_and_who_asks_is_told(tmp_path, monkeypatch):
+    monkeypatch.setenv("PYTHONPATH", str(WITHOUT_USD), prepend=":")
+    with running_service(Machine(tmp_path)) as service:
+        wait_for_estimator(service)
+        files = f"{fitted(service)}/artifacts"
+        assert get(service, f"{files}/body_posed.obj").status_code == 200
+        told = [
+            checked(get(service, f"{files}/body_posed.usdz"), 404),
+            checked(get(service, f"{files}/body_posed.glb", Accept="model/vnd.usdz+zip"), 406),
+        ]
+        for problem in told:
+            assert problem.code == "format-not-installed"
+            assert "usd-core" in problem.detail
+            assert "`usdz`" in problem.remedy
+            assert "vnd.usdz" not in problem.remedy
+        listed: Problem = checked(get(service, f"{files}/body_posed.fbx"), 404)
+        assert "body_posed (.glb, .obj, .ply, .stl)," in listed.remedy

@@ -1,0 +1,219 @@
+"""A real disk of a few megabytes that fills up: nothing is lost, and erasing always works."""
+
+import hashlib
+import json
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+
+from service.engine.ballast import WHOLE_BYTES
+from tests.integration.service.fake_pipeline import scripted_image
+from tests.integration.service.harness import (
+    REPOSITORY,
+    REQUEST,
+    Machine,
+    Service,
+    eventually,
+    pids_noted,
+    running_service,
+)
+from tests.small_disk import BYTES_PER_MB, SmallDisk, small_disk
+
+RESERVE_MB = 10
+SHORT = 5 * BYTES_PER_MB
+"""Free, and less than the reserve."""
+
+RESULTS = {"sweep_interval_s": 0.3, "worker_processes": 1, "min_free_disk_mb": RESERVE_MB}
+JSON = {"Content-Type": "application/json"}
+
+
+@pytest.fixture
+def disk(tmp_path: Path) -> Iterator[SmallDisk]:
+    try:
+        with small_disk(tmp_path / "disk", megabytes=60) as mounted:
+            yield mounted
+    except PermissionError as error:
+        pytest.skip(f"no disk can be mounted here ({error})")
+
+
+def machine_on(disk: SmallDisk, **changes: object) -> Machine:
+    return Machine(disk.folder / "data", settings=RESULTS | changes)
+
+
+def large(number: int, **script: object) -> dict[str, object]:
+    """A picture of two megabytes."""
+    return {"number": number, "padding": "." * 2_000_000} | script
+
+
+def upload(service: Service, content: bytes) -> httpx.Response:
+    return service.client.post("/v1/images", files={"image": ("p.png", content, "image/png")})
+
+
+def assert_no_room(answer: httpx.Response) -> None:
+    assert answer.status_code == 507, answer.text
+    assert answer.headers["content-type"] == "application/problem+json"
+    assert int(answer.headers["Retry-After"]) > 0
+    problem: dict[str, Any] = answer.json()
+    assert (problem["type"], problem["code"]) == ("/problems/insufficient-storage", "disk-full")
+    assert problem["remedy"]
+
+
+def blobs_of(disk: SmallDisk) -> set[Path]:
+    return {path for path in (disk.folder / "data" / "blobs").rglob("*") if path.is_file()}
+
+
+def test_short_of_room_everything_that_stores_is_refused_and_the_rest_works(disk: SmallDisk):
+    with running_service(machine_on(disk)) as service:
+        key = {"Idempotency-Key": "before"}
+        fit = service.post(headers=key).headers["Location"]
+        assert service.ended(fit)["state"] == "succeeded"
+        report = service.client.post(f"{fit}/derivations", json={"kind": "report"})
+        derivation = report.headers["Location"]
+        service.ended(derivation)
+        image = upload(service, scripted_image({"kept": True})).json()["id"]
+        kept = blobs_of(disk)
+
+        disk.leave(SHORT)
+        ready = service.client.get("/healthz/ready")
+        assert (ready.status_code, ready.json()["code"]) == (503, "disk-full")
+        assert_no_room(service.post())
+        by_id = json.dumps(REQUEST | {"image_id": image})
+        assert_no_room(service.client.post("/v1/fits", content=by_id, headers=JSON))
+        assert_no_room(upload(service, scripted_image({"new": True})))
+        assert_no_room(service.client.post(f"{fit}/derivations", json={"kind": "report"}))
+        assert_no_room(service.client.post(f"{fit}/retry"))
+        assert_no_room(service.client.post(f"{derivation}/retry"))
+        assert blobs_of(disk) == kept
+
+        assert service.post(headers=key).headers["Location"] == fit
+        assert upload(service, scripted_image({"kept": True})).status_code == 200
+        assert service.client.get(f"{fit}/result").status_code == 200
+        metrics = service.client.get("/metrics").text
+        free = float(metrics.partition("\nmaquette_disk_free_bytes ")[2].split()[0])
+        assert free == disk.free_bytes < RESERVE_MB * BYTES_PER_MB
+
+        disk.clear()
+        assert service.ended(service.submit())["state"] == "succeeded"
+        assert service.client.get("/healthz/ready").status_code == 200
+
+
+def test_what_would_break_into_the_reserve_is_refused(disk: SmallDisk):
+    with running_service(machine_on(disk), api_only=True) as service:
+        disk.leave((RESERVE_MB + 1) * BYTES_PER_MB)
+        assert service.post({"small": True}).status_code == 202
+        assert_no_room(service.post(large(1)))
+
+
+def test_an_upload_that_finds_no_room_on_its_way_is_refused(
+    disk: SmallDisk, embedded: Machine, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setenv("TMPDIR", str(disk.folder))
+    with running_service(embedded, api_only=True) as service:
+        assert service.post(large(1)).status_code == 202
+        disk.leave(0)
+        assert_no_room(service.post(large(2)))
+        assert_no_room(upload(service, scripted_image(large(3))))
+        disk.clear()
+        assert service.post(large(2)).status_code == 202
+
+
+def test_what_waits_is_begun_when_there_is_room_again(disk: SmallDisk, tmp_path: Path):
+    note = tmp_path / "pids"
+    with running_service(machine_on(disk)) as service:
+        running = service.submit({"seconds": 1.0, "note_pid": str(note)})
+        waiting = [service.submit({"number": number}) for number in range(3)]
+        eventually(lambda: pids_noted(note), what="the fit runs")
+        disk.leave(SHORT)
+        assert service.ended(running)["state"] == "succeeded"
+        assert {service.state(path) for path in waiting} == {"queued"}
+        disk.clear()
+        for path in waiting:
+            job = service.ended(path)
+            assert (job["state"], job["attempt"]) == ("succeeded", 1)
+
+
+def test_on_a_disk_without_a_byte_all_can_be_read_and_erased_and_nothing_is_lost(
+    disk: SmallDisk, tmp_path: Path
+):
+    note = tmp_path / "pids"
+    with running_service(machine_on(disk)) as service:
+        ended = [service.submit(large(number)) for number in range(4)]
+        for path in ended:
+            service.ended(path)
+        image = upload(service, scripted_image(large(9))).headers["Location"]
+        running = service.submit({"seconds": 1.0, "note_pid": str(note)})
+        waiting = [service.submit({"number": number}) for number in range(2)]
+        eventually(lambda: pids_noted(note), what="the fit runs")
+        disk.leave(0)
+        assert disk.free_bytes == 0
+        assert_no_room(service.post())
+        assert service.client.get("/healthz/ready").json()["code"] == "disk-full"
+        assert service.client.get("/metrics").status_code == 200
+        assert len(service.client.get("/v1/fits").json()["jobs"]) == 7
+
+        before = blobs_of(disk)
+        for path in (ended[0], waiting[0], image, ended[1]):
+            assert service.client.delete(path).status_code == 204, path
+            assert service.client.get(path).status_code == 404
+            # Somebody else takes what has become free.
+            disk.leave(0)
+        picture = hashlib.sha256(scripted_image(large(0))).hexdigest()
+        assert picture in {path.name for path in before} - {path.name for path in blobs_of(disk)}
+        assert service.client.post(f"{waiting[1]}/cancel").json()["state"] == "canceled"
+
+        disk.clear()
+        assert service.ended(running)["state"] == "succeeded"
+        assert service.ended(service.submit())["state"] == "succeeded"
+        for path in ended[2:]:
+            assert service.client.get(f"{path}/result").status_code == 200
+        ballast = disk.folder / "data" / "ballast"
+        eventually(lambda: ballast.stat().st_size == WHOLE_BYTES, what="room is held back again")
+
+
+def test_what_expires_on_a_full_disk_makes_room(disk: SmallDisk):
+    with running_service(machine_on(disk, retention_hours=4.0 / 3600)) as service:
+        paths = [service.submit(large(number)) for number in range(5)]
+        for path in paths:
+            service.ended(path)
+        disk.leave(0)
+        eventually(lambda: not blobs_of(disk), what="all is erased")
+        assert {service.client.get(path).status_code for path in paths} == {410}
+        assert disk.free_bytes > 0
+
+
+def test_a_service_started_on_a_full_disk_can_erase(disk: SmallDisk):
+    machine = machine_on(disk)
+    with running_service(machine) as service:
+        path = service.submit(large(1))
+        service.ended(path)
+    disk.leave(0)
+    with running_service(machine, api_only=True) as service:
+        assert service.client.get(f"{path}/result").status_code == 200
+        assert service.client.delete(path).status_code == 204
+        assert disk.free_bytes > 2_000_000
+
+
+def test_a_key_can_be_revoked_on_a_full_disk(disk: SmallDisk):
+    machine = machine_on(disk)
+    with running_service(machine, api_only=True):
+        pass
+    key = keys(machine, "create", "somebody").stdout.strip()
+    disk.leave(0)
+    revoked = keys(machine, "revoke", key.split("_")[1])
+    assert revoked.returncode == 0, revoked.stderr
+
+
+def keys(machine: Machine, *arguments: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "service.cli", "keys", *arguments],
+        cwd=REPOSITORY,
+        env=machine.environment(),
+        capture_output=True,
+        text=True,
+        check=False,
+    )

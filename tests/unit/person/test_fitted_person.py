@@ -1,0 +1,187 @@
+import io
+import json
+from dataclasses import asdict, replace
+from zipfile import ZIP_STORED
+
+import numpy as np
+import pytest
+
+from fitter.errors import InvalidInputError
+from fitter.numerics.array_archive import write_arrays
+from fitter.person.fitted_person import FittedPerson, require_model
+from fitter.person.person_checks import MAX_BYTES
+from tests.unit.body.synthetic_model import bar_model
+from tests.unit.export.results import CAMERA, POINT_LIGHT, SUN, result_of
+
+MODEL = bar_model()
+COLOURS = np.random.default_rng(1).uniform(0.0, 1.2, size=(len(MODEL.mean_vertices), 3))
+
+SURROUNDED = replace(POINT_LIGHT, surroundings=np.linspace(1.0, -0.2, 9))
+
+PEOPLE = {
+    "point light": result_of(MODEL).person,
+    "surroundings": result_of(MODEL, light=SURROUNDED).person,
+    "directional light": result_of(MODEL, light=SUN).person,
+    "coloured": result_of(MODEL, albedo_rgb=COLOURS).person,
+    "without shading": result_of(MODEL, light=None).person,
+}
+
+
+def members(person: FittedPerson) -> dict[str, np.ndarray]:
+    with np.load(io.BytesIO(person.to_bytes())) as archive:
+        return {name: archive[name] for name in archive.files}
+
+
+def packed(arrays: dict[str, np.ndarray]) -> bytes:
+    stream = io.BytesIO()
+    write_arrays(stream, arrays, compression=ZIP_STORED)
+    return stream.getvalue()
+
+
+def with_header(**changes: object) -> bytes:
+    arrays = members(PEOPLE["coloured"])
+    header = json.loads(arrays["header"].tobytes()) | changes
+    encoded = json.dumps(header).encode()
+    return packed(arrays | {"header": np.frombuffer(encoded, dtype=np.uint8)})
+
+
+def refusal(content: bytes) -> InvalidInputError:
+    with pytest.raises(InvalidInputError) as caught:
+        FittedPerson.from_bytes(content)
+    assert caught.value.code == "person-unusable"
+    return caught.value
+
+
+@pytest.mark.parametrize("kind", PEOPLE)
+def test_every_number_comes_back_as_it_was(kind):
+    person = PEOPLE[kind]
+    found = FittedPerson.from_bytes(person.to_bytes())
+    assert (found.gender, found.model_checksum) == (person.gender, person.model_checksum)
+    assert found.camera == person.camera == CAMERA
+    assert (found.light is None) == (person.light is None)
+    if person.light is not None:
+        numbers, expected = asdict(found.light), asdict(person.light)
+        np.testing.assert_array_equal(numbers.pop("surroundings"), expected.pop("surroundings"))
+        assert numbers == expected
+    for name in ("pose", "translation", "shape"):
+        np.testing.assert_array_equal(getattr(found.body, name), getattr(person.body, name))
+    if person.reflectance is None:
+        assert found.reflectance is None
+    else:
+        for name in ("albedo", "specularity", "ambient", "specular_exponent"):
+            np.testing.assert_array_equal(
+                getattr(found.reflectance, name), getattr(person.reflectance, name)
+            )
+    if person.albedo_rgb is None:
+        assert found.albedo_rgb is None
+    else:
+        np.testing.assert_array_equal(found.albedo_rgb, person.albedo_rgb)
+
+
+@pytest.mark.parametrize("kind", PEOPLE)
+def test_the_same_person_gives_the_same_bytes(kind):
+    content = PEOPLE[kind].to_bytes()
+    assert FittedPerson.from_bytes(content).to_bytes() == content
+
+
+@pytest.mark.parametrize(
+    "content", [b"", b"PK", b"no archive", PEOPLE["coloured"].to_bytes()[:-90]]
+)
+def test_what_is_no_archive_is_refused(content):
+    assert refusal(content).field == "person.file"
+
+
+def test_an_archive_of_pickles_is_refused():
+    stream = io.BytesIO()
+    np.savez(stream, pose=np.array([object()]))
+    assert refusal(stream.getvalue()).field == "person.file"
+
+
+def test_an_archive_that_unpacks_to_more_than_a_body_is_refused_before_it_is_unpacked():
+    reason = refusal(packed({"pose": np.zeros(MAX_BYTES // 8 + 1)})).reason
+    assert str(MAX_BYTES) in reason
+
+
+@pytest.mark.parametrize(
+    ("field", "change"),
+    [
+        ("format_version", 2),
+        ("gender", "neutral"),
+        ("light", "spot"),
+        ("model_checksum", None),
+    ],
+)
+def test_a_header_that_means_something_else_is_refused(field, change):
+    assert refusal(with_header(**{field: change})).field == f"person.header.{field}"
+
+
+def test_a_missing_header_is_refused():
+    arrays = members(PEOPLE["coloured"])
+    del arrays["header"]
+    assert refusal(packed(arrays)).field == "person.header"
+
+
+@pytest.mark.parametrize(
+    "field", ["pose", "translation", "shape", "camera", "light", "eq_1", "albedo", "specularity"]
+)
+def test_a_missing_field_is_named(field):
+    arrays = members(PEOPLE["coloured"])
+    del arrays[field]
+    assert refusal(packed(arrays)).field == f"person.{field}"
+
+
+def test_a_field_that_belongs_to_no_person_is_named():
+    arrays = members(PEOPLE["without shading"])
+    assert refusal(packed(arrays | {"albedo": np.ones(3)})).field == "person.albedo"
+
+
+@pytest.mark.parametrize("field", sorted(members(PEOPLE["coloured"]).keys() - {"header"}))
+def test_another_shape_another_type_and_numbers_that_are_not_finite_are_refused(field):
+    arrays = members(PEOPLE["coloured"])
+    spoilt = arrays[field].copy()
+    spoilt.flat[0] = np.nan
+    for wrong in (arrays[field][None], arrays[field].astype(np.float32), spoilt):
+        assert refusal(packed(arrays | {field: wrong})).field == f"person.{field}"
+
+
+@pytest.mark.parametrize(
+    ("field", "place", "value"),
+    [
+        ("pose", 0, 7.0),
+        ("translation", 2, -1.0),
+        ("camera", 0, 0.0),
+        ("camera", 3, 480.5),
+        ("camera", 4, 0.0),
+        ("light", 2, 0.0),
+        ("light", 2, np.inf),
+        ("eq_1", 0, -0.1),
+        ("eq_1", 1, 0.5),
+        ("albedo", 3, -0.1),
+        ("albedo_rgb", 3, -0.1),
+    ],
+)
+def test_values_no_fit_gives_are_refused(field, place, value):
+    arrays = members(PEOPLE["coloured"])
+    changed = arrays[field].copy()
+    changed.flat[place] = value
+    assert refusal(packed(arrays | {field: changed})).field == f"person.{field}"
+
+
+def test_reflectance_of_another_mesh_is_refused():
+    arrays = members(PEOPLE["coloured"])
+    shorter = arrays | {"specularity": arrays["specularity"][1:]}
+    assert refusal(packed(shorter)).field == "person.specularity"
+
+
+def test_a_person_belongs_to_the_model_it_was_fitted_with():
+    require_model(PEOPLE["coloured"], MODEL)
+    others = {
+        "gender": replace(MODEL, gender="male"),
+        "model_checksum": replace(MODEL, header={"checksum": "another"}),
+        "shape": replace(MODEL, shape_basis=MODEL.shape_basis[:1]),
+        "albedo": replace(MODEL, mean_vertices=MODEL.mean_vertices[1:]),
+    }
+    for field, model in others.items():
+        with pytest.raises(InvalidInputError) as caught:
+            require_model(PEOPLE["coloured"], model)
+        assert caught.value.field == f"person.{field}"

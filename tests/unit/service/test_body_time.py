@@ -1,0 +1,183 @@
+"""A body is late by the time the service waited for it, and by no other."""
+
+import asyncio
+import json
+from collections.abc import Awaitable, Callable
+from typing import Any
+
+import pytest
+from starlette.types import Message, Receive, Scope, Send
+
+from service.api.body_time import BodyTimeLimit
+from service.api.problems import ProblemError
+
+LIMIT_S = 0.2
+FOREVER_S = 600.0
+PIECE = 1000
+OVERDUE_S = 2 * LIMIT_S
+
+
+async def in_time(piece: bytes = bytes(PIECE), *, more: bool = True) -> Message:
+    return {"type": "http.request", "body": piece, "more_body": more}
+
+
+async def overdue(piece: bytes = bytes(PIECE), *, more: bool = True) -> Message:
+    await asyncio.sleep(OVERDUE_S)
+    return await in_time(piece, more=more)
+
+
+async def never() -> Message:
+    await asyncio.sleep(FOREVER_S)
+    raise AssertionError
+
+
+async def reads_all(scope: Scope, receive: Receive, send: Send) -> None:
+    length = 0
+    while True:
+        message = await receive()
+        length += len(message.get("body", b""))
+        if not message.get("more_body", False):
+            await say(send, str(length))
+            return
+
+
+async def say(send: Send, text: str, *, status: int = 200) -> None:
+    await send({"type": "http.response.start", "status": status, "headers": []})
+    await send({"type": "http.response.body", "body": text.encode()})
+
+
+def answered(
+    *parts: Callable[[], Awaitable[Message]],
+    application: Callable[[Scope, Receive, Send], Awaitable[None]] = reads_all,
+    bytes_per_s: int = 10**9,
+    headers: tuple[tuple[bytes, bytes], ...] = ((b"content-length", b"99999"),),
+) -> list[Message]:
+    """What is sent to a client whose body comes in these parts."""
+    sent: list[Message] = []
+    coming = iter(parts)
+
+    async def receive() -> Message:
+        return await next(coming)()
+
+    async def send(message: Message) -> None:
+        sent.append(message)
+
+    scope: dict[str, Any] = {
+        "type": "http",
+        "method": "POST",
+        "path": "/v1/images",
+        "query_string": b"",
+        "headers": list(headers),
+    }
+    limited = BodyTimeLimit(application, time_limit_s=LIMIT_S, bytes_per_s=bytes_per_s)
+    asyncio.run(limited(scope, receive, send))
+    return sent
+
+
+def last() -> Awaitable[Message]:
+    return in_time(b"", more=False)
+
+
+def assert_is_late(sent: list[Message]) -> None:
+    start, body = sent
+    assert start["status"] == 408
+    assert (b"connection", b"close") in start["headers"]
+    told = json.loads(body["body"])
+    assert (told["type"], told["code"]) == ("/problems/request-timeout", "body-too-slow")
+    assert told["instance"] == "/v1/images"
+
+
+def test_a_body_that_does_not_come_is_late():
+    assert_is_late(answered(never))
+    assert_is_late(answered(in_time, never))
+    assert_is_late(answered(never, headers=((b"transfer-encoding", b"chunked"),)))
+
+
+def test_times_of_waiting_add_up():
+    async def a_little() -> Message:
+        await asyncio.sleep(0.6 * LIMIT_S)
+        return await in_time(b"x")
+
+    assert_is_late(answered(*[a_little] * 10))
+
+
+def test_a_body_at_a_fair_rate_may_take_longer_than_the_limit():
+    # Each piece is worth ten seconds.
+    sent = answered(in_time, overdue, overdue, overdue, last, bytes_per_s=PIECE // 10)
+    assert sent[1]["body"] == str(4 * PIECE).encode()
+
+
+def test_time_in_which_nobody_asked_does_not_count():
+    async def reads_slowly(scope: Scope, receive: Receive, send: Send) -> None:
+        for _ in range(3):
+            await asyncio.sleep(OVERDUE_S)
+            await receive()
+        await say(send, "read")
+
+    sent = answered(in_time, in_time, last, application=reads_slowly)
+    assert sent[0]["status"] == 200
+
+
+def test_the_end_of_the_connection_is_waited_for_without_limit():
+    async def waits_for_the_end(scope: Scope, receive: Receive, send: Send) -> None:
+        await receive()
+        assert (await receive())["type"] == "http.disconnect"
+        await say(send, "stream")
+
+    async def hangs_up() -> Message:
+        await asyncio.sleep(OVERDUE_S)
+        return {"type": "http.disconnect"}
+
+    whole = answered(last, hangs_up, application=waits_for_the_end)
+    assert whole[0]["status"] == 200
+    none = answered(last, hangs_up, application=waits_for_the_end, headers=())
+    assert none[0]["status"] == 200
+
+
+def test_an_answer_that_has_begun_is_not_cut_short_for_its_body():
+    async def streams(scope: Scope, receive: Receive, send: Send) -> None:
+        waiting = asyncio.create_task(receive())
+        await asyncio.sleep(0)
+        await send({"type": "http.response.start", "status": 200, "headers": []})
+        await waiting
+        await send({"type": "http.response.body", "body": b"whole"})
+
+    sent = answered(never, last, application=streams)
+    assert [message.get("body") for message in sent] == [None, b"whole"]
+
+
+def test_what_throws_the_body_away_before_it_answers_is_heard_no_more():
+    async def refuses(scope: Scope, receive: Receive, send: Send) -> None:
+        while (await receive()).get("more_body"):
+            pass
+        await say(send, "403")
+
+    assert_is_late(answered(in_time, never, application=refuses))
+
+
+def test_an_application_that_answers_the_lateness_itself_reads_no_more():
+    async def handles(scope: Scope, receive: Receive, send: Send) -> None:
+        with pytest.raises(ProblemError) as caught:
+            await receive()
+        assert (await receive())["type"] == "http.disconnect"
+        await say(send, caught.value.problem.code, status=408)
+
+    assert answered(never, application=handles)[1]["body"] == b"body-too-slow"
+
+
+def test_what_else_was_to_be_said_of_half_a_body_is_not():
+    async def has_an_answer_already(scope: Scope, receive: Receive, send: Send) -> None:
+        with pytest.raises(ProblemError):
+            await receive()
+        await say(send, "another kind of content", status=415)
+
+    assert_is_late(answered(never, application=has_an_answer_already))
+
+
+def test_another_problem_is_not_taken_for_lateness():
+    async def fails(scope: Scope, receive: Receive, send: Send) -> None:
+        await receive()
+        raise ValueError
+
+    with pytest.raises(ValueError):  # noqa: PT011
+        answered(in_time, application=fails)

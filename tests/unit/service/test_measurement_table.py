@@ -1,0 +1,38 @@
+import csv
+import io
+import json
+
+from api_schemas.results import Measurement
+from service.representation.measurement_table import measurements_csv, measurements_csv_of
+
+
+def measurement(**changes: object) -> Measurement:
+    known = {
+        "name": "waist",
+        "value": 80.25,
+        "unit": "cm",
+        "standard_error": 1.5,
+        "given": False,
+        "definition": 'At the navel, "level".\nBreathing out.',
+        "source": "ISO 8559-1",
+    }
+    return Measurement.model_validate(known | changes)
+
+
+def test_a_line_a_measurement_and_a_column_a_field():
+    rows = [measurement(), measurement(name="weight", unit="kg", given=True, standard_error=None)]
+    content = measurements_csv(rows)
+    assert content.startswith(b"name,value,unit,standard_error,given,definition,source\r\n")
+    first, second = csv.DictReader(io.StringIO(content.decode(), newline=""))
+    assert (first["value"], first["unit"], first["given"]) == ("80.25", "cm", "false")
+    assert first["definition"] == 'At the navel, "level".\nBreathing out.'
+    assert (second["unit"], second["given"], second["standard_error"]) == ("kg", "true", "")
+
+
+def test_a_result_document_may_hold_other_things_besides():
+    document = {"kind": "combined", "measurements": [json.loads(measurement().model_dump_json())]}
+    assert measurements_csv_of(json.dumps(document).encode()) == measurements_csv([measurement()])
+
+
+def test_no_measurements_leave_the_header():
+    assert measurements_csv([]).count(b"\r\n") == 1

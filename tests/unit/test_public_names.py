@@ -1,0 +1,109 @@
+"""What ``import fitter`` offers, and that the examples of its docstrings run."""
+
+import doctest
+import json
+import subprocess
+import sys
+
+import pytest
+
+import fitter
+from fitter import library
+from fitter.fits import pipeline
+from service.demo_data.sample import load_sample
+from tests.readme import block
+
+NAMES = [
+    "Assumption",
+    "BodyEstimate",
+    "BodyParameters",
+    "Camera",
+    "Click",
+    "Clothing",
+    "Cues",
+    "Facing",
+    "FitRequest",
+    "FitResult",
+    "FitWarning",
+    "FittedPerson",
+    "FitterError",
+    "Gender",
+    "InvalidInputError",
+    "KnownMeasurement",
+    "Light",
+    "LightGuess",
+    "LightKind",
+    "LimbFacing",
+    "Measurement",
+    "ModelFileError",
+    "NumericalError",
+    "OptimizerKind",
+    "Outcome",
+    "OutlineKind",
+    "PictureFit",
+    "Progress",
+    "Reflectance",
+    "Stage",
+    "StageBody",
+    "SurroundingsKind",
+    "body_vertices",
+    "estimate_body",
+    "files_of",
+    "fit",
+    "measure",
+]
+"""Taking one away breaks programs: it is announced in the CHANGELOG a version before."""
+
+
+def test_the_names_are_those_that_were_promised():
+    assert sorted(fitter.__all__) == NAMES
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_name_is_there_and_explains_itself(name):
+    found = getattr(fitter, name)
+    assert found.__name__ == name
+    assert found.__doc__
+
+
+def test_importing_the_package_loads_no_numerics():
+    """A command that needs one part of it does not wait for the others."""
+    heavy = "{'numpy', 'numba', 'cv2', 'scipy'}"
+    code = f"import sys, fitter; print(sorted({heavy} & set(sys.modules)))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+@pytest.fixture(scope="module")
+def sample() -> dict[str, object]:
+    """What the examples name: the sample's picture, what was clicked and told, and its fit."""
+    files = load_sample()
+    asked = json.loads(files.request)
+    clicks = {name: (point["x"], point["y"]) for name, point in asked["points"].items()}
+    told = {"gender": asked["gender"], "height_m": asked["height_m"]}
+    return {"picture": files.image, "clicks": clicks, **told}
+
+
+@pytest.fixture(scope="module")
+def notebook() -> dict[str, object]:
+    """What the README's lines define."""
+    names: dict[str, object] = {}
+    exec(block("notebook"), names)
+    return names
+
+
+def test_the_readmes_lines_run(notebook):
+    assert notebook["result"].found.silhouette_overlap > 0.9
+    assert notebook["overlay"].startswith(b"\x89PNG")
+
+
+@pytest.fixture(scope="module")
+def fitted(sample, notebook) -> dict[str, object]:
+    return {**sample, "result": notebook["result"]}
+
+
+@pytest.mark.parametrize("module", [pipeline, library])
+def test_examples_run(module, fitted):
+    failed, tried = doctest.testmod(module, extraglobs=fitted)
+    assert tried > 0
+    assert failed == 0
