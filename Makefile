@@ -9,6 +9,9 @@ SINGLE_THREADED := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
 # Tests of one file share services and fits, so whole files are dealt out; long ones come first.
 SIDE_BY_SIDE := --numprocesses 2 --dist loadfile --no-loadscope-reorder
 
+# A wheel that is read as data may be that of any Python and platform.
+ANY_PYTHON := --only-binary=:all: --python-version 3.12 --platform manylinux_2_28_x86_64
+
 PYTEST := $(SINGLE_THREADED) $(VENV)/bin/python -m pytest $(SIDE_BY_SIDE)
 # Compiled tests and modules are kept: every process, and each of the services that tests start,
 # would compile them anew.
@@ -62,14 +65,17 @@ wheel: $(STAMP)
 lock:
 	$(VENV)/bin/pip install -q pip-tools
 	$(VENV)/bin/pip-compile -q --no-emit-index-url --no-emit-trusted-host --no-emit-find-links \
-		--strip-extras --extra dev --extra s3 --extra tracing --extra usdz -o requirements.lock pyproject.toml
+		--strip-extras --extra dev --extra s3 --extra tracing --extra usdz --extra detector -o requirements.lock pyproject.toml
 
-$(STAMP): pyproject.toml requirements.lock
+$(STAMP): pyproject.toml requirements.lock requirements-detector.txt
 	$(PYTHON) -c "import sys; sys.exit(sys.version_info < (3, 11) and 'Maquette needs Python 3.11 or newer; set PYTHON=...')"
 	test -x $(VENV)/bin/python || $(PYTHON) -m venv $(VENV)
 	$(VENV)/bin/python -m pip install -q --disable-pip-version-check -r requirements.lock
 	$(VENV)/bin/python -m pip install -q --disable-pip-version-check --no-deps -r requirements-training.txt
 	$(VENV)/bin/python -m pip install -q --disable-pip-version-check --no-deps -e .
+	$(VENV)/bin/python -m pip install -q --disable-pip-version-check --no-deps $(ANY_PYTHON) \
+		--target "$$($(VENV)/bin/python -c 'import sysconfig; print(sysconfig.get_path("purelib"))')" \
+		-r requirements-detector.txt
 	$(VENV)/bin/maquette warm-up
 	touch $(STAMP)
 

@@ -7,7 +7,7 @@ import sys
 import tomllib
 from pathlib import Path
 
-EXTRAS = ("s3", "tracing")
+EXTRAS = ("s3", "tracing", "detector")
 
 project = tomllib.loads(Path(sys.argv[1]).read_text())["project"]
 wanted = [*project["dependencies"]]

@@ -6,6 +6,7 @@
     ├── InvalidInputError       what the caller sent cannot be used; names the field and the remedy
     ├── ModelFileError          a trained body model is missing, damaged or of another format
     ├── MeshFolderError         a user's registered meshes cannot be trained on
+    ├── DetectorUnavailableError  the detector of people is not installed
     ├── DefinitionError         a measurement is defined by something the body model lacks
     └── NumericalError          a non-finite number where none may be: a fault of ours, never hidden
 
@@ -90,6 +91,24 @@ class MeshFolderError(FitterError):
 
     def __str__(self) -> str:
         return f"{self.place} {self.reason}. {self.remedy}"
+
+
+class DetectorUnavailableError(FitterError):
+    """The detector of people is not installed, or its weights are other than those measured.
+
+    Parameters
+    ----------
+    reason, remedy
+        A sentence each.
+    """
+
+    def __init__(self, *, reason: str, remedy: str) -> None:
+        super().__init__(reason, remedy)
+        self.reason = reason
+        self.remedy = remedy
+
+    def __str__(self) -> str:
+        return f"{self.reason} {self.remedy}"
 
 
 class DefinitionError(FitterError):

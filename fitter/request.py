@@ -43,6 +43,17 @@ class OutlineKind(StrEnum):
     LINES = "correspondence_lines"
 
 
+class SegmentationKind(StrEnum):
+    """How the person is cut out where the caller sends no mask.
+
+    ``GRABCUT``: as in the paper, from a tri-map round the body. ``SEEDED_GRABCUT``: from a tri-map
+    round the detector's mask, where the detector is installed and finds the person.
+    """
+
+    GRABCUT = "grabcut"
+    SEEDED_GRABCUT = "seeded_grabcut"
+
+
 class SurroundingsKind(StrEnum):
     """What light comes from all round, beside the one light of section 5.
 
@@ -74,11 +85,21 @@ class Facing(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Click:
-    """A clicked point, continuous pixels of the picture as a browser shows it."""
+    """A clicked point, continuous pixels of the picture as a browser shows it.
+
+    Attributes
+    ----------
+    occluded
+        Whether the point is hidden, its place a guess.
+    spread_m
+        Standard deviation in each direction of the picture, metres on the body, of a point that was
+        proposed by the detector; None of one that somebody clicked.
+    """
 
     x: float
     y: float
     occluded: bool = False
+    spread_m: float | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -138,6 +159,10 @@ class FitRequest:
         At most one; pixels of the upright picture, or the 35 mm equivalent.
     limb_facing
         The caller's word by limb name (``left_forearm`` ...).
+    complete_clicks
+        Whether the detector proposes the points that were not clicked.
+    slant_hints
+        Whether the detector says how limbs slant in depth.
     mask
         An encoded grey picture of the same size; above half is foreground. Replaces GrabCut.
     max_pixels
@@ -159,5 +184,8 @@ class FitRequest:
     clothing: Clothing = Clothing.TIGHT
     light: LightGuess = field(default_factory=LightGuess)
     limb_facing: Mapping[str, Facing] = field(default_factory=dict[str, Facing])
+    complete_clicks: bool = False
+    segmentation: SegmentationKind = SegmentationKind.SEEDED_GRABCUT
+    slant_hints: bool = True
     mask: bytes | None = None
     max_pixels: int = 50_000_000

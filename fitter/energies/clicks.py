@@ -27,16 +27,29 @@ class ClickEvidence:
         (k, 2) working pixels.
     confidence
         (k,) 1 for a visible point, less for one guessed behind something.
+    spread_m
+        (k,) standard deviation about the landmarks beside the unsteady hand's, metres.
     """
 
     landmarks: SparseRows
     clicks: Points2D
     confidence: Float[np.ndarray, " k"]
+    spread_m: Float[np.ndarray, " k"]
+
+    def sigma(self, scales: EnergyScales) -> Float[np.ndarray, " k"]:
+        """Standard deviation of each click in each direction, pixels."""
+        return np.hypot(scales.click_hand, self.spread_m * scales.pixels_per_metre)
 
 
 # What is hidden is guessed, and hair hides where the head ends.
 _OCCLUDED_CONFIDENCE = 1.0 / 9.0
 _HEAD_TOP_CONFIDENCE = 0.25
+
+CLICK_SPREAD_M = 0.02
+"""People differ by as much in where a joint is."""
+
+TRUNCATION = 2.0
+"""Standard deviations beyond which a click is believed less and less."""
 
 
 def click_evidence(landmarks: SparseRows, clicks: Mapping[str, Click]) -> ClickEvidence:
@@ -44,7 +57,8 @@ def click_evidence(landmarks: SparseRows, clicks: Mapping[str, Click]) -> ClickE
     order = [landmarks.names.index(name) for name in clicks]
     spans = [slice(landmarks.pointers[i], landmarks.pointers[i + 1]) for i in order]
     confidence = [
-        (_OCCLUDED_CONFIDENCE if click.occluded else 1.0)
+        # The spread of a proposed point knows whether it is hidden.
+        (_OCCLUDED_CONFIDENCE if click.occluded and click.spread_m is None else 1.0)
         * (_HEAD_TOP_CONFIDENCE if name == "head_top" else 1.0)
         for name, click in clicks.items()
     ]
@@ -57,6 +71,9 @@ def click_evidence(landmarks: SparseRows, clicks: Mapping[str, Click]) -> ClickE
         ),
         clicks=np.array([[click.x, click.y] for click in clicks.values()]),
         confidence=np.array(confidence),
+        spread_m=np.array(
+            [CLICK_SPREAD_M if each.spread_m is None else each.spread_m for each in clicks.values()]
+        ),
     )
 
 
@@ -65,8 +82,8 @@ def click_energy(
 ) -> float:
     """Huber loss of each click's distance, in nats; landmarks (k, 3) in the camera frame."""
     distance = np.linalg.norm(camera.project(landmarks) - evidence.clicks, axis=1)
-    loss = huber(distance, scales.click_truncation)
-    return float((evidence.confidence * loss).sum()) / scales.click_sigma**2
+    loss = huber(distance / evidence.sigma(scales), TRUNCATION)
+    return float((evidence.confidence * loss).sum())
 
 
 def click_rows(
@@ -74,15 +91,16 @@ def click_rows(
 ) -> PositionRows:
     """Two rows a click, x and y; points index the landmark rows."""
     offset = camera.project(landmarks) - evidence.clicks
-    distance = np.linalg.norm(offset, axis=1)
-    weight = evidence.confidence * huber_weights(distance, scales.click_truncation)
+    sigma = evidence.sigma(scales)
+    distance = np.linalg.norm(offset, axis=1) / sigma
+    weight = evidence.confidence * huber_weights(distance, TRUNCATION) / sigma**2
     count = len(landmarks)
     derivatives = np.stack(
         [camera.pull_back(landmarks, np.tile(axis, (count, 1))) for axis in np.eye(2)], axis=1
     )
     return PositionRows(
         residuals=offset.reshape(-1),
-        weights=np.repeat(weight, 2) / scales.click_sigma**2,
+        weights=np.repeat(weight, 2),
         points=np.repeat(np.arange(count), 2)[:, None],
         derivatives=derivatives.reshape(-1, 1, 3),
     )

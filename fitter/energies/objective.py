@@ -19,6 +19,7 @@ from fitter.energies.clicks import ClickEvidence, click_energy
 from fitter.energies.correspondence_lines import line_energy
 from fitter.energies.edges import edge_energy
 from fitter.energies.fitting_operators import FittingOperators
+from fitter.energies.limb_slants import SlantEvidence, slant_energy
 from fitter.energies.penetration import penetration_energy, sphere_positions
 from fitter.energies.priors import ShapePrior, lean_residual
 from fitter.energies.scales import EnergyScales
@@ -43,6 +44,8 @@ class PictureEvidence:
     ----------
     silhouette
         The region segmentation found.
+    slants
+        How limbs slant in depth, None where nothing is known of it.
     lines
         Where the person ends on lines across the contour of a body near by; then these are the
         silhouette energy. None while there is no such body: then the region is.
@@ -55,6 +58,7 @@ class PictureEvidence:
 
     camera: Camera
     clicks: ClickEvidence
+    slants: SlantEvidence | None = None
     silhouette: SilhouetteEvidence
     lines: CorrespondenceLines | None = None
     edges: EdgeCostMap
@@ -129,6 +133,8 @@ class Objective:
         energies["pose_prior"] += 0.5 * lean * lean
         if len(self.attributes.standard_errors):
             energies["attributes"] = attribute_energy(self.attributes, parameters.shape)
+        if evidence.slants is not None:
+            energies["limb_slants"] = slant_energy(landmarks, evidence.slants)
         if evidence.shading is not None:
             energies["shading"] = shading_energy(rendering, evidence.shading, scales)
         for name, value in energies.items():

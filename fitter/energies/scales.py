@@ -30,8 +30,8 @@ class EnergyScales:
         Pixels of contour whose correspondence lines count as one.
     edge_weight
         Nats for a body whose visible edges all miss every image edge.
-    click_sigma, click_truncation
-        Spread of clicked points about the model's landmarks, and where it turns linear.
+    click_hand
+        Spread of clicked points by the unsteadiness of a hand.
     penetration_sigma_m
         Metres of overlap between body parts that cost half a nat.
     shading_weight
@@ -55,8 +55,7 @@ class EnergyScales:
     contour_sigma: float
     line_correlation_length: float
     edge_weight: float
-    click_sigma: float
-    click_truncation: float
+    click_hand: float
     penetration_sigma_m: float
     shading_weight: float
     shading_eta: float
@@ -83,9 +82,7 @@ _CORRELATION_METRES = 0.2
 # Lines that see no boundary say so, and those that see a false one are few: what is left to err
 # alike is the model's contour. Chosen with the shading's weight, below.
 _LINE_CORRELATION_METRES = 0.15
-# Clicks: 2.5 pixels of hand, and people differ by two centimetres in where a joint is.
 _CLICK_PIXELS = 2.5
-_CLICK_METRES = 0.02
 
 
 # What Eq. 1 leaves unexplained, a sixteenth of the median brightness, repeats itself over patches
@@ -112,7 +109,6 @@ def scales_at(camera: Camera, depth_m: float, *, boundary_eta_m: float) -> Energ
     """
     pixels_per_metre = camera.focal_length_px / depth_m
     boundary = (_BOUNDARY_PIXELS**2 + (_BOUNDARY_METRES * pixels_per_metre) ** 2) ** 0.5
-    click = (_CLICK_PIXELS**2 + (_CLICK_METRES * pixels_per_metre) ** 2) ** 0.5
     return EnergyScales(
         silhouette_sigma=boundary,
         silhouette_eta=boundary_eta_m * pixels_per_metre,
@@ -120,8 +116,7 @@ def scales_at(camera: Camera, depth_m: float, *, boundary_eta_m: float) -> Energ
         contour_sigma=_BOUNDARY_METRES * pixels_per_metre,
         line_correlation_length=_LINE_CORRELATION_METRES * pixels_per_metre,
         edge_weight=40.0,
-        click_sigma=click,
-        click_truncation=2.0 * click,
+        click_hand=_CLICK_PIXELS,
         penetration_sigma_m=0.01,
         shading_weight=_SHADING_NATS,
         shading_eta=0.15,

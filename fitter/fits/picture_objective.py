@@ -16,13 +16,14 @@ from fitter.evidence.outline_confidence import outline_confidence
 from fitter.evidence.silhouette_evidence import silhouette_evidence
 from fitter.fits.clothing import dressed
 from fitter.fits.prepared_model import PreparedModel
+from fitter.fits.slant_evidence import limb_slants
 from fitter.observation.observation import Observation
 from fitter.parameters import BodyParameters
 from fitter.render.rasterizer import render
 from fitter.request import Clothing
 from fitter.segmentation.bones import clicked_bones, foot_bones
 from fitter.segmentation.grabcut import Segmentation, border_warnings, segment
-from fitter.segmentation.trimap import Trimap, first_band, trimap
+from fitter.segmentation.trimap import Trimap, first_band, seeded_trimap, trimap
 
 RESEGMENTED_BAND = 0.5
 """Share of the first band's width in which the picture is cut again round the body found from the
@@ -41,7 +42,10 @@ _EDGE_THRESHOLD_M = 0.03
 def segmented(
     observation: Observation, prepared: PreparedModel, parameters: BodyParameters, narrowing: float
 ) -> tuple[Trimap | None, Segmentation]:
-    """The caller's mask, or GrabCut from the tri-map round a body (section 3.2)."""
+    """The caller's mask, or GrabCut (section 3.2).
+
+    Its tri-map lies round the detector's mask, where there is one, else round a body.
+    """
     if observation.mask is not None:
         return None, Segmentation(mask=observation.mask, warnings=border_warnings(observation.mask))
     vertices = prepared.operators.evaluator.vertices(parameters)
@@ -52,6 +56,10 @@ def segmented(
     bones = np.concatenate(
         [clicked_bones(observation.clicks), foot_bones(observation.clicks, seen)]
     )
+    if observation.seed is not None:
+        labels = seeded_trimap(observation.seed, bones)
+        if labels is not None:
+            return labels, segment(observation.display, labels)
     # The body within loose clothes does not say how far they reach.
     share = narrowing if observation.clothing is Clothing.TIGHT else 1.0
     labels = trimap(silhouette, bones, band=share * first_band(silhouette, bones))
@@ -80,6 +88,7 @@ def silhouette_and_edges(
         evidence=PictureEvidence(
             camera=observation.camera,
             clicks=click_evidence(prepared.operators.model.landmarks, observation.clicks),
+            slants=limb_slants(observation, prepared, near.shape),
             silhouette=silhouette_evidence(segmentation.mask, confidence),
             edges=edge_cost_map(
                 observation.display, threshold_px=_EDGE_THRESHOLD_M * pixels_per_metre

@@ -8,6 +8,7 @@ from fitter.energies.objective import Candidate
 from fitter.energies.scales import FAR_BOUNDARY_ETA_M, NEAR_BOUNDARY_ETA_M, scales_at
 from fitter.fits.clothing import clothing_remarks
 from fitter.fits.descents import descents
+from fitter.fits.detecting import detector_for
 from fitter.fits.picture_objective import (
     RESEGMENTED_BAND,
     segmented,
@@ -31,9 +32,15 @@ from fitter.result import FitResult, Pictures, StageBody
 
 
 def fit(
-    request: FitRequest, *, models: Path | None = None, observer: Observer = ignore_progress
+    request: FitRequest,
+    *,
+    models: Path | None = None,
+    detector_weights: Path | None = None,
+    observer: Observer = ignore_progress,
 ) -> FitResult:
     """Fit a body to one picture, with the packaged models or with those of a folder.
+
+    The detector's weights, too, are those of its package or of a folder.
 
     Raises
     ------
@@ -41,6 +48,8 @@ def fit(
         If the request cannot be used; the message names the field and the remedy.
     ModelFileError
         If the body model is missing or damaged, or lacks something a fit needs.
+    DetectorUnavailableError
+        If points are to be proposed and the detector is not installed.
 
     Examples
     --------
@@ -53,7 +62,7 @@ def fit(
     """
     clock = StageClock(observer)
     with clock.stage(Stage.OBSERVATION):
-        observation = observe(request)
+        observation = observe(request, detector_for(request, detector_weights))
         prepared = prepared_model(request.gender, models=models)
         person = known_person(request, prepared.population, prepared.operators.evaluator)
     with clock.stage(Stage.INITIAL_POSE):
@@ -63,6 +72,7 @@ def fit(
             clicks=clicked_points(observation.clicks),
             shape=person.shape,
             limb_facing=request.limb_facing,
+            slants=observation.slants,
         )
     searches = descents(request, observation)
     limits = searches.limits

@@ -1,11 +1,13 @@
 """A fitted picture once more: from its body, with what else is known of the person's shape."""
 
 from dataclasses import replace
+from pathlib import Path
 
 from fitter.energies.attributes import whole_shape
 from fitter.energies.priors import ShapePrior
 from fitter.energies.scales import NEAR_BOUNDARY_ETA_M
 from fitter.fits.descents import descents
+from fitter.fits.detecting import detector_for
 from fitter.fits.picture_objective import RESEGMENTED_BAND, segmented, silhouette_and_edges
 from fitter.fits.prepared_model import PreparedModel
 from fitter.fits.settling import settle, shade
@@ -25,6 +27,7 @@ def refit(
     prior: ShapePrior,
     hold_shape: bool,
     report: EnergyObserver,
+    detector_weights: Path | None = None,
 ) -> PictureFit:
     """From a body near the person to the minimum of E2 (of E1 for SE), under a prior on the shape.
 
@@ -37,7 +40,7 @@ def refit(
     InvalidInputError
         If the request cannot be used.
     """
-    observation = observe(request)
+    observation = observe(request, detector_for(request, detector_weights))
     person = known_person(request, prepared.population, prepared.operators.evaluator)
     _, segmentation = segmented(observation, prepared, start, RESEGMENTED_BAND)
     objective = replace(

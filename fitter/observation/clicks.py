@@ -45,8 +45,7 @@ def check_clicks(clicks: Mapping[str, Click], *, width: int, height: int) -> Non
         ``point-unknown``, ``point-not-finite``, ``point-outside-image``, ``too-few-points`` or
         ``points-too-close``.
     """
-    for name, click in clicks.items():
-        _check_click(name, click, width=width, height=height)
+    check_places(clicks, width=width, height=height)
     limb_count = sum(name in clicks for name in LIMB_POINTS)
     trunk_count = sum(name in clicks for name in TRUNK_POINTS)
     if limb_count < LEAST_LIMB_POINTS or trunk_count < LEAST_TRUNK_POINTS:
@@ -70,6 +69,18 @@ def check_clicks(clicks: Mapping[str, Click], *, width: int, height: int) -> Non
             reason=f"All limb points lie within {extent:.0f} pixels.",
             remedy="Give the points in pixels of the whole picture, or crop it to the person.",
         )
+
+
+def check_places(clicks: Mapping[str, Click], *, width: int, height: int) -> None:
+    """Refuse points of unknown names and such as lie outside the picture.
+
+    Raises
+    ------
+    InvalidInputError
+        ``point-unknown``, ``point-not-finite`` or ``point-outside-image``.
+    """
+    for name, click in clicks.items():
+        _check_click(name, click, width=width, height=height)
 
 
 def side_warnings(clicks: Mapping[str, Click]) -> tuple[FitWarning, ...]:

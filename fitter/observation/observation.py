@@ -6,8 +6,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitter.arrays import GreyImage, Image, Mask
-from fitter.observation.clicks import check_clicks, side_warnings
+from fitter.detection.detector import DetectedSlants, Detector, body_of_clicks
+from fitter.observation.clicks import check_clicks, check_places, side_warnings
 from fitter.observation.colour import display_from_linear, luminance_of
+from fitter.observation.completion import (
+    completed_clicks,
+    crowd_warnings,
+    proposal_assumptions,
+    scaled_clicks,
+)
 from fitter.observation.decoding import decode_picture
 from fitter.observation.focal_length import focal_length
 from fitter.observation.masks import decode_mask
@@ -15,7 +22,7 @@ from fitter.observation.resampling import linear_working_picture, working_size
 from fitter.observation.subject import check_subject
 from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera, FocalLengthSource
-from fitter.request import Click, Clothing, FitRequest
+from fitter.request import Click, Clothing, FitRequest, SegmentationKind
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -40,6 +47,11 @@ class Observation:
         (h, w) the caller's foreground, None where none was sent.
     clothing
         How the caller says the clothes lie.
+    seed
+        (h, w) probability that a pixel is the person's, by the detector; None where segmentation
+        does without.
+    slants
+        How limbs slant, by the detector; None where nothing is known of it.
     """
 
     display: Image
@@ -52,12 +64,14 @@ class Observation:
     clicks: Mapping[str, Click]
     mask: Mask | None
     clothing: Clothing
+    seed: GreyImage | None
+    slants: DetectedSlants | None
     assumptions: tuple[Assumption, ...]
     warnings: tuple[FitWarning, ...]
 
 
-def observe(request: FitRequest) -> Observation:
-    """Decode and check a request.
+def observe(request: FitRequest, detector: Detector | None = None) -> Observation:
+    """Decode and check a request, and see whom the detector finds.
 
     Raises
     ------
@@ -67,7 +81,10 @@ def observe(request: FitRequest) -> Observation:
     check_subject(request)
     picture = decode_picture(request.image, field="image", max_pixels=request.max_pixels)
     height, width = picture.pixels.shape[:2]
-    check_clicks(request.clicks, width=width, height=height)
+    if request.complete_clicks:
+        check_places(request.clicks, width=width, height=height)
+    else:
+        check_clicks(request.clicks, width=width, height=height)
     focal = focal_length(
         request, picture.exif, width=width, height=height, stored_width=picture.stored_width
     )
@@ -78,6 +95,13 @@ def observe(request: FitRequest) -> Observation:
             request.mask, width=width, height=height, size=size, max_pixels=request.max_pixels
         )
     linear_rgb = linear_working_picture(picture.pixels, size)
+    display = display_from_linear(linear_rgb).astype(np.float32)
+    given = clicks = scaled_clicks(request.clicks, size.scale)
+    bodies = () if detector is None else detector.bodies(np.rint(255.0 * display).astype(np.uint8))
+    detected = body_of_clicks(bodies, clicks)
+    if request.complete_clicks:
+        clicks = completed_clicks(given, detected)
+        check_clicks(clicks, width=width, height=height)
     image_camera = Camera(
         focal_length_px=focal.pixels,
         centre_x=width / 2,
@@ -86,19 +110,24 @@ def observe(request: FitRequest) -> Observation:
         height=height,
     )
     return Observation(
-        display=display_from_linear(linear_rgb).astype(np.float32),
+        display=display,
         linear_rgb=linear_rgb,
         luminance=luminance_of(linear_rgb),
         camera=image_camera.scaled(size.scale, width=size.width, height=size.height),
         image_camera=image_camera,
         focal_length_source=focal.source,
         scale=size.scale,
-        clicks={
-            name: Click(x=click.x * size.scale, y=click.y * size.scale, occluded=click.occluded)
-            for name, click in request.clicks.items()
-        },
+        clicks=clicks,
         mask=mask,
         clothing=request.clothing,
-        assumptions=focal.assumptions,
-        warnings=picture.warnings + side_warnings(request.clicks),
+        seed=detected.mask if detected is not None and _is_seeded(request) else None,
+        slants=detected.slants if detected is not None and request.slant_hints else None,
+        assumptions=focal.assumptions + proposal_assumptions(given, clicks),
+        warnings=picture.warnings
+        + side_warnings(clicks)
+        + (crowd_warnings(given, len(bodies)) if request.complete_clicks else ()),
     )
+
+
+def _is_seeded(request: FitRequest) -> bool:
+    return request.mask is None and request.segmentation is SegmentationKind.SEEDED_GRABCUT

@@ -17,6 +17,7 @@ from fitter.energies.clicks import click_rows
 from fitter.energies.correspondence_lines import line_rows
 from fitter.energies.edges import edge_rows
 from fitter.energies.fitting_operators import FittingOperators
+from fitter.energies.limb_slants import slant_rows
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.penetration import penetration_rows
 from fitter.energies.priors import lean_residual
@@ -70,12 +71,14 @@ def normal_equations(
             jacobians.append(jacobian)
     if eases:
         jacobians.append(with_free_ease(eases, scales))
+    on_landmarks = [click_rows(candidate.landmarks, evidence.clicks, evidence.camera, scales)]
+    if evidence.slants is not None:
+        on_landmarks.append(slant_rows(candidate.landmarks, evidence.slants))
+    landmark_attachments = _attachments_of(operators, evidence.clicks.landmarks.names)
     for rows, support, attachments, positions in (
-        (
-            click_rows(candidate.landmarks, evidence.clicks, evidence.camera, scales),
-            evidence.clicks.landmarks,
-            _attachments_of(operators, evidence.clicks.landmarks.names),
-            candidate.landmarks,
+        *(
+            (rows, evidence.clicks.landmarks, landmark_attachments, candidate.landmarks)
+            for rows in on_landmarks
         ),
         (
             penetration_rows(candidate.spheres, candidate.radii, operators.penetration, scales),

@@ -1,6 +1,6 @@
 """Numba kernels of the fit to clicks; see :mod:`fitter.pose_init.click_fit` for what they compute.
 
-Sizes: p parts, k landmarks of which the first c were clicked, s slants, j turning joints,
+Sizes: p parts, k landmarks of which the first c were clicked, s slants, h hints, j turning joints,
 n = 3 j + 3 columns. All of one pose; body frame axes unless said otherwise.
 """
 
@@ -94,12 +94,25 @@ def pose_points(rig, pose, translation, rotations, joints, shares, points):
 
 @no_type_check
 @njit(cache=True)
+def hint_excess(row, toward, reach, points):
+    """How much farther along the view a limb reaches than told, metres."""
+    excess = -reach
+    for k in range(len(points)):
+        if row[k] != 0.0:
+            for r in range(3):
+                excess += row[k] * toward[r] * points[k, r]
+    return excess
+
+
+@no_type_check
+@njit(cache=True)
 def residuals_energy(rig, prior, clicks, soft, pose, rotations, points):
     """Half the sum of squares of all terms; infinite where a clicked point is behind the camera."""
     parents = rig[0]
     axes, mean, precision, lower, upper, softness = prior
     pixels, certainty, camera = clicks
-    slants, margin, slant_spread, lean_spread, yaw_spread = soft
+    slants, margin, slant_spread, lean_spread, yaw_spread, hints = soft
+    hint_rows, toward, reach, hint_precision, truncation = hints
     energy = 0.0
     for i in range(len(pixels)):
         if points[i, 2] <= _NEAR_PLANE_M:
@@ -120,6 +133,12 @@ def residuals_energy(rig, prior, clicks, soft, pose, rotations, points):
         for k in range(len(points)):
             slant += slants[row, k] * points[k, 2]
         energy += (max(slant, 0.0) / slant_spread) ** 2
+    for row in range(len(hint_rows)):
+        excess = abs(hint_excess(hint_rows[row], toward, reach[row], points)) * hint_precision[row]
+        if excess > truncation:
+            energy += truncation * (2.0 * excess - truncation)
+        else:
+            energy += excess * excess
     energy += (rotations[0, 2, 1] / lean_spread) ** 2 + (rotations[0, 2, 0] / yaw_spread) ** 2
     return 0.5 * energy
 
@@ -229,7 +248,8 @@ def linearise(
 ):
     """Normal equations of all terms: lower triangle of JᵀJ, and Jᵀr."""
     pixels, certainty, camera = clicks
-    slants, margin, slant_spread, lean_spread, yaw_spread = soft
+    slants, margin, slant_spread, lean_spread, yaw_spread, hints = soft
+    hint_rows, toward, reach, hint_precision, truncation = hints
     n = len(gradient)
     columns = np.empty((len(points), 3, n))
     landmark_columns(rig, turning, rotations, joints, shares, columns)
@@ -254,6 +274,20 @@ def linearise(
                     row[c] += slants[index, k] * columns[k, 2, c] / slant_spread
         if slant > 0.0:
             add_row(row, slant / slant_spread, matrix, gradient, used)
+    for index in range(len(hint_rows)):
+        excess = hint_excess(hint_rows[index], toward, reach[index], points)
+        # Reweighted least squares: the square root of Huber's weight, on row and residual.
+        scale = hint_precision[index]
+        if abs(excess) * scale > truncation:
+            scale = np.sqrt(truncation * scale / abs(excess))
+        row[:] = 0.0
+        for k in range(len(points)):
+            if hint_rows[index, k] != 0.0:
+                for r in range(3):
+                    factor = scale * hint_rows[index, k] * toward[r]
+                    for c in range(n):
+                        row[c] += factor * columns[k, r, c]
+        add_row(row, scale * excess, matrix, gradient, used)
     if len(turning) and turning[0] == 0:
         for axis, spread in ((1, lean_spread), (0, yaw_spread)):
             row[:] = 0.0

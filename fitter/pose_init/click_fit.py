@@ -16,6 +16,7 @@ from fitter.pose_init._click_kernels import descend
 from fitter.pose_init.click_problem import (
     FACING_MARGIN_M,
     FACING_SPREAD_M,
+    HINT_TRUNCATION,
     TRUNK_LEAN_SPREAD,
     TRUNK_YAW_SPREAD,
     ClickProblem,
@@ -107,6 +108,13 @@ def kernel_arguments(problem: ClickProblem, pixels: Points2D) -> KernelArguments
             FACING_SPREAD_M,
             TRUNK_LEAN_SPREAD,
             TRUNK_YAW_SPREAD,
+            (
+                _floats(problem.hints.rows),
+                _floats(problem.hints.toward),
+                _floats(problem.hints.reach_m),
+                _floats(problem.hints.precision),
+                HINT_TRUNCATION,
+            ),
         ),
         _integers(np.flatnonzero(problem.turning)),
     )

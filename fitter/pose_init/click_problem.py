@@ -5,20 +5,23 @@ The energy of a pose is half the sum of squares of
 - click residuals, pixels over their standard deviation,
 - the pose prior and the joint limits (:mod:`fitter.body.pose_prior`),
 - the trunk's slant to the image plane, softly: pictures of people are mostly taken level,
-- a limb's slant against the caller's word, where there is one.
+- a limb's slant against the caller's word, where there is one,
+- and against what the detector tells of it, by Huber's function.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Container, Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Bool, Float
 
+from fitter.arrays import Vector3
 from fitter.body.pose_prior import PosePrior
 from fitter.body.skeleton import descendants
+from fitter.detection.detector import DetectedSlants, LimbSlant
 from fitter.pose_init.click_spread import click_spreads_m
 from fitter.pose_init.landmark_rig import LandmarkRig
-from fitter.pose_init.limbs import LIMBS, MIDDLES, limb_slant
+from fitter.pose_init.limbs import LIMBS, MIDDLES, Limb, limb_lengths_m, limb_slant
 from fitter.pose_init.points import ClickedPoints
 from fitter.render.camera import Camera
 from fitter.request import Facing
@@ -30,9 +33,41 @@ foreshortening of a lean is of second order, so a few per cent of a limb's lengt
 TRUNK_YAW_SPREAD = 1.0
 """The same for the axis across the hips: only enough to break ties toward front and back views."""
 
+HINT_TRUNCATION = 1.5
+"""Standard deviations beyond which a detected slant is believed less and less."""
+
 FACING_MARGIN_M = 0.02
 FACING_SPREAD_M = 0.02
 """A limb said to face the camera has its far end at least the margin nearer."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class SlantHints:
+    """How far limbs reach along the view.
+
+    Attributes
+    ----------
+    rows
+        (h, k) over the rig's landmarks: far end minus near end.
+    toward
+        (3,) unit vector from the camera to the person, camera frame.
+    reach_m, precision
+        (h,) how much farther along it far ends lie, metres, and one over the standard deviation.
+    """
+
+    rows: Float[np.ndarray, "h k"]
+    toward: Vector3
+    reach_m: Float[np.ndarray, " h"]
+    precision: Float[np.ndarray, " h"]
+
+    def none_of(self, landmarks: int) -> "SlantHints":
+        """No hints, for a rig of so many landmarks."""
+        return replace(
+            self,
+            rows=np.zeros((0, landmarks)),
+            reach_m=np.zeros(0),
+            precision=np.zeros(0),
+        )
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -56,6 +91,8 @@ class ClickProblem:
     slants
         (s, k) rows over the rig's landmarks: far end minus near end of each limb the caller spoke
         about, times -1 where it faces away; the slant's depth should be negative.
+    hints
+        What the detector tells of slants.
     turning
         (p,) joints to solve for.
     moving
@@ -69,6 +106,7 @@ class ClickProblem:
     pixels: Float[np.ndarray, "... c 2"]
     precision: Float[np.ndarray, " c"]
     slants: Float[np.ndarray, "s k"]
+    hints: SlantHints
     turning: Bool[np.ndarray, " p"]
     moving: bool
 
@@ -81,8 +119,11 @@ def click_problem(
     *,
     scale: float,
     limb_facing: Mapping[str, Facing],
+    slants: DetectedSlants | None = None,
 ) -> ClickProblem:
     """The problem of the whole body; ``scale`` is the picture's pixels a metre.
+
+    Of a limb that the caller spoke about the detector's slant does not count.
 
     Joints that move no clicked landmark stay out of it.
     """
@@ -91,7 +132,7 @@ def click_problem(
     names = tuple(dict.fromkeys((*clicks.names, *ends, *corners)))
     rig = rig.only(names)
     clicked = len(clicks.names)
-    slants = [
+    spoken_of = [
         (1.0 if limb_facing[limb.name] is Facing.TOWARD else -1.0) * limb_slant(limb, names)
         for limb in LIMBS
         if limb.name in limb_facing
@@ -103,8 +144,38 @@ def click_problem(
         camera=camera,
         clicked=clicked,
         pixels=clicks.pixels,
-        precision=1.0 / (scale * click_spreads_m(clicks.names, clicks.occluded)),
-        slants=np.array(slants).reshape(-1, len(names)),
+        precision=1.0 / (scale * click_spreads_m(clicks)),
+        slants=np.array(spoken_of).reshape(-1, len(names)),
+        hints=_hints(rig, camera, clicks, slants, without=limb_facing),
         turning=np.asarray((follows > 1e-3).any(axis=0)),
         moving=True,
+    )
+
+
+def _hints(
+    rig: LandmarkRig,
+    camera: Camera,
+    clicks: ClickedPoints,
+    slants: DetectedSlants | None,
+    *,
+    without: Container[str],
+) -> SlantHints:
+    told: list[tuple[Limb, LimbSlant]] = []
+    ray = np.array([0.0, 0.0, 1.0])
+    if slants is not None:
+        ray = camera.rays(slants.middle)
+        told = [
+            (limb, slants.limbs[limb.name])
+            for limb in LIMBS
+            if limb.name in slants.limbs
+            and limb.name not in without
+            and {limb.proximal, limb.distal} <= {*clicks.names}
+        ]
+    lengths = limb_lengths_m(rig)
+    rows = [limb_slant(limb, rig.landmark_names) for limb, _ in told]
+    return SlantHints(
+        rows=np.array(rows).reshape(-1, len(rig.landmark_names)),
+        toward=ray / np.linalg.norm(ray),
+        reach_m=np.array([lengths[limb.name] * slant.sine for limb, slant in told]),
+        precision=np.array([1.0 / (lengths[limb.name] * slant.sigma) for limb, slant in told]),
     )

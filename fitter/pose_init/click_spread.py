@@ -12,6 +12,8 @@ from collections.abc import Mapping
 import numpy as np
 from jaxtyping import Float
 
+from fitter.pose_init.points import ClickedPoints
+
 DEFAULT_SPREAD_M = 0.015
 SPREADS_M: Mapping[str, float] = {
     "left_hip": 0.025,
@@ -29,7 +31,15 @@ OCCLUDED_FACTOR = 3.0
 """How much less a hidden point's click is believed."""
 
 
-def click_spreads_m(names: tuple[str, ...], occluded: tuple[bool, ...]) -> Float[np.ndarray, " k"]:
-    """Standard deviations of clicks, metres on the body."""
-    spreads = [SPREADS_M.get(name, DEFAULT_SPREAD_M) for name in names]
-    return np.array(spreads) * np.where(occluded, OCCLUDED_FACTOR, 1.0)
+def click_spreads_m(clicks: ClickedPoints) -> Float[np.ndarray, " k"]:
+    """Standard deviations of clicks, metres on the body; proposed points have their own."""
+    return np.array(
+        [
+            SPREADS_M.get(name, DEFAULT_SPREAD_M) * (OCCLUDED_FACTOR if occluded else 1.0)
+            if spread is None
+            else spread
+            for name, occluded, spread in zip(
+                clicks.names, clicks.occluded, clicks.spread_m, strict=True
+            )
+        ]
+    )

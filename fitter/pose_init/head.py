@@ -60,6 +60,7 @@ def turn_head(
         pixels=problem.pixels[face],
         precision=problem.precision[face],
         slants=np.zeros((0, int(face.sum()))),
+        hints=problem.hints.none_of(int(face.sum())),
         turning=turning,
         moving=False,
     )

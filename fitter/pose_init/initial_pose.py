@@ -23,6 +23,7 @@ from fitter.arrays import Shape
 from fitter.body.pose_prior import pose_prior
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.skeleton import regress
+from fitter.detection.detector import DetectedSlants
 from fitter.parameters import BodyParameters
 from fitter.pose_init.click_fit import FittedPoses, fit_clicks
 from fitter.pose_init.click_problem import ClickProblem, click_problem
@@ -98,6 +99,7 @@ def initialize_pose(
     clicks: ClickedPoints,
     shape: Shape,
     limb_facing: Mapping[str, Facing],
+    slants: DetectedSlants | None = None,
 ) -> InitialPose:
     """Find the pose of a person of known shape from clicked points.
 
@@ -114,6 +116,8 @@ def initialize_pose(
         The mean person of the height (:func:`fitter.body.shape_space.shape_for_height`).
     limb_facing
         The caller's word, by limb name; obeyed.
+    slants
+        How the detector sees limbs slant, a hint.
 
     Raises
     ------
@@ -127,7 +131,7 @@ def initialize_pose(
     trunk = trunk_points(clicks, lengths)
     reference = reference_of(clicks, trunk, lengths)
     problem = click_problem(
-        rig, prior, camera, clicks, scale=reference.scale, limb_facing=limb_facing
+        rig, prior, camera, clicks, scale=reference.scale, limb_facing=limb_facing, slants=slants
     )
     fitted = refined_hypotheses(
         problem,

@@ -22,11 +22,15 @@ class ClickedPoints:
         (k, 2) continuous pixels.
     occluded
         (k,) the point is hidden and its place a guess.
+    spread_m
+        (k,) standard deviation in each direction, metres on the body; None of a point that somebody
+        clicked.
     """
 
     names: tuple[str, ...]
     pixels: Points2D
     occluded: tuple[bool, ...]
+    spread_m: tuple[float | None, ...]
 
     def pixel(self, name: str) -> Float[np.ndarray, "2"] | None:
         """The click of this name, (2,), or None."""
@@ -43,6 +47,7 @@ class ClickedPoints:
             names=tuple(self.names[i] for i in kept),
             pixels=self.pixels[kept],
             occluded=tuple(self.occluded[i] for i in kept),
+            spread_m=tuple(self.spread_m[i] for i in kept),
         )
 
 
@@ -52,4 +57,5 @@ def clicked_points(clicks: Mapping[str, Click]) -> ClickedPoints:
         names=tuple(clicks),
         pixels=np.array([[c.x, c.y] for c in clicks.values()], dtype=np.float64).reshape(-1, 2),
         occluded=tuple(c.occluded for c in clicks.values()),
+        spread_m=tuple(c.spread_m for c in clicks.values()),
     )

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from jaxtyping import Float, UInt8
 
-from fitter.arrays import Image, Mask
+from fitter.arrays import GreyImage, Image, Mask
 from fitter.numerics.distance_map import exact_distances
 
 BAND_SHARE_OF_WIDTH = 0.05
@@ -26,6 +26,15 @@ LEANING_SHARE = 0.5
 """How far inside the silhouette, as a share of the band, a pixel must lie to be foreground at the
 start. What the first body covers wrongly lies along its border; taught to GrabCut as the person's
 colours it comes back, as the dark gap between the legs of a figure before a dark ground did."""
+
+
+SEEDED_BAND_SHARE_OF_BODY = 0.008
+"""Half the width of the band about the detector's mask: its pixels are so large."""
+
+LEAST_SEEDED_BAND_PX = 2.0
+
+LEAST_BONES_COVERED = 0.95
+"""Share of the clicked bones that must run within the detector's mask."""
 
 
 class TrimapLabel(IntEnum):
@@ -72,6 +81,36 @@ def trimap(silhouette: Mask, bones: Float[np.ndarray, "b 2 2"], *, band: float) 
     labels[depth > LEANING_SHARE * band] = TrimapLabel.LIKELY_FOREGROUND
     labels[(depth > band) | (skeleton > 0)] = TrimapLabel.FOREGROUND
     return labels
+
+
+def seeded_trimap(seed: GreyImage, bones: Float[np.ndarray, "b 2 2"]) -> Trimap | None:
+    """Labels from the detector's mask, whose border is uncertain by no more than its resolution.
+
+    Parameters
+    ----------
+    seed
+        (h, w) probability that a pixel is the person's.
+    bones
+        As for :func:`trimap`.
+
+    Returns
+    -------
+    None if the mask leaves out some of the person: clicked limbs run outside it.
+    """
+    person = seed > 0.5
+    if not _covers(person, bones):
+        return None
+    band = max(LEAST_SEEDED_BAND_PX, SEEDED_BAND_SHARE_OF_BODY * body_size(person, bones))
+    return trimap(person, bones, band=band)
+
+
+def _covers(person: Mask, bones: Float[np.ndarray, "b 2 2"]) -> bool:
+    """Whether nearly all of the bones lies within the mask."""
+    along = np.zeros(person.shape, dtype=np.uint8)
+    for start, end in np.rint(bones - 0.5).astype(int):
+        cv2.line(along, start.tolist(), end.tolist(), 1)
+    drawn = along > 0
+    return bool(drawn.any()) and float(person[drawn].mean()) >= LEAST_BONES_COVERED
 
 
 def first_band(silhouette: Mask, bones: Float[np.ndarray, "b 2 2"]) -> float:

@@ -202,7 +202,10 @@ class TestClicks:
         pulls = []
         for x in (150.0, 1500.0):
             evidence = ClickEvidence(
-                landmarks=rows, clicks=np.array([[x, 100.0]]), confidence=np.ones(1)
+                landmarks=rows,
+                clicks=np.array([[x, 100.0]]),
+                confidence=np.ones(1),
+                spread_m=np.full(1, 0.02),
             )
             found = click_rows(np.array([[0.0, 0.0, 3.0]]), evidence, CAMERA, SCALES)
             pulls.append(abs(found.weights[0] * found.residuals[0]))

@@ -6,9 +6,11 @@ from jaxtyping import Bool, Float
 from fitter.body.pose_prior import prior_residuals, prior_terms
 from fitter.body.scape import CAMERA_AXES
 from fitter.body.skeleton import descendants
+from fitter.numerics.robust import huber, huber_weights
 from fitter.pose_init.click_problem import (
     FACING_MARGIN_M,
     FACING_SPREAD_M,
+    HINT_TRUNCATION,
     TRUNK_LEAN_SPREAD,
     TRUNK_YAW_SPREAD,
     ClickProblem,
@@ -28,6 +30,7 @@ def click_energy(
         + (_slant_residuals(problem, posed) ** 2).sum(axis=-1)
         + (_trunk_residuals(posed) ** 2).sum(axis=-1)
     )
+    energy += huber(_hint_residuals(problem, posed), HINT_TRUNCATION).sum(axis=-1)
     in_front = (posed.points[:, : problem.clicked, 2] > 0.05).all(axis=-1)
     return np.where(in_front, energy, np.inf)
 
@@ -51,6 +54,12 @@ def normal_equations(
         slope = (slants > 0.0) / FACING_SPREAD_M
         rows.append(slope[..., None] * np.matmul(problem.slants, landmarks[:, :, 2]))
         residuals.append(slants)
+    if len(problem.hints.rows):
+        hints = _hint_residuals(problem, posed)
+        share = np.sqrt(huber_weights(hints, HINT_TRUNCATION))
+        along = np.einsum("hk,bkrc,r->bhc", problem.hints.rows, landmarks, problem.hints.toward)
+        rows.append((share * problem.hints.precision)[..., None] * along)
+        residuals.append(share * hints)
     if problem.turning[0]:
         trunk = np.zeros((b, 2, columns))
         trunk[:, :, :3] = _trunk_jacobian(posed)
@@ -92,6 +101,12 @@ def _projection_jacobian(
 def _slant_residuals(problem: ClickProblem, posed: PosedLandmarks) -> Float[np.ndarray, "b s"]:
     slant = posed.points[..., 2] @ problem.slants.T
     return np.maximum(slant + FACING_MARGIN_M, 0.0) / FACING_SPREAD_M
+
+
+def _hint_residuals(problem: ClickProblem, posed: PosedLandmarks) -> Float[np.ndarray, "b h"]:
+    hints = problem.hints
+    reach = np.einsum("hk,bkr,r->bh", hints.rows, posed.points, hints.toward)
+    return hints.precision * (reach - hints.reach_m)
 
 
 def _trunk_residuals(posed: PosedLandmarks) -> Float[np.ndarray, "b 2"]:

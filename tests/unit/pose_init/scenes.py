@@ -83,7 +83,12 @@ def scene(
         pose=pose,
         translation=place,
         points=points,
-        clicks=ClickedPoints(names=tuple(CLICKED), pixels=pixels, occluded=(False,) * len(CLICKED)),
+        clicks=ClickedPoints(
+            names=tuple(CLICKED),
+            pixels=pixels,
+            occluded=(False,) * len(CLICKED),
+            spread_m=(None,) * len(CLICKED),
+        ),
         facing=true_facing(points, margin_m=0.05),
     )
 

@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
+from fitter.detection.detector import DetectedSlants, LimbSlant
 from fitter.numerics.rotations import compose, rotation_matrices
 from fitter.pose_init import _click_kernels as kernels
 from fitter.pose_init.click_fit import fit_clicks, kernel_arguments
@@ -14,6 +15,13 @@ from fitter.request import Facing
 from tests.unit.pose_init.plain_clicks import click_energy, landmark_jacobian, normal_equations
 from tests.unit.pose_init.scenes import PRIOR, RIG, scene
 
+SLANTS = DetectedSlants(
+    limbs={
+        "left_thigh": LimbSlant(sine=0.2, sigma=0.1),
+        "right_upper_arm": LimbSlant(sine=-0.9, sigma=0.05),
+    },
+    middle=np.array([280.0, 260.0]),
+)
 FACING = {"left_forearm": Facing.TOWARD, "right_shin": Facing.AWAY, "torso": Facing.TOWARD}
 
 
@@ -31,7 +39,13 @@ def blended_rig() -> LandmarkRig:
 def blended_problem() -> ClickProblem:
     truth = scene(12, noise_px=2.5)
     return click_problem(
-        blended_rig(), PRIOR, truth.camera, truth.clicks, scale=200.0, limb_facing=FACING
+        blended_rig(),
+        PRIOR,
+        truth.camera,
+        truth.clicks,
+        scale=200.0,
+        limb_facing=FACING,
+        slants=SLANTS,
     )
 
 

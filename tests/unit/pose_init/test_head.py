@@ -30,7 +30,10 @@ def problem_for(pose: np.ndarray, names: tuple[str, ...]) -> ClickProblem:
     points = pose_landmarks(RIG, pose, PLACE[0]).points
     rows = [RIG.landmark_names.index(name) for name in names]
     clicks = ClickedPoints(
-        names=names, pixels=camera.project(points[rows]), occluded=(False,) * len(names)
+        names=names,
+        pixels=camera.project(points[rows]),
+        occluded=(False,) * len(names),
+        spread_m=(None,) * len(names),
     )
     return click_problem(RIG, PRIOR, camera, clicks, scale=200.0, limb_facing={})
 

@@ -42,6 +42,7 @@ def clicked(body: BodyParameters, gender: str, *, noise_px: float, seed: int) ->
         names=tuple(CLICKED),
         pixels=CAMERA.project(landmarks[rows]) + noise,
         occluded=(False,) * len(CLICKED),
+        spread_m=(None,) * len(CLICKED),
     )
 
 

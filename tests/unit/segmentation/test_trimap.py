@@ -8,6 +8,7 @@ from fitter.segmentation.trimap import (
     body_size,
     first_band,
     is_uncertain,
+    seeded_trimap,
     trimap,
     trimap_picture,
 )
@@ -114,3 +115,22 @@ def test_every_bone_has_its_mirror_image():
     bones = {frozenset(bone) for bone in BONES}
     assert {frozenset(map(mirrored, bone)) for bone in BONES} == bones
     assert len(bones) == len(BONES)
+
+
+SEED = disc(60).astype(np.float32)
+LIMB_WITHIN = np.array([[[100.0, 100.0], [140.0, 100.0]]])
+
+
+def test_a_seeds_border_alone_is_open():
+    labels = seeded_trimap(SEED, LIMB_WITHIN)
+    assert labels is not None
+    uncertain = is_uncertain(labels)
+    assert not uncertain[disc(56)].any()
+    assert not uncertain[~disc(64)].any()
+    assert uncertain[disc(61) & ~disc(59)].all()
+
+
+def test_a_seed_that_leaves_out_a_clicked_limb_is_not_used():
+    half_outside = np.array([[[120.0, 100.0], [220.0, 100.0]]])
+    assert seeded_trimap(SEED, half_outside) is None
+    assert seeded_trimap(SEED, NO_BONES) is None

@@ -1,0 +1,184 @@
+"""Both networks together: who is in a picture, and what is proposed of one of them."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float, UInt8
+
+from fitter.arrays import GreyImage
+from fitter.detection.body_landmarks import BodyLandmarks, LandmarkNetwork
+from fitter.detection.landmark_meanings import (
+    HIPS,
+    INDEX_OF_POINT,
+    LIMB_ENDS,
+    SEEN,
+    SLANTS,
+    spread_m,
+)
+from fitter.detection.network import Network
+from fitter.detection.person_detector import DetectedPerson, PersonDetector
+from fitter.detection.weights import read_weights
+from fitter.request import Click
+
+MOST_PERSONS = 8
+"""Of a crowd, the largest are looked at."""
+
+PRESENT = 0.5
+"""Presence from which the second network agrees that there is a person."""
+
+MATCHING_SHARE = 0.15
+"""Clicks belong to a person whose landmarks lie within this share of their circle's radius on the
+mean."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LimbSlant:
+    """How a limb slants: the sine of its angle to the plane across the view.
+
+    Positive where its far end is farther from the camera; ``sigma`` is its standard deviation.
+    """
+
+    sine: float
+    sigma: float
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class DetectedSlants:
+    """How a person's limbs slant.
+
+    Attributes
+    ----------
+    limbs
+        By name (``left_thigh`` ...), of limbs whose ends are seen.
+    middle
+        (2,) middle of the hips, pixels: slants are to the ray through it.
+    """
+
+    limbs: Mapping[str, LimbSlant]
+    middle: Float[np.ndarray, "2"]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class DetectedBody:
+    """What is proposed of one person.
+
+    Attributes
+    ----------
+    person
+        Where they were found.
+    points
+        By canonical name, in pixels of the picture, each with its own spread. ``occluded`` ones are
+        guesses. Points beyond the picture are left out.
+    visibility
+        0 to 1, of each point.
+    slants
+        How the limbs slant.
+    mask
+        (h, w) probability that a pixel is the person's.
+    """
+
+    person: DetectedPerson
+    points: Mapping[str, Click]
+    visibility: Mapping[str, float]
+    slants: DetectedSlants
+    mask: GreyImage
+
+
+class Detector:
+    """Finds people in pictures; not for two threads at once."""
+
+    def __init__(self, persons: PersonDetector, landmarks: LandmarkNetwork) -> None:
+        self._persons = persons
+        self._landmarks = landmarks
+
+    def bodies(self, picture: UInt8[np.ndarray, "h w 3"]) -> tuple[DetectedBody, ...]:
+        """Everybody in a picture (sRGB), the largest and surest first."""
+        found: list[DetectedBody] = []
+        for person in self._persons.persons(picture)[:MOST_PERSONS]:
+            landmarks = self._landmarks.landmarks(picture, person)
+            if landmarks.presence >= PRESENT:
+                found.append(_proposed(person, landmarks))
+        return tuple(found)
+
+
+@cache
+def installed_detector(folder: Path | None = None) -> Detector:
+    """The detector of the installed weights, or of a folder's; loaded once a process.
+
+    Raises
+    ------
+    DetectorUnavailableError
+        If it is not installed, or its weights are not those that were measured.
+    """
+    weights = read_weights(folder)
+    return Detector(
+        PersonDetector(Network(weights.person_detector)),
+        LandmarkNetwork(Network(weights.body_landmarks)),
+    )
+
+
+def body_of_clicks(
+    bodies: Sequence[DetectedBody], clicks: Mapping[str, Click]
+) -> DetectedBody | None:
+    """The detected person who was clicked; None if it is none of them.
+
+    Without clicks, the first.
+    """
+    if not clicks:
+        return bodies[0] if bodies else None
+    distances = [_distance(body, clicks) for body in bodies]
+    nearest = int(np.argmin(distances)) if distances else 0
+    if not distances or distances[nearest] > MATCHING_SHARE * bodies[nearest].person.radius:
+        return None
+    return bodies[nearest]
+
+
+def _distance(body: DetectedBody, clicks: Mapping[str, Click]) -> float:
+    """Mean distance of clicks from the person's points of the same names, pixels."""
+    apart = [
+        np.hypot(click.x - body.points[name].x, click.y - body.points[name].y)
+        for name, click in clicks.items()
+        if name in body.points
+    ]
+    return float(np.mean(apart)) if apart else float("inf")
+
+
+def _proposed(person: DetectedPerson, landmarks: BodyLandmarks) -> DetectedBody:
+    height, width = landmarks.mask.shape
+    points: dict[str, Click] = {}
+    visibility: dict[str, float] = {}
+    for name, index in INDEX_OF_POINT.items():
+        x, y = landmarks.pixels[index].tolist()
+        if not (0.0 <= x <= width and 0.0 <= y <= height):
+            continue
+        seen = float(landmarks.visibility[index])
+        visibility[name] = seen
+        points[name] = Click(x=x, y=y, occluded=seen < SEEN, spread_m=spread_m(name, seen))
+    return DetectedBody(
+        person=person,
+        points=points,
+        visibility=visibility,
+        slants=DetectedSlants(
+            limbs=_slants(landmarks, points),
+            middle=landmarks.pixels[[INDEX_OF_POINT[hip] for hip in HIPS]].mean(axis=0),
+        ),
+        mask=landmarks.mask,
+    )
+
+
+def _slants(landmarks: BodyLandmarks, points: Mapping[str, Click]) -> dict[str, LimbSlant]:
+    slants: dict[str, LimbSlant] = {}
+    for limb, (near, far) in LIMB_ENDS.items():
+        for side in ("left", "right"):
+            ends = f"{side}_{near}", f"{side}_{far}"
+            if any(end not in points or points[end].occluded for end in ends):
+                continue
+            start, end = (landmarks.world_m[INDEX_OF_POINT[each]] for each in ends)
+            along = (end - start) / np.linalg.norm(end - start)
+            known = SLANTS[limb]
+            sine = np.clip(known.gain * along[2] + known.offset, -1.0, 1.0)
+            slants[f"{side}_{limb}"] = LimbSlant(sine=float(sine), sigma=known.sigma)
+    return slants

@@ -1,0 +1,49 @@
+"""A network run on one thread."""
+
+from collections.abc import Mapping
+from typing import Protocol
+
+import numpy as np
+from jaxtyping import Float32
+
+
+class PictureNetwork(Protocol):
+    """What is asked about pictures."""
+
+    def outputs(
+        self, picture: Float32[np.ndarray, "s s 3"]
+    ) -> Mapping[tuple[int, ...], np.ndarray]:
+        """What the network says of a picture, by the shape of each output without its first 1.
+
+        No two outputs of the networks used here have the same shape.
+        """
+        ...
+
+
+class Network:
+    """A LiteRT model that takes one picture; a :class:`PictureNetwork`.
+
+    Parameters
+    ----------
+    content
+        The model's file.
+    """
+
+    def __init__(self, content: bytes) -> None:
+        from ai_edge_litert.interpreter import Interpreter
+
+        self._interpreter = Interpreter(model_content=content, num_threads=1)
+        self._interpreter.allocate_tensors()
+        self._input = self._interpreter.get_input_details()[0]["index"]
+        self._outputs = self._interpreter.get_output_details()
+
+    def outputs(
+        self, picture: Float32[np.ndarray, "s s 3"]
+    ) -> Mapping[tuple[int, ...], np.ndarray]:
+        """See :class:`PictureNetwork`."""
+        self._interpreter.set_tensor(self._input, picture[None])
+        self._interpreter.invoke()
+        return {
+            tuple(each["shape"][1:]): self._interpreter.get_tensor(each["index"])[0]
+            for each in self._outputs
+        }

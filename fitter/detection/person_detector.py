@@ -1,0 +1,119 @@
+"""The first network: where people are in a picture, and how large and upright each is."""
+
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from jaxtyping import Float, UInt8
+
+from fitter.detection.network import PictureNetwork
+from fitter.detection.square_crop import SquareCrop
+
+INPUT_SIZE = 224
+STRIDES = (8, 16, 32, 32, 32)
+ANCHORS_A_STRIDE = 2
+KEYPOINTS = 4
+"""Of each detection: the hips' middle, the rim of the circle round the whole body, and two more
+that tell of the upper body alone."""
+
+SURE = 0.5
+"""Score from which something is taken for a person."""
+
+SAME_PERSON = 0.3
+"""Boxes that overlap (intersection over union) by more than this are one person's."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class DetectedPerson:
+    """A person as the first network sees them.
+
+    Attributes
+    ----------
+    score
+        0 to 1, how sure it is.
+    middle, rim
+        (2,) middle of the hips, and a point on the circle about it that holds the whole body,
+        over the head of an upright one; continuous pixels.
+    """
+
+    score: float
+    middle: Float[np.ndarray, "2"]
+    rim: Float[np.ndarray, "2"]
+
+    @property
+    def radius(self) -> float:
+        """Of the circle, pixels."""
+        return float(np.linalg.norm(self.rim - self.middle))
+
+
+class PersonDetector:
+    """Finds people; ``network`` is that of :data:`fitter.detection.weights.PERSON_DETECTOR`."""
+
+    def __init__(self, network: PictureNetwork) -> None:
+        self._network = network
+
+    def persons(self, picture: UInt8[np.ndarray, "h w 3"]) -> tuple[DetectedPerson, ...]:
+        """People in a picture (sRGB), the largest and surest first."""
+        height, width = picture.shape[:2]
+        crop = SquareCrop(
+            centre=np.array([width / 2, height / 2]),
+            side=float(max(width, height)),
+            angle=0.0,
+            size=INPUT_SIZE,
+        )
+        outputs = self._network.outputs(crop.cut_from(picture).astype(np.float32) / 127.5 - 1.0)
+        count = len(_anchors())
+        scores = 1.0 / (1.0 + np.exp(-np.clip(outputs[count, 1][:, 0].astype(np.float64), -50, 50)))
+        sure = np.flatnonzero(scores > SURE)
+        values = outputs[count, 4 + 2 * KEYPOINTS][sure].astype(np.float64) / INPUT_SIZE
+        anchors, scores = _anchors()[sure], scores[sure]
+        middles, halves = anchors + values[:, :2], 0.5 * values[:, 2:4]
+        keypoints = values[:, 4:].reshape(-1, KEYPOINTS, 2) + anchors[:, None]
+        boxes = np.concatenate([middles - halves, middles + halves], axis=1)
+        found = [
+            _blended(keypoints[group], scores[group], crop) for group in _groups(boxes, scores)
+        ]
+        return tuple(sorted(found, key=lambda each: each.score * each.radius**0.5, reverse=True))
+
+
+def _blended(
+    keypoints: Float[np.ndarray, "g 4 2"], scores: Float[np.ndarray, " g"], crop: SquareCrop
+) -> DetectedPerson:
+    """One person of many detections: their mean, weighted by how sure each is."""
+    points = crop.in_picture(INPUT_SIZE * np.average(keypoints, axis=0, weights=scores))
+    return DetectedPerson(score=float(scores.max()), middle=points[0], rim=points[1])
+
+
+def _groups(boxes: Float[np.ndarray, "b 4"], scores: Float[np.ndarray, " b"]) -> list[np.ndarray]:
+    """Indices of detections that overlap with the surest that is left, in turn."""
+    groups: list[np.ndarray] = []
+    left = np.argsort(-scores, kind="stable")
+    while len(left):
+        overlaps = _overlaps(boxes[left[0]], boxes[left]) > SAME_PERSON
+        overlaps[0] = True
+        groups.append(left[overlaps])
+        left = left[~overlaps]
+    return groups
+
+
+def _overlaps(box: Float[np.ndarray, "4"], others: Float[np.ndarray, "b 4"]) -> np.ndarray:
+    """Intersection over union of a box with others; corners x0, y0, x1, y1."""
+    sides = np.minimum(box[2:], others[:, 2:]) - np.maximum(box[:2], others[:, :2])
+    shared = np.maximum(sides, 0.0).prod(axis=1)
+    areas = (box[2:] - box[:2]).prod() + (others[:, 2:] - others[:, :2]).prod(axis=1)
+    return shared / np.maximum(areas - shared, np.finfo(np.float64).tiny)
+
+
+@cache
+def _anchors() -> Float[np.ndarray, "a 2"]:
+    """Centres of the network's anchors as shares of its input, (x, y), in the order it has them.
+
+    Anchors of equal strides share a grid.
+    """
+    grids: list[np.ndarray] = []
+    for stride in dict.fromkeys(STRIDES):
+        cells = -(-INPUT_SIZE // stride)
+        rows, columns = np.divmod(np.arange(cells * cells), cells)
+        centres = (np.column_stack([columns, rows]) + 0.5) / cells
+        grids.append(np.repeat(centres, ANCHORS_A_STRIDE * STRIDES.count(stride), axis=0))
+    return np.concatenate(grids)

@@ -1,0 +1,78 @@
+"""A square cut out of a picture, turned and scaled to what a network takes."""
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from jaxtyping import Float, UInt8
+
+from fitter.arrays import GreyImage, Points2D
+
+ANTIALIASED_FROM = 1.5
+"""Pixels of the picture a pixel of the crop beyond which the picture is blurred before."""
+
+_BLUR_SHARE = 0.4
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class SquareCrop:
+    """Where a square of the picture lies.
+
+    Attributes
+    ----------
+    centre
+        (2,) continuous pixels of the picture.
+    side
+        Length of a side, pixels of the picture.
+    angle
+        By which the square is turned clockwise in the picture, radians.
+    size
+        Pixels a side of what is cut out.
+    """
+
+    centre: Float[np.ndarray, "2"]
+    side: float
+    angle: float
+    size: int
+
+    @property
+    def scale(self) -> float:
+        """Pixels of the picture a pixel of the crop."""
+        return self.side / self.size
+
+    @property
+    def rotation(self) -> Float[np.ndarray, "2 2"]:
+        """From the crop's axes to the picture's."""
+        cosine, sine = np.cos(self.angle), np.sin(self.angle)
+        return np.array([[cosine, -sine], [sine, cosine]])
+
+    def in_picture(self, points: Points2D) -> Points2D:
+        """Continuous pixels of the crop as pixels of the picture."""
+        return self.centre + self.scale * (points - 0.5 * self.size) @ self.rotation.T
+
+    def cut_from(self, picture: UInt8[np.ndarray, "h w 3"]) -> UInt8[np.ndarray, "s s 3"]:
+        """The square's pixels; black beyond the picture."""
+        if self.scale > ANTIALIASED_FROM:
+            blur = _BLUR_SHARE * np.sqrt(self.scale**2 - 1.0)
+            picture = cv2.GaussianBlur(picture, (0, 0), blur)
+        return cv2.warpAffine(
+            picture,
+            self._between_pixel_centres(),
+            (self.size, self.size),
+            flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP,
+        )
+
+    def put_back(self, values: GreyImage, *, width: int, height: int) -> GreyImage:
+        """Values of the crop's pixels at a picture's of this size; 0 beyond the crop."""
+        return cv2.warpAffine(
+            values,
+            self._between_pixel_centres(),
+            (width, height),
+            flags=cv2.INTER_LINEAR,
+        )
+
+    def _between_pixel_centres(self) -> Float[np.ndarray, "2 3"]:
+        """From the crop to the picture as OpenCV counts: the first pixel's centre is (0, 0)."""
+        turn = self.scale * self.rotation
+        first = self.in_picture(np.array([[0.5, 0.5]]))[0] - 0.5
+        return np.column_stack([turn, first])

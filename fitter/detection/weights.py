@@ -1,0 +1,98 @@
+"""Where the networks' weights are: files of a package that is never imported, or of a folder."""
+
+import hashlib
+import importlib.util
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from fitter.errors import DetectorUnavailableError
+
+CARRIER: Final = "mediapipe"
+CARRIER_REQUIREMENT: Final = "mediapipe==0.10.21"
+"""The last version whose wheel holds both files; installed without what it depends on."""
+
+RUNTIME: Final = "ai_edge_litert"
+
+REMEDY: Final = (
+    "Install it with: pip install 'maquette[detector]' && "
+    f"pip install --no-deps {CARRIER_REQUIREMENT}."
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WeightFile:
+    """A network's file: its folder within the package, its name, and what it must contain."""
+
+    folder: str
+    name: str
+    sha256: str
+
+
+PERSON_DETECTOR: Final = WeightFile(
+    folder="modules/pose_detection",
+    name="pose_detection.tflite",
+    sha256="9ba9dd3d42efaaba86b4ff0122b06f29c4122e756b329d89dca1e297fd8f866c",
+)
+BODY_LANDMARKS: Final = WeightFile(
+    folder="modules/pose_landmark",
+    name="pose_landmark_full.tflite",
+    sha256="e9a5c5cb17f736fafd4c2ec1da3b3d331d6edbe8a0d32395855aeb2cdfd64b9f",
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DetectorWeights:
+    """The content of both files."""
+
+    person_detector: bytes
+    body_landmarks: bytes
+
+
+def detector_fault(folder: Path | None = None) -> str | None:
+    """Why there is no detector here, a sentence; None if there is one, so far as is seen at once.
+
+    Looks for the files and the runtime, and reads neither.
+    """
+    if importlib.util.find_spec(RUNTIME) is None:
+        return "The package ai-edge-litert, which runs the detector, is not installed."
+    for each in (PERSON_DETECTOR, BODY_LANDMARKS):
+        if not _path(each, folder).is_file():
+            where = f"the package {CARRIER}" if folder is None else str(folder)
+            return f"The detector's weights, {each.name}, are not in {where}."
+    return None
+
+
+def read_weights(folder: Path | None = None) -> DetectorWeights:
+    """Read both files, from the package or from a folder that holds them side by side.
+
+    Raises
+    ------
+    DetectorUnavailableError
+        If the detector is not installed, or a file is another than the one that was measured.
+    """
+    fault = detector_fault(folder)
+    if fault is not None:
+        raise DetectorUnavailableError(reason=fault, remedy=REMEDY)
+    return DetectorWeights(
+        person_detector=_content(PERSON_DETECTOR, folder),
+        body_landmarks=_content(BODY_LANDMARKS, folder),
+    )
+
+
+def _content(file: WeightFile, folder: Path | None) -> bytes:
+    content = _path(file, folder).read_bytes()
+    if hashlib.sha256(content).hexdigest() != file.sha256:
+        reason = f"{file.name} is another file than that of {CARRIER_REQUIREMENT}."
+        raise DetectorUnavailableError(reason=reason, remedy=REMEDY)
+    return content
+
+
+def _path(file: WeightFile, folder: Path | None) -> Path:
+    if folder is not None:
+        return folder / file.name
+    # Finding a package does not import it.
+    package = importlib.util.find_spec(CARRIER)
+    if package is None or package.origin is None:
+        return Path(file.name)
+    return Path(package.origin).parent / file.folder / file.name

@@ -1,0 +1,63 @@
+"""Slant energy: how far limbs reach along the view, as the detector has it.
+
+A picture shows a limb's length foreshortened, and says neither how much of that is the limb's own
+nor whether it leans toward the camera or away; a network that has seen many people does.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Integer
+
+from fitter.arrays import Points3D, Vector3
+from fitter.energies.rows import PositionRows
+from fitter.numerics.robust import huber, huber_weights
+
+TRUNCATION = 1.5
+"""Standard deviations beyond which a slant is believed less and less: one in twenty is wrong."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class SlantEvidence:
+    """Limbs whose slants are told.
+
+    Attributes
+    ----------
+    ends
+        (s, 2) near and far end, as indices into the clicked landmarks.
+    toward
+        (3,) unit vector from the camera to the person, camera frame.
+    reach_m, sigma_m
+        (s,) how much farther along it the far end lies than the near one, and the standard
+        deviation of that, metres.
+    """
+
+    ends: Integer[np.ndarray, "s 2"]
+    toward: Vector3
+    reach_m: Float[np.ndarray, " s"]
+    sigma_m: Float[np.ndarray, " s"]
+
+
+def slant_energy(landmarks: Points3D, evidence: SlantEvidence) -> float:
+    """Huber loss of each limb's reach, nats; landmarks (k, 3) in the camera frame."""
+    distance = np.abs(_excess(landmarks, evidence)) / evidence.sigma_m
+    return float(huber(distance, TRUNCATION).sum())
+
+
+def slant_rows(landmarks: Points3D, evidence: SlantEvidence) -> PositionRows:
+    """A row a limb; points index the landmark rows."""
+    excess = _excess(landmarks, evidence)
+    weights = huber_weights(np.abs(excess) / evidence.sigma_m, TRUNCATION)
+    along = np.stack([-evidence.toward, evidence.toward])
+    return PositionRows(
+        residuals=excess,
+        weights=weights / evidence.sigma_m**2,
+        points=evidence.ends,
+        derivatives=np.tile(along, (len(excess), 1, 1)),
+    )
+
+
+def _excess(landmarks: Points3D, evidence: SlantEvidence) -> Float[np.ndarray, " s"]:
+    """How much farther each limb reaches than told, metres."""
+    limbs = landmarks[evidence.ends[:, 1]] - landmarks[evidence.ends[:, 0]]
+    return limbs @ evidence.toward - evidence.reach_m

@@ -1,0 +1,31 @@
+"""Whether a fit asks the detector, and where it is."""
+
+from pathlib import Path
+
+from fitter.detection.detector import Detector, installed_detector
+from fitter.errors import DetectorUnavailableError
+from fitter.request import FitRequest, SegmentationKind
+
+
+def detector_for(request: FitRequest, weights: Path | None) -> Detector | None:
+    """The detector, where the request has a use for it and it is installed.
+
+    Parameters
+    ----------
+    weights
+        Folder of its weights; None takes the installed package.
+
+    Raises
+    ------
+    DetectorUnavailableError
+        If points are to be proposed and there is none.
+    """
+    seeds = request.mask is None and request.segmentation is SegmentationKind.SEEDED_GRABCUT
+    if not (request.complete_clicks or request.slant_hints or seeds):
+        return None
+    try:
+        return installed_detector(weights)
+    except DetectorUnavailableError:
+        if request.complete_clicks:
+            raise
+        return None

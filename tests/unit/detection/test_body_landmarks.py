@@ -1,0 +1,90 @@
+"""What the second network's numbers mean."""
+
+import numpy as np
+import pytest
+
+from fitter.detection.body_landmarks import MIRRORED, BodyLandmarks, LandmarkNetwork
+from fitter.detection.person_detector import DetectedPerson
+from tests.unit.detection.fake_networks import FakeNetwork, Outputs
+
+NOSE, LEFT_WRIST, RIGHT_WRIST = 0, 15, 16
+
+
+def answering(
+    places: dict[int, tuple[float, float]],
+    *,
+    world: dict[int, tuple[float, float, float]] | None = None,
+    heat: np.ndarray | None = None,
+    mask: np.ndarray | None = None,
+) -> LandmarkNetwork:
+    """Says the same of a picture and of its mirror image."""
+
+    def answer(_: np.ndarray) -> Outputs:
+        landmarks, in_world = np.zeros((39, 5)), np.zeros((39, 3))
+        for index, place in places.items():
+            landmarks[index, :2] = place
+        for index, place in (world or {}).items():
+            in_world[index] = place
+        heat_map = np.full((64, 64, 39), -50.0) if heat is None else heat
+        person = np.full((256, 256, 1), -50.0) if mask is None else mask
+        return {
+            (195,): landmarks.ravel(),
+            (117,): in_world.ravel(),
+            (64, 64, 39): heat_map,
+            (256, 256, 1): person,
+            (1,): np.array([0.9]),
+        }
+
+    return LandmarkNetwork(FakeNetwork(answer))
+
+
+def seen(network: LandmarkNetwork, *, rim: tuple[float, float] = (200.0, 97.6)) -> BodyLandmarks:
+    """Of a person at (200, 200) whose crop is as large as the network's input."""
+    person = DetectedPerson(score=0.9, middle=np.array([200.0, 200.0]), rim=np.array(rim))
+    return network.landmarks(np.zeros((400, 400, 3), dtype=np.uint8), person)
+
+
+def test_mirrored_twice_every_landmark_is_itself():
+    np.testing.assert_array_equal(MIRRORED[MIRRORED], np.arange(33))
+    assert MIRRORED[LEFT_WRIST] == RIGHT_WRIST
+    assert MIRRORED[NOSE] == NOSE
+
+
+def test_a_landmark_is_the_mean_of_both_looks():
+    # In the mirror the wrists change places and sides.
+    found = seen(answering({LEFT_WRIST: (200.0, 100.0), RIGHT_WRIST: (60.0, 120.0)}))
+    expected = np.array([(200.0 + (256.0 - 60.0)) / 2.0, 110.0]) + 72.0
+    np.testing.assert_allclose(found.pixels[LEFT_WRIST], expected, atol=1e-6)
+    assert found.presence == pytest.approx(0.9)
+
+
+def test_a_person_who_lies_is_shown_upright():
+    # The circle's rim to the right of the hips: the picture's right is the crop's top.
+    found = seen(
+        answering({NOSE: (128.0, 28.0)}, world={NOSE: (0.0, -0.5, 0.1)}), rim=(302.4, 200.0)
+    )
+    np.testing.assert_allclose(found.pixels[NOSE], [300.0, 200.0], atol=1e-6)
+    np.testing.assert_allclose(found.world_m[NOSE], [0.5, 0.0, 0.1], atol=1e-9)
+
+
+def test_heat_near_a_landmark_places_it():
+    heat = np.full((64, 64, 39), -50.0)
+    heat[30, 34, NOSE] = 50.0
+    heat[30, 29, NOSE] = 50.0  # the same in the mirror
+    found = seen(answering({NOSE: (128.0, 122.0)}, heat=heat))
+    np.testing.assert_allclose(found.pixels[NOSE], [200.0, 192.0], atol=2.0)
+
+
+def test_no_heat_leaves_a_landmark_where_it_was_put():
+    found = seen(answering({NOSE: (140.0, 122.0)}))
+    # Mirrored it says 140 again, which is 116 unmirrored.
+    np.testing.assert_allclose(found.pixels[NOSE], [200.0, 194.0], atol=1e-6)
+
+
+def test_the_mask_lies_over_the_picture():
+    mask = np.full((256, 256, 1), -50.0)
+    mask[100:150, 78:178] = 50.0
+    found = seen(answering({}, mask=mask))
+    rows, columns = np.nonzero(found.mask > 0.5)
+    assert (rows.min(), rows.max()) == (172, 221)
+    assert (columns.min(), columns.max()) == (150, 249)

@@ -1,0 +1,88 @@
+"""The detector on rendered people whose truth is known."""
+
+import json
+
+import numpy as np
+import pytest
+from PIL import Image as PillowImage
+
+from fitter.detection.detector import Detector, body_of_clicks, installed_detector
+from fitter.request import Click
+from tests.evaluation.files import PICTURES_FOLDER
+
+STANDING, OTHER = "man_young_thin_standing", "man_old_heavy_standing"
+
+LIMB_POINTS = [
+    f"{side}_{joint}"
+    for side in ("left", "right")
+    for joint in ("shoulder", "elbow", "wrist", "hip", "knee", "ankle")
+]
+
+
+@pytest.fixture(scope="module")
+def detector() -> Detector:
+    return installed_detector()
+
+
+def picture(name: str) -> np.ndarray:
+    return np.asarray(PillowImage.open(PICTURES_FOLDER / f"{name}.jpg").convert("RGB"))
+
+
+def clicks(name: str, *, shift: float = 0.0) -> dict[str, Click]:
+    points = json.loads((PICTURES_FOLDER / f"{name}.json").read_text())["request"]["points"]
+    return {name: Click(x=each["x"] + shift, y=each["y"]) for name, each in points.items()}
+
+
+def test_proposals_lie_near_where_the_points_truly_are(detector):
+    (body,) = detector.bodies(picture(STANDING))
+    truth = clicks(STANDING)
+    off = [
+        np.hypot(body.points[name].x - truth[name].x, body.points[name].y - truth[name].y)
+        for name in LIMB_POINTS
+    ]
+    # The person is about 500 pixels high, and the clicks are a hand's.
+    assert np.median(off) < 0.025 * 500
+    assert max(off) < 0.06 * 500
+    assert all(body.points[name].spread_m > 0.0 for name in LIMB_POINTS)
+    assert body.slants.limbs.keys() == {
+        f"{side}_{limb}" for side in ("left", "right") for limb in ("upper_arm", "thigh", "shin")
+    }
+
+
+def test_the_mask_covers_the_person(detector):
+    (body,) = detector.bodies(picture(STANDING))
+    true = np.asarray(PillowImage.open(PICTURES_FOLDER / f"{STANDING}_person.png")) > 127
+    found = body.mask > 0.5
+    assert (found & true).sum() > 0.93 * (found | true).sum()
+
+
+def test_nobody_is_found_on_a_wall(detector):
+    noise = np.random.default_rng(3).integers(90, 110, (480, 640, 3), dtype=np.uint8)
+    assert detector.bodies(noise) == ()
+
+
+def test_who_was_clicked_is_chosen_among_several(detector):
+    left, right = picture(STANDING), picture(OTHER)
+    both = np.concatenate([left, right[: left.shape[0]]], axis=1)
+    bodies = detector.bodies(both)
+    assert len(bodies) == 2
+    clicked_left = body_of_clicks(bodies, clicks(STANDING))
+    clicked_right = body_of_clicks(bodies, clicks(OTHER, shift=left.shape[1]))
+    assert clicked_left is not None
+    assert clicked_right is not None
+    assert clicked_left.points["nose"].x < left.shape[1] < clicked_right.points["nose"].x
+    assert body_of_clicks(bodies, {}) is bodies[0]
+
+
+def test_clicks_on_somebody_who_was_not_found_are_nobodys(detector):
+    bodies = detector.bodies(picture(STANDING))
+    assert body_of_clicks(bodies, clicks(STANDING, shift=300.0)) is None
+    assert body_of_clicks((), clicks(STANDING)) is None
+
+
+def test_what_lies_beyond_the_picture_is_not_proposed(detector):
+    cropped = picture(STANDING)[:380]
+    (body,) = detector.bodies(cropped)
+    assert "left_ankle" not in body.points
+    assert "left_shin" not in body.slants.limbs
+    assert "left_shoulder" in body.points

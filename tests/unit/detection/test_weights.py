@@ -1,0 +1,53 @@
+"""Where the weights are looked for, and what is said where there are none."""
+
+import importlib.util
+
+import pytest
+
+from fitter.detection.weights import (
+    BODY_LANDMARKS,
+    PERSON_DETECTOR,
+    detector_fault,
+    read_weights,
+)
+from fitter.errors import DetectorUnavailableError
+
+
+def test_the_installed_package_has_both_files():
+    assert detector_fault() is None
+    weights = read_weights()
+    assert len(weights.person_detector) > 1_000_000
+    assert len(weights.body_landmarks) > 1_000_000
+
+
+def test_a_folder_may_hold_them(tmp_path):
+    weights = read_weights()
+    (tmp_path / PERSON_DETECTOR.name).write_bytes(weights.person_detector)
+    (tmp_path / BODY_LANDMARKS.name).write_bytes(weights.body_landmarks)
+    assert read_weights(tmp_path) == weights
+
+
+def test_a_file_that_is_not_there_is_named(tmp_path):
+    with pytest.raises(DetectorUnavailableError, match=PERSON_DETECTOR.name) as raised:
+        read_weights(tmp_path)
+    assert "pip install" in raised.value.remedy
+
+
+def test_another_file_of_the_same_name_is_refused(tmp_path):
+    weights = read_weights()
+    (tmp_path / PERSON_DETECTOR.name).write_bytes(weights.person_detector)
+    (tmp_path / BODY_LANDMARKS.name).write_bytes(weights.body_landmarks[:-1] + b"x")
+    with pytest.raises(DetectorUnavailableError, match=BODY_LANDMARKS.name):
+        read_weights(tmp_path)
+
+
+def test_without_the_runtime_there_is_no_detector(monkeypatch):
+    found = importlib.util.find_spec
+    monkeypatch.setattr(
+        importlib.util,
+        "find_spec",
+        lambda name: None if name == "ai_edge_litert" else found(name),
+    )
+    assert detector_fault() is not None
+    with pytest.raises(DetectorUnavailableError, match="ai-edge-litert"):
+        read_weights()
