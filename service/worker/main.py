@@ -12,6 +12,7 @@ from service.process.data_folder import prepare_data_folder
 from service.process.disk import open_disk
 from service.process.interpreter import SAFE_PATH_VARIABLE
 from service.process.kernels import keep_kernels
+from service.process.stop_request import StopRequest
 from service.settings import Settings
 from service.worker.child_process import ChildRunner
 
@@ -39,9 +40,9 @@ def run_worker(
     settings: Settings, *, follow_stdin: bool, pipeline: str = PIPELINE, preload: str = PRELOAD
 ) -> None:
     """Work until SIGTERM or SIGINT, or until standard input ends if that is to be followed."""
-    stop = threading.Event()
+    stop = StopRequest()
     for number in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(number, lambda _number, _frame: stop.set())
+        signal.signal(number, lambda _number, _frame: stop.ask())
     if follow_stdin:
         # The starter holds the other end of this pipe: when it closes, the starter is gone.
         threading.Thread(target=_wait_for_end_of_input, args=(stop,), daemon=True).start()
@@ -86,8 +87,8 @@ def run_worker(
     os._exit(0)
 
 
-def _wait_for_end_of_input(stop: threading.Event) -> None:
+def _wait_for_end_of_input(stop: StopRequest) -> None:
     # Not through sys.stdin: a reader that holds its lock keeps the interpreter from ending.
     while os.read(sys.stdin.fileno(), READ_AT_ONCE):
         pass
-    stop.set()
+    stop.ask()

@@ -15,6 +15,8 @@ MAQUETTE = Path(sys.executable).with_name("maquette")
 NAMES = ("fitter", "http", "json", "logging", "numpy", "selectors", "service", "signal", "socket")
 """Modules that processes of ours import, of ours, of others and of Python."""
 
+STOPPED_WITHIN_S = 60.0
+
 LEAVES_A_MARK = """
 from pathlib import Path
 with Path({mark!r}).open("a") as mark:
@@ -112,6 +114,7 @@ def test_a_worker_of_its_own_and_its_fork_server_run_nothing_either(folder: Fold
             said = [next((line for line in worker.stderr if "is ready" in line), None)]
         finally:
             worker.send_signal(signal.SIGTERM)
+            worker.communicate(timeout=STOPPED_WITHIN_S)
     assert not folder.mark.exists(), folder.mark.read_text()
     assert said != [None]
     assert folder.left() == ["maquette-data"]

@@ -1,0 +1,38 @@
+"""A signal that comes at any moment of waiting ends it."""
+
+import subprocess
+import sys
+
+WAITS_AND_IS_SIGNALLED = """
+import signal, sys
+from service.process.stop_request import StopRequest
+
+def stopped_at(step):
+    # A wait during whose line number `step` a signal comes; or before which it came.
+    stop = StopRequest()
+    signal.signal(signal.SIGTERM, lambda *_: stop.ask())
+    seen = 0
+    def trace(frame, event, _):
+        nonlocal seen
+        if event == "line":
+            seen += 1
+            if seen == step:
+                sys.settrace(None)
+                signal.raise_signal(signal.SIGTERM)
+        return trace
+    if step == 0:
+        signal.raise_signal(signal.SIGTERM)
+    sys.settrace(trace)
+    signal.setitimer(signal.ITIMER_REAL, 0.1)
+    stop.wait()
+    sys.settrace(None)
+
+signal.signal(signal.SIGALRM, lambda *_: signal.raise_signal(signal.SIGTERM))
+for step in range(12):
+    stopped_at(step)
+"""
+
+
+def test_a_signal_at_any_line_of_the_wait_ends_it():
+    subprocess.run([sys.executable, "-c", WAITS_AND_IS_SIGNALLED], timeout=60, check=True)
+
