@@ -3,7 +3,8 @@
 from collections.abc import Collection, Mapping
 from uuid import UUID
 
-from api_schemas.derivations import AnyDerivationOptions, CombinedOptions, DerivationKind
+from api_schemas.derivation_kinds import AnyDerivationOptions, DerivationKind
+from api_schemas.derivation_kinds.combined import CombinedOptions
 from api_schemas.jobs import JobState
 from api_schemas.problems import FieldProblem
 from service.api.context import ApiContext

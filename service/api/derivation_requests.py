@@ -8,15 +8,15 @@ from typing import Final
 from fastapi import Request
 from starlette.concurrency import run_in_threadpool
 
-from api_schemas.derivations import (
+from api_schemas.derivation_kinds import AnyDerivationOptions
+from api_schemas.derivation_kinds.animation import AnimationOptions
+from api_schemas.derivation_kinds.texture import (
     LEAST_OWN_TEXTURE,
     TEXTURE_SIZES,
-    AnimationOptions,
-    AnyDerivationOptions,
-    DerivationRequest,
     TextureColours,
     TextureOptions,
 )
+from api_schemas.derivations import DerivationRequest
 from api_schemas.problems import FieldProblem, problem
 from service.api.job_inputs import File
 from service.api.json_bodies import JSON, media_type, read_json_text, unsupported

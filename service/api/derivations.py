@@ -11,8 +11,7 @@ from fastapi import APIRouter, Request, Response
 from fastapi.responses import StreamingResponse
 from starlette.concurrency import run_in_threadpool
 
-from api_schemas.derivation_results import DerivationResult
-from api_schemas.derivations import Derivation, DerivationPage, DerivationRequest
+from api_schemas.derivations import Derivation, DerivationPage, DerivationRequest, DerivationResult
 from service.api.acceptance import (
     ACCEPTANCE_PROBLEMS,
     IdempotencyKey,

@@ -7,13 +7,9 @@ from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 
 from api_schemas.bodies import BodyEstimate, BodyRequest
-from api_schemas.derivation_results import DerivationResult
-from api_schemas.derivations import (
-    MOST_OTHER_FITS,
-    TEXTURE_SIZES,
-    DerivationEvent,
-    DerivationRequest,
-)
+from api_schemas.derivation_kinds.combined import MOST_OTHER_FITS
+from api_schemas.derivation_kinds.texture import TEXTURE_SIZES
+from api_schemas.derivations import DerivationEvent, DerivationRequest, DerivationResult
 from api_schemas.images import UploadedImage
 from api_schemas.initial_poses import InitialPose, InitialPoseRequest
 from api_schemas.jobs import EventData

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import PurePath
 from typing import Final
 
-from api_schemas.derivations import DerivationKind
+from api_schemas.derivation_kinds import DerivationKind
 from api_schemas.jobs import JobState
 from api_schemas.problems import problem
 from api_schemas.results import Artifact

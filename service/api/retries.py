@@ -6,7 +6,9 @@ from uuid import UUID
 from fastapi import APIRouter, Response
 from starlette.concurrency import run_in_threadpool
 
-from api_schemas.derivations import CombinedOptions, Derivation, DerivationKind
+from api_schemas.derivation_kinds import DerivationKind
+from api_schemas.derivation_kinds.combined import CombinedOptions
+from api_schemas.derivations import Derivation
 from api_schemas.jobs import Job
 from api_schemas.problems import problem
 from service.api.acceptance import (

@@ -8,7 +8,7 @@ from typing import Final
 
 from rich.console import Console
 
-from api_schemas.derivations import CaricatureOptions
+from api_schemas.derivation_kinds.caricature import CaricatureOptions
 from api_schemas.problems import Problem, field_problem, problem
 from api_schemas.requests import FitOptions
 from fitter.errors import ModelFileError

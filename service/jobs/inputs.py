@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Final
 
-from api_schemas.derivations import DerivationKind
+from api_schemas.derivation_kinds import DerivationKind
 
 IMAGE: Final = "image"
 MASK: Final = "mask"

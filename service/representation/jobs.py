@@ -4,7 +4,8 @@ from datetime import UTC, datetime
 from typing import Any, Final
 from uuid import UUID
 
-from api_schemas.derivations import Derivation, DerivationKind, DerivationLinks
+from api_schemas.derivation_kinds import DerivationKind
+from api_schemas.derivations import Derivation, DerivationLinks
 from api_schemas.jobs import Job, JobLinks, JobState, WebhookDelivery
 from service.engine.port import JobRecord, WebhookRecord
 from service.jobs.inputs import MASK

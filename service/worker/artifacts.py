@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from pathlib import PurePath
 from typing import Final, TypeVar
 
-from api_schemas.derivation_results import DerivedFiles
+from api_schemas.derivation_kinds.base import DerivedFiles
 from api_schemas.results import Artifact, FitResult
 from service.jobs.inputs import RESULT
 

@@ -8,7 +8,7 @@ import importlib
 from collections.abc import Callable, Mapping
 from typing import Final, Protocol, cast
 
-from api_schemas.derivations import DerivationKind
+from api_schemas.derivation_kinds import DerivationKind
 from service.engine.port import Report
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 

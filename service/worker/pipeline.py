@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from api_schemas.body_models import BodyModelInfo, BodyModels
-from api_schemas.derivations import DerivationKind
+from api_schemas.derivation_kinds import DerivationKind
 from api_schemas.requests import Gender
 from fitter import request as fitter_request
 from fitter.errors import InvalidInputError

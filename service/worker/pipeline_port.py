@@ -14,8 +14,8 @@ from typing import Protocol, cast
 from uuid import UUID
 
 from api_schemas.body_models import BodyModels
-from api_schemas.derivation_results import DerivedFiles
-from api_schemas.derivations import AnyDerivationOptions
+from api_schemas.derivation_kinds import AnyDerivationOptions
+from api_schemas.derivation_kinds.base import DerivedFiles
 from api_schemas.problems import FieldProblem
 from api_schemas.requests import FitOptions
 from api_schemas.results import FitResult

@@ -9,7 +9,7 @@ import numpy as np
 from api_schemas import known as wire_known
 from api_schemas import requests as wire_request
 from api_schemas import results as wire
-from api_schemas.derivation_results import CombinedPicture
+from api_schemas.derivation_kinds.combined import CombinedPicture
 from api_schemas.points import points_by_name
 from api_schemas.problems import FieldProblem
 from fitter.errors import InvalidInputError

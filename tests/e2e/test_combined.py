@@ -6,7 +6,7 @@ import json
 import httpx
 from PIL import Image
 
-from api_schemas.derivation_results import CombinedResult
+from api_schemas.derivation_kinds.combined import CombinedResult
 from tests.e2e.service import ended_job
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import CaseFiles, encoded_mask, read_case

@@ -3,8 +3,8 @@
 from collections.abc import Callable
 from typing import cast
 
-from api_schemas.derivation_results import AnimationResult
-from api_schemas.derivations import AnimationOptions, DerivationKind
+from api_schemas.derivation_kinds import DerivationKind
+from api_schemas.derivation_kinds.animation import AnimationOptions, AnimationResult
 from api_schemas.results import FitWarning
 from fitter.applications.animation import (
     ChosenMotion,

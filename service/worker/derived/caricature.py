@@ -4,8 +4,8 @@ import dataclasses
 from collections.abc import Callable
 from typing import cast
 
-from api_schemas.derivation_results import CaricatureResult
-from api_schemas.derivations import CaricatureOptions, DerivationKind
+from api_schemas.derivation_kinds import DerivationKind
+from api_schemas.derivation_kinds.caricature import CaricatureOptions, CaricatureResult
 from fitter.applications.caricature import caricature
 from fitter.applications.previews import View, preview
 from fitter.export.display import png

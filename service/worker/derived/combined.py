@@ -3,8 +3,8 @@
 from collections.abc import Callable, Mapping, Sequence
 from typing import cast
 
-from api_schemas.derivation_results import CombinedResult
-from api_schemas.derivations import CombinedOptions, DerivationKind
+from api_schemas.derivation_kinds import DerivationKind
+from api_schemas.derivation_kinds.combined import CombinedOptions, CombinedResult
 from api_schemas.requests import FitOptions, OptimizerKind
 from api_schemas.results import FitResult, FitWarning
 from fitter.applications.previews import View, preview

@@ -5,8 +5,8 @@ from typing import cast
 
 import numpy as np
 
-from api_schemas.derivation_results import FigureResult
-from api_schemas.derivations import DerivationKind, FigureOptions
+from api_schemas.derivation_kinds import DerivationKind
+from api_schemas.derivation_kinds.figure import FigureOptions, FigureResult
 from fitter.applications.figure import figure_picture
 from fitter.applications.rig import rig_of
 from fitter.export.display import png

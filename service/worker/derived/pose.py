@@ -5,8 +5,9 @@ from typing import cast
 
 import numpy as np
 
-from api_schemas.derivation_results import PoseResult
-from api_schemas.derivations import DerivationKind, NamedPose, PoseOptions
+from api_schemas.derivation_kinds import DerivationKind
+from api_schemas.derivation_kinds.pose import PoseOptions, PoseResult
+from api_schemas.named_poses import NamedPose
 from fitter.applications.poses import named_pose, spelled_pose
 from fitter.applications.previews import View, preview
 from fitter.applications.rig import Rig, rig_of

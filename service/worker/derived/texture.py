@@ -7,8 +7,8 @@ import cv2
 import numpy as np
 from jaxtyping import UInt8
 
-from api_schemas.derivation_results import TextureResult
-from api_schemas.derivations import DerivationKind, TextureColours, TextureOptions
+from api_schemas.derivation_kinds import DerivationKind
+from api_schemas.derivation_kinds.texture import TextureColours, TextureOptions, TextureResult
 from fitter.applications.own_texture import atlas_drawing, painted_texture
 from fitter.applications.texture import albedo_texture, picture_texture
 from fitter.applications.textured_glb import in_file_axes, textured_glb

@@ -3,8 +3,8 @@
 from collections.abc import Callable
 from typing import Final
 
-from api_schemas.derivation_results import ReportResult
-from api_schemas.derivations import DerivationKind
+from api_schemas.derivation_kinds import DerivationKind
+from api_schemas.derivation_kinds.report import ReportResult
 from api_schemas.results import FitResult
 from service.engine.port import Report
 from service.jobs.inputs import RESULT

@@ -14,25 +14,13 @@ from pathlib import Path
 from typing import Any
 
 from api_schemas.body_models import BodyModelInfo, BodyModels
-from api_schemas.derivation_results import (
-    AnimationResult,
-    CaricatureResult,
-    CombinedPicture,
-    CombinedResult,
-    FigureResult,
-    PoseResult,
-    ReportResult,
-    TextureResult,
-)
-from api_schemas.derivations import (
-    AnimationOptions,
-    CaricatureOptions,
-    CombinedOptions,
-    FigureOptions,
-    PoseOptions,
-    TextureColours,
-    TextureOptions,
-)
+from api_schemas.derivation_kinds.animation import AnimationOptions, AnimationResult
+from api_schemas.derivation_kinds.caricature import CaricatureOptions, CaricatureResult
+from api_schemas.derivation_kinds.combined import CombinedOptions, CombinedPicture, CombinedResult
+from api_schemas.derivation_kinds.figure import FigureOptions, FigureResult
+from api_schemas.derivation_kinds.pose import PoseOptions, PoseResult
+from api_schemas.derivation_kinds.report import ReportResult
+from api_schemas.derivation_kinds.texture import TextureColours, TextureOptions, TextureResult
 from api_schemas.known import UncertainMeasurement
 from api_schemas.problems import FieldProblem
 from api_schemas.requests import FitOptions, Gender

@@ -10,8 +10,7 @@ from uuid import uuid4
 import httpx
 import pytest
 
-from api_schemas.derivation_results import DerivationResult
-from api_schemas.derivations import Derivation, DerivationEvent, DerivationPage
+from api_schemas.derivations import Derivation, DerivationEvent, DerivationPage, DerivationResult
 from service.engine.port import NewJob, StoredBlob, SubmitOutcome
 from tests.integration.service.harness import (
     REQUEST,

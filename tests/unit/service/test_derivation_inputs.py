@@ -6,7 +6,7 @@ from uuid import UUID
 
 import pytest
 
-from api_schemas.derivations import CombinedOptions
+from api_schemas.derivation_kinds.combined import CombinedOptions
 from api_schemas.jobs import JobState
 from api_schemas.results import Artifact
 from service.api.context import ApiContext

@@ -11,14 +11,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from api_schemas.derivation_results import DerivationResult
-from api_schemas.derivations import (
-    LEAST_OWN_TEXTURE,
-    TEXTURE_SIZES,
-    DerivationKind,
-    DerivationRequest,
-    NamedPose,
-)
+from api_schemas.derivation_kinds import DerivationKind
+from api_schemas.derivation_kinds.texture import LEAST_OWN_TEXTURE, TEXTURE_SIZES
+from api_schemas.derivations import DerivationRequest, DerivationResult
+from api_schemas.named_poses import NamedPose
 from fitter.applications.own_texture import LEAST_SIDE
 from fitter.applications.poses import NAMED_POSES, REST
 from fitter.applications.texture import SIZES

@@ -6,12 +6,12 @@ import pytest
 
 from api_schemas.bodies import BodyEstimate, BodyRequest
 from api_schemas.body_models import BodyModels
-from api_schemas.derivation_results import DerivationResult
 from api_schemas.derivations import (
     Derivation,
     DerivationEvent,
     DerivationPage,
     DerivationRequest,
+    DerivationResult,
 )
 from api_schemas.health import Live, Ready
 from api_schemas.images import UploadedImage

@@ -1,0 +1,49 @@
+"""What can be made of a fit, on the wire: one module a kind, with its options and its result."""
+
+from enum import StrEnum
+from typing import Annotated
+
+from pydantic import Tag
+
+from api_schemas.derivation_kinds.animation import AnimationOptions, AnimationResult
+from api_schemas.derivation_kinds.caricature import CaricatureOptions, CaricatureResult
+from api_schemas.derivation_kinds.combined import CombinedOptions, CombinedResult
+from api_schemas.derivation_kinds.figure import FigureOptions, FigureResult
+from api_schemas.derivation_kinds.pose import PoseOptions, PoseResult
+from api_schemas.derivation_kinds.report import ReportOptions, ReportResult
+from api_schemas.derivation_kinds.texture import TextureOptions, TextureResult
+
+
+class DerivationKind(StrEnum):
+    """What can be made of a fit."""
+
+    REPORT = "report"
+    CARICATURE = "caricature"
+    POSE = "pose"
+    ANIMATION = "animation"
+    TEXTURE = "texture"
+    FIGURE = "figure"
+    COMBINED = "combined"
+
+
+AnyDerivationOptions = (
+    Annotated[ReportOptions, Tag("[report]")]
+    | Annotated[CaricatureOptions, Tag("[caricature]")]
+    | Annotated[PoseOptions, Tag("[pose]")]
+    | Annotated[AnimationOptions, Tag("[animation]")]
+    | Annotated[TextureOptions, Tag("[texture]")]
+    | Annotated[FigureOptions, Tag("[figure]")]
+    | Annotated[CombinedOptions, Tag("[combined]")]
+)
+"""What is asked for. The tag is the kind in brackets."""
+
+AnyDerivationResult = (
+    Annotated[ReportResult, Tag("[report]")]
+    | Annotated[CaricatureResult, Tag("[caricature]")]
+    | Annotated[PoseResult, Tag("[pose]")]
+    | Annotated[AnimationResult, Tag("[animation]")]
+    | Annotated[TextureResult, Tag("[texture]")]
+    | Annotated[FigureResult, Tag("[figure]")]
+    | Annotated[CombinedResult, Tag("[combined]")]
+)
+"""What came of it."""

@@ -1,0 +1,53 @@
+"""A body in motion: what is asked for, and what comes of it."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from api_schemas.derivation_kinds.base import DerivationOptions, DerivedFiles
+from api_schemas.results import FitWarning
+
+
+class AnimationOptions(DerivationOptions):
+    """The body in motion: by a BVH file that comes along, or walking."""
+
+    kind: Literal["animation"]
+    start_s: float = Field(
+        default=0.0,
+        ge=0.0,
+        le=3_600.0,
+        description="Where the stretch begins, of the file or of a walk without end.",
+    )
+    duration_s: float | None = Field(
+        default=None,
+        gt=0.0,
+        le=3_600.0,
+        description=(
+            "How long the stretch is; null goes on to the file's end, or is three strides of the "
+            "walk. An animation has 30 frames a second and 360 in all at most: what is longer is "
+            "cut, with a warning."
+        ),
+    )
+
+
+class AnimationResult(DerivedFiles):
+    """``body_animated.glb``, ``body_skinned.glb``, ``animation.png`` and ``animation.webp``.
+
+    The first holds the bodies of SCAPE as morph targets, the second bones and a skin that follows
+    them linearly, which is only near to SCAPE; errors are distances of vertices from SCAPE's.
+    """
+
+    kind: Literal["animation"] = "animation"
+    source: str = Field(description="Where the motion comes from.")
+    frames: int
+    frame_time_s: float
+    morph_targets: int
+    morph_mean_error_mm: float
+    morph_largest_error_mm: float
+    skin_mean_error_mm: float
+    skin_largest_error_mm: float
+    sliding_mm: float = Field(
+        description="How far soles on the ground slide from frame to frame, on average."
+    )
+    travelled_m: float = Field(description="From the first place to the last, along the ground.")
+    warnings: tuple[FitWarning, ...]

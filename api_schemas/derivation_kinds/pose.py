@@ -1,0 +1,47 @@
+"""Another pose: what is asked for, and what comes of it."""
+
+from typing import Annotated, Final, Literal
+
+from pydantic import Field
+
+from api_schemas.derivation_kinds.base import DerivationOptions, DerivedFiles
+from api_schemas.named_poses import NamedPose
+from api_schemas.results import PartRotation
+
+FULL_TURN: Final = 6.2832
+"""Radians, rounded up."""
+
+Rotation = Annotated[
+    tuple[Annotated[float, Field(ge=-FULL_TURN, le=FULL_TURN)], ...],
+    Field(
+        min_length=3,
+        max_length=4,
+        description=(
+            "Three numbers are axis times angle in radians, four a unit quaternion x, y, z, w."
+        ),
+    ),
+]
+
+
+class PoseOptions(DerivationOptions):
+    """The body in another pose: a named one, or one spelled out part by part."""
+
+    kind: Literal["pose"]
+    pose: NamedPose = NamedPose.REST
+    rotations: dict[str, Rotation] = Field(
+        default_factory=dict[str, Rotation],
+        max_length=64,
+        description=(
+            "Parts that are held otherwise than in `pose`, by the names of `/v1/body-models`: "
+            "their turn relative to the parent part, from the rest pose, in the body frame (x to "
+            "the person's left, y up, z forward). Joints turn only as far as people's do."
+        ),
+        examples=[{"left_forearm": [0.0, 1.2, 0.0]}],
+    )
+
+
+class PoseResult(DerivedFiles):
+    """``body_reposed.glb``, standing on the ground and facing +z, and ``pose.png``."""
+
+    kind: Literal["pose"] = "pose"
+    pose: tuple[PartRotation, ...]
