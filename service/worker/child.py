@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Final
 from uuid import UUID
 
+from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivations import DerivationRequest
 from api_schemas.problems import Problem, field_problem, problem
 from api_schemas.requests import FitOptions
@@ -130,7 +131,7 @@ def _fit_input(task: ChildTask, options: bytes, inputs: Mapping[str, bytes]) -> 
 
 def _derivation_input(
     task: ChildTask, options: bytes, inputs: Mapping[str, bytes]
-) -> DerivationInput:
+) -> DerivationInput[AnyDerivationOptions]:
     return DerivationInput(
         options=DerivationRequest.model_validate_json(options).root,
         inputs=inputs,

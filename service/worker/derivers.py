@@ -1,33 +1,25 @@
-"""Which module derives what.
+"""What derives a kind: ``derive`` of the module of :mod:`service.worker.derived` named like it.
 
-They are imported where a job asks for them: what they load no fit needs, and every process forked
-for a fit would carry it along.
+It is imported where a job asks for it: what it loads no fit needs, and every process forked for a
+fit would carry it along.
 """
 
 import importlib
-from collections.abc import Callable, Mapping
-from typing import Final, Protocol, cast
+from collections.abc import Callable
+from typing import Any, Protocol
 
-from api_schemas.derivation_kinds import DerivationKind
-from service.engine.port import Report
+from api_schemas.derivation_kinds.base import DerivedFiles
+from service.worker import derived
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
-
-MODULES: Final[Mapping[DerivationKind, str]] = {
-    DerivationKind.ANIMATION: "service.worker.derived.animation",
-    DerivationKind.CARICATURE: "service.worker.derived.caricature",
-    DerivationKind.COMBINED: "service.worker.derived.combined",
-    DerivationKind.FIGURE: "service.worker.derived.figure",
-    DerivationKind.POSE: "service.worker.derived.pose",
-    DerivationKind.TEXTURE: "service.worker.derived.texture",
-    DerivationKind.REPORT: "service.worker.report",
-}
 
 
 class Deriver(Protocol):
-    """A module with this function."""
+    """Makes what a kind's options ask for; its own are ``DerivationInput[PoseOptions]`` or so."""
 
-    def derive(self, job: DerivationInput, observe: Callable[[Report], None]) -> DerivationOutput:
-        """Derive something from a fit.
+    def __call__(
+        self, job: DerivationInput[Any], observe: Callable[[float], None], /
+    ) -> DerivationOutput[DerivedFiles]:
+        """Derive something from a fit, and tell how much of it is done, from 0 to 1.
 
         Raises
         ------
@@ -37,6 +29,6 @@ class Deriver(Protocol):
         ...
 
 
-def load_deriver(kind: DerivationKind) -> Deriver:
+def load_deriver(kind: str) -> Deriver:
     """Import what derives this kind."""
-    return cast("Deriver", importlib.import_module(MODULES[kind]))
+    return importlib.import_module(f"{derived.__name__}.{kind}").derive

@@ -4,7 +4,8 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from api_schemas.body_models import BodyModelInfo, BodyModels
-from api_schemas.derivation_kinds import DerivationKind
+from api_schemas.derivation_kinds import AnyDerivationOptions
+from api_schemas.derivation_kinds.base import DerivedFiles
 from api_schemas.requests import Gender
 from fitter import request as fitter_request
 from fitter.errors import InvalidInputError
@@ -47,10 +48,18 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
     )
 
 
-def derive(job: DerivationInput, observe: Callable[[Report], None]) -> DerivationOutput:
+def derive(
+    job: DerivationInput[AnyDerivationOptions], observe: Callable[[Report], None]
+) -> DerivationOutput[DerivedFiles]:
     """Derive something from a fit; see :class:`service.worker.pipeline_port.Pipeline`."""
+    kind = job.options.kind
+
+    def report(progress: float) -> None:
+        observe(Report(stage=kind, progress=progress))
+
+    report(0.0)
     try:
-        return load_deriver(DerivationKind(job.options.kind)).derive(job, observe)
+        return load_deriver(kind)(job, report)
     except InvalidInputError as error:
         raise UnusableInputError(translate.field_problem(error)) from error
 

@@ -10,7 +10,7 @@ import importlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol, cast
+from typing import Generic, Protocol, TypeVar, cast
 from uuid import UUID
 
 from api_schemas.body_models import BodyModels
@@ -20,6 +20,9 @@ from api_schemas.problems import FieldProblem
 from api_schemas.requests import FitOptions
 from api_schemas.results import FitResult
 from service.engine.port import Report
+
+Options_co = TypeVar("Options_co", bound=AnyDerivationOptions, covariant=True)
+Result_co = TypeVar("Result_co", bound=DerivedFiles, covariant=True)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,13 +48,13 @@ class PipelineOutput:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class DerivationInput:
+class DerivationInput(Generic[Options_co]):
     """What is to be derived, and the inputs of that kind by name (:mod:`service.jobs.inputs`).
 
     ``fit_id`` is that of the fit it is derived from, None where the service keeps none.
     """
 
-    options: AnyDerivationOptions
+    options: Options_co
     inputs: Mapping[str, bytes]
     max_pixels: int
     models: Path | None = None
@@ -59,10 +62,10 @@ class DerivationInput:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class DerivationOutput:
+class DerivationOutput(Generic[Result_co]):
     """The result, whose list of artifacts is still empty, and the artifacts by file name."""
 
-    result: DerivedFiles
+    result: Result_co
     artifacts: Mapping[str, bytes]
 
 
@@ -87,7 +90,9 @@ class Pipeline(Protocol):
         """
         ...
 
-    def derive(self, job: DerivationInput, observe: Callable[[Report], None]) -> DerivationOutput:
+    def derive(
+        self, job: DerivationInput[AnyDerivationOptions], observe: Callable[[Report], None]
+    ) -> DerivationOutput[DerivedFiles]:
         """Derive something from a fit; raises as ``run`` does."""
         ...
 

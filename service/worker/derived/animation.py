@@ -1,9 +1,7 @@
 """The fitted body in motion: by a BVH file that came along, or walking."""
 
 from collections.abc import Callable
-from typing import cast
 
-from api_schemas.derivation_kinds import DerivationKind
 from api_schemas.derivation_kinds.animation import AnimationOptions, AnimationResult
 from api_schemas.results import FitWarning
 from fitter.applications.animation import (
@@ -14,22 +12,20 @@ from fitter.applications.animation import (
 )
 from fitter.applications.bvh import parse_bvh
 from fitter.applications.rig import Rig, rig_of
-from service.engine.port import Report
 from service.jobs.inputs import CLIP, PERSON
 from service.worker.derived.person import person_and_operators
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 
-STAGE = DerivationKind.ANIMATION.value
 
-
-def derive(job: DerivationInput, observe: Callable[[Report], None]) -> DerivationOutput:
+def derive(
+    job: DerivationInput[AnimationOptions], observe: Callable[[float], None]
+) -> DerivationOutput[AnimationResult]:
     """Set the body in motion; see :class:`service.worker.derivers.Deriver`."""
-    observe(Report(stage=STAGE, progress=0.0))
-    options = cast("AnimationOptions", job.options)
+    options = job.options
     person, operators = person_and_operators(job.inputs[PERSON], job.models)
     rig = rig_of(operators.model, person.body.shape)
     chosen = _chosen(job.inputs.get(CLIP), options, rig)
-    observe(Report(stage=STAGE, progress=0.1))
+    observe(0.1)
     made = animate(person, operators.evaluator, chosen.motion)
     return DerivationOutput(
         result=AnimationResult(

@@ -2,31 +2,27 @@
 
 import dataclasses
 from collections.abc import Callable
-from typing import cast
 
-from api_schemas.derivation_kinds import DerivationKind
 from api_schemas.derivation_kinds.caricature import CaricatureOptions, CaricatureResult
 from fitter.applications.caricature import caricature
 from fitter.applications.previews import View, preview
 from fitter.export.display import png
 from fitter.export.gltf_document import Frame
 from fitter.export.plain_gltf import plain_glb
-from service.engine.port import Report
 from service.jobs.inputs import PERSON
 from service.worker.derived.person import person_and_operators
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 
-STAGE = DerivationKind.CARICATURE.value
 
-
-def derive(job: DerivationInput, observe: Callable[[Report], None]) -> DerivationOutput:
+def derive(
+    job: DerivationInput[CaricatureOptions], observe: Callable[[float], None]
+) -> DerivationOutput[CaricatureResult]:
     """Exaggerate; see :class:`service.worker.derivers.Deriver`."""
-    observe(Report(stage=STAGE, progress=0.0))
-    options = cast("CaricatureOptions", job.options)
+    options = job.options
     person, operators = person_and_operators(job.inputs[PERSON], job.models)
     model, evaluator = operators.model, operators.evaluator
     found = caricature(evaluator, person.body.shape, options.factor)
-    observe(Report(stage=STAGE, progress=0.7))
+    observe(0.7)
     fitted = evaluator.body_frame_vertices(person.body)
     exaggerated = evaluator.body_frame_vertices(dataclasses.replace(person.body, shape=found.shape))
     result = CaricatureResult(

@@ -1,9 +1,7 @@
 """One person from several of their pictures: one shape, and pose and light in each picture."""
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import cast
 
-from api_schemas.derivation_kinds import DerivationKind
 from api_schemas.derivation_kinds.combined import CombinedOptions, CombinedResult
 from api_schemas.requests import FitOptions, OptimizerKind
 from api_schemas.results import FitResult, FitWarning
@@ -22,13 +20,10 @@ from fitter.measurement.anthropometry import measure
 from fitter.person.fitted_person import FittedPerson
 from fitter.request import FitRequest
 from fitter.result import PictureFit
-from service.engine.port import Report
 from service.jobs.inputs import IMAGE, MASK, OF_EACH_PICTURE, PERSON, REQUEST, RESULT, of_other
 from service.worker.derived.person import person_and_operators
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 from service.worker.translate import combined_picture, fit_request, measurement_results
-
-STAGE = DerivationKind.COMBINED.value
 
 _FITTED = 0.95
 """Share of the work that is done when the pictures are fitted and their files are to be made."""
@@ -37,10 +32,11 @@ LEAST_PERCENT = 0.01
 """What is rarer is not told apart."""
 
 
-def derive(job: DerivationInput, observe: Callable[[Report], None]) -> DerivationOutput:
+def derive(
+    job: DerivationInput[CombinedOptions], observe: Callable[[float], None]
+) -> DerivationOutput[CombinedResult]:
     """Combine; see :class:`service.worker.derivers.Deriver`."""
-    observe(Report(stage=STAGE, progress=0.0))
-    options = cast("CombinedOptions", job.options)
+    options = job.options
     fit = FitResult.model_validate_json(job.inputs[RESULT])
     first, operators = person_and_operators(job.inputs[PERSON], job.models)
     pictures = [job.inputs, *_others(job.inputs, len(options.fits))]
@@ -49,7 +45,7 @@ def derive(job: DerivationInput, observe: Callable[[Report], None]) -> Derivatio
         people,
         [_request(each, job.max_pixels) for each in pictures],
         models=job.models,
-        observe=lambda share: observe(Report(stage=STAGE, progress=_FITTED * share)),
+        observe=lambda share: observe(_FITTED * share),
     )
     model = operators.model
     measuring = prepared_model(first.gender, models=job.models).measuring

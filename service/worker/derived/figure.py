@@ -1,30 +1,26 @@
 """Picture, overlay, recovered body and a new pose as one picture, as in the paper's Fig. 10."""
 
 from collections.abc import Callable
-from typing import cast
 
 import numpy as np
 
-from api_schemas.derivation_kinds import DerivationKind
 from api_schemas.derivation_kinds.figure import FigureOptions, FigureResult
 from fitter.applications.figure import figure_picture
 from fitter.applications.rig import rig_of
 from fitter.export.display import png
 from fitter.observation.decoding import decode_picture
 from fitter.parameters import BodyParameters
-from service.engine.port import Report
 from service.jobs.inputs import IMAGE, OVERLAY, PERSON
 from service.worker.derived.person import person_and_operators
 from service.worker.derived.pose import pose_named
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 
-STAGE = DerivationKind.FIGURE.value
 
-
-def derive(job: DerivationInput, observe: Callable[[Report], None]) -> DerivationOutput:
+def derive(
+    job: DerivationInput[FigureOptions], observe: Callable[[float], None]
+) -> DerivationOutput[FigureResult]:
     """Draw the figure; see :class:`service.worker.derivers.Deriver`."""
-    observe(Report(stage=STAGE, progress=0.0))
-    options = cast("FigureOptions", job.options)
+    options = job.options
     person, operators = person_and_operators(job.inputs[PERSON], job.models)
     model, evaluator = operators.model, operators.evaluator
     picture, overlay = (

@@ -1,11 +1,9 @@
 """The fitted body in another pose."""
 
 from collections.abc import Callable
-from typing import cast
 
 import numpy as np
 
-from api_schemas.derivation_kinds import DerivationKind
 from api_schemas.derivation_kinds.pose import PoseOptions, PoseResult
 from api_schemas.named_poses import NamedPose
 from fitter.applications.poses import named_pose, spelled_pose
@@ -16,13 +14,10 @@ from fitter.export.display import png
 from fitter.export.gltf_document import Frame
 from fitter.export.plain_gltf import plain_glb
 from fitter.parameters import BodyParameters
-from service.engine.port import Report
 from service.jobs.inputs import PERSON
 from service.worker import translate
 from service.worker.derived.person import person_and_operators
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
-
-STAGE = DerivationKind.POSE.value
 
 
 def pose_named(rig: Rig, name: NamedPose) -> Pose:
@@ -32,17 +27,18 @@ def pose_named(rig: Rig, name: NamedPose) -> Pose:
     return named_pose(rig, name.value)
 
 
-def derive(job: DerivationInput, observe: Callable[[Report], None]) -> DerivationOutput:
+def derive(
+    job: DerivationInput[PoseOptions], observe: Callable[[float], None]
+) -> DerivationOutput[PoseResult]:
     """Pose anew; see :class:`service.worker.derivers.Deriver`."""
-    observe(Report(stage=STAGE, progress=0.0))
-    options = cast("PoseOptions", job.options)
+    options = job.options
     person, operators = person_and_operators(job.inputs[PERSON], job.models)
     model = operators.model
     rig = rig_of(model, person.body.shape)
     pose = spelled_pose(rig, options.rotations, beginning=pose_named(rig, options.pose))
     body = BodyParameters(pose=pose, translation=np.zeros(3), shape=person.body.shape)
     vertices = operators.evaluator.body_frame_vertices(body)
-    observe(Report(stage=STAGE, progress=0.5))
+    observe(0.5)
     views = [
         View(label=label, vertices=vertices, degrees=degrees)
         for label, degrees in (("front", 0.0), ("side", 90.0))

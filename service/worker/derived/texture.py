@@ -1,13 +1,11 @@
 """The picture, the albedo found in it or a painted atlas as a texture of the fitted body."""
 
 from collections.abc import Callable
-from typing import cast
 
 import cv2
 import numpy as np
 from jaxtyping import UInt8
 
-from api_schemas.derivation_kinds import DerivationKind
 from api_schemas.derivation_kinds.texture import TextureColours, TextureOptions, TextureResult
 from fitter.applications.own_texture import atlas_drawing, painted_texture
 from fitter.applications.texture import albedo_texture, picture_texture
@@ -20,28 +18,26 @@ from fitter.observation.colour import linear_from_display
 from fitter.observation.decoding import decode_coverage, decode_picture
 from fitter.person.fitted_person import FittedPerson
 from fitter.render.camera import Camera
-from service.engine.port import Report
 from service.jobs.inputs import IMAGE, PERSON, SEGMENTATION, TEXTURE
 from service.worker.derived.person import person_and_operators
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
-
-STAGE = DerivationKind.TEXTURE.value
 
 HALF = 128
 """From this level on the segmentation says that a pixel shows the person."""
 
 
-def derive(job: DerivationInput, observe: Callable[[Report], None]) -> DerivationOutput:
+def derive(
+    job: DerivationInput[TextureOptions], observe: Callable[[float], None]
+) -> DerivationOutput[TextureResult]:
     """Lay the picture, or what was painted, on the body.
 
     See :class:`service.worker.derivers.Deriver`.
     """
-    observe(Report(stage=STAGE, progress=0.0))
-    options = cast("TextureOptions", job.options)
+    options = job.options
     person, operators = person_and_operators(job.inputs[PERSON], job.models)
     laid = _painted if options.colours is TextureColours.OWN else _pictured
-    result, levels, coverage = laid(job, options, person, operators)
-    observe(Report(stage=STAGE, progress=0.8))
+    result, levels, coverage = laid(job, person, operators)
+    observe(0.8)
     model, evaluator = operators.model, operators.evaluator
     texture = png(levels)
     return DerivationOutput(
@@ -72,8 +68,9 @@ _Laid = tuple[TextureResult, UInt8[np.ndarray, "n n 3"], UInt8[np.ndarray, "n n"
 
 
 def _pictured(
-    job: DerivationInput, options: TextureOptions, person: FittedPerson, body: FittingOperators
+    job: DerivationInput[TextureOptions], person: FittedPerson, body: FittingOperators
 ) -> _Laid:
+    options = job.options
     picture = decode_picture(job.inputs[IMAGE], field="image", max_pixels=job.max_pixels)
     mask = _person_in(job.inputs[SEGMENTATION], person.camera, max_pixels=job.max_pixels)
     without_light = options.colours is TextureColours.ALBEDO
@@ -99,13 +96,13 @@ def _pictured(
 
 
 def _painted(
-    job: DerivationInput, options: TextureOptions, person: FittedPerson, body: FittingOperators
+    job: DerivationInput[TextureOptions], person: FittedPerson, body: FittingOperators
 ) -> _Laid:
     del person
     painted = decode_picture(job.inputs[TEXTURE], field=TEXTURE, max_pixels=job.max_pixels)
     levels = painted_texture(painted.pixels, body.model, field=TEXTURE)
     result = TextureResult(
-        colours=options.colours,
+        colours=job.options.colours,
         size=len(levels),
         seen_share=0.0,
         mirrored_share=0.0,

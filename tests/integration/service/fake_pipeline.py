@@ -14,7 +14,9 @@ from pathlib import Path
 from typing import Any
 
 from api_schemas.body_models import BodyModelInfo, BodyModels
+from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivation_kinds.animation import AnimationOptions, AnimationResult
+from api_schemas.derivation_kinds.base import DerivedFiles
 from api_schemas.derivation_kinds.caricature import CaricatureOptions, CaricatureResult
 from api_schemas.derivation_kinds.combined import CombinedOptions, CombinedPicture, CombinedResult
 from api_schemas.derivation_kinds.figure import FigureOptions, FigureResult
@@ -103,7 +105,9 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
     )
 
 
-def derive(job: DerivationInput, observe: Callable[[Report], None]) -> DerivationOutput:
+def derive(
+    job: DerivationInput[AnyDerivationOptions], observe: Callable[[Report], None]
+) -> DerivationOutput[DerivedFiles]:
     """Do what the fit's picture said under ``derivation``; the person is that picture."""
     script = json.loads(job.inputs[PERSON].partition(SCRIPT_MARK)[2]).get("derivation", {})
     _begin(script)
@@ -112,7 +116,7 @@ def derive(job: DerivationInput, observe: Callable[[Report], None]) -> Derivatio
     return _derived(job)
 
 
-def _derived(job: DerivationInput) -> DerivationOutput:
+def _derived(job: DerivationInput[AnyDerivationOptions]) -> DerivationOutput[DerivedFiles]:
     options = job.options
     if isinstance(options, CaricatureOptions):
         if options.factor > LARGEST_FACTOR:

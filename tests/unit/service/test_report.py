@@ -7,10 +7,10 @@ from html.parser import HTMLParser
 import pytest
 from PIL import Image
 
-from service.worker.report.content import report_content
-from service.worker.report.page_html import report_html
-from service.worker.report.page_pdf import report_pdf
-from service.worker.report.pictures import Picture, ReportPictures
+from service.worker.derived.report.content import report_content
+from service.worker.derived.report.page_html import report_html
+from service.worker.derived.report.page_pdf import report_pdf
+from service.worker.derived.report.pictures import Picture, ReportPictures
 from tests.unit.service.fit_results import fit_result, measurement
 
 

@@ -4,8 +4,14 @@ import base64
 from html import escape
 from typing import Final
 
-from service.worker.report.content import FOOTNOTE, TITLE, MeasurementRow, ReportContent, Section
-from service.worker.report.pictures import Picture, ReportPictures
+from service.worker.derived.report.content import (
+    FOOTNOTE,
+    TITLE,
+    MeasurementRow,
+    ReportContent,
+    Section,
+)
+from service.worker.derived.report.pictures import Picture, ReportPictures
 
 STYLE: Final = """
 @page { size: A4; margin: 12mm 14mm; }

@@ -12,8 +12,14 @@ from reportlab.lib.utils import ImageReader
 from reportlab.pdfgen.canvas import Canvas
 from reportlab.platypus import Flowable, Frame, KeepInFrame, Paragraph, Spacer, Table
 
-from service.worker.report.content import FOOTNOTE, TITLE, MeasurementRow, ReportContent, Section
-from service.worker.report.pictures import Picture, ReportPictures
+from service.worker.derived.report.content import (
+    FOOTNOTE,
+    TITLE,
+    MeasurementRow,
+    ReportContent,
+    Section,
+)
+from service.worker.derived.report.pictures import Picture, ReportPictures
 
 PAGE_WIDTH, PAGE_HEIGHT = A4
 MARGIN: Final = 14 * mm
