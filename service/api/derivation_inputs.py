@@ -3,18 +3,17 @@
 from collections.abc import Collection, Mapping
 from uuid import UUID
 
-from api_schemas.derivation_kinds import AnyDerivationOptions, DerivationKind
-from api_schemas.derivation_kinds.combined import CombinedOptions
+from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.jobs import JobState
 from api_schemas.problems import FieldProblem
 from service.api.context import ApiContext
-from service.api.derivation_requests import brings_texture
+from service.api.derivation_kinds import needs_of
 from service.api.job_inputs import Copy, File, Inputs
 from service.api.job_routes import find
 from service.api.problems import ProblemError
 from service.api.results import no_result
 from service.engine.port import JobExpiredError, JobRecord, StoredBlob
-from service.jobs.inputs import IMAGE, OF_EACH_PICTURE, OF_ITS_FIT, PERSON, REQUEST, of_other
+from service.jobs.inputs import IMAGE, OF_EACH_PICTURE, PERSON, REQUEST, of_other
 from service.submissions.refusal import RefusedError, refused
 
 
@@ -31,26 +30,20 @@ def derivation_inputs(
     fit = find(context.jobs, fit_id)
     if fit.state is not JobState.SUCCEEDED:
         raise ProblemError(no_result(fit))
-    # Who brings the colours needs none of the picture's.
-    needed = (PERSON,) if brings_texture(options) else OF_ITS_FIT[DerivationKind(options.kind)]
-    copies = _copies_of(fit, needed)
-    if isinstance(options, CombinedOptions):
+    needs = needs_of(options)
+    copies = _copies_of(fit, needs.of_fit)
+    if needs.other_fits:
         _require_picture(copies, fit_id, field="kind")
-        for index, other in enumerate(options.fits):
-            of_another = _picture_of_another(context, index, other, than=fit_id)
-            copies |= {of_other(name, index): copy for name, copy in of_another.items()}
+    for index, other in enumerate(needs.other_fits):
+        of_another = _picture_of_another(context, index, other, than=fit_id)
+        copies |= {of_other(name, index): copy for name, copy in of_another.items()}
     return Inputs(
         kind=options.kind,
         options=options.model_dump_json(exclude={"webhook"}).encode(),
         files={**copies, **sent},
-        sources=other_fits(options),
+        sources=tuple(map(str, needs.other_fits)),
         webhook=options.webhook,
     )
-
-
-def other_fits(options: AnyDerivationOptions) -> tuple[str, ...]:
-    """The fits, beside its own, that a derivation has copies of."""
-    return tuple(map(str, options.fits)) if isinstance(options, CombinedOptions) else ()
 
 
 def _copies_of(fit: JobRecord, needed: Collection[str]) -> dict[str, Copy]:

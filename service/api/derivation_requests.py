@@ -1,34 +1,20 @@
 """What a request for a derivation says, and the file that comes along with it."""
 
-import codecs
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Final
 
 from fastapi import Request
 from starlette.concurrency import run_in_threadpool
 
 from api_schemas.derivation_kinds import AnyDerivationOptions
-from api_schemas.derivation_kinds.animation import AnimationOptions
-from api_schemas.derivation_kinds.texture import (
-    LEAST_OWN_TEXTURE,
-    TEXTURE_SIZES,
-    TextureColours,
-    TextureOptions,
-)
 from api_schemas.derivations import DerivationRequest
-from api_schemas.problems import FieldProblem, problem
+from api_schemas.problems import FieldProblem
+from service.api.derivation_kinds import FORM_PARTS, needs_of
 from service.api.job_inputs import File
 from service.api.json_bodies import JSON, media_type, read_json_text, unsupported
-from service.api.problems import ProblemError
 from service.api.uploads import MULTIPART, read_request_and_files
-from service.jobs.inputs import CLIP, TEXTURE
 from service.submissions.refusal import refused
-from service.submissions.submission import check_picture
 from service.submissions.validation import parsed
-
-MAX_CLIP_BYTES: Final = 32 * 1024 * 1024
-"""What the fitter reads at most; a minute of motion capture is a tenth of it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,7 +28,7 @@ class Sent:
 async def read_derivation(
     request: Request, *, max_pixels: int
 ) -> tuple[AnyDerivationOptions, Sent]:
-    """Read the request: JSON, or a form with it and a motion or a texture.
+    """Read the request: JSON, or a form with it and a file.
 
     Raises
     ------
@@ -53,43 +39,38 @@ async def read_derivation(
         text, parts = await read_json_text(request), {}
         asked = parsed(DerivationRequest, text, whole="body", called="the body").root
     elif media_type(request) == MULTIPART:
-        text, parts = await read_request_and_files(request, tuple(_CHECKS))
+        text, parts = await read_request_and_files(request, tuple(FORM_PARTS))
         asked = parsed(DerivationRequest, text, whole="request", called="the part 'request'").root
     else:
         raise unsupported(
             request,
-            remedy=f"Send {JSON}, or {MULTIPART} with the parts 'request' and '{CLIP}' or "
-            f"'{TEXTURE}'.",
+            remedy=f"Send {JSON}, or {MULTIPART} with the parts 'request' and "
+            f"{' or '.join(map(repr, FORM_PARTS))}.",
             accepted=f"{JSON}, {MULTIPART}",
         )
     _refuse_wrong_parts(asked, parts)
     return asked, Sent(text=text, files=await run_in_threadpool(_checked, parts, max_pixels))
 
 
-def brings_texture(options: AnyDerivationOptions) -> bool:
-    """Whether a texture of the caller's own is to be laid on the body."""
-    return isinstance(options, TextureOptions) and options.colours is TextureColours.OWN
-
-
 def _checked(parts: Mapping[str, bytes], max_pixels: int) -> dict[str, File]:
     return {
-        name: File(content=content, media_type=_CHECKS[name](content, max_pixels))
+        name: File(content=content, media_type=FORM_PARTS[name].check(content, max_pixels))
         for name, content in parts.items()
     }
 
 
 def _refuse_wrong_parts(asked: AnyDerivationOptions, parts: Mapping[str, bytes]) -> None:
-    if brings_texture(asked) and TEXTURE not in parts:
+    needs = needs_of(asked)
+    taken = None if needs.part is None else needs.part.name
+    if taken is not None and needs.part_is_for is not None and taken not in parts:
         raise refused(
             FieldProblem(
-                field=TEXTURE,
+                field=taken,
                 code="missing",
-                reason=f"The part '{TEXTURE}' is missing, which these colours are read from.",
-                remedy=f"Send {MULTIPART} with the parts 'request' and '{TEXTURE}'.",
+                reason=f"The part '{taken}' is missing, which {needs.part_is_for}.",
+                remedy=f"Send {MULTIPART} with the parts 'request' and '{taken}'.",
             )
         )
-    taken = CLIP if isinstance(asked, AnimationOptions) else None
-    taken = TEXTURE if brings_texture(asked) else taken
     for name in parts:
         if name != taken:
             raise refused(
@@ -98,65 +79,7 @@ def _refuse_wrong_parts(asked: AnyDerivationOptions, parts: Mapping[str, bytes])
                     code="unknown-field",
                     reason=f"This request for a derivation of kind {asked.kind} takes no part "
                     f"'{name}'.",
-                    remedy=_REMEDIES[name],
+                    remedy="Send the request alone, as JSON, or ask for "
+                    f"{FORM_PARTS[name].sent_for}.",
                 )
             )
-
-
-_REMEDIES: Final[Mapping[str, str]] = {
-    CLIP: "Send the request alone, as JSON, or ask for an animation.",
-    TEXTURE: "Send the request alone, as JSON, or ask for a texture with colours 'own'.",
-}
-
-
-def _check_clip(clip: bytes, max_pixels: int) -> str:
-    """Check what can be told of a BVH file without reading it."""
-    del max_pixels
-    if len(clip) > MAX_CLIP_BYTES:
-        raise ProblemError(
-            problem(
-                "payload-too-large",
-                field=CLIP,
-                detail=f"The motion has {len(clip)} bytes, more than {MAX_CLIP_BYTES}.",
-                remedy="Cut the clip, or lower its frame rate.",
-            )
-        )
-    if not clip.removeprefix(codecs.BOM_UTF8).lstrip()[:9].upper() == b"HIERARCHY":
-        raise refused(
-            FieldProblem(
-                field=CLIP,
-                code="not-a-bvh",
-                reason="The motion does not begin with HIERARCHY: it is no BVH file.",
-                remedy="Export the motion as BVH.",
-            )
-        )
-    return "text/plain"
-
-
-def _check_texture(texture: bytes, max_pixels: int) -> str:
-    """Check a painted atlas by its header alone; returns its media type."""
-    header = check_picture(TEXTURE, texture, max_pixels=max_pixels)
-    largest = TEXTURE_SIZES[-1]
-    reason = None
-    if header.width != header.height:
-        reason = "is not square, as the atlas is"
-    elif not LEAST_OWN_TEXTURE <= header.width <= largest:
-        reason = f"is not between {LEAST_OWN_TEXTURE} and {largest} texels a side"
-    if reason is not None:
-        raise refused(
-            FieldProblem(
-                field=TEXTURE,
-                code="texture-size",
-                reason=f"The texture, {header.width} x {header.height}, {reason}.",
-                remedy=f"Paint on atlas.png of any texture of this fit, or scale to {largest} x "
-                f"{largest}.",
-            )
-        )
-    return header.media_type
-
-
-_CHECKS: Final[Mapping[str, Callable[[bytes, int], str]]] = {
-    CLIP: _check_clip,
-    TEXTURE: _check_texture,
-}
-"""By the part's name: what checks a file's bytes and pixels, and returns its media type."""

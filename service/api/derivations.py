@@ -32,6 +32,7 @@ from service.api.artifacts import (
 )
 from service.api.context import ApiContext, Context
 from service.api.derivation_inputs import derivation_inputs
+from service.api.derivation_kinds import FORM_PARTS
 from service.api.derivation_requests import read_derivation
 from service.api.events import EVENT_ANSWERS, LastEventId, event_stream
 from service.api.fit_inputs import serve_blob
@@ -56,7 +57,6 @@ from service.api.problems import documented
 from service.api.results import serve_result
 from service.api.uploads import MULTIPART
 from service.engine.port import JobRecord
-from service.jobs.inputs import CLIP, TEXTURE
 from service.representation.jobs import derivations_path, represent_derivation
 from service.webhooks.targets import check_webhook
 
@@ -75,29 +75,18 @@ _SUBMISSION: Final[dict[str, Any]] = {
                     "required": ["request"],
                     "properties": {
                         "request": {"$ref": "#/components/schemas/DerivationRequest"},
-                        CLIP: {
+                    }
+                    | {
+                        name: {
                             "type": "string",
                             "format": "binary",
-                            "description": (
-                                "A motion as a BVH file, of a skeleton with the joint names of "
-                                "CMU, Mixamo, Rokoko or Blender."
-                            ),
-                        },
-                        TEXTURE: {
-                            "type": "string",
-                            "format": "binary",
-                            "description": (
-                                "A painted atlas, square, in the layout of `atlas.png` of any "
-                                "texture of the fit: JPEG, PNG or WebP, for colours `own`."
-                            ),
-                        },
+                            "description": part.description,
+                        }
+                        for name, part in FORM_PARTS.items()
                     },
                 },
-                "encoding": {
-                    "request": {"contentType": JSON},
-                    CLIP: {"contentType": "text/plain, application/octet-stream"},
-                    TEXTURE: {"contentType": "image/jpeg, image/png, image/webp"},
-                },
+                "encoding": {"request": {"contentType": JSON}}
+                | {name: {"contentType": part.media_types} for name, part in FORM_PARTS.items()},
             },
         },
     }

@@ -24,8 +24,8 @@ from api_schemas.points import (
 from api_schemas.problems import PROBLEM_MEDIA_TYPE, Problem
 from api_schemas.requests import FitOfImage, FitOptions, FitRequest
 from api_schemas.webhooks import WebhookEvent
-from service.api.examples import ANSWERS, DERIVATION_NOTICE, NOTICE, REQUESTS, Examples
 from service.api.json_bodies import JSON, json_content
+from service.api.operation_examples import ANSWERS, DERIVATION_NOTICE, NOTICE, REQUESTS, Examples
 from service.api.problems import documented
 from service.representation.links import LINKS
 

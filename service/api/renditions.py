@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from pathlib import PurePath
 from typing import Final
 
-from api_schemas.derivation_kinds import DerivationKind
 from api_schemas.jobs import JobState
 from api_schemas.problems import problem
 from api_schemas.results import Artifact
+from service.api.derivation_kinds import KINDS
 from service.api.negotiation import not_acceptable, preferred
 from service.api.problems import ProblemError
 from service.engine.port import FIT, JobRecord
@@ -33,8 +33,6 @@ from service.representation.measurement_table import CSV, TABLE
 
 TEXTURE_FILE: Final = "texture.png"
 """What the material of a textured mesh refers to, beside it."""
-
-MEASURED_KINDS: Final = (FIT, DerivationKind.COMBINED.value)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -87,7 +85,7 @@ def renditions(record: JobRecord) -> Iterator[Rendition]:
                 yield _written(artifact, MTL)
         else:
             yield _as_stored(artifact)
-    if record.kind in MEASURED_KINDS and RESULT in stored:
+    if RESULT in stored and (record.kind == FIT or KINDS[record.kind].is_measured):
         yield Rendition(
             name=TABLE, media_type=CSV, tag=f"{stored[RESULT].sha256}-csv", source=stored[RESULT]
         )

@@ -6,9 +6,7 @@ from uuid import UUID
 from fastapi import APIRouter, Response
 from starlette.concurrency import run_in_threadpool
 
-from api_schemas.derivation_kinds import DerivationKind
-from api_schemas.derivation_kinds.combined import CombinedOptions
-from api_schemas.derivations import Derivation
+from api_schemas.derivations import Derivation, DerivationRequest
 from api_schemas.jobs import Job
 from api_schemas.problems import problem
 from service.api.acceptance import (
@@ -21,12 +19,12 @@ from service.api.acceptance import (
     idempotency,
 )
 from service.api.context import ApiContext, Context
-from service.api.derivation_inputs import other_fits
+from service.api.derivation_kinds import needs_of
 from service.api.job_inputs import Copy, Inputs
 from service.api.job_routes import find
 from service.api.problems import ProblemError, documented, not_found
 from service.blobs import BlobMissingError
-from service.engine.port import TenantJobs
+from service.engine.port import FIT, TenantJobs
 from service.jobs.states import ACTIVE
 from service.representation.jobs import represent, represent_derivation
 from service.webhooks.targets import read_target
@@ -115,6 +113,7 @@ def _inputs(context: ApiContext, jobs: TenantJobs, job_id: UUID) -> Inputs:
 
 
 def _sources(kind: str, options: bytes) -> tuple[str, ...]:
-    if kind != DerivationKind.COMBINED:
+    if kind == FIT:
         return ()
-    return other_fits(CombinedOptions.model_validate_json(options))
+    asked = DerivationRequest.model_validate_json(options).root
+    return tuple(map(str, needs_of(asked).other_fits))

@@ -1,9 +1,6 @@
 """What a job is made of beside its request: blobs in its own scope, by name."""
 
-from collections.abc import Mapping
 from typing import Final
-
-from api_schemas.derivation_kinds import DerivationKind
 
 IMAGE: Final = "image"
 MASK: Final = "mask"
@@ -30,15 +27,3 @@ def of_other(name: str, index: int) -> str:
     """The same input of another fit, by that fit's place in the request for a derivation."""
     stem, point, ending = name.partition(".")
     return f"{stem}.{index}{point}{ending}"
-
-
-OF_ITS_FIT: Final[Mapping[DerivationKind, tuple[str, ...]]] = {
-    DerivationKind.ANIMATION: (PERSON,),
-    DerivationKind.CARICATURE: (PERSON,),
-    DerivationKind.COMBINED: (RESULT, *OF_EACH_PICTURE),
-    DerivationKind.FIGURE: (PERSON, IMAGE, OVERLAY),
-    DerivationKind.POSE: (PERSON,),
-    DerivationKind.TEXTURE: (PERSON, IMAGE, SEGMENTATION),
-    DerivationKind.REPORT: (RESULT, PERSON, OVERLAY, "albedo.png", "shading.png"),
-}
-"""Of which of the fit's inputs and files a derivation has copies, so far as the fit has them."""

@@ -6,13 +6,14 @@ that is what foreign readers open.
 
 import fcntl
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 from uuid import UUID
 
 from api_schemas.derivations import DerivationRequest
+from service.api.derivation_kinds import needs_of
 from service.demo_data.sample import load_sample
-from service.jobs.inputs import IMAGE, OF_ITS_FIT, REQUEST, RESULT, of_other
+from service.jobs.inputs import IMAGE, OF_EACH_PICTURE, REQUEST, of_other
 from service.submissions.submission import check_submission
 from service.worker.artifacts import with_result_document
 from service.worker.pipeline import derive, run
@@ -78,10 +79,12 @@ def _made() -> Iterator[tuple[str, Mapping[str, bytes]]]:
     there = fit | {IMAGE: sample.image, REQUEST: options.model_dump_json().encode()}
     for name, asked in DERIVED.items():
         request = DerivationRequest.model_validate_json(json.dumps(asked))
-        kind = request.root.kind
-        inputs = {each: there[each] for each in OF_ITS_FIT[kind] if each in there}
-        if kind == "combined":
-            inputs |= {of_other(each, 0): there[each] for each in inputs if each != RESULT}
+        needs = needs_of(request.root)
+        inputs = {each: there[each] for each in needs.of_fit if each in there}
+        for index in range(len(needs.other_fits)):
+            inputs |= {
+                of_other(each, index): there[each] for each in OF_EACH_PICTURE if each in there
+            }
         made = derive(
             DerivationInput(
                 options=request.root, inputs=inputs, max_pixels=MAX_PIXELS, fit_id=UUID(FIT)
@@ -89,3 +92,7 @@ def _made() -> Iterator[tuple[str, Mapping[str, bytes]]]:
             lambda _: None,
         )
         yield name, with_result_document(made.result, made.artifacts)
+
+
+def _copies(there: Mapping[str, bytes], names: Collection[str]) -> dict[str, bytes]:
+    return {each: there[each] for each in names if each in there}

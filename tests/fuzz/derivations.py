@@ -5,6 +5,7 @@ import random
 from collections.abc import Mapping
 from typing import Any
 
+from api_schemas.derivation_kinds import DerivationKind
 from tests.fuzz.messages import JSON, MULTIPART, RawRequest, head_and_body, multipart
 from tests.fuzz.motions import motion
 from tests.fuzz.mutations import NASTY, damaged, damaged_document
@@ -18,7 +19,7 @@ OTHER_FIT_ID = "33333333-3333-4333-8333-333333333333"
 UNKNOWN_ID = "00000000-0000-4000-8000-000000000000"
 IDS = (FIT_ID, OTHER_FIT_ID, DERIVATION_ID, UNKNOWN_ID, "", "0", "%00", "..")
 
-KINDS = ("report", "caricature", "pose", "animation", "texture", "figure", "combined")
+KINDS = tuple(each.value for each in DerivationKind)
 FACTORS = (0, 1, 0.5, 2.5, 3, 6, 99.9, 100, 100.1, -1, 1e-300)
 PARTS = ("head", "left_forearm", "right_thigh", "pelvis", "left_foot", "chest", "tail")
 POSES = ("rest", "standing", "a_pose", "t_pose", "relaxed", "walking", "sitting", "arms_raised")

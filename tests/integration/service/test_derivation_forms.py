@@ -1,6 +1,6 @@
 """Requests for derivations that bring a motion along, as forms."""
 
-from service.api.derivation_requests import MAX_CLIP_BYTES
+from service.api.derivation_kinds.animation import MAX_CLIP_BYTES
 from tests.integration.service.harness import Service
 from tests.integration.service.test_derivations import BVH, fitted, post_motion, problem
 

@@ -1,4 +1,4 @@
-"""Every kind has what derives it, and says on the wire what the fitter knows."""
+"""What derives a kind makes do with what the kind needs, and says what the fitter knows."""
 
 import io
 import json
@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from api_schemas.derivation_kinds import DerivationKind
+from api_schemas.derivation_kinds import AnyDerivationOptions, DerivationKind
+from api_schemas.derivation_kinds.base import DerivedFiles
 from api_schemas.derivation_kinds.texture import LEAST_OWN_TEXTURE, TEXTURE_SIZES
 from api_schemas.derivations import DerivationRequest, DerivationResult
 from api_schemas.named_poses import NamedPose
@@ -23,11 +24,12 @@ from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
 from fitter.person.fitted_person import FittedPerson
 from fitter.render.camera import Camera
 from fitter.request import FitRequest, Gender, OptimizerKind
+from service.api.derivation_kinds import needs_of
 from service.demo_data.sample import load_sample
 from service.jobs.inputs import (
     CLIP,
     IMAGE,
-    OF_ITS_FIT,
+    OF_EACH_PICTURE,
     OVERLAY,
     PERSON,
     REQUEST,
@@ -39,7 +41,6 @@ from service.jobs.inputs import (
 from service.submissions.submission import check_submission
 from service.worker.artifacts import MEDIA_TYPES, with_result_document
 from service.worker.derived import combined
-from service.worker.derivers import load_deriver
 from service.worker.pipeline import derive, run
 from service.worker.pipeline_port import (
     DerivationInput,
@@ -123,14 +124,25 @@ def sample_inputs() -> dict[str, bytes]:
     return inputs
 
 
-def derived(*, files: dict[str, bytes] | None = None, **request: object) -> DerivationOutput:
+def inputs_of(options: AnyDerivationOptions) -> dict[str, bytes]:
+    """What a derivation needs of a finished fit, and no more."""
+    there = sample_inputs() if options.kind == "combined" else INPUTS
+    needs = needs_of(options)
+    named = [*needs.of_fit]
+    for index in range(len(needs.other_fits)):
+        named += [of_other(name, index) for name in OF_EACH_PICTURE]
+    return {name: there[name] for name in named if name in there}
+
+
+def derived(
+    *, files: dict[str, bytes] | None = None, **request: object
+) -> DerivationOutput[DerivedFiles]:
     options = DerivationRequest.model_validate_json(json.dumps(request)).root
     stages: list[str] = []
-    inputs = sample_inputs() if request["kind"] == "combined" else INPUTS
     output = derive(
         DerivationInput(
             options=options,
-            inputs=inputs | (files or {}),
+            inputs=inputs_of(options) | (files or {}),
             max_pixels=1_000_000,
             fit_id=OWN,
         ),
@@ -138,11 +150,6 @@ def derived(*, files: dict[str, bytes] | None = None, **request: object) -> Deri
     )
     assert stages
     return output
-
-
-def test_every_kind_has_a_module_and_inputs():
-    assert set(OF_ITS_FIT) == set(DerivationKind)
-    assert all(callable(load_deriver(kind)) for kind in DerivationKind)
 
 
 def test_the_named_poses_of_the_wire_are_the_fitter_s():

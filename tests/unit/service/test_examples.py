@@ -21,7 +21,7 @@ from api_schemas.problems import ProblemType
 from api_schemas.requests import FitOfImage, FitOptions
 from api_schemas.results import FitResult
 from api_schemas.webhooks import WebhookEvent
-from service.api.examples import ANSWERS, DERIVATION_NOTICE, NOTICE, REQUESTS
+from service.api.operation_examples import ANSWERS, DERIVATION_NOTICE, NOTICE, REQUESTS
 
 KINDS = {
     "submit": Job,

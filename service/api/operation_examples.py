@@ -1,0 +1,68 @@
+"""Requests and answers for the OpenAPI document.
+
+Tables by operation, then by status: :func:`service.api.openapi.complete_openapi` puts them where
+they belong. Problems have theirs where they are documented.
+"""
+
+from collections.abc import Mapping
+from typing import Any, Final
+
+from service.api.derivation_kinds import KINDS
+from service.api.examples import derivations, estimates, jobs, results, whole_service
+
+Examples = Mapping[str, Any]
+"""Values by their names."""
+
+_DERIVATIONS: Final[Examples] = {
+    name: request for kind in KINDS.values() for name, request in kind.requests.items()
+} | {"told-of-its-end": derivations.TOLD_OF_ITS_END}
+
+_DERIVED: Final[Examples] = {
+    kind: KINDS[kind].answer
+    for kind in ("report", "caricature", "pose", "combined", "figure", "texture", "animation")
+}
+
+UPLOADED: Final = {"photograph": estimates.UPLOADED_IMAGE}
+
+REQUESTS: Final[Mapping[str, Examples]] = {
+    "submit": jobs.SUBMISSIONS,
+    "derive": _DERIVATIONS,
+    "initial_pose": estimates.INITIAL_POSE_REQUESTS,
+    "estimate_body": estimates.BODY_REQUESTS,
+}
+
+ANSWERS: Final[Mapping[str, Mapping[int, Examples]]] = {
+    "submit": {200: jobs.ENDED, 202: jobs.ACCEPTED},
+    "retry": {200: jobs.ENDED, 202: jobs.ACCEPTED},
+    "list_fits": {200: {"first-page": jobs.PAGE}},
+    "get_fit": {200: jobs.ACCEPTED | jobs.RUNNING | jobs.ENDED},
+    "cancel": {200: {"canceled": jobs.CANCELED}, 202: {"stopping": jobs.STOPPING}},
+    "follow": {200: {"short-fit": jobs.EVENTS}},
+    "fit_request": {200: {"as-understood": jobs.OPTIONS}},
+    "result": {200: {"man-by-point-light": results.RESULT}},
+    "artifact": {200: {"result.json": results.RESULT}},
+    "derive": {200: derivations.ENDED, 202: derivations.ACCEPTED},
+    "retry_derivation": {200: derivations.ENDED, 202: derivations.ACCEPTED},
+    "list_derivations": {200: {"only-page": derivations.PAGE}},
+    "get_derivation": {200: derivations.ACCEPTED | derivations.ENDED},
+    "cancel_derivation": {
+        200: {"canceled": derivations.CANCELED},
+        202: {"stopping": derivations.STOPPING},
+    },
+    "follow_derivation": {200: {"report": jobs.EVENTS}},
+    "derivation_request": {200: derivations.UNDERSTOOD},
+    "derivation_result": {200: _DERIVED},
+    "derivation_artifact": {200: {"result.json": _DERIVED["report"]}},
+    "upload_image": {200: UPLOADED, 201: UPLOADED},
+    "get_image": {200: UPLOADED},
+    "initial_pose": {200: {"standing": estimates.INITIAL_POSE_ANSWER}},
+    "estimate_body": {200: {"from-height-and-weight": estimates.BODY_ANSWER}},
+    "body_models": {200: {"both": whole_service.BODY_MODELS}},
+    "live": {200: {"live": {"status": "live"}}},
+    "ready": {200: {"ready": {"status": "ready", "workers": 1, "queued": 0}}},
+    "metrics": {200: {"some": whole_service.METRICS}},
+    "problem_type": {200: {"no-result": whole_service.PROBLEM_TYPE}},
+}
+
+NOTICE: Final = jobs.NOTICE
+DERIVATION_NOTICE: Final = derivations.NOTICE
