@@ -20,6 +20,8 @@ try {
     format: "esm",
     target: "node20",
     nodePaths: [join(here, "node_modules")],
+    // What a browser has and Node has not.
+    banner: { js: "globalThis.sessionStorage ??= { getItem: () => null };" },
     logLevel: "warning",
   });
   const files = names.map((name) => join(folder, name.replace(".ts", ".mjs")));

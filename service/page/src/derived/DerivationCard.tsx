@@ -8,7 +8,7 @@ import { DerivedCanvas } from "../viewer/DerivedCanvas";
 import { IconButton } from "../ui/IconButton";
 import { ProblemNote } from "../ui/ProblemNote";
 import { kindLabel, kindOf } from "./kinds";
-import type { Kind, Shows } from "./kinds";
+import type { Kind, Shows } from "./kinds/kind";
 import { DerivationSummary } from "./DerivationSummary";
 
 interface Props {
@@ -22,7 +22,7 @@ export function DerivationCard({ made, onRetry, onErase }: Props) {
   const done = made.state === "succeeded";
   const kind = kindOf(made.kind);
   const files = Object.entries(made.links.artifacts ?? {}).filter(([name]) => name !== "result.json");
-  if (done && made.kind === "combined") files.push(tableOf(made));
+  if (done && kind?.hasTable) files.push(tableOf(made));
   return (
     <li>
       <header class="section-head">
@@ -52,7 +52,7 @@ export function DerivationCard({ made, onRetry, onErase }: Props) {
   );
 }
 
-function picturesOf({ pictures, pictureOf }: Kind, names: readonly string[]): readonly Shows[] {
+function picturesOf({ pictures, pictureOf }: Pick<Kind, "pictures" | "pictureOf">, names: readonly string[]): readonly Shows[] {
   return [...pictures, ...names.map((name) => pictureOf?.(name) ?? null).filter((shows) => shows !== null)];
 }
 

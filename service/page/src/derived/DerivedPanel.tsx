@@ -6,7 +6,6 @@ import { ProblemNote } from "../ui/ProblemNote";
 import { FIRST_WISHES, KINDS, kindLabel } from "./kinds";
 import { useDerivations } from "./follow";
 import { DerivationCard } from "./DerivationCard";
-import { OPTIONS } from "./Options";
 
 interface Props {
   readonly fit: Job;
@@ -20,7 +19,7 @@ export function DerivedPanel({ fit, hasLight }: Props) {
   const [asking, setAsking] = useState(false);
   const chosen = KINDS[kind];
   const lack = chosen.lacks?.(wishes) ?? null;
-  const Options = OPTIONS[kind];
+  const { Options } = chosen;
   return (
     <section class="section" aria-labelledby="derived-title">
       <h2 id="derived-title">Make something of it</h2>

@@ -5,7 +5,7 @@ import { problemFrom } from "../api/client";
 import { jobEvents } from "../api/events";
 import type { Derivation, DerivationRequest, Job, Problem } from "../api/types";
 import { isActive } from "../fit/watch";
-import type { Part } from "./kinds";
+import type { Part } from "./kinds/kind";
 
 export interface Derived {
   /** Newest first. */

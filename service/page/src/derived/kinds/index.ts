@@ -1,0 +1,41 @@
+// What can be made of a finished fit, as a person reads it: one module a kind.
+import type { DerivationKind } from "../../api/types";
+import { FIRST_ANIMATION, animation } from "./animation";
+import { FIRST_CARICATURE, caricature } from "./caricature";
+import { FIRST_COMBINED, combined } from "./combined";
+import { FIRST_FIGURE, figure } from "./figure";
+import { FIRST_POSE, pose } from "./pose";
+import { report } from "./report";
+import { FIRST_TEXTURE, texture } from "./texture";
+import type { Kind } from "./kind";
+
+/** What is chosen of every kind, whichever is shown. */
+export const FIRST_WISHES = {
+  ...FIRST_FIGURE,
+  ...FIRST_POSE,
+  ...FIRST_ANIMATION,
+  ...FIRST_TEXTURE,
+  ...FIRST_CARICATURE,
+  ...FIRST_COMBINED,
+};
+export type Wishes = typeof FIRST_WISHES;
+
+/** In the order they are offered. */
+export const KINDS: Readonly<Record<DerivationKind, Kind<Wishes>>> = {
+  report,
+  figure,
+  pose,
+  animation,
+  texture,
+  caricature,
+  combined,
+};
+
+/** Of a kind that this page may not know yet, too. */
+export function kindOf(kind: string): Kind<Wishes> | null {
+  return KINDS[kind as DerivationKind] ?? null;
+}
+
+export function kindLabel(kind: string): string {
+  return kindOf(kind)?.label ?? kind.charAt(0).toUpperCase() + kind.slice(1);
+}
