@@ -25,7 +25,7 @@ from api_schemas.problems import Problem, field_problem, problem
 from api_schemas.requests import FitOptions
 from fitter.errors import ModelFileError
 from service.engine.port import FIT, Report
-from service.jobs.inputs import IMAGE, MASK
+from service.jobs.inputs import IMAGE, MASK, own_and_others
 from service.process.logs import LogContext, configure_logging, log_context
 from service.worker.artifacts import with_result_document
 from service.worker.messages import (
@@ -132,9 +132,11 @@ def _fit_input(task: ChildTask, options: bytes, inputs: Mapping[str, bytes]) -> 
 def _derivation_input(
     task: ChildTask, options: bytes, inputs: Mapping[str, bytes]
 ) -> DerivationInput[AnyDerivationOptions]:
+    own, others = own_and_others(inputs)
     return DerivationInput(
         options=DerivationRequest.model_validate_json(options).root,
-        inputs=inputs,
+        inputs=own,
+        others=others,
         max_pixels=task.max_pixels,
         models=task.models,
         fit_id=None if task.fit_id is None else UUID(task.fit_id),

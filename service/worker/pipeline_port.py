@@ -51,11 +51,13 @@ class PipelineOutput:
 class DerivationInput(Generic[Options_co]):
     """What is to be derived, and the inputs of that kind by name (:mod:`service.jobs.inputs`).
 
+    ``others`` are those of other fits, in the order of the request and by the same names.
     ``fit_id`` is that of the fit it is derived from, None where the service keeps none.
     """
 
     options: Options_co
     inputs: Mapping[str, bytes]
+    others: tuple[Mapping[str, bytes], ...] = ()
     max_pixels: int
     models: Path | None = None
     fit_id: UUID | None = None

@@ -13,7 +13,7 @@ from uuid import UUID
 from api_schemas.derivations import DerivationRequest
 from service.api.derivation_kinds import needs_of
 from service.demo_data.sample import load_sample
-from service.jobs.inputs import IMAGE, OF_EACH_PICTURE, REQUEST, of_other
+from service.jobs.inputs import IMAGE, OF_EACH_PICTURE, REQUEST
 from service.submissions.submission import check_submission
 from service.worker.artifacts import with_result_document
 from service.worker.pipeline import derive, run
@@ -80,14 +80,13 @@ def _made() -> Iterator[tuple[str, Mapping[str, bytes]]]:
     for name, asked in DERIVED.items():
         request = DerivationRequest.model_validate_json(json.dumps(asked))
         needs = needs_of(request.root)
-        inputs = {each: there[each] for each in needs.of_fit if each in there}
-        for index in range(len(needs.other_fits)):
-            inputs |= {
-                of_other(each, index): there[each] for each in OF_EACH_PICTURE if each in there
-            }
         made = derive(
             DerivationInput(
-                options=request.root, inputs=inputs, max_pixels=MAX_PIXELS, fit_id=UUID(FIT)
+                options=request.root,
+                inputs=_copies(there, needs.of_fit),
+                others=tuple(_copies(there, OF_EACH_PICTURE) for _ in needs.other_fits),
+                max_pixels=MAX_PIXELS,
+                fit_id=UUID(FIT),
             ),
             lambda _: None,
         )

@@ -20,7 +20,7 @@ from fitter.measurement.anthropometry import measure
 from fitter.person.fitted_person import FittedPerson
 from fitter.request import FitRequest
 from fitter.result import PictureFit
-from service.jobs.inputs import IMAGE, MASK, OF_EACH_PICTURE, PERSON, REQUEST, RESULT, of_other
+from service.jobs.inputs import IMAGE, MASK, PERSON, REQUEST, RESULT
 from service.worker.derived.person import person_and_operators
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 from service.worker.translate import combined_picture, fit_request, measurement_results
@@ -39,7 +39,7 @@ def derive(
     options = job.options
     fit = FitResult.model_validate_json(job.inputs[RESULT])
     first, operators = person_and_operators(job.inputs[PERSON], job.models)
-    pictures = [job.inputs, *_others(job.inputs, len(options.fits))]
+    pictures = [job.inputs, *job.others]
     people = [first, *(FittedPerson.from_bytes(each[PERSON]) for each in pictures[1:])]
     found = joint_fit(
         people,
@@ -96,18 +96,6 @@ def derive(
         }
         | _files_of_pictures(found.pictures, model, [each[IMAGE] for each in pictures]),
     )
-
-
-def _others(inputs: Mapping[str, bytes], count: int) -> list[dict[str, bytes]]:
-    """What is there of each of the other fits, by the names of this one's."""
-    return [
-        {
-            name: inputs[of_other(name, index)]
-            for name in OF_EACH_PICTURE
-            if of_other(name, index) in inputs
-        }
-        for index in range(count)
-    ]
 
 
 def _request(inputs: Mapping[str, bytes], max_pixels: int) -> FitRequest:

@@ -37,7 +37,7 @@ from api_schemas.results import (
     PartRotation,
 )
 from service.engine.port import Report
-from service.jobs.inputs import CLIP, IMAGE, PERSON, REQUEST, RESULT, TEXTURE, of_other
+from service.jobs.inputs import CLIP, IMAGE, PERSON, REQUEST, RESULT, TEXTURE
 from service.worker.pipeline_port import (
     DerivationInput,
     DerivationOutput,
@@ -146,9 +146,10 @@ def _derived(job: DerivationInput[AnyDerivationOptions]) -> DerivationOutput[Der
         fit = FitResult.model_validate_json(job.inputs[RESULT])
         assert job.fit_id is not None
         FitOptions.model_validate_json(job.inputs[REQUEST])
-        for index in range(len(options.fits)):
-            assert job.inputs[of_other(IMAGE, index)] == job.inputs[of_other(PERSON, index)]
-            FitOptions.model_validate_json(job.inputs[of_other(REQUEST, index)])
+        assert len(job.others) == len(options.fits)
+        for other in job.others:
+            assert other[IMAGE] == other[PERSON]
+            FitOptions.model_validate_json(other[REQUEST])
         result = CombinedResult(
             pictures=1 + len(options.fits),
             shape=(0.0, 0.5),

@@ -37,6 +37,7 @@ from service.jobs.inputs import (
     SEGMENTATION,
     TEXTURE,
     of_other,
+    own_and_others,
 )
 from service.submissions.submission import check_submission
 from service.worker.artifacts import MEDIA_TYPES, with_result_document
@@ -139,10 +140,12 @@ def derived(
 ) -> DerivationOutput[DerivedFiles]:
     options = DerivationRequest.model_validate_json(json.dumps(request)).root
     stages: list[str] = []
+    inputs, others = own_and_others(inputs_of(options) | (files or {}))
     output = derive(
         DerivationInput(
             options=options,
-            inputs=inputs_of(options) | (files or {}),
+            inputs=inputs,
+            others=others,
             max_pixels=1_000_000,
             fit_id=OWN,
         ),
@@ -238,15 +241,9 @@ def test_pictures_of_different_people_are_combined_with_a_warning_that_names_the
 
 def test_fits_that_were_told_other_heights_are_not_combined():
     taller = json.loads(sample_inputs()[REQUEST]) | {"height_m": 1.9}
-    inputs = sample_inputs() | {of_other(REQUEST, 0): json.dumps(taller).encode()}
-    options = DerivationRequest.model_validate_json(
-        json.dumps({"kind": "combined", "fits": FITS[:1]})
-    ).root
+    told = {of_other(REQUEST, 0): json.dumps(taller).encode()}
     with pytest.raises(UnusableInputError) as caught:
-        derive(
-            DerivationInput(options=options, inputs=inputs, max_pixels=1_000_000, fit_id=OWN),
-            lambda _: None,
-        )
+        derived(files=told, kind="combined", fits=FITS[:1])
     assert caught.value.error.field == "fits.0"
 
 
