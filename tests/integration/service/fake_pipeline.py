@@ -19,10 +19,8 @@ from api_schemas.derivation_kinds.animation import AnimationOptions, AnimationRe
 from api_schemas.derivation_kinds.base import DerivedFiles
 from api_schemas.derivation_kinds.caricature import CaricatureOptions, CaricatureResult
 from api_schemas.derivation_kinds.combined import CombinedOptions, CombinedPicture, CombinedResult
-from api_schemas.derivation_kinds.figure import FigureOptions, FigureResult
-from api_schemas.derivation_kinds.pose import PoseOptions, PoseResult
-from api_schemas.derivation_kinds.report import ReportResult
 from api_schemas.derivation_kinds.texture import TextureColours, TextureOptions, TextureResult
+from api_schemas.derivations import DerivationResult
 from api_schemas.known import UncertainMeasurement
 from api_schemas.problems import FieldProblem
 from api_schemas.requests import FitOptions, Gender
@@ -36,6 +34,7 @@ from api_schemas.results import (
     Outcome,
     PartRotation,
 )
+from service.api.derivation_kinds import KINDS
 from service.engine.port import Report
 from service.jobs.inputs import CLIP, IMAGE, PERSON, REQUEST, RESULT, TEXTURE
 from service.worker.pipeline_port import (
@@ -56,6 +55,13 @@ NOBODYS_WEIGHT_KG = 33.0
 
 LARGEST_FACTOR = 6.0
 """Of a caricature."""
+
+FILES = {
+    ".glb": b"glTF",
+    ".html": b"<!doctype html><p>A report.",
+    ".pdf": b"%PDF-1.4",
+    ".png": b"PNG",
+}
 
 UNNOTICED_WEIGHT_KG = 34.0
 """As well, but the estimator has nothing against it."""
@@ -138,10 +144,6 @@ def _derived(job: DerivationInput[AnyDerivationOptions]) -> DerivationOutput[Der
             artifacts=(),
         )
         files = {"body_caricature.glb": b"glTF", "caricature.png": b"PNG"}
-    elif isinstance(options, PoseOptions):
-        rotations = (PartRotation(part="pelvis", rotation=(0.0, 0.0, 0.0)),)
-        result = PoseResult(pose=rotations, artifacts=())
-        files = {"body_reposed.glb": b"glTF", "pose.png": b"PNG"}
     elif isinstance(options, CombinedOptions):
         fit = FitResult.model_validate_json(job.inputs[RESULT])
         assert job.fit_id is not None
@@ -172,9 +174,6 @@ def _derived(job: DerivationInput[AnyDerivationOptions]) -> DerivationOutput[Der
             artifacts=(),
         )
         files = {"body_combined.glb": b"glTF", "combined.png": b"PNG"}
-    elif isinstance(options, FigureOptions):
-        result = FigureResult(pose=options.pose, artifacts=())
-        files = {"figure.png": b"PNG"}
     elif isinstance(options, TextureOptions):
         # Who brings the colours has no copy of the picture.
         own = options.colours is TextureColours.OWN
@@ -205,9 +204,12 @@ def _derived(job: DerivationInput[AnyDerivationOptions]) -> DerivationOutput[Der
         )
         files = {"body_animated.glb": b"glTF", "animation.webp": b"RIFF"}
     else:
-        FitResult.model_validate_json(job.inputs[RESULT])
-        result = ReportResult(artifacts=())
-        files = {"report.html": b"<!doctype html><p>A report.", "report.pdf": b"%PDF-1.4"}
+        # Of any other kind what the OpenAPI document shows of it.
+        if RESULT in job.inputs:
+            FitResult.model_validate_json(job.inputs[RESULT])
+        shown = json.dumps(KINDS[options.kind].answer)
+        result = DerivationResult.model_validate_json(shown).root
+        files = {each.name: FILES[Path(each.name).suffix] for each in result.artifacts}
     return DerivationOutput(result=result, artifacts=files)
 
 
