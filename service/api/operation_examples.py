@@ -17,10 +17,10 @@ _DERIVATIONS: Final[Examples] = {
     name: request for kind in KINDS.values() for name, request in kind.requests.items()
 } | {"told-of-its-end": derivations.TOLD_OF_ITS_END}
 
-_DERIVED: Final[Examples] = {
-    kind: KINDS[kind].answer
-    for kind in ("report", "caricature", "pose", "combined", "figure", "texture", "animation")
-}
+_SHOWN: Final = ("report", "caricature", "pose", "combined", "figure", "texture", "animation")
+"""The order of the first results in the document; those of other kinds follow."""
+
+_DERIVED: Final[Examples] = {kind: KINDS[kind].answer for kind in dict.fromkeys((*_SHOWN, *KINDS))}
 
 UPLOADED: Final = {"photograph": estimates.UPLOADED_IMAGE}
 

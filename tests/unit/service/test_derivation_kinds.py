@@ -16,6 +16,7 @@ from api_schemas.derivation_kinds import (
 from api_schemas.derivations import DerivationRequest, DerivationResult
 from service.api.derivation_kinds import KINDS, needs_of
 from service.api.derivation_kinds.definition import DerivationKindDefinition
+from service.api.operation_examples import ANSWERS, REQUESTS
 from service.jobs.inputs import OF_EACH_PICTURE, PERSON
 from service.worker.derivers import load_deriver
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
@@ -60,6 +61,12 @@ def test_examples_are_of_the_declared_types(kind: Definition):
     answer = DerivationResult.model_validate_json(json.dumps(kind.answer)).root
     assert type(answer) is kind.result
     assert answer.artifacts
+
+
+@each_kind
+def test_examples_are_shown_in_the_document(kind: Definition):
+    assert kind.requests.items() <= REQUESTS["derive"].items()
+    assert ANSWERS["derivation_result"][200][kind.kind] == kind.answer
 
 
 @each_kind
