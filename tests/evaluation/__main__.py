@@ -8,11 +8,13 @@ from pathlib import Path
 from fitter.request import Clothing, Cues, Gender, OutlineKind
 from tests.evaluation.cases import CASES, PEOPLE
 from tests.evaluation.clothing_table import clothing_lines
+from tests.evaluation.detector_figures import detector_lines, foreign_figures, suite_figures
+from tests.evaluation.foreign import foreign_names
 from tests.evaluation.light_figures import InLight, in_both_lights, light_lines
 from tests.evaluation.outline_limit import outline_limit
 from tests.evaluation.page import write_page
 from tests.evaluation.people import load_person
-from tests.evaluation.runs import Run, score_all, score_dressed
+from tests.evaluation.runs import Run, of_each, score_all, score_dressed
 from tests.evaluation.scene import Case, Half, Series
 from tests.evaluation.several import several_pictures
 from tests.evaluation.shape_limit import shape_limit
@@ -56,6 +58,16 @@ def main(arguments: Sequence[str]) -> int:
             print(f"{each.surroundings.value:20s}{line}", flush=True)
             found.append(each)
         print("\n".join(light_lines(found)))
+        return 0
+    if options.detector:
+        half = None if options.half is None else Half(options.half)
+        people = [case for case in chosen if case.series is Series.PEOPLE]
+        for title, figures in (
+            ("suite", of_each(suite_figures, people, options.jobs)),
+            ("foreign", of_each(foreign_figures, foreign_names(half), options.jobs)),
+        ):
+            print(f"\n{title}")
+            print("\n".join(detector_lines([each for several in figures for each in several])))
         return 0
     if options.set == Series.CLOTHED.value and options.clothing is None:
         for title, part in _halves(chosen):
@@ -192,6 +204,11 @@ def _parser() -> argparse.ArgumentParser:
         "--surroundings",
         action="store_true",
         help="fit with uniform ambient light and with spherical harmonics, side by side",
+    )
+    parser.add_argument(
+        "--detector",
+        action="store_true",
+        help="fit with none, each and all of what the detector tells, foreign pictures too",
     )
     return parser
 

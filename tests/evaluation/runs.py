@@ -13,6 +13,7 @@ from tests.evaluation.sheets import write_pictures
 from tests.evaluation.suite import Scored, Told, fit_case, score
 
 Found = TypeVar("Found")
+Item = TypeVar("Item")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -25,15 +26,16 @@ class Run:
 
 def score_all(cases: Sequence[Case], run: Run, *, jobs: int) -> Iterator[list[Scored]]:
     """SE and SES of each picture, in order; ``jobs`` processes, each with whole pictures."""
-    return _of_each(partial(_score_both, run), cases, jobs)
+    return of_each(partial(_score_both, run), cases, jobs)
 
 
 def score_dressed(cases: Sequence[Case], *, jobs: int) -> list[tuple[Clothing, Scored]]:
     """Each picture by SES, its clothes said to be tight and loose."""
-    return [pair for pairs in _of_each(_score_dressed, cases, jobs) for pair in pairs]
+    return [pair for pairs in of_each(_score_dressed, cases, jobs) for pair in pairs]
 
 
-def _of_each(task: Callable[[Case], Found], cases: Sequence[Case], jobs: int) -> Iterator[Found]:
+def of_each(task: Callable[[Item], Found], cases: Sequence[Item], jobs: int) -> Iterator[Found]:
+    """What comes of each, in order; ``jobs`` processes."""
     if jobs == 1:
         yield from map(task, cases)
         return

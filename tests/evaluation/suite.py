@@ -119,7 +119,7 @@ class Scored:
 def fit_case(case: Case, cues: Cues, told: Told) -> Fitted:
     """Fit one picture with some cues."""
     files = read_case(case)
-    truth = true_body(load_person(PEOPLE[case.person]))
+    truth = true_body_of(case)
     request = told_request(files, fit_request(files, cues), told)
     if told.measurements:
         known = {
@@ -131,6 +131,11 @@ def fit_case(case: Case, cues: Cues, told: Told) -> Fitted:
         result = fit(request)
         seconds = time.perf_counter() - started
     return Fitted(case=case, cues=cues, files=files, result=result, truth=truth, seconds=seconds)
+
+
+def true_body_of(case: Case) -> TrueBody:
+    """The measured person of a case."""
+    return true_body(load_person(PEOPLE[case.person]))
 
 
 def score(fitted: Fitted) -> Scored:
@@ -152,8 +157,8 @@ def score(fitted: Fitted) -> Scored:
         },
         vertex_mm=_vertex_error_mm(result.canonical_vertices, truth.canonical),
         joint_mm=joint_error_mm(joints, true_joints),
-        overlap=_overlap(_silhouette(result), files.body_mask),
-        mask_overlap=_overlap(
+        overlap=overlap(_silhouette(result), files.body_mask),
+        mask_overlap=overlap(
             resampled(result.pictures.segmentation, working_scale(result), files.body_mask.shape),
             files.person_mask,
         ),
@@ -237,7 +242,8 @@ def resampled(mask: Mask, scale: float, shape: tuple[int, ...]) -> Mask:
     return mask[np.ix_(row, column)]
 
 
-def _overlap(first: Mask, second: Mask) -> float:
+def overlap(first: Mask, second: Mask) -> float:
+    """Intersection over union."""
     return float((first & second).sum() / (first | second).sum())
 
 

@@ -35,4 +35,3 @@ for step in range(12):
 
 def test_a_signal_at_any_line_of_the_wait_ends_it():
     subprocess.run([sys.executable, "-c", WAITS_AND_IS_SIGNALLED], timeout=60, check=True)
-
