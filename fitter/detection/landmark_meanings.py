@@ -60,7 +60,7 @@ SLANTS: Final[Mapping[str, SlantCalibration]] = {
     "thigh": SlantCalibration(gain=1.07, offset=0.05, sigma=0.13),
     "shin": SlantCalibration(gain=0.69, offset=-0.10, sigma=0.17),
 }
-"""Forearms are told no better than by the clicks: errors of 0.29 where the truth spreads by 0.35."""
+"""Forearms are told no better than by clicks: errors of 0.29 where the truth spreads by 0.35."""
 
 LIMB_ENDS: Final[Mapping[str, tuple[str, str]]] = {
     "upper_arm": ("shoulder", "elbow"),
