@@ -1,7 +1,8 @@
 """Names for the arrays that travel between stages.
 
 One letter means one dimension everywhere: ``m`` vertices, ``f`` triangles, ``n`` shape
-coefficients, ``p`` body parts, ``h`` x ``w`` pixels, ``k`` points.
+coefficients, ``p`` body parts, ``h`` x ``w`` pixels, ``k`` points; ``_`` any length, of each array
+its own.
 
 Image coordinates are continuous pixels: the origin is the top-left corner of the picture and
 the centre of the top-left pixel is (0.5, 0.5); x runs right, y runs down.

@@ -15,7 +15,8 @@ GAP_PX = 16
 LONGEST_PX = 4 * PANEL_HEIGHT_PX
 """A panorama is made smaller than the bodies beside it."""
 
-Levels = UInt8[np.ndarray, "h w 3"]
+Levels = UInt8[np.ndarray, "_ _ 3"]
+Panel = UInt8[np.ndarray, "panel_h _ 3"]
 
 
 def figure_picture(
@@ -59,7 +60,7 @@ def figure_picture(
     )
 
 
-def _as_high(levels: Levels) -> Levels:
+def _as_high(levels: Levels) -> Panel:
     """As high as a panel, and no wider than :data:`LONGEST_PX`, on white paper."""
     height, width = levels.shape[:2]
     scale = min(PANEL_HEIGHT_PX / height, LONGEST_PX / width)
@@ -72,7 +73,7 @@ def _as_high(levels: Levels) -> Levels:
     return panel
 
 
-def _row(panels: Sequence[tuple[str, Levels]]) -> Levels:
+def _row(panels: Sequence[tuple[str, Panel]]) -> Levels:
     gap = np.full((PANEL_HEIGHT_PX + LABEL_HEIGHT_PX, GAP_PX, 3), 255, dtype=np.uint8)
     columns = [gap]
     for label, panel in panels:

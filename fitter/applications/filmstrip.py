@@ -36,7 +36,7 @@ _EYE_LEVEL_M = 0.9
 
 def strip(body: MovingBody, triangles: Triangles) -> UInt8[np.ndarray, "h w 3"]:
     """Moments of a motion at even distances in time, from the front above and the side below."""
-    chosen = np.unique(np.linspace(0, len(body.shapes) - 1, MOMENTS).round().astype(int))
+    chosen = np.unique(np.linspace(0, len(body.shapes) - 1, MOMENTS).round().astype(int)).tolist()
     rows: list[np.ndarray] = []
     for degrees in (0.0, 90.0):
         bodies = [_seen(body, frame, degrees) for frame in chosen]

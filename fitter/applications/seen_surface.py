@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Self
 
 import cv2
 import numpy as np
@@ -73,7 +72,7 @@ class SeenSurface:
         camera: Camera,
         linear_rgb: Image,
         mask: Mask | None,
-    ) -> Self:
+    ) -> "SeenSurface":
         """Put a body before its picture.
 
         Parameters

@@ -69,6 +69,6 @@ def axial_vectors(matrices: Rotations) -> Float[np.ndarray, "p 3"]:
     )
 
 
-def _turns(pose: Pose) -> Rotations:
+def _turns(pose: Pose) -> Float[np.ndarray, "2*p 3 3"]:
     """(2 p, 3, 3) whole turns, then half turns."""
     return rotation_matrices(np.concatenate([pose, half_turns(pose)]))

@@ -69,7 +69,7 @@ def click_evidence(landmarks: SparseRows, clicks: Mapping[str, Click]) -> ClickE
             indices=np.concatenate([landmarks.indices[s] for s in spans]),
             weights=np.concatenate([landmarks.weights[s] for s in spans]),
         ),
-        clicks=np.array([[click.x, click.y] for click in clicks.values()]),
+        clicks=np.array([[click.x, click.y] for click in clicks.values()], dtype=np.float64),
         confidence=np.array(confidence),
         spread_m=np.array(
             [CLICK_SPREAD_M if each.spread_m is None else each.spread_m for each in clicks.values()]

@@ -80,7 +80,7 @@ class Candidate:
     rendering: Rendering
     edges: ModelEdges
     landmarks: Points3D
-    spheres: Points3D
+    spheres: Float[np.ndarray, "s 3"]
     radii: Float[np.ndarray, " s"]
     energies: Mapping[str, float]
 

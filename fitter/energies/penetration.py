@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Float, Integer
 from scipy.spatial import KDTree
 
-from fitter.arrays import Points3D, Vertices
+from fitter.arrays import Vertices
 from fitter.body.model import BodyModel, SparseRows
 from fitter.energies._sphere_kernels import pair_overlaps, ring_spheres
 from fitter.energies.rows import PositionRows
@@ -75,7 +75,7 @@ def penetration_proxy(model: BodyModel, canonical_vertices: Vertices) -> Penetra
 
 def sphere_positions(
     proxy: PenetrationProxy, vertices: Vertices
-) -> tuple[Points3D, Float[np.ndarray, " s"]]:
+) -> tuple[Float[np.ndarray, "s 3"], Float[np.ndarray, " s"]]:
     """Centres (frame of the vertices) and radii in metres, from the rings' present vertices."""
     centres = proxy.centres
     count = len(centres.pointers) - 1
@@ -93,7 +93,9 @@ def sphere_positions(
 
 
 def sphere_overlaps(
-    spheres: Points3D, radii: Float[np.ndarray, " s"], pairs: Integer[np.ndarray, "q 2"]
+    spheres: Float[np.ndarray, "s 3"],
+    radii: Float[np.ndarray, " s"],
+    pairs: Integer[np.ndarray, "q 2"],
 ) -> Float[np.ndarray, " q"]:
     """Depth by which the spheres of each pair overlap, metres; negative where they are apart."""
     result = np.empty(len(pairs))
@@ -102,7 +104,7 @@ def sphere_overlaps(
 
 
 def penetration_energy(
-    spheres: Points3D,
+    spheres: Float[np.ndarray, "s 3"],
     radii: Float[np.ndarray, " s"],
     proxy: PenetrationProxy,
     scales: EnergyScales,
@@ -113,7 +115,7 @@ def penetration_energy(
 
 
 def penetration_rows(
-    spheres: Points3D,
+    spheres: Float[np.ndarray, "s 3"],
     radii: Float[np.ndarray, " s"],
     proxy: PenetrationProxy,
     scales: EnergyScales,

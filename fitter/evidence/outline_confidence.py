@@ -4,8 +4,9 @@ from collections.abc import Sequence
 
 import cv2
 import numpy as np
+from jaxtyping import Float
 
-from fitter.arrays import GreyImage, Points2D
+from fitter.arrays import GreyImage
 
 DOUBTFUL_CONFIDENCE = 0.05
 """What is left of an outline's weight in a doubtful region. The model has no hair, and its
@@ -14,7 +15,7 @@ larger: with full weight a body leaned forward to bring its head nearer to the c
 
 
 def outline_confidence(
-    height: int, width: int, regions: Sequence[Points2D], *, margin_px: float
+    height: int, width: int, regions: Sequence[Float[np.ndarray, "_ 2"]], *, margin_px: float
 ) -> GreyImage:
     """A map of weights, 1 but for the surroundings of each region.
 

@@ -119,7 +119,9 @@ def _outline(mask: Mask) -> tuple[Points2D, Points2D]:
     return _onto_the_level_set(mask, points[inside])
 
 
-def _onto_the_level_set(mask: Mask, points: Points2D) -> tuple[Points2D, Points2D]:
+def _onto_the_level_set(
+    mask: Mask, points: Points2D
+) -> tuple[Float[np.ndarray, "found 2"], Float[np.ndarray, "found 2"]]:
     """Move points to where the smoothed mask is half, along its slope; and its outward normals.
 
     Across a straight outline the smoothed mask is the normal distribution of the distance, whose

@@ -33,7 +33,7 @@ def png(levels: UInt8[np.ndarray, "h w ..."]) -> bytes:
     return content.tobytes()
 
 
-def block_means(picture: GreyImage, factor: int) -> GreyImage:
+def block_means(picture: GreyImage, factor: int) -> Float[np.ndarray, "h//{factor} w//{factor}"]:
     """Mean over ``factor`` x ``factor`` blocks: from a supersampled picture to an anti-aliased."""
     shifts = [(row, column) for row in range(factor) for column in range(factor)]
     total = sum(picture[row::factor, column::factor] for row, column in shifts)

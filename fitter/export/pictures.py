@@ -37,6 +37,8 @@ _FARTHEST_PX = 1e5
 """Beyond this OpenCV's fixed-point coordinates could overflow."""
 
 Levels = UInt8[np.ndarray, "h w 3"]
+CameraLevels = UInt8[np.ndarray, "{camera.height} {camera.width}"]
+"""On the pixels of the argument ``camera``."""
 
 
 def drawing_camera(image_camera: Camera) -> Camera:
@@ -58,12 +60,12 @@ def drawing_picture(pixels: Levels, image_camera: Camera, camera: Camera) -> Lev
     return to_levels(display_from_linear(linear_working_picture(pixels, size)))
 
 
-def mask_levels(mask: Mask, working: Camera, camera: Camera) -> UInt8[np.ndarray, "h w"]:
+def mask_levels(mask: Mask, working: Camera, camera: Camera) -> CameraLevels:
     """255 inside, 0 outside, from the working picture's pixels to the drawing camera's."""
     return _enlarged(np.where(mask, 255, 0).astype(np.uint8), working, camera)
 
 
-def trimap_levels(labels: Trimap, working: Camera, camera: Camera) -> UInt8[np.ndarray, "h w"]:
+def trimap_levels(labels: Trimap, working: Camera, camera: Camera) -> CameraLevels:
     """Body 255, background 0, unknown 128, on the drawing camera's pixels (Fig. 3b)."""
     return _enlarged(to_levels(trimap_picture(labels)[..., 0]), working, camera)
 
@@ -115,9 +117,7 @@ def vertex_value_picture(
     return np.stack(levels * (3 // len(levels)), axis=2)
 
 
-def _enlarged(
-    levels: UInt8[np.ndarray, "a b"], working: Camera, camera: Camera
-) -> UInt8[np.ndarray, "h w"]:
+def _enlarged(levels: UInt8[np.ndarray, "a b"], working: Camera, camera: Camera) -> CameraLevels:
     """The working pixel under the centre of each drawing pixel.
 
     By the cameras' scales, not by the pictures' sizes: the working picture leaves out the fraction

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from fitter.arrays import Points2D, Vertices
+from fitter.arrays import Vertices
 from fitter.body.skeleton import regress
 from fitter.fits.prepared_model import PreparedModel
 from fitter.fits.reporting import AMBIGUOUS_NATS
@@ -69,7 +69,7 @@ class InitialBody:
     focal_length_source: FocalLengthSource
     body: BodyParameters
     vertices: Vertices
-    outline: tuple[Points2D, ...]
+    outline: tuple[Float[np.ndarray, "_ 2"], ...]
     landmarks: Mapping[str, Float[np.ndarray, "2"]]
     limbs: tuple[LimbReading, ...]
     residual_px: Mapping[str, float]
@@ -172,7 +172,9 @@ def limb_readings(
     return tuple(readings)
 
 
-def _outline(vertices: Vertices, prepared: PreparedModel, camera: Camera) -> tuple[Points2D, ...]:
+def _outline(
+    vertices: Vertices, prepared: PreparedModel, camera: Camera
+) -> tuple[Float[np.ndarray, "_ 2"], ...]:
     """Found on a picture of the working size, told in pixels of the whole one."""
     size = working_size(width=camera.width, height=camera.height)
     coarse = camera.scaled(size.scale, width=size.width, height=size.height)

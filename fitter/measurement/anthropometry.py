@@ -200,7 +200,7 @@ def measurement_values(body: MeasuringBody, shape: Shape) -> Float[np.ndarray, "
     return _values(body, taken, _placements(body, taken))
 
 
-def tape_lines(body: MeasuringBody, shape: Shape) -> Mapping[str, Points3D]:
+def tape_lines(body: MeasuringBody, shape: Shape) -> Mapping[str, Float[np.ndarray, "_ 3"]]:
     """Where on the canonical body each measurement is taken, by its name.
 
     Lines of (k, 3) points in the body frame, metres; a girth's is closed by repeating its first

@@ -136,7 +136,7 @@ def _within(points: Points3D, shares: Float[np.ndarray, " k"], *, closed: bool) 
     stretches: list[Polyline] = []
     # Runs of points inside, as pairs of (first, one past the last).
     steps = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]])))
-    for start, stop in steps.reshape(-1, 2):
+    for start, stop in steps.reshape(-1, 2).tolist():
         run = [points[start:stop]]
         if start > 0:
             run.insert(0, _border_point(points, shares, start - 1)[None])
@@ -158,12 +158,12 @@ def in_plane(points: Points3D, plane: Plane) -> Points2D:
     return flatten(np.ascontiguousarray(points), plane.point, plane.normal)
 
 
-def hull_indices(points: Points2D) -> Integer[np.ndarray, " k"]:
+def hull_indices(points: Points2D) -> Integer[np.ndarray, " corners"]:
     """Which points are corners of the convex hull, counter-clockwise."""
     return convex_hull(np.ascontiguousarray(points))
 
 
-def hull_of(points: Points2D) -> Points2D:
+def hull_of(points: Points2D) -> Float[np.ndarray, "corners 2"]:
     """Corners of the convex hull, counter-clockwise."""
     return points[hull_indices(points)]
 

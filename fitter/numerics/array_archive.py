@@ -1,15 +1,15 @@
 """Named arrays in one ``.npz`` file, without pickle; the same arrays give the same bytes."""
 
+import io
 import zipfile
 from collections.abc import Mapping
 from pathlib import Path
-from typing import IO
 
 import numpy as np
 
 
 def write_arrays(
-    target: Path | IO[bytes], arrays: Mapping[str, np.ndarray], *, compression: int
+    target: Path | io.BytesIO, arrays: Mapping[str, np.ndarray], *, compression: int
 ) -> None:
     """Write the arrays under their names, in their order, ``ZIP_STORED`` or ``ZIP_DEFLATED``."""
     with zipfile.ZipFile(target, "w") as archive:
@@ -21,7 +21,7 @@ def write_arrays(
                 np.lib.format.write_array(stream, array, allow_pickle=False)
 
 
-def read_arrays(source: IO[bytes]) -> dict[str, np.ndarray]:
+def read_arrays(source: io.BytesIO | io.BufferedReader) -> dict[str, np.ndarray]:
     """Every array of the file by name.
 
     What numpy and zipfile raise on a cut, emptied, damaged or pickled file, or on a bare ``.npy``,

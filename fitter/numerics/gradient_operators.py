@@ -1,7 +1,7 @@
 """Deformation gradients of a triangle mesh and the least squares built on them."""
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Integer
 from scipy import sparse
 
 from fitter.arrays import PerTriangle, Triangles, Vertices
@@ -50,7 +50,7 @@ def weighted_laplacian(
 def part_laplacians(
     gradient: sparse.csr_array,
     triangle_weights: PerTriangle,
-    part_of_triangle: Float[np.ndarray, " f"],
+    part_of_triangle: Integer[np.ndarray, " f"],
     part_count: int,
 ) -> list[sparse.csr_array]:
     """The Laplacian restricted to each part's triangles; they sum to the whole."""

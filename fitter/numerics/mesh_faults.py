@@ -1,7 +1,6 @@
 """What keeps a triangle mesh from being the skin of a body, in words a user can act on."""
 
 import numpy as np
-from jaxtyping import Integer
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
@@ -51,17 +50,17 @@ def _edge_fault(triangles: Triangles, vertex_count: int) -> str | None:
     begins = np.flatnonzero(np.diff(keys[order], prepend=-1))
     counts = np.diff(begins, append=len(keys))
     if (counts == 1).any():
-        edge = _edge(keys[order][begins[np.argmax(counts == 1)]], vertex_count)
+        edge = _edge(int(keys[order][begins[np.argmax(counts == 1)]]), vertex_count)
         count = np.count_nonzero(counts == 1)
         return f"has a hole: {count} edges have one triangle only, the first is {edge}"
     if (counts > 2).any():
-        edge = _edge(keys[order][begins[np.argmax(counts > 2)]], vertex_count)
+        edge = _edge(int(keys[order][begins[np.argmax(counts > 2)]]), vertex_count)
         count = np.count_nonzero(counts > 2)
         return f"is not manifold: {count} edges have more than two triangles, the first is {edge}"
     forward = (starts < ends)[order]
     alike = forward[begins] == forward[begins + 1]
     if alike.any():
-        edge = _edge(keys[order][begins[np.argmax(alike)]], vertex_count)
+        edge = _edge(int(keys[order][begins[np.argmax(alike)]]), vertex_count)
         return (
             f"is not oriented alike: the two triangles of {np.count_nonzero(alike)} edges run them "
             f"the same way, the first is {edge}"
@@ -85,5 +84,5 @@ def _form_fault(triangles: Triangles, vertex_count: int) -> str | None:
     return None
 
 
-def _edge(key: Integer[np.ndarray, ""], vertex_count: int) -> str:
+def _edge(key: int, vertex_count: int) -> str:
     return f"({key // vertex_count}, {key % vertex_count})"

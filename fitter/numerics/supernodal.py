@@ -117,7 +117,7 @@ def supernodal_factor(
 
 def _blocks(
     pointers: Integer[np.ndarray, " m1"], indices: Integer[np.ndarray, " z"]
-) -> tuple[Integer[np.ndarray, " s1"], list[Integer[np.ndarray, " k"]]]:
+) -> tuple[Integer[np.ndarray, " s1"], list[Integer[np.ndarray, " _"]]]:
     """First column and rows below of each block, greedily from the left."""
     count = len(pointers) - 1
     starts: list[int] = []

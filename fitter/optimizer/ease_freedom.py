@@ -15,6 +15,7 @@ u = √w that is BᵀB of the rows
 from collections.abc import Sequence
 
 import numpy as np
+from jaxtyping import Float
 
 from fitter.energies.rows import PositionRows
 from fitter.energies.scales import EnergyScales
@@ -22,7 +23,7 @@ from fitter.optimizer.row_jacobians import RowJacobian
 
 
 def with_free_ease(
-    eases: Sequence[tuple[RowJacobian, PositionRows]], scales: EnergyScales
+    eases: Sequence[tuple[Float[np.ndarray, "_ columns"], PositionRows]], scales: EnergyScales
 ) -> RowJacobian:
     """B of all rows of ease together, each kind with its Jacobian A, (k, columns)."""
     jacobian = np.concatenate([each for each, _ in eases])

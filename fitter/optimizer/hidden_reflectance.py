@@ -5,7 +5,6 @@ no part in the search for the reflectance of the others; they are filled in once
 """
 
 from dataclasses import dataclass
-from typing import Self
 
 import numpy as np
 import qdldl
@@ -43,7 +42,7 @@ class HiddenVertices:
         known: Bool[np.ndarray, " m"],
         edges: Integer[np.ndarray, "e 2"],
         edge_lengths: Float[np.ndarray, " e"],
-    ) -> Self:
+    ) -> "HiddenVertices":
         """Factorise Σ (v_i - v_j)² / d_ij over the edges and their lengths d.
 
         Parameters

@@ -16,7 +16,7 @@ from fitter.energies.objective import Candidate
 from fitter.energies.rows import PositionRows, ShadingRows
 from fitter.optimizer import _row_kernels as kernels
 
-RowJacobian = Float[np.ndarray, "k columns"]
+RowJacobian = Float[np.ndarray, "rows columns"]
 
 
 def position_row_jacobian(

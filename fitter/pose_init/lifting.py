@@ -6,7 +6,7 @@ and :mod:`fitter.pose_init.orthographic` (Taylor, the paper's comparison). Whate
 """
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float
@@ -49,6 +49,7 @@ class CrossPieceEnds:
     overreach_m: Float[np.ndarray, "..."]
 
 
+@runtime_checkable
 class Lifting(Protocol):
     """A camera model's three constructions; pixels are (2,), lengths metres."""
 

@@ -52,7 +52,8 @@ class OrthographicLifting:
         half = np.sqrt(np.maximum(length_m**2 - seen**2, 0.0))
         depth = np.stack([known[..., 2] - half, known[..., 2] + half], axis=-1)
         return LimbEnds(
-            points=self.place(pixel, depth), overreach_m=np.maximum(seen - length_m, 0.0)
+            points=self.place(pixel, depth),
+            overreach_m=np.asarray(np.maximum(seen - length_m, 0.0)),
         )
 
     def spread(

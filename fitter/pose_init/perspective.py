@@ -44,7 +44,8 @@ class PerspectiveLifting:
         half = np.sqrt(np.maximum(length_m**2 - missed**2, 0.0))
         distances = np.stack([along - half, along + half], axis=-1)
         return LimbEnds(
-            points=distances[..., None] * ray, overreach_m=np.maximum(missed - length_m, 0.0)
+            points=distances[..., None] * ray,
+            overreach_m=np.asarray(np.maximum(missed - length_m, 0.0)),
         )
 
     def spread(
@@ -71,5 +72,5 @@ class PerspectiveLifting:
         return CrossPieceEnds(
             first=(middle_depth[..., None] + offset)[..., None] * first_ray,
             second=(middle_depth[..., None] - offset)[..., None] * second_ray,
-            overreach_m=np.maximum(shortest - width_m, 0.0),
+            overreach_m=np.asarray(np.maximum(shortest - width_m, 0.0)),
         )

@@ -2,14 +2,15 @@
 
 import cv2
 import numpy as np
+from jaxtyping import Float
 
-from fitter.arrays import Mask, Points2D
+from fitter.arrays import Mask
 
 FLATTENED_PX = 0.6
 """Corners that stand out less than this from the line through their neighbours are left out."""
 
 
-def outline_loops(silhouette: Mask) -> tuple[Points2D, ...]:
+def outline_loops(silhouette: Mask) -> tuple[Float[np.ndarray, "_ 2"], ...]:
     """Closed lines round a silhouette and its holes, continuous pixels, longest first.
 
     They run through the centres of the silhouette's outermost pixels, so that they lie up to half a

@@ -83,7 +83,7 @@ class Rendering:
         )
 
     @cached_property
-    def _normals(self) -> tuple[Normals, Normals]:
+    def _normals(self) -> tuple[Float[np.ndarray, "f 3"], Normals]:
         return _kernels.mesh_normals(self.vertices, self.triangles)
 
 

@@ -6,7 +6,6 @@ The band is a tenth to a third of the picture, and the time goes with the nodes.
 """
 
 from dataclasses import dataclass
-from typing import Self
 
 import numpy as np
 from jaxtyping import Bool, Float, Int, UInt8
@@ -47,7 +46,9 @@ class BandGraph:
     left: Int[np.ndarray, " n"]
 
     @classmethod
-    def of(cls, picture: UInt8[np.ndarray, "h w 3"], open_pixels: Mask, foreground: Mask) -> Self:
+    def of(
+        cls, picture: UInt8[np.ndarray, "h w 3"], open_pixels: Mask, foreground: Mask
+    ) -> "BandGraph":
         """Link the open pixels of a picture; ``foreground`` tells the sides of the others.
 
         Two neighbours p and q hold together by gamma exp(-beta |z_p - z_q|²) / dist(p, q), with

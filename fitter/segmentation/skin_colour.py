@@ -204,7 +204,7 @@ def _has_colours(features: Features) -> bool:
     return bool((high - low).max() > STEPS * _CHROMA_DEVIATION)
 
 
-def _without_hair(features: Features) -> Features:
+def _without_hair(features: Features) -> Float32[np.ndarray, "skin 3"]:
     """Pixels of a face that are not much darker than its brighter half."""
     if not len(features):
         return features

@@ -109,7 +109,7 @@ def nearest(
 
 
 def inner_weights(
-    skins: list[Float[np.ndarray, "s c 3"]], points: list[Float[np.ndarray, "s 3"]]
+    skins: list[Float[np.ndarray, "_ c 3"]], points: list[Float[np.ndarray, "_ 3"]]
 ) -> Float[np.ndarray, " c"]:
     """Weights w with sum 1 that minimise Σ_sets mean_s |Σ_c w_c x_sc - p_s|² + ridge |w|²."""
     count = skins[0].shape[1]

@@ -52,7 +52,7 @@ class Rig:
     drives: BoneDrives
 
 
-def load_rig(assets: Path, groups: Mapping[str, Integer[np.ndarray, " g"]], count: int) -> Rig:
+def load_rig(assets: Path, groups: Mapping[str, Integer[np.ndarray, " _"]], count: int) -> Rig:
     """Read the rig beside the base mesh.
 
     Parameters
@@ -161,7 +161,7 @@ def bone_motions(
 
 
 def _head_row(
-    head: Mapping[str, object], groups: Mapping[str, Integer[np.ndarray, " g"]], count: int
+    head: Mapping[str, object], groups: Mapping[str, Integer[np.ndarray, " _"]], count: int
 ) -> Float[np.ndarray, " v"]:
     strategy = head["strategy"]
     if strategy == "CUBE":

@@ -18,7 +18,7 @@ STRIDE = 8
 
 def vertex_motions(
     laplacians: list[sparse.csr_array], parts: Parts
-) -> list[Float[np.ndarray, "v i"]]:
+) -> list[Float[np.ndarray, "_ i"]]:
     """F_p of each part; the body's translation, which is free, does not count.
 
     Parameters

@@ -30,11 +30,11 @@ TURN_COST_M = 0.05
 
 
 def with_knee_rings(
-    groups: Mapping[str, Integer[np.ndarray, " g"]],
+    groups: Mapping[str, Integer[np.ndarray, " _"]],
     vertices: Float[np.ndarray, "v 3"],
     body_vertex_ids: Integer[np.ndarray, " m"],
     mirror: Integer[np.ndarray, " v"],
-) -> dict[str, Integer[np.ndarray, " g"]]:
+) -> dict[str, Integer[np.ndarray, " _"]]:
     """The groups with a ring of skin for each knee.
 
     Parameters
@@ -53,7 +53,7 @@ def with_knee_rings(
 
 
 def _left_ring(
-    groups: Mapping[str, Integer[np.ndarray, " g"]],
+    groups: Mapping[str, Integer[np.ndarray, " _"]],
     vertices: Float[np.ndarray, "v 3"],
     body_vertex_ids: Integer[np.ndarray, " m"],
 ) -> Integer[np.ndarray, " r"]:

@@ -59,7 +59,7 @@ class BaseMesh:
     """
 
     source_vertices: Float[np.ndarray, "v 3"]
-    groups: Mapping[str, Integer[np.ndarray, " g"]]
+    groups: Mapping[str, Integer[np.ndarray, " _"]]
     body_vertex_ids: Integer[np.ndarray, " m"]
     triangles: Triangles
     cap_triangles: Integer[np.ndarray, " c"]
@@ -184,7 +184,7 @@ def _read_mirror(path: Path, count: int) -> Integer[np.ndarray, " v"]:
     return mirror
 
 
-def _read_groups(path: Path) -> dict[str, Integer[np.ndarray, " g"]]:
+def _read_groups(path: Path) -> dict[str, Integer[np.ndarray, " _"]]:
     ranges: dict[str, list[list[int]]] = json.loads(path.read_text())
     return {
         name: np.concatenate([np.arange(first, last + 1) for first, last in spans])

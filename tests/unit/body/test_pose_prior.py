@@ -131,7 +131,7 @@ def test_joints_that_share_a_published_range_add_up_to_it(parts, direction, tota
 
 def test_a_knee_bent_forward_costs_more_than_one_bent_backward():
     part = RIG.part("left_shin")
-    bend = np.radians(40.0) * PRIOR.axes[part, 0]
+    bend = np.radians(40.0) * PRIOR.axes[part, :1]
     assert joint_energy(PRIOR, part, -bend) > 20.0 * joint_energy(PRIOR, part, bend)
 
 
@@ -153,7 +153,7 @@ def test_jacobian_agrees_with_finite_differences_inside_and_beyond_the_limits():
 def test_energy_of_the_joints_is_half_the_sum_of_squares():
     rng = np.random.default_rng(2)
     pose = mean_pose(PRIOR) + 0.5 * rng.standard_normal((17, 3))
-    whole = sum(joint_energy(PRIOR, part, pose[part]) for part in range(17))
+    whole = sum(joint_energy(PRIOR, part, pose[part, None]).item() for part in range(17))
     assert whole == pytest.approx(0.5 * (prior_terms(PRIOR, pose).residuals ** 2).sum())
 
 

@@ -2,7 +2,15 @@
 
 from types import SimpleNamespace
 
+import jaxtyping
+import pytest
+
 from fitter.optimizer.hypotheses import try_hypotheses
+
+
+@pytest.fixture(autouse=True)
+def numbers_for_bodies(monkeypatch):
+    monkeypatch.setattr(jaxtyping.config, "jaxtyping_disable", True)
 
 
 class Bowl:

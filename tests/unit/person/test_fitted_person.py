@@ -178,8 +178,12 @@ def test_a_person_belongs_to_the_model_it_was_fitted_with():
     others = {
         "gender": replace(MODEL, gender="male"),
         "model_checksum": replace(MODEL, header={"checksum": "another"}),
-        "shape": replace(MODEL, shape_basis=MODEL.shape_basis[:1]),
-        "albedo": replace(MODEL, mean_vertices=MODEL.mean_vertices[1:]),
+        "shape": replace(
+            MODEL,
+            shape_basis=MODEL.shape_basis[:1],
+            pose_feature_strengths=MODEL.pose_feature_strengths[..., :1],
+        ),
+        "albedo": bar_model(rings=12),
     }
     for field, model in others.items():
         with pytest.raises(InvalidInputError) as caught:
