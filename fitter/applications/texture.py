@@ -83,7 +83,7 @@ class Texture:
     mirrored_share: float
 
 
-def linear_picture(pixels: UInt8[np.ndarray, "h w 3"]) -> Image:
+def linear_picture(pixels: UInt8[np.ndarray, "_ _ 3"]) -> Image:
     """An upright decoded picture in linear light, made smaller if it is larger than needed."""
     height, width = pixels.shape[:2]
     size = working_size(width=width, height=height, pixels=PICTURE_PIXELS)

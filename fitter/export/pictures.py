@@ -51,7 +51,9 @@ def drawing_camera(image_camera: Camera) -> Camera:
     )
 
 
-def drawing_picture(pixels: Levels, image_camera: Camera, camera: Camera) -> Levels:
+def drawing_picture(
+    pixels: Levels, image_camera: Camera, camera: Camera
+) -> UInt8[np.ndarray, "{camera.height} {camera.width} 3"]:
     """The original on the drawing camera's pixels, averaged in linear light."""
     if pixels.shape[:2] == (camera.height, camera.width):
         return pixels

@@ -1,6 +1,7 @@
 """What all the other formats are written from: a body's surface and how it looks."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float, Integer
@@ -105,7 +106,9 @@ def shown_body(glb: bytes) -> ShownBody:
     )
 
 
-def _in_model_order(vertices: Vertices, owners: Integer[np.ndarray, " u"]) -> Vertices:
+def _in_model_order(
+    vertices: Float[np.ndarray, "u 3"], owners: Integer[np.ndarray, " u"]
+) -> Vertices:
     """Each vertex of the body once, of those a texture's seams made of it."""
     ordered = np.zeros((owners.max() + 1, 3))
     ordered[owners] = vertices
@@ -114,7 +117,7 @@ def _in_model_order(vertices: Vertices, owners: Integer[np.ndarray, " u"]) -> Ve
 
 def _texture(
     file: GlbFile,
-    material: dict[str, dict[str, int]],
+    material: dict[str, Any],
     attributes: dict[str, int],
     corners: Triangles,
 ) -> Texture | None:

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float, Integer
 
-from fitter.arrays import Triangles, Vertices
+from fitter.arrays import Triangles
 from fitter.errors import MeshFolderError
 from fitter.training.own_bodies.ply_files import read_ply
 
@@ -20,10 +20,10 @@ from fitter.training.own_bodies.ply_files import read_ply
 class MeshFile:
     """What a file holds, in its own units and axes; None where it has no such thing.
 
-    Polygons are cut into fans. Texture coordinates come from OBJ files only.
+    Vertices are (m, 3) once :func:`read_mesh` has seen to it. Polygons are cut into fans. Texture coordinates come from OBJ files only.
     """
 
-    vertices: Vertices
+    vertices: Float[np.ndarray, "..."]
     triangles: Triangles | None = None
     uv: Float[np.ndarray, "u 2"] | None = None
     uv_triangles: Triangles | None = None
@@ -135,6 +135,6 @@ def _fan(corners: list[int]) -> list[list[int]]:
     return [[corners[0], corners[k], corners[k + 1]] for k in range(1, len(corners) - 1)]
 
 
-def _fans(polygons: Integer[np.ndarray, "f c"]) -> Triangles:
+def _fans(polygons: Integer[np.ndarray, "_ c"]) -> Triangles:
     fans = [polygons[:, [0, k, k + 1]] for k in range(1, polygons.shape[1] - 1)]
     return np.stack(fans, axis=1).reshape(-1, 3).astype(np.int32)

@@ -7,7 +7,7 @@ Checks run from what needs no trust in the others to what does: vertices, triang
 from collections.abc import Sequence
 
 import numpy as np
-from jaxtyping import Float, Integer
+from jaxtyping import Bool, Float
 
 from fitter.arrays import Triangles, Vertices
 from fitter.body.model_checks import HEIGHT_RANGE_M
@@ -188,7 +188,7 @@ def _edge_lengths(vertices: Vertices, triangles: Triangles) -> Float[np.ndarray,
     return np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2).reshape(-1)
 
 
-def _same_triangles(first: Triangles, second: Triangles) -> Integer[np.ndarray, " f"]:
+def _same_triangles(first: Triangles, second: Triangles) -> Bool[np.ndarray, " f"]:
     """Whether corners agree, whichever comes first."""
     return np.any(
         [(np.roll(first, turn, axis=1) == second).all(axis=1) for turn in range(3)], axis=0

@@ -122,7 +122,7 @@ def test_rotation_vector_and_quaternion_of_the_same_turn_give_the_same_pose(body
 def test_a_turn_the_long_way_round_is_the_short_turn(body):
     vector = np.array([0.0, 0.3, 0.0])
     longer = vector * (1.0 - 2.0 * np.pi / 0.3)
-    pose = spelled_pose(body.rig, {"pelvis": longer})
+    pose = spelled_pose(body.rig, {"pelvis": longer.tolist()})
     np.testing.assert_allclose(
         rotation_matrices(pose)[0], rotation_matrices(vector[None])[0], atol=1e-12
     )

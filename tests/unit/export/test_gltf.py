@@ -119,7 +119,9 @@ def test_a_directional_light_shines_along_its_nodes_minus_z(model):
 
 @pytest.mark.parametrize("direction", [(0, 0, 1), (0, 0, -1), (1, 0, 0), (0.48, -0.6, -0.64)])
 def test_the_shortest_rotation_takes_z_to_the_direction(direction):
-    turned = Rotation.from_quat(quaternion_from_z_to(np.array(direction))).apply([0, 0, 1])
+    turned = Rotation.from_quat(quaternion_from_z_to(np.array(direction, dtype=np.float64))).apply(
+        [0, 0, 1]
+    )
     np.testing.assert_allclose(turned, direction, atol=1e-12)
 
 

@@ -6,7 +6,11 @@ from fitter.training.makehuman.body_space import average_traits, source_vertices
 from fitter.training.makehuman.knee_rings import with_knee_rings
 from tests.unit.training.makehuman_data import base_mesh, body_space, needs_makehuman
 
-GROUPS = {"joint-l-knee": [0], "joint-l-upper-leg": [1], "joint-l-ankle": [2]}
+GROUPS = {
+    "joint-l-knee": np.array([0]),
+    "joint-l-upper-leg": np.array([1]),
+    "joint-l-ankle": np.array([2]),
+}
 
 
 def pillar():
