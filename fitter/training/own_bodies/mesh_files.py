@@ -20,7 +20,8 @@ from fitter.training.own_bodies.ply_files import read_ply
 class MeshFile:
     """What a file holds, in its own units and axes; None where it has no such thing.
 
-    Vertices are (m, 3) once :func:`read_mesh` has seen to it. Polygons are cut into fans. Texture coordinates come from OBJ files only.
+    Vertices are (m, 3) once :func:`read_mesh` has seen to it. Polygons are cut into fans. Texture
+    coordinates come from OBJ files only.
     """
 
     vertices: Float[np.ndarray, "..."]

@@ -137,7 +137,7 @@ def _drawn(panel: Panel, triangles: Triangles, scale: SheetScale) -> Levels:
     return picture
 
 
-def _titled(title: str, picture: Levels) -> Levels:
+def _titled(title: str, picture: Levels) -> UInt8[np.ndarray, "titled_h w 3"]:
     band = np.full((TITLE_PX, picture.shape[1], 3), 255, dtype=np.uint8)
     _write(band, title, row_px=TITLE_PX - 8, size=0.5)
     return np.concatenate([band, picture])

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Integer
 
 AGES = (18.0, 80.0)
 """Years: ages are drawn evenly in between, so that no age is learned worse than another."""
@@ -40,7 +40,7 @@ class CivilianStatistics:
         (a, 2, 2) of the logarithms of stature and body mass index.
     """
 
-    count: Float[np.ndarray, " a"]
+    count: Integer[np.ndarray, " a"]
     age: Float[np.ndarray, " a"]
     log_stature: Float[np.ndarray, " a"]
     log_bmi: Float[np.ndarray, " a"]
