@@ -16,7 +16,7 @@ import numpy as np
 from jaxtyping import Float, Integer
 from scipy import sparse
 
-from fitter.arrays import Pose, Rotations, Vertices
+from fitter.arrays import Pose, Vertices
 from fitter.body.skeleton import global_rotations
 from fitter.numerics.rotations import rotation_matrices
 from fitter.training.articulation.part_tree import PART_NAMES, PART_PARENT
@@ -97,7 +97,7 @@ def part_weights(rig: Rig, skin: sparse.csr_array) -> Float[np.ndarray, "m p"]:
     return skin @ gather
 
 
-def bone_rotations(rig: Rig, pose: Pose) -> Rotations:
+def bone_rotations(rig: Rig, pose: Pose) -> Float[np.ndarray, "b 3 3"]:
     """Rotation of every bone from rest to pose, body frame.
 
     Bone b of part p turns by R_parent(p) P(θ_p) P(θ_c): its own part's turn, taken in part, and a
@@ -148,7 +148,7 @@ def posed_vertices(
 
 def bone_motions(
     rig: Rig, heads: Float[np.ndarray, "b 3"], pose: Pose
-) -> tuple[Rotations, Float[np.ndarray, "b 3"]]:
+) -> tuple[Float[np.ndarray, "b 3 3"], Float[np.ndarray, "b 3"]]:
     """Rigid motion x -> R x + t of every bone from rest to pose, body frame."""
     rotations = bone_rotations(rig, pose)
     centres = np.empty_like(heads)

@@ -63,8 +63,8 @@ class JointSurroundings:
     carrier: int
     blended: Integer[np.ndarray, " k"]
     skin: sparse.csr_array
-    bent: Triangles
-    carried_triangles: Triangles
+    bent: Integer[np.ndarray, "g 3"]
+    carried_triangles: Integer[np.ndarray, "h 3"]
     carried: Integer[np.ndarray, " c"]
     share: Float[np.ndarray, " m"]
 

@@ -68,7 +68,7 @@ class _Scene:
     """The average body with what the search needs; positions in the body frame, metres."""
 
     base: BaseMesh
-    source: Vertices
+    source: Float[np.ndarray, "v 3"]
     body: Vertices
 
     def joint(self, group: str) -> Vector3:

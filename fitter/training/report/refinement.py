@@ -1,7 +1,7 @@
 """A body on a mesh four times as fine: every edge halved where a smooth skin would run."""
 
 import numpy as np
-from jaxtyping import Integer
+from jaxtyping import Float, Integer
 
 from fitter.arrays import Triangles, Vertices
 from fitter.numerics.mesh_topology import mesh_topology
@@ -27,14 +27,16 @@ def refined_triangles(triangles: Triangles, vertex_count: int) -> Integer[np.nda
     return np.stack([np.stack(corners, axis=1) for corners in four], axis=1).reshape(-1, 3)
 
 
-def flat_refinement(vertices: Vertices, edges: Integer[np.ndarray, "e 2"]) -> Vertices:
-    """The same surface with more vertices: edges halved where they run."""
-    return np.concatenate([vertices, vertices[edges].mean(axis=1)])
+def flat_refinement(
+    values: Float[np.ndarray, "m d"], edges: Integer[np.ndarray, "e 2"]
+) -> Float[np.ndarray, "m+e d"]:
+    """The same surface, or values on it, with more vertices: edges halved where they run."""
+    return np.concatenate([values, values[edges].mean(axis=1)])
 
 
 def smooth_refinement(
     vertices: Vertices, triangles: Triangles, edges: Integer[np.ndarray, "e 2"]
-) -> Vertices:
+) -> Float[np.ndarray, "m+e 3"]:
     """Edges halved on the smooth curve that leaves both ends along their tangent planes.
 
     The cubic Hermite curve from a to b, whose tangents are b - a laid into the planes of the vertex

@@ -124,7 +124,8 @@ def _measured_finely(
     """Measurements of bodies refined in the canonical pose.
 
     The refined bodies become the shape axes of a model that rests in that pose, so that they are
-    measured as any model's are; heights, taken in another pose, mean nothing there.
+    measured as any model's are; heights, taken in another pose, mean nothing there, nor do its
+    texels and its mirror.
     """
     canonical = [
         evaluator.body_frame_vertices(
@@ -152,6 +153,8 @@ def _measured_finely(
         incidence_pointers=parts.incidence_pointers,
         incidence_vertices=parts.incidence_vertices,
         pose_right_hand_sides=np.zeros((len(parts.incidence_vertices), 3, 9)),
+        uv_triangles=np.zeros_like(fine.triangles),
+        mirror=np.arange(len(refined[0]), dtype=np.int32),
         canonical_pose=still,
         standing_pose=still,
     )
