@@ -1,5 +1,5 @@
 # Two commands: `make demo` shows a whole fit over HTTP, `make test` passes the tests that need no
-# patience; `make test-rest` passes all others.
+# patience; `make test-rest` passes all others, `make test-shapes` checks the fitter's annotations.
 # Everything is installed into .venv from requirements.lock; a second run installs nothing.
 
 PYTHON ?= python3
@@ -17,7 +17,12 @@ PYTEST := $(SINGLE_THREADED) $(VENV)/bin/python -m pytest $(SIDE_BY_SIDE)
 # would compile them anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test test-rest blender lint serve train report openapi page wheel lock clean
+# What fitter announces of its arguments and results, checked at every call of its quick unit tests.
+CHECKED := --jaxtyping-packages=fitter,beartype.beartype(conf=beartype.BeartypeConf(is_pep484_tower=True))
+FITTER_TESTS := $(filter $(wildcard tests/unit/*/__init__.py),\
+	$(patsubst fitter/%,tests/unit/%,$(wildcard fitter/*/__init__.py)))
+
+.PHONY: demo test test-rest test-shapes blender lint serve train report openapi page wheel lock clean
 
 demo: $(STAMP)
 	$(VENV)/bin/maquette demo
@@ -27,6 +32,9 @@ test: $(STAMP)
 
 test-rest: $(STAMP)
 	$(PYTEST) -m rest
+
+test-shapes: $(STAMP)
+	$(PYTEST) -m "not rest" "$(CHECKED)" $(dir $(FITTER_TESTS))
 
 # Blender's importer is one of the readers that tests/foreign asks; it is large and wants Python 3.11.
 blender: .venv-blender/.installed
