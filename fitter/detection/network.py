@@ -1,12 +1,13 @@
 """A network run on one thread."""
 
 from collections.abc import Mapping
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float32
 
 
+@runtime_checkable
 class PictureNetwork(Protocol):
     """What is asked about pictures."""
 
@@ -44,6 +45,6 @@ class Network:
         self._interpreter.set_tensor(self._input, picture[None])
         self._interpreter.invoke()
         return {
-            tuple(each["shape"][1:]): self._interpreter.get_tensor(each["index"])[0]
+            tuple(each["shape"][1:].tolist()): self._interpreter.get_tensor(each["index"])[0]
             for each in self._outputs
         }

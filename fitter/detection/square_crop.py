@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from jaxtyping import Float, UInt8
 
-from fitter.arrays import GreyImage, Points2D
+from fitter.arrays import Points2D
 
 ANTIALIASED_FROM = 1.5
 """Pixels of the picture a pixel of the crop beyond which the picture is blurred before."""
@@ -62,7 +62,9 @@ class SquareCrop:
             flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP,
         )
 
-    def put_back(self, values: GreyImage, *, width: int, height: int) -> GreyImage:
+    def put_back(
+        self, values: Float[np.ndarray, "s s"], *, width: int, height: int
+    ) -> Float[np.ndarray, "h w"]:
         """Values of the crop's pixels at a picture's of this size; 0 beyond the crop."""
         return cv2.warpAffine(
             values,

@@ -4,7 +4,6 @@ Their measurements are named as the suite's where both mean the same; a waist or
 at its smallest and largest, because levels are a matter of definition.
 """
 
-import io
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -82,7 +81,7 @@ def read_foreign(name: str) -> ForeignPicture:
         image=(folder / "image.jpg").read_bytes(),
         request=json.loads((folder / "request.json").read_text()),
         truth=json.loads((folder / "truth.json").read_text()),
-        mask=np.asarray(PillowImage.open(io.BytesIO((folder / "mask.png").read_bytes()))) > 127,
+        mask=np.asarray(PillowImage.open(folder / "mask.png").convert("L")) > 127,
     )
 
 
