@@ -19,7 +19,6 @@ from fitter.arrays import Vector3
 from fitter.body.pose_prior import PosePrior
 from fitter.body.skeleton import descendants
 from fitter.detection.detector import DetectedSlants, LimbSlant
-from fitter.pose_init.click_spread import click_spreads_m
 from fitter.pose_init.landmark_rig import LandmarkRig
 from fitter.pose_init.limbs import LIMBS, MIDDLES, Limb, limb_lengths_m, limb_slant
 from fitter.pose_init.points import ClickedPoints
@@ -144,7 +143,7 @@ def click_problem(
         camera=camera,
         clicked=clicked,
         pixels=clicks.pixels,
-        precision=1.0 / (scale * click_spreads_m(clicks)),
+        precision=1.0 / (scale * clicks.spread_m),
         slants=np.array(spoken_of).reshape(-1, len(names)),
         hints=_hints(rig, camera, clicks, slants, without=limb_facing),
         turning=np.asarray((follows > 1e-3).any(axis=0)),

@@ -7,6 +7,7 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Points2D
+from fitter.observation.click_spread import click_spread_m
 from fitter.request import Click
 
 
@@ -20,17 +21,13 @@ class ClickedPoints:
         k landmark names.
     pixels
         (k, 2) continuous pixels.
-    occluded
-        (k,) the point is hidden and its place a guess.
     spread_m
-        (k,) standard deviation in each direction, metres on the body; None of a point that somebody
-        clicked.
+        (k,) standard deviation in each direction, metres on the body.
     """
 
     names: tuple[str, ...]
     pixels: Points2D
-    occluded: tuple[bool, ...]
-    spread_m: tuple[float | None, ...]
+    spread_m: Float[np.ndarray, " k"]
 
     def pixel(self, name: str) -> Float[np.ndarray, "2"] | None:
         """The click of this name, (2,), or None."""
@@ -46,8 +43,7 @@ class ClickedPoints:
         return ClickedPoints(
             names=tuple(self.names[i] for i in kept),
             pixels=self.pixels[kept],
-            occluded=tuple(self.occluded[i] for i in kept),
-            spread_m=tuple(self.spread_m[i] for i in kept),
+            spread_m=self.spread_m[kept],
         )
 
 
@@ -56,6 +52,5 @@ def clicked_points(clicks: Mapping[str, Click]) -> ClickedPoints:
     return ClickedPoints(
         names=tuple(clicks),
         pixels=np.array([[c.x, c.y] for c in clicks.values()], dtype=np.float64).reshape(-1, 2),
-        occluded=tuple(c.occluded for c in clicks.values()),
-        spread_m=tuple(c.spread_m for c in clicks.values()),
+        spread_m=np.array([click_spread_m(*each) for each in clicks.items()]),
     )

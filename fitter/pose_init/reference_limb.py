@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from fitter.pose_init.click_spread import DEFAULT_SPREAD_M
+from fitter.observation.click_spread import DEFAULT_SPREAD_M
 from fitter.pose_init.limbs import LIMBS, Limb
 
 LIMB_LENGTH_SPREAD = 0.04

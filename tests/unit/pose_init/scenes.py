@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fitter.observation.click_spread import click_spread_m
 from fitter.pose_init.click_fit import FittedPoses
 from fitter.pose_init.click_problem import ClickProblem, click_problem
 from fitter.pose_init.hypotheses import refined_hypotheses
@@ -14,7 +15,7 @@ from fitter.pose_init.perspective import PerspectiveLifting
 from fitter.pose_init.points import ClickedPoints
 from fitter.pose_init.trunk_points import trunk_points
 from fitter.render.camera import Camera
-from fitter.request import Facing
+from fitter.request import Click, Facing
 from tests.unit.pose_init.stick_figure import plausible_pose, stick_figure, stick_prior
 
 RIG = stick_figure()
@@ -41,6 +42,7 @@ CLICKED = [
     "neck",
     "head_top",
 ]
+CLICK_SPREADS_M = np.array([click_spread_m(name, Click(x=0.0, y=0.0)) for name in CLICKED])
 BODY = [
     RIG.landmark_names.index(name)
     for name in CLICKED
@@ -86,8 +88,7 @@ def scene(
         clicks=ClickedPoints(
             names=tuple(CLICKED),
             pixels=pixels,
-            occluded=(False,) * len(CLICKED),
-            spread_m=(None,) * len(CLICKED),
+            spread_m=CLICK_SPREADS_M,
         ),
         facing=true_facing(points, margin_m=0.05),
     )

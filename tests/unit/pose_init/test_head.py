@@ -32,8 +32,7 @@ def problem_for(pose: np.ndarray, names: tuple[str, ...]) -> ClickProblem:
     clicks = ClickedPoints(
         names=names,
         pixels=camera.project(points[rows]),
-        occluded=(False,) * len(names),
-        spread_m=(None,) * len(names),
+        spread_m=np.full(len(names), 0.015),
     )
     return click_problem(RIG, PRIOR, camera, clicks, scale=200.0, limb_facing={})
 

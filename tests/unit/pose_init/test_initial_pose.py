@@ -17,7 +17,7 @@ from fitter.pose_init.landmark_rig import landmark_rig
 from fitter.pose_init.points import ClickedPoints
 from fitter.render.camera import Camera
 from fitter.request import Facing
-from tests.unit.pose_init.scenes import CLICKED
+from tests.unit.pose_init.scenes import CLICK_SPREADS_M, CLICKED
 from tests.unit.pose_init.stick_figure import plausible_pose
 
 CAMERA = Camera(focal_length_px=600.0, centre_x=320.0, centre_y=240.0, width=640, height=480)
@@ -41,8 +41,7 @@ def clicked(body: BodyParameters, gender: str, *, noise_px: float, seed: int) ->
     return ClickedPoints(
         names=tuple(CLICKED),
         pixels=CAMERA.project(landmarks[rows]) + noise,
-        occluded=(False,) * len(CLICKED),
-        spread_m=(None,) * len(CLICKED),
+        spread_m=CLICK_SPREADS_M,
     )
 
 

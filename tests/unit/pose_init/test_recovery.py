@@ -140,7 +140,6 @@ def test_the_mirrored_picture_with_sides_exchanged_gives_the_mirrored_pose(seed)
     mirrored_clicks = ClickedPoints(
         names=swapped,
         pixels=truth.clicks.pixels * [-1.0, 1.0] + [2.0 * truth.camera.centre_x, 0.0],
-        occluded=truth.clicks.occluded,
         spread_m=truth.clicks.spread_m,
     )
     _, fitted = solve(truth.camera, truth.clicks, {})

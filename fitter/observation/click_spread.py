@@ -9,21 +9,14 @@ hips clicked a little wide or narrow.
 
 from collections.abc import Mapping
 
-import numpy as np
-from jaxtyping import Float
+from fitter.request import Click
 
-from fitter.pose_init.points import ClickedPoints
-
-DEFAULT_SPREAD_M = 0.015
+DEFAULT_SPREAD_M = 0.02
 SPREADS_M: Mapping[str, float] = {
     "left_hip": 0.025,
     "right_hip": 0.025,
-    "left_shoulder": 0.02,
-    "right_shoulder": 0.02,
     "neck": 0.03,
     "head_top": 0.03,
-    "left_toe": 0.02,
-    "right_toe": 0.02,
 }
 """Standard deviations in each direction of the picture, metres; others have the default."""
 
@@ -31,15 +24,11 @@ OCCLUDED_FACTOR = 3.0
 """How much less a hidden point's click is believed."""
 
 
-def click_spreads_m(clicks: ClickedPoints) -> Float[np.ndarray, " k"]:
-    """Standard deviations of clicks, metres on the body; proposed points have their own."""
-    return np.array(
-        [
-            SPREADS_M.get(name, DEFAULT_SPREAD_M) * (OCCLUDED_FACTOR if occluded else 1.0)
-            if spread is None
-            else spread
-            for name, occluded, spread in zip(
-                clicks.names, clicks.occluded, clicks.spread_m, strict=True
-            )
-        ]
-    )
+def click_spread_m(name: str, click: Click) -> float:
+    """Standard deviation of a point in each direction of the picture, metres on the body.
+
+    That of a proposed point comes with it, and knows whether the point is hidden.
+    """
+    if click.spread_m is not None:
+        return click.spread_m
+    return SPREADS_M.get(name, DEFAULT_SPREAD_M) * (OCCLUDED_FACTOR if click.occluded else 1.0)
