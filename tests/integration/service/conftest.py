@@ -2,12 +2,14 @@ import contextlib
 import functools
 import logging
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import psycopg
 import pytest
 
-from tests.integration.service.harness import Machine, Service, running_service
+from tests.integration.service.harness import SHARED, Machine, Service, running_service
+from tests.integration.service.receiver import Receiver, receiving
 from tests.postgres import fresh_database
 
 DATABASES = ("sqlite", "postgres")
@@ -43,7 +45,7 @@ def started(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[str]
         def start(database: str) -> Service:
             folder = tmp_path_factory.mktemp(database)
             fresh = stack.enter_context(fresh_machine(database, folder))
-            return stack.enter_context(running_service(fresh))
+            return stack.enter_context(running_service(replace(fresh, settings=SHARED)))
 
         yield start
 
@@ -60,11 +62,25 @@ def embedded(tmp_path: Path) -> Machine:
     return Machine(tmp_path)
 
 
-@pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
-    """One service for all the tests of a module that leave it as it was."""
-    with running_service(Machine(tmp_path_factory.mktemp("service"))) as running:
+@pytest.fixture(scope="session")
+def service(started: Callable[[str], Service]) -> Service:
+    """The one on the embedded database: who uses it leaves nothing running."""
+    return started("sqlite")
+
+
+@pytest.fixture(scope="session")
+def without_worker(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    """An API alone, of which nothing is set: who uses it leaves nothing waiting."""
+    machine = Machine(tmp_path_factory.mktemp("without_worker"))
+    with running_service(machine, api_only=True) as running:
         yield running
+
+
+@pytest.fixture
+def receiver() -> Iterator[Receiver]:
+    """Who the shared services may send notices to."""
+    with receiving() as started:
+        yield started
 
 
 @pytest.fixture

@@ -47,6 +47,15 @@ QUICK: Mapping[str, object] = {
     "log_level": "INFO",
 }
 
+SHARED: Mapping[str, object] = {
+    # Notices go to the receivers of tests.
+    "webhook_hosts": "127.0.0.1",
+    "webhook_pauses_s": "0.2,0.2,0.2",
+    # It is there while others are tested, and every beat looks after all workers and their jobs.
+    "heartbeat_s": 1.0,
+}
+"""What a service that files share is told besides."""
+
 
 def eventually(
     condition: Callable[[], Any], *, within_s: float = PATIENCE_S, what: str = ""

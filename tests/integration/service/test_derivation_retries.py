@@ -1,12 +1,11 @@
 """A derivation is made again of copies of all that the first was made of."""
 
-from pathlib import Path
 from uuid import uuid4
 
 from api_schemas.derivations import DerivationEvent
 from tests.integration.service.fake_pipeline import scripted_image
-from tests.integration.service.harness import Machine, Service, eventually, running_service
-from tests.integration.service.receiver import SECRET, receiving
+from tests.integration.service.harness import Service, eventually
+from tests.integration.service.receiver import SECRET, Receiver
 from tests.integration.service.test_derivations import (
     REPORT,
     derived,
@@ -51,10 +50,12 @@ def test_a_derivation_that_has_not_ended_is_not_retried(service: Service):
     assert problem(service.client.post(f"{path}/retry"))[:2] == (409, "not-ended")
     service.client.post(f"{path}/cancel")
     canceled = service.ended(path)["links"]["retry"]
-    assert service.client.post(canceled).status_code == 202
     unknown = f"{fit}/derivations/{uuid4()}/retry"
     assert service.client.post(unknown).status_code == 404
     assert service.client.post(f"{path.replace(fit, fitted(service))}/retry").status_code == 404
+    assert service.client.post(canceled).status_code == 202
+    # With what is derived from it.
+    assert service.client.delete(fit).status_code == 204
 
 
 def test_a_retry_of_a_derivation_is_asked_for_once_under_one_key_and_waited_for(service: Service):
@@ -70,19 +71,14 @@ def test_a_retry_of_a_derivation_is_asked_for_once_under_one_key_and_waited_for(
     assert problem(refused)[:2] == (422, "idempotency-key-reused")
 
 
-def test_the_end_of_a_retried_derivation_is_told_to_whom_the_first_one_s_was(tmp_path: Path):
-    settings = {"webhook_hosts": "127.0.0.1"}
-    with (
-        receiving() as receiver,
-        running_service(Machine(tmp_path, settings=settings)) as service,
-    ):
-        webhook = {"url": receiver.url(), "secret": SECRET}
-        path = derived(service, fitted(service), REPORT | {"webhook": webhook})
-        service.ended(path)
-        again = service.client.post(f"{path}/retry").headers["Location"]
-        eventually(lambda: len(receiver.notices) >= 2, what="both ends are told")
-        told = {
-            DerivationEvent.model_validate_json(n.body).data.links.self for n in receiver.notices
-        }
-        assert told == {path, again}
-        assert all(notice.is_signed_with(SECRET) for notice in receiver.notices)
+def test_the_end_of_a_retried_derivation_is_told_to_whom_the_first_one_s_was(
+    service: Service, receiver: Receiver
+):
+    webhook = {"url": receiver.url(), "secret": SECRET}
+    path = derived(service, fitted(service), REPORT | {"webhook": webhook})
+    service.ended(path)
+    again = service.client.post(f"{path}/retry").headers["Location"]
+    eventually(lambda: len(receiver.notices) >= 2, what="both ends are told")
+    told = {DerivationEvent.model_validate_json(n.body).data.links.self for n in receiver.notices}
+    assert told == {path, again}
+    assert all(notice.is_signed_with(SECRET) for notice in receiver.notices)

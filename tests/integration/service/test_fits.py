@@ -3,7 +3,9 @@
 import hashlib
 import json
 import threading
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 from api_schemas.body_models import BodyModels
 from api_schemas.jobs import EventData, Job
@@ -155,21 +157,30 @@ def test_a_part_of_another_file_than_was_begun_is_the_whole(service: Service):
             assert "Content-Range" not in answer.headers
 
 
-def test_jobs_are_listed_newest_first_in_pages(embedded: Machine):
-    with running_service(embedded) as service:
-        paths = [service.submit() for _ in range(5)]
-        for path in paths:
-            service.ended(path)
-        listed: list[str] = []
-        following = "/v1/fits?limit=2"
-        while following:
-            page = service.client.get(following)
-            listed += [job["links"]["self"] for job in page.json()["jobs"]]
-            following = page.json()["next"]
-            assert ("Link" in page.headers) == (following is not None)
-        assert listed == paths[::-1]
-        assert service.client.get("/v1/fits?state=failed").json()["jobs"] == []
-        assert len(service.client.get("/v1/fits?state=succeeded").json()["jobs"]) == 5
+def test_jobs_are_listed_newest_first_in_pages(service: Service):
+    paths = [service.submit() for _ in range(5)]
+    failed = service.submit({"unusable": True})
+    for path in (*paths, failed):
+        service.ended(path)
+    pages = list(_pages(service, "/v1/fits?limit=2"))
+    assert {len(page) for page in pages[:-1]} == {2}
+    listed = [job["links"]["self"] for page in pages for job in page]
+    assert listed[:6] == [failed, *paths[::-1]]
+    assert len(set(listed)) == len(listed)
+    for state in ("failed", "succeeded"):
+        jobs = [job for page in _pages(service, f"/v1/fits?state={state}") for job in page]
+        assert {job["state"] for job in jobs} == {state}
+        named = {job["links"]["self"] for job in jobs}
+        assert named & {*paths, failed} == ({failed} if state == "failed" else {*paths})
+
+
+def _pages(service: Service, following: str | None) -> Iterator[list[dict[str, Any]]]:
+    """The jobs of a list, page by page to its end."""
+    while following:
+        page = service.client.get(following)
+        yield page.json()["jobs"]
+        following = page.json()["next"]
+        assert ("Link" in page.headers) == (following is not None)
 
 
 def test_canceling_a_running_fit_kills_its_process(service: Service, tmp_path: Path):
@@ -185,13 +196,13 @@ def test_canceling_a_running_fit_kills_its_process(service: Service, tmp_path: P
     assert service.client.get(f"{path}/result").status_code == 409
 
 
-def test_canceling_a_waiting_job_ends_it_at_once(embedded: Machine):
-    with running_service(embedded, api_only=True) as service:
-        path = service.submit()
-        response = service.client.post(f"{path}/cancel")
-        assert response.status_code == 200
-        assert response.json()["state"] == "canceled"
-        assert [event["event"] for event in service.events(path)] == ["state", "end"]
+def test_canceling_a_waiting_job_ends_it_at_once(without_worker: Service):
+    service = without_worker
+    path = service.submit()
+    response = service.client.post(f"{path}/cancel")
+    assert response.status_code == 200
+    assert response.json()["state"] == "canceled"
+    assert [event["event"] for event in service.events(path)] == ["state", "end"]
 
 
 def test_erasing_leaves_nothing_of_a_job_on_the_disk(service: Service):
@@ -289,13 +300,13 @@ def test_the_bodies_there_are_can_be_asked_for(service: Service):
     assert [model.gender for model in models.models] == ["female", "male"]
 
 
-def test_health_tells_whether_a_worker_is_alive(embedded: Machine):
-    with running_service(embedded, api_only=True) as service:
-        assert service.client.get("/healthz/live").status_code == 200
-        ready = service.client.get("/healthz/ready")
-        assert ready.status_code == 503
-        assert ready.json()["code"] == "no-worker"
-        assert service.client.get("/v1/body-models").status_code == 503
+def test_health_tells_whether_a_worker_is_alive(without_worker: Service):
+    client = without_worker.client
+    assert client.get("/healthz/live").status_code == 200
+    ready = client.get("/healthz/ready")
+    assert ready.status_code == 503
+    assert ready.json()["code"] == "no-worker"
+    assert client.get("/v1/body-models").status_code == 503
 
 
 def test_a_job_that_has_ended_is_retried_on_the_same_input(either: Service):

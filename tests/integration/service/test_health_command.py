@@ -5,6 +5,7 @@ import signal
 import subprocess
 import threading
 import time
+from dataclasses import replace
 from urllib.parse import urlsplit
 
 import pytest
@@ -40,17 +41,17 @@ def health(machine: Machine, monkeypatch: pytest.MonkeyPatch, *arguments: str) -
     return ended.value.code
 
 
-def listening(machine: Machine, service: Service) -> Machine:
-    """The machine's settings with the port its API has got."""
+def listening(service: Service) -> Machine:
+    """The service's settings with the port its API has got."""
     port = urlsplit(str(service.client.base_url)).port
-    return Machine(machine.data_dir, machine.database_url, {"port": port})
+    machine = service.machine
+    return replace(machine, settings={**machine.settings, "port": port})
 
 
-def test_api_and_worker_are_healthy_while_both_run(machine, monkeypatch):
-    with running_service(machine) as service:
-        told = listening(machine, service)
-        assert health(told, monkeypatch) == HEALTHY
-        assert health(told, monkeypatch, "--worker") == HEALTHY
+def test_api_and_worker_are_healthy_while_both_run(either, monkeypatch):
+    told = listening(either)
+    assert health(told, monkeypatch) == HEALTHY
+    assert health(told, monkeypatch, "--worker") == HEALTHY
 
 
 def stop(worker: subprocess.Popen[str]) -> None:
@@ -81,13 +82,14 @@ def test_a_beat_that_is_late_is_waited_for_and_one_that_does_not_come_is_not(
         assert "no worker" in capsys.readouterr().err
 
 
-def test_without_a_worker_neither_is_healthy_and_it_is_said_why(embedded, monkeypatch, capsys):
-    with running_service(embedded, api_only=True) as service:
-        told = listening(embedded, service)
-        assert health(told, monkeypatch) == UNHEALTHY
-        assert "503 no-worker" in capsys.readouterr().err
-        assert health(told, monkeypatch, "--worker") == UNHEALTHY
-        assert "no worker" in capsys.readouterr().err
+def test_without_a_worker_neither_is_healthy_and_it_is_said_why(
+    without_worker, monkeypatch, capsys
+):
+    told = listening(without_worker)
+    assert health(told, monkeypatch) == UNHEALTHY
+    assert "503 no-worker" in capsys.readouterr().err
+    assert health(told, monkeypatch, "--worker") == UNHEALTHY
+    assert "no worker" in capsys.readouterr().err
 
 
 def test_a_service_that_is_not_there_is_not_healthy(embedded, monkeypatch, capsys):

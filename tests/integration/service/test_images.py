@@ -34,7 +34,7 @@ def uploaded(service: Service, content: bytes) -> UploadedImage:
 
 
 def blobs_below(folder: Path) -> list[Path]:
-    return [path for path in (folder / "blobs").rglob("*") if path.is_file()]
+    return sorted(path for path in (folder / "blobs").rglob("*") if path.is_file())
 
 
 def test_an_upload_is_named_by_its_content_and_found_again(service: Service):
@@ -52,16 +52,18 @@ def test_an_upload_is_named_by_its_content_and_found_again(service: Service):
     assert UploadedImage.model_validate_json(found.content) == image
 
 
-def test_the_same_picture_is_kept_once_and_its_time_begins_anew(tmp_path: Path):
-    with running_service(Machine(tmp_path), api_only=True) as service:
-        content = scripted_image({"n": 2})
-        first = upload(service, content)
-        stored = blobs_below(tmp_path)
-        second = upload(service, content)
-        assert (first.status_code, second.status_code) == (201, 200)
-        assert blobs_below(tmp_path) == stored
-        assert second.json()["created_at"] == first.json()["created_at"]
-        assert second.json()["expires_at"] > first.json()["expires_at"]
+def test_the_same_picture_is_kept_once_and_its_time_begins_anew(without_worker: Service):
+    service, folder = without_worker, without_worker.machine.data_dir
+    content = scripted_image({"n": 2})
+    before = blobs_below(folder)
+    first = upload(service, content)
+    stored = blobs_below(folder)
+    assert len(stored) == len(before) + 1
+    second = upload(service, content)
+    assert (first.status_code, second.status_code) == (201, 200)
+    assert blobs_below(folder) == stored
+    assert second.json()["created_at"] == first.json()["created_at"]
+    assert second.json()["expires_at"] > first.json()["expires_at"]
 
 
 @pytest.mark.parametrize(
@@ -119,15 +121,16 @@ def test_more_bytes_of_pictures_than_a_tenant_may_have_are_refused(tmp_path: Pat
         uploaded(service, scripted_image())
 
 
-def test_an_erased_picture_is_gone_with_its_file(tmp_path: Path):
-    with running_service(Machine(tmp_path), api_only=True) as service:
-        image = uploaded(service, scripted_image({"n": 3}))
-        assert blobs_below(tmp_path)
-        path = f"/v1/images/{image.id}"
-        assert service.client.delete(path).status_code == 204
-        assert not blobs_below(tmp_path)
-        checked(service.client.get(path), 404)
-        checked(service.client.delete(path), 404)
+def test_an_erased_picture_is_gone_with_its_file(without_worker: Service):
+    service, folder = without_worker, without_worker.machine.data_dir
+    before = blobs_below(folder)
+    image = uploaded(service, scripted_image({"n": 3}))
+    assert len(blobs_below(folder)) == len(before) + 1
+    path = f"/v1/images/{image.id}"
+    assert service.client.delete(path).status_code == 204
+    assert blobs_below(folder) == before
+    checked(service.client.get(path), 404)
+    checked(service.client.delete(path), 404)
 
 
 def test_a_picture_expires_by_itself(tmp_path: Path):

@@ -2,7 +2,6 @@
 
 import os
 import stat
-from collections.abc import Iterator
 from pathlib import Path
 
 import psycopg
@@ -19,16 +18,10 @@ from tests.integration.service.harness import (
     eventually,
     running_service,
 )
-from tests.integration.service.receiver import SECRET, Receiver, receiving
+from tests.integration.service.receiver import SECRET, Receiver
 
 PATH = "/hooks/one-time-token"
 OTHERS = 0o077
-
-
-@pytest.fixture
-def receiver() -> Iterator[Receiver]:
-    with receiving() as started:
-        yield started
 
 
 def open_to_others(folder: Path) -> set[Path]:
@@ -111,16 +104,12 @@ def test_whom_to_tell_and_the_secret_were_never_in_the_database(
     assert not [each for each in machine.data_dir.rglob("*") if SECRET.encode() in content(each)]
 
 
-def test_a_retry_tells_the_same_receiver_with_the_same_secret(
-    embedded: Machine, receiver: Receiver
-):
-    machine = Machine(embedded.data_dir, settings={"webhook_hosts": "127.0.0.1"})
-    with running_service(machine) as service:
-        first = told(service, receiver)
-        second = service.client.post(f"{first}/retry").headers["Location"]
-        service.client.delete(first)
-        service.ended(second)
-        eventually(lambda: len(receiver.notices) == 2, what="the retry is told")
+def test_a_retry_tells_the_same_receiver_with_the_same_secret(service: Service, receiver: Receiver):
+    first = told(service, receiver)
+    second = service.client.post(f"{first}/retry").headers["Location"]
+    service.client.delete(first)
+    service.ended(second)
+    eventually(lambda: len(receiver.notices) == 2, what="the retry is told")
     assert all(notice.is_signed_with(SECRET) for notice in receiver.notices)
     assert [notice.path for notice in receiver.notices] == [PATH, PATH]
 

@@ -4,7 +4,6 @@ import dataclasses
 import json
 import re
 import signal
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -16,33 +15,19 @@ from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
     PATIENCE_S,
     REQUEST,
+    SHARED,
     Machine,
     Service,
     eventually,
     running_service,
 )
-from tests.integration.service.receiver import SECRET, Receiver, receiving
+from tests.integration.service.receiver import SECRET, Receiver
 
 OTHER_SECRET = "whsec_" + "A" * 32
-SETTINGS = {"webhook_hosts": "127.0.0.1", "webhook_pauses_s": "0.2,0.2,0.2"}
-
-
-@pytest.fixture
-def receiver() -> Iterator[Receiver]:
-    with receiving() as started:
-        yield started
-
-
-@pytest.fixture(scope="module")
-def telling(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
-    """One service for all the tests that leave it as it was."""
-    machine = Machine(tmp_path_factory.mktemp("telling"), settings=SETTINGS)
-    with running_service(machine) as running:
-        yield running
 
 
 def with_settings(machine: Machine, **changes: object) -> Machine:
-    return dataclasses.replace(machine, settings=SETTINGS | changes)
+    return dataclasses.replace(machine, settings={**SHARED, **changes})
 
 
 def submitted(service: Service, script: dict[str, object] | None = None, **webhook: str) -> str:
@@ -69,30 +54,29 @@ def given_up(service: Service) -> float:
 
 
 def test_the_end_of_a_job_is_told_signed_and_repeated_until_it_is_accepted(
-    machine: Machine, receiver: Receiver, tmp_path: Path
+    either: Service, receiver: Receiver, tmp_path: Path
 ):
-    gate = tmp_path / "gate"
+    service, gate = either, tmp_path / "gate"
     receiver.statuses = [500, 302, 200]
     receiver.headers = {"Location": receiver.url("/elsewhere")}
-    with running_service(with_settings(machine)) as service:
-        script: dict[str, object] = {"gate": str(gate)}
-        path = submitted(service, script, url=receiver.url("/a?b=c"), secret=SECRET)
-        assert service.job(path)["webhook"] == {
-            "state": "waiting",
-            "attempts": 0,
-            "last_status": None,
-            "last_error": None,
-            "next_attempt_at": None,
-        }
-        gate.touch()
-        assert settled(service, path) == {
-            "state": "delivered",
-            "attempts": 3,
-            "last_status": 200,
-            "last_error": None,
-            "next_attempt_at": None,
-        }
-        job = Job.model_validate_json(service.client.get(path).content)
+    script: dict[str, object] = {"gate": str(gate)}
+    path = submitted(service, script, url=receiver.url("/a?b=c"), secret=SECRET)
+    assert service.job(path)["webhook"] == {
+        "state": "waiting",
+        "attempts": 0,
+        "last_status": None,
+        "last_error": None,
+        "next_attempt_at": None,
+    }
+    gate.touch()
+    assert settled(service, path) == {
+        "state": "delivered",
+        "attempts": 3,
+        "last_status": 200,
+        "last_error": None,
+        "next_attempt_at": None,
+    }
+    job = Job.model_validate_json(service.client.get(path).content)
     assert [notice.path for notice in receiver.notices] == ["/a?b=c"] * 3
     assert all(notice.is_signed_with(SECRET) for notice in receiver.notices)
     assert not receiver.notices[0].is_signed_with(OTHER_SECRET)
@@ -110,22 +94,21 @@ def test_the_end_of_a_job_is_told_signed_and_repeated_until_it_is_accepted(
     [({"unusable": True}, "fit.failed"), ({"segfault": True}, "fit.failed")],
 )
 def test_failures_are_told_with_their_problem(
-    telling: Service, receiver: Receiver, script: dict[str, object], kind: str
+    service: Service, receiver: Receiver, script: dict[str, object], kind: str
 ):
-    path = submitted(telling, script, url=receiver.url(), secret=SECRET)
-    assert settled(telling, path)["state"] == "delivered"
+    path = submitted(service, script, url=receiver.url(), secret=SECRET)
+    assert settled(service, path)["state"] == "delivered"
     event = receiver.notices[0].event
     assert event["type"] == kind
-    assert event["data"]["problem"] == telling.job(path)["problem"]
+    assert event["data"]["problem"] == service.job(path)["problem"]
 
 
-def test_a_canceled_job_is_told_and_an_erased_one_is_not(embedded: Machine, receiver: Receiver):
-    with running_service(with_settings(embedded)) as service:
-        erased = submitted(service, {"seconds": 3600}, url=receiver.url("/erased"), secret=SECRET)
-        canceled = submitted(service, {"seconds": 3600}, url=receiver.url(), secret=SECRET)
-        assert service.client.delete(erased).status_code == 204
-        service.client.post(f"{canceled}/cancel")
-        assert settled(service, canceled)["state"] == "delivered"
+def test_a_canceled_job_is_told_and_an_erased_one_is_not(service: Service, receiver: Receiver):
+    erased = submitted(service, {"seconds": 3600}, url=receiver.url("/erased"), secret=SECRET)
+    canceled = submitted(service, {"seconds": 3600}, url=receiver.url(), secret=SECRET)
+    assert service.client.delete(erased).status_code == 204
+    service.client.post(f"{canceled}/cancel")
+    assert settled(service, canceled)["state"] == "delivered"
     assert [(each.path, each.event["type"]) for each in receiver.notices] == [
         ("/hook", "fit.canceled")
     ]
@@ -145,29 +128,29 @@ def test_a_fit_of_an_uploaded_picture_is_told_too_with_the_services_own_secret(
 
 
 def test_the_end_of_a_retried_job_is_told_to_the_same_receiver(
-    telling: Service, receiver: Receiver
+    service: Service, receiver: Receiver
 ):
-    first = submitted(telling, {"unusable": True}, url=receiver.url(), secret=SECRET)
-    assert settled(telling, first)["state"] == "delivered"
-    again = telling.client.post(f"{first}/retry").headers["Location"]
-    assert settled(telling, again)["state"] == "delivered"
+    first = submitted(service, {"unusable": True}, url=receiver.url(), secret=SECRET)
+    assert settled(service, first)["state"] == "delivered"
+    again = service.client.post(f"{first}/retry").headers["Location"]
+    assert settled(service, again)["state"] == "delivered"
     assert all(notice.is_signed_with(SECRET) for notice in receiver.notices)
     assert [notice.event["data"]["links"]["self"] for notice in receiver.notices] == [first, again]
 
 
-def test_after_the_last_attempt_a_notice_is_given_up(telling: Service, receiver: Receiver):
+def test_after_the_last_attempt_a_notice_is_given_up(service: Service, receiver: Receiver):
     receiver.statuses = [503] * 4
-    before = given_up(telling)
-    path = submitted(telling, url=receiver.url(), secret=SECRET)
-    webhook = settled(telling, path)
+    before = given_up(service)
+    path = submitted(service, url=receiver.url(), secret=SECRET)
+    webhook = settled(service, path)
     assert (webhook["state"], webhook["attempts"], webhook["last_status"]) == ("given_up", 4, 503)
     assert webhook["last_error"] == "The receiver answered 503."
-    assert given_up(telling) == before + 1
+    assert given_up(service) == before + 1
 
 
-def test_who_answers_gone_is_not_asked_again(telling: Service, receiver: Receiver):
+def test_who_answers_gone_is_not_asked_again(service: Service, receiver: Receiver):
     receiver.statuses = [410]
-    webhook = settled(telling, submitted(telling, url=receiver.url(), secret=SECRET))
+    webhook = settled(service, submitted(service, url=receiver.url(), secret=SECRET))
     assert (webhook["state"], webhook["attempts"]) == ("given_up", 1)
 
 
@@ -222,8 +205,8 @@ def test_a_stopping_api_hands_an_attempt_back(embedded: Machine, receiver: Recei
         "http://192.168.1.1/",
     ],
 )
-def test_an_address_that_is_not_public_is_refused_at_once(service: Service, url: str):
-    answer = service.post(request=REQUEST | {"webhook": {"url": url, "secret": SECRET}})
+def test_an_address_that_is_not_public_is_refused_at_once(without_worker: Service, url: str):
+    answer = without_worker.post(request=REQUEST | {"webhook": {"url": url, "secret": SECRET}})
     problem = answer.json()
     assert (answer.status_code, problem["code"]) == (422, "address-not-public")
     assert problem["field"] == "webhook.url"
@@ -261,11 +244,11 @@ def test_a_notice_nobody_could_sign_is_refused(service: Service):
     assert (answer.status_code, answer.json()["field"]) == (422, "webhook.secret")
 
 
-def test_no_secret_is_ever_answered(telling: Service, receiver: Receiver):
-    path = submitted(telling, url=receiver.url("/token-in-path"), secret=SECRET)
-    settled(telling, path)
+def test_no_secret_is_ever_answered(service: Service, receiver: Receiver):
+    path = submitted(service, url=receiver.url("/token-in-path"), secret=SECRET)
+    settled(service, path)
     answers = [
-        telling.client.get(each).text
+        service.client.get(each).text
         for each in (path, "/v1/fits", f"{path}/result", f"{path}/request")
     ]
     assert all(SECRET not in answer for answer in answers), json.dumps(answers)
