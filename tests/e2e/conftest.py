@@ -7,7 +7,7 @@ from service.demo_data.sample import load_sample
 from tests.e2e.service import ended_job, running_service, wait_for_estimator
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
     """One real service for all tests of a process; other tests' fits may be there."""
     with running_service(tmp_path_factory.mktemp("service")) as client:
@@ -15,7 +15,7 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
         yield client
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def finished_fit(service: httpx.Client) -> str:
     """The id of a fit of the sample that has succeeded."""
     sample = load_sample()

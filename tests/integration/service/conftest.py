@@ -36,7 +36,7 @@ def machine(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Machine]
         yield fresh
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def started(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[str], Service]]:
     """Gives the service on a database, which is started when it is first asked for."""
     with contextlib.ExitStack() as stack:
@@ -62,13 +62,13 @@ def embedded(tmp_path: Path) -> Machine:
     return Machine(tmp_path)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def service(started: Callable[[str], Service]) -> Service:
     """The one on the embedded database: who uses it leaves nothing running."""
     return started("sqlite")
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def without_worker(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
     """An API alone, of which nothing is set: who uses it leaves nothing waiting."""
     machine = Machine(tmp_path_factory.mktemp("without_worker"))

@@ -51,8 +51,9 @@ SHARED: Mapping[str, object] = {
     # Notices go to the receivers of tests.
     "webhook_hosts": "127.0.0.1",
     "webhook_pauses_s": "0.2,0.2,0.2",
-    # It is there while others are tested, and every beat looks after all workers and their jobs.
+    # It idles while others are tested: every beat looks after all workers and their jobs.
     "heartbeat_s": 1.0,
+    "queue_poll_s": 0.1,
 }
 """What a service that files share is told besides."""
 

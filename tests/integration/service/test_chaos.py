@@ -6,8 +6,10 @@ The fake pipeline, so that it takes seconds; ``python -m tests.chaos`` does the 
 import json
 import sys
 
-from tests.chaos.caller import Derived
-from tests.chaos.reference import references
+import pytest
+
+from tests.chaos.caller import Derived, Task
+from tests.chaos.reference import Outcome, references
 from tests.chaos.run import Plan, disturb
 from tests.chaos.verdict import verdict
 from tests.deployment import Commands, Deployment, Kind
@@ -28,21 +30,27 @@ PLAN = Plan(
 )
 
 
-def test_whoever_is_killed_every_job_ends_once_with_its_result(machine: Machine):
-    script = {"seconds": 0.4, "derivation": {"seconds": 0.4}}
-    tasks = [
-        *(
-            Submission(
-                image=scripted_image(script | {"number": number}), request=json.dumps(REQUEST)
-            )
-            for number in range(PICTURES)
-        ),
-        *(Derived(request={"kind": kind}) for kind in DERIVED),
-    ]
+SCRIPT = {"seconds": 0.4, "derivation": {"seconds": 0.4}}
+TASKS: tuple[Task, ...] = (
+    *(
+        Submission(image=scripted_image(SCRIPT | {"number": number}), request=json.dumps(REQUEST))
+        for number in range(PICTURES)
+    ),
+    *(Derived(request={"kind": kind}) for kind in DERIVED),
+)
+
+
+@pytest.fixture(scope="module")
+def expected(tmp_path_factory: pytest.TempPathFactory) -> list[Outcome]:
+    """What each task's outcome is where nobody is killed, whatever the database."""
+    undisturbed = Deployment(folder=tmp_path_factory.mktemp("undisturbed"), commands=COMMANDS)
+    return references(undisturbed, TASKS)
+
+
+def test_whoever_is_killed_every_job_ends_once_with_its_result(
+    machine: Machine, expected: list[Outcome]
+):
     settings = {**QUICK, "worker_processes": 1, "max_crashes": 1_000}
-    expected = references(
-        Deployment(folder=machine.data_dir / "undisturbed", commands=COMMANDS), tasks
-    )
     deployment = Deployment(
         folder=machine.data_dir / "disturbed",
         commands=COMMANDS,
@@ -51,7 +59,7 @@ def test_whoever_is_killed_every_job_ends_once_with_its_result(machine: Machine)
     )
     try:
         deployment.start()
-        judged = verdict(deployment, disturb(deployment, tasks, PLAN), expected)
+        judged = verdict(deployment, disturb(deployment, TASKS, PLAN), expected)
     finally:
         deployment.end()
     assert judged.faults == {}, (judged, deployment.log.read_text()[-10_000:])
