@@ -6,7 +6,7 @@ values, and the fit's intensity is their luminance. Both are in [0, 1] and never
 """
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, UInt8
 
 from fitter.arrays import GreyImage, Image
 
@@ -28,6 +28,11 @@ def display_from_linear(linear: Float[np.ndarray, "..."]) -> Float[np.ndarray, "
         linear * 12.92,
         1.055 * np.maximum(linear, 0.0) ** (1.0 / 2.4) - 0.055,
     )
+
+
+def bytes_of_display(display: Image) -> UInt8[np.ndarray, "h w 3"]:
+    """(h, w, 3) display values in 8 bits, as a detector of people takes them."""
+    return np.rint(255.0 * display).astype(np.uint8)
 
 
 def luminance_of(linear_rgb: Image) -> GreyImage:

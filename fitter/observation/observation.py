@@ -3,12 +3,10 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import numpy as np
-
 from fitter.arrays import GreyImage, Image, Mask
 from fitter.detection.detector import DetectedSlants, Detector, body_of_clicks
 from fitter.observation.clicks import check_clicks, check_places, side_warnings
-from fitter.observation.colour import display_from_linear, luminance_of
+from fitter.observation.colour import bytes_of_display, luminance_of
 from fitter.observation.completion import (
     completed_clicks,
     crowd_warnings,
@@ -18,7 +16,11 @@ from fitter.observation.completion import (
 from fitter.observation.decoding import decode_picture
 from fitter.observation.focal_length import focal_length
 from fitter.observation.masks import decode_mask
-from fitter.observation.resampling import linear_working_picture, working_size
+from fitter.observation.resampling import (
+    display_working_picture,
+    linear_working_picture,
+    working_size,
+)
 from fitter.observation.subject import check_subject
 from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera, FocalLengthSource
@@ -95,13 +97,14 @@ def observe(request: FitRequest, detector: Detector | None = None) -> Observatio
             request.mask, width=width, height=height, size=size, max_pixels=request.max_pixels
         )
     linear_rgb = linear_working_picture(picture.pixels, size)
-    display = display_from_linear(linear_rgb).astype(np.float32)
+    display = display_working_picture(linear_rgb)
     given = clicks = scaled_clicks(request.clicks, size.scale)
-    bodies = () if detector is None else detector.bodies(np.rint(255.0 * display).astype(np.uint8))
+    bodies = () if detector is None else detector.bodies(bytes_of_display(display))
     detected = body_of_clicks(bodies, clicks)
     if request.complete_clicks:
         clicks = completed_clicks(given, detected)
-        check_clicks(clicks, width=width, height=height)
+        # Up to a working pixel of the original may be left out at its right and lower border.
+        check_clicks(clicks, width=size.width + 1, height=size.height + 1)
     image_camera = Camera(
         focal_length_px=focal.pixels,
         centre_x=width / 2,

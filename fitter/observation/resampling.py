@@ -5,8 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, UInt8
 
+from fitter.arrays import Image
 from fitter.observation import _kernels
-from fitter.observation.colour import linear_from_display
+from fitter.observation.colour import display_from_linear, linear_from_display
 
 WORKING_PIXELS = 400_000
 """Largest working picture. At 640x480 a pixel is about 4 mm on a standing person, and the contour
@@ -41,6 +42,11 @@ def linear_working_picture(
 ) -> Float[np.ndarray, "h2 w2 3"]:
     """Linear light at the working size, float32: light averages, display values do not."""
     return _kernels.area_average(pixels, _LINEAR_OF_BYTE, 1.0 / size.scale, size.width, size.height)
+
+
+def display_working_picture(linear_rgb: Float[np.ndarray, "h w 3"]) -> Image:
+    """(h, w, 3) float32 display values of a working picture in linear light."""
+    return display_from_linear(linear_rgb).astype(np.float32)
 
 
 def working_coverage(

@@ -1,0 +1,137 @@
+"""What somebody who looks at proposed points should know of them."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
+
+from fitter.detection.detector import DetectedBody
+from fitter.detection.landmark_meanings import INDEX_OF_POINT
+from fitter.remarks import FitWarning
+from fitter.request import Click
+
+RADIUS_OF_STATURE = 0.54
+"""Radius of the circle round a person, as a share of their stature."""
+
+LEAST_STATURE_PX = 170.0
+"""Stature in pixels of the working picture under which one of them shows more than a centimetre."""
+
+BORDER_PX = 1.0
+"""What lies so near the picture's border may go on beyond it."""
+
+FACE = ("nose", "left_eye", "right_eye")
+
+Segment = tuple[Click, Click]
+
+CHAINS = {
+    "arms": ("shoulder", "elbow", "wrist"),
+    "legs": ("hip", "knee", "ankle"),
+}
+"""Limbs from the trunk outward, by what they are called together."""
+
+
+def proposal_warnings(
+    bodies: Sequence[DetectedBody], chosen: int | None, *, was_chosen: bool
+) -> tuple[FitWarning, ...]:
+    """Warnings of a proposal; everything is in pixels of the working picture.
+
+    Parameters
+    ----------
+    bodies
+        Everybody found.
+    chosen
+        Place among them of the one whose points are proposed; None where there is nobody.
+    was_chosen
+        Whether the caller said so.
+    """
+    if chosen is None:
+        return (
+            FitWarning(
+                code="nobody-found",
+                message="No person was found in the picture: click the points.",
+            ),
+        )
+    body = bodies[chosen]
+    found = {
+        "several-people": (
+            len(bodies) > 1 and not was_chosen,
+            (
+                f"{len(bodies)} people were found; the points are the largest one's. Send `person` "
+                "for another one's."
+            ),
+        ),
+        "cut-off": (
+            _is_cut_off(body),
+            (
+                "The person reaches to the picture's border or beyond it: points that are not in "
+                "the picture are left out."
+            ),
+        ),
+        "person-too-small": (
+            body.person.radius / RADIUS_OF_STATURE < LEAST_STATURE_PX,
+            (
+                "The person is so small that a pixel shows more than a centimetre: crop the "
+                "picture to the person, or send a larger one."
+            ),
+        ),
+        "seen-from-behind": (
+            _is_from_behind(body.points),
+            "The person seems to be seen from behind: see whether left and right are theirs.",
+        ),
+        "limbs-crossed": (
+            any(_are_crossed(body.points, chain) for chain in CHAINS.values()),
+            "Arms or legs cross in the picture: see whether left and right are the right ones.",
+        ),
+    }
+    return tuple(
+        FitWarning(code=code, message=message) for code, (holds, message) in found.items() if holds
+    )
+
+
+def _is_cut_off(body: DetectedBody) -> bool:
+    """Whether a point is beyond the picture, or the mask reaches its border."""
+    mask = body.mask >= 0.5
+    edges = mask[0].any(), mask[-1].any(), mask[:, 0].any(), mask[:, -1].any()
+    height, width = mask.shape
+    at_border = any(
+        min(click.x, click.y, width - click.x, height - click.y) < BORDER_PX
+        for click in body.points.values()
+    )
+    return any(edges) or at_border or not INDEX_OF_POINT.keys() <= body.points.keys()
+
+
+def _is_from_behind(points: Mapping[str, Click]) -> bool:
+    left, right = points.get("left_shoulder"), points.get("right_shoulder")
+    if left is None or right is None or left.x >= right.x:
+        return False
+    return all(name not in points or points[name].occluded for name in FACE)
+
+
+def _are_crossed(points: Mapping[str, Click], chain: Sequence[str]) -> bool:
+    """Whether a part of the left limb crosses one of the right limb."""
+    return any(
+        _cross(one, other)
+        for one in _segments(points, "left", chain)
+        for other in _segments(points, "right", chain)
+    )
+
+
+def _segments(points: Mapping[str, Click], side: str, chain: Sequence[str]) -> Iterator[Segment]:
+    """The parts of a limb both of whose ends are known."""
+    for near, far in pairwise(points.get(f"{side}_{joint}") for joint in chain):
+        if near is not None and far is not None:
+            yield near, far
+
+
+def _cross(one: Segment, other: Segment) -> bool:
+    """Whether two segments have an inner point in common."""
+    return (
+        _turn(*one, other[0]) * _turn(*one, other[1]) < 0.0
+        and _turn(*other, one[0]) * _turn(*other, one[1]) < 0.0
+    )
+
+
+def _turn(start: Click, end: Click, point: Click) -> float:
+    """Positive where a point lies to the right of the way from start to end, as the picture shows.
+
+    Twice the area of their triangle.
+    """
+    return (end.x - start.x) * (point.y - start.y) - (end.y - start.y) * (point.x - start.x)

@@ -1,0 +1,109 @@
+"""What is proposed of a picture: the points a fit would propose to itself, and what is told."""
+
+import numpy as np
+import pytest
+from PIL import Image as PillowImage
+
+from fitter.detection.detector import installed_detector
+from fitter.errors import InvalidInputError
+from fitter.fits.proposal import Proposal, propose
+from fitter.observation.observation import observe
+from fitter.request import FitRequest, Gender
+from service.demo_data.sample import load_sample
+from tests.evaluation.files import PICTURES_FOLDER
+from tests.unit.observation.pictures import encode, noise
+
+CASE = "man_young_thin_standing"
+
+
+def picture() -> bytes:
+    return (PICTURES_FOLDER / f"{CASE}.jpg").read_bytes()
+
+
+def proposed(image: bytes, *, person: int | None = None, with_mask: bool = False) -> Proposal:
+    return propose(
+        image,
+        detector=installed_detector(),
+        max_pixels=50_000_000,
+        person=person,
+        with_mask=with_mask,
+    )
+
+
+def two_people() -> bytes:
+    """A smaller copy of the person to the left of the person."""
+    person = np.asarray(PillowImage.open(PICTURES_FOLDER / f"{CASE}.jpg"))
+    height, width = person.shape[:2]
+    smaller = np.asarray(PillowImage.fromarray(person).resize((3 * width // 4, 3 * height // 4)))
+    beside = np.pad(smaller, ((height - len(smaller), 0), (0, 0), (0, 0)), mode="edge")
+    return encode(PillowImage.fromarray(np.concatenate([beside, person], axis=1)))
+
+
+def codes(proposal: Proposal) -> list[str]:
+    return [each.code for each in proposal.warnings]
+
+
+def test_the_points_are_those_a_fit_proposes_to_itself():
+    large = encode(PillowImage.open(PICTURES_FOLDER / f"{CASE}.jpg").resize((1501, 2003)))
+    observation = observe(
+        FitRequest(image=large, clicks={}, gender=Gender.MALE, height_m=1.8, complete_clicks=True),
+        installed_detector(),
+    )
+    points = proposed(large).points
+    assert points.keys() == observation.clicks.keys()
+    for name, point in points.items():
+        inside = observation.clicks[name]
+        assert point.click.x * observation.scale == pytest.approx(inside.x)
+        assert point.click.y * observation.scale == pytest.approx(inside.y)
+        assert (point.click.spread_m, point.click.occluded) == (inside.spread_m, inside.occluded)
+
+
+def test_an_expected_error_is_the_spread_in_pixels_of_the_picture():
+    """The sample shows 1.80 m from 41 to about 890, so some 470 pixels a metre."""
+    proposal = proposed(load_sample().image)
+    for point in proposal.points.values():
+        assert point.expected_error_px == pytest.approx(470.0 * point.click.spread_m, rel=0.1)
+    ((left, top, right, bottom),) = [each.box for each in proposal.persons]
+    assert (left, top, right, bottom) == pytest.approx((163, 41, 559, 895), abs=12)
+    assert codes(proposal) == []
+
+
+def test_the_mask_has_the_picture_s_size_and_covers_the_person():
+    true = PillowImage.open(PICTURES_FOLDER / f"{CASE}_person.png").convert("L")
+    size = (1501, 2003)
+    large = encode(PillowImage.open(PICTURES_FOLDER / f"{CASE}.jpg").resize(size))
+    proposal = proposed(large, with_mask=True)
+    assert proposal.mask is not None
+    assert proposal.mask.shape == (proposal.height, proposal.width) == size[::-1]
+    found, truth = proposal.mask > 127, np.asarray(true.resize(size)) > 127
+    assert (found & truth).sum() > 0.93 * (found | truth).sum()
+    assert proposed(large).mask is None
+
+
+def test_nobody_is_no_error():
+    proposal = proposed(encode(PillowImage.fromarray(noise())), with_mask=True)
+    assert (proposal.persons, proposal.person, proposal.points) == ((), None, {})
+    assert proposal.mask is None
+    assert codes(proposal) == ["nobody-found"]
+
+
+def test_of_several_people_the_largest_or_the_one_asked_for_is_proposed():
+    image = two_people()
+    largest, smaller = proposed(image), proposed(image, person=1)
+    assert len(largest.persons) == 2
+    assert (largest.person, smaller.person) == (0, 1)
+    assert largest.points["nose"].click.x > 0.5 * largest.width > smaller.points["nose"].click.x
+    assert "several-people" in codes(largest)
+    assert "several-people" not in codes(smaller)
+    with pytest.raises(InvalidInputError) as raised:
+        proposed(image, person=2)
+    assert (raised.value.field, raised.value.code) == ("person", "person-unknown")
+
+
+def test_a_person_at_the_border_and_a_small_one_are_told():
+    person = PillowImage.open(PICTURES_FOLDER / f"{CASE}.jpg")
+    width, height = person.size
+    assert "cut-off" in codes(proposed(encode(person.crop((0, 0, width, 2 * height // 3)))))
+    small = encode(person.resize((width // 4, height // 4)))
+    assert codes(proposed(small)) == ["person-too-small"]
+    assert codes(proposed(picture())) == []
