@@ -135,12 +135,27 @@ Visibility = Annotated[
 ]
 
 
+class PointSource(StrEnum):
+    """Who says where a point is: a person, or a detector that ``/v1/points`` asked."""
+
+    CLICK = "click"
+    PROPOSAL = "proposal"
+
+
 class Point(WireModel):
-    """A clicked point, continuous pixels, with COCO's visibility: 0 absent, 1 hidden, 2 seen."""
+    """A clicked point, continuous pixels, with COCO's visibility: 0 absent, 1 hidden, 2 seen.
+
+    A point of ``/v1/points`` can be sent as it came: as a ``proposal`` it binds a fit as loosely as
+    proposals of its name err. ``confidence`` and ``expected_error_px`` are for people; a fit does
+    not look at them. Who moves or confirms a point sends it as a ``click``.
+    """
 
     x: float
     y: float
     visibility: Visibility = 2
+    source: PointSource = PointSource.CLICK
+    confidence: float | None = Field(default=None, ge=0.0, le=1.0)
+    expected_error_px: float | None = Field(default=None, ge=0.0)
 
 
 class DetectorPoint(WireModel):
@@ -177,6 +192,10 @@ def _points_kind(value: object) -> str:
     return "[numbers]"
 
 
+def _points_or_auto_kind(value: object) -> str:
+    return "[auto]" if isinstance(value, str) else _points_kind(value)
+
+
 NamedPoint = Annotated[
     Annotated[Point, Tag("[object]")]
     | Annotated[Pair, Tag("[pair]")]
@@ -185,14 +204,22 @@ NamedPoint = Annotated[
 ]
 """``[x, y]``, ``[x, y, visibility]`` or ``{"x": .., "y": .., "visibility": ..}``."""
 
-Points = Annotated[
-    Annotated[dict[PointName, NamedPoint], Tag("[named]")]
-    | Annotated[list[float], Field(min_length=1), Tag("[numbers]")]
-    | Annotated[list[Row], Field(min_length=1), Tag("[rows]")]
-    | Annotated[list[DetectorPoint], Field(min_length=1), Tag("[landmarks]")],
-    Discriminator(_points_kind),
-]
+_Named = Annotated[dict[PointName, NamedPoint], Tag("[named]")]
+_Numbers = Annotated[list[float], Field(min_length=1), Tag("[numbers]")]
+_Rows = Annotated[list[Row], Field(min_length=1), Tag("[rows]")]
+_Landmarks = Annotated[list[DetectorPoint], Field(min_length=1), Tag("[landmarks]")]
+
+Points = Annotated[_Named | _Numbers | _Rows | _Landmarks, Discriminator(_points_kind)]
 """Named points, or a detector's: a flat list of numbers, rows of three, or BlazePose's objects."""
+
+Auto = Literal["auto"]
+AUTO: Final[Auto] = "auto"
+
+PointsOrAuto = Annotated[
+    Annotated[Auto, Tag("[auto]")] | _Named | _Numbers | _Rows | _Landmarks,
+    Discriminator(_points_or_auto_kind),
+]
+"""Points, or the word that has the service propose all of them."""
 
 
 def named_points(

@@ -1,14 +1,15 @@
 """What a caller asks for: a fit, of a picture sent along or uploaded before."""
 
+from collections.abc import Mapping
 from enum import StrEnum
-from typing import Self
+from typing import Final, Self
 
 from pydantic import Field, model_validator
 
 from api_schemas.base import WireModel, refusal
 from api_schemas.images import ImageId
 from api_schemas.known import KnownMeasurements
-from api_schemas.points import Points, PointsFormat
+from api_schemas.points import AUTO, Point, PointName, Points, PointsFormat, PointsOrAuto
 from api_schemas.webhooks import WebhookTarget
 
 
@@ -38,6 +39,13 @@ class Clothing(StrEnum):
 
     TIGHT = "tight"
     LOOSE = "loose"
+
+
+class SegmentationKind(StrEnum):
+    """How the person is cut out: GrabCut seeded by a detector's mask, or as the paper does."""
+
+    SEEDED_GRABCUT = "seeded_grabcut"
+    GRABCUT = "grabcut"
 
 
 class LightKind(StrEnum):
@@ -92,32 +100,24 @@ class LightGuess(WireModel):
     surroundings: SurroundingsKind = SurroundingsKind.UNIFORM
 
 
-class SubjectOptions(KnownMeasurements):
-    """Who is in the picture, where the joints are, and through which lens it was taken.
+_POINTS_DESCRIPTION: Final = (
+    "Clicked points, pixels of the picture as a browser shows it. At least six of the "
+    "shoulders, elbows, wrists, hips, knees and ankles, two of them shoulders or hips{unless}."
+)
+_POINTS_EXAMPLE: Final = {
+    "left_shoulder": [438.5, 222.0],
+    "right_shoulder": [249.0, 222.0],
+    "left_elbow": [484.0, 346.0],
+    "left_hip": [399.0, 460.0],
+    "right_hip": [296.0, 453.0],
+    "right_knee": {"x": 295, "y": 641, "visibility": 2},
+}
 
-    The body has the height, the weight and the measurements that are given. ``height_m`` left out
-    means the mean of the gender, or the most probable height of people with the given measurements;
-    the answer then lists it as assumed. At most one focal length; without one the picture's EXIF
-    data are asked.
-    """
+
+class Subject(KnownMeasurements):
+    """Who is in the picture, and through which lens it was taken."""
 
     gender: Gender
-    points: Points = Field(
-        description=(
-            "Clicked points, pixels of the picture as a browser shows it. At least six of the "
-            "shoulders, elbows, wrists, hips, knees and ankles, two of them shoulders or hips."
-        ),
-        examples=[
-            {
-                "left_shoulder": [438.5, 222.0],
-                "right_shoulder": [249.0, 222.0],
-                "left_elbow": [484.0, 346.0],
-                "left_hip": [399.0, 460.0],
-                "right_hip": [296.0, 453.0],
-                "right_knee": {"x": 295, "y": 641, "visibility": 2},
-            }
-        ],
-    )
     format: PointsFormat = PointsFormat.NAMED
     focal_length_px: float | None = Field(default=None, gt=0.0, le=1_000_000.0)
     focal_length_35mm: float | None = Field(
@@ -137,9 +137,30 @@ class SubjectOptions(KnownMeasurements):
         return self
 
 
-class FitOptions(SubjectOptions):
-    """One fit: the subject, and what to do."""
+class SubjectOptions(Subject):
+    """Who is in the picture, where the joints are, and through which lens it was taken.
 
+    The body has the height, the weight and the measurements that are given. ``height_m`` left out
+    means the mean of the gender, or the most probable height of people with the given measurements;
+    the answer then lists it as assumed. At most one focal length; without one the picture's EXIF
+    data are asked.
+    """
+
+    points: Points = Field(
+        description=_POINTS_DESCRIPTION.format(unless=""), examples=[_POINTS_EXAMPLE]
+    )
+
+
+class FitChoices(Subject):
+    """The subject, and what to do."""
+
+    complete_points: bool = Field(
+        default=False,
+        description=(
+            "Have a detector propose the points that are not given; those that are stay as they "
+            "are, and one is enough to say who of several people is meant. Needs the detector."
+        ),
+    )
     cues: Cues = Cues.SES
     optimizer: OptimizerKind = OptimizerKind.GAUSS_NEWTON
     clothing: Clothing = Field(
@@ -150,18 +171,54 @@ class FitOptions(SubjectOptions):
             "Shading looks at skin alone. Give the weight if it is known."
         ),
     )
+    segmentation: SegmentationKind = Field(
+        default=SegmentationKind.SEEDED_GRABCUT,
+        description=(
+            "How the person is cut out where no mask is sent: from the detector's mask, where the "
+            "service has a detector and it finds the person, or from the points' bones alone."
+        ),
+    )
+    slant_hints: bool = Field(
+        default=True,
+        description=(
+            "Have the detector, where the service has one, say how limbs slant in depth; "
+            "`limb_facing` goes before it."
+        ),
+    )
     light: LightGuess = LightGuess()
 
 
-class FitRequest(FitOptions):
+class FitOptions(FitChoices, SubjectOptions):
+    """One fit, as it was understood: points are named, and none where all are to be proposed."""
+
+
+class FitRequest(FitChoices):
     """The JSON part ``request`` of a submission: the fit, and whom to tell of its end."""
 
+    points: PointsOrAuto = Field(
+        description=(
+            _POINTS_DESCRIPTION.format(unless=", unless `complete_points` is set")
+            + " `auto`: all are proposed, of the largest person in the picture. Needs the detector."
+        ),
+        examples=[_POINTS_EXAMPLE, AUTO],
+    )
     webhook: WebhookTarget | None = None
 
-    def options(self) -> FitOptions:
-        """The fit alone, without what concerns only the submission."""
+    @property
+    def are_points_completed(self) -> bool:
+        """Whether points that are not given are to be proposed."""
+        return self.complete_points or self.points == AUTO
+
+    def options(self, points: Mapping[PointName, Point]) -> FitOptions:
+        """The fit alone, without what concerns only the submission, of these named points."""
+        shared = {name: getattr(self, name) for name in FitChoices.model_fields}
         return FitOptions.model_construct(
-            **{name: getattr(self, name) for name in FitOptions.model_fields}
+            **shared
+            | {
+                "points": dict(points),
+                "format": PointsFormat.NAMED,
+                "complete_points": self.are_points_completed,
+            }
         )
 
 

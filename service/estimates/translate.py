@@ -10,12 +10,11 @@ from api_schemas import initial_poses as wire_poses
 from api_schemas import requests as wire_request
 from api_schemas import results as wire_results
 from api_schemas.known import STATURE
-from api_schemas.points import points_by_name
 from fitter.body.model import BodyModel
 from fitter.fits.initial_body import InitialBody
 from fitter.population.body_estimate import BodyEstimate
-from fitter.request import Click, Facing, FitRequest, Gender
-from service.worker.translate import SEEN, body_result, camera_result, known_measurements
+from fitter.request import Facing, FitRequest, Gender
+from service.worker.translate import body_result, camera_result, clicks, known_measurements
 
 
 def wire_gender(gender: Gender) -> wire_request.Gender:
@@ -27,10 +26,7 @@ def subject_request(subject: wire_request.SubjectOptions) -> FitRequest:
     """Translate a subject whose points are named; there is no picture."""
     return FitRequest(
         image=b"",
-        clicks={
-            name: Click(x=point.x, y=point.y, occluded=point.visibility < SEEN)
-            for name, point in points_by_name(subject.points).items()
-        },
+        clicks=clicks(subject.points),
         gender=Gender(subject.gender),
         height_m=subject.height_m,
         measurements=known_measurements(subject),

@@ -33,8 +33,23 @@ def checked_points(
     Raises
     ------
     RefusedError
-        If the layout does not fit the points, one lies outside the picture, or they are too few or
-        too close together.
+        As :func:`placed_points`, or if they are too few or too close together.
+    """
+    named = placed_points(points, layout, width=width, height=height)
+    _check_count(named)
+    _check_extent(named, width=width, height=height)
+    return named
+
+
+def placed_points(
+    points: Points, layout: PointsFormat, *, width: int, height: int
+) -> dict[PointName, Point]:
+    """Translate the points and check them as far as others are going to be added to them.
+
+    Raises
+    ------
+    RefusedError
+        If the layout does not fit the points, or one lies outside the picture.
     """
     try:
         named = named_points(points, layout, width=width, height=height)
@@ -49,8 +64,6 @@ def checked_points(
             )
         ) from error
     _check_places(named, width=width, height=height)
-    _check_count(named)
-    _check_extent(named, width=width, height=height)
     return named
 
 

@@ -7,7 +7,7 @@ The API makes them at ``POST``, the command line before it fits. What only a dec
 from dataclasses import dataclass
 from typing import Final
 
-from api_schemas.points import PointsFormat
+from api_schemas.points import AUTO, Point, PointName
 from api_schemas.problems import FieldProblem
 from api_schemas.requests import FitOptions, FitRequest
 from api_schemas.webhooks import WebhookTarget
@@ -17,7 +17,7 @@ from service.submissions.image_header import (
     UnknownImageError,
     read_image_header,
 )
-from service.submissions.point_rules import checked_points
+from service.submissions.point_rules import checked_points, placed_points
 from service.submissions.refusal import refused
 from service.submissions.validation import parsed
 
@@ -80,13 +80,19 @@ def check_parts(
         mask_header = check_picture("mask", mask, max_pixels=max_pixels)
         _check_same_size(header, mask_header)
         mask_media_type = mask_header.media_type
-    points = checked_points(asked.points, asked.format, width=header.width, height=header.height)
     return CheckedSubmission(
-        options=asked.options().model_copy(update={"points": points, "format": PointsFormat.NAMED}),
+        options=asked.options(_points(asked, header)),
         webhook=asked.webhook,
         image_media_type=header.media_type,
         mask_media_type=mask_media_type,
     )
+
+
+def _points(asked: FitRequest, picture: ImageHeader) -> dict[PointName, Point]:
+    if asked.points == AUTO:
+        return {}
+    check = placed_points if asked.complete_points else checked_points
+    return check(asked.points, asked.format, width=picture.width, height=picture.height)
 
 
 def check_picture(field: str, content: bytes, *, max_pixels: int) -> ImageHeader:

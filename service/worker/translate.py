@@ -10,8 +10,9 @@ from api_schemas import known as wire_known
 from api_schemas import requests as wire_request
 from api_schemas import results as wire
 from api_schemas.derivation_kinds.combined import CombinedPicture
-from api_schemas.points import points_by_name
+from api_schemas.points import Point, Points, PointSource, points_by_name
 from api_schemas.problems import FieldProblem
+from fitter.detection.landmark_meanings import INDEX_OF_POINT, spread_m
 from fitter.errors import InvalidInputError
 from fitter.fits.progress import Progress
 from fitter.measurement.quantity import Measurement
@@ -27,6 +28,7 @@ from fitter.request import (
     KnownMeasurement,
     LightGuess,
     OptimizerKind,
+    SegmentationKind,
     SurroundingsKind,
 )
 from fitter.result import OUTCOME_EXPLANATIONS, FitResult, LimbFacing, PictureFit, StageBody
@@ -46,10 +48,7 @@ def fit_request(
     return FitRequest(
         image=image,
         mask=mask,
-        clicks={
-            name: Click(x=point.x, y=point.y, occluded=point.visibility < SEEN)
-            for name, point in points_by_name(options.points).items()
-        },
+        clicks=clicks(options.points),
         gender=Gender(options.gender),
         height_m=options.height_m,
         measurements=known_measurements(options),
@@ -58,6 +57,9 @@ def fit_request(
         cues=Cues(options.cues),
         optimizer=OptimizerKind(options.optimizer),
         clothing=Clothing(options.clothing),
+        complete_clicks=options.complete_points,
+        segmentation=SegmentationKind(options.segmentation),
+        slant_hints=options.slant_hints,
         light=LightGuess(
             kind=LightKind(options.light.kind),
             azimuth=_radians(options.light.azimuth_deg),
@@ -68,6 +70,11 @@ def fit_request(
         limb_facing={limb.value: Facing(facing) for limb, facing in options.limb_facing.items()},
         max_pixels=max_pixels,
     )
+
+
+def clicks(points: Points) -> dict[str, Click]:
+    """Translate named points; proposed ones get the spread that proposals of their name have."""
+    return {name: _click(name, point) for name, point in points_by_name(points).items()}
 
 
 def known_measurements(known: wire_known.KnownMeasurements) -> dict[str, KnownMeasurement]:
@@ -149,6 +156,18 @@ def combined_picture(
         light=None if person.light is None else _light(person.light),
         reflectance=None if person.reflectance is None else _reflectance(person.reflectance),
         silhouette_overlap=found.silhouette_overlap,
+    )
+
+
+def _click(name: str, point: Point) -> Click:
+    is_seen = point.visibility >= SEEN
+    # The detector proposes no neck: whoever calls one a proposal has clicked it.
+    is_proposal = point.source is PointSource.PROPOSAL and name in INDEX_OF_POINT
+    return Click(
+        x=point.x,
+        y=point.y,
+        occluded=not is_seen,
+        spread_m=spread_m(name, float(is_seen)) if is_proposal else None,
     )
 
 
