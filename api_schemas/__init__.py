@@ -1,7 +1,7 @@
 """The wire types of the service: what travels over HTTP, and nothing else.
 
 ``points`` and ``requests`` are what a caller sends; ``jobs``, ``results``, ``body_models`` and
-``problems`` are what the service answers; ``images``, ``initial_poses``, ``bodies`` and
-``webhooks`` are both sides of their resources. ``openapi.json`` is the exported contract. The
+``problems`` are what the service answers; ``images``, ``proposals``, ``initial_poses``, ``bodies``
+and ``webhooks`` are both sides of their resources. ``openapi.json`` is the exported contract. The
 repository's ``released/``, which is not installed, holds it as it was at every released version.
 """

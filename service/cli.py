@@ -72,9 +72,11 @@ def _parser() -> argparse.ArgumentParser:
     fit.add_argument(
         "--points",
         type=Path,
-        required=True,
         metavar="FILE",
-        help='JSON: a whole request, or {"points": {...}}',
+        help='JSON: a whole request, or {"points": {...}} (default: all points are proposed)',
+    )
+    fit.add_argument(
+        "--complete-points", action="store_true", help="propose the points that FILE has not"
     )
     fit.add_argument("--gender", choices=("female", "male"))
     fit.add_argument("--height-m", type=float, metavar="METRES")
@@ -261,7 +263,8 @@ def _fit(parsed: argparse.Namespace) -> int:
                     "optimizer",
                 )
                 if (value := getattr(parsed, name)) is not None
-            },
+            }
+            | ({"complete_points": True} if parsed.complete_points else {}),
         )
     )
 

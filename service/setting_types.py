@@ -6,7 +6,7 @@ Each type checks one value by itself; its errors say what to write.
 import re
 from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Final
 
 from pydantic import AfterValidator
 
@@ -72,8 +72,24 @@ def _with_both_models(folder: Path) -> Path:
     return folder
 
 
+DETECTOR_FILES: Final = ("pose_detection.tflite", "pose_landmark_full.tflite")
+"""The detector's weights, as :mod:`fitter.detection.weights` calls them; a test compares."""
+
+
+def _with_both_weights(folder: Path) -> Path:
+    for name in DETECTOR_FILES:
+        if not (folder / name).is_file():
+            message = (
+                f"no {name} in {folder}: copy it there from the package mediapipe 0.10.21, or "
+                "unset it where that is installed"
+            )
+            raise ValueError(message)
+    return folder
+
+
 NamedFolder = Annotated[Path, AfterValidator(_named)]
 ModelFolder = Annotated[Path, AfterValidator(_with_both_models)]
+DetectorFolder = Annotated[Path, AfterValidator(_with_both_weights)]
 DatabaseUrl = Annotated[str, AfterValidator(read_database_url)]
 BucketUrl = Annotated[str, _that_passes(check_bucket)]
 WebAddress = Annotated[str, _that_passes(check_web_address)]

@@ -15,6 +15,7 @@ from service.setting_addresses import is_loopback
 from service.setting_types import (
     BucketUrl,
     DatabaseUrl,
+    DetectorFolder,
     HostNames,
     ModelFolder,
     NamedFolder,
@@ -101,6 +102,13 @@ class Settings(BaseSettings):
     models_dir: ModelFolder | None = Field(
         default=None,
         description="Folder with `female.npz` and `male.npz`; the packaged body models if unset.",
+    )
+    detector_dir: DetectorFolder | None = Field(
+        default=None,
+        description=(
+            "Folder with `pose_detection.tflite` and `pose_landmark_full.tflite`, which propose "
+            "points; those of the package mediapipe if unset, and none if that is not installed."
+        ),
     )
     max_upload_bytes: int = Field(
         default=50_000_000,
@@ -232,9 +240,9 @@ class Settings(BaseSettings):
         ge=1,
         le=MOST_PROCESSES,
         description=(
-            "Processes beside the API that answer bodies and initial poses and write other "
-            "formats, one question at a time each; about 400 MB each, 100 more once they wrote "
-            "USDZ."
+            "Processes beside the API that answer bodies and initial poses, propose points and "
+            "write other formats, one question at a time each; about 400 MB each, 100 more with "
+            "the detector and 100 more once they wrote USDZ."
         ),
     )
     job_time_limit_s: float = Field(

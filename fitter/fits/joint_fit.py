@@ -66,6 +66,7 @@ def joint_fit(
     requests: Sequence[FitRequest],
     *,
     models: Path | None = None,
+    detector_weights: Path | None = None,
     observe: Callable[[float], None],
 ) -> JointFit:
     """Fit one person to all pictures, from a fit of each.
@@ -78,6 +79,8 @@ def joint_fit(
         What they were made of.
     models
         Folder of the body models, None for those of the package.
+    detector_weights
+        Folder of the detector's weights, None for those of their package.
     observe
         Is told the share of the work done, in [0, 1].
 
@@ -120,6 +123,7 @@ def joint_fit(
                     prior=population,
                     hold_shape=True,
                     report=report,
+                    detector_weights=detector_weights,
                 )
             )
     return JointFit(

@@ -8,8 +8,8 @@ SUMMARY: Final = "Human body shape, pose, light and measurements from a single p
 DESCRIPTION: Final = """\
 A picture and a few clicked points are posted to `/v1/fits`; the answer is a job, which is \
 followed by its events or looked at now and then. Once it has succeeded, its result and its files \
-are below it, and more can be made of it (derivations). Bodies and initial poses are answered at \
-once.
+are below it, and more can be made of it (derivations). Points, initial poses and bodies are \
+answered at once.
 
 Every error is `application/problem+json` and says which field, why, and what to do about it."""
 
@@ -20,7 +20,7 @@ TAGS: Final[Sequence[Mapping[str, str]]] = (
     {"name": "results", "description": "What a fit that has succeeded found, and its files."},
     {"name": "derivations", "description": "Jobs that make something of a fit."},
     {"name": "images", "description": "Pictures that are uploaded once, for any number of fits."},
-    {"name": "estimates", "description": "Bodies and initial poses, answered at once."},
+    {"name": "estimates", "description": "Points, initial poses and bodies, answered at once."},
     {"name": "body models", "description": "The bodies that are fitted."},
     {"name": "health", "description": "Whether the service is up, and its figures."},
     {"name": "problems", "description": "What the types of errors mean."},

@@ -11,15 +11,18 @@ from api_schemas.initial_poses import InitialPose
 from api_schemas.problems import problem
 from service.api.problems import ProblemError
 from service.api.service_metrics import ServiceMetrics
-from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask
+from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask, PointsTask
 from service.estimates.port import (
     EstimatedBody,
     Estimator,
     EstimatorFailedError,
     EstimatorTimeoutError,
     EstimatorUnavailableError,
+    NoDetectorError,
+    ProposedPoints,
 )
 from service.representation.formats import MeshFormat
+from service.submissions.detector import DETECTOR_MISSING, NOT_INSTALLED, REMEDY
 from service.submissions.refusal import RefusedError
 
 SPARE_THREADS: Final = 4
@@ -43,6 +46,7 @@ OUTCOMES: Final[Mapping[type[Exception], str]] = {
     RefusedError: "refused",
     EstimatorUnavailableError: "unavailable",
     EstimatorTimeoutError: "timed_out",
+    NoDetectorError: "unavailable",
 }
 """How figures call what a question ended with; all else is called failed."""
 
@@ -76,6 +80,16 @@ class Estimates:
     async def initial_pose(self, task: InitialPoseTask) -> InitialPose:
         """Pose the mean person by clicks; raises as :meth:`body` does."""
         return await self._answer("initial_pose", partial(self._estimator.initial_pose, task))
+
+    async def points(self, task: PointsTask, image: bytes) -> ProposedPoints:
+        """Propose the points of a person in an encoded picture; raises as :meth:`body` does.
+
+        Also 404 where the detector is not installed.
+        """
+        try:
+            return await self._answer("points", partial(self._estimator.points, task, image))
+        except NoDetectorError as error:
+            raise no_detector() from error
 
     async def convert(self, glb: bytes, kind: MeshFormat) -> bytes:
         """Write the body of a GLB file in another format; raises as :meth:`body` does."""
@@ -129,6 +143,13 @@ class Estimates:
             self._metrics.count_estimate(
                 question=name, outcome=outcome, seconds=time.monotonic() - started
             )
+
+
+def no_detector() -> ProblemError:
+    """Say that nothing proposes points here, and how to change that."""
+    return ProblemError(
+        problem("not-found", code=DETECTOR_MISSING, detail=NOT_INSTALLED, remedy=REMEDY)
+    )
 
 
 def _not_now(*, code: str, detail: str) -> ProblemError:

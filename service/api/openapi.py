@@ -22,6 +22,7 @@ from api_schemas.points import (
     TRUNK_POINT_NAMES,
 )
 from api_schemas.problems import PROBLEM_MEDIA_TYPE, Problem
+from api_schemas.proposals import PointsOfImage, PointsProposal, PointsRequest
 from api_schemas.requests import FitOfImage, FitOptions, FitRequest
 from api_schemas.webhooks import WebhookEvent
 from service.api.json_bodies import JSON, json_content
@@ -184,6 +185,8 @@ def _models(mode: str) -> tuple[type[BaseModel], ...]:
             FitOfImage,
             BodyRequest,
             InitialPoseRequest,
+            PointsRequest,
+            PointsOfImage,
             DerivationRequest,
         )
     return (
@@ -191,6 +194,7 @@ def _models(mode: str) -> tuple[type[BaseModel], ...]:
         EventData,
         BodyEstimate,
         InitialPose,
+        PointsProposal,
         UploadedImage,
         WebhookEvent,
         DerivationEvent,

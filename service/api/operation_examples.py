@@ -29,6 +29,7 @@ REQUESTS: Final[Mapping[str, Examples]] = {
     "derive": _DERIVATIONS,
     "initial_pose": estimates.INITIAL_POSE_REQUESTS,
     "estimate_body": estimates.BODY_REQUESTS,
+    "propose_points": estimates.POINTS_REQUESTS,
 }
 
 ANSWERS: Final[Mapping[str, Mapping[int, Examples]]] = {
@@ -57,6 +58,7 @@ ANSWERS: Final[Mapping[str, Mapping[int, Examples]]] = {
     "get_image": {200: UPLOADED},
     "initial_pose": {200: {"standing": estimates.INITIAL_POSE_ANSWER}},
     "estimate_body": {200: {"from-height-and-weight": estimates.BODY_ANSWER}},
+    "propose_points": {200: {"standing": estimates.POINTS_ANSWER}},
     "body_models": {200: {"both": whole_service.BODY_MODELS}},
     "live": {200: {"live": {"status": "live"}}},
     "ready": {200: {"ready": {"status": "ready", "workers": 1, "queued": 0}}},

@@ -19,6 +19,7 @@ LINKS: Final = {
     "fits": "/v1/fits",
     "images": "/v1/images",
     "initial_poses": "/v1/initial-poses",
+    "points": "/v1/points",
     "bodies": "/v1/bodies",
     "body_models": "/v1/body-models",
     "openapi": "/openapi.json",

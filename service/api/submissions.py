@@ -27,6 +27,7 @@ from service.api.uploads import Upload, read_upload
 from service.estimates.messages import BodyTask
 from service.jobs.inputs import IMAGE, MASK
 from service.representation.jobs import represent
+from service.submissions.detector import check_detector
 from service.submissions.submission import CheckedSubmission, check_parts, check_submission
 from service.submissions.validation import parsed
 from service.webhooks.targets import check_webhook
@@ -133,6 +134,7 @@ def _check(context: ApiContext, upload: Upload) -> CheckedSubmission:
         max_pixels=context.settings.max_pixels,
     )
     check_webhook(checked.webhook, context.settings)
+    check_detector(checked.options, context.settings.detector_dir)
     return checked
 
 
@@ -149,6 +151,7 @@ def _check_fit_of_image(context: ApiContext, text: bytes) -> tuple[CheckedSubmis
         asked, image=upload.image, mask=upload.mask, max_pixels=context.settings.max_pixels
     )
     check_webhook(checked.webhook, context.settings)
+    check_detector(checked.options, context.settings.detector_dir)
     return checked, upload
 
 

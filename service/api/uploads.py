@@ -66,6 +66,27 @@ async def read_image(request: Request) -> bytes:
     return (await _parts(request, needed=("image",), known=("image",)))["image"]
 
 
+async def read_image_and_request(request: Request) -> tuple[bytes, bytes]:
+    """Read a picture and what is asked of it: JSON as a string or as a file, ``{}`` if none came.
+
+    Raises
+    ------
+    ProblemError
+        As :func:`read_upload`.
+    """
+    if media_type(request) != MULTIPART:
+        raise unsupported(
+            request,
+            remedy=(
+                f"Send {MULTIPART} with the part 'image', or application/json with the image_id of "
+                "an uploaded picture."
+            ),
+            accepted=f"{MULTIPART}, application/json",
+        )
+    parts = await _parts(request, needed=("image",), known=NEEDED_PARTS)
+    return parts["image"], parts.get("request", b"{}")
+
+
 async def read_request_and_files(
     request: Request, names: Sequence[str]
 ) -> tuple[bytes, dict[str, bytes]]:

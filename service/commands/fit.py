@@ -9,6 +9,7 @@ from typing import Final
 from rich.console import Console
 
 from api_schemas.derivation_kinds.caricature import CaricatureOptions
+from api_schemas.points import AUTO
 from api_schemas.problems import Problem, field_problem, problem
 from api_schemas.requests import FitOptions
 from fitter.errors import ModelFileError
@@ -39,12 +40,13 @@ UNUSABLE_INPUT: Final = 2
 class FitArguments:
     """What the command line says; ``overrides`` replace what the points file says.
 
+    Without a ``points`` file all points are proposed.
     ``models`` is the folder of the body models, None for the service's setting; ``formats`` are the
     endings of what meshes are written as beside GLB.
     """
 
     image: Path
-    points: Path
+    points: Path | None
     mask: Path | None
     models: Path | None
     output: Path
@@ -74,7 +76,7 @@ def fit_locally(arguments: FitArguments, *, pipeline: str = PIPELINE) -> int:
     """Fit, write all files to the output folder, print the measurements; return the exit status."""
     console = Console()
     try:
-        request = request_from_file(arguments.points.read_text(), arguments.overrides)
+        request = _request(arguments)
         image = arguments.image.read_bytes()
         mask = None if arguments.mask is None else arguments.mask.read_bytes()
         output = _fit(
@@ -108,6 +110,12 @@ def fit_locally(arguments: FitArguments, *, pipeline: str = PIPELINE) -> int:
     return 0
 
 
+def _request(arguments: FitArguments) -> bytes:
+    if arguments.points is None:
+        return json.dumps({"points": AUTO} | dict(arguments.overrides)).encode()
+    return request_from_file(arguments.points.read_text(), arguments.overrides)
+
+
 def warm_up(*, pipeline: str = PIPELINE) -> int:
     """Fit the sample and exaggerate it, so that what is compiled at first use is compiled."""
     console = Console()
@@ -129,6 +137,7 @@ def warm_up(*, pipeline: str = PIPELINE) -> int:
                 inputs={PERSON: output.artifacts[PERSON]},
                 max_pixels=settings.max_pixels,
                 models=settings.models_dir,
+                detector=settings.detector_dir,
             ),
             lambda _: None,
         )
@@ -157,6 +166,7 @@ def _fit(
                 mask=mask,
                 max_pixels=settings.max_pixels,
                 models=models or settings.models_dir,
+                detector=settings.detector_dir,
             ),
             lambda report: bars.show(report.stage, report.progress),
         )

@@ -3,19 +3,20 @@
 from service.engine.database import check_database
 from service.process.data_folder import prepare_data_folder
 from service.settings import Settings
-from service.worker.model_files import check_models
+from service.worker.model_files import check_detector, check_models
 
 
 def check_ground(settings: Settings) -> None:
-    """Look at data folder, body models and database; a database that is away is waited for.
+    """Look at data folder, models, detector and database; a database that is away is waited for.
 
     Raises
     ------
     SettingError
-        If folder or models cannot be used.
+        If folder, models or detector cannot be used.
     DatabaseUnusableError
         If the database cannot.
     """
     prepare_data_folder(settings)
     check_models(settings)
+    check_detector(settings)
     check_database(settings.system_database_url)

@@ -5,19 +5,20 @@ from pathlib import Path
 from typing import Protocol, cast
 
 from api_schemas.initial_poses import InitialPose
-from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask
-from service.estimates.port import EstimatedBody
+from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask, PointsTask
+from service.estimates.port import EstimatedBody, ProposedPoints
 
 
 class Answers(Protocol):
-    """A module with these four functions.
+    """A module with these five functions.
 
-    ``body`` and ``initial_pose`` raise
+    ``body``, ``initial_pose`` and ``points`` raise
     :class:`service.worker.pipeline_port.UnusableInputError` where the question is at fault.
+    ``models`` and ``detector`` are folders, None for what is installed.
     """
 
-    def prepare(self, models: Path | None) -> None:
-        """Load the body models, and whatever else takes long the first time."""
+    def prepare(self, models: Path | None, detector: Path | None) -> None:
+        """Load body models and detector, and whatever else takes long the first time."""
         ...
 
     def body(self, task: BodyTask, models: Path | None) -> EstimatedBody:
@@ -26,6 +27,18 @@ class Answers(Protocol):
 
     def initial_pose(self, task: InitialPoseTask, models: Path | None) -> InitialPose:
         """Pose the mean person by clicks."""
+        ...
+
+    def points(
+        self, task: PointsTask, image: bytes, *, max_pixels: int, detector: Path | None
+    ) -> ProposedPoints:
+        """Propose the points of a person in an encoded picture.
+
+        Raises
+        ------
+        NoDetectorError
+            If there is no detector.
+        """
         ...
 
     def conversion(self, task: ConversionTask, glb: bytes) -> bytes:

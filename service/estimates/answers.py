@@ -1,30 +1,38 @@
 """The real answers: the fitter between two translations."""
 
+from contextlib import suppress
 from pathlib import Path
 
 from api_schemas.bodies import BodyRequest
 from api_schemas.initial_poses import InitialPose
-from fitter.errors import InvalidInputError
+from api_schemas.proposals import PointsRequest
+from fitter.detection.detector import installed_detector
+from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.export.formats import converted
 from fitter.export.gltf_document import Frame
 from fitter.export.plain_gltf import plain_glb
 from fitter.fits.initial_body import initial_body
 from fitter.fits.prepared_model import prepared_model
+from fitter.fits.proposal import propose
 from fitter.population.body_estimate import estimate_body
 from fitter.request import STATURE, Gender, KnownMeasurement
 from service.demo_data.sample import load_sample
 from service.estimates import translate
-from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask
-from service.estimates.port import EstimatedBody
+from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask, PointsTask
+from service.estimates.port import EstimatedBody, NoDetectorError, ProposedPoints
 from service.submissions.submission import check_submission
 from service.worker.pipeline_port import UnusableInputError
 from service.worker.translate import field_problem, known_measurements
 
 CENTIMETRES_PER_METRE = 100.0
+SAMPLE_PIXELS = 1_000_000
 
 
-def prepare(models: Path | None) -> None:
-    """Load both models and answer a question of each kind, which compiles or loads all kernels."""
+def prepare(models: Path | None, detector: Path | None) -> None:
+    """Load both models and answer a question of each kind, which compiles or loads all kernels.
+
+    Without a detector nothing is proposed, which is said when somebody asks.
+    """
     for gender in Gender:
         body(
             BodyTask(
@@ -35,7 +43,7 @@ def prepare(models: Path | None) -> None:
         )
     sample = load_sample()
     checked = check_submission(
-        request=sample.request, image=sample.image, mask=None, max_pixels=50_000_000
+        request=sample.request, image=sample.image, mask=None, max_pixels=SAMPLE_PIXELS
     )
     initial_pose(
         InitialPoseTask(
@@ -43,6 +51,14 @@ def prepare(models: Path | None) -> None:
         ),
         models,
     )
+
+    with suppress(NoDetectorError):
+        points(
+            PointsTask(request=PointsRequest()),
+            sample.image,
+            max_pixels=SAMPLE_PIXELS,
+            detector=detector,
+        )
 
 
 def body(task: BodyTask, models: Path | None) -> EstimatedBody:
@@ -89,6 +105,26 @@ def initial_pose(task: InitialPoseTask, models: Path | None) -> InitialPose:
     except InvalidInputError as error:
         raise UnusableInputError(field_problem(error)) from error
     return translate.initial_pose(initial, request, fittable.operators.model.part_names)
+
+
+def points(
+    task: PointsTask, image: bytes, *, max_pixels: int, detector: Path | None
+) -> ProposedPoints:
+    """Propose the points of a person in an encoded picture."""
+    try:
+        found = propose(
+            image,
+            detector=installed_detector(detector),
+            max_pixels=max_pixels,
+            person=task.request.person,
+            with_mask=task.request.mask,
+        )
+    except DetectorUnavailableError as error:
+        raise NoDetectorError from error
+    except InvalidInputError as error:
+        raise UnusableInputError(field_problem(error)) from error
+    mask = b"" if found.mask is None else translate.grey_png(found.mask)
+    return ProposedPoints(proposal=translate.points_proposal(found), mask=mask)
 
 
 def conversion(task: ConversionTask, glb: bytes) -> bytes:

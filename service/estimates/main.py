@@ -19,8 +19,12 @@ from service.estimates.messages import (
     ConversionTask,
     FaultAnswer,
     InitialPoseAnswer,
+    NoDetectorAnswer,
+    PointsAnswer,
+    PointsTask,
     RefusalAnswer,
 )
+from service.estimates.port import NoDetectorError
 from service.process.kernels import keep_kernels
 from service.settings import Settings
 from service.worker.main import THREAD_LIMITS
@@ -43,7 +47,7 @@ def run_estimator(settings: Settings, *, answers: str = ANSWERS_MODULE) -> None:
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     module = load_answers(answers)
     try:
-        module.prepare(settings.models_dir)
+        module.prepare(settings.models_dir, settings.detector_dir)
     except ModelFileError as error:
         raise unusable_models(settings, str(error)) from error
     try:
@@ -68,9 +72,19 @@ def _answer(
             return BodyAnswer(estimate=body.estimate), body.glb
         if isinstance(task, ConversionTask):
             return ConversionAnswer(), module.conversion(task, brought)
+        if isinstance(task, PointsTask):
+            proposed = module.points(
+                task,
+                brought,
+                max_pixels=settings.max_pixels,
+                detector=settings.detector_dir,
+            )
+            return PointsAnswer(proposal=proposed.proposal), proposed.mask
         return InitialPoseAnswer(pose=module.initial_pose(task, settings.models_dir)), b""
     except UnusableInputError as error:
         return RefusalAnswer(error=error.error), b""
+    except NoDetectorError:
+        return NoDetectorAnswer(), b""
     except Exception:
         LOG.exception("An estimate failed.")
         return FaultAnswer(), b""

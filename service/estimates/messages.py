@@ -11,6 +11,7 @@ from api_schemas.base import WireModel
 from api_schemas.bodies import BodyEstimate, BodyRequest
 from api_schemas.initial_poses import InitialPose
 from api_schemas.problems import FieldProblem
+from api_schemas.proposals import PointsProposal, PointsRequest
 from api_schemas.requests import SubjectOptions
 
 READY: Final = b"ready"
@@ -42,6 +43,13 @@ class ConversionTask(WireModel):
     ending: str
 
 
+class PointsTask(WireModel):
+    """Propose the points of a person in the picture that comes along."""
+
+    kind: Literal["points"] = "points"
+    request: PointsRequest
+
+
 class BodyAnswer(WireModel):
     """The estimated body."""
 
@@ -62,6 +70,19 @@ class ConversionAnswer(WireModel):
     kind: Literal["conversion"] = "conversion"
 
 
+class PointsAnswer(WireModel):
+    """The proposal; the file that comes along is the person's mask, if it was asked for."""
+
+    kind: Literal["points"] = "points"
+    proposal: PointsProposal
+
+
+class NoDetectorAnswer(WireModel):
+    """The estimator has no detector."""
+
+    kind: Literal["no_detector"] = "no_detector"
+
+
 class RefusalAnswer(WireModel):
     """The question is at fault."""
 
@@ -75,9 +96,17 @@ class FaultAnswer(WireModel):
     kind: Literal["fault"] = "fault"
 
 
-Task = Annotated[BodyTask | InitialPoseTask | ConversionTask, Field(discriminator="kind")]
+Task = Annotated[
+    BodyTask | InitialPoseTask | ConversionTask | PointsTask, Field(discriminator="kind")
+]
 Answer = Annotated[
-    BodyAnswer | InitialPoseAnswer | ConversionAnswer | RefusalAnswer | FaultAnswer,
+    BodyAnswer
+    | InitialPoseAnswer
+    | ConversionAnswer
+    | PointsAnswer
+    | NoDetectorAnswer
+    | RefusalAnswer
+    | FaultAnswer,
     Field(discriminator="kind"),
 ]
 TASKS: Final[TypeAdapter[Task]] = TypeAdapter(Task)

@@ -16,6 +16,9 @@ from service.estimates.messages import (
     ConversionTask,
     InitialPoseAnswer,
     InitialPoseTask,
+    NoDetectorAnswer,
+    PointsAnswer,
+    PointsTask,
     RefusalAnswer,
     Task,
 )
@@ -23,6 +26,8 @@ from service.estimates.port import (
     EstimatedBody,
     EstimatorFailedError,
     EstimatorUnavailableError,
+    NoDetectorError,
+    ProposedPoints,
 )
 from service.estimates.process import EstimatorProcess
 from service.submissions.refusal import refused
@@ -73,6 +78,15 @@ class EstimatorPool:
         if not isinstance(answer, InitialPoseAnswer):
             raise EstimatorFailedError
         return answer.pose
+
+    def points(self, task: PointsTask, image: bytes) -> ProposedPoints:
+        """Propose the points of a person in an encoded picture."""
+        answer, file = self._ask(task, brought=image, patient=True)
+        if isinstance(answer, NoDetectorAnswer):
+            raise NoDetectorError
+        if not isinstance(answer, PointsAnswer):
+            raise EstimatorFailedError
+        return ProposedPoints(proposal=answer.proposal, mask=file)
 
     def convert(self, task: ConversionTask, glb: bytes) -> bytes:
         """Write the body of a GLB file in another format."""

@@ -5,7 +5,8 @@ from typing import Protocol
 
 from api_schemas.bodies import BodyEstimate
 from api_schemas.initial_poses import InitialPose
-from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask
+from api_schemas.proposals import PointsProposal
+from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask, PointsTask
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -14,6 +15,18 @@ class EstimatedBody:
 
     estimate: BodyEstimate
     glb: bytes
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ProposedPoints:
+    """The answer, and the mask's PNG file where the task asks for it, else nothing."""
+
+    proposal: PointsProposal
+    mask: bytes
+
+
+class NoDetectorError(Exception):
+    """Points cannot be proposed: the detector is not installed."""
 
 
 class EstimatorUnavailableError(Exception):
@@ -53,6 +66,16 @@ class Estimator(Protocol):
 
     def initial_pose(self, task: InitialPoseTask) -> InitialPose:
         """Pose the mean person by clicks."""
+        ...
+
+    def points(self, task: PointsTask, image: bytes) -> ProposedPoints:
+        """Propose the points of a person in an encoded picture.
+
+        Raises
+        ------
+        NoDetectorError
+            If there is no detector.
+        """
         ...
 
     def convert(self, task: ConversionTask, glb: bytes) -> bytes:

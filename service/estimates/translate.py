@@ -1,20 +1,26 @@
 """Between the wire types of estimates and the fitter's: pure, both ways, nothing else."""
 
+import io
 from collections.abc import Sequence
+from typing import cast
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, UInt8
+from PIL import Image
 
 from api_schemas import bodies as wire_bodies
 from api_schemas import initial_poses as wire_poses
+from api_schemas import proposals as wire_proposals
 from api_schemas import requests as wire_request
 from api_schemas import results as wire_results
 from api_schemas.known import STATURE
+from api_schemas.points import PointName
 from fitter.body.model import BodyModel
 from fitter.fits.initial_body import InitialBody
+from fitter.fits.proposal import Proposal, ProposedPoint
 from fitter.population.body_estimate import BodyEstimate
 from fitter.request import Facing, FitRequest, Gender
-from service.worker.translate import body_result, camera_result, clicks, known_measurements
+from service.worker.translate import SEEN, body_result, camera_result, clicks, known_measurements
 
 
 def wire_gender(gender: Gender) -> wire_request.Gender:
@@ -69,6 +75,32 @@ def initial_pose(
     )
 
 
+def points_proposal(found: Proposal) -> wire_proposals.PointsProposal:
+    """Translate a proposal; the caller adds its mask."""
+    points: dict[PointName, wire_proposals.ProposedPoint] = {
+        cast("PointName", name): _proposed_point(point) for name, point in found.points.items()
+    }
+    return wire_proposals.PointsProposal(
+        image_size=wire_proposals.PictureSize(width=found.width, height=found.height),
+        persons=tuple(
+            wire_proposals.FoundPerson(box=each.box, score=each.score) for each in found.persons
+        ),
+        person=found.person,
+        points=points,
+        doubtful=tuple(name for name, point in points.items() if point.visibility < SEEN),
+        warnings=tuple(
+            wire_results.FitWarning(code=each.code, message=each.message) for each in found.warnings
+        ),
+    )
+
+
+def grey_png(values: UInt8[np.ndarray, "h w"]) -> bytes:
+    """Write a grey picture, quickly rather than small."""
+    encoded = io.BytesIO()
+    Image.fromarray(values).save(encoded, "PNG", compress_level=1)
+    return encoded.getvalue()
+
+
 def body_estimate(estimate: BodyEstimate, model: BodyModel) -> wire_bodies.BodyEstimate:
     """Translate an estimated body; the caller adds its file."""
     measurements = tuple(
@@ -93,6 +125,17 @@ def body_estimate(estimate: BodyEstimate, model: BodyModel) -> wire_bodies.BodyE
         measurements=measurements,
         plausibility=estimate.plausibility,
         body_model=str(model.header.get("checksum", "")),
+    )
+
+
+def _proposed_point(point: ProposedPoint) -> wire_proposals.ProposedPoint:
+    x, y = _pixel(np.array([point.click.x, point.click.y]))
+    return wire_proposals.ProposedPoint(
+        x=x,
+        y=y,
+        visibility=1 if point.click.occluded else SEEN,
+        confidence=round(point.visibility, 3),
+        expected_error_px=round(point.expected_error_px, 2),
     )
 
 

@@ -66,6 +66,7 @@ class ChildTask:
     inputs: tuple[str, ...]
     max_pixels: int
     models: Path | None
+    detector: Path | None
     memory_mb: int
     log_level: str
     log_format: str
@@ -126,6 +127,7 @@ def _fit_input(task: ChildTask, options: bytes, inputs: Mapping[str, bytes]) -> 
         mask=inputs.get(MASK),
         max_pixels=task.max_pixels,
         models=task.models,
+        detector=task.detector,
     )
 
 
@@ -139,6 +141,7 @@ def _derivation_input(
         others=others,
         max_pixels=task.max_pixels,
         models=task.models,
+        detector=task.detector,
         fit_id=None if task.fit_id is None else UUID(task.fit_id),
     )
 

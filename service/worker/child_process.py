@@ -151,6 +151,7 @@ class ChildRunner:
             inputs=tuple(job.inputs),
             max_pixels=self._settings.max_pixels,
             models=self._settings.models_dir,
+            detector=self._settings.detector_dir,
             memory_mb=self._settings.child_memory_mb,
             log_level=self._settings.log_level,
             log_format=self._settings.log_format,

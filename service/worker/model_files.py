@@ -1,4 +1,4 @@
-"""Whether the body models can be used, asked before anything is started that needs them.
+"""Whether body models and detector can be used, asked before anything is started that needs them.
 
 The process that asks is to stay without numerics: models of one's own are read by a process forked
 for it; of the packaged ones, which can only be missing or damaged, the archives' checksums do.
@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import Final
 
 import fitter.body
-from fitter.errors import ModelFileError
+from fitter.detection.weights import read_weights
+from fitter.errors import DetectorUnavailableError, ModelFileError
 from service.settings import SettingError, Settings
 
 PACKAGED: Final = Path(fitter.body.__path__[0]) / "data"
@@ -27,6 +28,19 @@ def check_models(settings: Settings) -> None:
         reason = _reason_from_another_process(settings.models_dir)
     if reason is not None:
         raise unusable_models(settings, reason)
+
+
+def check_detector(settings: Settings) -> None:
+    """Raise SettingError if a folder is named for the detector and it cannot be used.
+
+    Without a folder there may be a detector or none: it is optional.
+    """
+    if settings.detector_dir is None:
+        return
+    try:
+        read_weights(settings.detector_dir)
+    except DetectorUnavailableError as error:
+        raise SettingError(str(error), name="detector_dir", value=settings.detector_dir) from error
 
 
 def unusable_models(settings: Settings, reason: str) -> SettingError:

@@ -8,7 +8,7 @@ from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivation_kinds.base import DerivedFiles
 from api_schemas.requests import Gender
 from fitter import request as fitter_request
-from fitter.errors import InvalidInputError
+from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.export import artifacts, tapes_json
 from fitter.fits.pipeline import fit
 from fitter.fits.prepared_model import prepared_model
@@ -34,6 +34,7 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
         result = fit(
             request,
             models=job.models,
+            detector_weights=job.detector,
             observer=lambda progress: observe(translate.report(progress)),
         )
         prepared = prepared_model(result.person.gender, models=job.models)
@@ -43,6 +44,8 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
         files["tapes.json"] = tapes_json(result, prepared.measuring)
     except InvalidInputError as error:
         raise UnusableInputError(translate.field_problem(error)) from error
+    except DetectorUnavailableError as error:
+        raise UnusableInputError(translate.detector_problem(error)) from error
     return PipelineOutput(
         result=translate.fit_result(result, part_names=model.part_names), artifacts=files
     )
@@ -62,6 +65,8 @@ def derive(
         return load_deriver(kind)(job, report)
     except InvalidInputError as error:
         raise UnusableInputError(translate.field_problem(error)) from error
+    except DetectorUnavailableError as error:
+        raise UnusableInputError(translate.detector_problem(error)) from error
 
 
 def describe(models: Path | None) -> BodyModels:

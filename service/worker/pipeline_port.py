@@ -29,7 +29,8 @@ Result_co = TypeVar("Result_co", bound=DerivedFiles, covariant=True)
 class PipelineInput:
     """A request as it reaches the pipeline: options with named points, encoded pictures.
 
-    ``models`` is the folder of the body models, None for those shipped with the package.
+    ``models`` is the folder of the body models, None for those shipped with the package;
+    ``detector`` that of the detector's weights, None for those of their package.
     """
 
     options: FitOptions
@@ -37,6 +38,7 @@ class PipelineInput:
     mask: bytes | None
     max_pixels: int
     models: Path | None = None
+    detector: Path | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,6 +62,7 @@ class DerivationInput(Generic[Options_co]):
     others: tuple[Mapping[str, bytes], ...] = ()
     max_pixels: int
     models: Path | None = None
+    detector: Path | None = None
     fit_id: UUID | None = None
 
 

@@ -10,9 +10,9 @@ from service.worker.rehearsal import rehearse
 
 # The worker loads the same models at once and reports what is wrong with them.
 with suppress(ModelFileError):
-    models = Settings().models_dir
-    pipeline.describe(models)
-    rehearse(models)
+    settings = Settings()
+    pipeline.describe(settings.models_dir)
+    rehearse(settings.models_dir, settings.detector_dir)
 
 # What is here by now stays: the collector of a fork that looked through it would copy its pages.
 gc.collect()

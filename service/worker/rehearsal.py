@@ -23,7 +23,7 @@ SMALLER: Final = 4
 MAX_PIXELS: Final = 1_000_000
 
 
-def rehearse(models: Path | None) -> None:
+def rehearse(models: Path | None, detector: Path | None = None) -> None:
     """Fit the sample, and forget the result.
 
     A process that has fitted has its compiled kernels read from their cache and its libraries set
@@ -47,6 +47,7 @@ def rehearse(models: Path | None) -> None:
                 mask=None,
                 max_pixels=MAX_PIXELS,
                 models=models,
+                detector=detector,
             ),
             lambda _: None,
         )

@@ -13,7 +13,7 @@ from api_schemas.derivation_kinds.combined import CombinedPicture
 from api_schemas.points import Point, Points, PointSource, points_by_name
 from api_schemas.problems import FieldProblem
 from fitter.detection.landmark_meanings import INDEX_OF_POINT, spread_m
-from fitter.errors import InvalidInputError
+from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.fits.progress import Progress
 from fitter.measurement.quantity import Measurement
 from fitter.parameters import BodyParameters, Light, LightKind, Reflectance, Surroundings
@@ -33,6 +33,7 @@ from fitter.request import (
 )
 from fitter.result import OUTCOME_EXPLANATIONS, FitResult, LimbFacing, PictureFit, StageBody
 from service.engine.port import Report
+from service.submissions.detector import DETECTOR_MISSING
 
 SEEN = 2
 
@@ -105,6 +106,13 @@ def field_problem(error: InvalidInputError) -> FieldProblem:
     """Translate the fitter's complaint about its input."""
     return FieldProblem(
         field=error.field, code=error.code, reason=error.reason, remedy=error.remedy
+    )
+
+
+def detector_problem(error: DetectorUnavailableError) -> FieldProblem:
+    """Say that points were to be proposed where there is no detector."""
+    return FieldProblem(
+        field="points", code=DETECTOR_MISSING, reason=error.reason, remedy=error.remedy
     )
 
 

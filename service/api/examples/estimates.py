@@ -1,4 +1,4 @@
-"""Examples of what needs no job: uploaded pictures, initial poses, bodies."""
+"""Examples of what needs no job: uploaded pictures, proposed points, initial poses, bodies."""
 
 from typing import Any, Final
 
@@ -80,6 +80,45 @@ INITIAL_POSE_ANSWER: Final[dict[str, Any]] = {
         }
     ],
     "warnings": [],
+}
+
+POINTS_REQUESTS: Final[dict[str, Any]] = {
+    "largest-person": {"image_id": PICTURE_ID},
+    "second-person-and-mask": {"image_id": PICTURE_ID, "person": 1, "mask": True},
+}
+
+POINTS_ANSWER: Final[dict[str, Any]] = {
+    "image_size": {"width": 720, "height": 960},
+    "persons": [{"box": [163.0, 40.75, 558.68, 895.2], "score": 0.983}],
+    "person": 0,
+    "points": {
+        "left_shoulder": {
+            "x": 433.9,
+            "y": 214.92,
+            "visibility": 2,
+            "source": "proposal",
+            "confidence": 0.999,
+            "expected_error_px": 10.41,
+        },
+        "left_wrist": {
+            "x": 534.47,
+            "y": 450.98,
+            "visibility": 1,
+            "source": "proposal",
+            "confidence": 0.31,
+            "expected_error_px": 25.55,
+        },
+    },
+    "doubtful": ["left_wrist"],
+    "mask": None,
+    "warnings": [
+        {
+            "code": "limbs-crossed",
+            "message": (
+                "Arms or legs cross in the picture: see whether left and right are the right ones."
+            ),
+        }
+    ],
 }
 
 BODY_REQUESTS: Final[dict[str, Any]] = {

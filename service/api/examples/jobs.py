@@ -19,6 +19,12 @@ SUBMISSIONS: Final[dict[str, Any]] = {
         "height_m": 1.8,
         "points": POINTS,
     },
+    "points-proposed": {
+        "image_id": PICTURE_ID,
+        "gender": "female",
+        "height_m": 1.68,
+        "points": "auto",
+    },
     "told-of-its-end": {
         "image_id": PICTURE_ID,
         "gender": "male",

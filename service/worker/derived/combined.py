@@ -45,6 +45,7 @@ def derive(
         people,
         [_request(each, job.max_pixels) for each in pictures],
         models=job.models,
+        detector_weights=job.detector,
         observe=lambda share: observe(_FITTED * share),
     )
     model = operators.model

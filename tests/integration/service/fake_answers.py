@@ -4,6 +4,7 @@
 """
 
 import ctypes
+import json
 import os
 import time
 from pathlib import Path
@@ -11,20 +12,28 @@ from pathlib import Path
 from api_schemas.bodies import BodyEstimate, EstimatedMeasurement
 from api_schemas.initial_poses import InitialPose, LimbReading
 from api_schemas.problems import FieldProblem
+from api_schemas.proposals import FoundPerson, PictureSize, PointsProposal, ProposedPoint
 from api_schemas.requests import Facing
-from api_schemas.results import BodyResult, CameraResult, FocalLengthSource, PartRotation
-from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask
-from service.estimates.port import EstimatedBody
+from api_schemas.results import (
+    BodyResult,
+    CameraResult,
+    FitWarning,
+    FocalLengthSource,
+    PartRotation,
+)
+from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask, PointsTask
+from service.estimates.port import EstimatedBody, NoDetectorError, ProposedPoints
 from service.worker.pipeline_port import UnusableInputError
-from tests.integration.service.fake_pipeline import NOBODYS_WEIGHT_KG
+from tests.integration.service.fake_pipeline import NOBODYS_WEIGHT_KG, SCRIPT_MARK
 
 GLB = b"glTF" + bytes(range(256))
+MASK = b"\x89PNG" + bytes(range(64))
 GATE = "FAKE_ANSWERS_GATE"
 KNOWN_NAMES = ("waist_girth_navel", "hip_girth", "inseam")
 
 
-def prepare(models: Path | None) -> None:
-    del models
+def prepare(models: Path | None, detector: Path | None) -> None:
+    del models, detector
 
 
 def body(task: BodyTask, models: Path | None) -> EstimatedBody:
@@ -93,6 +102,41 @@ def initial_pose(task: InitialPoseTask, models: Path | None) -> InitialPose:
         ),
         assumptions=(),
         warnings=(),
+    )
+
+
+def points(
+    task: PointsTask, image: bytes, *, max_pixels: int, detector: Path | None
+) -> ProposedPoints:
+    """See as many people as the picture says; of one of them a nose."""
+    del max_pixels, detector
+    script = json.loads(image.partition(SCRIPT_MARK)[2])
+    if script.get("no_detector"):
+        raise NoDetectorError
+    if script.get("segfault"):
+        ctypes.string_at(0)
+    count = script.get("people", 1)
+    person = task.request.person or 0
+    if person >= max(count, 1):
+        raise UnusableInputError(
+            FieldProblem(
+                field="person",
+                code="person-unknown",
+                reason="There is no such person.",
+                remedy="Leave it out.",
+            )
+        )
+    nose = ProposedPoint(x=10.0 + person, y=20.0, visibility=2, confidence=0.9, expected_error_px=1)
+    return ProposedPoints(
+        proposal=PointsProposal(
+            image_size=PictureSize(width=640, height=480),
+            persons=(FoundPerson(box=(0.0, 0.0, 64.0, 48.0), score=0.9),) * count,
+            person=person if count else None,
+            points={"nose": nose} if count else {},
+            doubtful=(),
+            warnings=() if count else (FitWarning(code="nobody-found", message="Nobody."),),
+        ),
+        mask=MASK if task.request.mask and count else b"",
     )
 
 

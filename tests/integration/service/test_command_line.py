@@ -103,6 +103,27 @@ def test_a_points_file_may_hold_other_things_and_the_command_line_wins(tmp_path)
     assert result.height_m == 1.7
 
 
+def test_without_a_points_file_all_points_are_proposed(tmp_path):
+    given = arguments(tmp_path, REQUEST, gender="female", height_m=1.7)
+    assert fit_locally(replace(given, points=None), pipeline=FAKE) == 0
+    result = FitResult.model_validate_json((tmp_path / "out" / "result.json").read_bytes())
+    # The pretended pipeline adds a centimetre a point, and proposes none.
+    assert result.measurements[0].value == FAKE_WAIST - len(POINTS)
+
+
+def test_points_can_be_completed_on_the_command_line(tmp_path, capsys):
+    picture, points = tmp_path / "picture.png", tmp_path / "points.json"
+    picture.write_bytes(scripted_image())
+    points.write_text(json.dumps(REQUEST | {"points": {"left_knee": [362.0, 350.0]}}))
+    command = ["fit", str(picture), "--points", str(points), "--output", str(tmp_path / "out")]
+    for arguments_more, told in ([], "at least 6"), (["--complete-points"], "image"):
+        # The picture is a header alone: with points enough, the decoder is the one to complain.
+        with pytest.raises(SystemExit) as ended:
+            main([*command, *arguments_more])
+        assert ended.value.code == 2
+        assert told in capsys.readouterr().out
+
+
 @pytest.mark.parametrize(
     ("changes", "told"),
     [

@@ -174,6 +174,13 @@ def test_a_missing_body_model_is_refused(tmp_path: Path):
     assert "female.npz" in assert_refused(done, naming="MAQUETTE_MODELS_DIR=")
 
 
+def test_a_folder_without_the_detector_s_weights_is_refused(tmp_path: Path):
+    (tmp_path / "detector").mkdir()
+    done = run(SERVE, tmp_path / "data", detector_dir=tmp_path / "detector")
+    line = assert_refused(done, naming=f"MAQUETTE_DETECTOR_DIR={tmp_path / 'detector'}:")
+    assert "pose_detection.tflite" in line
+
+
 def test_a_folder_of_another_user_is_refused(tmp_path: Path):
     if os.geteuid() != 0:
         pytest.skip("only root can become somebody else")

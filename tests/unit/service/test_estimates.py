@@ -7,16 +7,19 @@ import pytest
 from api_schemas.bodies import BodyRequest
 from api_schemas.initial_poses import InitialPose
 from api_schemas.problems import FieldProblem
+from api_schemas.proposals import PointsRequest
 from api_schemas.requests import Gender
 from service.api.estimates import Estimates
 from service.api.problems import ProblemError
 from service.api.service_metrics import ServiceMetrics
-from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask
+from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask, PointsTask
 from service.estimates.port import (
     EstimatedBody,
     EstimatorFailedError,
     EstimatorTimeoutError,
     EstimatorUnavailableError,
+    NoDetectorError,
+    ProposedPoints,
 )
 from service.process.disk import Disk
 from service.representation.formats import OBJ
@@ -51,6 +54,9 @@ class RaisingEstimator:
     def initial_pose(self, task: InitialPoseTask) -> InitialPose:
         raise self.error
 
+    def points(self, task: PointsTask, image: bytes) -> ProposedPoints:
+        raise self.error
+
     def convert(self, task: ConversionTask, glb: bytes) -> bytes:
         raise self.error
 
@@ -70,6 +76,15 @@ def test_an_estimator_s_troubles_are_problems(error, status, code, retry):
             asyncio.run(question)
         assert (caught.value.problem.status, caught.value.problem.code) == (status, code)
         assert ("Retry-After" in caught.value.headers) is retry
+
+
+def test_a_detector_that_is_not_there_is_told_with_what_to_install():
+    estimates = Estimates(RaisingEstimator(NoDetectorError()), METRICS)
+    with pytest.raises(ProblemError) as caught:
+        asyncio.run(estimates.points(PointsTask(request=PointsRequest()), b"a picture"))
+    told = caught.value.problem
+    assert (told.status, told.code) == (404, "detector-not-installed")
+    assert "pip install" in told.remedy
 
 
 def test_who_is_nobody_is_refused_and_other_troubles_are_left_to_the_job():

@@ -18,6 +18,7 @@ from api_schemas.images import UploadedImage
 from api_schemas.initial_poses import InitialPose, InitialPoseRequest
 from api_schemas.jobs import Job, JobPage
 from api_schemas.problems import ProblemType
+from api_schemas.proposals import PointsOfImage, PointsProposal
 from api_schemas.requests import FitOfImage, FitOptions
 from api_schemas.results import FitResult
 from api_schemas.webhooks import WebhookEvent
@@ -44,6 +45,7 @@ KINDS = {
     "get_image": UploadedImage,
     "initial_pose": InitialPose,
     "estimate_body": BodyEstimate,
+    "propose_points": PointsProposal,
     "body_models": BodyModels,
     "live": Live,
     "ready": Ready,
@@ -67,6 +69,7 @@ def test_examples_of_answers_are_of_their_types(operation):
         ("derive", DerivationRequest),
         ("initial_pose", InitialPoseRequest),
         ("estimate_body", BodyRequest),
+        ("propose_points", PointsOfImage),
     ],
 )
 def test_examples_of_requests_are_of_their_types(operation, kind):

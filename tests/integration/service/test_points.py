@@ -1,0 +1,172 @@
+"""Proposed points over HTTP, and fits whose points are proposed: asked, refused, told."""
+
+import base64
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+import httpx
+import pytest
+
+from api_schemas.points import Point
+from api_schemas.proposals import PointsProposal
+from api_schemas.requests import FitOptions
+from tests.integration.service.fake_answers import MASK
+from tests.integration.service.fake_pipeline import scripted_image
+from tests.integration.service.harness import (
+    POINTS,
+    REQUEST,
+    Machine,
+    Service,
+    eventually,
+    running_service,
+)
+from tests.integration.service.test_bad_input import checked
+
+WITHOUT_DETECTOR = Path(__file__).parent / "without_detector"
+AUTO: Mapping[str, object] = REQUEST | {"points": "auto"}
+
+
+@pytest.fixture(autouse=True, scope="module")
+def _ready(service: Service):
+    eventually(lambda: asked(service).status_code == 200, what="the estimator answers")
+
+
+def asked(
+    service: Service, script: dict[str, object] | None = None, *, request: object = None
+) -> httpx.Response:
+    """Ask of a picture that comes along."""
+    return service.client.post(
+        "/v1/points",
+        files={"image": ("picture.png", scripted_image(script), "image/png")},
+        data={} if request is None else {"request": json.dumps(request)},
+    )
+
+
+def test_points_of_a_picture_can_be_sent_as_points_of_a_fit(service: Service):
+    answer = asked(service)
+    proposal = PointsProposal.model_validate_json(answer.content)
+    assert (proposal.person, len(proposal.persons)) == (0, 1)
+    assert (proposal.image_size.width, proposal.image_size.height) == (640, 480)
+    assert proposal.mask is None
+    assert answer.headers["cache-control"] == "no-store"
+    for sent in answer.json()["points"].values():
+        assert Point.model_validate_json(json.dumps(sent)).source == "proposal"
+    mixed = {**POINTS, **answer.json()["points"]}
+    fit = service.post(request=REQUEST | {"points": mixed})
+    assert fit.status_code == 202, fit.text
+    understood = service.client.get(fit.json()["links"]["request"]).json()
+    assert understood["points"]["nose"] == answer.json()["points"]["nose"]
+    assert understood["points"]["left_hip"]["source"] == "click"
+
+
+def test_nobody_is_an_answer_too(service: Service):
+    proposal = PointsProposal.model_validate_json(
+        asked(service, {"people": 0}, request={"mask": True}).content
+    )
+    assert (proposal.persons, proposal.person, proposal.points) == ((), None, {})
+    assert proposal.mask is None
+    assert [each.code for each in proposal.warnings] == ["nobody-found"]
+
+
+def test_one_of_several_people_can_be_chosen_and_their_mask_had(service: Service):
+    two = {"people": 2}
+    answer = asked(service, two, request={"person": 1, "mask": True}).json()
+    assert (answer["person"], answer["points"]["nose"]["x"]) == (1, 11.0)
+    assert base64.b64decode(answer["mask"]) == MASK
+    problem = checked(asked(service, two, request={"person": 2}), 422)
+    assert (problem.field, problem.code) == ("person", "person-unknown")
+
+
+def test_an_uploaded_picture_is_asked_by_its_id(service: Service):
+    upload = service.client.post(
+        "/v1/images", files={"image": ("p.png", scripted_image({"people": 3}), "image/png")}
+    )
+    question = {"image_id": upload.json()["id"], "person": 2}
+    answer = service.client.post("/v1/points", json=question)
+    assert (answer.json()["person"], len(answer.json()["persons"])) == (2, 3)
+    unknown = service.client.post("/v1/points", json={"image_id": "0" * 64})
+    problem = checked(unknown, 422)
+    assert (problem.field, problem.code) == ("image_id", "unknown-image")
+
+
+@pytest.mark.parametrize(
+    ("request_part", "status", "field", "code"),
+    [
+        ({"person": -1}, 422, "person", "out-of-range"),
+        ({"person": "first"}, 422, "person", "wrong-kind"),
+        ({"mask": "yes"}, 422, "mask", "wrong-kind"),
+        ({"persons": 1}, 422, "persons", "unknown-field"),
+    ],
+)
+def test_a_question_that_cannot_be_is_refused_by_field(
+    service: Service, request_part, status, field, code
+):
+    problem = checked(asked(service, request=request_part), status)
+    assert (problem.field, problem.code) == (field, code)
+
+
+def test_what_is_no_question_is_told(service: Service):
+    post = service.client.post
+    checked(post("/v1/points", content=b"GIF89a", headers={"Content-Type": "image/gif"}), 415)
+    missing = checked(post("/v1/points", files={"request": ("r", b"{}")}), 422)
+    assert (missing.field, missing.code) == ("image", "missing")
+    mask = {"image": ("p.png", scripted_image()), "mask": ("m.png", scripted_image())}
+    assert checked(post("/v1/points", files=mask), 422).field == "mask"
+    text = checked(post("/v1/points", files={"image": ("p.png", b"text")}), 415)
+    assert (text.field, text.code) == ("image", "not-an-image")
+    large = {"image": ("p.png", scripted_image(width=10_000, height=10_000))}
+    assert checked(post("/v1/points", files=large), 422).code == "image-too-large"
+    broken = {"image": ("p.png", scripted_image()), "request": ("r", b"{")}
+    assert checked(post("/v1/points", files=broken), 400).field == "request"
+
+
+def test_a_picture_that_ends_its_estimator_leaves_the_service_up(service: Service):
+    assert checked(asked(service, {"segfault": True}), 500).code == "estimator-failed"
+    eventually(lambda: asked(service).status_code == 200, what="the next estimator answers")
+
+
+def test_a_detector_that_the_estimator_cannot_load_is_told(service: Service):
+    told = checked(asked(service, {"no_detector": True}), 404)
+    assert told.code == "detector-not-installed"
+
+
+def test_a_fit_whose_points_are_to_be_proposed_is_understood_so(service: Service):
+    fit = service.post(request=dict(AUTO))
+    assert fit.status_code == 202, fit.text
+    path = fit.headers["Location"]
+    assert service.ended(path)["state"] == "succeeded"
+    options = FitOptions.model_validate_json(service.client.get(f"{path}/request").content)
+    assert (options.points, options.complete_points) == ({}, True)
+
+
+def test_few_points_are_enough_where_the_others_are_proposed(service: Service):
+    one = {"points": {"left_knee": [362.0, 350.0]}}
+    assert checked(service.post(request=REQUEST | one), 422).code == "too-few-points"
+    fit = service.post(request=REQUEST | one | {"complete_points": True})
+    assert fit.status_code == 202, fit.text
+    outside = {"points": {"left_knee": [641.0, 350.0]}, "complete_points": True}
+    problem = checked(service.post(request=REQUEST | outside), 422)
+    assert (problem.field, problem.code) == ("points.left_knee", "point-outside-image")
+
+
+def test_an_initial_pose_has_no_picture_to_propose_points_of(service: Service):
+    size = {"image_size": {"width": 640, "height": 480}}
+    problem = checked(service.client.post("/v1/initial-poses", json={**AUTO, **size}), 422)
+    assert problem.field == "points"
+
+
+def test_without_a_detector_points_are_not_proposed_and_all_else_works(tmp_path: Path, monkeypatch):
+    monkeypatch.setenv("PYTHONPATH", str(WITHOUT_DETECTOR), prepend=os.pathsep)
+    with running_service(Machine(tmp_path), api_only=True) as service:
+        told = checked(asked(service), 404)
+        assert told.code == "detector-not-installed"
+        assert "pip install" in told.remedy
+        for changes, field in (
+            ({"points": "auto"}, "points"),
+            ({"complete_points": True}, "complete_points"),
+        ):
+            refused = checked(service.post(request=REQUEST | changes), 422)
+            assert (refused.field, refused.code) == (field, "detector-not-installed")
+        assert service.post().status_code == 202

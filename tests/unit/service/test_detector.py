@@ -1,0 +1,52 @@
+"""What the API knows of the detector agrees with what the fitter finds."""
+
+import importlib.util
+from pathlib import Path
+
+import pytest
+
+from fitter.detection import weights
+from service.setting_types import DETECTOR_FILES
+from service.settings import SettingError, Settings
+from service.submissions import detector
+from service.submissions.detector import detector_is_installed
+from service.worker.model_files import check_detector
+
+FILES = (weights.PERSON_DETECTOR, weights.BODY_LANDMARKS)
+
+
+def test_names_and_places_are_the_fitter_s():
+    assert tuple(each.name for each in FILES) == DETECTOR_FILES
+    assert tuple(each.folder for each in FILES) == detector.CARRIER_FOLDERS
+    assert (weights.CARRIER, weights.RUNTIME) == (detector.CARRIER, detector.RUNTIME)
+    assert weights.CARRIER_REQUIREMENT in detector.REMEDY
+
+
+@pytest.mark.parametrize("gone", [None, weights.RUNTIME, weights.CARRIER])
+def test_both_find_the_same(monkeypatch: pytest.MonkeyPatch, gone: str | None):
+    found = importlib.util.find_spec
+    monkeypatch.setattr(
+        importlib.util, "find_spec", lambda name: None if name == gone else found(name)
+    )
+    assert detector_is_installed(None) is (weights.detector_fault() is None)
+
+
+def test_a_folder_counts_once_it_has_both_files(tmp_path: Path):
+    for name in DETECTOR_FILES:
+        assert not detector_is_installed(tmp_path)
+        (tmp_path / name).touch()
+    assert detector_is_installed(tmp_path)
+
+
+def test_files_that_are_others_are_an_unusable_setting(tmp_path: Path):
+    content = weights.read_weights()
+    (tmp_path / DETECTOR_FILES[0]).write_bytes(content.person_detector)
+    (tmp_path / DETECTOR_FILES[1]).write_bytes(content.body_landmarks)
+    check_detector(Settings(detector_dir=tmp_path))
+    (tmp_path / DETECTOR_FILES[1]).write_bytes(b"something else")
+    with pytest.raises(SettingError) as caught:
+        check_detector(Settings(detector_dir=tmp_path))
+    message = str(caught.value)
+    assert message.startswith(f"MAQUETTE_DETECTOR_DIR={tmp_path}: {DETECTOR_FILES[1]}")
+    assert "\n" not in message
+    check_detector(Settings())
