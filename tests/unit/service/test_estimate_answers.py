@@ -1,13 +1,19 @@
 """The estimator's real answers, with the measurements a request knows."""
 
+import io
+
 import pytest
+from PIL import Image
 
 from api_schemas.bodies import BodyRequest
 from api_schemas.known import UncertainMeasurement
+from api_schemas.points import Point, PointSource
+from api_schemas.proposals import PointsRequest
 from api_schemas.requests import Facing, Gender, Limb
 from service.demo_data.sample import load_sample
-from service.estimates.answers import body, initial_pose
-from service.estimates.messages import BodyTask, InitialPoseTask
+from service.estimates.answers import body, initial_pose, points
+from service.estimates.messages import BodyTask, InitialPoseTask, PointsTask
+from service.estimates.port import NoDetectorError
 from service.submissions.submission import check_submission
 from service.worker.pipeline_port import UnusableInputError
 
@@ -91,3 +97,36 @@ def test_a_pose_of_somebody_nobody_is_is_refused_where_it_was_said():
     with pytest.raises(UnusableInputError) as caught:
         sample_pose(weight_kg=70.0, measurements={"waist_girth_navel": 160.0})
     assert caught.value.error.code == "contradictory-measurements"
+
+
+def test_points_of_the_sample_are_proposed_with_a_mask_of_its_size():
+    sample = load_sample()
+    task = PointsTask(request=PointsRequest(mask=True))
+    found = points(task, sample.image, max_pixels=1_000_000, detector=None)
+    with Image.open(io.BytesIO(found.mask)) as mask:
+        assert (mask.mode, mask.size) == ("L", (720, 960))
+    proposal = found.proposal
+    assert len(proposal.points) == 21
+    assert proposal.doubtful == ()
+    for name, point in proposal.points.items():
+        assert Point.model_validate_json(point.model_dump_json()).source is PointSource.PROPOSAL
+        assert 2.0 < point.expected_error_px < 20.0, name
+
+
+def test_what_is_wrong_with_a_picture_or_a_question_is_told_by_field(tmp_path):
+    sample = load_sample()
+    for person, image, field, code in (
+        (1, sample.image, "person", "person-unknown"),
+        (None, sample.image[:10_000], "image", "image-damaged"),
+    ):
+        task = PointsTask(request=PointsRequest(person=person))
+        with pytest.raises(UnusableInputError) as caught:
+            points(task, image, max_pixels=1_000_000, detector=None)
+        assert (caught.value.error.field, caught.value.error.code) == (field, code)
+    with pytest.raises(NoDetectorError):
+        points(
+            PointsTask(request=PointsRequest()),
+            sample.image,
+            max_pixels=1_000_000,
+            detector=tmp_path,
+        )

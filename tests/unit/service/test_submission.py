@@ -56,6 +56,24 @@ def test_points_come_out_named_and_in_full():
     assert points["left_shoulder"] == Point(x=200.0, y=100.0, visibility=2)
 
 
+def test_auto_is_understood_as_no_points_and_all_to_be_proposed():
+    options = check(points="auto").options
+    assert (options.points, options.complete_points) == ({}, True)
+    assert check().options.complete_points is False
+
+
+def test_points_to_be_completed_may_be_few_but_not_beyond_the_picture():
+    knee = {"left_knee": [182, 350]}
+    assert refusal(points=knee) == (422, "points", "too-few-points")
+    options = check(points=knee, complete_points=True).options
+    assert set(options.points) == {"left_knee"}
+    assert options.complete_points
+    assert check(points={}, complete_points=True).options.points == {}
+    outside = refusal(points={"left_knee": [182, 481]}, complete_points=True)
+    assert outside == (422, "points.left_knee", "point-outside-image")
+    assert refusal(points="all") == (422, "points", "unknown-value")
+
+
 def test_checking_twice_changes_nothing():
     once = check().options
     again = check(once.model_dump_json().encode()).options

@@ -12,6 +12,7 @@ from api_schemas.points import Point
 from api_schemas.requests import FitOptions
 from fitter import request as fitter_request
 from fitter import result as fitter_result
+from fitter.detection.landmark_meanings import spread_m
 from fitter.errors import InvalidInputError
 from fitter.fits.progress import Progress, Stage
 from fitter.measurement.quantity import Measurement
@@ -85,6 +86,42 @@ def test_a_guessed_point_is_occluded_and_an_absent_one_is_left_out():
         "nose": fitter_request.Click(x=10.0, y=20.0),
         "left_knee": fitter_request.Click(x=30.0, y=40.0, occluded=True),
     }
+
+
+def translated(**fields: object) -> fitter_request.FitRequest:
+    options = FitOptions.model_validate_json(json.dumps(json.loads(REQUEST) | fields))
+    return translate.fit_request(options, image=b"", mask=None, max_pixels=7)
+
+
+def test_a_proposed_point_has_the_spread_of_proposals_of_its_name():
+    def sent(**more: object) -> dict[str, object]:
+        return {"x": 1.0, "y": 2.0} | more
+
+    proposal = {"source": "proposal", "confidence": 0.9, "expected_error_px": 7.5}
+    clicks = translated(
+        points={
+            "left_hip": sent(**proposal),
+            "left_wrist": sent(**proposal, visibility=1),
+            "right_hip": sent(source="click"),
+            "neck": sent(source="proposal"),
+        }
+    ).clicks
+    assert clicks["left_hip"].spread_m == spread_m("left_hip", 1.0)
+    assert clicks["left_wrist"].spread_m == spread_m("left_wrist", 0.0) > 0.05
+    assert clicks["left_wrist"].occluded
+    # Nothing proposes necks: somebody clicked it.
+    assert clicks["right_hip"].spread_m is clicks["neck"].spread_m is None
+
+
+def test_what_the_detector_is_to_do_is_said_in_both_languages():
+    usual = fit_request()
+    assert not usual.complete_clicks
+    assert usual.slant_hints
+    assert usual.segmentation is fitter_request.SegmentationKind.SEEDED_GRABCUT
+    other = translated(complete_points=True, slant_hints=False, segmentation="grabcut")
+    assert other.complete_clicks
+    assert not other.slant_hints
+    assert other.segmentation is fitter_request.SegmentationKind.GRABCUT
 
 
 def test_degrees_become_radians():
