@@ -115,13 +115,14 @@ def _damage_named(field: str) -> Iterator[None]:
     """Turn whatever a decoder makes of hostile bytes into one clear problem.
 
     They raise nearly anything, hence the broad clause; and Pillow's warnings say nothing that the
-    checks here do not, its pixel limit being above or beside ours.
+    checks here do not, its pixel limit being above or beside ours. Memory that runs out is no
+    damage.
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
             yield
-        except InvalidInputError:
+        except (InvalidInputError, MemoryError):
             raise
         except PillowImage.DecompressionBombError as error:
             raise _too_large(field, "more pixels than any picture of a person") from error

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from api_schemas.bodies import BodyRequest
 from api_schemas.initial_poses import InitialPose
+from api_schemas.problems import FieldProblem
 from api_schemas.proposals import PointsRequest
 from fitter.detection.detector import installed_detector
 from fitter.errors import DetectorUnavailableError, InvalidInputError
@@ -26,6 +27,13 @@ from service.worker.translate import field_problem, known_measurements
 
 CENTIMETRES_PER_METRE = 100.0
 SAMPLE_PIXELS = 1_000_000
+
+_TOO_MUCH_MEMORY = FieldProblem(
+    field="image",
+    code="out-of-memory",
+    reason="The picture needs more memory than one question may have.",
+    remedy="Send a smaller version; two million pixels are plenty.",
+)
 
 
 def prepare(models: Path | None, detector: Path | None) -> None:
@@ -121,6 +129,8 @@ def points(
         )
     except DetectorUnavailableError as error:
         raise NoDetectorError from error
+    except MemoryError as error:
+        raise UnusableInputError(_TOO_MUCH_MEMORY) from error
     except InvalidInputError as error:
         raise UnusableInputError(field_problem(error)) from error
     mask = b"" if found.mask is None else translate.grey_png(found.mask)

@@ -130,3 +130,14 @@ def test_what_is_wrong_with_a_picture_or_a_question_is_told_by_field(tmp_path):
             max_pixels=1_000_000,
             detector=tmp_path,
         )
+
+
+def test_memory_that_runs_out_is_no_fault_of_the_picture_s(monkeypatch):
+    def exhausted(*_: object) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr("fitter.observation.decoding.as_srgb", exhausted)
+    task = PointsTask(request=PointsRequest())
+    with pytest.raises(UnusableInputError) as caught:
+        points(task, load_sample().image, max_pixels=1_000_000, detector=None)
+    assert (caught.value.error.field, caught.value.error.code) == ("image", "out-of-memory")
