@@ -5,12 +5,16 @@ from pathlib import Path
 
 import pytest
 
+from api_schemas.requests import FitOptions
 from fitter.detection import weights
+from service.demo_data.sample import load_sample
 from service.setting_types import DETECTOR_FILES
 from service.settings import SettingError, Settings
 from service.submissions import detector
 from service.submissions.detector import detector_is_installed
+from service.worker import pipeline
 from service.worker.model_files import check_detector
+from service.worker.pipeline_port import PipelineInput, UnusableInputError
 
 FILES = (weights.PERSON_DETECTOR, weights.BODY_LANDMARKS)
 
@@ -36,6 +40,24 @@ def test_a_folder_counts_once_it_has_both_files(tmp_path: Path):
         assert not detector_is_installed(tmp_path)
         (tmp_path / name).touch()
     assert detector_is_installed(tmp_path)
+
+
+def test_a_worker_without_it_ends_a_fit_that_wants_points_proposed(tmp_path: Path):
+    options = FitOptions.model_validate_json(
+        '{"gender": "male", "points": {}, "complete_points": true}'
+    )
+    job = PipelineInput(
+        options=options,
+        image=load_sample().image,
+        mask=None,
+        max_pixels=1_000_000,
+        detector=tmp_path,
+    )
+    with pytest.raises(UnusableInputError) as caught:
+        pipeline.run(job, lambda _: None)
+    told = caught.value.error
+    assert (told.field, told.code) == ("points", "detector-not-installed")
+    assert "pip install" in told.remedy
 
 
 def test_files_that_are_others_are_an_unusable_setting(tmp_path: Path):
