@@ -47,10 +47,14 @@ QUICK: Mapping[str, object] = {
     "log_level": "INFO",
 }
 
+OWN_SECRET = "whsec_" + "A" * 32
+"""By which a service signs notices to those who have named no secret."""
+
 SHARED: Mapping[str, object] = {
     # Notices go to the receivers of tests.
     "webhook_hosts": "127.0.0.1",
     "webhook_pauses_s": "0.2,0.2,0.2",
+    "webhook_secret": OWN_SECRET,
     # It idles while others are tested: every beat looks after all workers and their jobs.
     "heartbeat_s": 1.0,
     "queue_poll_s": 0.1,

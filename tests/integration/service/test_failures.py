@@ -126,18 +126,17 @@ def test_a_killed_workers_fit_is_run_again_by_another(machine: Machine, tmp_path
             assert len(ends) == 1
 
 
-def test_a_worker_restarted_by_its_supervisor_goes_on(embedded: Machine, tmp_path: Path):
+def test_a_worker_restarted_by_its_supervisor_goes_on(service: Service, tmp_path: Path):
     note, gate = tmp_path / "pids", tmp_path / "gate"
-    with running_service(embedded) as service:
-        path = service.submit({"gate": str(gate), "note_pid": str(note)})
-        (pid,) = eventually(lambda: pids_noted(note), what="the fit runs")
-        worker = _worker_of(service.process.pid)
-        os.kill(worker, signal.SIGKILL)
-        eventually(lambda: not is_running(pid), what="the fit dies with its worker")
-        gate.touch()
-        job = service.ended(path)
-        assert job["state"] == "succeeded"
-        assert job["attempt"] == 2
+    path = service.submit({"gate": str(gate), "note_pid": str(note)})
+    (pid,) = eventually(lambda: pids_noted(note), what="the fit runs")
+    worker = _worker_of(service.process.pid)
+    os.kill(worker, signal.SIGKILL)
+    eventually(lambda: not is_running(pid), what="the fit dies with its worker")
+    gate.touch()
+    job = service.ended(path)
+    assert job["state"] == "succeeded"
+    assert job["attempt"] == 2
 
 
 def test_killing_the_service_ends_its_worker_and_the_fit(embedded: Machine, tmp_path: Path):

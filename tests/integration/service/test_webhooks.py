@@ -13,6 +13,7 @@ from api_schemas.jobs import Job
 from api_schemas.webhooks import WebhookEvent
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
+    OWN_SECRET,
     PATIENCE_S,
     REQUEST,
     SHARED,
@@ -22,8 +23,6 @@ from tests.integration.service.harness import (
     running_service,
 )
 from tests.integration.service.receiver import SECRET, Receiver
-
-OTHER_SECRET = "whsec_" + "A" * 32
 
 
 def with_settings(machine: Machine, **changes: object) -> Machine:
@@ -79,7 +78,7 @@ def test_the_end_of_a_job_is_told_signed_and_repeated_until_it_is_accepted(
     job = Job.model_validate_json(service.client.get(path).content)
     assert [notice.path for notice in receiver.notices] == ["/a?b=c"] * 3
     assert all(notice.is_signed_with(SECRET) for notice in receiver.notices)
-    assert not receiver.notices[0].is_signed_with(OTHER_SECRET)
+    assert not receiver.notices[0].is_signed_with(OWN_SECRET)
     assert {notice.headers["webhook-id"] for notice in receiver.notices} == {str(job.id)}
     assert len({notice.body for notice in receiver.notices}) == 1
     event = WebhookEvent.model_validate_json(receiver.notices[0].body)
@@ -115,16 +114,15 @@ def test_a_canceled_job_is_told_and_an_erased_one_is_not(service: Service, recei
 
 
 def test_a_fit_of_an_uploaded_picture_is_told_too_with_the_services_own_secret(
-    embedded: Machine, receiver: Receiver
+    service: Service, receiver: Receiver
 ):
-    with running_service(with_settings(embedded, webhook_secret=OTHER_SECRET)) as service:
-        picture = service.client.post(
-            "/v1/images", files={"image": ("p.png", scripted_image(), "image/png")}
-        ).json()
-        body = REQUEST | {"image_id": picture["id"], "webhook": {"url": receiver.url()}}
-        path = service.client.post("/v1/fits", json=body).headers["Location"]
-        assert settled(service, path)["state"] == "delivered"
-    assert receiver.notices[0].is_signed_with(OTHER_SECRET)
+    picture = service.client.post(
+        "/v1/images", files={"image": ("p.png", scripted_image(), "image/png")}
+    ).json()
+    body = REQUEST | {"image_id": picture["id"], "webhook": {"url": receiver.url()}}
+    path = service.client.post("/v1/fits", json=body).headers["Location"]
+    assert settled(service, path)["state"] == "delivered"
+    assert receiver.notices[0].is_signed_with(OWN_SECRET)
 
 
 def test_the_end_of_a_retried_job_is_told_to_the_same_receiver(
@@ -239,8 +237,8 @@ def test_a_name_that_stands_for_this_machine_is_refused_when_it_is_looked_up(
     assert receiver.notices == []
 
 
-def test_a_notice_nobody_could_sign_is_refused(service: Service):
-    answer = service.post(request=REQUEST | {"webhook": {"url": "https://example.org/"}})
+def test_a_notice_nobody_could_sign_is_refused(without_worker: Service):
+    answer = without_worker.post(request=REQUEST | {"webhook": {"url": "https://example.org/"}})
     assert (answer.status_code, answer.json()["field"]) == (422, "webhook.secret")
 
 
