@@ -43,6 +43,7 @@ FIT = SUBJECT | {"cues": "SE", "optimizer": "gauss_newton", "light": {"kind": "p
 DOCUMENTS: tuple[tuple[str, dict[str, Any]], ...] = (
     ("/v1/bodies", {"gender": "male", "height_m": 1.8, "measurements": {"inseam": 80}}),
     ("/v1/initial-poses", SUBJECT | {"image_size": {"width": 72, "height": 96}}),
+    ("/v1/points", {"image_id": "0" * 64, "person": 0, "mask": True}),
     ("/v1/fits", FIT | {"image_id": "0" * 64, "mask_id": "1" * 64}),
 )
 HEADERS = (
@@ -117,6 +118,14 @@ def fitted_picture(chance: random.Random) -> RawRequest:
     return head_and_body("/v1/fits", MULTIPART, multipart(parts))
 
 
+def proposed_picture(chance: random.Random) -> RawRequest:
+    """A damaged picture to propose points of: decoded by an estimator, which lives on."""
+    request = json.dumps({"mask": chance.random() < 0.5}).encode()
+    return head_and_body(
+        "/v1/points", MULTIPART, multipart({"image": picture(chance), "request": request})
+    )
+
+
 def json_body(chance: random.Random) -> RawRequest:
     """A damaged JSON document: its values, its nesting or its text."""
     path, document = chance.choice(DOCUMENTS)
@@ -173,8 +182,9 @@ def address(chance: random.Random) -> RawRequest:
 
 
 KINDS: Mapping[str, tuple[Callable[[random.Random], RawRequest], float]] = {
-    "picture, uploaded": (uploaded_picture, 0.25),
+    "picture, uploaded": (uploaded_picture, 0.15),
     "picture, fitted": (fitted_picture, 0.1),
+    "picture, proposed": (proposed_picture, 0.1),
     "JSON body": (json_body, 0.2),
     "multipart body": (multipart_body, 0.13),
     "headers": (headers, 0.1),

@@ -11,6 +11,7 @@ import pytest
 import yaml
 
 from service.cli import _parser
+from service.setting_types import DETECTOR_FILES
 from service.settings import PREFIX, Settings
 
 REPOSITORY = Path(__file__).parents[3]
@@ -56,7 +57,9 @@ def accept(command: list[str]) -> None:
 
 
 @pytest.mark.parametrize("service", [None, *OURS])
-def test_every_variable_of_ours_is_a_setting_of_a_value_that_can_be_followed(service, monkeypatch):
+def test_every_variable_of_ours_is_a_setting_of_a_value_that_can_be_followed(
+    service, monkeypatch, tmp_path
+):
     variables = image_environment() | (SERVICES[service]["environment"] if service else {})
     ours = {name: value for name, value in variables.items() if name.startswith(PREFIX)}
     assert {name.removeprefix(PREFIX).lower() for name in ours} <= set(Settings.model_fields)
@@ -66,9 +69,21 @@ def test_every_variable_of_ours_is_a_setting_of_a_value_that_can_be_followed(ser
             monkeypatch.delenv(name)
     for name, value in ours.items():
         monkeypatch.setenv(name, value)
+    # This folder is the image's own: here is one with the files that are put there.
+    for name in DETECTOR_FILES:
+        (tmp_path / name).touch()
+    monkeypatch.setenv(f"{PREFIX}DETECTOR_DIR", str(tmp_path))
     settings = Settings()
     assert settings.authentication == "keys"
     assert settings.host == "0.0.0.0"
+
+
+def test_the_detector_s_files_lie_where_the_image_says():
+    (installed,) = [each for _, each in instructions() if "install -D" in each]
+    folder = image_environment()[f"{PREFIX}DETECTOR_DIR"]
+    words = installed[installed.index(f"-t {folder}") :].split()
+    files = [Path(each).name for each in words if each.endswith(".tflite")]
+    assert tuple(files) == DETECTOR_FILES
 
 
 def test_every_command_is_one_of_ours():
