@@ -99,6 +99,11 @@ class Detector:
         found: list[DetectedBody] = []
         for person in self._persons.persons(picture)[:MOST_PERSONS]:
             landmarks = self._landmarks.landmarks(picture, person)
+            if person.is_head_down:
+                # Raised arms are easily taken for legs; the right way up more is seen.
+                upright = self._landmarks.landmarks(picture, person.upright())
+                if upright.visibility.mean() > landmarks.visibility.mean():
+                    person, landmarks = person.upright(), upright
             if landmarks.presence >= PRESENT:
                 found.append(_proposed(person, landmarks))
         return tuple(found)

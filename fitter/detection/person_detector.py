@@ -1,6 +1,6 @@
 """The first network: where people are in a picture, and how large and upright each is."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
@@ -44,6 +44,15 @@ class DetectedPerson:
     def radius(self) -> float:
         """Of the circle, pixels."""
         return float(np.linalg.norm(self.rim - self.middle))
+
+    @property
+    def is_head_down(self) -> bool:
+        """Whether the person seems to stand on their hands."""
+        return bool(self.rim[1] > self.middle[1])
+
+    def upright(self) -> "DetectedPerson":
+        """The same person, taken to stand upright."""
+        return replace(self, rim=self.middle - np.array([0.0, self.radius]))
 
 
 class PersonDetector:

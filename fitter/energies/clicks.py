@@ -11,7 +11,7 @@ from fitter.body.model import SparseRows
 from fitter.energies.rows import PositionRows
 from fitter.energies.scales import EnergyScales
 from fitter.numerics.robust import huber, huber_weights
-from fitter.observation.click_spread import click_spread_m
+from fitter.observation.click_spread import BODY_CLICK_SPREAD_M
 from fitter.render.camera import Camera
 from fitter.request import Click
 
@@ -26,18 +26,25 @@ class ClickEvidence:
         k rows over the vertices, in the order of the clicks.
     clicks
         (k, 2) working pixels.
+    confidence
+        (k,) 1 for a visible point, less for one guessed behind something.
     spread_m
         (k,) standard deviation about the landmarks beside the unsteady hand's, metres.
     """
 
     landmarks: SparseRows
     clicks: Points2D
+    confidence: Float[np.ndarray, " k"]
     spread_m: Float[np.ndarray, " k"]
 
     def sigma(self, scales: EnergyScales) -> Float[np.ndarray, " k"]:
         """Standard deviation of each click in each direction, pixels."""
         return np.hypot(scales.click_hand, self.spread_m * scales.pixels_per_metre)
 
+
+# What is hidden is guessed, and hair hides where the head ends.
+_OCCLUDED_CONFIDENCE = 1.0 / 9.0
+_HEAD_TOP_CONFIDENCE = 0.25
 
 TRUNCATION = 2.0
 """Standard deviations beyond which a click is believed less and less."""
@@ -47,6 +54,12 @@ def click_evidence(landmarks: SparseRows, clicks: Mapping[str, Click]) -> ClickE
     """Pair clicks (working pixels) with the model's landmark rows by name."""
     order = [landmarks.names.index(name) for name in clicks]
     spans = [slice(landmarks.pointers[i], landmarks.pointers[i + 1]) for i in order]
+    confidence = [
+        # The spread of a proposed point knows whether it is hidden.
+        (_OCCLUDED_CONFIDENCE if click.occluded and click.spread_m is None else 1.0)
+        * (_HEAD_TOP_CONFIDENCE if name == "head_top" else 1.0)
+        for name, click in clicks.items()
+    ]
     return ClickEvidence(
         landmarks=SparseRows(
             names=tuple(clicks),
@@ -55,7 +68,13 @@ def click_evidence(landmarks: SparseRows, clicks: Mapping[str, Click]) -> ClickE
             weights=np.concatenate([landmarks.weights[s] for s in spans]),
         ),
         clicks=np.array([[click.x, click.y] for click in clicks.values()], dtype=np.float64),
-        spread_m=np.array([click_spread_m(*each) for each in clicks.items()]),
+        confidence=np.array(confidence),
+        spread_m=np.array(
+            [
+                BODY_CLICK_SPREAD_M if each.spread_m is None else each.spread_m
+                for each in clicks.values()
+            ]
+        ),
     )
 
 
@@ -65,7 +84,7 @@ def click_energy(
     """Huber loss of each click's distance, in nats; landmarks (k, 3) in the camera frame."""
     distance = np.linalg.norm(camera.project(landmarks) - evidence.clicks, axis=1)
     loss = huber(distance / evidence.sigma(scales), TRUNCATION)
-    return float(loss.sum())
+    return float((evidence.confidence * loss).sum())
 
 
 def click_rows(
@@ -75,7 +94,7 @@ def click_rows(
     offset = camera.project(landmarks) - evidence.clicks
     sigma = evidence.sigma(scales)
     distance = np.linalg.norm(offset, axis=1) / sigma
-    weight = huber_weights(distance, TRUNCATION) / sigma**2
+    weight = evidence.confidence * huber_weights(distance, TRUNCATION) / sigma**2
     count = len(landmarks)
     derivatives = np.stack(
         [camera.pull_back(landmarks, np.tile(axis, (count, 1))) for axis in np.eye(2)], axis=1

@@ -1,12 +1,14 @@
 """The detector on rendered people whose truth is known."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from PIL import Image as PillowImage
 
 from fitter.detection.detector import Detector, body_of_clicks, installed_detector
+from fitter.detection.person_detector import PersonDetector
 from fitter.request import Click
 from tests.evaluation.files import PICTURES_FOLDER
 
@@ -88,3 +90,24 @@ def test_what_lies_beyond_the_picture_is_not_proposed(detector):
     assert "left_ankle" not in body.points
     assert "left_shin" not in body.slants.limbs
     assert "left_shoulder" in body.points
+
+
+def test_who_is_wrongly_taken_to_stand_on_their_hands_is_turned(detector, monkeypatch):
+    (right,) = detector.bodies(picture(STANDING))
+    wrong = replace(right.person, rim=2.0 * right.person.middle - right.person.rim)
+    assert wrong.is_head_down
+    monkeypatch.setattr(PersonDetector, "persons", lambda *_: (wrong,))
+    (body,) = detector.bodies(picture(STANDING))
+    for name in LIMB_POINTS:
+        assert body.points[name].y == pytest.approx(right.points[name].y, abs=15.0)
+
+
+def test_who_stands_on_their_hands_is_left_so(detector):
+    turned = np.ascontiguousarray(picture(STANDING)[::-1, ::-1])
+    height, width = turned.shape[:2]
+    (body,) = detector.bodies(turned)
+    truth = clicks(STANDING)
+    assert body.person.is_head_down
+    for name in ("left_wrist", "right_ankle", "nose"):
+        assert body.points[name].x == pytest.approx(width - truth[name].x, abs=25.0)
+        assert body.points[name].y == pytest.approx(height - truth[name].y, abs=25.0)
