@@ -22,12 +22,12 @@ SPREADS_M: Mapping[str, float] = {
     "left_toe": 0.02,
     "right_toe": 0.02,
 }
-"""Standard deviations in each direction of the picture, metres, where clicks are all there is; others
-have the default."""
+"""Standard deviations in each direction of the picture, metres, where clicks are all there is.
+Others have the default."""
 
 BODY_CLICK_SPREAD_M = 0.02
-"""The same of every click once a body is fitted to the picture, which says more: people differ by as
-much in where a joint is. With the table above there too, waists of the tuning half err by 2.5 cm
+"""The same of every click once a body is fitted to the picture, which says more: people differ by
+as much in where a joint is. With the table above there too, waists of the tuning half err by 2.5 cm
 for 2.3 on the mean, chests of 16 foreign bodies by 3.9 for 4.1: no gain that holds."""
 
 OCCLUDED_FACTOR = 3.0
