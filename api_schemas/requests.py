@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from enum import StrEnum
-from typing import Final, Self
+from typing import Any, Final, Self
 
 from pydantic import Field, model_validator
 
@@ -211,15 +211,13 @@ class FitRequest(FitChoices):
 
     def options(self, points: Mapping[PointName, Point]) -> FitOptions:
         """The fit alone, without what concerns only the submission, of these named points."""
-        shared = {name: getattr(self, name) for name in FitChoices.model_fields}
-        return FitOptions.model_construct(
-            **shared
-            | {
-                "points": dict(points),
-                "format": PointsFormat.NAMED,
-                "complete_points": self.are_points_completed,
-            }
-        )
+        values: dict[str, Any] = {name: getattr(self, name) for name in FitChoices.model_fields}
+        values |= {
+            "points": dict(points),
+            "format": PointsFormat.NAMED,
+            "complete_points": self.are_points_completed,
+        }
+        return FitOptions.model_construct(**values)
 
 
 class FitOfImage(FitRequest):

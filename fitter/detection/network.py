@@ -1,6 +1,9 @@
 """A network run on one thread."""
 
-from collections.abc import Mapping
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -33,8 +36,9 @@ class Network:
     def __init__(self, content: bytes) -> None:
         from ai_edge_litert.interpreter import Interpreter
 
-        self._interpreter = Interpreter(model_content=content, num_threads=1)
-        self._interpreter.allocate_tensors()
+        with _standard_error_withheld():
+            self._interpreter = Interpreter(model_content=content, num_threads=1)
+            self._interpreter.allocate_tensors()
         self._input = self._interpreter.get_input_details()[0]["index"]
         self._outputs = self._interpreter.get_output_details()
 
@@ -48,3 +52,25 @@ class Network:
             tuple(each["shape"][1:].tolist()): self._interpreter.get_tensor(each["index"])[0]
             for each in self._outputs
         }
+
+
+@contextmanager
+def _standard_error_withheld() -> Iterator[None]:
+    """Send what is written to file descriptor 2 nowhere.
+
+    The library announces there by what it computes, with no way to turn that off, in the middle of
+    its caller's log. What goes wrong it raises.
+    """
+    try:
+        kept = os.dup(2)
+    except OSError:
+        # There is no standard error to keep quiet.
+        yield
+        return
+    try:
+        with Path(os.devnull).open("wb") as nowhere:
+            os.dup2(nowhere.fileno(), 2)
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)

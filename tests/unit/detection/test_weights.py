@@ -1,6 +1,8 @@
 """Where the weights are looked for, and what is said where there are none."""
 
 import importlib.util
+import subprocess
+import sys
 
 import pytest
 
@@ -51,3 +53,16 @@ def test_without_the_runtime_there_is_no_detector(monkeypatch):
     assert detector_fault() is not None
     with pytest.raises(DetectorUnavailableError, match="ai-edge-litert"):
         read_weights()
+
+
+def test_loading_the_networks_writes_nothing_into_its_caller_s_log():
+    code = (
+        "import sys\n"
+        "from fitter.detection.detector import installed_detector\n"
+        "installed_detector()\n"
+        "print('afterwards', file=sys.stderr)\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=600
+    )
+    assert (done.stdout, done.stderr) == ("", "afterwards\n")
