@@ -15,6 +15,7 @@ from service.process.kernels import keep_kernels
 from service.process.stop_request import StopRequest
 from service.settings import Settings
 from service.worker.child_process import ChildRunner
+from service.worker.model_files import check_detector
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -52,6 +53,7 @@ def run_worker(
     os.environ[SAFE_PATH_VARIABLE] = "1"
     keep_kernels()
     prepare_data_folder(settings)
+    check_detector(settings)
     blobs = open_blob_store(settings)
     runner = ChildRunner(settings, blobs, pipeline=pipeline, preload=preload)
     runner.begin_preloading()

@@ -16,6 +16,7 @@ import pytest
 
 import fitter.body
 from service.cli import main
+from service.setting_types import DETECTOR_FILES
 from tests.integration.service.harness import QUICK, Machine, eventually
 from tests.postgres import SERVER, administration
 from tests.process_table import processes_with
@@ -179,6 +180,17 @@ def test_a_folder_without_the_detector_s_weights_is_refused(tmp_path: Path):
     done = run(SERVE, tmp_path / "data", detector_dir=tmp_path / "detector")
     line = assert_refused(done, naming=f"MAQUETTE_DETECTOR_DIR={tmp_path / 'detector'}:")
     assert "pose_detection.tflite" in line
+
+
+@pytest.mark.parametrize("command", [SERVE, WORKER])
+def test_weights_that_are_others_are_refused(command: Sequence[str], tmp_path: Path):
+    folder = tmp_path / "detector"
+    folder.mkdir()
+    for name in DETECTOR_FILES:
+        (folder / name).write_bytes(b"something else")
+    done = run(command, tmp_path / "data", detector_dir=folder)
+    line = assert_refused(done, naming=f"MAQUETTE_DETECTOR_DIR={folder}:")
+    assert "another file" in line
 
 
 def test_a_folder_of_another_user_is_refused(tmp_path: Path):
