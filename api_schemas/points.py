@@ -216,10 +216,13 @@ Auto = Literal["auto"]
 AUTO: Final[Auto] = "auto"
 
 PointsOrAuto = Annotated[
-    Annotated[Auto, Tag("[auto]")] | _Named | _Numbers | _Rows | _Landmarks,
+    _Named | _Numbers | _Rows | _Landmarks | Annotated[Auto, Tag("[auto]")],
     Discriminator(_points_or_auto_kind),
 ]
-"""Points, or the word that has the service propose all of them."""
+"""Points, or the word that has the service propose all of them.
+
+The word comes last: what openapi-python-client generates refuses whatever follows a constant.
+"""
 
 
 def named_points(
