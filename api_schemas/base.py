@@ -2,7 +2,7 @@
 
 from typing import Annotated, LiteralString, cast
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 from pydantic_core import PydanticCustomError
 
 
@@ -41,3 +41,7 @@ def _whole_number(value: object) -> object:
 
 WholeNumber = Annotated[int, BeforeValidator(_whole_number)]
 """An integer as JSON Schema understands it."""
+
+# The bound stands before the validator, behind which no JSON Schema would say it.
+Place = Annotated[int, Field(ge=0), BeforeValidator(_whole_number)]
+"""A place in a list, counted from 0."""

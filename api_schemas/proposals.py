@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from api_schemas.base import WholeNumber, WireModel
+from api_schemas.base import Place, WireModel
 from api_schemas.images import ImageId
 from api_schemas.points import PointName, PointSource
 from api_schemas.results import FitWarning
@@ -13,9 +13,8 @@ from api_schemas.results import FitWarning
 class PointsRequest(WireModel):
     """Of whom points are wanted, and what else."""
 
-    person: WholeNumber | None = Field(
+    person: Place | None = Field(
         default=None,
-        ge=0,
         description="Place among the persons found; the largest and surest if left out.",
     )
     mask: bool = Field(default=False, description="Whether the person's mask is wanted too.")
@@ -52,7 +51,7 @@ class ProposedPoint(WireModel):
     x: float
     y: float
     visibility: Literal[1, 2]
-    source: Literal[PointSource.PROPOSAL] = PointSource.PROPOSAL
+    source: Literal[PointSource.PROPOSAL]
     confidence: float = Field(ge=0.0, le=1.0)
     expected_error_px: float = Field(ge=0.0)
 

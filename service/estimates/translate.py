@@ -14,7 +14,7 @@ from api_schemas import proposals as wire_proposals
 from api_schemas import requests as wire_request
 from api_schemas import results as wire_results
 from api_schemas.known import STATURE
-from api_schemas.points import PointName
+from api_schemas.points import PointName, PointSource
 from fitter.body.model import BodyModel
 from fitter.fits.initial_body import InitialBody
 from fitter.fits.proposal import Proposal, ProposedPoint
@@ -134,6 +134,7 @@ def _proposed_point(point: ProposedPoint) -> wire_proposals.ProposedPoint:
         x=x,
         y=y,
         visibility=1 if point.click.occluded else SEEN,
+        source=PointSource.PROPOSAL,
         confidence=round(point.visibility, 3),
         expected_error_px=round(point.expected_error_px, 2),
     )

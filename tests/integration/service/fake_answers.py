@@ -11,6 +11,7 @@ from pathlib import Path
 
 from api_schemas.bodies import BodyEstimate, EstimatedMeasurement
 from api_schemas.initial_poses import InitialPose, LimbReading
+from api_schemas.points import PointSource
 from api_schemas.problems import FieldProblem
 from api_schemas.proposals import FoundPerson, PictureSize, PointsProposal, ProposedPoint
 from api_schemas.requests import Facing
@@ -126,7 +127,14 @@ def points(
                 remedy="Leave it out.",
             )
         )
-    nose = ProposedPoint(x=10.0 + person, y=20.0, visibility=2, confidence=0.9, expected_error_px=1)
+    nose = ProposedPoint(
+        x=10.0 + person,
+        y=20.0,
+        visibility=2,
+        source=PointSource.PROPOSAL,
+        confidence=0.9,
+        expected_error_px=1.0,
+    )
     return ProposedPoints(
         proposal=PointsProposal(
             image_size=PictureSize(width=640, height=480),
