@@ -71,7 +71,7 @@ HEADER_KEYS = (
 
 STATURE_LANDMARKS = ("crown", "sole_left", "sole_right")
 """What :mod:`fitter.body.stature` measures height by. A fit needs more:
-:mod:`fitter.fits.prepared_model`."""
+:mod:`fitter.fits.usable_model`."""
 
 SUM_TOLERANCE = 1e-4
 """Of weights that sum to one, kept in single precision."""

@@ -4,29 +4,12 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from fitter.body.joint_limits import JOINT_RANGES
 from fitter.body.model import BodyModel
-from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.energies.fitting_operators import FittingOperators, fitting_operators
-from fitter.errors import ModelFileError
+from fitter.fits.usable_model import usable_model
 from fitter.measurement.anthropometry import MeasuringBody, measuring_body
-from fitter.measurement.definitions import JOINT_PREFIX, load_definitions, points_of
-from fitter.observation.clicks import POINT_NAMES
 from fitter.population.measured_population import MeasuredPopulation, measured_population
 from fitter.request import Gender
-
-_MIDDLE_PARTS = ("pelvis", "spine", "chest", "neck", "head")
-
-NEEDED_PARTS = (
-    *_MIDDLE_PARTS,
-    *(
-        f"{side}_{limb}"
-        for side in ("left", "right")
-        for limb in JOINT_RANGES
-        if limb not in _MIDDLE_PARTS
-    ),
-)
-"""Parts by which joints have limits, limbs are lifted and outlines are trusted."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -39,56 +22,20 @@ class PreparedModel:
 
 
 def prepared_model(gender: Gender, *, models: Path | None = None) -> PreparedModel:
-    """A gender's model, loaded and prepared once a process.
-
-    Parameters
-    ----------
-    gender
-        Whose model.
-    models
-        Folder with ``female.npz`` or ``male.npz``; None takes the models shipped with the package.
+    """A gender's model, loaded and prepared once a process; see :func:`usable_model`.
 
     Raises
     ------
     ModelFileError
         If the file is missing, damaged, of the other gender, or lacks something a fit needs.
     """
-    packaged = packaged_model_path(gender.value)
-    return _prepared(packaged if models is None else models / packaged.name, gender)
-
-
-def needed_landmarks() -> tuple[str, ...]:
-    """Landmarks a fit needs: those that can be clicked, and those measurements are defined by."""
-    measured = (
-        point
-        for definition in load_definitions()
-        for point in points_of(definition)
-        if not point.startswith(JOINT_PREFIX)
-    )
-    return tuple(dict.fromkeys((*POINT_NAMES, *measured)))
+    return _prepared(usable_model(gender, models=models))
 
 
 @cache
-def _prepared(path: Path, gender: Gender) -> PreparedModel:
-    model = load_body_model(path, gender=gender.value)
-    _check_names(path, model)
+def _prepared(model: BodyModel) -> PreparedModel:
     operators = fitting_operators(model)
     measuring = measuring_body(model, operators.evaluator)
     return PreparedModel(
         operators=operators, measuring=measuring, population=measured_population(measuring)
     )
-
-
-def _check_names(path: Path, model: BodyModel) -> None:
-    for field, needed, found in (
-        ("header.part_names", NEEDED_PARTS, model.part_names),
-        ("header.landmark_names", needed_landmarks(), model.landmarks.names),
-    ):
-        missing = [name for name in needed if name not in found]
-        if missing:
-            raise ModelFileError(
-                file=path.name,
-                field=field,
-                reason=f"lacks what a fit needs: {', '.join(missing)}",
-                remedy="Train the model again with a template that has them (OWN_BODIES.md).",
-            )

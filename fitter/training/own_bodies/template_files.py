@@ -11,7 +11,7 @@ from fitter.arrays import Triangles, Vertices
 from fitter.body.model import SparseRows
 from fitter.body.model_checks import involution_fault, shares_fault
 from fitter.errors import MeshFolderError
-from fitter.fits.prepared_model import needed_landmarks
+from fitter.fits.usable_model import needed_landmarks
 from fitter.numerics.mesh_faults import closed_surface_fault, solid_fault
 from fitter.training.articulation.part_tree import PART_NAMES
 from fitter.training.articulation.parts import Parts, cut_into_parts, joined_parts

@@ -1,44 +1,13 @@
 from dataclasses import replace
-from functools import cache
-from pathlib import Path
 
-import numpy as np
 import pytest
 
-from fitter.body.model import BodyModel, SparseRows
-from fitter.body.storage import load_body_model, packaged_model_path, save_body_model
+from fitter.body.storage import packaged_model_path
 from fitter.errors import ModelFileError
-from fitter.fits.prepared_model import NEEDED_PARTS, needed_landmarks, prepared_model
+from fitter.fits.prepared_model import prepared_model
+from fitter.fits.usable_model import NEEDED_PARTS, needed_landmarks
 from fitter.request import Gender
-from fitter.training.assemble import model_arrays
-
-
-@cache
-def packaged() -> BodyModel:
-    return load_body_model(packaged_model_path("female"))
-
-
-def save(path: Path, model: BodyModel) -> None:
-    header = dict(model.header) | {
-        "part_names": list(model.part_names),
-        "landmark_names": list(model.landmarks.names),
-    }
-    save_body_model(path, header=header, arrays=model_arrays(model))
-
-
-def without(rows: SparseRows, name: str) -> SparseRows:
-    kept = np.repeat(np.array(rows.names) != name, np.diff(rows.pointers))
-    lengths = [
-        length
-        for other, length in zip(rows.names, np.diff(rows.pointers), strict=True)
-        if other != name
-    ]
-    return SparseRows(
-        names=tuple(other for other in rows.names if other != name),
-        pointers=np.cumsum([0, *lengths]),
-        indices=rows.indices[kept],
-        weights=rows.weights[kept],
-    )
+from tests.changed_models import packaged, save, without
 
 
 def test_the_packaged_models_have_what_a_fit_needs():
