@@ -17,6 +17,7 @@ FITS = {
     "memory": 1,
     "throughput": 10,
     "scaling": 5,
+    "startup": 3,
     "upload": 5,
     "page": 10,
     "load": 1_000,
@@ -26,7 +27,7 @@ FITS = {
     "soak": 10,
 }
 """The parts, each a module of this package, and how many fits each makes unless told otherwise:
-of ``page`` visits, of ``load`` jobs that wait, of ``soak`` minutes."""
+of ``startup`` starts, of ``page`` visits, of ``load`` jobs that wait, of ``soak`` minutes."""
 
 
 def main(arguments: Sequence[str]) -> int:
