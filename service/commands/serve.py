@@ -93,14 +93,7 @@ def serve(
             # As if we had been told to stop.
             on_final_end=lambda: os.kill(os.getpid(), signal.SIGTERM),
         )
-    # Imported while the others start: each takes a second or more to load.
-    from service.estimates.pool import EstimatorPool
-
-    estimators = EstimatorPool(
-        estimator_command,
-        environment=environment,
-        processes=settings.estimator_processes,
-    )
+    # Imported while the worker starts: each takes a good part of a second.
     from service.api.app import create_app
     from service.api.connection_limits import ConnectionLimits
     from service.api.server import ApiServer
@@ -110,6 +103,7 @@ def serve(
     from service.engine.keys import KeyRing
     from service.engine.rate_tokens import RateTokens
     from service.engine.webhooks import WebhookLedger
+    from service.estimates.pool import EstimatorPool
     from service.webhooks.delivery import Deliverer
     from service.webhooks.sending import Sender
 
@@ -140,6 +134,12 @@ def serve(
         blobs,
         secret=settings.webhook_secret,
         pauses_s=settings.webhook_schedule_s,
+    )
+    # Started last: it takes two seconds of processor that service and worker can use before.
+    estimators = EstimatorPool(
+        estimator_command,
+        environment=environment,
+        processes=settings.estimator_processes,
     )
     draining = threading.Event()
     app = create_app(

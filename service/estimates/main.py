@@ -27,8 +27,8 @@ from service.estimates.messages import (
 from service.estimates.port import NoDetectorError
 from service.process.kernels import keep_kernels
 from service.settings import Settings
+from service.worker.body_models.asking import unusable_models
 from service.worker.main import THREAD_LIMITS
-from service.worker.model_files import unusable_models
 from service.worker.pipeline_port import UnusableInputError
 
 LOG: Final = logging.getLogger(__name__)

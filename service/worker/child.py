@@ -23,20 +23,17 @@ from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivations import DerivationRequest
 from api_schemas.problems import Problem, field_problem, problem
 from api_schemas.requests import FitOptions
-from fitter.errors import ModelFileError
 from service.engine.port import FIT, Report
 from service.jobs.inputs import IMAGE, MASK, own_and_others
 from service.process.logs import LogContext, configure_logging, log_context
 from service.worker.artifacts import with_result_document
 from service.worker.messages import (
     MESSAGES,
-    DescriptionMessage,
     DoneMessage,
     FileMessage,
     Message,
     ProblemMessage,
     ProgressMessage,
-    UnusableModelsMessage,
 )
 from service.worker.pipeline_port import (
     DerivationInput,
@@ -46,9 +43,6 @@ from service.worker.pipeline_port import (
 )
 
 LOG: Final = logging.getLogger(__name__)
-
-NICENESS: Final = 5
-"""Fits give way to the API on the same machine."""
 
 OOM_SCORE: Final = 500
 """When memory runs out, the kernel is to take the fit and not the worker."""
@@ -86,16 +80,6 @@ def work(task: ChildTask, connection: Connection) -> None:
     _follow_worker(connection)
     with log_context(**task.log_context):
         _answer(connection, lambda: _work(task, options, inputs, connection))
-
-
-def describe(pipeline: str, models: Path | None, connection: Connection) -> None:
-    """Tell the worker which body models there are."""
-    _follow_worker(connection)
-    try:
-        message: Message = DescriptionMessage(body_models=load_pipeline(pipeline).describe(models))
-    except ModelFileError as error:
-        message = UnusableModelsMessage(reason=str(error))
-    _send(connection, message)
 
 
 def _work(
@@ -203,7 +187,6 @@ def _follow_worker(connection: Connection) -> None:
 def _limit(memory_mb: int) -> None:
     # An interrupt from the terminal reaches the whole group; only the worker is to act on it.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    os.nice(NICENESS)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     limit = memory_mb * 1024 * 1024
     resource.setrlimit(resource.RLIMIT_AS, (limit, limit))

@@ -10,7 +10,6 @@ from typing import Final
 
 from pydantic import ValidationError
 
-from api_schemas.body_models import BodyModels
 from api_schemas.results import Artifact
 from service.blobs import BlobMissingError, BlobStore, BlobsUnavailableError
 from service.engine.port import Attempt, AttemptResult, Directive, Ending, JobRecord, Report
@@ -23,15 +22,12 @@ from service.worker.endings import input_gone, no_process, no_storage, too_slow
 from service.worker.forking import ForkedProcesses, NoProcessError, end, killed_in_time
 from service.worker.messages import (
     MESSAGES,
-    DescriptionMessage,
     DoneMessage,
     FileMessage,
     Message,
     ProblemMessage,
     ProgressMessage,
-    UnusableModelsMessage,
 )
-from service.worker.model_files import unusable_models
 from service.worker.retrying import retry_while_storage_is_away
 
 LOG: Final = logging.getLogger(__name__)
@@ -44,10 +40,6 @@ WATCHDOG_S: Final = 1.0
 
 JOIN_S: Final = 1.0
 """How long the exit code of a child that has closed its pipe is waited for."""
-
-DESCRIPTIONS: Final = 3
-"""How often the body models are asked for: the process that reads them may be killed for other
-reasons."""
 
 STOPPED: Final = {
     Directive.CANCELED: AttemptResult(ending=Ending.CANCELED),
@@ -65,39 +57,23 @@ class ChildRunner:
         self._blobs = blobs
         self._pipeline = pipeline
         self._processes = ForkedProcesses(preload)
+        self._preloading_since = time.monotonic()
 
     def begin_preloading(self) -> None:
         """Let the numerics be loaded; returns at once."""
+        self._preloading_since = time.monotonic()
         self._processes.begin_preloading()
 
-    def describe(self) -> BodyModels:
-        """Ask a child which body models there are.
-
-        Raises
-        ------
-        SettingError
-            If they cannot be used.
-        RuntimeError
-            If the process that reads them dies, however often.
-        """
-        for _ in range(DESCRIPTIONS):
-            connection, process = self._processes.start(
-                child.describe, self._pipeline, self._settings.models_dir
-            )
-            try:
-                message = MESSAGES.validate_json(connection.recv_bytes())
-            except (EOFError, OSError):
-                process.join(JOIN_S)
-                LOG.warning("Reading the body models died, exit code %s.", process.exitcode)
-            else:
-                if isinstance(message, UnusableModelsMessage):
-                    raise unusable_models(self._settings, message.reason)
-                assert isinstance(message, DescriptionMessage)
-                return message.body_models
-            finally:
-                end(connection, process)
-        message = "The body models cannot be read; the lines above say more."
-        raise RuntimeError(message)
+    def tell_when_loaded(self) -> None:
+        """Log that the numerics are being loaded and, some seconds later, that they are."""
+        LOG.info("The numerics are being loaded; jobs wait for them.")
+        try:
+            self._processes.wait_until_loaded()
+        except NoProcessError as error:
+            LOG.warning("The numerics cannot be loaded yet (%s).", error)
+        else:
+            seconds = time.monotonic() - self._preloading_since
+            LOG.info("The numerics are loaded (%.1f s).", seconds)
 
     def run(self, attempt: Attempt) -> AttemptResult:
         """Run one attempt to its end: done, failed, canceled, out of time or crashed."""

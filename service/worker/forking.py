@@ -6,8 +6,11 @@ from collections.abc import Callable, Iterator
 from multiprocessing import forkserver, get_context
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerContext, ForkServerProcess
+from typing import Final
 
 from service.process.retrying import retry_with_pauses
+
+GIVING_WAY: Final = "service.worker.giving_way"
 
 
 class NoProcessError(Exception):
@@ -19,15 +22,27 @@ class ForkedProcesses:
 
     A fork takes 0.02 s where a fresh interpreter takes most of a second, and the server itself
     stays without threads, which is what makes forking safe. A server that dies is started again.
+    Server and processes give way to the API and the worker on the same machine.
     """
 
     def __init__(self, preload: str) -> None:
         self._context: ForkServerContext = get_context("forkserver")
-        self._context.set_forkserver_preload([preload])
+        self._context.set_forkserver_preload([GIVING_WAY, preload])
 
     def begin_preloading(self) -> None:
         """Start the server, which loads the numerics by itself."""
         forkserver.ensure_running()
+
+    def wait_until_loaded(self) -> None:
+        """Wait until the server has loaded the numerics; only then it forks.
+
+        Raises
+        ------
+        NoProcessError
+            If no process could be started for two minutes.
+        """
+        connection, process = self.start(_nothing)
+        end(connection, process)
 
     @retry_with_pauses(NoProcessError, "fork server")
     def start(
@@ -51,6 +66,10 @@ class ForkedProcesses:
         finally:
             theirs.close()
         return ours, process
+
+
+def _nothing(_: Connection) -> None:
+    """What a process does that is forked only to see that it can be."""
 
 
 def end(connection: Connection, process: ForkServerProcess) -> None:

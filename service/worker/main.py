@@ -5,6 +5,7 @@ import os
 import signal
 import sys
 import threading
+from collections.abc import Sequence
 from typing import Final
 
 from service.blobs import open_blob_store
@@ -14,6 +15,8 @@ from service.process.interpreter import SAFE_PATH_VARIABLE
 from service.process.kernels import keep_kernels
 from service.process.stop_request import StopRequest
 from service.settings import Settings
+from service.worker.body_models.asking import COMMAND as MODELS_COMMAND
+from service.worker.body_models.asking import ModelsBeingRead
 from service.worker.child_process import ChildRunner
 from service.worker.model_files import check_detector
 
@@ -38,9 +41,17 @@ READ_AT_ONCE: Final = 4_096
 
 
 def run_worker(
-    settings: Settings, *, follow_stdin: bool, pipeline: str = PIPELINE, preload: str = PRELOAD
+    settings: Settings,
+    *,
+    follow_stdin: bool,
+    pipeline: str = PIPELINE,
+    preload: str = PRELOAD,
+    models_command: Sequence[str] = MODELS_COMMAND,
 ) -> None:
-    """Work until SIGTERM or SIGINT, or until standard input ends if that is to be followed."""
+    """Work until SIGTERM or SIGINT, or until standard input ends if that is to be followed.
+
+    ``models_command`` starts the process that says which body models there are.
+    """
     stop = StopRequest()
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda _number, _frame: stop.ask())
@@ -56,14 +67,17 @@ def run_worker(
     check_detector(settings)
     blobs = open_blob_store(settings)
     runner = ChildRunner(settings, blobs, pipeline=pipeline, preload=preload)
-    runner.begin_preloading()
-    # Imported while the fork server loads the numerics: each takes a good part of a second.
+    models = ModelsBeingRead(settings, command=models_command)
+    # Imported while others read the models and load the numerics: a good part of a second each.
     from service.engine.database import open_database, prepare_database
+
+    prepare_database(settings.system_database_url)
+    # Not before: a worker whose database cannot be used has nothing to load them for.
+    runner.begin_preloading()
     from service.engine.dbos_worker import DbosWorkerEngine
     from service.process.tracing import start_tracing
 
     tracing = start_tracing(settings, role="worker")
-    prepare_database(settings.system_database_url)
     engine = DbosWorkerEngine(
         open_database(
             settings.system_database_url,
@@ -78,8 +92,9 @@ def run_worker(
         retention_s=settings.retention_s,
         disk=open_disk(settings),
     )
-    engine.start(runner.run, body_models=runner.describe())
+    engine.start(runner.run, body_models=models.wait())
     LOG.info("Worker %s is ready.", engine.executor_id)
+    threading.Thread(target=runner.tell_when_loaded, name="numerics", daemon=True).start()
     stop.wait()
     LOG.info("Worker %s is stopping.", engine.executor_id)
     engine.stop(drain_s=settings.drain_s)

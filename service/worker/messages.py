@@ -5,7 +5,6 @@ from typing import Annotated, Final, Literal
 from pydantic import Field, TypeAdapter
 
 from api_schemas.base import WireModel
-from api_schemas.body_models import BodyModels
 from api_schemas.problems import Problem
 
 
@@ -39,27 +38,7 @@ class ProblemMessage(WireModel):
     problem: Problem
 
 
-class DescriptionMessage(WireModel):
-    """The body models there are."""
-
-    kind: Literal["description"] = "description"
-    body_models: BodyModels
-
-
-class UnusableModelsMessage(WireModel):
-    """The body models cannot be used."""
-
-    kind: Literal["unusable-models"] = "unusable-models"
-    reason: str
-
-
 Message = Annotated[
-    ProgressMessage
-    | FileMessage
-    | DoneMessage
-    | ProblemMessage
-    | DescriptionMessage
-    | UnusableModelsMessage,
-    Field(discriminator="kind"),
+    ProgressMessage | FileMessage | DoneMessage | ProblemMessage, Field(discriminator="kind")
 ]
 MESSAGES: Final[TypeAdapter[Message]] = TypeAdapter(Message)

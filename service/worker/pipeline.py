@@ -1,18 +1,13 @@
 """The pipeline of the service: the fitter between two translations."""
 
-from collections.abc import Callable, Mapping
-from pathlib import Path
+from collections.abc import Callable
 
-from api_schemas.body_models import BodyModelInfo, BodyModels
 from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivation_kinds.base import DerivedFiles
-from api_schemas.requests import Gender
-from fitter import request as fitter_request
 from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.export import artifacts, tapes_json
 from fitter.fits.pipeline import fit
 from fitter.fits.prepared_model import prepared_model
-from fitter.observation.subject import MEAN_HEIGHT_M
 from service.engine.port import Report
 from service.worker import translate
 from service.worker.derivers import load_deriver
@@ -67,35 +62,3 @@ def derive(
         raise UnusableInputError(translate.field_problem(error)) from error
     except DetectorUnavailableError as error:
         raise UnusableInputError(translate.detector_problem(error)) from error
-
-
-def describe(models: Path | None) -> BodyModels:
-    """Return the body models of a folder, or those shipped with the package."""
-    return BodyModels(models=tuple(_model_info(gender, models) for gender in Gender))
-
-
-def _model_info(gender: Gender, models: Path | None) -> BodyModelInfo:
-    fitted = fitter_request.Gender(gender.value)
-    model = prepared_model(fitted, models=models).operators.model
-    header = model.header
-    return BodyModelInfo(
-        gender=gender,
-        mean_height_m=MEAN_HEIGHT_M[fitted],
-        vertices=len(model.mean_vertices),
-        triangles=len(model.triangles),
-        shape_coefficients=len(model.shape_basis),
-        parts=model.part_names,
-        landmarks=model.landmarks.names,
-        format_version=int(str(header["format_version"])),
-        checksum=str(header["checksum"]),
-        sources=_texts(header["sources"]),
-        licences=_texts(header["licences"]),
-    )
-
-
-def _texts(value: object) -> tuple[str, ...]:
-    if isinstance(value, str):
-        return (value,)
-    if isinstance(value, Mapping):
-        return tuple(f"{name}: {text}" for name, text in value.items())
-    return tuple(str(text) for text in value)  # pyright: ignore[reportGeneralTypeIssues]

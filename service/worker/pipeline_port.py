@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Generic, Protocol, TypeVar, cast
 from uuid import UUID
 
-from api_schemas.body_models import BodyModels
 from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivation_kinds.base import DerivedFiles
 from api_schemas.problems import FieldProblem
@@ -83,7 +82,7 @@ class UnusableInputError(Exception):
 
 
 class Pipeline(Protocol):
-    """A module with these three functions."""
+    """A module with these two functions."""
 
     def run(self, job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput:
         """Fit.
@@ -99,10 +98,6 @@ class Pipeline(Protocol):
         self, job: DerivationInput[AnyDerivationOptions], observe: Callable[[Report], None]
     ) -> DerivationOutput[DerivedFiles]:
         """Derive something from a fit; raises as ``run`` does."""
-        ...
-
-    def describe(self, models: Path | None) -> BodyModels:
-        """Return the body models there are, in a folder or shipped with the package."""
         ...
 
 

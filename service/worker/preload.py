@@ -4,14 +4,16 @@ import gc
 from contextlib import suppress
 
 from fitter.errors import ModelFileError
+from fitter.fits.prepared_model import prepared_model
+from fitter.request import Gender
 from service.settings import Settings
-from service.worker import pipeline
 from service.worker.rehearsal import rehearse
 
-# The worker loads the same models at once and reports what is wrong with them.
+# The worker has the same models read and reports what is wrong with them.
 with suppress(ModelFileError):
     settings = Settings()
-    pipeline.describe(settings.models_dir)
+    for gender in Gender:
+        prepared_model(gender, models=settings.models_dir)
     rehearse(settings.models_dir, settings.detector_dir)
 
 # What is here by now stays: the collector of a fork that looked through it would copy its pages.

@@ -1,6 +1,11 @@
 """A worker with the fake pipeline: ``python -m tests.integration.service.fake_worker``."""
 
+import os
+import sys
+from pathlib import Path
+
 FAKE = "tests.integration.service.fake_pipeline"
+FAKE_MODELS = (sys.executable, "-m", "tests.integration.service.fake_models")
 
 
 def main() -> None:
@@ -9,9 +14,11 @@ def main() -> None:
     from service.settings import Settings
     from service.worker.main import run_worker
 
+    # The processes that a worker starts look for nothing in the current folder.
+    os.environ["PYTHONPATH"] = str(Path(__file__).parents[3])
     settings = Settings()
     configure_logging(settings.log_level, settings.log_format)
-    run_worker(settings, follow_stdin=True, pipeline=FAKE, preload=FAKE)
+    run_worker(settings, follow_stdin=True, pipeline=FAKE, preload=FAKE, models_command=FAKE_MODELS)
 
 
 if __name__ == "__main__":

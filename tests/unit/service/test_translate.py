@@ -160,7 +160,7 @@ def test_both_sides_know_the_same_words(wire_kind, fitter_kind):
 
 
 def test_every_point_on_the_wire_is_a_landmark_of_the_models():
-    from service.worker.pipeline import describe
+    from service.worker.body_models.described import describe
 
     for model in describe(None).models:
         assert set(wire_points.POINT_NAMES) <= set(model.landmarks)

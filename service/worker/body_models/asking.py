@@ -1,0 +1,78 @@
+"""The side of whoever wants to know: start the process that reads the body models, and listen."""
+
+import logging
+import subprocess
+from collections.abc import Sequence
+from typing import Final
+
+from pydantic import ValidationError
+
+from api_schemas.body_models import BodyModels
+from service.process.interpreter import PYTHON
+from service.settings import SettingError, Settings
+from service.worker.body_models.messages import (
+    MODELS_MESSAGES,
+    ModelsMessage,
+    UnusableModelsMessage,
+)
+
+LOG: Final = logging.getLogger(__name__)
+
+COMMAND: Final = (*PYTHON, "-m", "service.worker.body_models")
+
+READINGS: Final = 3
+"""How often the body models are read: the process that does may be killed for other reasons."""
+
+
+class ModelsBeingRead:
+    """The body models while another process reads them, which it begins to do at once."""
+
+    def __init__(self, settings: Settings, *, command: Sequence[str] = COMMAND) -> None:
+        self._settings = settings
+        folder = () if settings.models_dir is None else (str(settings.models_dir),)
+        self._command = (*command, *folder)
+        self._process = self._start()
+
+    def wait(self) -> BodyModels:
+        """Wait for the description; called once.
+
+        Raises
+        ------
+        SettingError
+            If the models cannot be used.
+        RuntimeError
+            If the process dies, however often it is started.
+        """
+        for reading in range(READINGS):
+            if reading > 0:
+                self._process = self._start()
+            message = self._message()
+            if isinstance(message, UnusableModelsMessage):
+                raise unusable_models(self._settings, message.reason)
+            if message is not None:
+                return message.body_models
+        fault = "The body models cannot be read; the lines above say more."
+        raise RuntimeError(fault)
+
+    def _start(self) -> subprocess.Popen[bytes]:
+        # A session of its own: an interrupt from the terminal is for those who wait.
+        return subprocess.Popen(
+            self._command,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            start_new_session=True,
+        )
+
+    def _message(self) -> ModelsMessage | None:
+        said, _ = self._process.communicate()
+        try:
+            return MODELS_MESSAGES.validate_json(said)
+        except ValidationError:
+            LOG.warning("Reading the body models died, exit code %s.", self._process.returncode)
+            return None
+
+
+def unusable_models(settings: Settings, reason: str) -> SettingError:
+    """Say in one line which models cannot be used and why."""
+    value = "(unset, the packaged models)" if settings.models_dir is None else settings.models_dir
+    return SettingError(" ".join(reason.split()), name="models_dir", value=value)

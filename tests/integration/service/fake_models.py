@@ -1,0 +1,7 @@
+"""Tells of the fake pipeline's models: ``python -m tests.integration.service.fake_models``."""
+
+from service.worker.body_models.telling import tell
+from tests.integration.service.fake_pipeline import describe
+
+if __name__ == "__main__":
+    tell(describe)
