@@ -6,6 +6,7 @@ import os
 import threading
 import time
 import uuid
+from collections.abc import Callable
 from typing import Final
 
 import sqlalchemy as sa
@@ -82,8 +83,17 @@ class DbosWorkerEngine:
         self._handing_back = threading.Event()
         self._dbos: DBOS | None = None
 
-    def start(self, handler: AttemptHandler, *, body_models: BodyModels) -> None:
-        """Begin to claim jobs and run each attempt through ``handler``, in threads of its own."""
+    def start(
+        self,
+        handler: AttemptHandler,
+        *,
+        body_models: BodyModels,
+        can_begin: Callable[[], bool],
+    ) -> None:
+        """Begin to claim jobs and run each attempt through ``handler``, in threads of its own.
+
+        Jobs are left waiting, for this worker or another one, until the handler ``can_begin``.
+        """
         self._dbos = DBOS(
             config={
                 "name": APPLICATION,
@@ -104,7 +114,7 @@ class DbosWorkerEngine:
             self._dbos,
             QUEUE,
             await_turn=self._slots.await_turn,
-            usable_slots=self._usable_slots,
+            usable_slots=lambda: self._usable_slots() if can_begin() else 0,
         )
         self._heartbeat.start()
 

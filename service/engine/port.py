@@ -339,8 +339,17 @@ AttemptHandler = Callable[[Attempt], AttemptResult]
 class WorkerEngine(Protocol):
     """The worker's side: run jobs until told to stop."""
 
-    def start(self, handler: AttemptHandler, *, body_models: BodyModels) -> None:
-        """Begin to claim jobs and run each attempt through ``handler``, in threads of its own."""
+    def start(
+        self,
+        handler: AttemptHandler,
+        *,
+        body_models: BodyModels,
+        can_begin: Callable[[], bool],
+    ) -> None:
+        """Begin to claim jobs and run each attempt through ``handler``, in threads of its own.
+
+        Jobs are left waiting, for this worker or another one, until the handler ``can_begin``.
+        """
         ...
 
     def stop(self, *, drain_s: float) -> None:

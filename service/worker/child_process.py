@@ -2,6 +2,7 @@
 
 import contextlib
 import logging
+import threading
 import time
 from collections.abc import Iterator, Mapping
 from multiprocessing.connection import Connection
@@ -57,23 +58,29 @@ class ChildRunner:
         self._blobs = blobs
         self._pipeline = pipeline
         self._processes = ForkedProcesses(preload)
-        self._preloading_since = time.monotonic()
+        self._has_loaded = threading.Event()
 
     def begin_preloading(self) -> None:
         """Let the numerics be loaded; returns at once."""
-        self._preloading_since = time.monotonic()
+        began = time.monotonic()
         self._processes.begin_preloading()
+        threading.Thread(
+            target=self._see_loaded, args=(began,), name="loading", daemon=True
+        ).start()
 
-    def tell_when_loaded(self) -> None:
-        """Log that the numerics are being loaded and, some seconds later, that they are."""
-        LOG.info("The numerics are being loaded; jobs wait for them.")
+    def has_loaded(self) -> bool:
+        """Say whether the numerics are loaded: an attempt before would only wait for them."""
+        return self._has_loaded.is_set()
+
+    def _see_loaded(self, began: float) -> None:
         try:
             self._processes.wait_until_loaded()
         except NoProcessError as error:
-            LOG.warning("The numerics cannot be loaded yet (%s).", error)
+            LOG.error("The numerics cannot be loaded (%s).", error)
         else:
-            seconds = time.monotonic() - self._preloading_since
-            LOG.info("The numerics are loaded (%.1f s).", seconds)
+            LOG.info("The numerics are loaded (%.1f s).", time.monotonic() - began)
+        # Either way: an attempt then waits for a process by itself, and tells if there is none.
+        self._has_loaded.set()
 
     def run(self, attempt: Attempt) -> AttemptResult:
         """Run one attempt to its end: done, failed, canceled, out of time or crashed."""

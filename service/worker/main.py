@@ -92,9 +92,10 @@ def run_worker(
         retention_s=settings.retention_s,
         disk=open_disk(settings),
     )
-    engine.start(runner.run, body_models=models.wait())
+    engine.start(runner.run, body_models=models.wait(), can_begin=runner.has_loaded)
     LOG.info("Worker %s is ready.", engine.executor_id)
-    threading.Thread(target=runner.tell_when_loaded, name="numerics", daemon=True).start()
+    if not runner.has_loaded():
+        LOG.info("The numerics are being loaded; jobs wait for them.")
     stop.wait()
     LOG.info("Worker %s is stopping.", engine.executor_id)
     engine.stop(drain_s=settings.drain_s)

@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 FAKE = "tests.integration.service.fake_pipeline"
+FAKE_PRELOAD = "tests.integration.service.fake_preload"
 FAKE_MODELS = (sys.executable, "-m", "tests.integration.service.fake_models")
 
 
@@ -18,7 +19,9 @@ def main() -> None:
     os.environ["PYTHONPATH"] = str(Path(__file__).parents[3])
     settings = Settings()
     configure_logging(settings.log_level, settings.log_format)
-    run_worker(settings, follow_stdin=True, pipeline=FAKE, preload=FAKE, models_command=FAKE_MODELS)
+    run_worker(
+        settings, follow_stdin=True, pipeline=FAKE, preload=FAKE_PRELOAD, models_command=FAKE_MODELS
+    )
 
 
 if __name__ == "__main__":
