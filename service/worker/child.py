@@ -44,6 +44,9 @@ from service.worker.pipeline_port import (
 
 LOG: Final = logging.getLogger(__name__)
 
+NICENESS: Final = 5
+"""Fits give way to the API on the same machine."""
+
 OOM_SCORE: Final = 500
 """When memory runs out, the kernel is to take the fit and not the worker."""
 
@@ -187,6 +190,7 @@ def _follow_worker(connection: Connection) -> None:
 def _limit(memory_mb: int) -> None:
     # An interrupt from the terminal reaches the whole group; only the worker is to act on it.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    os.nice(NICENESS)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     limit = memory_mb * 1024 * 1024
     resource.setrlimit(resource.RLIMIT_AS, (limit, limit))

@@ -6,11 +6,8 @@ from collections.abc import Callable, Iterator
 from multiprocessing import forkserver, get_context
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerContext, ForkServerProcess
-from typing import Final
 
 from service.process.retrying import retry_with_pauses
-
-GIVING_WAY: Final = "service.worker.giving_way"
 
 
 class NoProcessError(Exception):
@@ -22,12 +19,11 @@ class ForkedProcesses:
 
     A fork takes 0.02 s where a fresh interpreter takes most of a second, and the server itself
     stays without threads, which is what makes forking safe. A server that dies is started again.
-    Server and processes give way to the API and the worker on the same machine.
     """
 
     def __init__(self, preload: str) -> None:
         self._context: ForkServerContext = get_context("forkserver")
-        self._context.set_forkserver_preload([GIVING_WAY, preload])
+        self._context.set_forkserver_preload([preload])
 
     def begin_preloading(self) -> None:
         """Start the server, which loads the numerics by itself."""

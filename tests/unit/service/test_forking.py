@@ -9,9 +9,6 @@ import pytest
 
 from service.worker.forking import ForkedProcesses, end
 
-NICENESS = 5
-MOST_NICE = 19
-
 
 @pytest.fixture(scope="module")
 def processes():
@@ -32,18 +29,6 @@ def greeting(processes: ForkedProcesses) -> str:
 
 def test_a_process_runs_what_it_is_told_with_its_end_of_the_pipe(processes):
     assert greeting(processes).startswith("hello from ")
-
-
-def tell_niceness(connection: Connection) -> None:
-    connection.send(os.nice(0))
-
-
-def test_a_process_gives_way_to_who_started_it(processes):
-    connection, process = processes.start(tell_niceness)
-    try:
-        assert connection.recv() == min(os.nice(0) + NICENESS, MOST_NICE)
-    finally:
-        end(connection, process)
 
 
 def test_a_server_is_waited_for_until_it_has_loaded_its_module(processes):
