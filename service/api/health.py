@@ -28,7 +28,8 @@ def live() -> Live:
 def ready(context: Context) -> Ready:
     """Check that database and storage can be written and a worker was seen to be alive.
 
-    503 also while the process is being stopped.
+    A fit may still wait some seconds for a worker that has just started, or minutes where that
+    compiles its numerics first. 503 also while the process is being stopped.
     """
     if context.draining.is_set():
         raise _not_ready(code="draining", detail="This process is being stopped.")

@@ -32,6 +32,9 @@ from service.worker.pipeline_port import (
 )
 
 PIPELINE: Final = "service.worker.pipeline"
+COMPILING: Final = (
+    "Compiling kernels: one to three minutes, once per installation; where that is done, seconds."
+)
 UNUSABLE_INPUT: Final = 2
 """Exit status when the input is at fault, as for wrong arguments."""
 
@@ -119,6 +122,7 @@ def _request(arguments: FitArguments) -> bytes:
 def warm_up(*, pipeline: str = PIPELINE) -> int:
     """Fit the sample and exaggerate it, so that what is compiled at first use is compiled."""
     console = Console()
+    console.print(COMPILING, highlight=False)
     sample = load_sample()
     output = _fit(
         console,

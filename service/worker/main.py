@@ -95,7 +95,7 @@ def run_worker(
     engine.start(runner.run, body_models=models.wait(), can_begin=runner.has_loaded)
     LOG.info("Worker %s is ready.", engine.executor_id)
     if not runner.has_loaded():
-        LOG.info("The numerics are being loaded; jobs wait for them.")
+        LOG.info("Jobs wait until the numerics are loaded, or compiled if that is not done yet.")
     stop.wait()
     LOG.info("Worker %s is stopping.", engine.executor_id)
     engine.stop(drain_s=settings.drain_s)

@@ -183,9 +183,10 @@ def test_a_demo_whose_fit_fails_says_why(tmp_path, capsys):
     assert "The picture ends too early." in capsys.readouterr().out.replace("\n", " ")
 
 
-def test_warming_up_says_what_it_needs(tmp_path, monkeypatch):
+def test_warming_up_says_what_it_needs(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr("service.commands.fit.load_sample", sample)
     assert warm_up(pipeline=FAKE) == 0
+    assert capsys.readouterr().out.startswith("Compiling kernels: one to three minutes")
 
 
 def test_help_names_every_command(capsys):
