@@ -21,8 +21,8 @@ from service.process.interpreter import PYTHON
 
 SERVE_COMMAND: Final = (*PYTHON, "-m", "service.cli", "serve", "--port", "0")
 START_TIMEOUT_S: Final = 240.0
-"""A guard against hanging: a service is ready in seconds, and what is to be compiled the fit waits
-for, however long it takes."""
+"""A guard against hanging: a service is ready in a few seconds. The fit waits for what is to be
+compiled, however long that takes."""
 
 READY_POLL_S: Final = 0.05
 
