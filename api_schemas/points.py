@@ -67,6 +67,10 @@ MIN_TRUNK_POINTS: Final = 2
 MIN_EXTENT: Final = 0.05
 """The limb points must spread over this share of the picture's diagonal."""
 
+CLEAR_BREADTH: Final = 0.2
+"""A pair of joints tells left from right where it lies further apart, across the trunk, than this
+share of the trunk's length."""
+
 OPENPOSE_BODY25_INDEX: Final[Mapping[PointName, int]] = {
     **dict(
         zip(

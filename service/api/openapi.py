@@ -15,6 +15,7 @@ from api_schemas.initial_poses import InitialPose, InitialPoseRequest
 from api_schemas.jobs import EventData
 from api_schemas.known import MAX_HEIGHT_M, MIN_HEIGHT_M
 from api_schemas.points import (
+    CLEAR_BREADTH,
     LIMB_POINT_NAMES,
     MIN_EXTENT,
     MIN_LIMB_POINTS,
@@ -114,6 +115,7 @@ _LIMITS: dict[str, Any] = {
         "least_limb_points": MIN_LIMB_POINTS,
         "least_trunk_points": MIN_TRUNK_POINTS,
         "least_extent": MIN_EXTENT,
+        "clear_breadth": CLEAR_BREADTH,
     },
     "height_m": {"least": MIN_HEIGHT_M, "most": MAX_HEIGHT_M},
     "texture_sizes": TEXTURE_SIZES,

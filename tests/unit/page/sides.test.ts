@@ -66,6 +66,15 @@ for (const [what, names] of [
   });
 }
 
+test("hips so near to each other that a click decides their order raise no doubt", () => {
+  const [left, right] = [FACING.placed.left_hip!, FACING.placed.right_hip!];
+  const middle = (left.x + right.x) / 2;
+  // The trunk is 242 pixels long.
+  const apart = (px: number) => place(place(FACING, "left_hip", middle - px / 2, 466), "right_hip", middle + px / 2, 466);
+  assert.equal(sideDoubt(apart(0.15 * 242)), null);
+  assert.equal(sideDoubt(apart(0.25 * 242))?.kind, "hips");
+});
+
 test("swapping what a doubt about all sides names is swapping all sides", () => {
   const back = swapSides(FACING);
   assert.deepEqual(swapped(back, sideDoubt(back)!.names).placed, FACING.placed);

@@ -3,6 +3,7 @@
 import pytest
 
 from api_schemas.points import (
+    CLEAR_BREADTH,
     LIMB_POINT_NAMES,
     MIN_EXTENT,
     MIN_LIMB_POINTS,
@@ -25,6 +26,7 @@ def test_both_rules_have_the_same_names_and_numbers():
     assert MIN_LIMB_POINTS == fitter_rule.LEAST_LIMB_POINTS
     assert MIN_TRUNK_POINTS == fitter_rule.LEAST_TRUNK_POINTS
     assert MIN_EXTENT == fitter_rule.LEAST_EXTENT
+    assert CLEAR_BREADTH == fitter_rule.CLEAR_BREADTH
 
 
 def spread(names) -> dict[str, list[float]]:

@@ -5,6 +5,7 @@ import type { TextureSize } from "./types";
 export const LIMITS = {
   limbPoints: stated.points.least_limb_points,
   trunkPoints: stated.points.least_trunk_points,
+  clearBreadth: stated.points.clear_breadth,
   heightM: [stated.height_m.least, stated.height_m.most],
   textureSizes: stated.texture_sizes as readonly TextureSize[],
   otherFits: stated.most_other_fits,

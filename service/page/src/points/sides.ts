@@ -1,4 +1,5 @@
 // Whether left and right look swapped: of the whole person, or of one pair of joints.
+import { LIMITS } from "../api/limits";
 import { mirrored } from "./catalogue";
 import type { PointName } from "./catalogue";
 import type { Place, Points } from "./placed";
@@ -18,21 +19,18 @@ const LEG: readonly PointName[] = ["left_knee", "left_ankle", "left_heel", "left
 const FACE: readonly PointName[] = ["left_eye", "left_ear"];
 const ALL: readonly PointName[] = [...TRUNK, ...ARM, ...LEG, ...FACE];
 
-/** Left and right this share of the trunk's length apart, measured across it, are told apart for certain. */
-const SHOULDERS_APART = 0.25;
-const HIPS_APART = 0.12;
 /** Of two shoulders alone: this share of their distance must lie along the picture. */
 const LEVEL = 0.6;
 
 export function sideDoubt({ placed }: Points): SideDoubt | null {
   const across = acrossTrunk(placed);
-  const shoulders = across("shoulder", SHOULDERS_APART);
+  const shoulders = across("shoulder");
   if (shoulders === 0) return null;
-  const [hips, knees] = [across("hip", HIPS_APART), across("knee", HIPS_APART)];
+  const [hips, knees] = [across("hip"), across("knee")];
   // Legs that go with the hips were swapped with them.
   if (hips === -shoulders) return { kind: "hips", names: knees === hips ? ["left_hip", ...LEG] : ["left_hip"] };
   if (shoulders < 0) return { kind: showsFace(placed) ? "facing" : "behind", names: ALL };
-  if (across("elbow", SHOULDERS_APART) < 0) return { kind: "arms", names: ARM };
+  if (across("elbow") < 0) return { kind: "arms", names: ARM };
   if (knees < 0) return { kind: "legs", names: LEG };
   return null;
 }
@@ -54,7 +52,7 @@ export function swapped(points: Points, names: readonly PointName[]): Points {
 type Pair = "shoulder" | "elbow" | "hip" | "knee";
 
 /** On which side, head up, the left one of a pair lies: 1 the picture's right, -1 its left, 0 unclear. */
-function acrossTrunk(placed: Placed): (pair: Pair, apart: number) => number {
+function acrossTrunk(placed: Placed): (pair: Pair) => number {
   const { left_shoulder, right_shoulder, left_hip, right_hip } = placed;
   if (!left_shoulder || !right_shoulder) return () => 0;
   if (!left_hip || !right_hip) {
@@ -66,11 +64,11 @@ function acrossTrunk(placed: Placed): (pair: Pair, apart: number) => number {
   const length = Math.max(distance(top, bottom), 1e-9);
   // The trunk's upward direction, turned clockwise as the picture shows it.
   const right = { x: (bottom.y - top.y) / length, y: (top.x - bottom.x) / length };
-  return (pair, apart) => {
+  return (pair) => {
     const [a, b] = [placed[`left_${pair}`], placed[`right_${pair}`]];
     if (!a || !b) return 0;
     const along = ((a.x - b.x) * right.x + (a.y - b.y) * right.y) / length;
-    return Math.abs(along) > apart ? Math.sign(along) : 0;
+    return Math.abs(along) > LIMITS.clearBreadth ? Math.sign(along) : 0;
   };
 }
 
