@@ -77,10 +77,13 @@ test("keypoints of others are read: flat, in rows, several people, or by name", 
   for (const content of [flat, rows, { keypoints: flat }, { annotations: [{ keypoints: flat.map(() => 0) }, { keypoints: flat }] }]) {
     const { placed } = readPoints(JSON.stringify(content));
     assert.equal(Object.keys(placed).length, 16);
-    assert.deepEqual(placed.left_ear, { x: 3, y: 3, hidden: true });
+    assert.deepEqual(placed.left_ear, { x: 3, y: 3, hidden: true, proposed: false });
   }
   const named = readPoints('{"points": {"nose": [1, 2], "left_hip": {"x": 3, "y": 4, "visibility": 1}, "tail": [5, 6]}}');
-  assert.deepEqual(named.placed, { nose: { x: 1, y: 2, hidden: false }, left_hip: { x: 3, y: 4, hidden: true } });
+  assert.deepEqual(named.placed, {
+    nose: { x: 1, y: 2, hidden: false, proposed: false },
+    left_hip: { x: 3, y: 4, hidden: true, proposed: false },
+  });
 });
 
 test("a file without points is refused with what is missing", () => {

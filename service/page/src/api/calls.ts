@@ -1,6 +1,6 @@
 // The calls this page makes, one function each.
 import { jsonBody, request, requestJson } from "./client";
-import type { Derivation, DerivationPage, DerivationRequest, DerivationResult, FitOfImage, FitOptions, FitResult, InitialPose, InitialPoseRequest, Job, UploadedImage } from "./types";
+import type { Derivation, DerivationPage, DerivationRequest, DerivationResult, FitOfImage, FitOptions, FitResult, InitialPose, InitialPoseRequest, Job, PointsOfImage, PointsProposal, UploadedImage } from "./types";
 
 export function uploadImage(file: Blob, signal: AbortSignal): Promise<UploadedImage> {
   const form = new FormData();
@@ -10,6 +10,10 @@ export function uploadImage(file: Blob, signal: AbortSignal): Promise<UploadedIm
 
 export function initialPose(asked: InitialPoseRequest, signal: AbortSignal): Promise<InitialPose> {
   return requestJson("/v1/initial-poses", { ...jsonBody(asked), signal });
+}
+
+export function proposePoints(asked: PointsOfImage, signal: AbortSignal): Promise<PointsProposal> {
+  return requestJson("/v1/points", { ...jsonBody(asked), signal });
 }
 
 export function submitFit(asked: FitOfImage): Promise<Job> {

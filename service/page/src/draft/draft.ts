@@ -2,7 +2,7 @@
 import { computed, signal } from "@preact/signals";
 import type { Clothing, Cues, Facing, Limb, LightGuess, Surroundings, UploadedImage } from "../api/types";
 import type { PointName } from "../points/catalogue";
-import { NO_POINTS, isEnough, nextPoint } from "../points/placed";
+import { NO_POINTS, isEnough, nextDoubt, nextPoint } from "../points/placed";
 import type { Points } from "../points/placed";
 import { advance, amend, begin } from "../points/timeline";
 import { NOBODY, heightFault, tapeFault, weightFault } from "./person";
@@ -15,6 +15,8 @@ export const uploaded = signal<UploadedImage | null>(null);
 export const timeline = signal(begin<Points>(NO_POINTS));
 export const points = computed(() => timeline.value.present);
 export const upcoming = computed(() => nextPoint(points.value));
+/** The proposed point that is asked about. */
+export const doubted = computed(() => nextDoubt(points.value));
 /** The point that keys move, hide and delete. */
 export const selected = signal<PointName | null>(null);
 

@@ -1,6 +1,7 @@
 // The draft as the API wants it, and back.
 import type { FitOptions, Gender, InitialPoseRequest } from "../api/types";
 import { namedPoints } from "../points/coco";
+import { NO_POINTS } from "../points/placed";
 import type { Points } from "../points/placed";
 import { begin } from "../points/timeline";
 import { clothing, cues, facing, focalLength, light, person, picture, points, selected, surroundings, timeline } from "./draft";
@@ -31,7 +32,10 @@ export function subjectOf(
     measurements: tapeMeasurements(known),
     ...(lens === null ? {} : { focal_length_35mm: lens }),
     points: Object.fromEntries(
-      Object.entries(clicked.placed).map(([name, { x, y, hidden }]) => [name, { x, y, visibility: hidden ? 1 : 2 }]),
+      Object.entries(clicked.placed).map(([name, { x, y, hidden, proposed }]) => [
+        name,
+        { x, y, visibility: hidden ? 1 : 2, ...(proposed ? { source: "proposal" } : {}) },
+      ]),
     ) as FitOptions["points"],
     limb_facing: facings,
   };
@@ -70,7 +74,7 @@ export function loadDraft(asked: FitOptions): void {
     tape: tapeTexts(asked.measurements ?? {}, units),
   };
   const placed = Array.isArray(asked.points) ? {} : namedPoints(asked.points);
-  timeline.value = begin<Points>({ placed, skipped: [], asked: null });
+  timeline.value = begin<Points>({ ...NO_POINTS, placed });
   selected.value = null;
   focalLength.value = lensOf(asked);
   facing.value = asked.limb_facing ?? {};

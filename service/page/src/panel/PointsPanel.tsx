@@ -1,39 +1,45 @@
 // Which point comes next, what it means, and what can be done with those there are.
 import { useSignal } from "@preact/signals";
-import { change, picture, points, seenFromBehind, selected, timeline, todo, upcoming } from "../draft/draft";
+import { change, doubted, picture, points, seenFromBehind, selected, timeline, todo, upcoming } from "../draft/draft";
 import { liveBody, liveProblem } from "../draft/live";
 import { POINTS, pointOf, sideOf } from "../points/catalogue";
 import type { PointName } from "../points/catalogue";
 import { cocoFile, readPoints } from "../points/coco";
-import { NO_POINTS, ask, missing, remove, skip, skipRest, swapSides, toggleHidden } from "../points/placed";
+import { NO_POINTS, ask, leave, missing, remove, skip, skipRest, swapSides, toggleHidden } from "../points/placed";
+import type { Place, Points } from "../points/placed";
+import { countProposed, hasProposed } from "../points/proposed";
 import { redo, undo } from "../points/timeline";
 import { IconButton } from "../ui/IconButton";
 import { ProblemNote } from "../ui/ProblemNote";
 import { saveFile } from "../ui/save";
+import { DoubtAnswers, DoubtCloseUp, DoubtQuestion, questionOf } from "./DoubtQuestion";
 import { Guide } from "./Guide";
+import { ClickAll, ProposalNote, ProposalWarnings } from "./ProposalNote";
 import { SideNote } from "./SideNote";
 
 const FAR_OFF_SHARE = 0.03;
 
 export function PointsPanel() {
   const next = upcoming.value;
-  const placed = points.value.placed;
-  const count = Object.keys(placed).length;
+  const doubt = doubted.value;
+  const count = Object.keys(points.value.placed).length;
   return (
     <section class="section" aria-labelledby="points-title">
       <header class="section-head">
         <h2 id="points-title">Points</h2>
-        <span class="count">{count} placed</span>
+        <span class="count">{inAll(points.value)}</span>
         <IconButton icon="undo" label="Undo" disabled={timeline.value.past.length === 0} onClick={() => (timeline.value = undo(timeline.value))} />
         <IconButton icon="redo" label="Redo" disabled={timeline.value.future.length === 0} onClick={() => (timeline.value = redo(timeline.value))} />
         <IconButton icon="swap" label="Swap left and right" disabled={count === 0} onClick={() => change(swapSides(points.value))} />
       </header>
+      <ProposalNote />
       <div class="next">
-        <Guide next={next} points={points.value} />
+        {doubt ? <DoubtCloseUp name={doubt} /> : <Guide next={next} points={points.value} />}
         <div class="next-text">
-          {next ? <Next name={next} /> : <Complete />}
+          {next ? <Next name={next} /> : doubt ? <DoubtQuestion name={doubt} /> : <Complete />}
         </div>
       </div>
+      <ProposalWarnings />
       <SideNote />
       {liveProblem.value && <ProblemNote problem={liveProblem.value} />}
       <Doubts />
@@ -44,12 +50,20 @@ export function PointsPanel() {
   );
 }
 
+function inAll(all: Points): string {
+  const count = Object.keys(all.placed).length;
+  const proposed = countProposed(all);
+  if (proposed === 0) return `${count} placed`;
+  return proposed === count ? `${count} proposed` : `${count} placed, ${proposed} of them proposed`;
+}
+
 function Next({ name }: { name: PointName }) {
   const side = sideOf(name);
   const { limbs, trunk } = missing(points.value);
+  const isMoved = points.value.placed[name] !== undefined;
   return (
     <>
-      <p class="next-kicker">Click next</p>
+      <p class="next-kicker">{isMoved ? "Click where it is" : "Click next"}</p>
       <p class={`next-name is-${side}`}>{pointOf(name).label}</p>
       <p class="next-help">{pointOf(name).help}</p>
       {side !== "middle" && (
@@ -58,9 +72,14 @@ function Next({ name }: { name: PointName }) {
       <p class="fine">{needed(limbs, trunk)}</p>
       <div class="row">
         <button class="button is-small" type="button" onClick={() => change(skip(points.value, name))}>
-          Skip
+          {isMoved ? "Leave out" : "Skip"}
         </button>
-        {limbs === 0 && trunk === 0 && (
+        {isMoved && (
+          <button class="button is-small" type="button" onClick={() => change(leave(points.value))}>
+            Leave it there
+          </button>
+        )}
+        {!isMoved && limbs === 0 && trunk === 0 && (
           <button class="button is-small" type="button" onClick={() => change(skipRest(points.value))}>
             That is enough
           </button>
@@ -77,7 +96,9 @@ function whichSide(side: "left" | "right"): string {
 
 /** The next point in two lines above the picture, where the panel is out of sight: on phones. */
 export function NextLine() {
+  if (doubted.value) return <DoubtLine name={doubted.value} />;
   const name = upcoming.value;
+  if (!name && hasProposed(points.value)) return <ProposedLine />;
   const side = name && sideOf(name);
   return (
     <p class={`next-line ${side ? `is-${side}` : ""}`} aria-hidden="true">
@@ -88,6 +109,27 @@ export function NextLine() {
   );
 }
 
+/** The question over the picture. */
+function DoubtLine({ name }: { name: PointName }) {
+  return (
+    <div class={`next-line is-doubt is-${sideOf(name)}`}>
+      <b>{questionOf(name)}</b>
+      <ClickAll kind="link" />
+      <DoubtAnswers name={name} />
+    </div>
+  );
+}
+
+function ProposedLine() {
+  return (
+    <div class="next-line">
+      <ClickAll kind="link" />
+      <b>Points proposed</b>
+      <span>Drag what lies wrong, then fit the body.</span>
+    </div>
+  );
+}
+
 function needed(limbs: number, trunk: number): string {
   if (limbs === 0 && trunk === 0) return "There are enough; more make the body better.";
   if (limbs === 0) return `${trunk} more of the shoulders and hips needed.`;
@@ -95,12 +137,14 @@ function needed(limbs: number, trunk: number): string {
 }
 
 function Complete() {
+  const proposed = hasProposed(points.value);
   return (
     <>
       <p class="next-kicker">Points</p>
-      <p class="next-name">All done</p>
+      <p class="next-name">{proposed ? "Proposed" : "All done"}</p>
       <p class="next-help">
-        Does the outline lie on the person? Drag a point to move it, or choose one below. Then fit the body.
+        {proposed ? "Do the points lie on the person’s joints? Left is the person’s own left." : "Does the outline lie on the person?"}{" "}
+        Drag a point to move it, or choose one below. Then fit the body.
       </p>
     </>
   );
@@ -139,7 +183,7 @@ function PointList() {
         {POINTS.map(({ name, label }) => {
           const where = points.value.placed[name];
           const skipped = points.value.skipped.includes(name);
-          const state = where ? (where.hidden ? "hidden" : "placed") : skipped ? "skipped" : "open";
+          const state = where ? stateOf(where) : skipped ? "skipped" : "open";
           return (
             <li key={name} class={selected.value === name ? "is-selected" : ""}>
               <button
@@ -168,6 +212,11 @@ function PointList() {
       </ul>
     </details>
   );
+}
+
+function stateOf({ hidden, proposed }: Place): string {
+  if (hidden) return "hidden";
+  return proposed ? "proposed" : "placed";
 }
 
 function Files() {

@@ -4,8 +4,8 @@ import { sideDoubt, swapped } from "../points/sides";
 import type { SideDoubt } from "../points/sides";
 
 const QUESTIONS: Readonly<Record<SideDoubt["kind"], string>> = {
-  behind: "As clicked, this person turns their back to you. If they face you, left and right are swapped: left is the person’s own left.",
-  facing: "You see the face, but left and right are clicked as if you saw the back: left is the person’s own left.",
+  behind: "By these points this person turns their back to you. If they face you, left and right are swapped: left is the person’s own left.",
+  facing: "You see the face, but left and right are as if you saw the back: left is the person’s own left.",
   hips: "Shoulders and hips say opposite sides: the hips may be swapped.",
   arms: "Both arms cross to the other side: left and right elbow may be swapped.",
   legs: "Both legs cross to the other side: left and right knee may be swapped.",

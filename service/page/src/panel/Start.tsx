@@ -1,8 +1,10 @@
 // Before there is a picture: drop, paste, choose or take one, or try the sample.
 import { useSignal } from "@preact/signals";
+import { canPropose } from "../draft/proposing";
 import { Choice } from "../ui/Choice";
 import { Icon } from "../ui/Icon";
 import { openFile, openProblem, trySample } from "./open";
+import type { Beginning } from "./open";
 
 const SAMPLES: readonly { name: string; label: string; alt: string; width: number; height: number }[] = [
   { name: "sample", label: "At ease", alt: "A man stands at ease, a hand on his hip, lit from the left", width: 720, height: 960 },
@@ -31,8 +33,8 @@ export function Start() {
         <div class="drop-text">
           <h1>A body from one picture</h1>
           <p class="lead">
-            Click the joints of a person in a photograph or painting. You get the posed body in 3D, its measurements, and
-            the light it stands in.
+            Show the joints of a person in a photograph or painting, or have them proposed. You get the posed body in 3D,
+            its measurements, and the light it stands in.
           </p>
           <div class="row">
             <label class="button is-primary">
@@ -61,7 +63,7 @@ export function Start() {
       </div>
       <ol class="start-steps">
         <li>
-          <b>Click</b> at least six joints. The body follows as you click.
+          <b>Check</b> the joints that are proposed, or click six of them or more. The body follows.
         </li>
         <li>
           <b>Say</b> what you know: height, weight, lens, light. Unknown is allowed.
@@ -75,14 +77,14 @@ export function Start() {
 }
 
 function Samples() {
-  const clicked = useSignal<"placed" | "open">("placed");
+  const beginning = useSignal<Beginning>("placed");
   return (
     <section class="samples" aria-labelledby="samples-title">
       <h2 id="samples-title">No picture at hand? Try one of these</h2>
       <ul>
         {SAMPLES.map(({ name, label, alt, width, height }) => (
           <li key={name}>
-            <button type="button" onClick={() => void trySample(name, clicked.value === "placed")}>
+            <button type="button" onClick={() => void trySample(name, beginning.value)}>
               <img src={`/page/${name}.jpg`} alt={alt} width={width} height={height} />
               <span>{label}</span>
             </button>
@@ -95,10 +97,11 @@ function Samples() {
         quiet
         options={[
           { value: "placed", label: "With points placed" },
+          ...(canPropose.value ? [{ value: "proposed" as const, label: "Points proposed" }] : []),
           { value: "open", label: "I click them" },
         ]}
-        value={clicked.value}
-        onChange={(value) => (clicked.value = value)}
+        value={beginning.value}
+        onChange={(value) => (beginning.value = value)}
       />
     </section>
   );

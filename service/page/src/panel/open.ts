@@ -5,27 +5,38 @@ import type { FitOptions, Job } from "../api/types";
 import { change, points, useMask, usePicture } from "../draft/draft";
 import { openPicture } from "../draft/picture";
 import type { Picture } from "../draft/picture";
+import { forgetProposal, proposeFirst } from "../draft/proposing";
 import { loadDraft } from "../draft/request";
 import { skipRest } from "../points/placed";
 import { go } from "../route";
 
 export const openProblem = signal<string | null>(null);
 
-export async function openFile(file: Blob, name = file instanceof File ? file.name : "picture"): Promise<void> {
+/** Whose points there are once a picture is open. */
+export type Beginning = "proposed" | "placed" | "open";
+
+export async function openFile(
+  file: Blob,
+  name = file instanceof File ? file.name : "picture",
+  beginning: Beginning = "proposed",
+): Promise<void> {
   openProblem.value = null;
   try {
-    usePicture(await openPicture(file, name));
+    const opened = await openPicture(file, name);
+    forgetProposal();
+    usePicture(opened);
+    if (beginning === "proposed") proposeFirst();
     go("#/");
   } catch (error) {
     openProblem.value = error instanceof Error ? error.message : String(error);
   }
 }
 
-/** A sample by the name of its files, with its points or to be clicked. */
-export async function trySample(name: string, withPoints: boolean): Promise<void> {
+/** A sample by the name of its files. */
+export async function trySample(name: string, beginning: Beginning): Promise<void> {
   const file = await (await fetch(`/page/${name}.jpg`)).blob();
-  await openFile(file, `${name}.jpg`);
-  if (!withPoints) return;
+  await openFile(file, `${name}.jpg`, beginning);
+  if (beginning !== "placed") return;
   const asked = (await (await fetch(`/page/${name}.json`)).json()) as FitOptions;
   loadDraft(asked);
   // Its points are all there are: none is asked for.
@@ -38,7 +49,7 @@ export async function openAgain(picture: Picture, job: Job): Promise<void> {
     getRequest(job),
     job.links.mask ? getFile(job.links.mask).then((file) => openPicture(file, "the mask of that fit")) : null,
   ]);
-  await openFile(picture.file, picture.name);
+  await openFile(picture.file, picture.name, "placed");
   loadDraft(asked);
   useMask(mask);
 }

@@ -1,6 +1,7 @@
 // Points from files and to files: COCO's annotation JSON, detectors' lists, and our own.
 import { isPointName } from "./catalogue";
 import type { PointName } from "./catalogue";
+import { NO_POINTS } from "./placed";
 import type { Place, Points } from "./placed";
 
 export const COCO_NAMES: readonly PointName[] = [
@@ -24,7 +25,7 @@ export function readPoints(text: string): Points {
   }
   const placed = placedIn(content);
   if (Object.keys(placed).length === 0) throw new Error(EXPECTED);
-  return { placed, skipped: [], asked: null };
+  return { ...NO_POINTS, placed };
 }
 
 /** A COCO file with one person, and beside COCO's seventeen points ours by name. */
@@ -108,7 +109,7 @@ function placeOf(value: unknown): Place | null {
   const triple = isObject(value) ? [value.x, value.y, value.visibility ?? 2] : Array.isArray(value) ? value : [];
   const [x, y, visibility = 2] = triple as unknown[];
   if (typeof x !== "number" || typeof y !== "number" || visibility === 0) return null;
-  return { x, y, hidden: visibility === 1 };
+  return { x, y, hidden: visibility === 1, proposed: isObject(value) && value.source === "proposal" };
 }
 
 function isObject(value: unknown): value is Record<string, unknown> {

@@ -46,7 +46,8 @@ export function swapped(points: Points, names: readonly PointName[]): Points {
     if (there) placed[name] = there;
     if (here) placed[other] = here;
   }
-  return { ...points, placed };
+  const moves = (name: PointName) => names.includes(name) || names.includes(mirrored(name));
+  return { ...points, placed, doubts: points.doubts.map((name) => (moves(name) ? mirrored(name) : name)) };
 }
 
 type Pair = "shoulder" | "elbow" | "hip" | "knee";
@@ -72,8 +73,11 @@ function acrossTrunk(placed: Placed): (pair: Pair) => number {
   };
 }
 
+/** A detector puts a face on the back of a head as well: only what somebody clicked is seen. */
 function showsFace(placed: Placed): boolean {
-  return (["nose", "left_eye", "right_eye"] as const).some((name) => placed[name] && !placed[name].hidden);
+  return (["nose", "left_eye", "right_eye"] as const).some(
+    (name) => placed[name] && !placed[name].hidden && !placed[name].proposed,
+  );
 }
 
 function middle(a: Place, b: Place): { x: number; y: number } {

@@ -1,10 +1,14 @@
 // Over the picture: the live body's outline, the skeleton, the points.
-import { points, selected } from "../draft/draft";
+import { doubted, points, selected } from "../draft/draft";
 import { liveBody } from "../draft/live";
 import { BONES, pointOf, sideOf } from "../points/catalogue";
 import type { PointName } from "../points/catalogue";
 import { toStage } from "./view";
-import type { Size, View } from "./view";
+import type { Size, Spot, View } from "./view";
+
+const RING_PX = 6;
+/** Room for a label beside its point. */
+const LABEL_PX = 140;
 
 interface Props {
   readonly view: View;
@@ -19,11 +23,14 @@ export function ClickLayer({ view, size, dragged }: Props) {
     <svg class="click-layer" width={size.width} height={size.height} aria-hidden="true">
       <Outline view={view} />
       {BONES.map(([from, to]) => {
-        const [a, b] = [at(from), at(to)];
-        if (!a || !b) return null;
+        const [first, last] = [at(from), at(to)];
+        if (!first || !last) return null;
+        const a = placed[from]!.proposed ? cut(first, last) : first;
+        const b = placed[to]!.proposed ? cut(last, first) : last;
         const side = sideOf(from) === sideOf(to) ? sideOf(from) : "middle";
+        const isProposed = placed[from]!.proposed || placed[to]!.proposed;
         return (
-          <g key={`${from}-${to}`}>
+          <g key={`${from}-${to}`} class={isProposed ? "is-proposed" : ""}>
             <line class="bone-rim" x1={a.x} y1={a.y} x2={b.x} y2={b.y} />
             <line class={`bone is-${side}`} x1={a.x} y1={a.y} x2={b.x} y2={b.y} />
           </g>
@@ -31,15 +38,23 @@ export function ClickLayer({ view, size, dragged }: Props) {
       })}
       {(Object.keys(placed) as PointName[]).map((name) => {
         const spot = at(name)!;
+        const where = placed[name]!;
         const chosen = selected.value === name;
+        const isAsked = selected.value === null && doubted.value === name;
+        const isLabelled = (chosen || isAsked) && dragged === null;
         return (
           <g key={name} transform={`translate(${spot.x} ${spot.y})`} class={`point is-${sideOf(name)}`} data-point={name}>
-            {chosen && <circle class="point-halo-rim" r={12} />}
-            {chosen && <circle class="point-halo" r={12} />}
-            <circle class={`point-dot ${placed[name]!.hidden ? "is-hidden" : ""}`} r={chosen ? 6 : 5} />
-            {chosen && dragged === null && (
-              <text class="point-label" x={17} y={4}>
+            {(chosen || isAsked) && <circle class="point-halo-rim" r={12} />}
+            {(chosen || isAsked) && <circle class={`point-halo ${isAsked ? "is-asked" : ""}`} r={12} />}
+            {where.proposed && <circle class="point-ring-rim" r={RING_PX} />}
+            <circle
+              class={`point-dot ${where.hidden ? "is-hidden" : ""} ${where.proposed ? "is-proposed" : ""}`}
+              r={chosen || where.proposed ? RING_PX : 5}
+            />
+            {isLabelled && (
+              <text class={`point-label ${spot.x > size.width - LABEL_PX ? "is-left-of" : ""}`} y={4}>
                 {pointOf(name).label}
+                {isAsked ? "?" : ""}
               </text>
             )}
           </g>
@@ -47,6 +62,13 @@ export function ClickLayer({ view, size, dragged }: Props) {
       })}
     </svg>
   );
+}
+
+/** Where a bone that begins here meets the ring: what lies within is seen. */
+function cut(from: Spot, to: Spot): Spot {
+  const length = Math.hypot(to.x - from.x, to.y - from.y);
+  const share = length > 2 * RING_PX ? RING_PX / length : 0;
+  return { x: from.x + share * (to.x - from.x), y: from.y + share * (to.y - from.y) };
 }
 
 function Outline({ view }: { view: View }) {

@@ -5,10 +5,13 @@ import { adjust, change, mask, picture, points, selected, timeline, upcoming } f
 import { pointOf } from "../points/catalogue";
 import type { PointName } from "../points/catalogue";
 import { isEnough, place, skip, skipRest } from "../points/placed";
+import { hasProposed } from "../points/proposed";
 import { advance, undo } from "../points/timeline";
 import { IconButton } from "../ui/IconButton";
 import { MaskOutline } from "../ui/MaskOutline";
+import { ProposalWord } from "../panel/ProposalNote";
 import { ClickLayer } from "./ClickLayer";
+import { PersonBoxes } from "./PersonBoxes";
 import { listen } from "./gestures";
 import { stageKeys, timeTravel } from "./keys";
 import { Loupe } from "./Loupe";
@@ -97,7 +100,7 @@ export function Stage() {
       tabIndex={0}
       role="application"
       aria-busy={size.value.width === 0}
-      aria-label={`Picture to click on. ${name ? `Next: ${pointOf(name).label}.` : "All points are placed."}`}
+      aria-label={`Picture to click on. ${name ? `Next: ${pointOf(name).label}.` : `All points are ${hasProposed(points.value) ? "proposed" : "placed"}.`}`}
       aria-describedby="stage-keys"
       onKeyDown={(event) => stageKeys(event, { zoom, whole, shown, aim, view })}
     >
@@ -118,6 +121,8 @@ export function Stage() {
           <MaskOutline url={mask.value.url} label="The border of the mask" />
         </div>
       )}
+      <PersonBoxes view={view.value} size={size.value} />
+      <ProposalWord />
       <ClickLayer view={view.value} size={size.value} dragged={dragged.value} />
       {aim.value && (name !== null || dragged.value) && (
         <Loupe at={aim.value.at} touch={aim.value.touch} view={view.value} size={size.value} picture={shown} />

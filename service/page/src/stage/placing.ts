@@ -1,5 +1,6 @@
 // What a click, a drag or a key does to the points.
 import { change, points, selected, upcoming } from "../draft/draft";
+import { choosePersonAt } from "../draft/proposing";
 import { pointOf } from "../points/catalogue";
 import type { PointName } from "../points/catalogue";
 import { place } from "../points/placed";
@@ -9,14 +10,15 @@ import type { Size, Spot, View } from "./view";
 
 const SELECT_PX = 12;
 
-/** Place the next point, or select one when there is none to place. */
+/** Place the next point; when there is none to place, select one, or another person. */
 export function tap(at: Spot, view: View, picture: Size): void {
   const name = upcoming.value;
+  const { x, y } = toPicture(view, at);
   if (name === null) {
     selected.value = nearest(view, at, SELECT_PX);
+    if (selected.value === null) choosePersonAt(x, y);
     return;
   }
-  const { x, y } = toPicture(view, at);
   if (x < 0 || y < 0 || x > picture.width || y > picture.height) return;
   placeNext(name, x, y);
   selected.value = name;

@@ -1,0 +1,91 @@
+// What the service says of the points it proposes, and the way from proposing to clicking and back.
+// What changes is announced by whoever changes it: these notes are no status of their own.
+import { points } from "../draft/draft";
+import { canPropose, clickAll, isProposing, others, proposal, proposalProblem, proposalWord, propose } from "../draft/proposing";
+import { hasProposed, isAllProposed } from "../points/proposed";
+import { sideDoubt } from "../points/sides";
+import { ProblemNote } from "../ui/ProblemNote";
+
+/** These are told in another way: by the note itself, by boxes, by a question. */
+const TOLD_OTHERWISE: readonly string[] = ["nobody-found", "several-people"];
+
+export function ProposalNote() {
+  if (!canPropose.value) return null;
+  const found = proposal.value;
+  return (
+    <>
+      {isProposing.value && <p class="fine">{proposalWord.value}</p>}
+      {proposalProblem.value && <ProblemNote problem={proposalProblem.value} />}
+      {found?.person === null && proposalWord.value && <p class="note">{proposalWord.value}</p>}
+      {found && others.value.length > 0 && <Persons count={others.value.length} chosen={found.person} />}
+      <Ways />
+    </>
+  );
+}
+
+/** What should be known of proposed points. */
+export function ProposalWarnings() {
+  const found = proposal.value;
+  if (!found || !hasProposed(points.value)) return null;
+  const warnings = found.warnings.filter(({ code }) => !TOLD_OTHERWISE.includes(code) && !isAskedAbout(code));
+  if (warnings.length === 0) return null;
+  return (
+    <div class="note">
+      {warnings.map((warning) => (
+        <p key={warning.code}>{warning.message}</p>
+      ))}
+    </div>
+  );
+}
+
+/** The same in a line over the picture. */
+export function ProposalWord() {
+  return proposalWord.value ? (
+    <p class="stage-word" aria-hidden="true">
+      {proposalWord.value}
+    </p>
+  ) : null;
+}
+
+export function ClickAll({ kind }: { kind: "button is-small" | "link" }) {
+  return (
+    <button class={kind} type="button" onClick={clickAll}>
+      Click them myself
+    </button>
+  );
+}
+
+function Persons({ count, chosen }: { count: number; chosen: number | null }) {
+  return (
+    <div class="note">
+      <p>{count} people were found. Tap the one you mean.</p>
+      <div class="row">
+        {Array.from({ length: count }, (_, i) => (
+          <button key={i} class="button is-small" type="button" aria-pressed={i === chosen} onClick={() => propose(i)}>
+            Person {i + 1}
+          </button>
+        ))}
+      </div>
+    </div>
+  );
+}
+
+function Ways() {
+  const nobody = proposal.value?.person === null;
+  const offersProposal = !isProposing.value && !nobody && !isAllProposed(points.value);
+  if (!hasProposed(points.value) && !offersProposal) return null;
+  return (
+    <div class="row">
+      {hasProposed(points.value) && <ClickAll kind="button is-small" />}
+      {offersProposal && (
+        <button class="button is-small" type="button" onClick={() => propose()}>
+          Propose points
+        </button>
+      )}
+    </div>
+  );
+}
+
+function isAskedAbout(code: string): boolean {
+  return code === "seen-from-behind" && sideDoubt(points.value) !== null;
+}
