@@ -7,7 +7,7 @@ import type { PointName } from "../points/catalogue";
 import { cocoFile, readPoints } from "../points/coco";
 import { NO_POINTS, ask, leave, missing, remove, skip, skipRest, swapSides, toggleHidden } from "../points/placed";
 import type { Place, Points } from "../points/placed";
-import { countProposed, hasProposed } from "../points/proposed";
+import { countProposed, hasProposed, isAllProposed } from "../points/proposed";
 import { redo, undo } from "../points/timeline";
 import { IconButton } from "../ui/IconButton";
 import { ProblemNote } from "../ui/ProblemNote";
@@ -22,6 +22,8 @@ const FAR_OFF_SHARE = 0.03;
 export function PointsPanel() {
   const next = upcoming.value;
   const doubt = doubted.value;
+  // What is wrong with all of them comes before the questions about each.
+  const isProposed = isAllProposed(points.value);
   const count = Object.keys(points.value.placed).length;
   return (
     <section class="section" aria-labelledby="points-title">
@@ -33,6 +35,7 @@ export function PointsPanel() {
         <IconButton icon="swap" label="Swap left and right" disabled={count === 0} onClick={() => change(swapSides(points.value))} />
       </header>
       <ProposalNote />
+      {isProposed && <SideNote />}
       <div class="next">
         {doubt ? <DoubtCloseUp name={doubt} /> : <Guide next={next} points={points.value} />}
         <div class="next-text">
@@ -40,7 +43,7 @@ export function PointsPanel() {
         </div>
       </div>
       <ProposalWarnings />
-      <SideNote />
+      {!isProposed && <SideNote />}
       {liveProblem.value && <ProblemNote problem={liveProblem.value} />}
       <Doubts />
       <PointList />

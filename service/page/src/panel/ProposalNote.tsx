@@ -38,15 +38,6 @@ export function ProposalWarnings() {
   );
 }
 
-/** The same in a line over the picture. */
-export function ProposalWord() {
-  return proposalWord.value ? (
-    <p class="stage-word" aria-hidden="true">
-      {proposalWord.value}
-    </p>
-  ) : null;
-}
-
 export function ClickAll({ kind }: { kind: "button is-small" | "link" }) {
   return (
     <button class={kind} type="button" onClick={clickAll}>

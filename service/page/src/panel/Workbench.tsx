@@ -1,5 +1,5 @@
 // Where a fit is prepared: the picture on the left, what is known on the right.
-import { doubted, picture, points, upcoming } from "../draft/draft";
+import { picture, points, upcoming } from "../draft/draft";
 import { hasProposed } from "../points/proposed";
 import { Stage } from "../stage/Stage";
 import { EvidencePanel } from "./EvidencePanel";
@@ -27,7 +27,7 @@ export function Workbench() {
       }}
     >
       <h1 class="unseen">Prepare a fit</h1>
-      <div class={`bench-stage ${upcoming.value || doubted.value ? "" : "is-settled"} ${hasProposed(points.value) ? "is-proposed" : ""}`}>
+      <div class={`bench-stage ${upcoming.value ? "" : "is-settled"} ${hasProposed(points.value) ? "is-proposed" : ""}`}>
         <NextLine />
         <Stage />
       </div>

@@ -2,6 +2,7 @@
 import { useSignal, useSignalEffect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { adjust, change, mask, picture, points, selected, timeline, upcoming } from "../draft/draft";
+import { proposalWord } from "../draft/proposing";
 import { pointOf } from "../points/catalogue";
 import type { PointName } from "../points/catalogue";
 import { isEnough, place, skip, skipRest } from "../points/placed";
@@ -9,7 +10,6 @@ import { hasProposed } from "../points/proposed";
 import { advance, undo } from "../points/timeline";
 import { IconButton } from "../ui/IconButton";
 import { MaskOutline } from "../ui/MaskOutline";
-import { ProposalWord } from "../panel/ProposalNote";
 import { ClickLayer } from "./ClickLayer";
 import { PersonBoxes } from "./PersonBoxes";
 import { listen } from "./gestures";
@@ -122,7 +122,11 @@ export function Stage() {
         </div>
       )}
       <PersonBoxes view={view.value} size={size.value} />
-      <ProposalWord />
+      {proposalWord.value && (
+        <p class="stage-word" aria-hidden="true">
+          {proposalWord.value}
+        </p>
+      )}
       <ClickLayer view={view.value} size={size.value} dragged={dragged.value} />
       {aim.value && (name !== null || dragged.value) && (
         <Loupe at={aim.value.at} touch={aim.value.touch} view={view.value} size={size.value} picture={shown} />
