@@ -106,13 +106,19 @@ test("among several a tap chooses another one, until a point is clicked", async 
   choosePersonAt(250, 100);
   await settled();
   assert.equal(asked[1]!.body.person, 1);
-  assert.equal(proposal.value!.person, 1);
+  assert.equal(points.value.person, 1);
+  // Taking it back is the first one's points again, and another tap the second's.
+  timeline.value = undo(timeline.value);
+  assert.equal(points.value.person, 0);
+  choosePersonAt(250, 100);
+  await settled();
+  assert.equal(points.value.person, 1);
   change(place(points.value, "nose", 1, 2));
   assert.equal(others.value.length, 0);
   // Proposed anew, it is the same person's.
   propose();
   await settled();
-  assert.equal(asked[2]!.body.person, 1);
+  assert.equal(asked[3]!.body.person, 1);
 });
 
 test("a service without the detector is asked once, and no problem is told", async () => {

@@ -54,7 +54,7 @@ export function proposeFirst(): void {
 }
 
 /** Propose points in place of those there are. */
-export function propose(person: number | null = proposal.value?.person ?? null): void {
+export function propose(person: number | null = points.value.person ?? proposal.value?.person ?? null): void {
   wish.value = { person, replaces: true };
 }
 
@@ -68,7 +68,7 @@ export function clickAll(): void {
 /** Propose the points of the person tapped on, if they are another one's. */
 export function choosePersonAt(x: number, y: number): void {
   const person = personAt(others.value, x, y);
-  if (person !== null && person !== proposal.value?.person) propose(person);
+  if (person !== null && person !== points.value.person) propose(person);
 }
 
 export function startProposing(): void {
@@ -102,7 +102,7 @@ function take(found: PointsProposal, wanted: Wish): void {
     return;
   }
   // Who has begun to click goes on.
-  const hasBegun = timeline.value.past.length > 0 || points.value !== NO_POINTS;
+  const hasBegun = timeline.value.past.length > 0 || Object.keys(points.value.placed).length > 0;
   if (hasBegun && !wanted.replaces) return;
   change(proposedPoints(found));
   selected.value = null;

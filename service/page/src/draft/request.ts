@@ -1,8 +1,9 @@
 // The draft as the API wants it, and back.
 import type { FitOptions, Gender, InitialPoseRequest } from "../api/types";
 import { namedPoints } from "../points/coco";
-import { NO_POINTS } from "../points/placed";
+import { NO_POINTS, skipRest } from "../points/placed";
 import type { Points } from "../points/placed";
+import { hasProposed } from "../points/proposed";
 import { begin } from "../points/timeline";
 import { clothing, cues, facing, focalLength, light, person, picture, points, selected, surroundings, timeline } from "./draft";
 import { NOBODY, heightM, heightTexts, tapeMeasurements, tapeTexts, weightKg, weightText } from "./person";
@@ -74,7 +75,8 @@ export function loadDraft(asked: FitOptions): void {
     tape: tapeTexts(asked.measurements ?? {}, units),
   };
   const placed = Array.isArray(asked.points) ? {} : namedPoints(asked.points);
-  timeline.value = begin<Points>({ ...NO_POINTS, placed });
+  const loaded: Points = { ...NO_POINTS, placed };
+  timeline.value = begin(hasProposed(loaded) ? skipRest(loaded) : loaded);
   selected.value = null;
   focalLength.value = lensOf(asked);
   facing.value = asked.limb_facing ?? {};

@@ -17,7 +17,7 @@ export function ProposalNote() {
       {isProposing.value && <p class="fine">{proposalWord.value}</p>}
       {proposalProblem.value && <ProblemNote problem={proposalProblem.value} />}
       {found?.person === null && proposalWord.value && <p class="note">{proposalWord.value}</p>}
-      {found && others.value.length > 0 && <Persons count={others.value.length} chosen={found.person} />}
+      {others.value.length > 0 && <Persons count={others.value.length} chosen={points.value.person} />}
       <Ways />
     </>
   );

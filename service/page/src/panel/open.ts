@@ -52,6 +52,8 @@ export async function openAgain(picture: Picture, job: Job): Promise<void> {
   await openFile(picture.file, picture.name, "placed");
   loadDraft(asked);
   useMask(mask);
+  // The service proposed all of them.
+  if (Object.keys(points.value.placed).length === 0) proposeFirst();
 }
 
 export function listenForPaste(): void {

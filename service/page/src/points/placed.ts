@@ -19,9 +19,11 @@ export interface Points {
   readonly asked: PointName | null;
   /** Proposed points that somebody should look at, in this order. */
   readonly doubts: readonly PointName[];
+  /** Whose points were proposed: their place among the persons found. */
+  readonly person: number | null;
 }
 
-export const NO_POINTS: Points = { placed: {}, skipped: [], asked: null, doubts: [] };
+export const NO_POINTS: Points = { placed: {}, skipped: [], asked: null, doubts: [], person: null };
 
 /** The point to click next; null when all are placed or skipped. */
 export function nextPoint(points: Points): PointName | null {
@@ -37,6 +39,7 @@ export function nextDoubt(points: Points): PointName | null {
 export function place(points: Points, name: PointName, x: number, y: number): Points {
   const hidden = points.placed[name]?.hidden ?? false;
   return {
+    ...points,
     placed: { ...points.placed, [name]: { x, y, hidden, proposed: false } },
     skipped: without(points.skipped, name),
     asked: points.asked === name ? null : points.asked,
@@ -96,6 +99,7 @@ export function leave(points: Points): Points {
 export function swapSides(points: Points): Points {
   const entries = Object.entries(points.placed) as [PointName, Place][];
   return {
+    ...points,
     placed: Object.fromEntries(entries.map(([name, where]) => [mirrored(name), where])),
     skipped: points.skipped.map(mirrored),
     asked: points.asked === null ? null : mirrored(points.asked),

@@ -9,11 +9,12 @@ import type { Points } from "./placed";
 export type Box = PointsProposal["persons"][number]["box"];
 
 /** What was not proposed is asked for only where a body cannot do without. */
-export function proposedPoints({ points, doubtful }: PointsProposal): Points {
+export function proposedPoints({ points, person, doubtful }: PointsProposal): Points {
   const placed = namedPoints(points);
   const proposed: Points = {
     ...NO_POINTS,
     placed,
+    person,
     doubts: doubtful.filter((name) => isPointName(name) && placed[name] !== undefined),
   };
   return isEnough(proposed) ? skipRest(proposed) : proposed;

@@ -1,5 +1,6 @@
 // Who was found, where another one may be meant: a tap on the picture chooses.
-import { others, proposal } from "../draft/proposing";
+import { points } from "../draft/draft";
+import { others } from "../draft/proposing";
 import { toStage } from "./view";
 import type { Size, View } from "./view";
 
@@ -11,7 +12,7 @@ export function PersonBoxes({ view, size }: { view: View; size: Size }) {
         const to = toStage(view, { x: right, y: bottom });
         const box = { x: from.x, y: from.y, width: to.x - from.x, height: to.y - from.y, rx: 6 };
         return (
-          <g key={i} class={`person-box ${i === proposal.value?.person ? "is-chosen" : ""}`} data-person={i}>
+          <g key={i} class={`person-box ${i === points.value.person ? "is-chosen" : ""}`} data-person={i}>
             <rect class="person-rim" {...box} />
             <rect class="person-line" {...box} />
             <text x={from.x + 9} y={from.y + 19}>
