@@ -112,7 +112,7 @@ def test_a_point_that_is_dragged_is_a_click_and_undoing_makes_it_a_proposal_agai
     page.mouse.move(box["x"] + x + 12, box["y"] + y + 9, steps=3)
     page.mouse.up()
     expect(ring).not_to_be_attached()
-    expect(page.get_by_text("21 placed, 20 of them proposed")).to_be_visible()
+    expect(page.get_by_text("20 of 21 proposed")).to_be_visible()
     page.keyboard.press("Control+z")
     expect(ring).to_be_attached()
     page.keyboard.press("Control+Shift+z")

@@ -57,7 +57,7 @@ function inAll(all: Points): string {
   const count = Object.keys(all.placed).length;
   const proposed = countProposed(all);
   if (proposed === 0) return `${count} placed`;
-  return proposed === count ? `${count} proposed` : `${count} placed, ${proposed} of them proposed`;
+  return proposed === count ? `${count} proposed` : `${proposed} of ${count} proposed`;
 }
 
 function Next({ name }: { name: PointName }) {
@@ -72,7 +72,7 @@ function Next({ name }: { name: PointName }) {
       {side !== "middle" && (
         <p class="fine">{whichSide(side)}</p>
       )}
-      <p class="fine">{needed(limbs, trunk)}</p>
+      {!isMoved && <p class="fine">{needed(limbs, trunk)}</p>}
       <div class="row">
         <button class="button is-small" type="button" onClick={() => change(skip(points.value, name))}>
           {isMoved ? "Leave out" : "Skip"}
@@ -106,6 +106,7 @@ export function NextLine() {
   return (
     <p class={`next-line ${side ? `is-${side}` : ""}`} aria-hidden="true">
       <b>{name ? pointOf(name).label : "All points done"}</b>
+      {name && points.value.placed[name] && "Tap where it is. "}
       {name && pointOf(name).help}
       {side && side !== "middle" && <span>{whichSide(side)}</span>}
     </p>
