@@ -15,19 +15,19 @@ INPUT_SIZE = 256
 HEAT_MAP_SIZE = 64
 LANDMARKS = 33
 OUTPUT_LANDMARKS = 39
-"""Six more than are told: two say where to look in the next picture of a film."""
+"""Six more than are documented: two of them say where to look in the next frame of a video."""
 
 CROP_MARGIN = 1.25
-"""Side of the crop over the diameter of the circle round the person."""
+"""Side of the crop over the diameter of the circle around the person."""
 
 MIRRORED = np.array(
     [0, 4, 5, 6, 1, 2, 3, 8, 7, 10, 9]
     + [index + (1 if index % 2 else -1) for index in range(11, LANDMARKS)]
 )
-"""Which landmark each becomes in a mirror; after the face, left ones are odd."""
+"""The landmark each becomes in a mirror image; after the face, left ones have odd numbers."""
 
 _REACH = 3
-"""Pixels of the heat map to either side of a landmark that place it."""
+"""Pixels of the heat map on either side of a landmark that are used to refine it."""
 
 _LEAST_HEAT = 0.5
 
@@ -39,16 +39,16 @@ class BodyLandmarks:
     Attributes
     ----------
     presence
-        0 to 1, whether there is a person.
+        0 to 1, how likely it is that there is a person.
     pixels
         (33, 2) continuous pixels.
     visibility
-        (33,) 0 to 1, whether a landmark is seen, neither hidden nor beyond the picture.
+        (33,) 0 to 1, how likely a landmark is seen: neither hidden nor outside the picture.
     world_m
-        (33, 3) metres about the hips' middle, axes of the camera turned toward it: x right, y down,
-        z away. Of a person of average size.
+        (33, 3) metres from the middle of the hips, on a person of average size; the axes are those
+        of the camera turned toward it: x right, y down, z away.
     mask
-        (h, w) probability that a pixel is the person's, 0 to 1.
+        (h, w) probability that a pixel shows the person, 0 to 1.
     """
 
     presence: float
@@ -59,10 +59,10 @@ class BodyLandmarks:
 
 
 class LandmarkNetwork:
-    """Looks at one person; ``network`` is that of :data:`fitter.detection.weights.BODY_LANDMARKS`.
+    """Finds one person's landmarks, with :data:`fitter.detection.weights.BODY_LANDMARKS`.
 
-    Each person is looked at twice, as seen and in a mirror, and the mean is told: alone, the
-    network takes left and right a little differently.
+    Each person is evaluated twice, as seen and mirrored, and the mean is returned: the network
+    treats left and right a little differently.
     """
 
     def __init__(self, network: PictureNetwork) -> None:
@@ -124,7 +124,7 @@ def _crop_about(person: DetectedPerson) -> SquareCrop:
 
 
 def _unmirrored(look: _Look) -> _Look:
-    """What a look in the mirror says of the person themselves."""
+    """An answer about the mirror image, turned into one about the person."""
     pixels, world = look.pixels[MIRRORED], look.world_m[MIRRORED]
     pixels[:, 0] = INPUT_SIZE - pixels[:, 0]
     world[:, 0] = -world[:, 0]
@@ -134,10 +134,10 @@ def _unmirrored(look: _Look) -> _Look:
 def _refined(
     places: Float[np.ndarray, "33 2"], heat: Float[np.ndarray, "s s 33"]
 ) -> Float[np.ndarray, "33 2"]:
-    """Each landmark at the centre of its heat around where the network puts it.
+    """Move each landmark to the centroid of the heat map around where the network puts it.
 
     Unrefined, the median landmark is off by half as much again. Where the heat is low or a
-    landmark lies beyond the crop, it stays where it was put.
+    landmark lies outside the crop, it stays where it was.
     """
     step = INPUT_SIZE / HEAT_MAP_SIZE
     refined = places.copy()

@@ -1,4 +1,4 @@
-"""Both networks together: who is in a picture, and what is proposed of one of them."""
+"""Both networks together: who is in a picture, and what is proposed for each person."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -24,21 +24,21 @@ from fitter.detection.weights import read_weights
 from fitter.request import Click
 
 MOST_PERSONS = 8
-"""Of a crowd, the largest are looked at."""
+"""In a crowd, only the largest are looked at."""
 
 PRESENT = 0.5
-"""Presence from which the second network agrees that there is a person."""
+"""Presence at which the second network is taken to confirm that there is a person."""
 
 MATCHING_SHARE = 0.15
-"""Clicks belong to a person whose landmarks lie within this share of their circle's radius on the
-mean."""
+"""Clicks belong to a person if their mean distance from the landmarks is within this share of the
+radius of the person's circle."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LimbSlant:
-    """How a limb slants: the sine of its angle to the plane across the view.
+    """How a limb slants: the sine of its angle to the plane perpendicular to the view.
 
-    Positive where its far end is farther from the camera; ``sigma`` is its standard deviation.
+    Positive where its far end is farther from the camera; ``sigma`` is the standard deviation.
     """
 
     sine: float
@@ -52,9 +52,9 @@ class DetectedSlants:
     Attributes
     ----------
     limbs
-        By name (``left_thigh`` ...), of limbs whose ends are seen.
+        By name (``left_thigh`` ...), for limbs whose ends are seen.
     middle
-        (2,) middle of the hips, pixels: slants are to the ray through it.
+        (2,) middle of the hips, pixels: the view direction is the ray through it.
     """
 
     limbs: Mapping[str, LimbSlant]
@@ -63,7 +63,7 @@ class DetectedSlants:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class DetectedBody:
-    """What is proposed of one person.
+    """What is proposed for one person.
 
     Attributes
     ----------
@@ -71,13 +71,13 @@ class DetectedBody:
         Where they were found.
     points
         By canonical name, in pixels of the picture, each with its own spread. ``occluded`` ones are
-        guesses. Points beyond the picture are left out.
+        guesses. Points outside the picture are left out.
     visibility
-        0 to 1, of each point.
+        0 to 1, for each point.
     slants
         How the limbs slant.
     mask
-        (h, w) probability that a pixel is the person's.
+        (h, w) probability that a pixel shows the person.
     """
 
     person: DetectedPerson
@@ -88,19 +88,19 @@ class DetectedBody:
 
 
 class Detector:
-    """Finds people in pictures; not for two threads at once."""
+    """Finds people in pictures; not thread-safe."""
 
     def __init__(self, persons: PersonDetector, landmarks: LandmarkNetwork) -> None:
         self._persons = persons
         self._landmarks = landmarks
 
     def bodies(self, picture: UInt8[np.ndarray, "h w 3"]) -> tuple[DetectedBody, ...]:
-        """Everybody in a picture (sRGB), the largest and surest first."""
+        """Everybody in a picture (sRGB), the largest and most certain first."""
         found: list[DetectedBody] = []
         for person in self._persons.persons(picture)[:MOST_PERSONS]:
             landmarks = self._landmarks.landmarks(picture, person)
             if person.is_head_down:
-                # Raised arms are easily taken for legs; the right way up more is seen.
+                # Raised arms are easily taken for legs; the right way up, more is visible.
                 upright = self._landmarks.landmarks(picture, person.upright())
                 if upright.visibility.mean() > landmarks.visibility.mean():
                     person, landmarks = person.upright(), upright
@@ -111,12 +111,12 @@ class Detector:
 
 @cache
 def installed_detector(folder: Path | None = None) -> Detector:
-    """The detector of the installed weights, or of a folder's; loaded once a process.
+    """The detector with the installed weights or those of a folder; loaded once per process.
 
     Raises
     ------
     DetectorUnavailableError
-        If it is not installed, or its weights are not those that were measured.
+        If it is not installed, or its weights are not the ones it was evaluated with.
     """
     weights = read_weights(folder)
     return Detector(
@@ -128,9 +128,9 @@ def installed_detector(folder: Path | None = None) -> Detector:
 def body_of_clicks(
     bodies: Sequence[DetectedBody], clicks: Mapping[str, Click]
 ) -> DetectedBody | None:
-    """The detected person who was clicked; None if it is none of them.
+    """The detected person the clicks belong to; None if they match nobody.
 
-    Without clicks, the first.
+    Without clicks, the first person.
     """
     if not clicks:
         return bodies[0] if bodies else None

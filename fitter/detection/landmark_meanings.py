@@ -1,8 +1,8 @@
-"""What the network's landmarks are called here, and how far each may be trusted.
+"""What the network's landmarks are called here, and how far each can be trusted.
 
-Landmarks are where somebody's annotators put them: BlazePose's shoulders lie 2.5 cm above ours on
-one maker's bodies and level with them on another's, its hips 3 cm above and half below. So spreads
-cover both, and no offset is corrected. They, and the slants, were learned from 40 pictures of the
+Landmarks are where the annotators put them: BlazePose's shoulders lie 2.5 cm above ours on one
+maker's bodies and level with them on another's, its hips 3 cm above and half below. So the spreads
+cover both, and no offset is corrected. They and the slants were learned from 40 pictures of the
 evaluation's tuning half and 16 of bodies by another maker.
 """
 
@@ -20,20 +20,20 @@ INDEX_OF_POINT: Final[Mapping[str, int]] = {
     **{f"{side}_{name}": index + (side == "right")
        for name, index in _SIDED.items() for side in ("left", "right")},
 }  # fmt: skip
-"""Place among the network's 33 landmarks, by our name."""
+"""Index among the network's 33 landmarks, by our name."""
 
 _SPREADS_M: Final[Mapping[str, float]] = {
     "nose": 0.012, "eye": 0.012, "ear": 0.028, "shoulder": 0.022, "elbow": 0.022, "wrist": 0.018,
     "hip": 0.03, "knee": 0.018, "ankle": 0.018, "heel": 0.03, "toe": 0.03,
 }  # fmt: skip
-"""Root mean square error in each direction of the picture, metres on the body. Of heels and toes no
-truth is known."""
+"""Root mean square error in each direction of the picture, metres on the body. There is no ground
+truth for heels and toes."""
 
 SEEN: Final = 0.5
-"""Visibility from which a landmark is taken to be seen. Of those below it most are guesses."""
+"""Visibility at which a landmark counts as seen. Most of those below it are guesses."""
 
 UNSEEN_FACTOR: Final = 3.0
-"""How many times as wide the spread of a guess is: wrists 9 cm, elbows 4 cm."""
+"""Factor by which the spread of a guess is wider: wrists 9 cm, elbows 4 cm."""
 
 
 def spread_m(point: str, visibility: float) -> float:
@@ -44,10 +44,10 @@ def spread_m(point: str, visibility: float) -> float:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SlantCalibration:
-    """Sine of a limb's true slant to the view, from that of the network's landmarks in space.
+    """Predicts the sine of a limb's true slant from that of the network's landmarks in space.
 
-    ``gain * sine + offset`` with standard deviation ``sigma``, 1.4 times as wide as the errors are:
-    the limbs of one person err alike.
+    ``gain * sine + offset`` with standard deviation ``sigma``, which is 1.4 times that of the
+    errors, because the errors of one person's limbs are correlated.
     """
 
     gain: float
@@ -60,7 +60,8 @@ SLANTS: Final[Mapping[str, SlantCalibration]] = {
     "thigh": SlantCalibration(gain=1.07, offset=0.05, sigma=0.13),
     "shin": SlantCalibration(gain=0.69, offset=-0.10, sigma=0.17),
 }
-"""Forearms are told no better than by clicks: errors of 0.29 where the truth spreads by 0.35."""
+"""Forearms are left out: errors of 0.29, where the truth itself spreads by 0.35, add nothing to the
+clicks."""
 
 LIMB_ENDS: Final[Mapping[str, tuple[str, str]]] = {
     "upper_arm": ("shoulder", "elbow"),

@@ -12,12 +12,12 @@ from jaxtyping import Float32
 
 @runtime_checkable
 class PictureNetwork(Protocol):
-    """What is asked about pictures."""
+    """A network that takes a picture."""
 
     def outputs(
         self, picture: Float32[np.ndarray, "s s 3"]
     ) -> Mapping[tuple[int, ...], np.ndarray]:
-        """What the network says of a picture, by the shape of each output without its first 1.
+        """The network's outputs for a picture, keyed by their shapes without the leading 1.
 
         No two outputs of the networks used here have the same shape.
         """

@@ -13,27 +13,27 @@ INPUT_SIZE = 224
 STRIDES = (8, 16, 32, 32, 32)
 ANCHORS_A_STRIDE = 2
 KEYPOINTS = 4
-"""Of each detection: the hips' middle, the rim of the circle round the whole body, and two more
-that tell of the upper body alone."""
+"""Key points of a detection: the middle of the hips, a point on the circle around the whole body,
+and two more for the upper body alone."""
 
 SURE = 0.5
-"""Score from which something is taken for a person."""
+"""Score at which something is taken for a person."""
 
 SAME_PERSON = 0.3
-"""Boxes that overlap (intersection over union) by more than this are one person's."""
+"""Boxes that overlap by more than this (intersection over union) belong to one person."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class DetectedPerson:
-    """A person as the first network sees them.
+    """A person as the first network finds them.
 
     Attributes
     ----------
     score
-        0 to 1, how sure it is.
+        0 to 1, how certain it is.
     middle, rim
         (2,) middle of the hips, and a point on the circle about it that holds the whole body,
-        over the head of an upright one; continuous pixels.
+        above the head of an upright person; continuous pixels.
     """
 
     score: float
@@ -42,7 +42,7 @@ class DetectedPerson:
 
     @property
     def radius(self) -> float:
-        """Of the circle, pixels."""
+        """Radius of the circle, pixels."""
         return float(np.linalg.norm(self.rim - self.middle))
 
     @property
@@ -62,7 +62,7 @@ class PersonDetector:
         self._network = network
 
     def persons(self, picture: UInt8[np.ndarray, "h w 3"]) -> tuple[DetectedPerson, ...]:
-        """People in a picture (sRGB), the largest and surest first."""
+        """People in a picture (sRGB), the largest and most certain first."""
         height, width = picture.shape[:2]
         crop = SquareCrop(
             centre=np.array([width / 2, height / 2]),
@@ -88,13 +88,13 @@ class PersonDetector:
 def _blended(
     keypoints: Float[np.ndarray, "g 4 2"], scores: Float[np.ndarray, " g"], crop: SquareCrop
 ) -> DetectedPerson:
-    """One person of many detections: their mean, weighted by how sure each is."""
+    """Merge detections of one person: their mean, weighted by score."""
     points = crop.in_picture(INPUT_SIZE * np.average(keypoints, axis=0, weights=scores))
     return DetectedPerson(score=float(scores.max()), middle=points[0], rim=points[1])
 
 
 def _groups(boxes: Float[np.ndarray, "b 4"], scores: Float[np.ndarray, " b"]) -> list[np.ndarray]:
-    """Indices of detections that overlap with the surest that is left, in turn."""
+    """Non-maximum suppression: indices that overlap with the highest score left, group by group."""
     groups: list[np.ndarray] = []
     left = np.argsort(-scores, kind="stable")
     while len(left):
@@ -115,9 +115,9 @@ def _overlaps(box: Float[np.ndarray, "4"], others: Float[np.ndarray, "b 4"]) -> 
 
 @cache
 def _anchors() -> Float[np.ndarray, "a 2"]:
-    """Centres of the network's anchors as shares of its input, (x, y), in the order it has them.
+    """Centres of the network's anchors as shares of its input, (x, y), in the network's order.
 
-    Anchors of equal strides share a grid.
+    Anchors of the same stride share a grid.
     """
     grids: list[np.ndarray] = []
     for stride in dict.fromkeys(STRIDES):

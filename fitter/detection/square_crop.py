@@ -1,4 +1,4 @@
-"""A square cut out of a picture, turned and scaled to what a network takes."""
+"""A square cut out of a picture, rotated and scaled to a network's input."""
 
 from dataclasses import dataclass
 
@@ -9,7 +9,7 @@ from jaxtyping import Float, UInt8
 from fitter.arrays import Points2D
 
 ANTIALIASED_FROM = 1.5
-"""Pixels of the picture a pixel of the crop beyond which the picture is blurred before."""
+"""The picture is blurred before cropping above this many picture pixels per crop pixel."""
 
 _BLUR_SHARE = 0.4
 
@@ -25,9 +25,9 @@ class SquareCrop:
     side
         Length of a side, pixels of the picture.
     angle
-        By which the square is turned clockwise in the picture, radians.
+        Clockwise rotation of the square in the picture, radians.
     size
-        Pixels a side of what is cut out.
+        Side of the crop in its own pixels.
     """
 
     centre: Float[np.ndarray, "2"]
@@ -37,7 +37,7 @@ class SquareCrop:
 
     @property
     def scale(self) -> float:
-        """Pixels of the picture a pixel of the crop."""
+        """Picture pixels per crop pixel."""
         return self.side / self.size
 
     @property
@@ -51,7 +51,7 @@ class SquareCrop:
         return self.centre + self.scale * (points - 0.5 * self.size) @ self.rotation.T
 
     def cut_from(self, picture: UInt8[np.ndarray, "h w 3"]) -> UInt8[np.ndarray, "s s 3"]:
-        """The square's pixels; black beyond the picture."""
+        """The square's pixels; black outside the picture."""
         if self.scale > ANTIALIASED_FROM:
             blur = _BLUR_SHARE * np.sqrt(self.scale**2 - 1.0)
             picture = cv2.GaussianBlur(picture, (0, 0), blur)
@@ -65,7 +65,7 @@ class SquareCrop:
     def put_back(
         self, values: Float[np.ndarray, "s s"], *, width: int, height: int
     ) -> Float[np.ndarray, "h w"]:
-        """Values of the crop's pixels at a picture's of this size; 0 beyond the crop."""
+        """Resample values of the crop onto a picture of this size; 0 outside the crop."""
         return cv2.warpAffine(
             values,
             self._between_pixel_centres(),
@@ -74,7 +74,7 @@ class SquareCrop:
         )
 
     def _between_pixel_centres(self) -> Float[np.ndarray, "2 3"]:
-        """From the crop to the picture as OpenCV counts: the first pixel's centre is (0, 0)."""
+        """From crop to picture in OpenCV's convention: the first pixel's centre is (0, 0)."""
         turn = self.scale * self.rotation
         first = self.in_picture(np.array([[0.5, 0.5]]))[0] - 0.5
         return np.column_stack([turn, first])

@@ -1,4 +1,4 @@
-"""Where the networks' weights are: files of a package that is never imported, or of a folder."""
+"""Where the networks' weights are: in a package that is never imported, or in a folder."""
 
 import hashlib
 import importlib.util
@@ -10,7 +10,7 @@ from fitter.errors import DetectorUnavailableError
 
 CARRIER: Final = "mediapipe"
 CARRIER_REQUIREMENT: Final = "mediapipe==0.10.21"
-"""The last version whose wheel holds both files; installed without what it depends on."""
+"""The last version whose wheel holds both files; it is installed without its dependencies."""
 
 RUNTIME: Final = "ai_edge_litert"
 
@@ -50,9 +50,9 @@ class DetectorWeights:
 
 
 def detector_fault(folder: Path | None = None) -> str | None:
-    """Why there is no detector here, a sentence; None if there is one, so far as is seen at once.
+    """Why there is no detector here, as a sentence; None if there seems to be one.
 
-    Looks for the files and the runtime, and reads neither.
+    Checks that the files and the runtime exist, without reading or loading them.
     """
     if importlib.util.find_spec(RUNTIME) is None:
         return "The package ai-edge-litert, which runs the detector, is not installed."
@@ -64,12 +64,12 @@ def detector_fault(folder: Path | None = None) -> str | None:
 
 
 def read_weights(folder: Path | None = None) -> DetectorWeights:
-    """Read both files, from the package or from a folder that holds them side by side.
+    """Read both files from the package, or from a folder that holds them side by side.
 
     Raises
     ------
     DetectorUnavailableError
-        If the detector is not installed, or a file is another than the one that was measured.
+        If the detector is not installed, or a file is not the one it was evaluated with.
     """
     fault = detector_fault(folder)
     if fault is not None:

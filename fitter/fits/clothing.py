@@ -1,4 +1,4 @@
-"""Loose clothes: where the outline bounds the body from outside, and what else they hide."""
+"""Loose clothes: where the outline only bounds the body from outside, and what else they hide."""
 
 from dataclasses import replace
 
@@ -32,16 +32,16 @@ _BARE = 0.5
 
 _UNDRESSED = (("pelvis", "spine", "chest"), ("left_thigh", "right_thigh"))
 _UNDRESSED_SHARE = 0.25
-# Of each group of parts. On the tuning half people in underwear show 0.54 and more of the trunk and
-# 0.35 of the thighs in their skin's colour, those in loose clothes 0.08 and 0.12 at most.
+# Share of each group of parts. On the tuning half, people in underwear show at least 0.54 of the
+# trunk and 0.35 of the thighs in their skin's colour; those in loose clothes at most 0.08 and 0.12.
 
 
 def dressed(
     objective: Objective, observation: Observation, prepared: PreparedModel, near: BodyParameters
 ) -> Objective:
-    """The objective of a person dressed as the caller says, by a body near them.
+    """The objective of a person dressed as the caller says, given a body near them.
 
-    Of tight clothes it is the same objective.
+    For tight clothes the objective is returned unchanged.
     """
     if observation.clothing is Clothing.TIGHT:
         return objective
@@ -74,9 +74,9 @@ def dressed(
 def where_bare(
     objective: Objective, candidate: Candidate, intensity: IntensityMap
 ) -> tuple[Objective, IntensityMap]:
-    """Shading of bare skin alone: folds of loose cloth are not the body.
+    """Restrict shading to bare skin: folds of loose cloth are not the body.
 
-    Shading is believed as far as skin is seen: its weight is that of a whole visible body.
+    Shading is trusted in proportion to the skin seen: its full weight is for a whole visible body.
     """
     cloth = objective.evidence.silhouette.cloth
     if cloth is None:
@@ -93,7 +93,7 @@ def where_bare(
 def looks_undressed(skin: SkinMap, regions: PersonRegions) -> bool:
     """Whether trunk and thighs both show much of the skin's colour, as in underwear.
 
-    Not where either is out of sight: a bare chest above wide trousers is no mistake.
+    False where either is out of sight: a bare chest above wide trousers is no mistake.
     """
     for group in _UNDRESSED:
         numbers = [regions.part_names.index(name) for name in group]
@@ -108,7 +108,7 @@ def looks_undressed(skin: SkinMap, regions: PersonRegions) -> bool:
 def clothing_remarks(
     objective: Objective,
 ) -> tuple[tuple[Assumption, ...], tuple[FitWarning, ...]]:
-    """How the outline was taken, and what makes that doubtful; nothing of tight clothes."""
+    """How the outline was interpreted, and what makes that doubtful; empty for tight clothes."""
     evidence = objective.evidence
     if evidence.clothes is None:
         return (), ()
@@ -148,7 +148,7 @@ _NOT_LOOSE = FitWarning(
 
 
 def _parts(rendering: Rendering, prepared: PreparedModel) -> np.ndarray:
-    """(h, w) the part each pixel shows, -1 off the body."""
+    """(h, w) index of the part each pixel shows, -1 off the body."""
     faces = rendering.face_ids
     return np.where(faces >= 0, prepared.operators.model.part_of_triangle[faces], -1)
 
@@ -161,7 +161,7 @@ def _clicked_face(observation: Observation) -> np.ndarray:
 
 
 def _nose(rendering: Rendering, prepared: PreparedModel) -> np.ndarray | None:
-    """Where a body shows its nose, if it does."""
+    """Where the nose of a rendered body is seen; None where it is hidden."""
     landmarks = prepared.operators.model.landmarks
     point = regress(landmarks, rendering.vertices)[landmarks.names.index("nose")]
     place = rendering.camera.project(point[None])[0]

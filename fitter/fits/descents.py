@@ -1,4 +1,4 @@
-"""The searches a request asks for, in one picture: to the minimum of E1, and on to that of E2."""
+"""The searches a request asks for in one picture: to the minimum of E1, then to that of E2."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ from fitter.request import FitRequest, OptimizerKind, OutlineKind, SurroundingsK
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Descents:
-    """How bodies are searched for in one picture.
+    """How the body is searched for in one picture.
 
     Attributes
     ----------
@@ -38,7 +38,7 @@ class Descents:
     surroundings: SurroundingsKind
 
     def search(self, max_evaluations: int, report: EnergyObserver) -> BodySearch:
-        """One search, which keeps to the outline its objective has."""
+        """One search, against the outline its objective already has."""
         return body_search(self.optimizer, max_evaluations, report)
 
     def silhouette_and_edges(
@@ -58,14 +58,14 @@ class Descents:
         lights: tuple[Light, ...],
         report: EnergyObserver,
     ) -> ShadedFit | None:
-        """From the minimum of E1 to that of E2; None where shading says nothing."""
+        """From the minimum of E1 to that of E2; None where shading tells nothing."""
         search = self._renewing([self.search(self.limits.shading_round, report)])
         return fit_shading(
             objective, start, intensity, lights, search=search, surroundings=self.surroundings
         )
 
     def about(self, objective: Objective, body: BodyParameters) -> Objective:
-        """The objective with the outline that a search from this body would meet."""
+        """The objective with the outline that a search from this body would be fitted to."""
         if not self.meets_lines:
             return objective
         return with_lines_about(objective, body, self.display)
@@ -78,7 +78,7 @@ class Descents:
 
 
 def descents(request: FitRequest, observation: Observation) -> Descents:
-    """The searches of a request; a mask the caller sent is met as it is."""
+    """The searches of a request; a mask sent by the caller is used as it is."""
     return Descents(
         optimizer=request.optimizer,
         limits=limits_of(request.optimizer),

@@ -1,4 +1,4 @@
-"""Whether a fit asks the detector, and where it is."""
+"""Whether a fit uses the detector, and where the detector is."""
 
 from pathlib import Path
 
@@ -8,17 +8,17 @@ from fitter.request import FitRequest, SegmentationKind
 
 
 def detector_for(request: FitRequest, weights: Path | None) -> Detector | None:
-    """The detector, where the request has a use for it and it is installed.
+    """The detector, if the request can use it and it is installed.
 
     Parameters
     ----------
     weights
-        Folder of its weights; None takes the installed package.
+        Folder with its weights; None uses the installed package.
 
     Raises
     ------
     DetectorUnavailableError
-        If points are to be proposed and there is none.
+        If points are to be proposed and no detector is installed.
     """
     seeds = request.mask is None and request.segmentation is SegmentationKind.SEEDED_GRABCUT
     if not (request.complete_clicks or request.slant_hints or seeds):

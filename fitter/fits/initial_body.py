@@ -30,8 +30,9 @@ from fitter.request import Facing, FitRequest
 class LimbReading:
     """Which way a limb faces in the best reading of the clicks.
 
-    ``alternative_nats`` is how much worse the best reading with the other facing explains clicks
-    and prior, None where there is none worth mentioning; ``ambiguous`` says that it is little.
+    ``alternative_nats`` is how much worse the best reading with the opposite facing explains the
+    clicks and the prior, None where there is none worth mentioning; ``ambiguous`` says that the
+    difference is small.
     """
 
     limb: str
@@ -42,26 +43,26 @@ class LimbReading:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class InitialBody:
-    """The body a fit would begin from.
+    """The body a fit would start from.
 
     Attributes
     ----------
     height_m
-        The caller's, or the most probable, which is then among ``assumptions``.
+        The caller's, or else the most probable, which is then listed in ``assumptions``.
     camera
-        Of the whole picture.
+        The camera of the whole picture.
     body
-        Pose, position and the mean shape of the height and the known measurements.
+        Pose, position, and the mean shape for the height and the known measurements.
     vertices
         (m, 3) camera frame, metres.
     outline
-        Closed lines round silhouette and holes, continuous pixels of the whole picture.
+        Closed lines around the silhouette and its holes, continuous pixels of the whole picture.
     landmarks
-        Where the body has the points that can be clicked, by name, continuous pixels.
+        Where the body's clickable points project, by name, continuous pixels.
     limbs
         The readings of all limbs.
     residual_px
-        By click: distance to the body's landmark.
+        Distance of each click to the body's landmark.
     """
 
     height_m: float
@@ -85,18 +86,18 @@ def initial_body(
     height: int,
     exif_focal_length_35mm: float | None,
 ) -> InitialBody:
-    """Pose the mean person of the gender, height and known measurements by the clicks.
+    """Pose the mean person of the gender, height and known measurements to match the clicks.
 
     Parameters
     ----------
     request
-        As for a fit; its picture is not looked at and may be empty.
+        As for a fit; its picture is not used and may be empty.
     body
-        The gender's.
+        The body model of the gender, prepared.
     width, height
         Size of the upright picture, pixels.
     exif_focal_length_35mm
-        The picture's own 35 mm equivalent, where it is known; the caller's word goes before it.
+        The 35 mm equivalent recorded in the picture, if known; the caller's value takes precedence.
 
     Raises
     ------
@@ -175,7 +176,7 @@ def limb_readings(
 def _outline(
     vertices: Vertices, prepared: PreparedModel, camera: Camera
 ) -> tuple[Float[np.ndarray, "_ 2"], ...]:
-    """Found on a picture of the working size, told in pixels of the whole one."""
+    """Found at the working size, returned in pixels of the whole picture."""
     size = working_size(width=camera.width, height=camera.height)
     coarse = camera.scaled(size.scale, width=size.width, height=size.height)
     rendering = render(vertices, prepared.operators.model.triangles, coarse)

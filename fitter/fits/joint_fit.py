@@ -1,14 +1,16 @@
 """One shape from several pictures of one person, with pose, light and reflectance of each.
 
-Over the shape β and what belongs to each picture alone, θ_k (pose, place, light, reflectance),
+With a common shape β and what belongs to each picture alone, θ_k (pose, position, light,
+reflectance), the energy
 
-    min  E(β) + w Σ_k E_k(β, θ_k),    w = 1 / (1 + (K - 1) 0.4),
+    E(β) + w Σ_k E_k(β, θ_k),    w = 1 / (1 + (K - 1) 0.4),
 
-is minimised over β with the paraboloids that the pictures' own fits left for their E_k
-(:mod:`fitter.optimizer.shape_likelihood`). Pictures of one person err in part alike, and count for
-fewer than they are (:data:`fitter.applications.several_pictures.SHARED_ERROR`). Then the shape is
-held, and what belongs to each picture settles. To search every picture once more for the shape
-too, under what the others say, gained nothing on the evaluation's tuning half (DECISIONS.md).
+is minimised over β, with each E_k replaced by the paraboloid that the picture's own fit left
+(:mod:`fitter.optimizer.shape_likelihood`). Pictures of one person share part of their errors, so K
+of them count for fewer than K (:data:`fitter.applications.several_pictures.SHARED_ERROR`). The
+shape is then held, and what belongs to each picture is refitted. Searching every picture once more
+for the shape too, given what the others say, gained nothing on the evaluation's tuning half
+(DECISIONS.md).
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -37,22 +39,22 @@ from fitter.population.known_person import known_person
 from fitter.request import STATURE, FitRequest
 from fitter.result import PictureFit
 
-# A search reports its energies some thirty times; nobody knows how often.
+# A search reports its energies about thirty times; the exact number is not known in advance.
 _STEP_SHARE = 0.05
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class JointFit:
-    """One person.
+    """One person fitted to several pictures.
 
     Attributes
     ----------
     shape, covariance
-        (n,), (n, n) coefficients and how certain they are.
+        (n,) coefficients and their (n, n) covariance.
     pictures
-        Each with this shape, in the order of the fits.
+        Each picture's fit with this shape, in the order given.
     fused
-        What the fits said before they were made anew.
+        What the fits said of the shape before they were redone.
     """
 
     shape: Shape
@@ -69,26 +71,26 @@ def joint_fit(
     detector_weights: Path | None = None,
     observe: Callable[[float], None],
 ) -> JointFit:
-    """Fit one person to all pictures, from a fit of each.
+    """Fit one person to all pictures, starting from a fit of each.
 
     Parameters
     ----------
     people
-        The fits, two at least, of one gender, model and height.
+        The fits, at least two, of one gender, model and height.
     requests
-        What they were made of.
+        The requests they answered.
     models
-        Folder of the body models, None for those of the package.
+        Folder with the body models, None for those of the package.
     detector_weights
-        Folder of the detector's weights, None for those of their package.
+        Folder with the detector's weights, None for those of their package.
     observe
-        Is told the share of the work done, in [0, 1].
+        Receives the share of the work done, in [0, 1].
 
     Raises
     ------
     InvalidInputError
-        If the fits are too few or too many, were made with different models, or were told
-        different things of the person.
+        If the fits are too few or too many, were made with different models, or differ in what the
+        caller said about the person.
     """
     fused = combined_shape(people)
     _check_same_knowledge(requests)
@@ -96,7 +98,7 @@ def joint_fit(
     evaluator = prepared.operators.evaluator
     attributes = known_person(requests[0], prepared.population, evaluator).attributes
     share = counted_as(len(people)) / len(people)
-    # Beside one picture that counts whole, of which the sum takes a share, the prior counts more.
+    # Pictures count in full below and the sum is scaled by the share, so the prior is scaled up.
     population = population_prior(len(fused.shape))
     prior = replace(population, precision=population.precision / share)
     likelihoods = [
@@ -135,7 +137,7 @@ def joint_fit(
 
 
 class _Steps:
-    """Progress over refits, each of which reports its energies now and then."""
+    """Progress over refits, each of which reports its energies from time to time."""
 
     def __init__(self, observe: Callable[[float], None], *, count: int) -> None:
         self._observe = observe
@@ -144,7 +146,7 @@ class _Steps:
 
     @contextmanager
     def next(self) -> Iterator[EnergyObserver]:
-        """One refit; the value takes energies."""
+        """Run one refit; the yielded function takes its energies."""
         within = 0.0
 
         def report(_: Mapping[str, float]) -> None:
@@ -160,7 +162,7 @@ class _Steps:
 def _spread_of_height(covariance: Float[np.ndarray, "n n"]) -> Float[np.ndarray, "n n"]:
     """What an unknown height adds to the covariance, v r rᵀ with the shape's response r to it.
 
-    It is what the fits say: pictures tell nothing of it.
+    It is the one the fits already have: pictures say nothing about it.
     """
     if covariance[0, 0] <= 0.0:
         return np.zeros_like(covariance)

@@ -1,4 +1,4 @@
-"""The person cut out round a body, and E1 of the picture that body is near in."""
+"""The person cut out around a body, and E1 of a picture, given a body near the person."""
 
 from dataclasses import replace
 
@@ -26,9 +26,9 @@ from fitter.segmentation.grabcut import Segmentation, border_warnings, segment
 from fitter.segmentation.trimap import Trimap, first_band, seeded_trimap, trimap
 
 RESEGMENTED_BAND = 0.5
-"""Share of the first band's width in which the picture is cut again round the body found from the
-first cut (section 7 names this as future work): what the first cut took for the person far from
-any body, such as ground of the skin's colour, can no longer be taken."""
+"""Width of the second band as a share of the first. The picture is segmented again around the body
+found from the first cut (section 7 names this as future work), so that what the first cut mistook
+for the person far from any body, such as ground of the skin's colour, is now out of reach."""
 
 DOUBTFUL_PARTS = ("head", "left_hand", "right_hand")
 """Parts whose outline says little of the body: hair, and hands in a pose of their own."""
@@ -44,7 +44,7 @@ def segmented(
 ) -> tuple[Trimap | None, Segmentation]:
     """The caller's mask, or GrabCut (section 3.2).
 
-    Its tri-map lies round the detector's mask, where there is one, else round a body.
+    Its tri-map lies around the detector's mask if there is one, else around a body.
     """
     if observation.mask is not None:
         return None, Segmentation(mask=observation.mask, warnings=border_warnings(observation.mask))
@@ -60,7 +60,7 @@ def segmented(
         labels = seeded_trimap(observation.seed, bones)
         if labels is not None:
             return labels, segment(observation.display, labels)
-    # The body within loose clothes does not say how far they reach.
+    # The body inside loose clothes does not say how far they reach.
     share = narrowing if observation.clothing is Clothing.TIGHT else 1.0
     labels = trimap(silhouette, bones, band=share * first_band(silhouette, bones))
     return labels, segment(observation.display, labels)
@@ -75,9 +75,9 @@ def silhouette_and_edges(
     *,
     boundary_eta_m: float,
 ) -> Objective:
-    """E1 of a picture, at the scales of a body near the person.
+    """E1 of a picture, with the scales at a body near the person.
 
-    ``boundary_eta_m`` is how far off a boundary may be and still pull; see
+    ``boundary_eta_m`` is how far away a boundary may be and still attract the body; see
     :mod:`fitter.energies.scales`.
     """
     depth = float(near.translation[2])
@@ -109,7 +109,7 @@ def with_silhouette(
     prepared: PreparedModel,
     near: BodyParameters,
 ) -> Objective:
-    """The same picture with the person cut out anew round a body."""
+    """The same objective with the person segmented again around a body."""
     evidence = objective.evidence
     silhouette = silhouette_evidence(segmentation.mask, evidence.silhouette.confidence)
     cut = replace(objective, evidence=replace(evidence, silhouette=silhouette))
@@ -122,7 +122,7 @@ def _outline_confidence(
     near: BodyParameters,
     pixels_per_metre: float,
 ) -> GreyImage:
-    """Little where a body near the person has its head and hands."""
+    """A map of weights, low where a body near the person has its head and hands."""
     model = prepared.operators.model
     projected = observation.camera.project(prepared.operators.evaluator.vertices(near))
     corners = [

@@ -38,9 +38,9 @@ def fit(
     detector_weights: Path | None = None,
     observer: Observer = ignore_progress,
 ) -> FitResult:
-    """Fit a body to one picture, with the packaged models or with those of a folder.
+    """Fit a body to one picture.
 
-    The detector's weights, too, are those of its package or of a folder.
+    The body models and the detector's weights come from their packages unless a folder is given.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""How a running fit tells what it is doing."""
+"""How a running fit reports what it is doing."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -22,7 +22,7 @@ class Progress:
     """One report.
 
     ``fraction`` is the share of the whole fit done so far, in [0, 1], never decreasing;
-    ``energies`` are the named terms at this moment, empty where none exist yet.
+    ``energies`` are the named terms at the moment, empty before there are any.
     """
 
     stage: Stage

@@ -1,7 +1,7 @@
-"""What the detector proposes of a picture, before anybody asks for a fit.
+"""What the detector proposes for a picture, before a fit is requested.
 
-The picture is decoded and reduced as a fit's is, so that the points are those a fit would propose
-to itself.
+The picture is decoded and reduced just as in a fit, so that the points are those a fit would
+propose to itself.
 """
 
 from collections.abc import Mapping
@@ -27,8 +27,8 @@ from fitter.remarks import FitWarning
 from fitter.request import Click
 
 CIRCLE_RADIUS_M = 0.95
-"""What the radius of the circle round a person is taken to measure: 0.54 of 1.75 m. Nobody has said
-yet how tall the person is."""
+"""Assumed radius of the circle around a person: 0.54 of 1.75 m. The person's height is not known
+yet."""
 
 MASK_LEVEL = 0.5
 """Probability from which a pixel belongs to the person, as in a caller's own mask."""
@@ -38,9 +38,9 @@ Box = tuple[float, float, float, float]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ProposedPerson:
-    """A person that was found: left, top, right and bottom of what is seen of them, and how surely.
+    """A person that was found: left, top, right and bottom of what is visible, and a score.
 
-    Pixels of the upright original; ``score`` is 0 to 1.
+    Pixels of the upright original; ``score``, 0 to 1, is how certain the detector is.
     """
 
     box: Box
@@ -56,7 +56,7 @@ class ProposedPoint:
     click
         In pixels of the upright original, with its spread.
     visibility
-        0 to 1, as the detector has it.
+        0 to 1, as the detector estimates it.
     expected_error_px
         Root mean square error in each direction, pixels of the original.
     """
@@ -68,20 +68,20 @@ class ProposedPoint:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Proposal:
-    """Who is in a picture, and what is proposed of one of them.
+    """Who is in a picture, and what is proposed for one of them.
 
     Attributes
     ----------
     width, height
-        Of the upright original, whose pixels everything refers to.
+        Size of the upright original, to whose pixels everything refers.
     persons
-        Everybody found, the largest and surest first.
+        Everybody found, the largest and most certain first.
     person
-        Place among them of the one whose points these are; None where nobody was found.
+        Index of the one whose points these are; None if nobody was found.
     points
-        By canonical name; those beyond the picture are left out.
+        By canonical name; points outside the picture are left out.
     mask
-        (height, width) 8 bits, probability that a pixel is the person's; None unless asked for.
+        (height, width) 8 bits, probability that a pixel shows the person; None unless asked for.
     """
 
     width: int
@@ -105,9 +105,9 @@ def propose(
     max_pixels
         Largest picture accepted, checked before decoding.
     person
-        Place among those found; None takes the largest.
+        Index among those found; None takes the largest.
     with_mask
-        Whether the person's mask is wanted too.
+        Whether to return the person's mask too.
 
     Raises
     ------
@@ -121,7 +121,7 @@ def propose(
 def proposal_of(
     picture: DecodedPicture, *, detector: Detector, person: int | None, with_mask: bool
 ) -> Proposal:
-    """As :func:`propose`, of a picture that is decoded."""
+    """As :func:`propose`, for a picture that is already decoded."""
     height, width = picture.pixels.shape[:2]
     size = working_size(width=width, height=height)
     working = display_working_picture(linear_working_picture(picture.pixels, size))
@@ -170,7 +170,7 @@ def _points(body: DetectedBody, scale: float) -> dict[str, ProposedPoint]:
 
 
 def _box(body: DetectedBody, scale: float) -> Box:
-    """Round the mask; round the points where it is empty."""
+    """The bounding box of the mask, or of the points if the mask is empty."""
     rows = np.flatnonzero((body.mask >= MASK_LEVEL).any(axis=1))
     columns = np.flatnonzero((body.mask >= MASK_LEVEL).any(axis=0))
     if len(rows):
@@ -186,7 +186,7 @@ def _box(body: DetectedBody, scale: float) -> Box:
 def _mask(
     body: DetectedBody, size: WorkingSize, *, width: int, height: int
 ) -> UInt8[np.ndarray, "h w"]:
-    """The mask at the size of the original; what the working picture left out is as its border."""
+    """The mask at the original's size; beyond the working picture, its border is repeated."""
     coded = np.rint(255.0 * np.clip(body.mask, 0.0, 1.0)).astype(np.uint8)
     if size.scale == 1.0:
         return coded

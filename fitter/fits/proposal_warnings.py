@@ -1,4 +1,4 @@
-"""What somebody who looks at proposed points should know of them."""
+"""What somebody looking at proposed points should know about them."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
@@ -9,13 +9,13 @@ from fitter.remarks import FitWarning
 from fitter.request import Click
 
 RADIUS_OF_STATURE = 0.54
-"""Radius of the circle round a person, as a share of their stature."""
+"""Radius of the circle around a person, as a share of their stature."""
 
 LEAST_STATURE_PX = 170.0
-"""Stature in pixels of the working picture under which one of them shows more than a centimetre."""
+"""Stature in pixels of the working picture below which a pixel covers more than a centimetre."""
 
 BORDER_PX = 1.0
-"""What lies so near the picture's border may go on beyond it."""
+"""What comes this close to the picture's border may continue beyond it."""
 
 FACE = ("nose", "left_eye", "right_eye")
 
@@ -25,7 +25,7 @@ CHAINS = {
     "arms": ("shoulder", "elbow", "wrist"),
     "legs": ("hip", "knee", "ankle"),
 }
-"""Limbs from the trunk outward, by what they are called together."""
+"""Joints of arms and legs, from the trunk outward."""
 
 
 def proposal_warnings(
@@ -38,9 +38,9 @@ def proposal_warnings(
     bodies
         Everybody found.
     chosen
-        Place among them of the one whose points are proposed; None where there is nobody.
+        Index of the one whose points are proposed; None if nobody was found.
     was_chosen
-        Whether the caller said so.
+        Whether the caller chose the person.
     """
     if chosen is None:
         return (
@@ -87,7 +87,7 @@ def proposal_warnings(
 
 
 def _is_cut_off(body: DetectedBody) -> bool:
-    """Whether a point is beyond the picture, or the mask reaches its border."""
+    """Whether a point lies outside the picture, or the mask reaches its border."""
     mask = body.mask >= 0.5
     edges = mask[0].any(), mask[-1].any(), mask[:, 0].any(), mask[:, -1].any()
     height, width = mask.shape
@@ -115,7 +115,7 @@ def _are_crossed(points: Mapping[str, Click], chain: Sequence[str]) -> bool:
 
 
 def _segments(points: Mapping[str, Click], side: str, chain: Sequence[str]) -> Iterator[Segment]:
-    """The parts of a limb both of whose ends are known."""
+    """The parts of a limb whose two ends are both known."""
     for near, far in pairwise(points.get(f"{side}_{joint}") for joint in chain):
         if near is not None and far is not None:
             yield near, far
@@ -130,8 +130,8 @@ def _cross(one: Segment, other: Segment) -> bool:
 
 
 def _turn(start: Click, end: Click, point: Click) -> float:
-    """Positive where a point lies to the right of the way from start to end, as the picture shows.
+    """Twice the signed area of a triangle.
 
-    Twice the area of their triangle.
+    Positive where ``point`` lies to the right of the way from start to end, as seen in the picture.
     """
     return (end.x - start.x) * (point.y - start.y) - (end.y - start.y) * (point.x - start.x)

@@ -1,4 +1,4 @@
-"""A fitted picture once more: from its body, with what else is known of the person's shape."""
+"""Fit a picture again, from its fitted body, with what else is now known of the person's shape."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -33,7 +33,7 @@ def refit(
 
     The readings of the clicks are not tried again: limbs face as they do in ``start``, which has
     the height and all else that the request holds. With ``hold_shape`` it keeps its whole shape.
-    The covariance is that among people of one height, under the prior.
+    The covariance is that among people of the same height, under the prior.
 
     Raises
     ------

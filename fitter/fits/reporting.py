@@ -9,11 +9,11 @@ from fitter.request import Cues, Facing, FitRequest, SurroundingsKind
 from fitter.result import FacingSource, LimbFacing, Outcome, PictureFit
 
 LEAST_OVERLAP = 0.85
-"""Below this share of intersection over union a fit is called poor: half of an arm is about 4 %."""
+"""A fit with less intersection over union than this is called poor: half an arm is about 4 %."""
 
 AMBIGUOUS_NATS = 6.0
-"""Another way a limb may face, within this energy of the best, counts: odds of 400 to 1, generous
-because the spreads of clicks and joints that energies are made of are themselves guesses."""
+"""A limb is ambiguous if facing the other way is within this energy of the best: odds of 400 to 1,
+generous because the spreads of clicks and joints behind the energies are themselves guesses."""
 
 
 def outcome_of(*, converged: bool, overlap: float) -> Outcome:
@@ -81,7 +81,7 @@ def fit_warnings(overlap: float, facings: Sequence[LimbFacing]) -> tuple[FitWarn
 
 
 def shading_warnings(request: FitRequest, found: PictureFit) -> tuple[FitWarning, ...]:
-    """What of the light was asked for and could not be found."""
+    """What was asked for about the light but could not be found."""
     if request.cues is not Cues.SES:
         return ()
     light = found.person.light

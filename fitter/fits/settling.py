@@ -1,4 +1,4 @@
-"""How every fit ends: from the minimum of silhouette and edges to a person in their light."""
+"""How every fit ends: from the minimum of silhouette and edges to a person with light."""
 
 from dataclasses import dataclass, replace
 
@@ -27,13 +27,13 @@ class Shaded:
     Attributes
     ----------
     objective
-        E1 of the picture, as the last search met it.
+        E1 of the picture, as in the last search.
     intensity
-        What shading was looked at in.
+        The intensities that shading was compared with.
     minimum
-        Of E2, or of E1 where there is no ``shading``.
+        The minimum of E2, or of E1 where there is no ``shading``.
     shading
-        None for SE, and where shading says nothing.
+        None for SE, and where shading tells nothing.
     """
 
     objective: Objective
@@ -78,8 +78,8 @@ def settle(
 ) -> tuple[PictureFit, Objective]:
     """The person that the searches found, with light, reflectance and the shape's covariance.
 
-    Also returns E1 with the outline that this body meets, under which others can be compared with
-    it. ``height_variance`` is that of the first coefficient of the shape.
+    Also returns E1 with the outline found from this body, under which other bodies can be compared
+    with it. ``height_variance`` is the variance of the shape's first coefficient.
     """
     candidate, shading = shaded.minimum.candidate, shaded.shading
     objective = searches.about(shaded.objective, candidate.parameters)

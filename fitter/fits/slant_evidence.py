@@ -1,4 +1,4 @@
-"""What the detector says of limbs' slants, as metres on the person of the fit."""
+"""What the detector says about limbs' slants, in metres on the person being fitted."""
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from fitter.pose_init.limbs import limb_lengths_m, limb_named
 def limb_slants(
     observation: Observation, prepared: PreparedModel, shape: Shape
 ) -> SlantEvidence | None:
-    """Slants of limbs both of whose ends are among the clicks; None if there are none.
+    """Slants of the limbs whose two ends are among the clicks; None if there are none.
 
     ``shape`` (n,) gives the limbs' lengths.
     """

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from fitter.fits.progress import Observer, Progress, Stage
 from fitter.optimizer.gauss_newton import EnergyObserver
 
-# Where each stage begins, as a share of a usual fit's time (640x480, Gauss-Newton, SES).
+# Where each stage begins, as a share of a typical fit's time (640x480, Gauss-Newton, SES).
 _BEGINS_AT: Mapping[Stage, float] = {
     Stage.OBSERVATION: 0.0,
     Stage.INITIAL_POSE: 0.04,
@@ -17,7 +17,7 @@ _BEGINS_AT: Mapping[Stage, float] = {
     Stage.MEASUREMENT: 0.92,
     Stage.EXPORT: 0.96,
 }
-# Within a stage nobody knows how many steps are to come: each takes this share of what is left.
+# The number of steps in a stage is not known in advance: each takes this share of what is left.
 _STEP_SHARE = 0.04
 
 
@@ -31,12 +31,12 @@ class StageClock:
 
     @property
     def seconds(self) -> Mapping[str, float]:
-        """Wall seconds by stage name, of the stages that have ended."""
+        """Wall seconds by stage name, for the stages that have ended."""
         return dict(self._seconds)
 
     @contextmanager
     def stage(self, stage: Stage) -> Iterator[EnergyObserver]:
-        """Run one stage; the value takes energies to report."""
+        """Run one stage; the yielded function takes energies to report."""
         stages = list(_BEGINS_AT)
         following = stages.index(stage) + 1
         end = _BEGINS_AT[stages[following]] if following < len(stages) else 1.0
