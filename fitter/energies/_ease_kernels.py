@@ -16,12 +16,12 @@ def clothed_mismatch(
 ):
     """Sum over unmatched pixels of confidence times the derivative of the outline's cost.
 
-    ``model`` holds face ids. A pixel of the model beyond the observed region costs as
-    :func:`robust_mismatch` says, times ``tight``, and the ease that its nearest cloth would have;
-    a pixel of the region that the model does not cover costs the one as far as it is bare and the
-    other, times ``loose``, as far as it is cloth, which within the ``mean`` ease is a gain. What no
-    ease explains costs ``floor`` at least: a body that has left its clothes is not the cheaper for
-    it.
+    ``model`` holds face ids. A pixel of the model outside the observed region costs what
+    :func:`robust_mismatch` says, times ``tight``, plus the cost of the ease its nearest cloth would
+    have. A pixel of the region that the model does not cover costs the former to the extent that it
+    is bare and the latter, times ``loose``, to the extent that it is cloth; within the ``mean``
+    ease the latter is a gain. What no ease explains costs at least ``floor``, so that a body does
+    not become cheaper by leaving its clothes.
     """
     runs, counts = _runs(model)
     total = 0.0
@@ -40,7 +40,7 @@ def clothed_mismatch(
             bound = d / (damping * damping)
             if d > scale and bound < floor:
                 bound = floor
-            # To the model d is from centre to centre, half a pixel more than from its outline.
+            # Distances to the model are between centres, half a pixel more than to its outline.
             beyond = mean + d if covered else d - 0.5 - mean
             damping = 1.0 + beyond * beyond * inverse_reach
             ease = beyond / (damping * damping)

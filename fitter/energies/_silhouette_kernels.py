@@ -24,8 +24,8 @@ def bounding_box(points):
 def robust_mismatch(model, image, to_image, confidence, scale, floor, reach):
     """Sum over unmatched pixels of confidence times ρ'(d), d the distance to the other region.
 
-    ``model`` holds face ids. Beyond ``scale`` a pixel costs at least ``floor``, and from ``reach``
-    on exactly that: no farther is the model looked for.
+    ``model`` holds face ids. Beyond ``scale`` a pixel costs at least ``floor``, and beyond
+    ``reach`` exactly that: the model is not searched for any farther.
     """
     runs, counts = _runs(model)
     total = 0.0
@@ -71,7 +71,7 @@ def _runs(model):
 @no_type_check
 @njit(cache=True)
 def _distance_to(runs, counts, row, column, reach):
-    """Distance from a pixel to the nearest covered one, between centres; ``reach`` at most."""
+    """Distance from a pixel to the nearest covered one, between centres; at most ``reach``."""
     least = reach * reach
     away = 0
     while away * away < least:
@@ -87,9 +87,9 @@ def _distance_to(runs, counts, row, column, reach):
 @no_type_check
 @njit(cache=True, fastmath=True)
 def nearest_within(keys, queries, limit):
-    """Index of the key nearest to each query in four dimensions, -1 where none is in the limit.
+    """Index of the nearest key to each query in four dimensions, -1 where none is within the limit.
 
-    Keys are in the order of their first column, so that few are looked at.
+    Keys are sorted by their first column, so that few need to be looked at.
     """
     count = len(queries)
     found = np.full(count, -1, dtype=np.int64)

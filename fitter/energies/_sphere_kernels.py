@@ -9,7 +9,7 @@ from numba import njit
 @no_type_check
 @njit(cache=True, fastmath=True)
 def ring_spheres(vertices, pointers, indices, weights, fillings, centres, radii):
-    """Weighted mean of each ring, and the ring's mean distance from it times its filling."""
+    """Centres: weighted means of the rings; radii: mean distances from there times the fillings."""
     for s in range(len(pointers) - 1):
         x = y = z = 0.0
         for k in range(pointers[s], pointers[s + 1]):
@@ -31,7 +31,7 @@ def ring_spheres(vertices, pointers, indices, weights, fillings, centres, radii)
 @no_type_check
 @njit(cache=True, fastmath=True)
 def pair_overlaps(centres, radii, pairs, result):
-    """Sum of radii less distance for each pair."""
+    """Sum of radii minus distance for each pair."""
     for q in range(len(pairs)):
         a = pairs[q, 0]
         b = pairs[q, 1]

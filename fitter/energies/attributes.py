@@ -1,9 +1,10 @@
-"""What the caller knows of the body's measures (section 4).
+"""What the caller knows of the body's measurements (section 4).
 
-Section 4 rotates the shape space so that one axis alone changes stature, and says that the same
-serves any attribute measured on the mesh. One linear axis holds what is linear in the shape, as
-stature is; a girth or a weight bends a little, so it is measured wherever a search goes. Measuring
-takes less than a millisecond, because in one pose vertices are affine in the shape.
+Section 4 rotates the shape space so that a single axis changes stature, and says that the same
+works for any attribute measured on the mesh. A linear axis suffices for what is linear in the
+shape, as stature is; a girth or a weight is slightly nonlinear, so it is measured anew at every
+body a search visits. Measuring takes less than a millisecond, because in a fixed pose the vertices
+are affine in the shape.
 """
 
 from collections.abc import Callable
@@ -24,7 +25,7 @@ class Attributes:
     measure
         (r,) m at a shape, each in its unit.
     jacobian
-        (r, n) of them by the coefficients.
+        (r, n) their derivatives by the shape coefficients.
     values
         (r,) y.
     """
@@ -36,14 +37,14 @@ class Attributes:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class KnownAttributes:
-    """What is known beside the stature.
+    """What is known besides the stature.
 
     Attributes
     ----------
     held
-        Every body that is looked at has these exactly.
+        Every body that is considered has these exactly.
     uncertain, standard_errors
-        Bodies are drawn toward these as far as they are certain; (r,) in their units.
+        Bodies are drawn toward these according to their (r,) standard errors, in their units.
     """
 
     held: Attributes
@@ -58,11 +59,11 @@ _NOTHING = Attributes(
 )
 
 NOTHING_KNOWN = KnownAttributes(held=_NOTHING, uncertain=_NOTHING, standard_errors=np.zeros(0))
-"""Of whom only the stature is given or assumed."""
+"""Nothing is known but the stature, given or assumed."""
 
 
 def whole_shape(shape: Shape) -> KnownAttributes:
-    """Of whom every coefficient is known: a search keeps to this shape, and moves the rest."""
+    """Hold every shape coefficient: a search keeps this shape and moves the rest."""
     every = Attributes(
         measure=lambda shape: shape, jacobian=lambda shape: np.eye(len(shape)), values=shape
     )
@@ -76,7 +77,7 @@ def attribute_energy(known: KnownAttributes, shape: Shape) -> float:
 
 
 def attribute_residuals(known: KnownAttributes, shape: Shape) -> Float[np.ndarray, " r"]:
-    """Of the uncertain attributes, in standard errors."""
+    """Residuals of the uncertain attributes, in standard errors."""
     return (known.uncertain.measure(shape) - known.uncertain.values) / known.standard_errors
 
 

@@ -18,7 +18,7 @@ from fitter.request import Click
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class ClickEvidence:
-    """Clicked points and the landmark rows they stand for.
+    """Clicked points and the landmark rows they correspond to.
 
     Attributes
     ----------
@@ -27,9 +27,9 @@ class ClickEvidence:
     clicks
         (k, 2) working pixels.
     confidence
-        (k,) 1 for a visible point, less for one guessed behind something.
+        (k,) 1 for a visible point, less for a guess at one that is hidden.
     spread_m
-        (k,) standard deviation about the landmarks beside the unsteady hand's, metres.
+        (k,) standard deviation about the landmarks, apart from that of an unsteady hand, metres.
     """
 
     landmarks: SparseRows
@@ -42,12 +42,12 @@ class ClickEvidence:
         return np.hypot(scales.click_hand, self.spread_m * scales.pixels_per_metre)
 
 
-# What is hidden is guessed, and hair hides where the head ends.
+# Hidden points are guesses, and hair hides where the head ends.
 _OCCLUDED_CONFIDENCE = 1.0 / 9.0
 _HEAD_TOP_CONFIDENCE = 0.25
 
 TRUNCATION = 2.0
-"""Standard deviations beyond which a click is believed less and less."""
+"""Number of standard deviations beyond which a click is trusted less and less."""
 
 
 def click_evidence(landmarks: SparseRows, clicks: Mapping[str, Click]) -> ClickEvidence:
@@ -55,7 +55,7 @@ def click_evidence(landmarks: SparseRows, clicks: Mapping[str, Click]) -> ClickE
     order = [landmarks.names.index(name) for name in clicks]
     spans = [slice(landmarks.pointers[i], landmarks.pointers[i + 1]) for i in order]
     confidence = [
-        # The spread of a proposed point knows whether it is hidden.
+        # The spread of a proposed point already allows for its being hidden.
         (_OCCLUDED_CONFIDENCE if click.occluded and click.spread_m is None else 1.0)
         * (_HEAD_TOP_CONFIDENCE if name == "head_top" else 1.0)
         for name, click in clicks.items()
@@ -90,7 +90,7 @@ def click_energy(
 def click_rows(
     landmarks: Points3D, evidence: ClickEvidence, camera: Camera, scales: EnergyScales
 ) -> PositionRows:
-    """Two rows a click, x and y; points index the landmark rows."""
+    """Two rows per click, x and y; points index the landmark rows."""
     offset = camera.project(landmarks) - evidence.clicks
     sigma = evidence.sigma(scales)
     distance = np.linalg.norm(offset, axis=1) / sigma

@@ -1,14 +1,14 @@
-"""Silhouette energy E_Si by correspondence lines: how far the contour is from what they found.
+"""Silhouette energy E_Si by correspondence lines: the contour's distance from what they found.
 
-A line follows the two vertices whose middle lay on the contour when it was laid out. To first order
-the contour moves across itself as these do, so that the residual
+A line follows the two vertices whose midpoint lay on the contour when the line was placed. To first
+order the contour moves along its normal as these do, so that the residual
 
     r = n · (x - c) - o
 
-of the vertices' present middle x, the line's centre c, normal n and found offset o is where the
-contour stands beside the boundary, and its derivative is exact. Lines are laid out anew as the body
-moves (:mod:`fitter.optimizer.renewed_lines`). Where the boundary is that of loose clothes it bounds
-the body from outside (:mod:`fitter.energies.ease`).
+of the vertices' current midpoint x, the line's centre c, its normal n and the offset o found on it
+is the contour's distance from the boundary, and its derivative is exact. Lines are placed anew as
+the body moves (:mod:`fitter.optimizer.renewed_lines`). Where the boundary is that of loose clothes,
+it bounds the body from outside (:mod:`fitter.energies.ease`).
 """
 
 import numpy as np
@@ -23,7 +23,7 @@ from fitter.render.rasterizer import Rendering
 
 
 def line_energy(rendering: Rendering, lines: CorrespondenceLines, scales: EnergyScales) -> float:
-    """E_Si in nats: Σ ρ(r) over the lines, each by its own variance."""
+    """E_Si in nats: Σ ρ(r) over the lines, each weighted by its own variance."""
     residuals = _residuals(rendering, lines)
     share = bound_share(residuals, lines.cloth)
     loss = share * boundary_loss(residuals, scales.silhouette_eta)
@@ -33,7 +33,7 @@ def line_energy(rendering: Rendering, lines: CorrespondenceLines, scales: Energy
 def line_rows(
     rendering: Rendering, lines: CorrespondenceLines, scales: EnergyScales
 ) -> tuple[PositionRows, ...]:
-    """One row a line, and another for the ease of the clothes where it shows any."""
+    """One row per line, and another for the ease where the line shows clothes."""
     residuals = _residuals(rendering, lines)
     normals = np.repeat(lines.normals[:, None], 2, axis=1)
     ends = rendering.vertices[lines.points]
@@ -76,11 +76,11 @@ def _residuals(rendering: Rendering, lines: CorrespondenceLines) -> Float[np.nda
 
 
 def _cloth_lengths(lines: CorrespondenceLines) -> Float[np.ndarray, " k"]:
-    """Pixels of contour that each line says to be under cloth."""
+    """Pixels of contour that each line takes to be under cloth."""
     return lines.confidence * lines.spacing * lines.cloth
 
 
 def _precisions(lines: CorrespondenceLines, scales: EnergyScales) -> Float[np.ndarray, " k"]:
-    """What a line's squared residual costs: neighbours on the contour err alike."""
+    """Weights of the lines' squared residuals: errors of neighbours on the contour correlate."""
     variances = scales.contour_sigma**2 + lines.variances
     return lines.confidence * lines.spacing / (variances * scales.line_correlation_length)

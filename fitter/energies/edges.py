@@ -9,9 +9,9 @@ from fitter.evidence.edge_cost import EdgeCostMap
 from fitter.render.contours import ModelEdges
 from fitter.render.rasterizer import Rendering
 
-# The cost is linear in the distance to an image edge: its least-squares weight 1/cost is bounded.
+# The cost is linear in the distance to an image edge; bounds its least-squares weight, 1/cost.
 _LEAST_COST = 0.05
-# Edges seen end on have no length to take a mean over.
+# Edges seen end-on have no length to average over.
 _LEAST_LENGTH_PX = 1.0
 
 
@@ -20,8 +20,8 @@ def edge_energy(
 ) -> float:
     """E_Eg in nats: mean cost along the visible model edges, by the trapezoid rule.
 
-    The mean and not the integral: a body must not gain by showing fewer edges. Edges under loose
-    clothes, where ``bare`` is low, may be anywhere: the picture's are those of the clothes.
+    The mean, not the integral: a body must not gain by showing fewer edges. Edges under loose
+    clothes, where ``bare`` is low, may be anywhere: the picture shows those of the clothes.
     """
     ends = edges.endpoints[edges.visible]
     if not len(ends):

@@ -1,4 +1,4 @@
-"""Everything about one body model that every fit with it shares; built once a gender."""
+"""Everything about a body model that all fits with it share; built once per gender."""
 
 from dataclasses import dataclass
 
@@ -16,8 +16,8 @@ from fitter.numerics.surface_sample import SurfaceSample, surface_sample
 from fitter.parameters import BodyParameters
 
 SHADED_SPACING_M = 0.012
-"""Least distance between vertices at which shading is looked at. Trunk and limbs keep theirs, 16 to
-32 mm apart; of all 12,440 a third is left."""
+"""Minimum distance between the vertices at which shading is evaluated. Trunk and limbs keep theirs,
+16 to 32 mm apart; a third of all 12,440 remains."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -27,10 +27,10 @@ class FittingOperators:
     Attributes
     ----------
     shaded
-        The vertices at which shading is looked at, chosen on the mean body: head, hands and feet
+        The vertices at which shading is evaluated, chosen on the mean body: head, hands and feet
         hold two thirds of all vertices on a sixth of the skin.
     landmark_attachments, sphere_attachments
-        How the model's landmarks and the spheres of the penetration proxy hang on the body.
+        How the model's landmarks and the spheres of the penetration proxy are attached to the body.
     """
 
     model: BodyModel

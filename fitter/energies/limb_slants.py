@@ -1,7 +1,7 @@
-"""Slant energy: how far limbs reach along the view, as the detector has it.
+"""Slant energy: how far limbs extend along the view, as the detector estimates it.
 
-A picture shows a limb's length foreshortened, and says neither how much of that is the limb's own
-nor whether it leans toward the camera or away; a network that has seen many people does.
+A picture shows a limb foreshortened, and tells neither how much of that is due to the limb's own
+length nor whether it leans toward the camera or away; a network that has seen many people does.
 """
 
 from dataclasses import dataclass
@@ -14,12 +14,12 @@ from fitter.energies.rows import PositionRows
 from fitter.numerics.robust import huber, huber_weights
 
 TRUNCATION = 1.5
-"""Standard deviations beyond which a slant is believed less and less: one in twenty is wrong."""
+"""Number of standard deviations beyond which a slant is trusted less: one in twenty is wrong."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class SlantEvidence:
-    """Limbs whose slants are told.
+    """Limbs whose slants the detector estimated.
 
     Attributes
     ----------
@@ -28,8 +28,8 @@ class SlantEvidence:
     toward
         (3,) unit vector from the camera to the person, camera frame.
     reach_m, sigma_m
-        (s,) how much farther along it the far end lies than the near one, and the standard
-        deviation of that, metres.
+        (s,) how much farther along that vector the far end lies than the near one, and its
+        standard deviation, metres.
     """
 
     ends: Integer[np.ndarray, "s 2"]
@@ -45,7 +45,7 @@ def slant_energy(landmarks: Points3D, evidence: SlantEvidence) -> float:
 
 
 def slant_rows(landmarks: Points3D, evidence: SlantEvidence) -> PositionRows:
-    """A row a limb; points index the landmark rows."""
+    """One row per limb; points index the landmark rows."""
     excess = _excess(landmarks, evidence)
     weights = huber_weights(np.abs(excess) / evidence.sigma_m, TRUNCATION)
     along = np.stack([-evidence.toward, evidence.toward])
@@ -58,6 +58,6 @@ def slant_rows(landmarks: Points3D, evidence: SlantEvidence) -> PositionRows:
 
 
 def _excess(landmarks: Points3D, evidence: SlantEvidence) -> Float[np.ndarray, " s"]:
-    """How much farther each limb reaches than told, metres."""
+    """How much farther each limb reaches than the detector's estimate, metres."""
     limbs = landmarks[evidence.ends[:, 1]] - landmarks[evidence.ends[:, 0]]
     return limbs @ evidence.toward - evidence.reach_m

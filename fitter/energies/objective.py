@@ -1,8 +1,8 @@
 """The energies E1 and E2 of one picture, as functions of the body (section 6).
 
-E1 = E_Si + E_Eg + E_Pn and E2 = E1 + E_Sh, to which clicks and priors on shape and pose are added:
-the paper's simplex starts near and stays near; a fit from arbitrary clicks must be told what is
-plausible.
+E1 = E_Si + E_Eg + E_Pn and E2 = E1 + E_Sh. Clicks and priors on shape and pose are added to both:
+the paper's simplex starts near the solution and stays there, while a fit from arbitrary clicks
+needs to know what is plausible.
 """
 
 from collections.abc import Mapping
@@ -45,13 +45,14 @@ class PictureEvidence:
     silhouette
         The region segmentation found.
     slants
-        How limbs slant in depth, None where nothing is known of it.
+        How limbs slant in depth, None where nothing is known about it.
     lines
-        Where the person ends on lines across the contour of a body near by; then these are the
-        silhouette energy. None while there is no such body: then the region is.
+        Where the person ends on lines across the contour of a nearby body; the silhouette energy
+        is then computed from these. None as long as there is no such body: then it is computed
+        from the region.
     clothes
-        What is known of loose clothes, None where they are tight: edges under them are not the
-        picture's.
+        What is known about loose clothes, None where they are tight: the body's edges under them
+        are not those of the picture.
     shading
         None for E1.
     """
@@ -92,10 +93,10 @@ class Candidate:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Objective:
-    """An energy over bodies: operators, evidence, scales and what is known, all fixed.
+    """An energy as a function of the body: operators, evidence, scales and what is known are fixed.
 
-    Held attributes are no energy: a search keeps to the bodies that have them. ``shape_prior`` is
-    that of the population, unless other pictures of the person say more.
+    Held attributes have no energy term: a search stays among the bodies that have them.
+    ``shape_prior`` is that of the population, unless other pictures of the person say more.
     """
 
     operators: FittingOperators
@@ -157,7 +158,7 @@ class Objective:
         return silhouette_overlap(candidate.rendering, self.evidence.silhouette, self.scales)
 
     def with_lines(self, lines: CorrespondenceLines) -> "Objective":
-        """The same objective with another outline to meet."""
+        """The same objective with another outline to fit."""
         return replace(self, evidence=replace(self.evidence, lines=lines))
 
     def with_shading(self, shading: ShadingEvidence) -> "Objective":

@@ -1,7 +1,7 @@
-"""Inter-penetration penalty E_Pn: parts of the body do not run into one another.
+"""Inter-penetration penalty E_Pn: parts of the body must not run into one another.
 
-Each part is filled with spheres hung on rings of its own vertices, so centres and radii follow
-shape and pose: on the mean body each is the largest about its centre that the skin holds. Two
+Each part is filled with spheres attached to rings of its own vertices, so centres and radii follow
+shape and pose; on the mean body each is the largest about its centre that fits inside the skin. Two
 spheres of parts that are not neighbours cost the square of their overlap.
 """
 
@@ -20,9 +20,9 @@ from fitter.numerics.meshes import vertex_areas
 
 _LEAST_RING = 6
 _SLICES_PER_THICKNESS = 4.0
-# A slice this much longer one way than the other gets a sphere on either side of the middle one.
+# A slice this much longer than wide gets a sphere on either side of the middle one.
 _SIDES_RATIO = 1.2
-# A sphere that skin leaves less than this, against the size of its ring, lies beside the body.
+# A sphere that fits only below this share of its ring's size lies outside the body.
 _LEAST_FILLING = 0.3
 _UPRIGHT = ("pelvis", "spine", "chest", "neck", "head")
 _SIDEWAYS, _UP, _FORWARD = np.eye(3)
@@ -35,9 +35,9 @@ class PenetrationProxy:
     Attributes
     ----------
     centres
-        s rows over the vertices; a centre is the mean of its ring, by area of skin.
+        s rows over the vertices; a centre is the mean of its ring, weighted by area of skin.
     fillings
-        (s,) radii over the mean distance of the rings from their centres.
+        (s,) radii divided by the mean distance of the rings from their centres.
     pairs
         (q, 2) sphere indices.
     """
@@ -76,7 +76,7 @@ def penetration_proxy(model: BodyModel, canonical_vertices: Vertices) -> Penetra
 def sphere_positions(
     proxy: PenetrationProxy, vertices: Vertices
 ) -> tuple[Float[np.ndarray, "s 3"], Float[np.ndarray, " s"]]:
-    """Centres (frame of the vertices) and radii in metres, from the rings' present vertices."""
+    """Centres (frame of the vertices) and radii in metres, from the rings' current vertices."""
     centres = proxy.centres
     count = len(centres.pointers) - 1
     positions, radii = np.empty((count, 3)), np.empty(count)
@@ -97,7 +97,7 @@ def sphere_overlaps(
     radii: Float[np.ndarray, " s"],
     pairs: Integer[np.ndarray, "q 2"],
 ) -> Float[np.ndarray, " q"]:
-    """Depth by which the spheres of each pair overlap, metres; negative where they are apart."""
+    """Depth by which the spheres of each pair overlap, metres; negative if they are apart."""
     result = np.empty(len(pairs))
     pair_overlaps(spheres, radii, pairs, result)
     return result
@@ -120,7 +120,7 @@ def penetration_rows(
     proxy: PenetrationProxy,
     scales: EnergyScales,
 ) -> PositionRows:
-    """One row for each overlapping pair; points index the spheres, radii are held."""
+    """One row per overlapping pair; points index the spheres, radii are held fixed."""
     overlap = sphere_overlaps(spheres, radii, proxy.pairs)
     pairs = proxy.pairs[overlap > 0.0]
     between = spheres[pairs[:, 0]] - spheres[pairs[:, 1]]
@@ -135,7 +135,7 @@ def penetration_rows(
 
 
 def _fillings(centres: SparseRows, vertices: Vertices) -> Float[np.ndarray, " s"]:
-    """Share of its ring's mean distance at which a sphere touches the nearest skin."""
+    """Radius at which each sphere touches the nearest skin, over its ring's mean distance."""
     count = len(centres.pointers) - 1
     unfilled = PenetrationProxy(
         centres=centres, fillings=np.ones(count), pairs=np.zeros((0, 2), dtype=np.int64)
@@ -163,7 +163,7 @@ def _rings(model: BodyModel) -> tuple[list[np.ndarray], Integer[np.ndarray, " s"
 def _rings_of_part(
     vertices: Vertices, members: Integer[np.ndarray, " k"], *, upright: bool
 ) -> list[np.ndarray]:
-    """Cut a part's vertices into slices along its axis; of wide slices the halves as well."""
+    """Cut a part's vertices into slices along its axis, and wide slices also into halves."""
     if len(members) < _LEAST_RING:
         return []
     points = vertices[members] - vertices[members].mean(axis=0)
@@ -189,7 +189,7 @@ def _rings_of_part(
 
 
 def _neighbours(model: BodyModel) -> np.ndarray:
-    """(p, p) bool: the same part, or joined by a joint, or through one part between them."""
+    """(p, p) bool: the same part, or connected by a joint, or through one part in between."""
     count = len(model.part_names)
     joined = np.eye(count, dtype=bool)
     for part, parent in enumerate(model.part_parent):
@@ -197,6 +197,6 @@ def _neighbours(model: BodyModel) -> np.ndarray:
             joined[part, parent] = joined[parent, part] = True
     siblings = np.equal.outer(model.part_parent, model.part_parent)
     limbs = np.array(["thigh" in name or "arm" in name for name in model.part_names])
-    # Thighs are siblings that can collide; so can upper arms.
+    # The thighs are siblings, but they can collide; so can the upper arms.
     siblings &= ~(limbs[:, None] & limbs[None, :])
     return joined | siblings

@@ -1,6 +1,6 @@
-"""Linearised residuals: what an energy tells the Gauss-Newton optimiser.
+"""Linearised residuals: what an energy passes to the Gauss-Newton optimiser.
 
-Each energy that has a least-squares form near the present body returns rows. A row is a residual
+Each energy that has a least-squares form near the current body returns rows. A row is a residual
 r with a weight w, standing for ½ w r², and the derivative of r by the positions of one or more
 points of the body (and by a vertex normal, for shading). Robust functions enter as weights
 (iteratively reweighted least squares), so that w r ∂r is the energy's own gradient.
@@ -27,7 +27,7 @@ class PositionRows:
     derivatives
         (k, q, 3) of the residual by each point's camera-frame position, per metre.
     of_ease
-        Whether the residuals are how far the ease of loose clothes is from its mean, in pixels
+        Whether the residuals are deviations of the ease of loose clothes from its mean, in pixels
         (:mod:`fitter.energies.ease`).
     """
 
@@ -60,7 +60,7 @@ class ShadingRows:
 
 
 def thinned(rows: PositionRows, limit: int) -> PositionRows:
-    """Every so many rows, reweighted to stand for all: enough for a Gauss-Newton matrix."""
+    """At most ``limit`` rows at even steps, reweighted to represent all: enough for the matrix."""
     step = -(-len(rows.residuals) // limit)
     if step <= 1:
         return rows

@@ -1,10 +1,10 @@
 """The scale of every energy term.
 
 The paper adds its terms with unit weights and leaves their normalisation open. Here every term is
-a negative log-likelihood: it is divided by what we believe its residuals to be, so that unit
-weights are right by construction, the shape prior is N(0, I), and the final Gauss-Newton matrix
-is an information matrix. Lengths on the body are given in metres and turned into pixels at the
-body's distance, so that a fit does not depend on the size of the picture.
+a negative log-likelihood, scaled by the expected size of its residuals, so that unit weights are
+right by construction, the shape prior is N(0, I), and the final Gauss-Newton matrix is an
+information matrix. Lengths on the body are given in metres and converted to pixels at the body's
+distance, so that a fit does not depend on the size of the picture.
 """
 
 from dataclasses import dataclass
@@ -21,17 +21,17 @@ class EnergyScales:
     silhouette_sigma
         Standard deviation of the segmented boundary about the model's contour.
     silhouette_eta
-        Distance about which a boundary comes to be taken for a wrong one.
+        Distance at about which a boundary starts to be treated as an outlier.
     correlation_length
-        Neighbouring boundary pixels are not independent; one count per this many.
+        Neighbouring boundary pixels are not independent: this many count as one.
     contour_sigma
-        Standard deviation of the model's own contour about the person's.
+        Standard deviation of the model's contour about the person's.
     line_correlation_length
         Pixels of contour whose correspondence lines count as one.
     edge_weight
         Nats for a body whose visible edges all miss every image edge.
     click_hand
-        Spread of clicked points by the unsteadiness of a hand.
+        Spread of clicked points due to an unsteady hand.
     penetration_sigma_m
         Metres of overlap between body parts that cost half a nat.
     shading_weight
@@ -39,12 +39,12 @@ class EnergyScales:
     shading_eta
         Geman-McClure scale η₁, relative to the person's median intensity.
     ease_mean, ease_spread, ease_reach
-        Mean and standard deviation of how far loose clothes stand off the body, and distance from
-        the mean about which they say nothing more of it.
+        Mean and standard deviation of how far loose clothes stand off the body, and the distance
+        from the mean at about which they stop saying anything about it.
     ease_common_spread
         Standard deviation of an offset of that mean that all clothes of one person share.
     ease_correlation_length
-        Pixels of outline whose ease counts once.
+        Pixels of outline whose ease counts as one.
     pixels_per_metre
         At the body's distance.
     """
@@ -68,28 +68,28 @@ class EnergyScales:
 
 
 FAR_BOUNDARY_ETA_M = 0.06
-"""From clicks, limbs are off by centimetres: what lies a hand's breadth away must still pull."""
+"""After the clicks, limbs are off by centimetres: what is a hand's breadth away must still pull."""
 
 NEAR_BOUNDARY_ETA_M = 0.02
-"""From a fitted body, a boundary two centimetres off is hair, cloth, ground or a missing foot."""
+"""A boundary two centimetres off a fitted body is hair, cloth, ground or a missing foot."""
 
 # A segmented boundary is a pixel uncertain and the model's own posed error is about 5 mm.
 _BOUNDARY_PIXELS = 1.0
 _BOUNDARY_METRES = 0.005
-# Where a boundary errs, by hair, cloth, shadow or a shape that twenty axes do not have, it errs
-# along a hand's length and more.
+# Where a boundary is wrong, because of hair, cloth, shadow or a shape that twenty axes cannot
+# express, it is wrong over a hand's length or more.
 _CORRELATION_METRES = 0.2
-# Lines that see no boundary say so, and those that see a false one are few: what is left to err
-# alike is the model's contour. Chosen with the shading's weight, below.
+# Lines that see no boundary say so, and few see a false one: the correlated error that remains is
+# that of the model's contour. Chosen together with the shading's weight, below.
 _LINE_CORRELATION_METRES = 0.15
 _CLICK_PIXELS = 2.5
 
 
-# What Eq. 1 leaves unexplained, a sixteenth of the median brightness, repeats itself over patches
-# of a hand's breadth: less than a hundred of them are in sight. On the evaluation's tuning half
-# (12 people, 36 pictures) chest, waist, hip and weight err by 1.9, 2.6, 1.8 cm and 2.3 kg on the
-# mean and 95 % intervals hold 91 % of them; with 250 nats and lines of 10 cm by 2.1, 2.6, 1.7 and
-# 2.5, and 86 %; with 150 nats and lines of 10 cm by 2.1, 2.8, 1.8 and 2.6, and 89 %.
+# What Eq. 1 leaves unexplained, a sixteenth of the median brightness, is correlated over patches of
+# a hand's breadth, of which fewer than a hundred are in sight. On the evaluation's tuning half
+# (12 people, 36 pictures) the mean errors of chest, waist, hip and weight are 1.9, 2.6, 1.8 cm and
+# 2.3 kg and 95 % intervals hold 91 % of them; with 250 nats and lines of 10 cm 2.1, 2.6, 1.7 and
+# 2.5, and 86 %; with 150 nats and lines of 10 cm 2.1, 2.8, 1.8 and 2.6, and 89 %.
 _SHADING_NATS = 190.0
 
 # Chosen on the clothed pictures of the tuning half (4), where waists, without the common offset,

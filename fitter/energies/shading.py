@@ -1,9 +1,9 @@
 """Shading energy E_Sh: predicted against observed intensity at the visible vertices (Eq. 2).
 
-This is the first term of Eq. 2; the smoothness of albedo and specularity does not depend on the
-body but through distances between neighbours, which are held while the body moves, and lives in
-:mod:`fitter.optimizer.reflectance_solve`. Vertices weigh by area. The weighted mean and not the
-sum over visible vertices is taken: a body must not gain by hiding.
+This is the first term of Eq. 2. The smoothness of albedo and specularity depends on the body only
+through distances between neighbours, which are held while the body moves; it lives in
+:mod:`fitter.optimizer.reflectance_solve`. Vertices are weighted by area. The weighted mean over the
+visible vertices is taken, not the sum: a body must not gain by hiding.
 """
 
 from dataclasses import dataclass, replace
@@ -21,33 +21,34 @@ from fitter.parameters import Light, Reflectance
 from fitter.render.rasterizer import Rendering
 from fitter.render.reflectance import shade, shade_with_derivatives
 
-# Nearer to the rim than this cosine a vertex's pixel mixes body and background.
+# Below this cosine, toward the rim, a vertex's pixel mixes body and background.
 _LEAST_FACING = 0.25
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class ShadingEvidence:
-    """Intensities with the light and reflectance that are to explain them.
+    """Intensities, with the light and reflectance that should explain them.
 
     Attributes
     ----------
     intensity
         The picture's linear luminance and where it can be trusted.
     light, body_centre
-        The light stands still while the body moves: ``body_centre`` is where its coordinates
-        were fixed, camera frame.
+        The light is fixed while the body moves: ``body_centre`` is the origin of its coordinates,
+        camera frame.
     reflectance
         Per-vertex albedo and specularity, ambient and exponent.
     vertex_areas
-        (m,) shares of the body's area; vertices with none take no part.
+        (m,) shares of the body's area; vertices with zero area are ignored.
     shadowed
-        (m,) vertices in a cast shadow when the light was last found, with their surroundings:
-        Eq. 1 knows no cast shadow, and a body fitted to one bulges to turn away from the light.
+        (m,) vertices in a cast shadow when the light was last found, and those around them: Eq. 1
+        has no cast shadows, and a body fitted to one bulges to turn away from the light.
     eta
         η₁ in units of luminance.
     lit
-        (m,) share of the lamp that is seen: 0 in a cast shadow, where surroundings alone shine, and
-        a half near its border, which real lights blur. None where shadows are left out.
+        (m,) share of the lamp that each vertex sees: 0 in a cast shadow, which only the
+        surroundings light, and a half near its border, which real lights blur. None where shadows
+        are left out.
     """
 
     intensity: IntensityMap
@@ -93,13 +94,13 @@ def _seen_among(
 
 
 def usable_vertices(rendering: Rendering, evidence: ShadingEvidence) -> Bool[np.ndarray, " m"]:
-    """Seen vertices that take part and that no cast shadow makes say something else than Eq. 1."""
+    """Seen vertices that take part and follow Eq. 1, being in no cast shadow."""
     taking_part = (evidence.vertex_areas > 0.0) & ~evidence.shadowed
     return _seen_among(rendering.vertex_visible & taking_part, rendering, evidence.intensity)
 
 
 def explained_vertices(rendering: Rendering, evidence: ShadingEvidence) -> Bool[np.ndarray, " m"]:
-    """Usable vertices, and where shadows are not left out those in the middle of one."""
+    """Usable vertices and, where shadows are not left out, those well inside one."""
     if evidence.lit is None:
         return usable_vertices(rendering, evidence)
     known = (evidence.vertex_areas > 0.0) & (~evidence.shadowed | (evidence.lit == 0.0))
@@ -128,7 +129,7 @@ def shading_energy(rendering: Rendering, evidence: ShadingEvidence, scales: Ener
 def shading_rows(
     rendering: Rendering, evidence: ShadingEvidence, scales: EnergyScales
 ) -> ShadingRows:
-    """One row for each usable vertex."""
+    """One row per usable vertex."""
     chosen = np.flatnonzero(usable_vertices(rendering, evidence))
     positions = rendering.vertices[chosen]
     derivatives = shade_with_derivatives(
@@ -154,7 +155,7 @@ def shading_rows(
 
 
 def thinned_shading(rows: ShadingRows, limit: int) -> ShadingRows:
-    """The heaviest rows by systematic sampling, reweighted to stand for all."""
+    """Systematic sampling of rows in proportion to weight, reweighted to represent all."""
     total = float(rows.weights.sum())
     if len(rows.residuals) <= limit or not total > 0.0:
         return rows

@@ -3,10 +3,11 @@
 Every unmatched pixel costs a function of its distance d to the other region (as in [5] and [22]),
 here ρ'(d) = d / (1 + d²/η²)². A sliver of width δ along the outline then costs ∫ ρ' = ρ(δ) =
 ½ δ² / (1 + δ²/η²) for each pixel of outline: the sum is a Geman-McClure boundary error, and contour
-points with its weights are its exact linearisation. Wrong ground, walls and hair lie far from the
-body, and pull at nothing there. Divided by σ² and by the length over which neighbouring errors
-repeat themselves it is a negative log-likelihood. Where loose cloth is seen the outline bounds the
-body from outside (:mod:`fitter.energies.ease`), and a pixel costs the derivative of that function.
+points with its weights are its exact linearisation. Ground, walls and hair taken for the person lie
+far from the body, where they do not pull. Divided by σ² and by the length over which neighbouring
+errors are correlated, it is a negative log-likelihood. Where loose cloth is seen, the outline
+bounds the body from outside (:mod:`fitter.energies.ease`), and a pixel costs the derivative of that
+function.
 """
 
 import cv2
@@ -30,12 +31,12 @@ from fitter.render.rasterizer import Rendering
 
 # A boundary point of the image matches a contour point that faces the same way within 60 degrees.
 _LEAST_NORMAL_AGREEMENT = 0.5
-# Half of the rows look from the model to the image, half from the image to the model.
+# Half of the rows go from the model to the image, half from the image to the model.
 _SHARE = 0.5
-# What a pixel far from everything costs, in robust scales: without it a body that has left the
-# person altogether would cost nothing. Constant, so it pulls at nothing.
+# Cost of a pixel far from everything, in robust scales: without it a body that has left the person
+# altogether would cost nothing. It is constant, so it does not pull.
 _FAR_COST = 0.1
-# From where on, in robust scales, d / (1 + d²/η²)² is less than that.
+# Distance, in robust scales, beyond which d / (1 + d²/η²)² is less than that.
 _FAR = 1.81
 _MARGIN_PX = 2
 
@@ -43,7 +44,7 @@ _MARGIN_PX = 2
 def silhouette_energy(
     rendering: Rendering, evidence: SilhouetteEvidence, scales: EnergyScales
 ) -> float:
-    """E_Si in nats; pixels outside the picture count for nothing."""
+    """E_Si in nats; pixels outside the picture do not count."""
     top, bottom, left, right = _common_box(rendering, evidence)
     pixels = (
         rendering.face_ids[top:bottom, left:right],
@@ -78,8 +79,8 @@ def silhouette_rows(
 ) -> tuple[PositionRows, ...]:
     """Rows from the model's outline to the image, and from the image's outline to the model.
 
-    The second kind sees what the first cannot: observed limbs that no part of the outline is near.
-    Under loose clothes each is followed by its rows for their ease.
+    The second kind sees what the first cannot: observed limbs far from any part of the outline.
+    Under loose clothes, each kind is followed by its rows for the ease.
     """
     camera = rendering.camera
     middles = edges.endpoints.mean(axis=1)
@@ -131,7 +132,7 @@ def _rows(
     points: Integer[np.ndarray, "k 2"],
     derivatives: Float[np.ndarray, "k 2 3"],
 ) -> tuple[PositionRows, ...]:
-    """Rows of one kind for so many pixels of outline each, and for the ease of what cloth shows."""
+    """Rows of one kind, each for a length of outline in pixels, and rows for the ease of cloth."""
     nats = _SHARE / (scales.silhouette_sigma**2 * scales.correlation_length)
     bound = PositionRows(
         residuals=residuals,
@@ -159,7 +160,7 @@ def silhouette_overlap(
 ) -> float:
     """Intersection over union of the model's region and the observed one.
 
-    What loose clothes add to the body counts to neither, as far as clothes reach.
+    What loose clothes add to the body, as far as they may reach, counts toward neither.
     """
     model = rendering.silhouette
     union = float(np.count_nonzero(model | evidence.mask))
@@ -173,9 +174,9 @@ def silhouette_overlap(
 def _nearest_facing_alike(
     middles: np.ndarray, normals: np.ndarray, evidence: SilhouetteEvidence, scales: EnergyScales
 ) -> np.ndarray:
-    """Contour index for each observed boundary point, -1 where none is near and faces alike.
+    """Index of the nearest contour point facing alike for each observed boundary point, else -1.
 
-    Position and normal together are the key: a normal turned by 60 degrees counts like twice the
+    Position and normal together form the key: a normal turned by 60 degrees counts like twice the
     robust scale, so the far side of a thin limb is never the nearest.
     """
     scale = 2.0 * scales.silhouette_eta
@@ -204,7 +205,7 @@ def _common_box(rendering: Rendering, evidence: SilhouetteEvidence) -> tuple[int
 def _span(
     first: float, last: float, occupied: Bool[np.ndarray, " k"], size: int
 ) -> tuple[int, int]:
-    """Where a body's projection and the occupied lines lie within a picture, with a margin."""
+    """Range that a body's projection and the occupied lines cover in a picture, with a margin."""
     lines = np.flatnonzero(occupied)
     if len(lines):
         first, last = min(first, float(lines[0])), max(last, float(lines[-1]) + 1.0)
