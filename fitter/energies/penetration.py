@@ -22,7 +22,7 @@ _LEAST_RING = 6
 _SLICES_PER_THICKNESS = 4.0
 # A slice this much longer than wide gets a sphere on either side of the middle one.
 _SIDES_RATIO = 1.2
-# A sphere that fits only below this share of its ring's size lies outside the body.
+# A sphere with a smaller filling than this lies outside the body.
 _LEAST_FILLING = 0.3
 _UPRIGHT = ("pelvis", "spine", "chest", "neck", "head")
 _SIDEWAYS, _UP, _FORWARD = np.eye(3)

@@ -93,11 +93,13 @@ _CLICK_PIXELS = 2.5
 _SHADING_NATS = 190.0
 
 # Chosen on the clothed pictures of the tuning half (4), where waists, without the common offset,
-# err by 5.3 cm on the mean and are 0.5 cm too small. With 3 cm of mean ease 4.8, but 2.7 too small;
-# counted every 25 cm 6.6; with the half-normal of 3 cm (mean 0) 8.0, counted once a garment 10.7.
+# have a mean error of 5.3 cm and are 0.5 cm too small. With 3 cm of mean ease 4.8, but 2.7 too
+# small; counted every 25 cm 6.6; with the half-normal of 3 cm (mean 0) 8.0, counted once per
+# garment 10.7.
 EASE_MEAN_M, _EASE_SPREAD_M, _EASE_REACH_M = 0.025, 0.02, 0.05
 _EASE_CORRELATION_METRES = 0.15
-# With the offset 95 % intervals hold 87 of 92 on 23 other pictures of that half, in random outfits.
+# With the offset, 95 % intervals hold 87 of 92 values on 23 other pictures of that half, in random
+# outfits.
 _EASE_COMMON_M = 0.02
 
 

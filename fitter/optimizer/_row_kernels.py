@@ -1,9 +1,9 @@
 """Compiled rows of the Gauss-Newton matrix: derivatives of residuals by all body parameters.
 
-What :func:`fitter.body.tangent.point_jacobian` and ``direction_jacobian`` would give, contracted
-with each row's own derivative before it is ever written down. For a camera-frame derivative d at a
-point x, with g = diag(1, -1, -1) d and y the point relative to the root in body axes, a turn of
-joint j about an axis e of its parent moves the residual by
+The result of :func:`fitter.body.tangent.point_jacobian` and ``direction_jacobian`` contracted with
+each row's own derivative, without ever storing those Jacobians. For a camera-frame derivative d at
+a point x, with g = diag(1, -1, -1) d and y the point relative to the root in body axes, a turn of
+joint j about an axis e of its parent changes the residual by
 
     e . ((y - c_j) × g), times how far the point follows joint j.
 """
@@ -30,7 +30,7 @@ def add_point(
     moments,
     row,
 ):
-    """Add one point's share: moments (p, 3) about each joint, translation and shape to the row."""
+    """Add one point: moments (p, 3) about each joint, and the row's translation and shape."""
     p = rotations.shape[0]
     n = shape_basis.shape[0]
     gx, gy, gz = derivative[0], -derivative[1], -derivative[2]
@@ -156,7 +156,7 @@ def add_direction(
 @no_type_check
 @njit(cache=True, fastmath=True)
 def turn_columns(moments, parent_rotations, row):
-    """Moments about joints to the columns of turns about their parents' axes."""
+    """Convert moments about joints to the columns of turns about their parents' axes."""
     for j in range(moments.shape[0]):
         for axis in range(3):
             row[3 * j + axis] = (
@@ -183,7 +183,7 @@ def position_row_jacobian(
     joint_offsets,
     result,
 ):
-    """Rows over the parameters, each times its ``scales``; ``result`` (k, columns)."""
+    """Rows over the parameters, each multiplied by its ``scales``; ``result`` (k, columns)."""
     moments = np.empty(joints.shape)
     for k in range(derivatives.shape[0]):
         row = result[k]
@@ -286,7 +286,7 @@ def scatter(forces, points, derivatives, result):
 @no_type_check
 @njit(cache=True, fastmath=True)
 def scatter_sums(by_sums, pointers, indices, weights, result):
-    """Add the derivative by each sum, times the weights, to the points it is made of."""
+    """Add the derivative by each sum, times the weights, to the points in the sum."""
     for s in range(len(pointers) - 1):
         for entry in range(pointers[s], pointers[s + 1]):
             for axis in range(3):

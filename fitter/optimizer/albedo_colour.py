@@ -1,4 +1,4 @@
-"""The hue of the albedo, for people to look at: Eq. 1 itself knows luminance only."""
+"""The hue of the albedo, for display only: Eq. 1 itself uses luminance alone."""
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from fitter.optimizer.hidden_reflectance import HiddenVertices
 
 _LEAST_LUMINANCE = 1e-3
 _STRONGEST_HUE = 4.0
-"""Times the luminance: blue weighs 0.07 in it, so that dark blue cloth would be dyed by noise."""
+"""Limit as a multiple of luminance: blue weighs only 0.07 in it, so noise would tint dark blue."""
 
 
 def albedo_rgb(
@@ -33,6 +33,6 @@ def albedo_rgb(
         there = sample(np.ascontiguousarray(linear_rgb[..., channel]), points)[0]
         hue = np.zeros(len(albedo))
         hue[seen] = np.clip(there / luminance, 0.0, _STRONGEST_HUE)
-        # What is seen in a shadow has a hue, though its brightness says nothing.
+        # Vertices in a shadow have a hue, though their brightness says nothing.
         rgb[:, channel] = albedo * np.where(seen, hue, hidden.filled(hue))
     return np.maximum(rgb, 0.0)

@@ -1,7 +1,7 @@
 """Body shape from shading (section 5): light, reflectance and body in turn.
 
-The smoothness of albedo and specularity starts large and is lowered round by round, so that at
-first it is the shape that must change to make the predicted brightness match.
+The smoothness of albedo and specularity starts high and is lowered round by round, so that at first
+it is the shape that has to change to make the predicted brightness match.
 """
 
 from collections.abc import Callable
@@ -36,33 +36,34 @@ from fitter.render.reflectance import shading_terms
 from fitter.request import SurroundingsKind
 
 SMOOTHNESS_SCHEDULE = (40.0, 14.0, 5.0)
-"""λ₁ = λ₂ of each round, against data weights of mean one a vertex: a step of albedo between two
-neighbours costs as much as so many vertices left wholly unexplained. Lower ends (0.3) let the
-albedo absorb what the shape should explain; chosen on the evaluation's tuning half."""
+"""λ₁ = λ₂ of each round, relative to data weights with a mean of one per vertex: a step of albedo
+between two neighbours costs as much as this many vertices left wholly unexplained. With a lower
+last value (0.3) the albedo absorbs what the shape should explain; chosen on the evaluation's tuning
+half."""
 
 SHADOW_ROUNDS = 1
 """Times that light and reflectance are found with the shadows, for a light with surroundings."""
 
 REPORTED_SMOOTHNESS = 0.3
-"""λ₁ = λ₂ of the reflectance that is reported, when the body no longer moves: at 5 dark cloth may
-still be dearer as an edge of albedo than as an error of intensity."""
+"""λ₁ = λ₂ of the reflectance that is reported, once the body no longer moves: at 5, dark cloth may
+still cost more as an edge of albedo than as an error of intensity."""
 
 GRADUATION = ((8.0, 2), (3.0, 2), (1.0, 3))
 """Factors of η₁ and iterations of each reflectance solve. Graduated non-convexity: cloth and hair
-are far from the first, uniform albedo, and a narrow robust function would take them for outliers
-for ever instead of giving them an albedo of their own."""
+are far from the first, uniform albedo, and a narrow robust function would treat them as outliers
+for good instead of giving them an albedo of their own."""
 
 REFINEMENT = ((1.0, 3),)
-"""The same from a reflectance that was found already."""
+"""The same, starting from a reflectance already found."""
 
-# η₂ and η₃ relative to the median albedo: steps larger than this are edges of cloth or hair.
+# η₂ and η₃ relative to the median albedo: larger steps than this are edges of cloth or hair.
 _RELATIVE_ALBEDO_ETA = 0.1
 _RELATIVE_SPECULARITY_ETA = 0.1
 _MARGIN_RINGS = 3
-"""Round what is seen: what a search may bring to sight has an albedo of its own."""
+"""Rings of vertices around those seen that get an albedo too: a search may bring them into view."""
 _LEAST_USABLE = 200
 _LEAST_FOR_SURROUNDINGS = 150
-# Sampled vertices: of a face alone 70 are seen, of a body in loose clothes 300 and more.
+# Sampled vertices: 70 are seen of a face alone, 300 or more of a body in loose clothes.
 
 BodySearch = Callable[[Objective, BodyParameters], Minimum]
 
@@ -78,7 +79,7 @@ class ShadedFit:
     light, reflectance
         In coordinates about the final body's centre, where the light's intensity is 1.
     hidden
-        The vertices whose reflectance was not observed but continued.
+        The vertices whose reflectance was not observed but filled in.
     evidence
         The shading term of the last round; its light still refers to the centre where the
         alternation began, and its reflectance is smoother than the one reported.
@@ -118,13 +119,13 @@ def fit_shading(
     search
         Minimises an objective over the body from given parameters: the third step.
     surroundings
-        What light comes from all round: Eq. 1's constant, or spherical harmonics, which say what
-        albedo lies in a cast shadow. Too small a surface does not tell them from the lamp: there it
-        is Eq. 1's.
+        How light from all around is modelled: Eq. 1's constant, or spherical harmonics, which also
+        tell the albedo inside a cast shadow. Too small a surface cannot tell them from the lamp;
+        then Eq. 1's constant is used.
 
     Returns
     -------
-    None where too few vertices are visible and trusted for shading to say anything.
+    None if too few vertices are visible and trusted for shading to tell anything.
     """
     if np.count_nonzero(seen_vertices(start.rendering, intensity)) < _LEAST_USABLE:
         return None
@@ -147,7 +148,7 @@ def fit_shading(
         evaluations += minimum.evaluations
         now = minimum.candidate
     assert minimum is not None
-    # The reflectance of the final body: what is drawn must be what was found.
+    # The reflectance is found again for the final body, so that what is drawn is what was found.
     reported = state
     if state.light.surroundings is not None:
         reported = _with_shadows_explained(objective, now, state)
@@ -172,9 +173,9 @@ def fit_shading(
 def _with_shadows_explained(
     objective: Objective, candidate: Candidate, state: ShadingEvidence
 ) -> ShadingEvidence:
-    """Surroundings that explain what the lamp's shadows show, too, now that the body stands still.
+    """Find surroundings that also explain the lamp's shadows, now that the body is fixed.
 
-    Light and reflectance in turn: nothing tells surroundings from the lamp better than its shadow.
+    Light and reflectance in turn: nothing separates surroundings from the lamp like its shadow.
     """
     for _ in range(SHADOW_ROUNDS):
         state = with_explained_shadows(objective, candidate, state)
@@ -232,7 +233,7 @@ def _with_new_reflectance(
     )
     solver = ReflectanceSolver(part.edges, len(chosen))
     for widening, iterations in graduation:
-        # Weights keep the curvatures at zero: only what is far comes to count more.
+        # The weights keep their curvature at zero: only what is far off comes to count more.
         wide = replace(
             problem,
             weights=widening**2 * problem.weights,
@@ -264,14 +265,14 @@ def _hidden(objective: Objective, candidate: Candidate, state: ShadingEvidence) 
 
 
 def _edge_lengths(vertices: Vertices, edges: Integer[np.ndarray, "e 2"]) -> Float[np.ndarray, " e"]:
-    """Over their mean; no edge counts as shorter than a twentieth of it."""
+    """Edge lengths divided by their mean; none counts as shorter than a twentieth of it."""
     first, second = edges.T
     lengths = np.linalg.norm(vertices[first] - vertices[second], axis=1)
     return np.maximum(lengths / lengths.mean(), 0.05)
 
 
 def _at_distance(reflectance: Reflectance, old: Light, new: Light) -> Reflectance:
-    """The same shading when intensity 1 is said of another distance z: a l = a' l'."""
+    """Keep the shading when intensity 1 refers to another distance z: a l = a' l'."""
     if old.kind is LightKind.DIRECTIONAL:
         return reflectance
     factor = (old.distance / new.distance) ** 2

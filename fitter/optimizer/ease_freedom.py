@@ -1,4 +1,4 @@
-"""What rows of ease say of the body once all loose clothes may be wider or tighter.
+"""What rows of ease say about the body when all loose clothes may be wider or tighter.
 
 Rows of ease r + μ + δ (:mod:`fitter.energies.ease`) share the offset δ ~ N(0, τ_δ²). Body and
 offset as one vector have the normal matrix

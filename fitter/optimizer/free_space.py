@@ -1,9 +1,9 @@
-"""The bodies a search may look at: all of the held height and the held attributes.
+"""The bodies a search may visit: all those with the held height and the held attributes.
 
-The height coefficient stays where it is. Attributes held beside it leave, at every body, the
+The height coefficient stays where it is. Attributes held besides it leave, at every body, the
 directions of shape in which none of them changes, the null space of their Jacobian J without its
-height column: section 4's rotation of the shape space, renewed where the body is. A step along
-these changes an attribute in second order only, and is then brought back,
+height column: section 4's rotation of the shape space, renewed at each body. A step along these
+directions changes an attribute in second order only, and is then projected back,
 
     β⁺ = β + J⁺ (y - m(β)).
 """
@@ -20,19 +20,19 @@ from fitter.optimizer.parameter_vector import moved
 from fitter.parameters import BodyParameters
 
 HELD_WITHIN = 1e-3
-"""Centimetres or kilograms within which held attributes are met."""
+"""Tolerance of held attributes, centimetres or kilograms."""
 
 _STEPS_A_JACOBIAN = 5
 _MOST_STEPS = 20
 
 _SMALLEST_SHARE = 1e-5
-"""Directions in which attributes change by less than this share of the most are not held: two
-measurements that say the same hold the body once."""
+"""Directions in which attributes change by less than this share of the largest change are not held:
+two measurements that say the same hold the body once."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class FreeSpace:
-    """The space about one body.
+    """The space of permitted steps from one body.
 
     Attributes
     ----------
@@ -40,10 +40,9 @@ class FreeSpace:
         Orthonormal increments of the parameter vector, in columns; none changes the height
         coefficient.
     height_response
-        (n,) change of shape with one unit of the height coefficient, the least that keeps what is
-        held.
+        (n,) smallest change of shape per unit of the height coefficient that keeps what is held.
     held
-        What every body has.
+        The attributes every body has.
     slopes
         (r, n - 1) J at the body.
     """
@@ -56,14 +55,14 @@ class FreeSpace:
     def moved(
         self, parameters: BodyParameters, step: Float[np.ndarray, " columns"]
     ) -> BodyParameters | None:
-        """Apply increments, and bring the shape back to what is held; None if it goes too far."""
+        """Apply increments and project the shape back to what is held; None if that is too far."""
         reached = moved(parameters, step)
         shape = _brought_back(self.held, reached.shape, self.slopes)
         return None if shape is None else replace(reached, shape=shape)
 
 
 def free_space(held: Attributes, parameters: BodyParameters) -> FreeSpace:
-    """The space about a body that has what is held."""
+    """The space of steps from a body that has what is held."""
     n = len(parameters.shape)
     jacobian = held.jacobian(parameters.shape)
     slopes = jacobian[:, 1:]
@@ -87,7 +86,7 @@ def kept_directions(held: Attributes, shape: Shape) -> Float[np.ndarray, "n free
 
 
 def held_shape(held: Attributes, shape: Shape) -> Shape:
-    """The nearest shape of the same height coefficient that has what is held.
+    """The nearest shape with the same height coefficient that has what is held.
 
     Raises
     ------
@@ -104,7 +103,7 @@ def held_shape(held: Attributes, shape: Shape) -> Shape:
 def _brought_back(
     held: Attributes, shape: Shape, slopes: Float[np.ndarray, "r rest"]
 ) -> Shape | None:
-    """Newton steps, the Jacobian held for some of them: attributes are nearly linear."""
+    """Newton steps, reusing the Jacobian for some of them: attributes are nearly linear."""
     inverse = _inverse(slopes)
     for step in range(1, _MOST_STEPS + 1):
         missing = held.values - held.measure(shape)
@@ -119,7 +118,7 @@ def _brought_back(
 
 
 def _kept_directions(slopes: Float[np.ndarray, "r rest"]) -> Float[np.ndarray, "rest free"]:
-    """Orthonormal null space, the axes themselves where nothing is held."""
+    """Orthonormal null space; the axes themselves where nothing is held."""
     if not len(slopes):
         return np.eye(slopes.shape[1])
     _, sizes, axes = np.linalg.svd(slopes)

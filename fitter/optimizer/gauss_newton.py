@@ -1,8 +1,8 @@
 """The default optimiser: damped Gauss-Newton on E1 or E2, accepted on the true energy.
 
 Rows from the contour, the edges, the clicks, the spheres and the shading give a 74 x 74 normal
-matrix; its gradient is exact, by the reverse mode of the body. A step counts only if the energy
-itself went down, never the surrogate.
+matrix; the gradient is exact, by the reverse mode of the body. A step is accepted only if the true
+energy decreased, not just its quadratic model.
 """
 
 from collections.abc import Callable, Mapping
@@ -18,13 +18,14 @@ from fitter.parameters import BodyParameters
 
 _FIRST_DAMPING = 1e-2
 _SMALLEST_DAMPING, _LARGEST_DAMPING = 1e-6, 1e4
-# After Nielsen: damping falls to a third at most where the step gained what was predicted, rises
-# where it gained less than half of that, and doubles its own growth from refusal to refusal. Of the
-# evaluations a fixed rise and fall spent, half were refused, and it ended 2 to 12 % higher.
+# After Nielsen: damping falls, at most to a third, where the step gained what was predicted, rises
+# where it gained less than half of that, and rises twice as fast with every further rejection.
+# A fixed rise and fall had half of its evaluations rejected and ended 2 to 12 % higher.
 _FASTEST_FALL, _FASTEST_RISE = 1.0 / 3.0, 5.0
 _FIRST_RISE = 2.0
 # Nats: a step that promises less is not tried, and two in a row that gain less end the search. A
-# tenth of a nat changes a likelihood by a tenth; pixels at the outline make the energy as rough.
+# tenth of a nat changes a likelihood by a tenth; the pixel grid at the outline makes the energy
+# about as rough.
 _SETTLED_NATS = 0.05
 
 EnergyObserver = Callable[[Mapping[str, float]], None]
@@ -34,8 +35,7 @@ EnergyObserver = Callable[[Mapping[str, float]], None]
 class Minimum:
     """Where a search ended.
 
-    ``converged`` is False when the limit of evaluations ended it; ``evaluations`` counts true
-    energies.
+    ``converged`` is False if it ran out of evaluations; ``evaluations`` counts true energies.
     """
 
     candidate: Candidate

@@ -1,7 +1,7 @@
-"""Reflectance of what nobody sees: as smooth as it can be, from what is seen.
+"""Reflectance of hidden vertices: continued as smoothly as possible from the visible ones.
 
-Eq. 2 asks nothing of a hidden vertex but that it be like its neighbours, so hidden vertices need
-no part in the search for the reflectance of the others; they are filled in once, at the end.
+Eq. 2 asks nothing of a hidden vertex but to be like its neighbours, so hidden vertices can be left
+out of the search for the others' reflectance; they are filled in once, at the end.
 """
 
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from scipy import sparse
 
 from fitter.arrays import PerVertex
 
-# Ties what hangs together with nothing known to the mean of what is known.
+# Ties components without any known vertex to the mean of the known values.
 _RIDGE = 1e-6
 
 
@@ -24,11 +24,11 @@ class HiddenVertices:
     Attributes
     ----------
     known, unknown
-        (m,) which vertices keep their value, and (u,) the ids of the others.
+        (m,) which vertices keep their values, and (u,) the ids of the others.
     border
         (u, m) stiffness of the edges from unknown vertices to known ones.
     solver
-        Of the unknown vertices' own matrix; None where there are none.
+        Solves with the unknown vertices' own matrix; None if there are none.
     """
 
     known: Bool[np.ndarray, " m"]
@@ -48,13 +48,13 @@ class HiddenVertices:
         Parameters
         ----------
         known
-            Which vertices keep their values; some must.
+            Which vertices keep their values; at least one.
         """
         unknown = np.flatnonzero(~known)
         count = len(unknown)
         place = np.full(len(known), -1)
         place[unknown] = np.arange(count)
-        # Every edge from both of its ends.
+        # Every edge, as seen from both of its ends.
         here, there = np.concatenate([edges, edges[:, ::-1]]).T
         stiffness = np.concatenate([1.0 / edge_lengths] * 2)
         of_unknown = ~known[here]
@@ -83,7 +83,7 @@ class HiddenVertices:
         )
 
     def filled(self, values: PerVertex) -> PerVertex:
-        """Values (m,) of which the unknown ones are replaced."""
+        """The values (m,) with the unknown ones filled in."""
         if self.solver is None:
             return values.copy()
         kept = np.where(self.known, values, 0.0)

@@ -1,4 +1,4 @@
-"""What clicks cannot tell the picture may: a short search from each reading of the clicks."""
+"""Ambiguities of the clicks resolved by the picture: a short search from each reading."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,9 +10,9 @@ from fitter.parameters import BodyParameters
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class JudgedEnd:
-    """Where a search ended and what the comparing objective says of it, nats.
+    """Where a search ended, and its energy under the objective used for comparison, nats.
 
-    The rendering is not kept: it would be 3 MB a reading for the rest of the fit.
+    The rendering is not kept: it would take 3 MB per reading for the rest of the fit.
     """
 
     parameters: BodyParameters
@@ -21,9 +21,10 @@ class JudgedEnd:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class TriedHypotheses:
-    """The searches' ends, in the order of the hypotheses, judged by one objective.
+    """Where the searches ended, in the order of the hypotheses, compared under one objective.
 
-    ``best`` indexes them, one of those that were searched on; ``evaluations`` counts true energies.
+    ``best`` is the index of the best among those searched further; ``evaluations`` counts true
+    energies.
     """
 
     ends: tuple[JudgedEnd, ...]
@@ -40,19 +41,18 @@ def try_hypotheses(
     contenders: int,
     contest: BodySearch,
 ) -> TriedHypotheses:
-    """Search from each start, search on from the best ends, and compare.
+    """Search from each start, search further from the best results, and compare.
 
     Parameters
     ----------
     wide
-        With a boundary that pulls from afar: what the searches minimise.
+        Objective with a boundary that pulls from afar: what the searches minimise.
     sharp
-        With one that rejects what is far: what the ends are compared by.
+        Objective with one that rejects what is far: what the results are compared by.
     starts
         Bodies to begin with.
     trial, contenders, contest
-        Minimises an objective from each start; how many of the best ends go on; minimises from
-        those.
+        The search from each start; how many of the best results go on; the search from those.
     """
     found = [trial(wide, start) for start in starts]
     evaluations = sum(minimum.evaluations for minimum in found)

@@ -1,9 +1,9 @@
-"""What shading no longer says of the body once the light may follow it.
+"""The information about the body that shading loses when the light is not held: a Schur complement.
 
-A body a little flatter under a light a little farther aside shows the same brightness. With the
-light held, the information matrix M of the body claims to tell the two apart. With body and light
-as one vector, marginalising the light leaves M - C L⁻¹ Cᵀ (Schur), where L is the light's own
-block and C the mixed one.
+A slightly flatter body under a light slightly farther to the side shows the same brightness. With
+the light held, the information matrix M of the body claims to tell the two apart. With body and
+light as one vector, marginalising the light leaves M - C L⁻¹ Cᵀ, where L is the light's own block
+and C the mixed one.
 """
 
 import numpy as np
@@ -43,7 +43,7 @@ def information_lost_to_light(
         candidate.rendering, evidence, rows.vertices
     )
     own = light.T @ light
-    # A directional light has no distance: its column is zero and the prior keeps it apart.
+    # A directional light has no distance: its column is zero, and the prior keeps L regular.
     own[2, 2] += 1.0 / DISTANCE_SPREAD**2
     if evidence.light.surroundings is not None:
         _, uneven = surroundings_prior(evidence.light.surroundings)

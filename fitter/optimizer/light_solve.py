@@ -1,11 +1,11 @@
 """First step of the alternation (section 5): the light with body and reflectance held.
 
-Azimuth, elevation and distance, and with them the ambient light and one scale each for albedo and
-specularity, which keep the light from being judged by a reflectance fitted to another light.
+The unknowns are azimuth, elevation and distance, the ambient light, and one scale each for albedo
+and specularity; without the scales the light would be judged by a reflectance fitted to another.
 
 A light with surroundings has nine coefficients in place of the ambient light. Brightness is linear
-in them times the albedo's scale, so these products are what is solved for. Their prior
-(:func:`surroundings_prior`) keeps band 1 from passing for the lamp.
+in their products with the albedo's scale, so these products are solved for. Their prior
+(:func:`surroundings_prior`) keeps band 1 from being mistaken for the lamp.
 """
 
 from dataclasses import dataclass, replace
@@ -28,8 +28,8 @@ from fitter.render.surroundings import (
 )
 from fitter.request import LightGuess
 
-# A light's distance is told by attenuation across the body alone: a weak prior about 3 m, spread
-# over a factor of two, keeps it out of the body and out of infinity.
+# Only attenuation across the body tells a light's distance: a weak prior about 3 m, with a spread
+# of a factor of two, keeps it from ending inside the body or at infinity.
 _USUAL_DISTANCE_M = 3.0
 DISTANCE_SPREAD = 0.6
 _DISTANCE_RANGE_M = (1.0, 30.0)
@@ -41,10 +41,10 @@ SURROUNDINGS_SPREAD = 0.3
 
 _SURROUNDINGS_PRIOR_WEIGHT = 2e-3
 AMBIENT_COLUMNS = slice(3, -2)
-"""Of :func:`light_columns`: those of the ambient light or the surroundings."""
+"""Columns of :func:`light_columns` for the ambient light or the surroundings."""
 
 _LEAST_SURROUNDINGS, _LEAST_LAMP = 0.01, 0.02
-"""Of the lamp's light, and of the surroundings': their ratio stays a number."""
+"""As shares of the lamp's light and of the surroundings': their ratio stays finite."""
 
 _DAMPING_DOWN, _DAMPING_UP = 0.3, 5.0
 _LARGEST_DAMPING = 1e6
@@ -52,7 +52,7 @@ _LARGEST_DAMPING = 1e6
 # First guesses when the caller gave none: frontal and from both sides, level and from above.
 _GUESSED_AZIMUTHS = (-0.9, 0.0, 0.9)
 _GUESSED_ELEVATIONS = (0.0, 0.7)
-# Each guess is followed for a few steps, the best of them on to the end.
+# Each guess is followed for a few steps, and the best of them to the end.
 _TRIAL_ITERATIONS, _CONTENDERS, _ITERATIONS = 4, 2, 12
 
 
@@ -60,7 +60,7 @@ _TRIAL_ITERATIONS, _CONTENDERS, _ITERATIONS = 4, 2, 12
 class LitSurface:
     """Surface points with what was observed there; camera frame, metres.
 
-    ``weights`` sum to one; ``albedo`` and ``specularity`` are held but for a common scale each;
+    ``weights`` sum to one; ``albedo`` and ``specularity`` are held except for a common scale each;
     ``ambient_limit`` is as in :class:`fitter.optimizer.reflectance_solve.ReflectanceProblem`;
     ``lit`` is the share of the lamp that each sees, None where no cast shadow is known.
     """
@@ -140,7 +140,7 @@ def first_light(surface: LitSurface, guesses: tuple[Light, ...]) -> LightEstimat
 
 
 def guessed_lights(guess: LightGuess) -> tuple[Light, ...]:
-    """Where to begin: the caller's coarse word (section 5), and all round where there is none."""
+    """Where to begin: the caller's rough guess (section 5), or all around if there is none."""
     distance = float("inf")
     if guess.kind is LightKind.POINT:
         distance = guess.distance or _USUAL_DISTANCE_M
@@ -215,9 +215,9 @@ def light_columns(
 ) -> Float[np.ndarray, "k columns"]:
     """Derivatives of Eq. 1 by azimuth, elevation, log distance, ambient light and two scales.
 
-    The scales multiply ``albedo`` and ``specularity``; a directional light has no distance, and
-    zeros in its column. Surroundings have nine columns, by the products of their coefficients with
-    the albedo's scale, in place of the ambient light's; that scale then is the lamp's alone.
+    The scales multiply ``albedo`` and ``specularity``; a directional light has no distance, so that
+    column is zero. Surroundings have nine columns, by the products of their coefficients with the
+    albedo's scale, in place of the ambient light's; the scale then applies to the lamp alone.
     """
     point = light.kind is LightKind.POINT
     by_albedo, ambient = derivatives.by_albedo, np.ones((len(albedo), 1))
@@ -239,10 +239,10 @@ def light_columns(
 def surroundings_prior(
     surroundings: Surroundings,
 ) -> tuple[Float[np.ndarray, "8"], Float[np.ndarray, "8 9"]]:
-    """How many standard deviations bands 1 and 2 are from none, and the derivatives.
+    """How many standard deviations bands 1 and 2 are from zero, and the derivatives.
 
-    Half their squares are nats. Relative to band 0, so that the scale of the coefficients does not
-    matter.
+    Half the sum of their squares is in nats. They are relative to band 0, so that the scale of the
+    coefficients does not matter.
     """
     level = max(surroundings[0], 1e-12)
     spread = SURROUNDINGS_SPREAD * np.array(BAND_TRANSFER)[BAND_OF[1:]]
@@ -308,7 +308,7 @@ def _stepped(
 
 
 def _surrounded(lamp: Light, products: Surroundings, albedo_scale: float) -> tuple[Light, float]:
-    """A lamp with surroundings that were solved for times the albedo's scale, and that scale."""
+    """A lamp with surroundings, from their products with the albedo's scale, and that scale."""
     products = without_negative_light(products, least=max(_LEAST_SURROUNDINGS * albedo_scale, 1e-9))
     albedo_scale = max(albedo_scale, _LEAST_LAMP * mean_irradiance(products))
     return replace(lamp, surroundings=products / albedo_scale), albedo_scale

@@ -21,18 +21,18 @@ from fitter.render.shadow import PENUMBRA_RINGS, cast_shadow, penumbra
 from fitter.render.surroundings import uniform_surroundings
 
 SPECULAR_EXPONENTS = (6.0, 12.0, 24.0, 48.0)
-"""α is chosen from these once, with the first light: skin's broad gloss to a moist shine."""
+"""α is chosen from these once, with the first light: from skin's broad gloss to a moist shine."""
 
 _FIRST_LIGHT_WIDENING = 8.0
 _LIGHT_WIDENING = 3.0
-"""Factors of η₁ for the light: while albedo is uniform, cloth and hair are no outliers to be
-rejected but half of what there is to see. At 1 the first light of two rendered people was 17 and 96
-degrees off, at 8 it was 4 and 6, and nearly the same from every guess."""
+"""Factors of η₁ for the light: while albedo is uniform, cloth and hair are not outliers to reject
+but half of what there is to see. At 1 the first light of two rendered people was 17 and 96 degrees
+off; at 8 it was 4 and 6, and nearly the same from every guess."""
 _LIGHT_ITERATIONS = 8
-# Of the lamp's light, where Eq. 1 found no ambient light to begin with.
+# Share of the lamp's light to begin with where Eq. 1 found no ambient light.
 _LEAST_FIRST_SURROUNDINGS = 0.02
 _LEAST_LIT = 30
-# A few vertices lie on hair, cloth or in a fold; this percentile is the darkest skin.
+# A few vertices lie on hair or cloth or in a fold; this percentile is taken as the darkest skin.
 _DARKEST_PERCENTILE = 3.0
 
 
@@ -85,7 +85,7 @@ def first_surroundings(
 ) -> ShadingEvidence:
     """The first light with surroundings: Eq. 1's ambient light of a uniform albedo, then improved.
 
-    The lamp comes first: surroundings that are free from the start take some of its light.
+    The lamp comes first: surroundings that are free from the start would take some of its light.
     """
     reflectance = state.reflectance
     level = reflectance.ambient / max(float(reflectance.albedo[0]), 1e-6)
@@ -101,7 +101,7 @@ def first_surroundings(
 def with_new_light(
     candidate: Candidate, state: ShadingEvidence, *, widening: float = _LIGHT_WIDENING
 ) -> ShadingEvidence:
-    """The light that best explains a body of the state's reflectance but for its scales."""
+    """The light that best explains a body with the state's reflectance, up to its scales."""
     surface = _lit_surface(
         candidate,
         replace(state, eta=widening * state.eta),
@@ -133,9 +133,9 @@ def with_new_light(
 def with_new_shadows(
     objective: Objective, candidate: Candidate, state: ShadingEvidence
 ) -> ShadingEvidence:
-    """The vertices in the shadows the light casts on a body, and round their borders.
+    """The state with the vertices in and around the shadows that the light casts on a body.
 
-    Where they hide all there is to see the light is mistaken, and the shadows stay as they were.
+    If shadows cover everything that is seen, the light is wrong, and they stay as they were.
     """
     shadowed = _in_shadow(objective, candidate, state)
     edges = objective.operators.topology.edges
@@ -147,10 +147,10 @@ def with_new_shadows(
 def with_explained_shadows(
     objective: Objective, candidate: Candidate, state: ShadingEvidence
 ) -> ShadingEvidence:
-    """The same where surroundings say what a shadow shows: all but its border takes part.
+    """The same with surroundings, which explain the inside of a shadow: only its border stays out.
 
-    For what is reported. While the body is found shadows are left out all the same: where they fall
-    depends on the body, and on what the body does not have, such as hair.
+    For the light and reflectance that are reported. While the body is being found shadows are left
+    out all the same: where they fall depends on the body, and on what it does not model, like hair.
     """
     shadowed = _in_shadow(objective, candidate, state)
     edges = objective.operators.topology.edges
@@ -181,7 +181,7 @@ def _in_shadow(
 
 
 def darkest(observed: Float[np.ndarray, " k"]) -> float:
-    """The intensity of the darkest skin, of what is observed."""
+    """The intensity of the darkest skin among those observed."""
     return float(np.percentile(observed, _DARKEST_PERCENTILE))
 
 

@@ -1,8 +1,8 @@
 """The Gauss-Newton normal equations of an objective at a candidate.
 
 The gradient is exact for the rows: their derivatives by vertex positions and normals are pulled
-back through the body by its reverse mode. The matrix uses the linear-blend tangent, and few rows:
-it only shapes the step.
+back through the body by its reverse mode. The matrix uses the linear-blend tangent and only some of
+the rows: it merely shapes the step.
 """
 
 import numpy as np
@@ -35,7 +35,7 @@ from fitter.optimizer.row_jacobians import (
     shading_row_jacobian,
 )
 
-# Rows of each kind that enter the matrix; the gradient uses all of them.
+# At most this many rows of each kind enter the matrix; the gradient uses all of them.
 MATRIX_ROWS = 300
 MATRIX_SHADING_ROWS = 300
 
@@ -48,8 +48,8 @@ def normal_equations(
 ) -> tuple[Matrix, Vector]:
     """Matrix and gradient over the full parameter vector, in nats.
 
-    The matrix knows that the ease which all loose clothes share is free, where the energy takes its
-    most probable value: that of lines does. ``marginal``: where the energy holds it, too.
+    The matrix treats the ease that all loose clothes share as free wherever the energy takes its
+    most probable value, as that of lines does; with ``marginal``, also where the energy holds it.
     """
     operators, evidence, scales = objective.operators, objective.evidence, objective.scales
     rendering, parameters = candidate.rendering, candidate.parameters
@@ -104,7 +104,7 @@ def normal_equations(
 
 
 def outline_rows(objective: Objective, candidate: Candidate) -> tuple[PositionRows, ...]:
-    """Rows of the silhouette energy: of its lines, or of the segmented region."""
+    """Rows of the silhouette energy: those of its lines, or of the segmented region."""
     evidence, scales = objective.evidence, objective.scales
     if evidence.lines is not None:
         return line_rows(candidate.rendering, evidence.lines, scales)

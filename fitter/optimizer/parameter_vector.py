@@ -6,7 +6,7 @@ from jaxtyping import Float
 from fitter.body.scape import BodyDerivative, increment
 from fitter.parameters import BodyParameters
 
-# Longest step taken at once: beyond it the linearisation says nothing.
+# Longest single step: beyond it the linearisation means nothing.
 _LONGEST_TURN = 0.35
 _LONGEST_MOVE_M = 0.25
 _LONGEST_SHAPE = 1.5
@@ -26,7 +26,7 @@ def as_vector(derivative: BodyDerivative) -> Float[np.ndarray, " columns"]:
 def limited(
     parameters: BodyParameters, step: Float[np.ndarray, " columns"]
 ) -> Float[np.ndarray, " columns"]:
-    """The step scaled down to where its linearisation still says something."""
+    """The step, scaled down if necessary to where its linearisation still holds."""
     pose, translation, shape = _split(parameters, step)
     excess = max(
         float(np.linalg.norm(pose, axis=1).max()) / _LONGEST_TURN,

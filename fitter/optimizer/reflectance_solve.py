@@ -20,7 +20,7 @@ from scipy import sparse
 from fitter.arrays import PerVertex
 from fitter.numerics.robust import geman_mcclure, geman_mcclure_weights
 
-# Ties what nobody sees and nothing neighbours to the starting value; too weak to be felt elsewhere.
+# Ties unseen vertices without neighbours to the starting value; too weak to matter elsewhere.
 _RIDGE = 1e-4
 
 
@@ -35,12 +35,12 @@ class ReflectanceProblem:
     intensity
         (m,) r_i, linear luminance; anything where the weight is zero.
     weights
-        (m,) of the data term, zero for vertices not seen; mean one over those seen.
+        (m,) weights of the data term, zero for vertices not seen; mean one over those seen.
     edges, edge_lengths
         (e, 2) and (e,) the mesh's edges and their lengths over the mean length.
     ambient_limit
         Largest b: every point shows at least the ambient light, so b cannot exceed the darkest
-        of what is seen.
+        intensity seen.
     albedo_smoothness, specularity_smoothness
         λ₁ and λ₂.
     data_eta, albedo_eta, specularity_eta
@@ -80,7 +80,7 @@ def reflectance_energy(problem: ReflectanceProblem, fields: ReflectanceFields) -
     )
     data = float((problem.weights * geman_mcclure(residual, problem.data_eta)).sum())
     first, second = problem.edges.T
-    # Each edge is met from both of its ends.
+    # Each edge is counted from both of its ends.
     albedo = geman_mcclure(fields.albedo[first] - fields.albedo[second], problem.albedo_eta)
     specularity = geman_mcclure(
         fields.specularity[first] - fields.specularity[second], problem.specularity_eta
@@ -174,7 +174,7 @@ class ReflectanceSolver:
             ]
         )
         coupling = np.concatenate([weight * d, weight * s])
-        # Ambient light couples to everything: eliminated by the Schur complement.
+        # Ambient light couples to everything, so it is eliminated by the Schur complement.
         free = solver.solve(pull)
         by_ambient = solver.solve(coupling)
         ambient = (float(weight @ problem.intensity) - float(coupling @ free)) / max(
@@ -189,7 +189,7 @@ class ReflectanceSolver:
         )
 
     def _refactored(self, matrix: sparse.csc_matrix) -> qdldl.Solver:
-        """The factor of a matrix of the one pattern; only the first call orders it."""
+        """Factorise a matrix of the fixed pattern; only the first call computes the ordering."""
         if self._solver is None:
             self._solver = qdldl.Solver(matrix, upper=True)
         else:

@@ -15,7 +15,7 @@ from fitter.render.rasterizer import render
 
 
 def with_lines_about(objective: Objective, body: BodyParameters, display: Image) -> Objective:
-    """The objective with lines laid out across the contour of a body near the person.
+    """The objective with lines placed across the contour of a body near the person.
 
     ``display`` (h, w, 3) holds the picture's display values in [0, 1].
     """
@@ -33,7 +33,7 @@ def with_lines_about(objective: Objective, body: BodyParameters, display: Image)
 
 
 def renewing_lines(searches: Sequence[BodySearch], display: Image) -> BodySearch:
-    """One search after the other, each with lines laid out about the body it starts from."""
+    """Searches in sequence, each with lines placed along the contour of the body it starts from."""
 
     def search(objective: Objective, start: BodyParameters) -> Minimum:
         found: list[Minimum] = []

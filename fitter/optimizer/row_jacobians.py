@@ -1,8 +1,8 @@
 """Rows of the Gauss-Newton matrix: residuals' derivatives by all body parameters.
 
-The derivative of a point by every parameter is never written down: each row's own derivative is
-taken through the linear-blend tangent at once (:mod:`fitter.optimizer._row_kernels`), in a
-twentieth of the time.
+The derivative of a point by every parameter is never stored: each row's own derivative is taken
+straight through the linear-blend tangent (:mod:`fitter.optimizer._row_kernels`), in a twentieth of
+the time.
 """
 
 import numpy as np
@@ -31,7 +31,7 @@ def position_row_jacobian(
     frame
         The body they were taken at.
     attachments, positions
-        How the points hang on the body and where they are, camera frame, metres.
+        How the points are attached to the body, and where they are, camera frame, metres.
     """
     result = _empty(len(rows.residuals), frame)
     kernels.position_row_jacobian(
@@ -58,7 +58,7 @@ def shading_row_jacobian(
     """√w ∂r of each row, through the vertex and through its normal.
 
     The normal turns with the body (:func:`fitter.body.tangent.direction_jacobian`), and changes
-    with the shape as on the body at rest.
+    with the shape as it does on the body at rest.
     """
     attachments = operators.tangent.vertices
     model = operators.model
@@ -89,12 +89,12 @@ def shading_row_jacobian(
 
 
 def scatter(rows: PositionRows, derivative: Vertices) -> None:
-    """Add w r ∂r to the derivative by the rows' points, in place."""
+    """Add w r ∂r to the derivative at the rows' points, in place."""
     kernels.scatter(rows.weights * rows.residuals, rows.points, rows.derivatives, derivative)
 
 
 def scatter_sums(by_sums: Points3D, support: SparseRows, derivative: Vertices) -> None:
-    """Add a derivative by weighted sums of vertices to that by the vertices, in place."""
+    """Pull a derivative by weighted sums of vertices back to the vertices, in place."""
     kernels.scatter_sums(by_sums, support.pointers, support.indices, support.weights, derivative)
 
 

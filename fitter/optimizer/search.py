@@ -1,4 +1,4 @@
-"""Which optimiser searches, and for how long."""
+"""Which optimiser is used, and for how long."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -13,18 +13,18 @@ from fitter.request import OptimizerKind
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SearchLimits:
-    """True energies computed at most.
+    """Limits on the number of true energies computed.
 
     Attributes
     ----------
     first
-        For the first body before the second segmentation.
+        For the first body, before the second segmentation.
     hypotheses, trial
-        Readings of the clicks that are tried on the picture, and for how long.
+        How many readings of the clicks are tried on the picture, and for how long.
     contenders, contest
-        The best of them that are searched on, and for how long.
+        How many of the best are searched further, and for how long.
     silhouette_and_edges
-        From the best of them to the minimum of E1.
+        From the best of these to the minimum of E1.
     shading_round
         For the body in each round of the alternation.
     """
@@ -48,8 +48,8 @@ _LIMITS: Mapping[OptimizerKind, SearchLimits] = {
         silhouette_and_edges=100,
         shading_round=40,
     ),
-    # The paper's search needs tens of thousands; this is what a request can wait for (about two
-    # minutes), and the outcome says that the limit ended it.
+    # The paper's search needs tens of thousands; this is as long as a request can wait (about two
+    # minutes), and the outcome says that the limit was reached.
     OptimizerKind.SIMPLEX: SearchLimits(
         first=150,
         hypotheses=2,
@@ -75,7 +75,7 @@ def limits_of(kind: OptimizerKind) -> SearchLimits:
 def body_search(
     kind: OptimizerKind, max_evaluations: int, on_energies: EnergyObserver
 ) -> BodySearch:
-    """A search over the body with everything but objective and start settled."""
+    """A search over the body with everything fixed but the objective and the start."""
     minimize = _MINIMIZERS[kind]
 
     def search(objective: Objective, start: BodyParameters) -> Minimum:

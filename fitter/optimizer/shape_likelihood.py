@@ -1,13 +1,13 @@
-"""What one picture says of the shape, apart from what was known before it was looked at.
+"""What one picture says about the shape, apart from what was known beforehand.
 
-Near its minimum β̂ the energy of a picture, with pose, place and light marginalised, is a
-paraboloid over the shape, ½ (β - β̂)ᵀ H (β - β̂). The prior N(m, P⁻¹), and what the caller knows of
-the person (residuals r with slopes S), are a part of it; taken away they leave
+Near its minimum β̂ the energy of a picture, with pose, position and light marginalised, is a
+paraboloid over the shape, ½ (β - β̂)ᵀ H (β - β̂). It includes the prior N(m, P⁻¹) and what the
+caller knows about the person (residuals r with slopes S); subtracting these leaves
 
     ½ βᵀ Λ β - ηᵀ β,    Λ = H - P - SᵀS,    η = Λ β̂ + P (β̂ - m) + Sᵀ r,
 
-which pictures of one person add up. The height, and what else is held, does not vary: Λ and the
-slopes lie in the space of what does.
+which can be summed over pictures of one person. The height and whatever else is held do not vary:
+Λ and the slopes lie in the space of what does.
 """
 
 from collections.abc import Sequence
@@ -22,7 +22,7 @@ from fitter.energies.priors import ShapePrior
 from fitter.optimizer.free_space import held_shape, kept_directions
 
 _STEPS = 3
-"""Attributes bend little: of so many linear solves the last changes nothing."""
+"""Linear solves; attributes are so nearly linear that the last one changes nothing."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -48,17 +48,17 @@ def shape_likelihood(
     prior: ShapePrior,
     attributes: KnownAttributes,
 ) -> ShapeLikelihood:
-    """Of a picture whose minimum lies at ``shape``, under a prior and what is known.
+    """The likelihood of a picture whose minimum under a prior and what is known is ``shape``.
 
-    ``covariance`` is :func:`fitter.optimizer.uncertainty.shape_covariance`; how uncertain the
-    height is does not matter.
+    ``covariance`` is that of :func:`fitter.optimizer.uncertainty.shape_covariance`; the height's
+    variance in it does not matter.
     """
     directions = kept_directions(attributes.held, shape)
     among_equally_tall = directions.T @ _given_height(covariance) @ directions
     before = directions.T @ (prior.precision + _information_of(attributes, shape)) @ directions
     own = np.linalg.inv(among_equally_tall) - before
     values, vectors = np.linalg.eigh(0.5 * (own + own.T))
-    # A picture takes nothing away from what was known.
+    # A picture cannot take away from what was known.
     axes = directions @ vectors
     information = (axes * np.maximum(values, 0.0)) @ axes.T
     slope = prior.slope(shape) + _slope_of(attributes, shape)
@@ -69,7 +69,7 @@ def shape_likelihood(
 
 
 def prior_with(prior: ShapePrior, likelihoods: Sequence[ShapeLikelihood]) -> ShapePrior:
-    """The prior once these pictures are known too."""
+    """The prior updated with these pictures."""
     precision = prior.precision + sum(each.information for each in likelihoods)
     pull = prior.precision @ prior.mean + sum(each.pull for each in likelihoods)
     mean = prior.mean.copy()
@@ -80,9 +80,9 @@ def prior_with(prior: ShapePrior, likelihoods: Sequence[ShapeLikelihood]) -> Sha
 def most_probable_shape(
     prior: ShapePrior, attributes: KnownAttributes, start: Shape
 ) -> tuple[Shape, Float[np.ndarray, "n n"]]:
-    """The mode of a prior and what is known, as tall as ``start``, and its covariance.
+    """The mode under a prior and what is known, as tall as ``start``, and its covariance.
 
-    ``start`` has what is held.
+    ``start`` must have what is held.
     """
     shape, covariance = start, np.zeros_like(prior.precision)
     for _ in range(_STEPS):
@@ -104,7 +104,7 @@ def _slope_of(attributes: KnownAttributes, shape: Shape) -> Shape:
 
 
 def _given_height(covariance: Float[np.ndarray, "n n"]) -> Float[np.ndarray, "n n"]:
-    """The covariance among people of one height."""
+    """The covariance among people of the same height."""
     if covariance[0, 0] <= 0.0:
         return covariance
     return covariance - np.outer(covariance[0], covariance[0]) / covariance[0, 0]

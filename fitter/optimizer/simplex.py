@@ -1,4 +1,4 @@
-"""The paper's optimiser: a gradient-free direct search simplex on the same energy (section 3)."""
+"""The paper's optimiser: Nelder and Mead's simplex search on the same energy (section 3)."""
 
 import numpy as np
 from scipy.optimize import minimize
@@ -37,7 +37,7 @@ def minimize_simplex(
 
     def energy(step: np.ndarray) -> float:
         nonlocal best, evaluations
-        # The spread is the same for all of the shape, which the directions mix.
+        # The spread is the same for all shape coefficients, since the directions mix them.
         whole = spread * (space.directions @ step)
         reached = space.moved(start, whole)
         evaluations += 1

@@ -14,7 +14,7 @@ from fitter.optimizer.normal_equations import normal_equations
 def shape_covariance(
     objective: Objective, candidate: Candidate, *, height_variance: float
 ) -> Float[np.ndarray, "n n"]:
-    """Covariance of the shape with pose, place, light and the ease of loose clothes marginalised.
+    """Covariance of the shape, with pose, position, light and ease of loose clothes marginalised.
 
     The albedo of each vertex is held, as is everything else the objective fixes. Energies are
     negative log-likelihoods, so the inverse of the Gauss-Newton matrix is the covariance of all
@@ -36,8 +36,8 @@ def shape_covariance(
 def _height_response(objective: Objective, candidate: Candidate, space: FreeSpace) -> Shape:
     """How the most probable shape changes with the height coefficient.
 
-    With what is held kept, the prior and the uncertain attributes together, Q = P + SᵀS of the
-    prior's precision and the attributes' slopes: with the response e that keeps what is held,
+    What is held is kept. With Q = P + SᵀS, from the prior's precision and the slopes of the
+    uncertain attributes, the response e that keeps what is held and the free directions B, it is
     e - B (BᵀQB)⁻¹ BᵀQ e.
     """
     held, shape = space.height_response, candidate.parameters.shape
