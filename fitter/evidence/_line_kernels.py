@@ -1,4 +1,4 @@
-"""Compiled loops over correspondence lines. Plain arrays in and out; the wrappers carry meaning.
+"""Compiled loops over correspondence lines. Plain arrays in and out; the wrappers document them.
 
 Sample j of a line lies ``j - reach`` pixels outside its centre. ``first`` and ``last`` (k,) are the
 samples of each line that can be used, inclusive. A side is a row of nine numbers: the mean of its
@@ -12,17 +12,17 @@ import numpy as np
 from numba import njit
 
 PLACES = 4
-"""Places at which a boundary is looked for, a pixel."""
+"""Candidate places for the boundary per pixel."""
 
 BLUR = 2
-"""Pixels from a boundary beyond which a pixel shows one side alone."""
+"""Distance from a boundary, pixels, beyond which a pixel shows one side only."""
 
 ODD_SHARE = 0.02
-"""Share of pixels of neither side's colours: a highlight, a strand of hair, a joint of a wall. For
-them every colour of the unit cube is as likely, and none makes a line believe anything strange."""
+"""Share of pixels with neither side's colours: a highlight, a strand of hair, a joint of a wall.
+For them every colour of the unit cube is equally likely, so that none can mislead a line."""
 
 NEGLIGIBLE = 12.0
-"""Minus the logarithm of a density that adds nothing to that of odd pixels."""
+"""Negative logarithm of a density that is negligible against that of odd pixels."""
 
 NEVER = 1e300
 
@@ -30,10 +30,10 @@ NEVER = 1e300
 @no_type_check
 @njit(cache=True, nogil=True, error_model="numpy")
 def usable_samples(silhouette, centres, normals, reach, first, last):
-    """How far each line runs within the body on one side, and off it on the other.
+    """How far each line runs inside the body on one side, and outside it on the other.
 
-    The pixel next to the centre may be on either side of the outline; the last before a further
-    outline is spared, for that one may stand wrong.
+    The pixel next to the centre may be on either side of the outline; the last one before another
+    outline is left out, because that outline may be misplaced.
     """
     height, width = silhouette.shape
     for k in range(centres.shape[0]):
@@ -77,7 +77,7 @@ def sample_lines(picture, centres, normals, first, last, samples):
 def side_sums(samples, first, last, boundaries, least, most, inside, outside):
     """Sums of 1, z and the upper triangle of z zᵀ on either side of each boundary; (k, 10) each.
 
-    Only what lies from ``least`` to ``most`` pixels off it counts.
+    Only samples between ``least`` and ``most`` pixels from the boundary count.
     """
     reach = (samples.shape[1] - 1) // 2
     inside[:] = 0.0
@@ -104,9 +104,9 @@ def boundary_posteriors(
 ):
     """Mean and variance of where each line's boundary lies, pixels outside its centre.
 
-    A boundary at x makes a sample at r show the share α of the person, by ``coverage`` of x - r;
-    the sample is then normal about α m₁ + (1-α) m₂ with covariance α² C₁ + (1-α)² C₂. Every place
-    between ``lowest`` and ``highest`` is as likely before.
+    With a boundary at x, a sample at r shows a share α of the person, ``coverage`` of x - r; the
+    sample is then normal about α m₁ + (1-α) m₂ with covariance α² C₁ + (1-α)² C₂. The prior is
+    uniform between ``lowest`` and ``highest``.
     """
     reach = (samples.shape[1] - 1) // 2
     mixtures = coverage.shape[0]
@@ -139,7 +139,7 @@ def boundary_posteriors(
 @no_type_check
 @njit(cache=True, nogil=True, error_model="numpy")
 def _pixel_costs(samples, first, last, inside, outside, coverage, costs):
-    """Minus the logarithm of each sample's density for each share of the person it may show."""
+    """Negative log density of each sample for each share of the person it may show."""
     factor = np.empty(6)
     covariance = np.empty(6)
     odd = -log(ODD_SHARE)
@@ -158,7 +158,7 @@ def _pixel_costs(samples, first, last, inside, outside, coverage, costs):
             v = factor[1] * x + factor[2] * y
             w = factor[3] * x + factor[4] * y + factor[5] * z
             nats = 0.5 * (u * u + v * v + w * w) + norm
-            # What is this unlikely is odd: most samples of most mixtures, for no logarithm at all.
+            # Anything this unlikely is odd: that spares the logarithm for most samples and shares.
             costs[j, m] = odd
             if nats < NEGLIGIBLE:
                 costs[j, m] = -log((1.0 - ODD_SHARE) * exp(-nats) + ODD_SHARE)

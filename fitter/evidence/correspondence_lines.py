@@ -1,13 +1,13 @@
 """Where the person ends on short lines across the body's contour, to a fraction of a pixel.
 
-GrabCut knows one mixture of colours a side for the whole picture, and its cut runs along walls'
-joints and boards where these are like the skin. Near a body that is almost right less needs to be
-known: on a line across its contour the person's colours lie on one side, the background's on the
-other, and both can be learnt on the spot from the lines around. Each line then gives the boundary a
-place and a variance, large where the two sides look alike.
+GrabCut has one mixture of colours per side for the whole picture, and its cut follows joints and
+boards of a wall that resemble the skin. Near a body that is almost right the task is easier: on a
+line across its contour the person's colours lie on one side and the background's on the other, and
+both can be learnt locally from the lines around. Each line then gives a position and a variance of
+the boundary; the variance is large where the two sides look alike.
 
 The lines are those of region-based tracking (Stoiber et al., SRT3D, IJCV 2022; RAPiD, Harris and
-Stennett 1990), the likelihood that of Hanek and Beetz' contracting curve density (IJCV 2004): a
+Stennett 1990); the likelihood is that of Hanek and Beetz' contracting curve density (IJCV 2004): a
 pixel on the boundary shows a mixture of both sides.
 """
 
@@ -25,38 +25,38 @@ from fitter.render.contours import ModelEdges
 from fitter.render.rasterizer import Rendering
 
 WINDOW_M, LEAST_WINDOW_PX = 0.025, 4
-"""How far from the body's contour the boundary is looked for."""
+"""How far from the body's contour the boundary is searched for."""
 
 DEPTH_M, LEAST_DEPTH_PX = 0.02, 4
-"""How far from the boundary colours are learnt and compared: skin darkens toward its rim, so that
-nearer is better. On the evaluation's tuning half 3.9 % of the lines err by more than 3 px; with
-3 cm 4.8 %, with 5 cm 5.5 %."""
+"""How far from the boundary colours are learnt and compared: skin darkens toward its rim, so nearer
+is better. On the evaluation's tuning half 3.9 % of the lines are off by more than 3 px; with 3 cm
+4.8 %, with 5 cm 5.5 %."""
 
 NEIGHBOURHOOD_M = 0.04
-"""Deviation of the weights by which lines around teach a line its colours."""
+"""Standard deviation of the weights with which a line learns its colours from its neighbours."""
 
 SPACING_PX, MOST_LINES = 2.0, 800
-"""One line for so many pixels of contour, but no more lines than this."""
+"""One line per this many pixels of contour, and at most this many lines."""
 
 FIRST_GUARD_PX, GUARD_PX = 2.0, 1.0
-"""Pixels nearer to the boundary than this teach no side: about the body's own contour, and about a
-boundary that was found."""
+"""No side is learnt from pixels nearer to the boundary than this: around the body's own contour,
+and around a boundary that was found."""
 
 BLUR_PX = 0.6
-"""Deviation of the lens, the pixel and the compression together."""
+"""Standard deviation of the blur by lens, pixel and compression together."""
 
 LEAST_DEVIATION = 0.012
-"""Of a colour from its neighbours: three steps of 8-bit display values, noise and compression."""
+"""Standard deviation of a colour: three steps of 8-bit display values, noise and compression."""
 
 INDEPENDENCE = 0.2
 """Pixels of a line are not independent: five count as one. On the tuning half, half of the lines
-then err by less than 0.64 of their own standard deviation, where 0.67 would be right."""
+are then off by less than 0.64 of their own standard deviation, where 0.67 would be right."""
 
 PASSES = 2
 """The colours are learnt on either side of the body's contour, then of the boundary found."""
 
 LEAST_SAMPLES = 3
-"""Of either side. A line with fewer lies in a gap too narrow, or on a limb too thin, to tell."""
+"""Samples needed on either side. With fewer, the gap is too narrow or the limb too thin to tell."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -66,13 +66,13 @@ class CorrespondenceLines:
     Attributes
     ----------
     points
-        (k, 2) vertex ids; a line belongs to the middle of their projections.
+        (k, 2) vertex ids; a line belongs to the midpoint of their projections.
     centres, normals
         (k, 2) where that was, continuous pixels, and the contour's outward unit normals.
     offsets, variances
-        (k,) where the boundary lies outside the centres, pixels, and how uncertain that is.
+        (k,) how far outside the centres the boundary lies, pixels, and the variance.
     confidence
-        (k,) how much of a line counts: what is seen may be no outline of the body.
+        (k,) how much a line counts: what is seen may not be the body's outline.
     cloth
         (k,) probability that the boundary is that of loose clothes; 0 where clothes are tight.
     spacing
@@ -96,7 +96,7 @@ def correspondence_lines(
     confidence: GreyImage,
     clothes: LooseOutline | None = None,
 ) -> CorrespondenceLines:
-    """Look for the person's boundary along the contour of a body.
+    """Search for the person's boundary along the contour of a body.
 
     Parameters
     ----------
@@ -107,8 +107,8 @@ def correspondence_lines(
     confidence
         (h, w) how much an outline counts.
     clothes
-        Of a person in loose clothes: the boundary is looked for about their outline, which may lie
-        far outside the body's contour.
+        For a person in loose clothes: the boundary is searched for around their outline, which may
+        lie far outside the body's contour.
     """
     pixels_per_metre = rendering.camera.focal_length_px / float(rendering.vertices[:, 2].mean())
     window = max(round(WINDOW_M * pixels_per_metre), LEAST_WINDOW_PX)
@@ -153,7 +153,7 @@ def correspondence_lines(
 
 
 def _on_the_outline(edges: ModelEdges, rendering: Rendering) -> Bool[np.ndarray, " e"]:
-    """Edges that border on the background within the picture."""
+    """Edges that border the background within the picture."""
     middles = edges.endpoints.mean(axis=1)
     size = [rendering.camera.width - 1.0, rendering.camera.height - 1.0]
     return (
@@ -164,7 +164,7 @@ def _on_the_outline(edges: ModelEdges, rendering: Rendering) -> Bool[np.ndarray,
 def _spread_along(
     edges: ModelEdges, usable: Bool[np.ndarray, " e"]
 ) -> tuple[Integer[np.ndarray, " k"], float]:
-    """Edges at even steps of contour, so that each is as likely as it is long; and the step."""
+    """Edges at even steps along the contour, chosen in proportion to length; and the step."""
     ids = np.flatnonzero(usable)
     lengths = np.linalg.norm(edges.endpoints[ids, 1] - edges.endpoints[ids, 0], axis=1)
     ends = np.cumsum(lengths)
@@ -175,7 +175,7 @@ def _spread_along(
 
 
 def _neighbourhood(centres: Points2D, normals: Points2D, spread: float) -> Float[np.ndarray, "k k"]:
-    """Weights by which lines teach one another: those that are near and face the same way."""
+    """Weights with which lines learn from one another: near ones that face the same way."""
     squares = (centres**2).sum(axis=1)
     apart = squares[:, None] + squares - 2.0 * centres @ centres.T
     alike = np.maximum(normals @ normals.T, 0.0)
@@ -192,8 +192,8 @@ def _boundaries(
 ) -> tuple[Float[np.ndarray, " k"], Float[np.ndarray, " k"]]:
     """Mean and variance of each line's boundary.
 
-    Where a line ends early another limb begins, or the limb is thin: the boundary lies on the near
-    half of what is left.
+    Where a line ends early, another limb begins or the limb is thin: the boundary is then sought
+    in the near half of what is left.
     """
     first, last = usable
     reach = window + depth
@@ -220,7 +220,7 @@ def _boundaries(
             offsets,
             variances,
         )
-    # Places are so far apart that one alone is uncertain within its step.
+    # Candidate places are discrete: even a single one is uncertain within its step.
     return offsets, variances + 1.0 / (12.0 * kernels.PLACES**2)
 
 

@@ -9,8 +9,8 @@ from jaxtyping import Float
 from fitter.arrays import GreyImage, Image, Points2D
 from fitter.evidence.sampling import sample
 
-# Canny's thresholds on 8-bit grey after smoothing: its author's advice is a ratio of 2 to 3. Low
-# enough to see an arm before the trunk, skin against skin.
+# Canny's thresholds on 8-bit grey after smoothing; its author advises a ratio of 2 to 3. Low enough
+# to see an arm in front of the trunk, skin against skin.
 _CANNY_LOW, _CANNY_HIGH = 25.0, 70.0
 _SMOOTHING_PX = 1.2
 
@@ -31,12 +31,12 @@ class EdgeCostMap:
 
 
 def edge_cost_map(display: Image, *, threshold_px: float) -> EdgeCostMap:
-    """Canny edges of the picture's display values, distance cut off at ``threshold_px``.
+    """Distance to Canny edges of the picture's display values, truncated at ``threshold_px``.
 
     Parameters
     ----------
     display
-        (h, w, 3) display-encoded values in [0, 1]: edges are sought in what people see.
+        (h, w, 3) display-encoded values in [0, 1]: edges are sought as people see them.
     threshold_px
         Distance at which an edge no longer attracts.
     """
@@ -44,6 +44,6 @@ def edge_cost_map(display: Image, *, threshold_px: float) -> EdgeCostMap:
     smooth = cv2.GaussianBlur(grey, (0, 0), _SMOOTHING_PX)
     levels = np.round(smooth * 255.0).clip(0, 255).astype(np.uint8)
     edges = cv2.Canny(levels, _CANNY_LOW, _CANNY_HIGH, L2gradient=True)
-    # The 5 x 5 mask errs by 2 % and takes a quarter of the time; beyond the threshold all is one.
+    # The 5 x 5 mask is off by 2 % and takes a quarter of the time; past the threshold all is 1.
     distance = cv2.distanceTransform((edges == 0).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     return EdgeCostMap(cost=(np.minimum(distance, threshold_px) / threshold_px).astype(np.float32))

@@ -9,7 +9,7 @@ from jaxtyping import Bool, Float
 from fitter.arrays import GreyImage, Image, Mask, Points2D
 from fitter.evidence.sampling import sample
 
-# Vertices of trunk and limbs project a few pixels apart: finer detail than that is texture.
+# Vertices of trunk and limbs project a few pixels apart; finer detail is texture.
 _SMOOTHING_PX = 1.5
 # Pixels this near the outline mix person and background.
 _RIM_PX = 3

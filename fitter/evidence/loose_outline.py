@@ -1,4 +1,4 @@
-"""The outline of a person in loose clothes, as seen from the contour of a body within it."""
+"""The outline of a person in loose clothes, found from the contour of a body inside it."""
 
 from dataclasses import dataclass
 
@@ -10,22 +10,22 @@ from fitter.evidence.sampling import sample
 from fitter.render.rasterizer import Rendering
 
 FARTHEST_M, INWARD_M = 0.18, 0.05
-"""How far outside and inside a body's contour the outline of its clothes is looked for."""
+"""How far outside and inside a body's contour the outline of the clothes is searched for."""
 
 WITHIN_M = 0.01
-"""How far inside a boundary what is seen tells whether it is cloth's: its rim is mixed."""
+"""How far inside a boundary to look whether it is cloth's: the rim itself is mixed."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class LooseClothes:
-    """What is known of the clothes a person is said to wear.
+    """What is known about the clothes of a person said to wear loose ones.
 
     Attributes
     ----------
     bare
         (m,) probability that no clothes hide a vertex, from a body near the person.
     learnt_from
-        What taught the skin's colour: ``face``, ``hands``, or nothing.
+        What the skin's colour was learnt from: ``face``, ``hands``, or nothing.
     looks_undressed
         Whether trunk and thighs show so much of that colour that there may be no loose clothes.
     """
@@ -45,10 +45,10 @@ class LooseOutline:
     def beyond(
         self, rendering: Rendering, centres: Points2D, normals: Points2D
     ) -> Float[np.ndarray, " k"]:
-        """Pixels from a contour outward to the outline, negative where it lies within.
+        """Pixels from a contour outward to the outline, negative where it lies inside.
 
-        Not finite where there is none in reach, or where another limb comes first: the clothes
-        bridge a gap, and say nothing of the limbs on its sides.
+        Not finite where there is none in reach, or where another limb comes first: clothes then
+        bridge a gap, and say nothing about the limbs on either side.
         """
         pixels_per_metre = rendering.camera.focal_length_px / float(rendering.vertices[:, 2].mean())
         inward, outward = round(INWARD_M * pixels_per_metre), round(FARTHEST_M * pixels_per_metre)
@@ -69,7 +69,7 @@ class LooseOutline:
     def cloth_within(
         self, boundary: Points2D, normals: Points2D, pixels_per_metre: float
     ) -> Float[np.ndarray, " k"]:
-        """Probability that points of the boundary, with outward normals, are of loose cloth."""
+        """Probability that points of the boundary, with outward normals, belong to loose cloth."""
         return sample(self.cloth, boundary - WITHIN_M * pixels_per_metre * normals)[0]
 
 
@@ -77,7 +77,7 @@ _PAST_THE_RIM_PX = 2
 
 
 def _at(region: Mask, places: Float[np.ndarray, "k s 2"]) -> np.ndarray:
-    """The region at continuous pixels; beyond the picture there is nothing."""
+    """The region at continuous pixels; False outside the picture."""
     height, width = region.shape
     column, row = (np.floor(places[..., axis]).astype(int) for axis in (0, 1))
     within = (column >= 0) & (column < width) & (row >= 0) & (row < height)

@@ -1,4 +1,4 @@
-"""Where an outline can be believed: not around hair, and hardly around hands."""
+"""Where an outline can be trusted: hardly around hair and hands."""
 
 from collections.abc import Sequence
 
@@ -9,15 +9,15 @@ from jaxtyping import Float
 from fitter.arrays import GreyImage
 
 DOUBTFUL_CONFIDENCE = 0.05
-"""What is left of an outline's weight in a doubtful region. The model has no hair, and its
-hands are relaxed while people's are not. Two centimetres of hair all round are a head a tenth
+"""What is left of an outline's weight in a doubtful region. The model has no hair, and its hands
+are relaxed while people's may not be. Two centimetres of hair all around make a head a tenth
 larger: with full weight a body leaned forward to bring its head nearer to the camera."""
 
 
 def outline_confidence(
     height: int, width: int, regions: Sequence[Float[np.ndarray, "_ 2"]], *, margin_px: float
 ) -> GreyImage:
-    """A map of weights, 1 but for the surroundings of each region.
+    """A map of weights, 1 except around each region.
 
     Parameters
     ----------

@@ -10,7 +10,7 @@ from fitter.evidence._sampling_kernels import bilinear
 def sample(values: GreyImage, points: Points2D) -> tuple[Float[np.ndarray, " k"], Points2D]:
     """Values and derivatives (per pixel, x then y) of the bilinear interpolation.
 
-    Pixel centres lie at + 0.5; beyond the outermost centres the map goes on unchanged and its
+    Pixel centres lie at + 0.5; beyond the outermost centres the map continues unchanged and its
     slope across the border is zero.
     """
     result = np.empty((len(points), 3))

@@ -1,4 +1,4 @@
-"""What a segmentation says to the silhouette energy: its region, distances and outline."""
+"""What the silhouette energy needs of a segmentation: region, distances and outline."""
 
 from dataclasses import dataclass
 
@@ -14,13 +14,13 @@ from fitter.numerics.distance_map import exact_distances
 # Outline points are taken this far apart: denser ones repeat each other.
 _SPACING_PX = 3.0
 _SHORTEST_OUTLINE = 8
-# The mask is smoothed by this much and the outline taken where it is half: between pixels, without
-# the staircase. Of a disc the points then err by 0.1 px (0.27 px on the staircase) and the normals
-# by 3 degrees; a finger 5 px thick loses 0.4 px of its radius, an arm 0.03 px.
+# The mask is smoothed by this much and the outline taken where it is one half: between pixels,
+# without the staircase. On a disc the points are then off by 0.1 px (0.27 px on the staircase) and
+# the normals by 3 degrees; a finger 5 px thick loses 0.4 px of its radius, an arm 0.03 px.
 _SMOOTHING_PX = 1.5
-# Where the smoothed mask is all but flat, the step to its half is not to be trusted.
+# Where the smoothed mask is almost flat, the step to one half cannot be trusted.
 _FLATTEST = 0.02
-# A thread of 2 px is nowhere half when smoothed: its outline is left out rather than guessed.
+# A thread of 2 px never reaches one half when smoothed: its outline is left out, not guessed.
 _FARTHEST_FROM_HALF = 0.2
 
 
@@ -37,11 +37,11 @@ class SilhouetteEvidence:
     confidence
         (h, w) how much an unmatched pixel or outline point counts, in [0, 1].
     cloth
-        (h, w) probability that what is seen there is loose cloth, off the person that of their
+        (h, w) probability that what is seen there is loose cloth; off the person, that of their
         nearest pixel; None where clothes are tight.
     boundary_points, boundary_normals
         (b, 2) points of the outline in continuous pixels, between the pixels' centres, with
-        outward unit normals; the picture's own border is no outline.
+        outward unit normals; the picture's own border is not part of the outline.
     boundary_spacing
         Pixels of outline each point stands for.
     occupied_rows, occupied_columns
@@ -95,7 +95,8 @@ def silhouette_evidence(
 def signed_distance(mask: Mask) -> GreyImage:
     """Euclidean distance from pixel centres to the outline, positive outside.
 
-    OpenCV measures to the nearest centre of the other kind; the outline runs half a pixel nearer.
+    OpenCV measures to the nearest pixel centre of the other kind; the outline is half a pixel
+    nearer.
     """
     region = np.ascontiguousarray(mask).view(np.uint8)
     outside, inside = exact_distances(1 - region), exact_distances(region)
@@ -122,10 +123,10 @@ def _outline(mask: Mask) -> tuple[Points2D, Points2D]:
 def _onto_the_level_set(
     mask: Mask, points: Points2D
 ) -> tuple[Float[np.ndarray, "found 2"], Float[np.ndarray, "found 2"]]:
-    """Move points to where the smoothed mask is half, along its slope; and its outward normals.
+    """Move points along the smoothed mask's slope to where it is one half; and outward normals.
 
-    Across a straight outline the smoothed mask is the normal distribution of the distance, whose
-    inverse gives the distance at once; the second step corrects for curvature.
+    Across a straight outline the smoothed mask is the normal distribution function of the distance,
+    whose inverse gives the distance directly; the second step corrects for curvature.
     """
     smooth = cv2.GaussianBlur(
         mask.astype(np.float32), (0, 0), _SMOOTHING_PX, borderType=cv2.BORDER_REPLICATE

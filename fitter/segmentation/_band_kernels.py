@@ -1,4 +1,4 @@
-"""Compiled loops of the band's graph. Plain arrays in and out; the wrappers carry the meaning."""
+"""Compiled loops of the band's graph. Plain arrays in and out; the wrappers document them."""
 
 from typing import no_type_check
 
@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit
 
 OUTSIDE = -1
-"""Node number of a pixel beyond the picture."""
+"""Node number of a pixel outside the picture."""
 
 
 @no_type_check
@@ -40,12 +40,12 @@ def mean_squared_difference(picture):
 @no_type_check
 @njit(cache=True, nogil=True)
 def link_band(picture, known_foreground, nodes, rows, columns, straight, diagonal):
-    """Arcs between the band's pixels, and what binds them to known neighbours.
+    """Arcs between the band's pixels, and their links to known neighbours.
 
     ``nodes`` (h, w) numbers the open pixels and is negative at known ones; ``straight`` and
     ``diagonal`` hold an arc's capacity by the squared difference of its two pixels, and end where
-    it rounds to nothing. Returns the (8 n,) heads and capacities and, (n,), what known foreground
-    minus known background neighbours bind.
+    it rounds to zero. Returns the (8 n,) heads and capacities and the (n,) links to known
+    foreground minus those to known background.
     """
     height, width = nodes.shape
     count = rows.shape[0]
@@ -61,7 +61,7 @@ def link_band(picture, known_foreground, nodes, rows, columns, straight, diagona
                 continue
             other = nodes[ni, nj]
             if 0 <= other < node:
-                continue  # Written from the other side.
+                continue  # Already written from the other side.
             squared = 0
             for c in range(3):
                 difference = np.int32(picture[i, j, c]) - np.int32(picture[ni, nj, c])

@@ -1,7 +1,7 @@
 """Compiled maximum flow on a band of pixels. Plain arrays in and out.
 
-Nodes have eight arcs, one a neighbour: arc ``8 * node + direction`` leads to ``heads[arc]``, or to
-nothing where that is -1. Directions number the neighbours in reading order, so that direction
+Nodes have eight arcs, one per neighbour: arc ``8 * node + direction`` leads to ``heads[arc]``, or
+nowhere if that is -1. Directions number the neighbours in reading order, so that direction
 ``7 - d`` is opposite to ``d`` and the reverse of an arc is found without a table.
 """
 
@@ -14,8 +14,8 @@ FREE, SOURCE, SINK = 0, 1, 2
 """Which search tree a node is in."""
 
 NO_ARC, TO_TERMINAL, ORPHAN = -1, -2, -3
-"""In place of the arc to a node's parent. Nodes that hang at their terminal, and those whose arc to
-the parent was just filled."""
+"""Values in place of the arc to a node's parent: for nodes attached to their terminal, and for
+those whose arc to the parent was just saturated."""
 
 NOWHERE = 2**31 - 1
 
@@ -23,9 +23,9 @@ NOWHERE = 2**31 - 1
 @no_type_check
 @njit(cache=True, nogil=True)
 def push_to_neighbours(heads, capacities, terminals):
-    """Push what goes from an excess to a deficit over a single arc; in place.
+    """Push what flow can go from an excess to a deficit over a single arc; in place.
 
-    Most of the flow of a GrabCut is of this kind, and here it needs no search tree.
+    Most of the flow in GrabCut is of this kind, and this way it needs no search tree.
     """
     for node in range(terminals.shape[0]):
         if terminals[node] <= 0:
@@ -48,24 +48,25 @@ def push_to_neighbours(heads, capacities, terminals):
 @no_type_check
 @njit(cache=True, nogil=True)
 def maximum_flow(heads, capacities, terminals):
-    """Boykov and Kolmogorov's maximum flow (PAMI 2004, section 3); fills the graph in place.
+    """Boykov and Kolmogorov's maximum flow (PAMI 2004, section 3); updates the graph in place.
 
-    Two trees of unfilled arcs grow from the terminals until they touch; the path is filled up, and
-    what hung on filled arcs looks for a new parent in its tree or becomes free. Distances to the
-    terminal with the time they were known at keep the trees shallow (section 3.2.3).
+    Two trees of unsaturated arcs grow from the terminals until they touch; flow is pushed along the
+    path, and nodes left behind saturated arcs find a new parent in their tree or become free.
+    Time-stamped distances to the terminal keep the trees shallow (section 3.2.3).
 
     ``terminals`` (n,) is what each node can still receive from the source, negative where it can
-    still give to the sink. At the end both arrays hold what is left, so that a cut after a change
-    of the terminals can go on from there: add the change to what is left.
+    still give to the sink. At the end both arrays hold the residual capacities, so that after a
+    change of the terminals the next cut can go on from there: add the change to the residuals.
 
-    Returns the (n,) tree of each node. Those in SOURCE's are its side of the smallest minimum cut.
+    Returns the (n,) tree of each node. Those in SOURCE's tree are its side of the smallest minimum
+    cut.
     """
     count = terminals.shape[0]
     tree = np.zeros(count, dtype=np.uint8)
     parents = np.full(count, NO_ARC, dtype=np.int32)
     distance = np.zeros(count, dtype=np.int32)
     known_at = np.zeros(count, dtype=np.int32)
-    # A ring: a node is in it once at most.
+    # A ring buffer: a node is in it at most once.
     queue = np.empty(count + 1, dtype=np.int32)
     queued = np.zeros(count, dtype=np.bool_)
     first = last = 0
@@ -113,7 +114,7 @@ def maximum_flow(heads, capacities, terminals):
             continue
         time += 1
         orphan_count = _augment(heads, capacities, terminals, parents, meeting, orphans)
-        # Adoption. The list is a queue: nearer ones first.
+        # Adoption. The list is a queue, nearest first.
         next_orphan = 0
         while next_orphan < orphan_count:
             node = orphans[next_orphan % count]
@@ -156,7 +157,7 @@ def maximum_flow(heads, capacities, terminals):
 @no_type_check
 @njit(cache=True, nogil=True)
 def _augment(heads, capacities, terminals, parents, meeting, orphans):
-    """Fill the path over the arc where the trees met; returns how many orphans it left."""
+    """Saturate the path over the arc where the trees met; returns how many orphans that leaves."""
     start, end = heads[8 * heads[meeting] + 7 - (meeting & 7)], heads[meeting]
     amount = capacities[meeting]
     node = start
@@ -217,7 +218,7 @@ def _augment(heads, capacities, terminals, parents, meeting, orphans):
 @no_type_check
 @njit(cache=True, nogil=True)
 def _distance_to_terminal(heads, parents, distance, known_at, start, time):
-    """Arcs from a node to its terminal, NOWHERE if it hangs on an orphan; remembered on the way."""
+    """Number of arcs from a node to its terminal, NOWHERE if it descends from an orphan; cached."""
     length = 0
     node = start
     while known_at[node] != time:

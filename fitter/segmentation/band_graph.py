@@ -1,8 +1,8 @@
-"""The graph GrabCut cuts: open pixels as nodes, and how strongly neighbours hold together.
+"""The graph that GrabCut cuts: open pixels are nodes, linked to their neighbours.
 
-A known pixel is no node. Its link to an open neighbour cannot be cut from its own side, so it is as
-good as a link of that neighbour to the terminal the known pixel belongs to (Boykov and Jolly 2001).
-The band is a tenth to a third of the picture, and the time goes with the nodes.
+Known pixels are not nodes. A known pixel always stays on its own side, so its link to an open
+neighbour is equivalent to a link from that neighbour to the known pixel's terminal (Boykov and
+Jolly 2001). The band is a tenth to a third of the picture, and time grows with the nodes.
 """
 
 from dataclasses import dataclass
@@ -15,28 +15,28 @@ from fitter.segmentation._band_kernels import link_band, mean_squared_difference
 from fitter.segmentation._max_flow_kernels import SOURCE, maximum_flow, push_to_neighbours
 
 SMOOTHNESS = 50.0
-"""GrabCut's gamma: the cost of a border between two pixels of one colour, nats."""
+"""GrabCut's gamma: the cost of a border between two pixels of the same colour, nats."""
 
 STEPS_PER_NAT = 1000
-"""Capacities are whole numbers: sums are exact, and filled arcs exactly full."""
+"""Capacities are integers, so that sums are exact and saturated arcs exactly full."""
 
 CERTAIN = 9.0 * SMOOTHNESS
-"""No pixel's eight links together weigh more than 4 (1 + 1/sqrt(2)) gamma, so that beyond this
-difference between the two costs of a pixel the cut stays the same."""
+"""A pixel's eight links together weigh at most 4 (1 + 1/sqrt(2)) gamma, so the cut does not change
+once the difference between the pixel's two costs exceeds this."""
 
 
 @dataclass(slots=True, eq=False, kw_only=True)
 class BandGraph:
-    """What the flow so far left of the capacities. Cutting changes it.
+    """The residual graph after the flow so far. Mutable: cutting changes it.
 
     Attributes
     ----------
     heads, capacities
         (8 n,) see the kernels.
     bound
-        (n,) what known neighbours bind to the source, minus to the sink.
+        (n,) links through known neighbours to the source, minus those to the sink.
     given, left
-        (n,) preference for the source the flow was last asked for, and what of it is left.
+        (n,) preference for the source at the last cut, and what the flow left of it.
     """
 
     heads: Int[np.ndarray, " a"]
@@ -49,10 +49,10 @@ class BandGraph:
     def of(
         cls, picture: UInt8[np.ndarray, "h w 3"], open_pixels: Mask, foreground: Mask
     ) -> "BandGraph":
-        """Link the open pixels of a picture; ``foreground`` tells the sides of the others.
+        """Link the open pixels of a picture; ``foreground`` gives the sides of the others.
 
-        Two neighbours p and q hold together by gamma exp(-beta |z_p - z_q|²) / dist(p, q), with
-        beta the inverse of twice the mean of |z_p - z_q|² over the picture.
+        Two neighbours p and q are linked with weight gamma exp(-beta |z_p - z_q|²) / dist(p, q),
+        where beta is the inverse of twice the mean of |z_p - z_q|² over the picture.
         """
         rows, columns = (each.astype(np.int32) for each in np.nonzero(open_pixels))
         nodes = np.full(open_pixels.shape, -1, dtype=np.int32)
@@ -68,8 +68,8 @@ class BandGraph:
     def cut(self, preference: Float[np.ndarray, " n"]) -> Bool[np.ndarray, " n"]:
         """The open pixels on the foreground's side of the minimum cut.
 
-        Only terminals change from cut to cut, so the flow found before stays: the change is added
-        to what is left of them (Kohli and Torr 2005, section 3).
+        Only terminals change from cut to cut, so the previous flow is reused: the change is added
+        to their residuals (Kohli and Torr 2005, section 3).
 
         Parameters
         ----------
@@ -85,7 +85,7 @@ class BandGraph:
 
 
 def _capacity_table(mean_square: float) -> Int[np.ndarray, " d"]:
-    """Capacity of a straight link by the squared difference, up to where it rounds to nothing."""
+    """Capacity of a straight link by the squared difference, up to where it rounds to zero."""
     full = STEPS_PER_NAT * SMOOTHNESS
     beta = 0.5 / max(mean_square, np.finfo(np.float64).tiny)
     end = min(int(np.log(2.0 * full) / beta) + 1, 3 * 255**2 + 1)

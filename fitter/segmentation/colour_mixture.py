@@ -18,11 +18,11 @@ COMPONENTS = 5
 """GrabCut's."""
 
 LLOYD_ITERATIONS = 10
-"""The centres only start the mixtures, which are learnt again with every cut."""
+"""The centres only initialise the mixtures, which are learnt again with every cut."""
 
 ROUNDING_VARIANCE = 1.0 / 12.0
-"""Of a value known to one of 255 steps; keeps a component of one colour, as a clipped sky is, from
-having no spread at all."""
+"""Variance of rounding to one of 255 steps; keeps a component of a single colour, such as a clipped
+sky, from having none."""
 
 Colours = Float32[np.ndarray, "s 3"]
 """In steps of 8-bit display values, 0 to 255."""
@@ -35,7 +35,7 @@ class ColourMixture:
     Attributes
     ----------
     weights
-        (k,) shares, more than 0, in sum 1.
+        (k,) positive shares that sum to 1.
     means
         (k, 3).
     covariances
@@ -47,21 +47,21 @@ class ColourMixture:
     covariances: Float[np.ndarray, "k 3 3"]
 
     def costs(self, colours: Colours) -> Float32[np.ndarray, " s"]:
-        """Minus log density, up to a constant that is the same for all mixtures."""
+        """Negative log density, up to a constant that is the same for all mixtures."""
         return mixture_costs(colours, _components(self))
 
 
 def first_mixture(colours: Colours) -> ColourMixture:
     """The mixture of k-means clusters.
 
-    The centres start from the sample itself, so that the same colours always give the same: the
-    cluster that spreads most in any direction is cut across that direction at its mean, until there
-    are five (Orchard and Bouman 1991); k-means then moves them.
+    The initial centres are deterministic: the cluster with the largest spread in any direction is
+    split across that direction at its mean, until there are five (Orchard and Bouman 1991); k-means
+    then moves them.
 
     Parameters
     ----------
     colours
-        One at least.
+        At least one.
     """
     chosen = np.zeros(len(colours), dtype=np.uint8)
     mixture = _learnt(colours, chosen)
@@ -81,12 +81,12 @@ def first_mixture(colours: Colours) -> ColourMixture:
 
 
 def relearnt_mixture(mixture: ColourMixture, colours: Colours) -> ColourMixture:
-    """Each colour belongs to its likeliest component alone; the components are learnt anew.
+    """Assign each colour to its likeliest component, and learn the components again.
 
     Parameters
     ----------
     colours
-        One at least. A component that is nobody's likeliest is dropped.
+        At least one. A component that is not the likeliest for any of them is dropped.
     """
     return _learnt(colours, likeliest_components(colours, _components(mixture)))
 
@@ -114,7 +114,7 @@ def _components(mixture: ColourMixture) -> Float32[np.ndarray, "k 10"]:
 
 
 def _round_components(means: Float[np.ndarray, "k 3"]) -> Float32[np.ndarray, "k 10"]:
-    """Equal components round each mean: the likeliest is the nearest."""
+    """Equal components around the means, so that the likeliest is the nearest."""
     rows = np.zeros((len(means), 10), dtype=np.float32)
     rows[:, 1:4] = means
     rows[:, [4, 7, 9]] = 1.0

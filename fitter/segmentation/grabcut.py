@@ -1,7 +1,8 @@
 """GrabCut from the tri-map (section 3.2).
 
-Reference [18]: Rother, Kolmogorov and Blake, "GrabCut", SIGGRAPH 2004. With OpenCV's choices where
-it leaves some, but a graph of the band alone and mixtures that start from what is known.
+Reference [18]: Rother, Kolmogorov and Blake, "GrabCut", SIGGRAPH 2004. Where the paper leaves a
+choice we follow OpenCV, except that the graph covers the band alone and the mixtures start from the
+known pixels.
 """
 
 from dataclasses import dataclass
@@ -18,38 +19,38 @@ from fitter.segmentation.colour_mixture import first_mixture, relearnt_mixture
 from fitter.segmentation.trimap import Trimap, TrimapLabel, is_uncertain
 
 CUTS = 4
-"""The borders move little after the third: over 28 tri-maps of seven rendered people the masks
+"""Borders move little after the third cut: over 28 tri-maps of seven rendered people the masks
 overlap with the truth by 0.960, 0.962 and 0.963 after two, three and four, in 55, 70 and 81 ms.
-Where the first body is off by most the first two do as well, 0.961 for 0.959."""
+Where the first body is farthest off, two do as well: 0.961 against 0.959."""
 
 CUTS_FROM_KNOWN = 2
-"""How many of them learn the colours from the known pixels alone.
+"""How many of the cuts learn the colours from the known pixels alone.
 
-OpenCV's GrabCut learns from the band at once, by the side it leans to; what lies on the wrong side
-of a first body is then learnt as the person's, or the person's as the background's. Over the same
-tri-maps the overlap is 0.963, 0.959 with none such cut, 0.953 with none and mixtures started with
-the band too, and OpenCV's 0.954 to 0.959 as its random seed falls."""
+OpenCV's GrabCut learns from the band at once, by its probable sides; background inside the first
+body is then learnt as the person's colour, and the reverse. Over the same tri-maps the overlap is
+0.963; with no such cut it is 0.959, and 0.953 if the mixtures are also started with the band;
+OpenCV's is 0.954 to 0.959 depending on its random seed."""
 
 LEARNT_EVERY = 4
-"""Every fourth pixel teaches the colours: the masks overlap with the truth as well as with every
-one, to 0.0001 with mixtures started with the band, and learning takes a fourth of the time."""
+"""Colours are learnt from every fourth pixel: the masks overlap with the truth as well as with all
+of them (to 0.0001, for mixtures started with the band), in a quarter of the learning time."""
 
 SURROUNDINGS_SHARE = 0.15
 """How much sure background to show GrabCut around the band, as a share of the band's longer side:
-the background beside the person says more of what must be told from the skin than all the rest,
-and the time grows with the area."""
+what has to be told from the skin is mostly the background next to the person, and the time grows
+with the area."""
 
 HOLE_SHARE = 0.002
 """Holes below this share of the person's area are speckle (a buckle, a highlight); larger ones are
-gaps between arm and trunk."""
+real, such as the gap between arm and trunk."""
 
 LEAST_CONTRAST = 0.01
 """Standard deviation of display values below which there is nothing to see: 8-bit rounding and
 JPEG noise on a blank wall."""
 
 DECIDED_SHARE = 0.02
-"""Where all but this share of the band went to one side, the colours did not tell the sides apart.
-From a true person the band falls about half to each."""
+"""If less than this share of the band went to one side, the colours did not tell the sides apart.
+With a real person about half of the band goes to each."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -71,8 +72,8 @@ class Segmentation:
 def segment(display: Image, labels: Trimap) -> Segmentation:
     """Cut the person out of the picture.
 
-    GrabCut sees only the surroundings of the band. Kept of its result is what hangs together with
-    the sure foreground, with speckle holes filled.
+    GrabCut sees only the surroundings of the band. Of its result, what is connected to the sure
+    foreground is kept, with speckle holes filled.
 
     Parameters
     ----------
@@ -101,7 +102,7 @@ def segment(display: Image, labels: Trimap) -> Segmentation:
 
 
 def border_warnings(mask: Mask) -> tuple[FitWarning, ...]:
-    """What the silhouette, found or sent, tells of the picture: a body cut off by its border."""
+    """Warns if the silhouette, found or sent, shows a body cut off by the picture's border."""
     cut = [
         side
         for side, line in (
@@ -150,7 +151,7 @@ def _no_person(reason: str) -> InvalidInputError:
 
 
 def _window(labels: Trimap) -> tuple[slice, slice]:
-    """Rows and columns of all that is not sure background, with some of that around."""
+    """Rows and columns of everything but sure background, with a margin of it."""
     rows = np.flatnonzero((labels != TrimapLabel.BACKGROUND).any(axis=1))
     columns = np.flatnonzero((labels != TrimapLabel.BACKGROUND).any(axis=0))
     size = max(rows[-1] - rows[0], columns[-1] - columns[0]) + 1
@@ -162,7 +163,7 @@ def _window(labels: Trimap) -> tuple[slice, slice]:
 
 
 def _foreground(picture: UInt8[np.ndarray, "h w 3"], labels: Trimap) -> Mask:
-    """GrabCut: learn the colours of both sides, cut where colours and contrast say, and again.
+    """GrabCut: learn the colours of both sides, cut by colours and contrast, and repeat.
 
     Parameters
     ----------
@@ -171,7 +172,7 @@ def _foreground(picture: UInt8[np.ndarray, "h w 3"], labels: Trimap) -> Mask:
     """
     known = [labels == TrimapLabel.BACKGROUND, labels == TrimapLabel.FOREGROUND]
     if not all(side.any() for side in known):
-        # The person fills the picture: no samples of one side to learn from.
+        # The person fills the picture: one side has no samples to learn from.
         return labels != TrimapLabel.BACKGROUND
     open_pixels = is_uncertain(labels)
     graph = BandGraph.of(picture, open_pixels, known[1])

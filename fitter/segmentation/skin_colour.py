@@ -1,15 +1,15 @@
 """Which pixels of the person show bare skin, by the colours of their own face and hands.
 
 Balan and Black, "The Naked Truth", ECCV 2008: skin bounds the body tightly, clothes only
-from outside. Nobody's skin has a colour that is known beforehand, but the clicks say where this
-person's face is: its pixels teach the skin's colour, and hands that agree with it teach it further.
-Everything else the person shows teaches the colours of clothes and hair. A pixel is then skin with
+from outside. The colour of a person's skin is not known in advance, but the clicks say where the
+face is: skin's colour is learnt from its pixels, and from hands that agree with it. The colours of
+clothes and hair are learnt from the rest of the person. A pixel is then skin with probability
 
     P = π f_skin / (π f_skin + (1 - π) f_other),
 
 where π is how often that part of the body is bare on people who say that their clothes are loose.
-Colours are compared by the logarithms of red and blue over green, which shade leaves alone, and by
-a broad range of the logarithm of brightness.
+Colours are compared by the logarithms of red and blue over green, which shade does not change, and,
+with a wide tolerance, by the logarithm of brightness.
 """
 
 from collections.abc import Mapping
@@ -27,31 +27,31 @@ BARE_SHARE: Mapping[str, float] = {
     "spine": 0.05, "pelvis": 0.03, "thigh": 0.15, "shin": 0.35, "foot": 0.4,
 }  # fmt: skip
 """How often a part is bare on people in loose clothes, by its name without the side. Guesses: low
-on the trunk, so that cloth of the skin's own colour does not pass for skin."""
+on the trunk, so that cloth of the skin's colour is not mistaken for skin."""
 
 FACE_RADIUS_M = 0.04
-"""Round the nose: cheeks, lips, the lower forehead. Hair begins farther off."""
+"""Around the nose: cheeks, lips, the lower forehead. Hair begins farther out."""
 
 STEPS = 60.0
-"""Features are in these steps a unit of the logarithm, about the 8-bit steps of
-:mod:`fitter.segmentation.colour_mixture`."""
+"""Steps per unit of the logarithm in which features are counted, about as fine as the 8-bit steps
+of :mod:`fitter.segmentation.colour_mixture`."""
 
 LEAST_SAMPLES = 40
-"""Pixels of face or hands; with fewer no colour can be learnt."""
+"""Fewest pixels of face or hands from which a colour is learnt."""
 
 _DARKEST = 0.004
-# Linear light is added to before logarithms are taken: below it noise and compression rule.
+# Added to linear light before logarithms are taken: below it noise and compression dominate.
 _SHADE = 0.25
-# Of the face's brighter half: what is darker is hair, brow or nostril.
+# Share of the face's brighter half's brightness: anything darker is hair, brow or nostril.
 _CHROMA_DEVIATION = 0.07
 _BRIGHTNESS_DEVIATION = 0.8
-# Least deviations of the logarithms: compression and redness; a terminator and a highlight.
+# Smallest deviations of the logarithms: compression and redness; a terminator and a highlight.
 _WIDE, _WIDE_SHARE = 2.0, 0.1
 _UNUSUAL = 3.0
-# Deviations at which a first look takes a colour for another than skin.
+# Deviations at which a colour is at first taken for something other than skin.
 _ROUNDS = 3
 _ODD_SHARE, _ODD_NATS = 0.05, 13.5
-# Colours that neither side has: uniform over three by three by six units of the logarithms.
+# Colours of neither side: uniform over three by three by six units of the logarithms.
 _MOST_NATS = 5.0
 _SMOOTHING_M = 0.008
 
@@ -65,13 +65,13 @@ class SkinMap:
     Attributes
     ----------
     probability
-        (h, w) that the person's surface is bare there; off the person that of their nearest pixel.
+        (h, w) that the person's surface is bare there; off the person, that of their nearest pixel.
     coloured
-        (h, w) whether a pixel of the person has the skin's colour rather than another, whatever is
-        usual of its part.
+        (h, w) whether a pixel of the person has the skin's colour rather than another, regardless
+        of what is usual for its part.
     learnt_from
-        What taught the skin's colour: ``face``, ``hands`` or nothing, as where the picture has no
-        colours: the parts' own shares are then all that is known.
+        What the skin's colour was learnt from: ``face``, ``hands`` or nothing, for instance if the
+        picture has no colours; then only the shares that are usual for the parts are known.
     """
 
     probability: GreyImage
@@ -81,7 +81,7 @@ class SkinMap:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class PersonRegions:
-    """Where a body near the person has its parts.
+    """Where the parts of a body near the person lie in the picture.
 
     Attributes
     ----------
@@ -92,7 +92,7 @@ class PersonRegions:
     part_names
         Of the body model.
     face
-        Continuous pixels of the nose or what stands for it; None where the face is not seen.
+        Continuous pixels of the nose or a substitute; None if the face is not seen.
     pixels_per_metre
         At the body's distance.
     """
@@ -105,7 +105,7 @@ class PersonRegions:
 
 
 def skin_map(linear_rgb: Image, regions: PersonRegions) -> SkinMap:
-    """Learn the person's skin and find it.
+    """Learn the colour of the person's skin, and find where it shows.
 
     Parameters
     ----------
@@ -145,7 +145,7 @@ def _bare_shares(part_names: tuple[str, ...]) -> Float[np.ndarray, " p"]:
 
 
 def _nearest_part(regions: PersonRegions) -> Integer[np.ndarray, "h w"]:
-    """Each pixel's part, off the body that of the nearest pixel on it."""
+    """Each pixel's part; off the body, that of the nearest pixel on it."""
     on_body = regions.parts >= 0
     if not on_body.any():
         return np.zeros_like(regions.parts)
@@ -167,9 +167,9 @@ def _nearest_of(region: Mask) -> Integer[np.ndarray, "h w"]:
 def _skin_colours(
     features: Features, regions: PersonRegions, parts: Integer[np.ndarray, " s"]
 ) -> tuple[ColourMixture | None, tuple[str, ...]]:
-    """The face is the anchor; hands are believed where they look like it.
+    """The face is the anchor; hands are used where they look like it.
 
-    In a picture without colours everything looks like the face, and nothing is learnt.
+    In a picture without colours everything looks like the face, so nothing is learnt.
     """
     if not _has_colours(features):
         return None, ()
@@ -190,7 +190,7 @@ def _skin_colours(
         hands = hands[_chroma_distance(hands, _skin_gaussian(samples)) < _UNUSUAL]
     if len(hands) >= LEAST_SAMPLES:
         learnt_from.append("hands")
-        # A hand has more pixels than a face, and may hold something: it counts half at most.
+        # Hands have more pixels than a face, and may hold something: they count at most half.
         step = -(-2 * len(hands) // max(len(samples), 1)) if len(samples) else 1
         samples = np.concatenate([samples, hands[::step]])
     if not learnt_from:
@@ -199,13 +199,13 @@ def _skin_colours(
 
 
 def _has_colours(features: Features) -> bool:
-    """Whether the person shows more than one chroma, as in no black-and-white picture."""
+    """Whether the person shows more than one chroma, unlike in a black-and-white picture."""
     low, high = np.percentile(features[:, :2], [2.0, 98.0], axis=0)
     return bool((high - low).max() > STEPS * _CHROMA_DEVIATION)
 
 
 def _without_hair(features: Features) -> Float32[np.ndarray, "skin 3"]:
-    """Pixels of a face that are not much darker than its brighter half."""
+    """The pixels of a face that are not much darker than its brighter half."""
     if not len(features):
         return features
     bright = np.percentile(features[:, 2], 75.0)
@@ -213,7 +213,7 @@ def _without_hair(features: Features) -> Float32[np.ndarray, "skin 3"]:
 
 
 def _skin_gaussian(samples: Features) -> ColourMixture:
-    """A robust Gaussian: the median, then what lies near it; with a wider one for odd skin."""
+    """A robust Gaussian from the median and what lies near it, plus a wider one for odd skin."""
     chosen = samples.astype(np.float64)
     least = STEPS * np.array([_CHROMA_DEVIATION, _CHROMA_DEVIATION, _BRIGHTNESS_DEVIATION])
     mean, covariance = np.median(chosen, axis=0), np.diag(least**2)
@@ -235,7 +235,7 @@ def _skin_gaussian(samples: Features) -> ColourMixture:
 
 
 def _chroma_distance(features: Features, skin: ColourMixture) -> Float[np.ndarray, " s"]:
-    """Deviations from the skin's colour whatever the brightness."""
+    """Deviations from the skin's colour regardless of brightness."""
     away = (features - skin.means[0])[:, :2]
     return np.sqrt((away**2 / np.diag(skin.covariances[0])[:2]).sum(axis=1))
 
@@ -243,7 +243,7 @@ def _chroma_distance(features: Features, skin: ColourMixture) -> Float[np.ndarra
 def _skin_over_other(
     features: Features, skin: ColourMixture, prior: Float[np.ndarray, " s"]
 ) -> Float[np.ndarray, " s"]:
-    """Log f_skin - log f_other, the other colours learnt from what is not taken for skin."""
+    """Log f_skin - log f_other; the other colours are learnt from what is not taken for skin."""
     cost_of_skin = skin.costs(features).astype(np.float64)
     other: Bool[np.ndarray, " s"] = _chroma_distance(features, skin) > _UNUSUAL
     mixture: ColourMixture | None = None
@@ -261,7 +261,7 @@ def _skin_over_other(
 
 
 def _smoothed(values: GreyImage, region: Mask, deviation_px: float) -> GreyImage:
-    """Smoothed within the region alone."""
+    """Smooth values within a region, ignoring those outside."""
     inside = region.astype(np.float32)
     spread = cv2.GaussianBlur(inside, (0, 0), deviation_px)
     smooth = cv2.GaussianBlur(values * inside, (0, 0), deviation_px)
@@ -271,5 +271,5 @@ def _smoothed(values: GreyImage, region: Mask, deviation_px: float) -> GreyImage
 def face_point(
     clicked: Points2D, nose: Float[np.ndarray, "2"] | None
 ) -> Float[np.ndarray, "2"] | None:
-    """Where the face is: the mean of what was clicked of it, else where a body shows its nose."""
+    """Where the face is: the mean of the clicks on it, else the nose of a rendered body."""
     return clicked.mean(axis=0) if len(clicked) else nose

@@ -14,34 +14,36 @@ BAND_SHARE_OF_WIDTH = 0.05
 
 LEAST_BAND_SHARE_OF_BODY = 0.04
 LARGEST_BAND_SHARE_OF_BODY = 0.08
-"""The paper's pictures are filled by the person. In a tall narrow picture 5 % of the width is less
-than the first pose is off, in a wide empty one more than the body is broad; so the band is also
-kept between these shares of the silhouette's longer side: 7 and 14 cm on a standing adult."""
+"""In the paper's pictures the person fills the frame. In a tall narrow picture 5 % of the width is
+less than the error of the first pose, in a wide empty one more than the body's breadth; so the band
+is also kept between these shares of the silhouette's longer side: 7 and 14 cm on a standing adult.
+"""
 
 BONE_SHARE_OF_BODY = 0.012
 """Width of the sure foreground along a clicked bone: 2 cm on a standing adult, less than any limb.
-The band erodes all limbs away, and what GrabCut has no sample of it gives to the background."""
+Erosion by the band leaves nothing of the limbs, and GrabCut gives what it has no sample of to the
+background."""
 
 LEANING_SHARE = 0.5
-"""How far inside the silhouette, as a share of the band, a pixel must lie to be foreground at the
-start. What the first body covers wrongly lies along its border; taught to GrabCut as the person's
-colours it comes back, as the dark gap between the legs of a figure before a dark ground did."""
+"""How far inside the silhouette, as a share of the band, a pixel must lie to start as foreground.
+What the first body covers wrongly lies along its border; if GrabCut learns it as the person's
+colour it stays, as the dark gap between the legs of a figure on a dark background did."""
 
 
 SEEDED_BAND_SHARE_OF_BODY = 0.008
-"""Half the width of the band about the detector's mask: its pixels are so large."""
+"""Half the width of the band about the detector's mask: the size of one of its pixels."""
 
 LEAST_SEEDED_BAND_PX = 2.0
 
 LEAST_BONES_COVERED = 0.95
-"""Share of the clicked bones that must run within the detector's mask."""
+"""Share of the clicked bones that must lie inside the detector's mask."""
 
 
 class TrimapLabel(IntEnum):
-    """What a pixel is known to be; the numbers are OpenCV's.
+    """What is known about a pixel; the numbers are OpenCV's.
 
-    The paper's tri-map has one uncertain label. Here the band leans to one side, where GrabCut
-    starts from; both sides of it are open.
+    The paper's tri-map has one uncertain label. Here the band has two, for the side where GrabCut
+    starts a pixel; both are open to change.
     """
 
     BACKGROUND = cv2.GC_BGD
@@ -66,9 +68,9 @@ def trimap(silhouette: Mask, bones: Float[np.ndarray, "b 2 2"], *, band: float) 
     bones
         (b, 2, 2) both ends of clicked limbs, continuous pixels: sure foreground wherever they run,
         because the person was clicked there, while the silhouette is only a first guess. The band
-        reaches round them too.
+        surrounds them too.
     band
-        How far to erode and to dilate, pixels.
+        How far to erode and dilate, pixels.
     """
     skeleton = np.zeros(silhouette.shape, dtype=np.uint8)
     thickness = max(1, round(BONE_SHARE_OF_BODY * body_size(silhouette, bones)))
@@ -89,13 +91,13 @@ def seeded_trimap(seed: GreyImage, bones: Float[np.ndarray, "b 2 2"]) -> Trimap 
     Parameters
     ----------
     seed
-        (h, w) probability that a pixel is the person's.
+        (h, w) probability that a pixel shows the person.
     bones
         As for :func:`trimap`.
 
     Returns
     -------
-    None if the mask leaves out some of the person: clicked limbs run outside it.
+    None if the mask misses part of the person: clicked limbs run outside it.
     """
     person = seed > 0.5
     if not _covers(person, bones):
@@ -105,7 +107,7 @@ def seeded_trimap(seed: GreyImage, bones: Float[np.ndarray, "b 2 2"]) -> Trimap 
 
 
 def _covers(person: Mask, bones: Float[np.ndarray, "b 2 2"]) -> bool:
-    """Whether nearly all of the bones lies within the mask."""
+    """Whether nearly all of the bones' length lies inside the mask."""
     along = np.zeros(person.shape, dtype=np.uint8)
     for start, end in np.rint(bones - 0.5).astype(int):
         cv2.line(along, start.tolist(), end.tolist(), 1)
@@ -145,7 +147,7 @@ def trimap_picture(labels: Trimap) -> Image:
 
 
 def _distance_to(region: UInt8[np.ndarray, "h w"]) -> Float[np.ndarray, "h w"]:
-    """Distance of each pixel to the nearest of the region, pixels; infinite if there is none."""
+    """Distance of each pixel to the region's nearest, in pixels; infinite if it is empty."""
     if not region.any():
         return np.full(region.shape, np.inf, dtype=np.float32)
     return exact_distances(1 - region)
