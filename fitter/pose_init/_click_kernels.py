@@ -1,7 +1,7 @@
 """Numba kernels of the fit to clicks; see :mod:`fitter.pose_init.click_fit` for what they compute.
 
 Sizes: p parts, k landmarks of which the first c were clicked, s slants, h hints, j turning joints,
-n = 3 j + 3 columns. All of one pose; body frame axes unless said otherwise.
+n = 3 j + 3 columns. All for one pose; body frame axes unless said otherwise.
 """
 
 from typing import no_type_check
@@ -95,7 +95,7 @@ def pose_points(rig, pose, translation, rotations, joints, shares, points):
 @no_type_check
 @njit(cache=True)
 def hint_excess(row, toward, reach, points):
-    """How much farther along the view a limb reaches than told, metres."""
+    """How much farther along the view a limb reaches than hinted, metres."""
     excess = -reach
     for k in range(len(points)):
         if row[k] != 0.0:
@@ -329,7 +329,7 @@ def solve_in_place(matrix, vector):
 def descend(rig, prior, clicks, soft, turning, columns, pose, translation, rules):
     """Damped Gauss-Newton from one pose; changes pose and translation, returns the energy.
 
-    ``columns`` says how many columns move: all n, or 3 fewer with the place held.
+    ``columns`` says how many columns move: all n, or 3 fewer if the position is held.
     """
     iterations, tolerance, first_damping, most_damping, trace = rules
     p, k = len(pose), len(rig[2])

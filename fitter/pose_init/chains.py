@@ -1,9 +1,9 @@
 """Arms and legs: every reading of a two-limb chain, as joint rotations with their plausibility.
 
-A bone's direction leaves its twist open. Elbow and knee are hinges, so where the chain is bent the
-plane of the bend gives the twist of the upper limb: the hinge lies along upper × lower, knees bend
-backward and elbows forward. Where the chain is nearly straight that plane is noise, and the twist
-stays at the prior's mean.
+A bone's direction does not determine its twist. Elbow and knee are hinges, so where the chain is
+bent the plane of the bend gives the twist of the upper limb: the hinge lies along upper × lower,
+knees bend backward and elbows forward. Where the chain is nearly straight that plane is noise, and
+the twist stays at the prior's mean.
 """
 
 from collections.abc import Mapping
@@ -27,10 +27,10 @@ OVERREACH_SPREAD_M = 0.03
 """Standard deviation of how much too long a limb may appear: its length is only predicted."""
 
 _STRAIGHT, _BENT = 0.15, 0.5
-"""Sines of the bend below which its plane is ignored, and above which it is fully believed."""
+"""Sines of the bend below which its plane is ignored, and above which it is fully trusted."""
 
 _DISTINCT = 0.15
-"""Two readings of a limb count as one when their ends are nearer than this share of its length."""
+"""Two readings of a limb count as one if their ends are closer than this share of its length."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -63,7 +63,7 @@ def chain_readings(
     parent_rotation: Float[np.ndarray, "g 3 3"],
     limb_facing: Mapping[str, Facing],
 ) -> ChainReadings:
-    """Lift one chain from its place on each trunk.
+    """Lift one chain from where it is attached to each trunk.
 
     Parameters
     ----------
@@ -72,11 +72,11 @@ def chain_readings(
     chain
         Names of the upper and lower limb.
     root
-        (g, 3) where the chain hangs, camera frame, metres.
+        (g, 3) where the chain is attached, camera frame, metres.
     parent_rotation
-        (g, 3, 3) global rotation of the part it hangs on, body frame axes.
+        (g, 3, 3) global rotation of the part it is attached to, body frame axes.
     limb_facing
-        The caller's word.
+        Which way limbs face according to the caller.
     """
     g = len(root)
     upper, lower = (limb_named(name) for name in chain)

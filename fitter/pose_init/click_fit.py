@@ -1,7 +1,7 @@
-"""Gauss-Newton on clicks, from each of a batch of poses.
+"""Damped Gauss-Newton on clicks, from each of a batch of poses.
 
-Minimises the energy of :mod:`fitter.pose_init.click_problem`. Steps are damped and accepted on the
-energy. Turns are applied as exp(δ) exp(pose), which has no pole.
+Minimises the energy of :mod:`fitter.pose_init.click_problem`. A step is accepted only if the energy
+decreases. Rotations are updated as exp(δ) exp(pose), which has no pole.
 """
 
 from dataclasses import dataclass
@@ -24,10 +24,10 @@ from fitter.pose_init.click_problem import (
 
 _FIRST_DAMPING = 1e-2
 _MOST_DAMPING = 1.0
-"""A pose whose steps fail beyond this damping has arrived."""
+"""A pose whose steps still fail at this damping has converged."""
 
 _TRACE = 1e-6
-"""The root has no prior: keeps the matrix regular where clicks leave it undetermined."""
+"""The root has no prior: this keeps the matrix regular where clicks leave the root undetermined."""
 
 KernelArguments = tuple[tuple, tuple, tuple, tuple, Integer[np.ndarray, " j"]]
 
@@ -41,13 +41,13 @@ class FittedPoses:
     energy: Float[np.ndarray, " b"]
 
     def chosen(self, rows: Integer[np.ndarray, " c"]) -> "FittedPoses":
-        """Some of them, in this order."""
+        """The given poses, in this order."""
         return FittedPoses(
             pose=self.pose[rows], translation=self.translation[rows], energy=self.energy[rows]
         )
 
     def ranked(self) -> "FittedPoses":
-        """All of them, best first."""
+        """All poses, best first."""
         return self.chosen(np.argsort(self.energy, kind="stable"))
 
 
@@ -61,8 +61,8 @@ def fit_clicks(
 ) -> FittedPoses:
     """Refine each pose of a batch by damped Gauss-Newton steps.
 
-    A pose stops when a step gained less than ``tolerance`` (in units of energy, half a squared
-    standard deviation), or none can be found.
+    A pose stops when a step gains less than ``tolerance`` (in units of energy, half a squared
+    standard deviation), or no step lowers the energy.
     """
     pose = np.array(pose, dtype=np.float64, order="C")
     translation = np.array(translation, dtype=np.float64, order="C")
@@ -79,7 +79,7 @@ def fit_clicks(
 
 
 def kernel_arguments(problem: ClickProblem, pixels: Points2D) -> KernelArguments:
-    """A problem as the kernels take it: plain arrays of fixed types, compiled once."""
+    """A problem in the form the kernels take: plain arrays of fixed types, compiled once."""
     rig, prior, camera = problem.rig, problem.prior, problem.camera
     return (
         (

@@ -4,9 +4,9 @@ The energy of a pose is half the sum of squares of
 
 - click residuals, pixels over their standard deviation,
 - the pose prior and the joint limits (:mod:`fitter.body.pose_prior`),
-- the trunk's slant to the image plane, softly: pictures of people are mostly taken level,
-- a limb's slant against the caller's word, where there is one,
-- and against what the detector tells of it, by Huber's function.
+- the trunk's slant to the image plane, a weak term: pictures of people are mostly taken level,
+- a limb's slant against the facing given by the caller, if any,
+- and against the detector's estimate, with Huber's loss.
 """
 
 from collections.abc import Container, Mapping
@@ -27,17 +27,17 @@ from fitter.request import Facing
 
 TRUNK_LEAN_SPREAD = 0.2
 """Standard deviation of the trunk's long axis along the view, as a sine (about 12 degrees): the
-foreshortening of a lean is of second order, so a few per cent of a limb's length would buy one."""
+foreshortening of a lean is of second order, so a few per cent too little length would cause one."""
 
 TRUNK_YAW_SPREAD = 1.0
 """The same for the axis across the hips: only enough to break ties toward front and back views."""
 
 HINT_TRUNCATION = 1.5
-"""Standard deviations beyond which a detected slant is believed less and less."""
+"""Number of standard deviations beyond which a detected slant is trusted less and less."""
 
 FACING_MARGIN_M = 0.02
 FACING_SPREAD_M = 0.02
-"""A limb said to face the camera has its far end at least the margin nearer."""
+"""A limb said to face the camera has its far end nearer by at least this margin."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -51,7 +51,7 @@ class SlantHints:
     toward
         (3,) unit vector from the camera to the person, camera frame.
     reach_m, precision
-        (h,) how much farther along it far ends lie, metres, and one over the standard deviation.
+        (h,) how much farther along it far ends lie, metres, and the inverse standard deviation.
     """
 
     rows: Float[np.ndarray, "h k"]
@@ -60,7 +60,7 @@ class SlantHints:
     precision: Float[np.ndarray, " h"]
 
     def none_of(self, landmarks: int) -> "SlantHints":
-        """No hints, for a rig of so many landmarks."""
+        """No hints, for a rig with this many landmarks."""
         return replace(
             self,
             rows=np.zeros((0, landmarks)),
@@ -82,20 +82,20 @@ class ClickProblem:
     camera
         The camera.
     clicked
-        How many of the rig's landmarks, its first, were clicked: c.
+        How many of the rig's landmarks were clicked; these come first: c.
     pixels
-        (c, 2) where, or (b, c, 2) for each pose of a batch its own.
+        (c, 2) the clicks, or (b, c, 2) separate ones for each pose of a batch.
     precision
-        (c,) one over the standard deviation, 1/pixels.
+        (c,) inverse standard deviation, 1/pixels.
     slants
-        (s, k) rows over the rig's landmarks: far end minus near end of each limb the caller spoke
-        about, times -1 where it faces away; the slant's depth should be negative.
+        (s, k) rows over the rig's landmarks: far end minus near end of each limb whose facing the
+        caller gave, times -1 where it faces away; the slant's depth should be negative.
     hints
-        What the detector tells of slants.
+        What the detector says about slants.
     turning
         (p,) joints to solve for.
     moving
-        Whether the root's place is solved for.
+        Whether to solve for the root's position.
     """
 
     rig: LandmarkRig
@@ -120,11 +120,11 @@ def click_problem(
     limb_facing: Mapping[str, Facing],
     slants: DetectedSlants | None = None,
 ) -> ClickProblem:
-    """The problem of the whole body; ``scale`` is the picture's pixels a metre.
+    """The problem for the whole body; ``scale`` is in pixels per metre.
 
-    Of a limb that the caller spoke about the detector's slant does not count.
+    The detector's slant is ignored for limbs whose facing the caller gave.
 
-    Joints that move no clicked landmark stay out of it.
+    Joints that move no clicked landmark are left out.
     """
     ends = [name for limb in LIMBS for name in (limb.proximal, limb.distal) if name not in MIDDLES]
     corners = [name for pair in MIDDLES.values() for name in pair]

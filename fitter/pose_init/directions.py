@@ -10,7 +10,7 @@ from fitter.numerics.vectors import cross_products, unit_vectors
 def frames(
     across: Float[np.ndarray, "... 3"], along: Float[np.ndarray, "... 3"]
 ) -> Float[np.ndarray, "... 3 3"]:
-    """Orthonormal frames (columns) with the second axis along, the first nearest to across."""
+    """Orthonormal frames (columns): second axis ``along``, first axis nearest to ``across``."""
     second = unit_vectors(along)
     first = unit_vectors(across - (across * second).sum(axis=-1, keepdims=True) * second)
     return np.stack([first, second, cross_products(first, second)], axis=-1)
@@ -29,7 +29,7 @@ def swings(
 ) -> Float[np.ndarray, "... 3 3"]:
     """The smallest rotations that turn unit vectors ``start`` into unit vectors ``end``.
 
-    Between opposite directions every perpendicular axis serves; one is chosen.
+    For opposite directions any perpendicular axis works; one is chosen.
     """
     start, end = np.broadcast_arrays(start, end)
     axis = cross_products(start, end)

@@ -24,7 +24,7 @@ FACE_POINTS = (
     "head_top",
 )
 ENOUGH_FACE_POINTS = 3
-"""Fewer cannot tell a turn from a nod: then the neck keeps the prior's mean."""
+"""Fewer points cannot tell a turn from a nod: then the neck keeps the prior's mean."""
 
 
 def turn_head(
@@ -34,7 +34,7 @@ def turn_head(
     *,
     iterations: int = 4,
 ) -> Float[np.ndarray, "b p 3"]:
-    """Poses with neck and head turned toward the face points, everything else kept.
+    """Turn neck and head toward the face points, with everything else kept.
 
     Parameters
     ----------

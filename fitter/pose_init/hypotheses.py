@@ -16,22 +16,23 @@ from fitter.pose_init.start_poses import start_poses
 from fitter.request import Facing
 
 STARTS = 16
-"""Closed-form readings that are refined at all."""
+"""At most this many closed-form readings are refined."""
 
 MOST_HYPOTHESES = 8
-"""Hypotheses refined to the end and returned at most."""
+"""At most this many hypotheses are refined fully and returned."""
 
 _ROUGH_ITERATIONS, _FINE_ITERATIONS = 5, 20
 
 HOPELESS_ENERGY = 25.0
-"""Hypotheses this much above the best are dropped: e to the -25 is no alternative, and a limb
-folded through its own limits only costs the picture's evidence time to refuse."""
+"""Hypotheses this much above the best are dropped: a likelihood of e to the -25 is no alternative,
+and a limb bent far beyond its limits would only cost time until the picture's evidence rejects it.
+"""
 
 _SAME_BASIN = np.radians(12.0)
-"""Roughly refined poses whose joints all agree this closely will end in the same place."""
+"""Roughly refined poses whose joints all agree this closely would converge to the same pose."""
 
 _CLEAR_SLANT = 0.15
-"""Difference of two slants, as a share of the limb's length (about 9 degrees), that counts."""
+"""Difference of two slants that matters, as a share of the limb's length (about 9 degrees)."""
 
 _SAME_POSE = np.radians(6.0)
 """Refined poses whose joints all agree this closely are one hypothesis."""
@@ -46,7 +47,7 @@ def refined_hypotheses(
     reference: ReferenceLimb,
     limb_facing: Mapping[str, Facing],
 ) -> FittedPoses:
-    """Closed form, head, and refinement on blended landmarks; best first."""
+    """Closed-form starts, head, and refinement on blended landmarks; best first."""
     starts = start_poses(
         problem.rig,
         problem.prior,
@@ -65,7 +66,7 @@ def refined_hypotheses(
 
 
 def distinct_hypotheses(fitted: FittedPoses) -> FittedPoses:
-    """Best first, without poses that came out the same as a better one, or hopelessly worse."""
+    """Best first, without poses that converged to a better one's or are hopelessly worse."""
     return _distinct(fitted.ranked(), _SAME_POSE, most=len(fitted.pose))
 
 
@@ -73,8 +74,8 @@ def limb_facings(rig: LandmarkRig, fitted: FittedPoses) -> list[dict[str, Facing
     """Which way every limb of every pose faces.
 
     A limb nearly parallel to the image may come out a degree to either side in two poses that are
-    really one reading of it. So a pose says otherwise than the first only of limbs whose slant
-    clearly differs.
+    really the same reading. So a pose differs from the first only in limbs whose slant clearly
+    differs.
     """
     points = pose_landmarks(rig, fitted.pose, fitted.translation).points
     result: list[dict[str, Facing]] = [{} for _ in points]

@@ -1,15 +1,15 @@
-"""Pose from clicks (section 3.1): from closed form to a few refined, ranked hypotheses.
+"""Pose from clicks (section 3.1): from closed-form readings to a few refined, ranked hypotheses.
 
 1. Predict limb lengths from the height-constrained mean person.
 2. Take the root's depth from the limb most parallel to the image.
-3. Lift the limbs by Lee and Chen in every way the image and the caller's word allow, turn lifted
+3. Lift the limbs by Lee and Chen in every way that the image and the caller allow, turn the lifted
    points into joint angles, rank by joint limits and prior.
 4. Turn the head toward the face points.
 5. Refine the best by Gauss-Newton on the clicks, first on blended landmarks, then with the small
    difference to the SCAPE surface's own landmarks taken into account.
 
-The best hypothesis is the pose; the others are returned with their energies, because what clicks
-cannot tell the picture may.
+The best hypothesis is the pose; the others are returned with their energies, because the picture
+may resolve what clicks cannot.
 """
 
 import dataclasses
@@ -58,7 +58,7 @@ class PoseHypothesis:
     facing
         By limb name: which way the limb faces here.
     flipped
-        Limbs that face the other way than in the best hypothesis.
+        Limbs that face the opposite way from the best hypothesis.
     """
 
     parameters: BodyParameters
@@ -76,13 +76,13 @@ class InitialPose:
     parameters
         The best hypothesis' body.
     hypotheses
-        All, best first, at most :data:`~fitter.pose_init.hypotheses.MOST_HYPOTHESES`.
+        All of them, best first, at most :data:`~fitter.pose_init.hypotheses.MOST_HYPOTHESES`.
     reference_limb
         The limb taken as most parallel to the image.
     root_depth_m
         Depth of the root joint in the best hypothesis.
     residual_px
-        By click name: distance from the click to the body's landmark.
+        Distance from each click to the body's landmark, by name.
     """
 
     parameters: BodyParameters
@@ -110,14 +110,14 @@ def initialize_pose(
     camera
         The camera of the picture that was clicked in.
     clicks
-        Clicked landmarks; names the model does not know are an error of the caller of this
-        function and raise ``ValueError``.
+        Clicked landmarks; names the model does not know are a programming error and raise
+        ``ValueError``.
     shape
         The mean person of the height (:func:`fitter.body.shape_space.shape_for_height`).
     limb_facing
-        The caller's word, by limb name; obeyed.
+        Which way limbs face according to the caller, by limb name; always obeyed.
     slants
-        How the detector sees limbs slant, a hint.
+        How limbs slant according to the detector; a hint.
 
     Raises
     ------
@@ -158,7 +158,7 @@ def initialize_pose(
 def reference_of(
     clicks: ClickedPoints, trunk: TrunkPoints, lengths_m: Mapping[str, float]
 ) -> ReferenceLimb:
-    """Among limbs seen in full; the torso, even guessed, where there is none."""
+    """The reference limb among those seen in full; without any, the torso, even if guessed."""
     pixels = {**clicks.by_name(), **trunk.pixels}
     seen = [
         limb.name
@@ -180,7 +180,7 @@ def _surface_landmarks(
 def _on_the_surface(
     evaluator: ScapeEvaluator, problem: ClickProblem, shape: Shape, fitted: FittedPoses
 ) -> FittedPoses:
-    """Shift each click by how far blended and true landmarks lie apart, and settle."""
+    """Shift each click by the difference of blended and true landmarks, and refine again."""
     names = problem.rig.landmark_names[: problem.clicked]
     surface = np.stack(
         [

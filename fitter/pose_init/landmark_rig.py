@@ -1,9 +1,9 @@
-"""Landmarks carried by a skeleton: the body at the level the first pose needs.
+"""Linear blend skinning of the landmarks alone: as much of the body as the first pose needs.
 
 A clicked point is compared with a landmark regressed from vertices, not with a joint centre. Each
 landmark is a weighted sum of vertices and each vertex follows a few parts, so a landmark is a sum
-over parts of something rigid: linear blend skinning of some twenty points instead of the mesh.
-All functions take a batch of poses in leading axes, because pose hypotheses are refined together.
+of rigid terms over parts: linear blend skinning of some twenty points instead of the mesh.
+All functions take a batch of poses in the leading axes, as pose hypotheses are refined together.
 """
 
 from dataclasses import dataclass
@@ -77,7 +77,7 @@ class PosedLandmarks:
         (..., k, 3) camera frame, metres.
     shares
         (..., k, p, 3) the terms whose sum over parts is a landmark, body frame axes, root joint
-        at the origin; weighted like the rig's ``weights``.
+        at the origin; they include the rig's ``weights``.
     rotations, joints
         (..., p, 3, 3) and (..., p, 3), body frame axes, root joint at the origin.
     """
@@ -116,7 +116,7 @@ def landmark_rig(model: BodyModel, shape: Shape) -> LandmarkRig:
 
 
 def _weighted_sums(rows: SparseRows, places: Float[np.ndarray, "z 3"]) -> Float[np.ndarray, "r 3"]:
-    """Row by row, from the places of the vertices the rows name."""
+    """The rows' weighted sums, from the positions of the vertices the rows name."""
     return np.add.reduceat(rows.weights[:, None] * places, rows.pointers[:-1], axis=0)
 
 

@@ -1,8 +1,8 @@
-"""What a camera model must offer to turn clicked limbs into three dimensions.
+"""What a camera model must provide to lift clicked limbs into three dimensions.
 
-Two answers are provided: :mod:`fitter.pose_init.perspective` (Lee and Chen, the paper's choice)
-and :mod:`fitter.pose_init.orthographic` (Taylor, the paper's comparison). Whatever walks the body
-(:mod:`fitter.pose_init.trunk`, :mod:`fitter.pose_init.hypotheses`) knows only this.
+There are two: :mod:`fitter.pose_init.perspective` (Lee and Chen, the paper's choice) and
+:mod:`fitter.pose_init.orthographic` (Taylor, the paper's comparison). The code that traverses the
+body (:mod:`fitter.pose_init.trunk`, :mod:`fitter.pose_init.hypotheses`) knows only this protocol.
 """
 
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ NEAR, FAR = 0, 1
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class LimbEnds:
-    """Both places where the other end of a limb can be.
+    """Both possible positions of the other end of a limb.
 
     Attributes
     ----------
@@ -25,7 +25,7 @@ class LimbEnds:
         (..., 2, 3) camera frame, metres; the nearer one first.
     overreach_m
         (...) how much too long the limb appears: distance from the known end to the returned
-        point, minus the limb's length, where no point of the ray is within reach; else 0.
+        point minus the limb's length, if no point of the ray is within reach; else 0.
     """
 
     points: Float[np.ndarray, "... 2 3"]

@@ -1,9 +1,9 @@
-"""Limbs: the straight pieces whose image and true lengths give their slant.
+"""Limbs: straight segments whose slant follows from their image length and true length.
 
 Section 3.1: limb lengths are not asked for but predicted, as linear combinations of vertices of
 the mean person of the given gender and height. A limb here runs between two clickable landmarks.
 The trunk is one limb from the middle of the hips to the middle of the shoulders, with two
-cross-pieces, the hip line and the shoulder line, whose slant is its turn about the long axis.
+cross-pieces, the hip line and the shoulder line, whose slant is its rotation about the long axis.
 """
 
 from collections.abc import Mapping
@@ -19,7 +19,7 @@ from fitter.pose_init.landmark_rig import LandmarkRig
 class Limb:
     """A limb from its proximal to its distal point, moved by ``part``.
 
-    ``parent`` is the limb it hangs on, None for limbs at the trunk.
+    ``parent`` is the limb it is attached to, None for limbs at the trunk.
     """
 
     name: str
@@ -75,7 +75,7 @@ CHAINS = (
     ("left_thigh", "left_shin"),
     ("right_thigh", "right_shin"),
 )
-"""The four two-limb chains that hang on the trunk."""
+"""The four two-limb chains attached to the trunk."""
 
 
 def limb_named(name: str) -> Limb:

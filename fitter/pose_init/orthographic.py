@@ -2,8 +2,8 @@
 
 A metre anywhere on the body spans ``scale`` pixels, and a limb's relative depth follows from its
 foreshortening: (z₁ - z₂)² = L² - (Δu² + Δv²) / scale². Kept for the comparison the paper makes
-(Fig. 2b): it knows no absolute depth and bends limbs that perspective enlarges or diminishes.
-The answer is placed at focal length / scale so that both methods give the same kind of result.
+(Fig. 2b): it has no absolute depth, and bends limbs that perspective enlarges or shrinks.
+The result is placed at focal length / scale so that both methods give the same kind of result.
 """
 
 from dataclasses import dataclass
@@ -46,7 +46,7 @@ class OrthographicLifting:
     def reach(
         self, known: Float[np.ndarray, "... 3"], pixel: Float[np.ndarray, "2"], length_m: float
     ) -> LimbEnds:
-        """Taylor's relative depth, either way."""
+        """Taylor's relative depth, with either sign."""
         plane = self._plane(pixel)
         seen = np.linalg.norm(known[..., :2] - plane, axis=-1)
         half = np.sqrt(np.maximum(length_m**2 - seen**2, 0.0))

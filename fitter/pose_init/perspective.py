@@ -1,9 +1,9 @@
 """Limbs in perspective: H.-J. Lee and Z. Chen, CVGIP 30(2), 1985 (the paper's [15]).
 
-The far end of a limb lies on the ray of its click and on the sphere of the limb's length round its
-near end: two solutions, or none where the limb appears longer than it can be. Then the point of
-the ray nearest to the sphere is taken (the limb as parallel to the image as can be) and the
-excess reported.
+The far end of a limb lies on the ray of its click and on a sphere around its near end, with the
+limb's length as radius: two solutions, or none if the limb appears longer than it can be. In that
+case the point of the ray nearest to the sphere is taken (the limb is as parallel to the image as
+possible) and the excess is reported.
 """
 
 from dataclasses import dataclass

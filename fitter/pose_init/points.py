@@ -1,4 +1,4 @@
-"""The clicked points as the first pose uses them."""
+"""The clicked points in the form the first pose uses."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

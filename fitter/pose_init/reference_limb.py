@@ -1,14 +1,14 @@
-"""The limb most parallel to the image plane: where the root's depth comes from (section 3.1).
+"""The limb most parallel to the image plane, which gives the root's depth (section 3.1).
 
 A limb of length L at depth z, slanted by an angle a to the image plane, spans about f L cos(a) / z
 pixels. So f L / (image length) = z / cos(a) is at least the depth: every limb gives an upper
 bound, and the smallest bound is the tightest, reached when its limb is parallel. The paper says
 that the chosen limb *minimises* the ratio between its image length and its actual length; that
-limb would be the most foreshortened one and its bound the loosest. We take the sentence as meant
-the other way round: the limb that **maximises image length / actual length**.
+limb would be the most foreshortened one and its bound the loosest. We assume that the opposite was
+meant: the limb that **maximises image length / actual length**.
 
-Taking a maximum over noisy ratios favours whichever limb erred upwards, short limbs most. Each
-ratio is therefore lowered by its own uncertainty before they are compared.
+Taking a maximum over noisy ratios favours whichever limb has an error upwards, short limbs most.
+Each ratio is therefore lowered by its own uncertainty before they are compared.
 """
 
 from collections.abc import Mapping, Sequence
@@ -26,7 +26,7 @@ LIMB_LENGTH_SPREAD = 0.04
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReferenceLimb:
-    """The chosen limb and its image length over its actual length, pixels a metre."""
+    """The chosen limb and its image length over its actual length, pixels per metre."""
 
     limb: Limb
     scale: float

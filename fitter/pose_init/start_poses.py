@@ -1,8 +1,8 @@
 """The few most plausible readings of all limbs together.
 
-Given the trunk's reading the arms and legs are independent, so the plausibility of a whole body is
-a sum: at most sixteen trunks, each with four chains of four readings, are ranked exactly by
-adding energies. No reading is tried that the caller's word excludes.
+Given the trunk's reading, arms and legs are independent, so the plausibility of a whole body is a
+sum: at most sixteen trunks, each with four chains of four readings, are ranked exactly by adding
+energies. Readings that contradict the caller are not tried.
 """
 
 from collections.abc import Mapping
@@ -34,7 +34,7 @@ class StartPoses:
     translation
         (b, 3) root joint in the camera frame, metres.
     energy
-        (b,) half a sum of squares of priors and of what limbs appear too long.
+        (b,) half a sum of squares of priors and of how much too long limbs appear.
     """
 
     pose: Float[np.ndarray, "b p 3"]
@@ -117,10 +117,10 @@ def _best(
     chains: list[ChainReadings],
     count: int,
 ) -> tuple[np.ndarray, list[np.ndarray]]:
-    """Trunk and reading of each chain in the combinations to keep, ascending in energy.
+    """Trunk and reading of each chain in the combinations to keep, in ascending order of energy.
 
-    First the best, then for the torso and each limb the best with that one facing the other way,
-    so that every ambiguity is represented, then the next best.
+    First the best; then, for the torso and for each limb, the best with that one facing the other
+    way, so that every ambiguity is represented; then the next best.
     """
     total = trunk_energy
     for chain in chains:

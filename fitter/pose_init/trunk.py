@@ -1,8 +1,9 @@
 """Where the trunk can be: every reading of its slant, with the root's depth.
 
 Three things are ambiguous: whether the torso leans toward the camera or away, and which hip and
-which shoulder is nearer. Front or back view is not: it follows from the order of left and right.
-A reference limb two steps from the trunk adds the facing of the limb between.
+which shoulder is nearer. Whether the view is from the front or the back is not: it follows from
+the order of left and right. A reference limb two steps from the trunk adds the facing of the limb
+in between.
 """
 
 from collections.abc import Mapping
@@ -31,7 +32,7 @@ Pixels = Mapping[str, Float[np.ndarray, "2"]]
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class TrunkFacings:
-    """g combinations of what the trunk's image leaves open, each NEAR or FAR.
+    """The g combinations of what the trunk's image leaves ambiguous, each NEAR or FAR.
 
     Attributes
     ----------
@@ -58,7 +59,7 @@ class TrunkReadings:
     points
         By name of a corner or middle: (g, 3) camera frame, metres.
     overreach_m
-        (g,) sum of what torso, hips and shoulders appear too long.
+        (g,) sum of how much too long torso, hips and shoulders appear.
     pelvis, chest
         (g, 3, 3) global rotations of the two ends of the trunk, body frame axes.
     """
@@ -134,9 +135,9 @@ def _pelvis_depth(
     reference: Limb,
     facings: TrunkFacings,
 ) -> Float[np.ndarray, " g"]:
-    """Walk from the reference limb, taken as parallel to the image, to the pelvis's middle.
+    """Walk from the reference limb, taken as parallel to the image, to the middle of the pelvis.
 
-    Walking a limb from its far end to its near one exchanges NEAR and FAR.
+    Walking along a limb from its far end to its near one swaps NEAR and FAR.
     """
     every = np.arange(len(facings.torso))
     depth = np.full(
@@ -171,7 +172,7 @@ def _middle_depth(
     point: Float[np.ndarray, "g 3"],
     left_facing: Integer[np.ndarray, " g"],
 ) -> Float[np.ndarray, " g"]:
-    """Depth of a cross-piece's middle from the place of one end."""
+    """Depth of a cross-piece's middle from the position of one end."""
     right, left = pair
     opposite, facing = (right, 1 - left_facing) if name == left else (left, left_facing)
     ends = lifting.reach(point, pixels[opposite], width_m)
