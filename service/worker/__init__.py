@@ -1,1 +1,1 @@
-"""The worker: claims jobs, runs each in a child process, publishes what it leaves behind."""
+"""The worker: claims jobs, runs each in a child process, and publishes the results."""

@@ -1,7 +1,7 @@
-"""What derives a kind: ``derive`` of the module of :mod:`service.worker.derived` named like it.
+"""Finds what derives a kind: ``derive`` in the module of :mod:`service.worker.derived` of its name.
 
-It is imported where a job asks for it: what it loads no fit needs, and every process forked for a
-fit would carry it along.
+It is imported only when a job asks for it: no fit needs what it loads, and every process forked for
+a fit would carry it along.
 """
 
 import importlib
@@ -14,12 +14,12 @@ from service.worker.pipeline_port import DerivationInput, DerivationOutput
 
 
 class Deriver(Protocol):
-    """Makes what a kind's options ask for; its own are ``DerivationInput[PoseOptions]`` or so."""
+    """Makes what the options of a kind ask for; each takes its own, say ``PoseOptions``."""
 
     def __call__(
         self, job: DerivationInput[Any], observe: Callable[[float], None], /
     ) -> DerivationOutput[DerivedFiles]:
-        """Derive something from a fit, and tell how much of it is done, from 0 to 1.
+        """Derive something from a fit, and report how much of it is done, from 0 to 1.
 
         Raises
         ------

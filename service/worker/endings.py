@@ -1,11 +1,11 @@
-"""Why an attempt ended that its child did not end itself, as callers are told."""
+"""Problems for attempts that their child did not end itself, as reported to callers."""
 
 from api_schemas.problems import Problem, problem
 from service.blobs import BlobsUnavailableError, StorageFullError
 
 
 def input_gone() -> Problem:
-    """The job was erased under the attempt, or somebody emptied the storage by hand."""
+    """The job was erased during the attempt, or somebody emptied the storage by hand."""
     return problem(
         "fit-failed",
         code="input-gone",
@@ -15,7 +15,7 @@ def input_gone() -> Problem:
 
 
 def no_storage(error: BlobsUnavailableError) -> Problem:
-    """The storage was full or away for longer than anybody waits."""
+    """The storage was full or unavailable for longer than the worker waits."""
     full = isinstance(error, StorageFullError)
     return problem(
         "fit-failed",
@@ -26,7 +26,7 @@ def no_storage(error: BlobsUnavailableError) -> Problem:
 
 
 def no_process() -> Problem:
-    """The machine has had no room for a process for longer than anybody waits."""
+    """The machine had no room for a process for longer than the worker waits."""
     return problem(
         "fit-failed",
         code="no-process",
@@ -36,7 +36,7 @@ def no_process() -> Problem:
 
 
 def too_slow(limit_s: float) -> Problem:
-    """The job took longer than a job may."""
+    """The job exceeded its time limit."""
     return problem(
         "time-limit-exceeded",
         detail=f"The job was stopped after {limit_s:g} s.",

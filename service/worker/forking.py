@@ -15,10 +15,10 @@ class NoProcessError(Exception):
 
 
 class ForkedProcesses:
-    """Starts processes; the caller ends each by :func:`end`.
+    """Starts processes; the caller ends each with :func:`end`.
 
-    A fork takes 0.02 s where a fresh interpreter takes most of a second, and the server itself
-    stays without threads, which is what makes forking safe. A server that dies is started again.
+    A fork takes 0.02 s, a fresh interpreter most of a second. The server itself has no threads,
+    which is what makes forking safe. A server that dies is started again.
     """
 
     def __init__(self, preload: str) -> None:
@@ -26,7 +26,7 @@ class ForkedProcesses:
         self._context.set_forkserver_preload([preload])
 
     def begin_preloading(self) -> None:
-        """Start the server, which loads the numerics by itself."""
+        """Start the server, which then loads the numerics in the background."""
         forkserver.ensure_running()
 
     def wait_until_loaded(self) -> None:
@@ -56,7 +56,7 @@ class ForkedProcesses:
         try:
             process.start()
         except (EOFError, OSError) as error:
-            # The server died this moment, or the machine has no room for a process.
+            # The server has just died, or the machine has no room for a process.
             ours.close()
             raise NoProcessError(str(error) or type(error).__name__) from error
         finally:
@@ -69,7 +69,7 @@ def _nothing(_: Connection) -> None:
 
 
 def end(connection: Connection, process: ForkServerProcess) -> None:
-    """Kill the process if it still runs, and release all there was to it."""
+    """Kill the process if it is still running, and release all its resources."""
     connection.close()
     process.kill()
     process.join()
@@ -78,10 +78,10 @@ def end(connection: Connection, process: ForkServerProcess) -> None:
 
 @contextlib.contextmanager
 def killed_in_time(process: ForkServerProcess, limit_s: float) -> Iterator[None]:
-    """Kill the process after so many seconds, whatever the caller is at by then."""
+    """Kill the process after ``limit_s`` seconds, whatever the caller is doing by then."""
 
     def kill() -> None:
-        # Closed by now if it ended in this very moment.
+        # Already closed if it ended just now.
         with contextlib.suppress(ValueError):
             process.kill()
 

@@ -9,7 +9,7 @@ from api_schemas.problems import Problem
 
 
 class ProgressMessage(WireModel):
-    """The job goes on."""
+    """The job has made progress."""
 
     kind: Literal["progress"] = "progress"
     stage: str
@@ -25,7 +25,7 @@ class FileMessage(WireModel):
 
 
 class DoneMessage(WireModel):
-    """The job is done; all its files were sent."""
+    """The job is done, and all its files have been sent."""
 
     kind: Literal["done"] = "done"
     stage_seconds: dict[str, float]

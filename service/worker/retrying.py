@@ -1,4 +1,4 @@
-"""Trying again while the storage is full or away."""
+"""Trying again while the storage is full or unavailable."""
 
 from collections.abc import Callable
 from typing import ParamSpec, TypeVar
@@ -11,5 +11,5 @@ T = TypeVar("T")
 
 
 def retry_while_storage_is_away(operation: Callable[P, T]) -> Callable[P, T]:
-    """Repeat an operation on blobs for up to two minutes: all of them may be repeated."""
+    """Retry an operation on blobs for up to two minutes; all of them are safe to repeat."""
     return retry_with_pauses(BlobsUnavailableError, "storage")(operation)

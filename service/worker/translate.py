@@ -1,4 +1,4 @@
-"""Between the wire types and the fitter's: pure, both ways, nothing else."""
+"""Pure translations between the wire types and the fitter's, both ways."""
 
 import math
 from collections.abc import Sequence
@@ -74,12 +74,12 @@ def fit_request(
 
 
 def clicks(points: Points) -> dict[str, Click]:
-    """Translate named points; proposed ones get the spread that proposals of their name have."""
+    """Translate named points; proposed ones get the spread of proposals of that name."""
     return {name: _click(name, point) for name, point in points_by_name(points).items()}
 
 
 def known_measurements(known: wire_known.KnownMeasurements) -> dict[str, KnownMeasurement]:
-    """Translate what is known beside the height, by measurement name and in its unit."""
+    """Translate what is known besides the height, by measurement name, each in its unit."""
     measurements = {
         name: KnownMeasurement(value=given.value, standard_error=given.standard_error)
         if isinstance(given, wire_known.UncertainMeasurement)
@@ -103,21 +103,21 @@ def report(progress: Progress) -> Report:
 
 
 def field_problem(error: InvalidInputError) -> FieldProblem:
-    """Translate the fitter's complaint about its input."""
+    """Translate the fitter's error about its input."""
     return FieldProblem(
         field=error.field, code=error.code, reason=error.reason, remedy=error.remedy
     )
 
 
 def detector_problem(error: DetectorUnavailableError) -> FieldProblem:
-    """Say that points were to be proposed where there is no detector."""
+    """Say that points were to be proposed but there is no detector."""
     return FieldProblem(
         field="points", code=DETECTOR_MISSING, reason=error.reason, remedy=error.remedy
     )
 
 
 def fit_result(result: FitResult, *, part_names: Sequence[str]) -> wire.FitResult:
-    """Translate a result; its files are listed later, when they exist."""
+    """Translate a result; its files are listed later, once they exist."""
     found, person = result.found, result.person
     return wire.FitResult(
         gender=wire_request.Gender(person.gender.value),
@@ -153,7 +153,7 @@ def fit_result(result: FitResult, *, part_names: Sequence[str]) -> wire.FitResul
 def combined_picture(
     found: PictureFit, *, number: int, fit_id: UUID, part_names: Sequence[str]
 ) -> CombinedPicture:
-    """Translate the person in one of several pictures."""
+    """Translate the person as fitted in one of several pictures."""
     person = found.person
     return CombinedPicture(
         number=number,
@@ -169,7 +169,7 @@ def combined_picture(
 
 def _click(name: str, point: Point) -> Click:
     is_seen = point.visibility >= SEEN
-    # The detector proposes no neck: whoever calls one a proposal has clicked it.
+    # The detector proposes no neck, so one that is sent as a proposal was clicked.
     is_proposal = point.source is PointSource.PROPOSAL and name in INDEX_OF_POINT
     return Click(
         x=point.x,
@@ -238,7 +238,7 @@ def _reflectance(reflectance: Reflectance) -> wire.ReflectanceResult:
 def measurement_results(
     measurements: Sequence[Measurement], given: Sequence[str]
 ) -> tuple[wire.Measurement, ...]:
-    """Translate measurements; ``given`` names those the request gave."""
+    """Translate measurements; ``given`` names those that were in the request."""
     return tuple(
         wire.Measurement(
             name=measurement.name,

@@ -1,1 +1,1 @@
-"""What is derived from a fitted person: one module a kind, between two translations."""
+"""What is derived from a fitted person: one module per kind, between two translations."""

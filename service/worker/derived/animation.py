@@ -1,4 +1,4 @@
-"""The fitted body in motion: by a BVH file that came along, or walking."""
+"""The fitted body in motion: from a BVH file sent with the request, or walking."""
 
 from collections.abc import Callable
 

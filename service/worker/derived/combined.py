@@ -26,10 +26,10 @@ from service.worker.pipeline_port import DerivationInput, DerivationOutput
 from service.worker.translate import combined_picture, fit_request, measurement_results
 
 _FITTED = 0.95
-"""Share of the work that is done when the pictures are fitted and their files are to be made."""
+"""Share of the work that is done once the pictures are fitted, before their files are made."""
 
 LEAST_PERCENT = 0.01
-"""What is rarer is not told apart."""
+"""Probabilities below this are not distinguished."""
 
 
 def derive(
@@ -100,7 +100,7 @@ def derive(
 
 
 def _request(inputs: Mapping[str, bytes], max_pixels: int) -> FitRequest:
-    """What the fit was asked for; it begins where the fit ended, which needs no direct search."""
+    """What the fit was asked for, without direct search: it starts where the fit ended."""
     options = FitOptions.model_validate_json(inputs[REQUEST])
     return fit_request(
         options.model_copy(update={"optimizer": OptimizerKind.GAUSS_NEWTON}),

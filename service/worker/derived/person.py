@@ -15,7 +15,7 @@ def person_and_operators(
     Raises
     ------
     InvalidInputError
-        If it was fitted with another body model than there is now.
+        If it was fitted with a different body model from the current one.
     """
     person = FittedPerson.from_bytes(person_file)
     operators = prepared_model(person.gender, models=models).operators

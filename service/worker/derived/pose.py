@@ -21,7 +21,7 @@ from service.worker.pipeline_port import DerivationInput, DerivationOutput
 
 
 def pose_named(rig: Rig, name: NamedPose) -> Pose:
-    """A pose of the wire for a person's skeleton."""
+    """A pose named in a request, for a person's skeleton."""
     if name is NamedPose.REST:
         return np.zeros((len(rig.part_names), 3))
     return named_pose(rig, name.value)
@@ -30,7 +30,7 @@ def pose_named(rig: Rig, name: NamedPose) -> Pose:
 def derive(
     job: DerivationInput[PoseOptions], observe: Callable[[float], None]
 ) -> DerivationOutput[PoseResult]:
-    """Pose anew; see :class:`service.worker.derivers.Deriver`."""
+    """Pose the body; see :class:`service.worker.derivers.Deriver`."""
     options = job.options
     person, operators = person_and_operators(job.inputs[PERSON], job.models)
     model = operators.model

@@ -23,13 +23,13 @@ from service.worker.derived.person import person_and_operators
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 
 HALF = 128
-"""From this level on the segmentation says that a pixel shows the person."""
+"""Level at which the segmentation says that a pixel shows the person."""
 
 
 def derive(
     job: DerivationInput[TextureOptions], observe: Callable[[float], None]
 ) -> DerivationOutput[TextureResult]:
-    """Lay the picture, or what was painted, on the body.
+    """Put the picture, or a painted atlas, on the body.
 
     See :class:`service.worker.derivers.Deriver`.
     """
@@ -64,7 +64,7 @@ def derive(
 
 
 _Laid = tuple[TextureResult, UInt8[np.ndarray, "n n 3"], UInt8[np.ndarray, "n n"] | None]
-"""What is told of a texture, its levels, and which of them were seen if any could be."""
+"""A texture's description, its levels, and which of them were seen if that can be said."""
 
 
 def _pictured(
@@ -113,7 +113,7 @@ def _painted(
 
 
 def _person_in(segmentation: bytes, camera: Camera, *, max_pixels: int) -> Mask:
-    """Where the picture shows the person; the fit's own drawing of it may be smaller."""
+    """Where the picture shows the person; the fit's own segmentation may be smaller."""
     levels = decode_coverage(segmentation, field="mask", max_pixels=max_pixels)
     resized = cv2.resize(levels, (camera.width, camera.height), interpolation=cv2.INTER_LINEAR)
     return np.asarray(resized >= HALF)

@@ -1,4 +1,4 @@
-"""The report of a fit: one page for people, as HTML and as PDF."""
+"""The report of a fit: one page for people to read, as HTML and as PDF."""
 
 from collections.abc import Callable
 

@@ -18,10 +18,10 @@ from api_schemas.results import (
 )
 
 WITHIN_95: Final = 1.96
-"""Standard errors on either side of a value within which 95 % of truths lie."""
+"""Standard errors on either side of a value that make a 95 % interval."""
 
 DIAGONAL_35MM: Final = 43.27
-"""Of the 24 x 36 mm frame, to which the 35 mm equivalent of a focal length refers."""
+"""Diagonal of the 24 x 36 mm frame, to which the 35 mm equivalent of a focal length refers."""
 
 TITLE: Final = "Body, pose and light from one picture"
 
@@ -45,7 +45,7 @@ _LENS: Final = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MeasurementRow:
-    """A measurement as it is printed; ``interval`` may say that the value was given."""
+    """A measurement as printed; ``interval`` may say that the value was given."""
 
     name: str
     value: str
@@ -55,7 +55,7 @@ class MeasurementRow:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Section:
-    """A heading with facts, each a label and what there is to say, and remarks."""
+    """A heading with facts, each a label and a text, and remarks."""
 
     heading: str
     facts: tuple[tuple[str, str], ...] = ()

@@ -1,4 +1,4 @@
-"""The report as one HTML file: styles and pictures inside, no scripts, one A4 page in print."""
+"""The report as one HTML file: styles and pictures embedded, no scripts, one A4 page in print."""
 
 import base64
 from html import escape

@@ -1,4 +1,4 @@
-"""The report as one A4 page of PDF, drawn with the fonts every reader has."""
+"""The report as one A4 page of PDF, drawn with the fonts that every PDF reader has."""
 
 import io
 from html import escape
@@ -119,7 +119,7 @@ def _row(
 def _picture(
     canvas: Canvas, picture: Picture, left: float, top: float, width: float, height: float
 ) -> None:
-    """Draw a picture as large as the box allows, its caption below, at the box's top left."""
+    """Draw a picture at the box's top left, as large as the box allows, with its caption below."""
     room = height - CAPTION_HEIGHT
     scale = min(width / picture.width, room / picture.height)
     drawn_width, drawn_height = scale * picture.width, scale * picture.height
@@ -138,7 +138,7 @@ def _picture(
 def _fill(
     canvas: Canvas, flowables: list[Flowable], box: tuple[float, float, float, float]
 ) -> None:
-    """Fill a box (left, bottom, width, height) from its top; what is too long is made smaller."""
+    """Fill a box (left, bottom, width, height) from the top; what is too long is shrunk to fit."""
     left, bottom, width, height = box
     frame = Frame(
         left,

@@ -14,10 +14,10 @@ from service.jobs.inputs import OVERLAY, PERSON
 from service.worker.derived.person import person_and_operators
 
 SKIN: Final[Mapping[str, str]] = {"albedo.png": "Albedo", "shading.png": "Shading"}
-"""What there is after a fit by shading."""
+"""Files that only a fit with shading has."""
 
 LONGEST_SIDE_PX: Final = 1_400
-"""Of the photograph: 300 dots an inch on the page, and a file one can send."""
+"""Size of the photograph: 300 dots per inch on the page, in a file small enough to send."""
 
 JPEG_QUALITY: Final = 88
 
@@ -50,12 +50,12 @@ def report_pictures(inputs: Mapping[str, bytes], *, models: Path | None) -> Repo
     inputs
         The derivation's inputs by name.
     models
-        Folder of the body models, None for those shipped with the package.
+        Folder with the body models, None for those shipped with the package.
 
     Raises
     ------
     InvalidInputError
-        If the person was fitted with another body model than there is now.
+        If the person was fitted with a different body model from the current one.
     """
     return ReportPictures(
         overlay=_photograph(inputs[OVERLAY], "The body over the picture"),
@@ -77,7 +77,7 @@ def _sides(person_file: bytes, models: Path | None) -> tuple[Picture, ...]:
 
 
 def _drawing(content: bytes, caption: str) -> Picture:
-    """A PNG packed as small as it gets: the fit's own are packed quickly."""
+    """A PNG compressed as far as possible: the fit's own are compressed fast."""
     with Image.open(io.BytesIO(content)) as opened:
         stream = io.BytesIO()
         opened.save(stream, "PNG", optimize=True)
