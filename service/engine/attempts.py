@@ -1,7 +1,7 @@
-"""The worker's hand on a job's record: begin an attempt, report, end it.
+"""The worker's access to a job's record: begin an attempt, report, end it.
 
 Every write names the attempt it belongs to. A worker that was taken for dead and wakes up again
-finds that its attempt is no longer the current one, and all its writes fall on nothing.
+finds that its attempt is no longer the current one, and none of its writes have any effect.
 """
 
 import json
@@ -33,7 +33,7 @@ FINAL_STATES: Final = {
 
 
 def given_up(reason: str) -> Problem:
-    """Say that a job was given up because it kills what runs it."""
+    """Say that a job was given up because it kills the processes that run it."""
     return problem(
         "fit-crashed",
         detail=reason,
@@ -42,7 +42,7 @@ def given_up(reason: str) -> Problem:
 
 
 class RecordedAttempt:
-    """The attempt a worker is at; see :class:`service.engine.port.Attempt`."""
+    """The attempt a worker is running; see :class:`service.engine.port.Attempt`."""
 
     def __init__(self, database: sa.Engine, job: JobRecord) -> None:
         self._database = database
@@ -55,7 +55,7 @@ class RecordedAttempt:
 
     @retry_while_database_is_away
     def report(self, report: Report) -> None:
-        """Store progress and its event; never let the share go down."""
+        """Store progress and its event; the share never decreases."""
         with self._database.begin() as connection:
             row = (
                 connection.execute(
@@ -109,7 +109,7 @@ class AttemptLog:
 
     @retry_while_database_is_away
     def begin(self, job_id: str) -> RecordedAttempt | None:
-        """Claim the next attempt; None when there is nothing (more) to do for this job."""
+        """Claim the next attempt; None if there is nothing (more) to do for this job."""
         with self._database.begin() as connection:
             canceled = end_job(
                 connection,
@@ -149,7 +149,7 @@ class AttemptLog:
 
     @retry_while_database_is_away
     def count_crash(self, attempt: RecordedAttempt) -> None:
-        """Note that the process of this attempt died of itself."""
+        """Note that the process of this attempt died without being killed by us."""
         with self._database.begin() as connection:
             connection.execute(
                 sa.update(JOBS).where(*_current(attempt.job)).values(crashes=JOBS.c.crashes + 1)
@@ -181,7 +181,7 @@ class AttemptLog:
 
     @retry_while_database_is_away
     def exists(self, job_id: str) -> bool:
-        """Say whether the job has not been erased."""
+        """Whether the job still exists, not having been erased."""
         with self._database.connect() as connection:
             return find_job(connection, job_id) is not None
 
@@ -205,7 +205,7 @@ class AttemptLog:
 
 
 def result_to_json(attempt: int, result: AttemptResult) -> str:
-    """Write a result as the checkpoint keeps it."""
+    """Write a result in the form kept in the checkpoint."""
     return json.dumps(
         {
             "attempt": attempt,

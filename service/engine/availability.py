@@ -1,4 +1,4 @@
-"""One way to say that the database is away."""
+"""One way to report that the database is unavailable."""
 
 import functools
 from collections.abc import Callable
@@ -15,7 +15,7 @@ T = TypeVar("T")
 
 
 def available(operation: Callable[P, T]) -> Callable[P, T]:
-    """Turn what the database's driver raises into the port's own error."""
+    """Turn errors of the database's driver into the port's own."""
 
     @functools.wraps(operation)
     def wrapper(*args: P.args, **kwargs: P.kwargs) -> T:

@@ -1,8 +1,8 @@
-"""Room on the disk of the embedded database that is given up when erasing needs it.
+"""Reserved disk space for the embedded database, given up when erasing needs it.
 
-SQLite writes what it deletes into its log before it deletes it, so on a disk without a byte nothing
-can be erased, and nothing that is erased can make room. A file of the service's own holds a little
-room back, and is cut shorter, piece by piece, until the erasing succeeds.
+SQLite writes what it deletes to its log first, so on a full disk nothing can be erased to make
+room. A file of the service's own therefore reserves a little space, and is truncated piece by piece
+until the erasing succeeds.
 """
 
 import contextlib
@@ -25,20 +25,20 @@ T = TypeVar("T")
 LOG: Final = logging.getLogger(__name__)
 
 PIECE_BYTES: Final = 1_048_576
-"""Erasing a job changes some ten pages of 4 KiB."""
+"""Erasing a job changes about ten pages of 4 KiB."""
 
 WHOLE_BYTES: Final = 8 * PIECE_BYTES
 
 
 class Ballast:
-    """A file that takes room; several processes may share it. Without a file it is nothing."""
+    """A file that reserves space; several processes may share it. Without a path, does nothing."""
 
     def __init__(self, file: Path | None) -> None:
         self._file = file
         self._lock = threading.Lock()
 
     def fill(self) -> None:
-        """Take what is missing, but no more than half of what is free."""
+        """Reserve what is missing, but no more than half of what is free."""
         if self._file is None:
             return
         with self._lock, contextlib.suppress(OSError):
@@ -53,7 +53,7 @@ class Ballast:
                 os.close(handle)
 
     def make_room(self) -> None:
-        """Give up pieces until something can be written, or nothing is left."""
+        """Give up pieces until the database can be written, or nothing is left."""
         if self._file is None:
             return
         folder = self._file.parent
@@ -62,7 +62,7 @@ class Ballast:
                 return
 
     def spend_on(self, erasing: Callable[[], T]) -> T:
-        """Erase; where the disk is full give up pieces until it succeeds, or nothing is left."""
+        """Erase; if the disk is full, give up pieces until that succeeds or nothing is left."""
         while True:
             try:
                 return erasing()
@@ -85,7 +85,7 @@ class Ballast:
 
 
 def open_ballast(settings: Settings) -> Ballast:
-    """The ballast of the embedded database; nothing where the database is another's."""
+    """The ballast of the embedded database; without effect for any other database."""
     return Ballast(settings.ballast_file if settings.is_database_embedded else None)
 
 

@@ -31,7 +31,7 @@ SCHEMA_FACT: Final = "schema_version"
 
 POSTGRES_CONNECTION: Final = {
     "connect_timeout": 5,
-    # A database host that is gone without a word is noticed in seconds, not in hours.
+    # A database host that vanishes silently is noticed within seconds, not hours.
     "keepalives_idle": 10,
     "keepalives_interval": 5,
     "keepalives_count": 3,
@@ -40,9 +40,9 @@ POSTGRES_CONNECTION: Final = {
 
 
 def open_database(url: str, *, connections: int = 20) -> sa.Engine:
-    """Open a pool of at most ``connections``; creates the folder of an SQLite file, nothing else.
+    """Open a pool of at most ``connections``; creates only the folder of an SQLite file.
 
-    Statements are logged without their parameters: none of a caller's data gets into a log.
+    Statements are logged without their parameters, so that no caller's data gets into a log.
     """
     parsed = sa.make_url(url)
     if parsed.get_backend_name() == "sqlite":
@@ -72,14 +72,14 @@ def open_database(url: str, *, connections: int = 20) -> sa.Engine:
 
 @retry_while_database_is_away
 def check_database(url: str) -> None:
-    """Look whether the database answers and has no tables of another version.
+    """Check that the database answers and has no tables of another version.
 
-    A database that does not answer is waited for.
+    Waits for a database that does not answer.
 
     Raises
     ------
     DatabaseUnusableError
-        If it answers and cannot be used as it is.
+        If it answers but cannot be used as it is.
     """
     with _opened(url) as engine:
         _check_schema(engine)
@@ -91,7 +91,7 @@ def prepare_database(url: str) -> None:
 
     Waits and raises as :func:`check_database` does.
     """
-    # Only here: it takes half a second to load.
+    # Imported here because it takes half a second to load.
     from dbos import DBOS
 
     with _opened(url) as engine:
@@ -108,7 +108,7 @@ def prepare_database(url: str) -> None:
 
 @contextlib.contextmanager
 def _opened(url: str) -> Iterator[sa.Engine]:
-    """Open the database for a moment; errors that will not pass name its address."""
+    """Open the database briefly; errors that waiting cannot cure name its address."""
     try:
         engine = open_database(url, connections=2)
     except ArgumentError as error:

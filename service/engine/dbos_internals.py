@@ -1,8 +1,8 @@
-"""All that the engine uses of DBOS without DBOS publishing it; nothing else in the service may.
+"""All uses of DBOS's private interfaces; nothing else in the service may touch them.
 
 Each function says what it is for and what the public way would cost. The version of DBOS is pinned
-in ``pyproject.toml``, and ``tests/unit/service/test_dbos_internals.py`` fails on one that changes
-what is used here. Figures: DECISIONS.md, "What DBOS does not publish is in one module".
+in ``pyproject.toml``, and ``tests/unit/service/test_dbos_internals.py`` fails on a version that
+changes what is used here. Figures: DECISIONS.md, "What DBOS does not publish is in one module".
 """
 
 from collections.abc import Callable, Collection
@@ -11,30 +11,31 @@ from typing import Any, Final
 from dbos import DBOS, Queue
 
 LOOK_S: Final = 0.01
-"""How long DBOS itself pauses between two looks for jobs; ``await_turn`` says when it looks."""
+"""How long DBOS itself pauses between two polls; ``await_turn`` decides when it polls."""
 
 
 def put_back_executions_of(dead: Collection[str]) -> None:
-    """Put the executions of dead executors back into their queue, each once and still counted.
+    """Put the executions of dead executors back into their queue, each once, keeping its count.
 
     *Private:* ``DBOS._recover_pending_workflows``, which is what DBOS calls for its own paid
-    service. It changes an execution only while that stands as run by one of the dead, so of several
-    who notice a death only the first puts it back, and it leaves the count of recoveries alone.
+    service. It changes an execution only while that is recorded as run by one of the dead, so if
+    several notice a death only the first puts it back, and it does not touch the count of
+    recoveries.
 
-    *The public way*, ``DBOS.resume_workflow``, sets the count to nothing, so that a job that kills
-    its worker would be begun for ever; and it does not ask who runs the execution now, so whoever
-    comes second has it run twice side by side.
+    *The public way*, ``DBOS.resume_workflow``, resets the count, so that a job that kills its
+    worker would be restarted for ever; and it does not check who is running the execution now, so
+    the second to notice would have it run twice at the same time.
     """
     DBOS._recover_pending_workflows(list(dead))
 
 
 def stop_claiming(dbos: DBOS) -> None:
-    """Let DBOS claim nothing more, while what runs goes on and its end is noted.
+    """Let DBOS claim nothing more, while running executions go on and their ends are recorded.
 
     *Private:* ``background_thread_stop_events``, the events that end DBOS's own threads.
 
-    *The public way*, ``DBOS.destroy(workflow_completion_timeout_sec=...)``, looks once a second
-    whether all is done, waits for whole seconds, and then takes the database from DBOS: attempts
+    *The public way*, ``DBOS.destroy(workflow_completion_timeout_sec=...)``, checks once a second
+    whether everything is done, waits for whole seconds, and then closes DBOS's database: attempts
     that are still running could be neither handed back nor ended.
     """
     for stop in dbos.background_thread_stop_events:
@@ -48,19 +49,19 @@ def pace_queue(
     await_turn: Callable[[], None],
     usable_slots: Callable[[], int],
 ) -> None:
-    """Let this process alone say when DBOS looks into a queue, and how many jobs run side by side.
+    """Let this process decide when DBOS polls a queue, and how many jobs run at the same time.
 
-    DBOS, which must be launched, waits in ``await_turn`` before each look, then keeps to
+    DBOS, which must be launched, waits in ``await_turn`` before each poll, then keeps to
     ``usable_slots``; with 0 it claims nothing.
 
-    *Private:* DBOS reads the queue's record before each look by ``get_queue`` of its ``_sys_db``,
+    *Private:* DBOS reads the queue's record before each poll with ``get_queue`` of its ``_sys_db``,
     which is replaced here, and keeps what it read in ``_worker_concurrency`` and
     ``_polling_interval_sec`` of the queue.
 
     *The public way*, ``worker_concurrency`` and ``polling_interval_sec`` of ``register_queue``, is
-    one record for all machines: as many slots on each of them, no holding back where one disk is
-    full, and looks at a fixed pace, which leave a slot empty after each job and go on while none
-    is free. The record that is registered is the floor, should this way in be gone.
+    one record for all machines: the same number of slots on each of them, no holding back where one
+    disk is full, and polls at a fixed pace, which leave a slot empty after each job and go on while
+    none is free. The registered record is the fallback in case this way in disappears.
     """
     system_database = dbos._sys_db
     get_queue = system_database.get_queue

@@ -1,4 +1,4 @@
-"""The caller's side of the engine on DBOS: jobs of tenants, and the state of the whole."""
+"""The caller's side of the engine on DBOS: jobs of tenants, and the state of the whole service."""
 
 import logging
 import threading
@@ -31,10 +31,10 @@ BODY_MODELS_FACT: Final = "body_models"
 
 
 class DbosJobEngine:
-    """Jobs of tenants, workers, figures; see :class:`service.engine.port.JobEngine`.
+    """Jobs of tenants, workers, statistics; see :class:`service.engine.port.JobEngine`.
 
-    ``start`` begins the two things that go on by themselves: erasing what has expired, and watching
-    the workers, of whom a single look says little.
+    ``start`` begins the two background tasks: erasing what has expired, and watching the workers,
+    about whom a single look says little.
     """
 
     def __init__(
@@ -129,7 +129,7 @@ class DbosJobEngine:
 
     @available
     def statistics(self) -> EngineStatistics:
-        """Return the figures of the whole."""
+        """Return statistics of the whole service."""
         with self._database.connect() as connection:
             active = {
                 row.state: row

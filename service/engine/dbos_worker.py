@@ -31,8 +31,9 @@ from service.process.tracing import span
 LOG: Final = logging.getLogger(__name__)
 
 MAX_RECOVERIES: Final = 10
-"""How many workers may die over one job. Larger than the limit on crashes of the fit's own process,
-because a worker dies for reasons that are not the picture's: restarts, machines, chaos tests."""
+"""How many workers may die while running one job. Larger than the limit on crashes of the fit's own
+process, because workers also die for reasons unrelated to the picture: restarts, machines, chaos
+tests."""
 
 OUTCOME_WAIT_S: Final = 2.0
 OUTCOME_POLL_S: Final = 0.02
@@ -54,7 +55,7 @@ class DbosWorkerEngine:
         retention_s: float,
         disk: Disk,
     ) -> None:
-        # Never reused: two live workers under one name would run each other's jobs again.
+        # Never reused: two live workers with the same name would rerun each other's jobs.
         self.executor_id = f"{os.uname().nodename[:20]}-{uuid.uuid4().hex}"
         self._database = database
         self._blobs = blobs
@@ -122,7 +123,7 @@ class DbosWorkerEngine:
         """Claim no more, wait for running attempts, hand the rest back to other workers.
 
         Threads of attempts that were handed back are parked, not ended: DBOS would take their
-        return for the end of the job. The caller ends the process at once.
+        return for the end of the job. The caller must end the process right away.
         """
         if self._dbos is None:
             return
@@ -136,8 +137,8 @@ class DbosWorkerEngine:
         self._heartbeat.stop()
 
     def _wait_for_outcomes(self) -> None:
-        # DBOS notes the end of a workflow after the workflow has returned. Were the process to end
-        # in between, another worker would replay the workflow from its checkpoints, in vain.
+        # DBOS records the end of a workflow after the workflow has returned. If the process ended
+        # in between, another worker would needlessly replay the workflow from its checkpoints.
         deadline = time.monotonic() + OUTCOME_WAIT_S
         while time.monotonic() < deadline:
             if not self._executions.held_by(self.executor_id):
@@ -200,8 +201,8 @@ class DbosWorkerEngine:
         self._erase_if_forgotten(job_id)
 
     def _erase_if_forgotten(self, job_id: str) -> None:
-        # The job may have been erased while its attempt was still writing results. Should this not
-        # succeed, the scope is among those the sweep erases.
+        # The job may have been erased while its attempt was still writing results. If this fails,
+        # the scope is still among those the sweep erases.
         if not self._attempts.exists(job_id):
             with contextlib.suppress(BlobsUnavailableError):
                 self._blobs.erase(job_id)
@@ -220,7 +221,7 @@ class DbosWorkerEngine:
         )
 
     def _usable_slots(self) -> int:
-        # What waits is safe, and what runs needs the room that is left for its results.
+        # Waiting jobs are safe, and running ones need the remaining space for their results.
         is_short = not self._disk.has_room_for()
         if is_short != self._is_holding_back:
             self._is_holding_back = is_short

@@ -1,4 +1,4 @@
-"""What the errors of a database's driver mean: away, full, or of no use however long one waits."""
+"""What a database driver's errors mean: unavailable, full, or not curable by waiting."""
 
 import re
 import sqlite3
@@ -13,11 +13,11 @@ REFUSALS: Final = re.compile(
     r"|is not permitted to log in|no pg_hba\.conf entry|permission denied for database"
     r"|server does not support SSL|certificate verify failed"
 )
-"""Answers to a connection that no waiting will change. Their SQLSTATE is not to be had: libpq gives
-the words alone. In another language than English they are not known, and are waited for."""
+"""Refused connections that waiting will not cure. Their SQLSTATE is not available: libpq passes on
+only the text. In languages other than English they are not recognised, and are waited for."""
 
 FINAL_STATES: Final = frozenset({"42501", "25006"})
-"""SQLSTATE: no right to do so, or a server that only reads."""
+"""SQLSTATE: insufficient privilege, or a read-only server."""
 
 FINAL_SQLITE: Final = frozenset(
     {sqlite3.SQLITE_NOTADB, sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_READONLY, sqlite3.SQLITE_PERM}
@@ -27,11 +27,11 @@ PRIMARY_CODE: Final = 0xFF
 
 DISK_FULL: Final = "53100"
 FULL_SQLITE: Final = frozenset({sqlite3.SQLITE_IOERR_WRITE, sqlite3.SQLITE_IOERR_SHMSIZE})
-"""What SQLite says beside SQLITE_FULL where a file cannot grow: a quota, a limit on files."""
+"""What SQLite reports, besides SQLITE_FULL, if a file cannot grow: a quota, a file size limit."""
 
 
 def refusal(error: DBAPIError) -> str | None:
-    """Why the database cannot be used as it is, in its own words; None if waiting may help."""
+    """Why the database cannot be used as it is, in the driver's words; None if waiting may help."""
     cause = error.orig
     if isinstance(cause, sqlite3.Error):
         return str(cause) if _sqlite_code(cause) & PRIMARY_CODE in FINAL_SQLITE else None
@@ -47,7 +47,7 @@ def refusal(error: DBAPIError) -> str | None:
 
 
 def is_full(error: BaseException) -> bool:
-    """Whether it failed because the database's disk has no room."""
+    """Whether the error means that the database's disk is full."""
     cause = getattr(error, "orig", error)
     if isinstance(cause, sqlite3.Error):
         code = _sqlite_code(cause)

@@ -1,4 +1,4 @@
-"""What DBOS notes of executions: who runs what, and what it has ended by itself."""
+"""What DBOS records about executions: who runs what, and what DBOS itself has ended."""
 
 from collections.abc import Mapping, Sequence
 from typing import Final
@@ -16,8 +16,8 @@ OPEN: Final = ("PENDING", "ENQUEUED", "DELAYED")
 class Executions:
     """Reads executions, whose ids are those of the jobs.
 
-    A database that is away is an ``OperationalError`` at once, where DBOS itself would wait for it:
-    a heart must not stand still until that comes back.
+    An unavailable database raises ``OperationalError`` at once, where DBOS itself would wait: the
+    heartbeat must not stall until the database is back.
     """
 
     def __init__(self, database: sa.Engine) -> None:
@@ -30,16 +30,16 @@ class Executions:
         )
 
     def holders(self) -> set[str]:
-        """The executors, dead or alive, that executions stand as run by."""
+        """The executors, dead or alive, that executions are recorded as run by."""
         pending = self._list(["PENDING"])
         return {each.executor_id for each in pending if each.executor_id is not None}
 
     def held_by(self, executor_id: str) -> set[str]:
-        """The jobs whose executions stand as run by an executor."""
+        """The jobs whose executions are recorded as run by an executor."""
         return {each.workflow_id for each in self._list(["PENDING"], executor_id=executor_id)}
 
     def ended(self, job_ids: Sequence[str]) -> Mapping[str, str]:
-        """Those of the jobs whose executions have ended, and how: one of ``TERMINAL``."""
+        """Which of the jobs' executions have ended, and how: one of ``TERMINAL``."""
         # No ids would mean all executions.
         if not job_ids:
             return {}
@@ -47,7 +47,7 @@ class Executions:
         return {each.workflow_id: each.status for each in ended}
 
     def open(self) -> int:
-        """How many wait or are run."""
+        """How many executions are waiting or running."""
         return len(self._list(OPEN))
 
     def _list(

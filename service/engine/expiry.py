@@ -1,9 +1,9 @@
-"""The end of what is kept: jobs expire, and what is to be erased is written down until it is gone.
+"""Expiry and erasure: jobs expire, and what has to be erased stays listed until it is gone.
 
-Blobs are not in the database, so no transaction covers both. A scope that is to be erased stands in
-a table of its own, entered in the transaction that forgets the job, and is taken out only after its
-blobs are gone: if the process dies in between, the next sweep goes on. A submission enters its
-scope before it stores the first byte and takes it out when the job is accepted.
+Blobs are not in the database, so no transaction covers both. A scope that has to be erased is
+listed in a table of its own, by the transaction that forgets the job, and removed from it only
+after its blobs are gone: if the process dies in between, the next sweep continues. A submission
+lists its scope before it stores the first byte and removes it when the job is accepted.
 """
 
 import logging
@@ -19,26 +19,26 @@ from service.engine.tables import ERASURES, IMAGES, JOBS, SOURCES, TOMBSTONES
 LOG: Final = logging.getLogger(__name__)
 
 ABANDONED_AFTER_S: Final = 3_600.0
-"""A submission that has stored its picture and was not heard of for this long is none."""
+"""A submission that stored its picture but was not completed within this time is abandoned."""
 
 LATE_WRITES_S: Final = 600.0
-"""A worker that is out of reach may still store results of a job that was erased under it; the
+"""A worker that is out of reach may still store results of a job that was erased meanwhile; the
 scope is erased once more after this time."""
 
 TOMBSTONES_KEPT_S: Final = 90 * 86_400.0
 BATCH: Final = 200
 EXPIRED_AT_ONCE: Final = 50
-"""Jobs, with all their events: so that one transaction finds room in the ballast of a full disk."""
+"""Jobs, with all their events, per transaction: one must fit into the ballast of a full disk."""
 
 POSTPONED_S: Final = 600.0
-"""A scope that could not be erased is tried again after this time; others do not wait for it."""
+"""A scope that could not be erased is retried after this time; others do not wait for it."""
 
 JUMP_S: Final = 60.0
-"""A wall clock that goes this much faster or slower than the time that has passed was set."""
+"""A wall clock that differs from the elapsed time by more than this was set."""
 
 SETTLING_S: Final = 3_600.0
-"""For this long after a jump nothing expires: what is erased cannot be brought back, and a clock
-that was set wrong can be set right."""
+"""Nothing expires for this long after a jump: what is erased cannot be brought back, but a clock
+that was set wrong can be corrected."""
 
 
 class ClockGuard:
@@ -56,7 +56,7 @@ class ClockGuard:
         self._settled_at = monotonic()
 
     def is_settled(self) -> bool:
-        """Say whether the wall clock has run evenly for a while."""
+        """Whether the wall clock has run evenly for a while."""
         now = self._monotonic()
         offset = self._wall() - now
         if abs(offset - self._offset) > JUMP_S:
@@ -71,7 +71,7 @@ class ClockGuard:
 
 
 def enter_erasures(connection: sa.Connection, scopes: Sequence[str], *, due_at: float) -> None:
-    """Write down that these scopes are to be erased from ``due_at`` on."""
+    """List these scopes for erasure from ``due_at`` on."""
     if scopes:
         connection.execute(
             sa.insert(ERASURES), [{"scope": scope, "due_at": due_at} for scope in scopes]
@@ -79,14 +79,14 @@ def enter_erasures(connection: sa.Connection, scopes: Sequence[str], *, due_at: 
 
 
 def take_out(connection: sa.Connection, scope: str) -> bool:
-    """Take a scope out of those to be erased; say whether it was still there."""
+    """Remove a scope from those to be erased; returns whether it was still listed."""
     return connection.execute(sa.delete(ERASURES).where(ERASURES.c.scope == scope)).rowcount > 0
 
 
 def forget_job(
     connection: sa.Connection, job_id: str, *conditions: sa.ColumnElement[bool]
 ) -> Sequence[str]:
-    """Delete a job and what is derived from it, with their events, and write down their scopes.
+    """Delete a job and what is derived from it, with their events, and list their scopes.
 
     Returns the scopes; none if there was no such job.
     """
@@ -94,7 +94,7 @@ def forget_job(
     rows = connection.execute(forgotten.where(JOBS.c.id == job_id, *conditions)).all()
     if not rows:
         return ()
-    # After its fit: a derivation that was being accepted is there by now, or never will be.
+    # After the fit itself: a derivation that was being accepted is there by now, or never will be.
     copied = sa.select(SOURCES.c.job_id).where(SOURCES.c.fit_id == job_id)
     below = sa.or_(JOBS.c.parent_id == job_id, JOBS.c.id.in_(copied))
     derived = connection.execute(forgotten.where(below)).all()
@@ -104,7 +104,7 @@ def forget_job(
 
 
 def _enter_forgotten(connection: sa.Connection, states: Mapping[str, str]) -> None:
-    """Write down the scopes of jobs that were deleted in these states, by their ids."""
+    """List the scopes of deleted jobs for erasure; ``states`` holds their states by id."""
     now = time.time()
     running = [each for each, state in states.items() if state == JobState.RUNNING.value]
     enter_erasures(connection, running, due_at=now + LATE_WRITES_S)
@@ -112,7 +112,7 @@ def _enter_forgotten(connection: sa.Connection, states: Mapping[str, str]) -> No
 
 
 def expire_jobs(connection: sa.Connection) -> int:
-    """Forget the jobs whose time is over, leaving their ids; returns how many."""
+    """Forget the jobs that have expired, keeping only their ids; returns how many."""
     now = time.time()
     ids = list(
         connection.execute(
@@ -142,13 +142,13 @@ def expire_jobs(connection: sa.Connection) -> int:
             for row in rows
         ],
     )
-    # A derivation may still run when the time of its fit is over.
+    # A derivation may still be running when its fit expires.
     _enter_forgotten(connection, {row.id: row.state for row in rows})
     return len(rows)
 
 
 def expire_images(connection: sa.Connection) -> int:
-    """Forget the uploaded pictures whose time is over; returns how many."""
+    """Forget the uploaded pictures that have expired; returns how many."""
     now = time.time()
     scopes = list(
         connection.execute(
@@ -173,7 +173,7 @@ def due_erasures(connection: sa.Connection) -> list[str]:
 
 
 def postpone(connection: sa.Connection, scope: str) -> None:
-    """Try a scope again later."""
+    """Put off erasing a scope until later."""
     connection.execute(
         sa.update(ERASURES)
         .where(ERASURES.c.scope == scope)
@@ -182,9 +182,9 @@ def postpone(connection: sa.Connection, scope: str) -> None:
 
 
 def forget_pages(database: sa.Engine) -> None:
-    """Give free pages of an embedded database back to the disk, and empty its write-ahead log.
+    """Return free pages of an embedded database to the disk, and empty its write-ahead log.
 
-    Erased rows also stand in the log, and the file does not shrink by itself.
+    Erased rows are also in the log, and the file does not shrink on its own.
     """
     if database.dialect.name != "sqlite":
         return

@@ -1,8 +1,8 @@
-"""A worker's heartbeat, and the taking over of fits whose worker died.
+"""A worker's heartbeat, and the recovery of fits whose worker died.
 
-Open-source DBOS recovers a process's own jobs when it starts again under the same name. Our workers
-never reuse a name, so each of them also looks after the others: one that holds running jobs and is
-not alive has them put back into the queue.
+Open-source DBOS recovers a process's own jobs when it restarts under the same name. Our workers
+never reuse a name, so each also watches the others: if one that holds running jobs is dead, its
+jobs are put back into the queue.
 """
 
 import logging
@@ -26,20 +26,20 @@ from service.jobs.states import ACTIVE
 LOG: Final = logging.getLogger(__name__)
 
 RECONCILE_AFTER_S: Final = 5.0
-"""How long a job may stand as active although its execution has ended: the time between the last
-checkpoint and DBOS's own note of it, many times over."""
+"""How long a job may be recorded as active although its execution has ended: many times the time
+between the last checkpoint and DBOS's own record of the end."""
 
 RECONCILED_AT_ONCE: Final = 1_000
-"""So many active jobs are looked at by a beat, those first that may have been claimed: what runs,
-then what has waited longest."""
+"""How many active jobs are checked per beat, starting with those that may have been claimed:
+running ones, then those that have waited longest."""
 
 DROPPED_AFTER_S: Final = 20.0
-"""How long an execution may stand as run by a worker that does not run it. Putting one back early
-does no harm: its record has ended, or its checkpoint is there."""
+"""How long an execution may be recorded as run by a worker that does not run it. Putting one back
+early does no harm: its record has ended, or its checkpoint is there."""
 
 
 class Heartbeat:
-    """A thread that beats, and looks after the fits of the dead."""
+    """A thread that beats, and recovers the fits of dead workers."""
 
     def __init__(
         self,
@@ -74,7 +74,7 @@ class Heartbeat:
         self._beat()
 
     def start(self) -> None:
-        """Begin to beat, and to look after others: DBOS must be running by now."""
+        """Begin to beat and to watch the others: DBOS must be running by now."""
         self._thread.start()
 
     def stop(self) -> None:
@@ -94,7 +94,7 @@ class Heartbeat:
             except OperationalError as error:
                 LOG.warning("The database is not available (%s).", error.orig)
             except Exception:
-                # The database may be away and come back; a heart that stops is never the answer.
+                # The database may be unavailable and come back; the heartbeat must never stop.
                 LOG.exception("A heartbeat failed.")
             if self._stopped.wait(self._interval_s):
                 return
@@ -107,7 +107,7 @@ class Heartbeat:
                 .values(beat=WORKERS.c.beat + 1)
             )
             if beaten.rowcount == 0:
-                # The first beat, or the others took this worker for dead and struck it off.
+                # The first beat, or the others took this worker for dead and removed it.
                 connection.execute(
                     sa.insert(WORKERS).values(
                         executor_id=self._executor_id,
@@ -135,7 +135,7 @@ class Heartbeat:
                 connection.execute(sa.delete(WORKERS).where(WORKERS.c.executor_id.in_(gone)))
 
     def _pick_up(self) -> None:
-        """Put back what stands as run by this worker and is not: its thread ended in an error.
+        """Put back what is recorded as run by this worker but is not: its thread ended in an error.
 
         That happens when DBOS itself cannot write what a fit returned, the disk being full.
         """
@@ -150,7 +150,7 @@ class Heartbeat:
                 del self._dropped_since[job_id]
 
     def _reconcile(self) -> None:
-        """End the records of jobs whose execution DBOS has given up, so that none waits forever."""
+        """End the records of jobs whose execution DBOS gave up on, so that none waits forever."""
         query = (
             sa.select(JOBS.c.id)
             .where(JOBS.c.state.in_([state.value for state in ACTIVE]))

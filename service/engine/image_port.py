@@ -6,7 +6,7 @@ from typing import Protocol
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NewImage:
-    """An uploaded picture to keep; its blob, named ``id``, is in ``scope`` already.
+    """An uploaded picture to keep; its blob, named ``id``, is already in ``scope``.
 
     ``width`` and ``height`` are those of the upright picture.
     """
@@ -22,7 +22,7 @@ class NewImage:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ImageRecord(NewImage):
-    """A picture as kept; times are seconds since the epoch."""
+    """A stored picture; times are seconds since the epoch."""
 
     created_at: float
     expires_at: float
@@ -30,7 +30,7 @@ class ImageRecord(NewImage):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class KeptImage:
-    """The picture, and whether it is the one just brought or was there already."""
+    """The picture, and whether it has just been stored or was there already."""
 
     record: ImageRecord
     is_new: bool
@@ -38,52 +38,52 @@ class KeptImage:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ImageQuota:
-    """How many uploaded pictures, and how many bytes of them, are kept for one tenant."""
+    """How many uploaded pictures, and how many bytes of them, one tenant may keep."""
 
     images: int
     size: int
 
 
 class ImageQuotaError(Exception):
-    """There is no room for this picture beside the tenant's others; the message says how many."""
+    """There is no room for this picture besides the tenant's others; the message says how many."""
 
 
 class TenantImages(Protocol):
-    """The uploaded pictures of one tenant: no other's can be seen or touched through it.
+    """The uploaded pictures of one tenant; those of others can be neither seen nor touched.
 
     Every method may raise :class:`service.engine.port.EngineUnavailableError`.
     """
 
     def find(self, image_id: str) -> ImageRecord | None:
-        """Return the picture, or None if there is none or its time is over."""
+        """Return the picture, or None if there is none or it has expired."""
         ...
 
     def renew(self, image_id: str) -> ImageRecord | None:
-        """Begin the picture's time anew, if there is such a picture."""
+        """Restart the picture's retention time, if there is such a picture."""
         ...
 
     def reserve(self, scope: str, *, size: int) -> None:
-        """Say that a picture of ``size`` bytes is about to be stored in a scope.
+        """Announce that a picture of ``size`` bytes is about to be stored in a scope.
 
-        Should nothing come of it, the scope is erased after an hour.
+        If nothing comes of it, the scope is erased after an hour.
 
         Raises
         ------
         ImageQuotaError
-            If there is no room for it.
+            If there is no room for the picture.
         """
         ...
 
     def keep(self, image: NewImage) -> KeptImage | None:
         """Keep a picture whose scope was reserved, or return the same one kept before.
 
-        None if its scope was taken for abandoned and erased meanwhile.
+        None if its scope was considered abandoned and has been erased meanwhile.
         """
         ...
 
     def erase(self, image_id: str) -> str | None:
-        """Forget the picture; returns its scope, which is the caller's to erase, if there was one.
+        """Forget the picture; returns its scope, if any, which the caller should erase.
 
-        Should the caller not come to it, the sweep does.
+        If the caller does not get to it, the sweep will.
         """
         ...

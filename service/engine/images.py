@@ -1,9 +1,9 @@
-"""Pictures a tenant uploaded before any fit: their records, beside those of jobs.
+"""Pictures uploaded by a tenant before any fit: their records, next to those of jobs.
 
-The blob of a picture lies in a scope of its own. As with jobs, the scope stands among those to be
-erased until the record is there, and again as soon as the record is gone (see
-:mod:`service.engine.expiry`). A fit copies the picture into the job's scope, so neither needs the
-other to stay.
+The blob of a picture lies in a scope of its own. As with jobs, the scope is listed for erasure
+until the record is there, and again as soon as the record is gone (see
+:mod:`service.engine.expiry`). A fit copies the picture into the job's scope, so neither depends on
+the other.
 """
 
 import time
@@ -38,26 +38,26 @@ class StoredImages:
 
     @available
     def find(self, image_id: str) -> ImageRecord | None:
-        """Return the picture, or None if there is none or its time is over."""
+        """Return the picture, or None if there is none or it has expired."""
         with self._database.connect() as connection:
             return self._find(connection, image_id)
 
     @available
     def renew(self, image_id: str) -> ImageRecord | None:
-        """Begin the picture's time anew, if there is such a picture."""
+        """Restart the picture's retention time, if there is such a picture."""
         with self._database.begin() as connection:
             return self._renew(connection, image_id)
 
     @available
     def reserve(self, scope: str, *, size: int) -> None:
-        """Enter the scope among those to be erased, until the picture is kept."""
+        """List the scope for erasure until the picture is kept."""
         with self._database.begin() as connection:
             self._check_room(connection, size)
             enter_erasures(connection, [scope], due_at=time.time() + ABANDONED_AFTER_S)
 
     @available
     def keep(self, image: NewImage) -> KeptImage | None:
-        """Write the record; the same picture of another upload goes before it."""
+        """Write the record; the same picture from an earlier upload takes precedence."""
         try:
             with self._database.begin() as connection:
                 earlier = self._renew(connection, image.id)
@@ -65,7 +65,7 @@ class StoredImages:
                     return KeptImage(record=earlier, is_new=False)
                 return self._insert(connection, image)
         except IntegrityError:
-            # Two uploads of one picture raced, or one whose time is over is not swept yet.
+            # Two uploads of one picture raced, or an expired one has not been swept yet.
             with self._database.begin() as connection:
                 self._forget(connection, image.id, IMAGES.c.expires_at <= time.time())
                 earlier = self._renew(connection, image.id)
@@ -75,7 +75,7 @@ class StoredImages:
 
     @available
     def erase(self, image_id: str) -> str | None:
-        """Forget the picture; returns its scope, which is the caller's to erase."""
+        """Forget the picture; returns its scope, which the caller should erase."""
         return self._ballast.spend_on(lambda: self._erase(image_id))
 
     def _erase(self, image_id: str) -> str | None:
@@ -88,7 +88,7 @@ class StoredImages:
     def _check_room(self, connection: sa.Connection, size: int) -> None:
         """Raise :class:`ImageQuotaError` unless one more picture of this size is within the quota.
 
-        Uploads at the same moment may exceed it, by as many as there are.
+        Concurrent uploads may together exceed it.
         """
         images, total = connection.execute(
             sa.select(sa.func.count(), sa.func.coalesce(sa.func.sum(IMAGES.c.size), 0)).where(

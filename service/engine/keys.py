@@ -1,7 +1,7 @@
-"""API keys: who may ask, and as which tenant.
+"""API keys: who may send requests, and as which tenant.
 
-A key is 256 random bits; only its SHA-256 is stored, which is enough for a secret that cannot be
-guessed. It is shown once, when it is made.
+A key is 256 random bits; only its SHA-256 is stored, which suffices for a secret that cannot be
+guessed. It is shown once, when it is created.
 """
 
 import hashlib
@@ -23,7 +23,7 @@ TENANT_NAME: Final = re.compile(r"[a-z0-9][a-z0-9-]{0,62}")
 
 
 class Role(StrEnum):
-    """What a key opens: a tenant's fits, or the metrics of the whole and nothing else."""
+    """What a key gives access to: a tenant's fits, or the service's metrics and nothing else."""
 
     FITS = "fits"
     METRICS = "metrics"
@@ -31,7 +31,7 @@ class Role(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ApiKey:
-    """A key as stored; times are seconds since the epoch."""
+    """A stored key; times are seconds since the epoch."""
 
     id: str
     tenant: str
@@ -49,12 +49,12 @@ class KeyRing:
 
     @available
     def create(self, tenant: str, role: Role = Role.FITS) -> str:
-        """Make a key and return it; it cannot be shown again.
+        """Create a key and return it; it cannot be shown again.
 
         Raises
         ------
         ValueError
-            If the tenant's name is none.
+            If the tenant's name is invalid.
         """
         if TENANT_NAME.fullmatch(tenant) is None:
             message = "a tenant is named by up to 63 small letters, digits and hyphens"
@@ -75,7 +75,7 @@ class KeyRing:
 
     @available
     def revoke(self, identity: str) -> bool:
-        """Make a key useless, within seconds at every process; say whether it was in use."""
+        """Revoke a key, within seconds in every process; returns whether it was valid."""
         with self._database.begin() as connection:
             return (
                 connection.execute(
@@ -104,5 +104,5 @@ class KeyRing:
 
 
 def hash_key(key: str) -> str:
-    """Return what is stored of a key."""
+    """Return what is stored in place of a key."""
     return hashlib.sha256(key.encode()).hexdigest()

@@ -1,9 +1,10 @@
-"""Who is alive: heartbeats counted, never dated, so that no jump of a clock kills a worker.
+"""Who is alive: heartbeats are counted, never dated, so that no clock jump kills a worker.
 
-A worker raises its ``beat`` every few seconds. Whoever watches adds up, by its own monotonic clock,
-for how long it has looked and seen the number stand still. Time in which it did not look does not
-count: when the database was away, nobody could beat, and nobody is dead for it. On the watcher's
-own machine the process table is asked as well: a process that is gone is dead at once.
+A worker increments its ``beat`` every few seconds. A watcher adds up, by its own monotonic clock,
+for how long it has looked and seen the number unchanged. Time in which it did not look does not
+count: while the database was unavailable nobody could beat, which must not make anybody dead. On
+the watcher's own machine the process table is consulted as well: a process that is gone is dead at
+once.
 """
 
 import os
@@ -21,7 +22,7 @@ from service.engine.port import WorkerStatus
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ProcessIdentity:
-    """A process, told apart from every other one on any machine, even after its pid is reused."""
+    """Identifies a process uniquely across machines, even after its pid is reused."""
 
     machine: str
     pid: int
@@ -29,7 +30,7 @@ class ProcessIdentity:
 
 
 def this_machine() -> str:
-    """Name what shares a process table: host, boot and pid namespace."""
+    """Identify what shares a process table: host, boot and pid namespace."""
     boot = _read("/proc/sys/kernel/random/boot_id")
     try:
         namespace = str(Path("/proc/self/ns/pid").readlink())
@@ -65,7 +66,7 @@ def _read(path: str) -> str:
 
 
 LONGEST_LOOK: Final = 0.25
-"""The share of the limit that may pass between two looks and still count as silence."""
+"""The longest time between two looks that still counts as silence, as a share of the limit."""
 
 
 @dataclass(slots=True)
@@ -76,7 +77,7 @@ class _Sight:
 
 
 class WorkerWatch:
-    """Remembers what was seen of each worker's heartbeat; safe to share between threads."""
+    """Remembers each worker's heartbeat as last seen; thread-safe."""
 
     def __init__(
         self, *, dead_after_s: float, monotonic: Callable[[], float] = time.monotonic
@@ -89,7 +90,7 @@ class WorkerWatch:
         self._lock = threading.Lock()
 
     def look(self, workers: Sequence[sa.Row[Any]]) -> list[WorkerStatus]:
-        """Look at all rows of the workers' table, and say what is known of each."""
+        """Look at all rows of the workers' table, and return what is known about each."""
         with self._lock:
             now = self._monotonic()
             passed = 0.0 if self._last_look is None else now - self._last_look
@@ -123,7 +124,7 @@ class WorkerWatch:
         )
 
     def _runs(self, row: sa.Row[Any]) -> bool | None:
-        """Ask the process table; None if the worker is elsewhere, or cannot be told."""
+        """Ask the process table; None if the worker is elsewhere, or if it cannot be told."""
         if row.machine != self._machine:
             return None
         try:

@@ -1,4 +1,4 @@
-"""What the API and the worker ask of a job engine, whatever stands behind it."""
+"""What the API and the worker require of a job engine, however it is implemented."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -12,7 +12,7 @@ from api_schemas.results import Artifact
 from service.engine.image_port import TenantImages
 
 FIT: Final = "fit"
-"""The kind of a job that is no derivation."""
+"""The kind of a job that is not a derivation."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,12 +33,12 @@ class Idempotency:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NewJob:
-    """A job to accept; its blobs are stored already, ``options`` being the request as JSON.
+    """A job to accept; its blobs are already stored, ``options`` being the request as JSON.
 
-    ``inputs`` is what else it needs, by name; ``sources`` are the fits, beside its own, whose
-    pictures are among them: it is erased and expires with the first of them. ``request_id`` and
-    ``traceparent`` name the HTTP request it came with, in logs and traces; ``webhook`` is a blob
-    too, a :class:`api_schemas.webhooks.WebhookTarget` as JSON: whom to tell of its end.
+    ``inputs`` is what else it needs, by name; ``sources`` are the fits, besides its own, whose
+    pictures are among the inputs: it is erased and expires with the first of them. ``request_id``
+    and ``traceparent`` identify the HTTP request in logs and traces; ``webhook`` is a blob too, a
+    :class:`api_schemas.webhooks.WebhookTarget` as JSON: whom to notify of the job's end.
     """
 
     id: str
@@ -54,9 +54,9 @@ class NewJob:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WebhookRecord:
-    """Where the notice of a job's end stands; times are seconds since the epoch.
+    """The state of the notice of a job's end; times are seconds since the epoch.
 
-    ``target`` is the blob that says whom to tell.
+    ``target`` is the blob that says whom to notify.
     """
 
     target: StoredBlob
@@ -69,7 +69,7 @@ class WebhookRecord:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class JobRecord:
-    """A job as stored; times are seconds since the epoch.
+    """A stored job; times are seconds since the epoch.
 
     ``parent`` is the fit it is derived from, None for a fit.
     """
@@ -108,11 +108,11 @@ class JobEvent:
 
 
 class EngineUnavailableError(Exception):
-    """The engine's database is away or full; nothing was changed."""
+    """The engine's database is unavailable or full; nothing was changed."""
 
 
 class EngineFullError(EngineUnavailableError):
-    """The disk of the engine's database has no room; nothing was changed."""
+    """The disk of the engine's database is full; nothing was changed."""
 
 
 class DatabaseUnusableError(Exception):
@@ -120,7 +120,7 @@ class DatabaseUnusableError(Exception):
 
 
 class JobExpiredError(Exception):
-    """The job has been erased, or is about to be, because its time is over."""
+    """The job has been erased, or is about to be, because it has expired."""
 
     def __init__(self, expired_at: float) -> None:
         super().__init__(expired_at)
@@ -131,7 +131,7 @@ class SubmitOutcome(StrEnum):
     """How a submission ended.
 
     ``TENANT_FULL``: too many jobs of this tenant are waiting. ``LOST``: the blobs of the job were
-    taken for abandoned and erased before it was submitted. ``PARENT_GONE``: a fit it is derived
+    considered abandoned and erased before it was submitted. ``PARENT_GONE``: a fit it is derived
     from was erased meanwhile.
     """
 
@@ -146,37 +146,38 @@ class SubmitOutcome(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Submission:
-    """The outcome, and the job: the new one, or the earlier one of the same idempotency key."""
+    """The outcome, and the job: the new one, or the earlier one with the same idempotency key."""
 
     outcome: SubmitOutcome
     job: JobRecord | None
 
 
 class TenantJobs(Protocol):
-    """The fits of one tenant, or what is derived from one of them.
+    """The fits of one tenant, or the derivations of one of them.
 
-    No other job can be seen or touched through it. Every method but ``derivations`` may raise
-    :class:`EngineUnavailableError`; those that name a job raise :class:`JobExpiredError` when its
-    time is over.
+    Other jobs can be neither seen nor touched through it. Every method but ``derivations`` may
+    raise :class:`EngineUnavailableError`; those that name a job raise :class:`JobExpiredError` if
+    it has expired.
     """
 
     def derivations(self, fit_id: str) -> "TenantJobs":
-        """Return the jobs derived from a fit of this tenant; they end with it."""
+        """Return the jobs derived from a fit of this tenant; they are erased with it."""
         ...
 
     def reserve(self, job_id: str, idempotency: Idempotency | None) -> Submission:
-        """Say that blobs are about to be stored for a job: ``ACCEPTED``, yet without a job, if so.
+        """Announce that blobs are about to be stored for a job.
 
-        Should nothing come of it, they are erased after an hour.
+        The outcome is ``ACCEPTED``, but without a job, if they may be. If no job comes of it, they
+        are erased after an hour.
         """
         ...
 
     def repeated(self, idempotency: Idempotency | None) -> Submission | None:
-        """Return what a submission with an earlier one's key is answered; None if it is new."""
+        """Return the answer to a submission that repeats an earlier key; None if it is new."""
         ...
 
     def submit(self, job: NewJob) -> Submission:
-        """Accept a job durably, or say why not; its scope was reserved before."""
+        """Accept a job durably, or say why not; its scope must have been reserved."""
         ...
 
     def job(self, job_id: str) -> JobRecord | None:
@@ -190,14 +191,14 @@ class TenantJobs(Protocol):
         ...
 
     def cancel(self, job_id: str) -> JobRecord | None:
-        """Stop a job: at once if queued, within moments if running; no effect if terminal."""
+        """Stop a job: at once if queued, within moments if running; no effect if it has ended."""
         ...
 
     def erase(self, job_id: str) -> Sequence[str]:
-        """Stop a job, what is derived from it too, and forget them with their events.
+        """Stop a job and what is derived from it, and forget them with their events.
 
-        Returns the scopes of their blobs, none if there was no such job. They are the caller's to
-        erase; should the caller not come to it, they are erased by the sweep.
+        Returns the scopes of their blobs, none if there was no such job. The caller should erase
+        them; if it does not get to it, the sweep will.
         """
         ...
 
@@ -208,9 +209,9 @@ class TenantJobs(Protocol):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WorkerStatus:
-    """A worker as seen from here: how long ago its heart was seen to beat, by our own clock.
+    """A worker as seen from here: how long ago its last heartbeat was seen, by our own clock.
 
-    ``alive`` is None while nothing can be said yet, having been seen only once.
+    ``alive`` is None as long as the worker has been seen only once and nothing can be said.
     """
 
     executor_id: str
@@ -220,7 +221,7 @@ class WorkerStatus:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DurationHistogram:
-    """How long a phase of jobs took: jobs by upper bound of their seconds, and all seconds."""
+    """How long a phase of jobs took: numbers of jobs by upper bound in seconds, and the sum."""
 
     phase: str
     counts: tuple[tuple[float, int], ...]
@@ -229,7 +230,7 @@ class DurationHistogram:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EngineStatistics:
-    """The queue now, everything that ever ended, and the notices of the jobs that are kept."""
+    """The current queue, everything that ever ended, and the notices of the jobs that are kept."""
 
     queued: int
     running: int
@@ -240,7 +241,7 @@ class EngineStatistics:
 
 
 class JobEngine(Protocol):
-    """The caller's side: jobs and pictures of tenants, and the state of the whole.
+    """The caller's side: jobs and pictures of tenants, and the state of the whole service.
 
     Every method but ``of`` and ``images_of`` may raise :class:`EngineUnavailableError`.
     """
@@ -266,7 +267,7 @@ class JobEngine(Protocol):
         ...
 
     def statistics(self) -> EngineStatistics:
-        """Return the figures of the whole."""
+        """Return statistics of the whole service."""
         ...
 
     def body_models(self) -> BodyModels | None:
@@ -279,7 +280,7 @@ class JobEngine(Protocol):
 
 
 class Directive(StrEnum):
-    """What a running attempt is to do."""
+    """What a running attempt should do."""
 
     CONTINUE = "continue"
     CANCELED = "canceled"
@@ -308,7 +309,7 @@ class Ending(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AttemptResult:
-    """What an attempt leaves behind: references to blobs, never the blobs."""
+    """The result of an attempt: references to blobs, never the blobs themselves."""
 
     ending: Ending
     artifacts: tuple[Artifact, ...] = ()
@@ -329,7 +330,7 @@ class Attempt(Protocol):
         ...
 
     def directive(self) -> Directive:
-        """Ask whether to go on."""
+        """Ask whether to continue."""
         ...
 
 

@@ -1,4 +1,4 @@
-"""Names DBOS knows our work by, shared by those who enqueue and those who run."""
+"""Names by which DBOS knows our work, shared by those who enqueue it and those who run it."""
 
 from typing import Final
 
@@ -6,5 +6,5 @@ APPLICATION: Final = "maquette"
 QUEUE: Final = "fits"
 WORKFLOW: Final = "fit"
 EXECUTION_VERSION: Final = "1"
-"""DBOS's application version: names the meaning of checkpoints, not of the code. Raised only when
-a stored checkpoint can no longer be continued; workers run jobs of their own version alone."""
+"""DBOS's application version: that of the checkpoints' meaning, not of the code. Raised only when
+stored checkpoints can no longer be continued; workers run only jobs of their own version."""

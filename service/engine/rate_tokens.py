@@ -1,7 +1,7 @@
-"""Buckets of tokens in the database, one for each API key: what all API processes share.
+"""Token buckets in the database, one per API key, shared by all API processes.
 
 The clock is the database's, since those of several machines differ. A bucket is full after a minute
-whatever was in it, and a full one need not be kept: old rows are dropped and nothing is lost.
+whatever was in it, and a full one need not be stored: old rows are dropped and nothing is lost.
 """
 
 from typing import Any, Final
@@ -16,14 +16,14 @@ from service.engine.token_port import Grant
 from service.engine.upsert import insert_or_update
 
 FILLED_AFTER_S: Final = 60.0
-"""The limit is one of requests a minute, and the capacity is that of a minute."""
+"""The limit is in requests per minute, and the capacity is one minute's worth."""
 
 DROPPED_AFTER_S: Final = 3_600.0
-"""Long after a bucket was full, so that a key in use does not come and go with every sweep."""
+"""Long after a bucket is full, so that a key in use is not dropped and re-added at every sweep."""
 
 JUMP_S: Final = 10.0
-"""A bucket filled later than now by more than this was filled before the clock was set back. By
-less: its statement waited for another, and a moment is not counted twice."""
+"""A bucket filled more than this far in the future was filled before the clock was set back. If by
+less, its statement waited for another one, and no time is counted twice."""
 
 JULIAN_EPOCH: Final = 2_440_587.5
 DAY_S: Final = 86_400.0
@@ -39,13 +39,13 @@ class RateTokens:
 
     @available
     def exchange(self, key: str, *, returned: int, wanted: int) -> Grant:
-        """Give ``returned`` tokens back and take up to ``wanted``, by one statement."""
+        """Give back ``returned`` tokens and take up to ``wanted``, in one statement."""
         try:
             with self._database.begin() as connection:
                 statement = self._statement(connection, key, returned=returned, wanted=wanted)
                 row = connection.execute(statement).one()
         except InternalError as error:
-            # How Postgres refuses to write where it only reads, as a standby does.
+            # How Postgres refuses writes when it is read-only, as a standby is.
             raise EngineUnavailableError from error
         return Grant(tokens=row.granted, wait_s=max(0.0, (1.0 - row.tokens) / self._per_second))
 
@@ -53,8 +53,8 @@ class RateTokens:
         self, connection: sa.Connection, key: str, *, returned: int, wanted: int
     ) -> sa.Executable:
         dialect = _Dialect(connection)
-        # A row that is being changed by another statement is waited for and then read anew, so that
-        # what is written follows from what it holds then.
+        # If another statement is changing the row, this one waits and then reads the row again, so
+        # that what is written follows from the row's latest values.
         filled_s = dialect.greatest(dialect.now - RATE_TOKENS.c.filled_at, 0.0)
         there = dialect.least(
             RATE_TOKENS.c.tokens + filled_s * self._per_second + float(returned),
@@ -82,7 +82,7 @@ class RateTokens:
 
 
 def drop_full_buckets(connection: sa.Connection) -> None:
-    """Forget the buckets that nobody has met for long, those of revoked keys among them."""
+    """Forget the buckets that have long been unused, including those of revoked keys."""
     now = _Dialect(connection).now
     connection.execute(
         sa.delete(RATE_TOKENS).where(RATE_TOKENS.c.filled_at < now - DROPPED_AFTER_S)
@@ -90,17 +90,17 @@ def drop_full_buckets(connection: sa.Connection) -> None:
 
 
 class _Dialect:
-    """What SQLite and Postgres call differently."""
+    """Functions that SQLite and Postgres name differently."""
 
     def __init__(self, connection: sa.Connection) -> None:
         self._is_postgres = connection.dialect.name == "postgresql"
 
     @property
     def now(self) -> sa.ColumnElement[float]:
-        """Seconds since the epoch, the same all through a statement."""
+        """Seconds since the epoch, constant within a statement."""
         if self._is_postgres:
             return sa.cast(sa.extract("epoch", sa.func.statement_timestamp()), sa.Double)
-        # Any SQLite knows this one, in thousandths of a second.
+        # Every version of SQLite has this one, with millisecond resolution.
         return (sa.func.julianday("now", type_=sa.Double) - JULIAN_EPOCH) * DAY_S
 
     def least(self, one: Any, other: Any) -> sa.ColumnElement[Any]:
@@ -112,6 +112,6 @@ class _Dialect:
         return (sa.func.greatest if self._is_postgres else sa.func.max)(one, other)
 
     def whole(self, value: sa.ColumnElement[float]) -> sa.ColumnElement[Any]:
-        """The whole number below a value that is not negative."""
+        """The floor of a value that is not negative."""
         # Not every SQLite has floor(), and Postgres' cast rounds.
         return sa.func.floor(value) if self._is_postgres else sa.cast(value, sa.Integer)

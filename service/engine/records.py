@@ -1,4 +1,4 @@
-"""Rows to records and back, and the statements both sides of the engine share."""
+"""Conversion between rows and records, and the statements both sides of the engine share."""
 
 import time
 from collections.abc import Mapping
@@ -72,7 +72,7 @@ def append_event(
     kind: EventKind,
     energies: Mapping[str, float] | None = None,
 ) -> None:
-    """Append an event that shows the job as it is, in the transaction that made it so."""
+    """Append an event with the job's current state, in the transaction that changed it."""
     data = EventData(
         state=job.state,
         stage=job.stage,
@@ -96,8 +96,8 @@ def move_job(
 ) -> JobRecord | None:
     """Move a job to an active ``state`` if that is legal and the conditions hold.
 
-    The check and the change are one statement, so that of two racing callers one loses. Returns
-    the changed job, or None if nothing was changed.
+    The check and the change are one statement, so that only one of two racing callers succeeds.
+    Returns the changed job, or None if nothing was changed.
     """
     changes: dict[str, Any] = {}
     if state is JobState.RUNNING:
@@ -116,11 +116,11 @@ def end_job(
     retention_s: float,
     values: Mapping[str, object] | None = None,
 ) -> JobRecord | None:
-    """End a job as :func:`move_job` moves one; it expires ``retention_s`` from now.
+    """End a job like :func:`move_job`; it expires ``retention_s`` from now.
 
-    Or from its creation, should that be later: a clock that was set back since is not to make the
-    job expire the moment it is set right. A derivation expires when its fit does, as was written
-    down when it was accepted. Whoever is to be told of its end is to be told from now on.
+    If its creation is later than now, it expires ``retention_s`` from then: a clock that has been
+    set back must not make the job expire the moment it is corrected. A derivation expires when its
+    fit does, as recorded when it was accepted. The notice of its end, if any, becomes due now.
     """
     now = time.time()
     latest = sa.case((JOBS.c.created_at > now, JOBS.c.created_at), else_=now)

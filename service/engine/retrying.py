@@ -1,4 +1,4 @@
-"""Trying again while the database is away."""
+"""Trying again while the database is unavailable."""
 
 from collections.abc import Callable
 from typing import ParamSpec, TypeVar
@@ -12,5 +12,5 @@ T = TypeVar("T")
 
 
 def retry_while_database_is_away(operation: Callable[P, T]) -> Callable[P, T]:
-    """Repeat an operation that fails for want of the database, for up to two minutes."""
+    """Retry an operation that fails because the database is unavailable, for up to two minutes."""
     return retry_with_pauses(OperationalError, "database")(operation)

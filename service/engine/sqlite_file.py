@@ -1,4 +1,4 @@
-"""The embedded database's file: made for its owner alone, and set up before its first table."""
+"""The embedded database's file: private to its owner, and set up before its first table."""
 
 import sqlite3
 import sys
@@ -15,8 +15,8 @@ BUSY_TIMEOUT_MS: Final = 30_000
 
 
 def check_sqlite_version() -> None:
-    """Raise DatabaseUnusableError if the SQLite of this Python lacks what DBOS asks of it."""
-    # From Python 3.12 on DBOS reads the clock by unixepoch('subsec'), NULL in an older SQLite.
+    """Raise DatabaseUnusableError if this Python's SQLite lacks what DBOS needs."""
+    # From Python 3.12 on DBOS reads the clock with unixepoch('subsec'), NULL in an older SQLite.
     if sys.version_info >= (3, 12) and sqlite3.sqlite_version_info < (3, 42):
         message = (
             f"SQLite {sqlite3.sqlite_version} is too old. Use a Python built with SQLite 3.42 or "
@@ -26,9 +26,9 @@ def check_sqlite_version() -> None:
 
 
 def secure_file(path: Path) -> None:
-    """Make the file, unless it is there, and keep everybody but its owner out of it.
+    """Create the file unless it exists, and deny access to everybody but its owner.
 
-    SQLite gives the files beside it the same mode.
+    SQLite gives the files it creates next to it the same mode.
     """
     make_private_folder(path.parent)
     if not path.exists():
@@ -38,7 +38,7 @@ def secure_file(path: Path) -> None:
 
 
 def configure_connection(connection: Any, _: object) -> None:
-    """Set up a connection SQLite has just made."""
+    """Set up a new SQLite connection."""
     # IMMEDIATE: a transaction that reads and then writes would otherwise fail instead of waiting.
     connection.isolation_level = "IMMEDIATE"
     for pragma in (
@@ -52,8 +52,8 @@ def configure_connection(connection: Any, _: object) -> None:
 
 
 def prepare_file(engine: sa.Engine) -> None:
-    """Choose what must be chosen before the first table."""
-    # auto_vacuum takes effect only before the first table; DBOS sets neither of the two.
+    """Set what must be set before the first table exists."""
+    # auto_vacuum takes effect only before the first table; DBOS sets neither pragma.
     connection = engine.raw_connection()
     try:
         connection.driver_connection.isolation_level = None  # pyright: ignore

@@ -1,7 +1,7 @@
 """How jobs ended and how long they took, counted where they end.
 
-The counts stand in the database, changed in the transaction that ends the job: they miss none and
-count none twice, are those of all machines together, and survive every process.
+The counts are kept in the database and changed in the transaction that ends the job, so they miss
+no job and count none twice, cover all machines, and outlive every process.
 """
 
 import bisect
@@ -16,7 +16,7 @@ from service.engine.tables import DURATIONS, OUTCOMES
 from service.engine.upsert import insert_or_update
 
 BOUNDS_S: Final = (0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 5.0, 10.0, 30.0, 60.0, 300.0, 1800.0, 1e9)
-"""Upper bounds of the histograms' buckets; the last one stands for infinity."""
+"""Upper bounds of the histograms' buckets, seconds; the last one stands for infinity."""
 
 WAITING: Final = "waiting"
 RUNNING: Final = "running"
@@ -25,7 +25,7 @@ RUNNING: Final = "running"
 def count_ending(connection: sa.Connection, job: JobRecord) -> None:
     """Count a job that has just ended, and how long it waited and ran.
 
-    How long derivations ran is counted by their kinds, beside the fits.
+    Running times of derivations are counted by kind, separately from those of fits.
     """
     insert = insert_or_update(connection, OUTCOMES).values(state=job.state.value, jobs=1)
     connection.execute(
@@ -46,9 +46,9 @@ def count_ending(connection: sa.Connection, job: JobRecord) -> None:
 
 def count_durations(connection: sa.Connection, seconds: Mapping[str, float]) -> None:
     """Add one duration to the histogram of each phase."""
-    # In one order always: two transactions must not wait for each other.
+    # Always in the same order, so that two transactions cannot deadlock.
     for phase, duration in sorted(seconds.items()):
-        # A clock that was set back makes a duration negative.
+        # A clock that was set back can make a duration negative.
         lasted = min(max(duration, 0.0), BOUNDS_S[-1])
         bucket = BOUNDS_S[bisect.bisect_left(BOUNDS_S, lasted)]
         insert = insert_or_update(connection, DURATIONS).values(
@@ -66,12 +66,12 @@ def count_durations(connection: sa.Connection, seconds: Mapping[str, float]) -> 
 
 
 def read_outcomes(connection: sa.Connection) -> dict[JobState, int]:
-    """Return how many jobs ever ended in each state."""
+    """Return how many jobs have ever ended in each state."""
     return {JobState(row.state): row.jobs for row in connection.execute(sa.select(OUTCOMES))}
 
 
 def read_durations(connection: sa.Connection) -> tuple[DurationHistogram, ...]:
-    """Return the histogram of each phase there is."""
+    """Return the histogram of each phase that has one."""
     counts: dict[str, dict[float, int]] = {}
     totals: dict[str, float] = {}
     for row in connection.execute(sa.select(DURATIONS)):

@@ -1,4 +1,4 @@
-"""A thread that erases what has expired, and what was to be erased and is still there."""
+"""A thread that erases what has expired, and what should have been erased but is still there."""
 
 import logging
 import threading
@@ -48,11 +48,11 @@ class Sweeper:
         self._thread = threading.Thread(target=self._run, name="sweeper", daemon=True)
 
     def start(self) -> None:
-        """Begin, one interval from now."""
+        """Start; the first sweep is one interval from now."""
         self._thread.start()
 
     def stop(self) -> None:
-        """Stop after the scope at hand."""
+        """Stop after the scope that is being erased."""
         self._stopped.set()
         self._thread.join()
 
@@ -97,7 +97,7 @@ class Sweeper:
         return True
 
     def _forget(self, scope: str) -> None:
-        # What DBOS knows of it too: a no-op where DELETE came to it already.
+        # Also what DBOS stores about it: a no-op if DELETE has already done so.
         self._client.cancel_workflow(scope)
         self._client.delete_workflow(scope)
         with self._database.begin() as connection:

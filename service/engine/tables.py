@@ -1,4 +1,4 @@
-"""The tables of our own, beside those of DBOS in the same database."""
+"""Our own tables, next to those of DBOS in the same database."""
 
 import sqlalchemy as sa
 
@@ -44,10 +44,10 @@ JOBS = sa.Table(
     sa.Index("maquette_jobs_expiry", "expires_at"),
     sa.Index("maquette_jobs_webhooks", "webhook_due_at"),
 )
-"""Fits, and what is derived from them: these name their fit as ``parent_id``. ``inputs`` are blobs
-in the job's own scope, by name, as JSON; ``webhook_target`` is the digest of another, which holds
-whom to tell of the end and the secret to sign with: a database keeps what was deleted from it, in
-dead rows, logs and copies."""
+"""Fits and derivations; a derivation names its fit in ``parent_id``. ``inputs`` are blobs in the
+job's own scope, by name, as JSON; ``webhook_target`` is the digest of another, which holds whom to
+notify and the secret to sign with. It is not in the database, because databases keep what was
+deleted in dead rows, logs and backups."""
 
 SOURCES = sa.Table(
     "maquette_sources",
@@ -61,7 +61,8 @@ SOURCES = sa.Table(
     sa.Column("fit_id", sa.String(36), primary_key=True),
     sa.Index("maquette_sources_fit", "fit_id"),
 )
-"""Of which other fits, beside their own, derivations have copies: they go when one of them goes."""
+"""The other fits, besides its own, that a derivation has copies of: it is erased with any of them.
+"""
 
 EVENTS = sa.Table(
     "maquette_events",
@@ -84,8 +85,8 @@ ERASURES = sa.Table(
     sa.Column("due_at", sa.Double, nullable=False),
     sa.Index("maquette_erasures_due", "due_at"),
 )
-"""Scopes of blobs to be erased from ``due_at`` on: of jobs that are gone, and of submissions that
-were begun and are taken out again when they are accepted."""
+"""Scopes of blobs to be erased from ``due_at`` on: those of jobs that are gone, and those of
+unfinished submissions, which are removed again when the job is accepted."""
 
 IMAGES = sa.Table(
     "maquette_images",
@@ -114,7 +115,7 @@ TOMBSTONES = sa.Table(
     sa.Column("expired_at", sa.Double, nullable=False),
     sa.Index("maquette_tombstones_age", "expired_at"),
 )
-"""That there was a job and its time is over: nothing else is kept of it."""
+"""Ids of jobs that have expired: nothing else is kept of them."""
 
 API_KEYS = sa.Table(
     "maquette_api_keys",
@@ -135,9 +136,9 @@ RATE_TOKENS = sa.Table(
     sa.Column("granted", sa.Integer, nullable=False),
     sa.Column("filled_at", sa.Double, nullable=False),
 )
-"""How many requests an API key has left: what there was at ``filled_at``, by the database's clock.
+"""How many requests an API key has left: ``tokens`` as of ``filled_at``, by the database's clock.
 ``granted`` is what was taken last: a statement can return only what it leaves behind. There is one
-row a key, so no index by age, which would have to be written with every exchange."""
+row per key, so there is no index by age, which every exchange would have to update."""
 
 OUTCOMES = sa.Table(
     "maquette_outcomes",
@@ -145,7 +146,7 @@ OUTCOMES = sa.Table(
     sa.Column("state", sa.String(16), primary_key=True),
     sa.Column("jobs", sa.BigInteger, nullable=False),
 )
-"""How many jobs ever ended in each state; erasing a job does not take it back."""
+"""How many jobs have ever ended in each state; erasing a job does not lower it."""
 
 DURATIONS = sa.Table(
     "maquette_durations",
@@ -155,7 +156,7 @@ DURATIONS = sa.Table(
     sa.Column("jobs", sa.BigInteger, nullable=False),
     sa.Column("seconds", sa.Double, nullable=False),
 )
-"""How long phases of jobs took, as a histogram: ``bucket`` is the upper bound of its seconds."""
+"""How long phases of jobs took, as a histogram: ``bucket`` is an upper bound in seconds."""
 
 WORKERS = sa.Table(
     "maquette_workers",

@@ -76,7 +76,7 @@ class DbosTenantJobs:
 
     @available
     def reserve(self, job_id: str, idempotency: Idempotency | None) -> Submission:
-        """Enter the job's scope among those to be erased, until the job is accepted."""
+        """List the job's scope for erasure until the job is accepted."""
         with self._database.begin() as connection:
             answered = self._answered(connection, idempotency)
             if answered is not None:
@@ -113,7 +113,7 @@ class DbosTenantJobs:
                 self._client.enqueue_in_transaction(connection, options, job.id)
                 return Submission(outcome=SubmitOutcome.ACCEPTED, job=record)
         except IntegrityError:
-            # Two requests with one new key raced; the other one is stored by now.
+            # Two requests with the same new key raced; the other one is stored by now.
             with self._database.begin() as connection:
                 repeated = self._earlier(connection, job.idempotency)
             if repeated is None:
@@ -157,7 +157,7 @@ class DbosTenantJobs:
     def cancel(self, job_id: str) -> JobRecord | None:
         """End a queued job at once; ask the worker of a running one to stop.
 
-        A running job keeps its place in DBOS: if its worker is dead, the next one must find the
+        A running job keeps its entry in DBOS: if its worker is dead, the next one must find the
         job, see the request and end it.
         """
         return self._ballast.spend_on(lambda: self._cancel(job_id))
@@ -235,10 +235,10 @@ class DbosTenantJobs:
         return (JOBS.c.id == job_id, *self._ours())
 
     def _parents_end(self, connection: sa.Connection, sources: Collection[str]) -> float | None:
-        """When the first of the fits to derive from expires; None if one is gone, or none is to be.
+        """When the first of the fits to derive from expires; None if one is gone or none is needed.
 
-        Their records are held until the transaction ends, one of :func:`read_then_write`, so that
-        none can be erased meanwhile.
+        Their records are locked until the end of the transaction, which must be one of
+        :func:`read_then_write`, so that none can be erased meanwhile.
         """
         if self._parent is None:
             return None
@@ -279,7 +279,7 @@ class DbosTenantJobs:
     def _answered(
         self, connection: sa.Connection, idempotency: Idempotency | None
     ) -> Submission | None:
-        """Return what a submission is answered without being accepted; None if there is room."""
+        """Return the answer to a submission that is not accepted; None if there is room."""
         repeated = self._earlier(connection, idempotency)
         if repeated is not None:
             return repeated

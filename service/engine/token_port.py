@@ -1,4 +1,4 @@
-"""What the API asks of the store of rate limits that all API processes share."""
+"""What the API requires of the store of rate limits shared by all API processes."""
 
 from dataclasses import dataclass
 from typing import Protocol
@@ -13,14 +13,14 @@ class Grant:
 
 
 class SharedTokens(Protocol):
-    """A bucket for each key, which fills evenly; a bucket that nobody has met is full."""
+    """A bucket for each key, which fills at a constant rate; an unknown bucket is full."""
 
     def exchange(self, key: str, *, returned: int, wanted: int) -> Grant:
-        """Give ``returned`` tokens back and take up to ``wanted``: as many as there are.
+        """Give back ``returned`` tokens and take up to ``wanted``, as many as there are.
 
         Raises
         ------
         service.engine.port.EngineUnavailableError
-            If the buckets are out of reach; nothing was taken.
+            If the buckets cannot be reached; nothing was taken.
         """
         ...

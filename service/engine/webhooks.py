@@ -1,8 +1,8 @@
 """Which notices of jobs' ends are due: columns of the jobs' own records.
 
-A notice is due from the transaction on that ends its job. Whoever sends it claims it by moving
-``webhook_due_at`` ahead by a lease: should they die over it, it is due again. What an attempt came
-to is written only while that attempt is the last one.
+A notice becomes due in the transaction that ends its job. A sender claims it by moving
+``webhook_due_at`` ahead by a lease: if the sender dies, it becomes due again. The outcome of an
+attempt is written only if that attempt is still the latest.
 """
 
 import time
@@ -20,7 +20,7 @@ from service.engine.tables import JOBS
 from service.engine.transactions import read_then_write
 
 LEASE_MARGIN_S: Final = 15.0
-"""What a lease lasts beyond the time limit of an attempt."""
+"""How much longer a lease lasts than the time limit of an attempt."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,7 +49,7 @@ class WebhookLedger:
             .limit(limit)
         )
         with self._database.connect() as connection:
-            # Mostly there is none, and SQLite is spared a transaction that writes.
+            # Usually there is none, which spares SQLite a write transaction.
             if connection.execute(due).first() is None:
                 return ()
         with read_then_write(self._database) as connection:
@@ -77,7 +77,7 @@ class WebhookLedger:
         error: str | None,
         again_in_s: float | None,
     ) -> None:
-        """Write down what an attempt came to; None if there is to be no other."""
+        """Record the outcome of an attempt; ``again_in_s`` is None if it is the last one."""
         self._write(
             due,
             webhook_state=state.value,

@@ -1,4 +1,4 @@
-"""The slots a worker's jobs run in, and when it is to look for more jobs."""
+"""The slots a worker's jobs run in, and when the worker looks for more jobs."""
 
 import contextlib
 import math
@@ -8,18 +8,18 @@ from collections.abc import Callable, Collection, Iterator
 from typing import Final
 
 SETTLING_S: Final = 0.1
-"""For so long after a job's end jobs are looked for without a pause: the engine counts the slot as
-taken until it has noted the end itself, which is a write to the database or two away."""
+"""How long after a job's end to look for jobs without a pause: the engine counts the slot as taken
+until it has recorded the end itself, which takes a database write or two."""
 
 FULL_LOOK_S: Final = 1.0
-"""How long a full worker waits before it gives a turn anyway."""
+"""How long a full worker waits before it looks anyway."""
 
 
 class WorkerSlots:
-    """As many slots as jobs may run side by side; who looks for jobs waits here for a turn.
+    """One slot for each job that may run at the same time; decides when to look for jobs.
 
-    Looking at a fixed pace alone leaves a slot empty for half of it after every job, and asks the
-    database while there is no slot to be filled.
+    Polling at a fixed interval would leave a slot empty for half an interval after every job, and
+    would query the database while no slot is free.
     """
 
     def __init__(
@@ -36,7 +36,7 @@ class WorkerSlots:
 
     @contextlib.contextmanager
     def taken_by(self, job_id: str) -> Iterator[None]:
-        """Let a job have a slot while the context lasts."""
+        """Give a job a slot while the context lasts."""
         with self._changed:
             self._running.add(job_id)
         try:
@@ -56,8 +56,8 @@ class WorkerSlots:
     def await_turn(self) -> None:
         """Return when it is time to look for jobs.
 
-        That is at once if a job has just ended, else after ``poll_s`` or at the next end; not while
-        all slots are taken, but for a look a second.
+        That is at once if a job has just ended, else after ``poll_s`` or when the next one ends;
+        while all slots are taken, once a second.
         """
         with self._changed:
             if not self._changed.wait_for(self._has_free_slot, timeout=FULL_LOOK_S):
@@ -69,13 +69,13 @@ class WorkerSlots:
                 )
 
     def close(self) -> None:
-        """Let nobody wait for a turn any more."""
+        """Release everybody who waits for a turn."""
         with self._changed:
             self._closed = True
             self._changed.notify_all()
 
     def all_left(self, *, within_s: float) -> bool:
-        """Wait until no job has a slot; say whether it came to that."""
+        """Wait until no job has a slot; returns whether that happened in time."""
         with self._changed:
             return self._changed.wait_for(lambda: not self._running, timeout=within_s)
 
