@@ -1,1 +1,1 @@
-"""The HTTP API: one module a resource, problems in one place. Loads no numerics."""
+"""The HTTP API: one module per resource, problems in one place. Loads no numerics."""

@@ -1,4 +1,4 @@
-"""What the OpenAPI document says of the service as a whole."""
+"""What the OpenAPI document says about the service as a whole."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any, Final

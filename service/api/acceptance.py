@@ -1,4 +1,4 @@
-"""From checked inputs to an accepted job: its blobs stored, its record written, its end awaited."""
+"""From checked inputs to an accepted job: store its blobs, write its record, await its end."""
 
 import hashlib
 import re
@@ -56,7 +56,7 @@ ACCEPTANCE_PROBLEMS: Final = (
     "not-ready",
     "internal-error",
 )
-"""What may keep checked inputs from being accepted."""
+"""Problems that may keep checked inputs from being accepted."""
 
 
 IdempotencyKey = Annotated[
@@ -78,9 +78,9 @@ async def accept(
     key: Idempotency | None,
     check: Callable[[], Awaitable[None]] | None = None,
 ) -> JobRecord:
-    """Have a job accepted, or return the earlier one of the same key.
+    """Have a job accepted, or return the earlier one with the same key.
 
-    ``check`` is made only where a new job is about to be accepted.
+    ``check`` runs only if a new job is about to be accepted.
 
     Raises
     ------
@@ -89,7 +89,7 @@ async def accept(
     """
     job_id = str(uuid4())
     with storing():
-        # From here on the job's scope is erased by itself unless the job is accepted.
+        # From here on the job's scope is erased automatically unless the job is accepted.
         submission = await run_in_threadpool(_reserve, context, jobs, job_id, inputs, key)
         if submission.outcome is SubmitOutcome.ACCEPTED:
             if check is not None:
@@ -102,7 +102,7 @@ async def accept(
 
 
 def idempotency(key: str | None, *parts: bytes) -> Idempotency | None:
-    """Hash a caller's key, and the parts of the request it came with."""
+    """Hash a caller's key and the parts of the request that came with it."""
     if key is None:
         return None
     digest = hashlib.sha256()
@@ -119,9 +119,9 @@ async def answer(
     *,
     prefer: str | None,
 ) -> JobRecord:
-    """Complete the answer with an accepted job, after its end if the caller prefers to wait.
+    """Complete the answer about an accepted job, after its end if the caller prefers to wait.
 
-    Returns the job as it is by then.
+    Returns the job in its state by then.
     """
     wait_s = _preferred_wait_s(prefer)
     if wait_s > 0:
@@ -140,7 +140,7 @@ def _reserve(
 ) -> Submission:
     if context.disk.has_room_for(inputs.brought_bytes):
         return jobs.reserve(job_id, key)
-    # Not even the scope is noted; but an earlier answer takes no room.
+    # Not even the scope is recorded; but repeating an earlier answer takes no space.
     repeated = jobs.repeated(key)
     if repeated is None:
         raise no_room()
@@ -166,7 +166,7 @@ def _store(
         traceparent=current_traceparent(),
         webhook=stored.webhook,
     )
-    # Should the database go away before it answers, it may have said yes: the blobs stay then.
+    # If the database goes away before it answers, it may have accepted the job: the blobs stay.
     submission = jobs.submit(job)
     if submission.outcome is not SubmitOutcome.ACCEPTED:
         erase_at_once(context, job_id)

@@ -55,7 +55,7 @@ from service.settings import Settings
 API_VERSION: Final = "1.0.0"
 
 MULTIPART_OVERHEAD_BYTES: Final = 2_000_000
-"""Room beside the pictures for the JSON part and the multipart's own lines."""
+"""Allowance, besides the pictures, for the JSON part and the multipart's own lines."""
 
 
 CORS_METHODS: Final = ("DELETE", "GET", "POST")
@@ -92,7 +92,7 @@ def create_app(
     tokens: SharedTokens,
     draining: threading.Event,
 ) -> FastAPI:
-    """Build the application on what outlives it: engine, blobs, disk, estimators, keys, tokens.
+    """Build the application from what outlives it: engine, blobs, disk, estimators, keys, tokens.
 
     ``draining`` is set once the process is told to stop: it is then no longer ready, and event
     streams end.
@@ -138,7 +138,7 @@ def _surround(
     rate_limit: RateLimit | None,
     metrics: ServiceMetrics,
 ) -> None:
-    """Put the layers round the resources, innermost first."""
+    """Put the layers around the resources, innermost first."""
     needs_keys = settings.authentication == "keys"
     app.add_middleware(BodyLimit, max_bytes=settings.max_upload_bytes + MULTIPART_OVERHEAD_BYTES)
     app.add_middleware(
@@ -147,7 +147,7 @@ def _surround(
         rate_limit=rate_limit,
     )
     if settings.allowed_origins:
-        # Outside of authentication: a browser asks for leave without a key.
+        # Outside of authentication: browsers send CORS preflight requests without a key.
         app.add_middleware(
             CORSMiddleware,
             allow_origins=settings.allowed_origins,
@@ -157,7 +157,7 @@ def _surround(
         )
     if not needs_keys:
         app.add_middleware(LocalGuard, allowed_origins=settings.allowed_origins)
-    # Outside of all that reads bodies, and of what throws them away.
+    # Outside of everything that reads or discards bodies.
     app.add_middleware(
         BodyTimeLimit,
         time_limit_s=settings.body_time_limit_s,
@@ -168,7 +168,7 @@ def _surround(
 
 
 def openapi_text() -> str:
-    """Return the OpenAPI document as it is exported beside the wire types."""
+    """Return the OpenAPI document as exported next to the wire types."""
     return json.dumps(_resources(None).openapi(), indent=1, ensure_ascii=False) + "\n"
 
 
@@ -184,7 +184,7 @@ def _resources(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]] 
         lifespan=lifespan,
         docs_url=None,
         redoc_url=None,
-        # Paths are exact: a redirect would be an answer that no schema describes.
+        # Paths are exact: a redirect would be a response that no schema describes.
         redirect_slashes=False,
         generate_unique_id_function=lambda route: route.name,
     )

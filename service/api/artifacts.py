@@ -1,4 +1,4 @@
-"""How a file of a job is answered: in the format that is wanted, whole or in part, if not known."""
+"""Responses with a file of a job: in the preferred format, whole or in part, or 304 if known."""
 
 from functools import partial
 from typing import Annotated, Any, Final
@@ -29,7 +29,7 @@ IfRange = Annotated[
     Header(description="The `ETag` of the file that `Range` is a part of: of another, the whole."),
 ]
 
-# Of headers of this name OpenAPI takes the answers' media types to say enough.
+# OpenAPI ignores headers of this name: the responses' media types say enough.
 AcceptHeader = Annotated[str | None, Header(alias="Accept", include_in_schema=False)]
 
 ArtifactName = Annotated[
@@ -106,7 +106,7 @@ async def answer_artifact(
 
 
 def file_headers(tag: str) -> dict[str, str]:
-    """What is said of every file."""
+    """The headers that every file has."""
     return {
         "ETag": f'"{tag}"',
         "Cache-Control": "private, immutable, max-age=31536000",
@@ -115,7 +115,7 @@ def file_headers(tag: str) -> dict[str, str]:
 
 
 def is_known(tag: str, if_none_match: str | None) -> bool:
-    """Whether the client has these bytes already."""
+    """Whether the client already has these bytes."""
     return if_none_match is not None and (f'"{tag}"' in if_none_match or if_none_match == "*")
 
 

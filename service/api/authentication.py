@@ -1,4 +1,4 @@
-"""Who asks: an API key names a tenant. Answered before anything of the body is looked at."""
+"""Authentication: an API key names a tenant. Checked before the body is looked at."""
 
 import time
 from collections.abc import Callable, Sequence
@@ -17,18 +17,18 @@ from service.engine.keys import ApiKey, Role, hash_key
 from service.engine.port import EngineUnavailableError
 
 OPEN: Final = ("/healthz/", "/problems/", "/docs", "/openapi.json", "/page/")
-"""What anybody may ask, by the beginning of its path: nothing of a tenant's is there."""
+"""Prefixes of public paths: they show nothing that belongs to a tenant."""
 
 ROOT: Final = "/"
-"""The page, which asks for a key itself."""
+"""The page, which asks the user for a key itself."""
 
 METRICS_PATH: Final = "/metrics"
 
 REFRESH_S: Final = 5.0
-"""A revoked key is refused after this time at the latest."""
+"""Within this time at the latest a revoked key is refused."""
 
 RETRY_UNKNOWN_S: Final = 0.5
-"""Unknown keys make the database be asked no more often than this in all."""
+"""Unknown keys cause at most one query per this time, all of them together."""
 
 NO_KEY: Final = "There is no API key."
 UNKNOWN_KEY: Final = "The API key is unknown or revoked."
@@ -43,7 +43,7 @@ class KeySource(Protocol):
 
 
 class KnownKeys:
-    """The keys in use, kept for a few seconds, so that a request costs no query."""
+    """The valid keys, cached for a few seconds, so that a request costs no query."""
 
     def __init__(
         self, source: KeySource, *, monotonic: Callable[[], float] = time.monotonic
@@ -54,12 +54,12 @@ class KnownKeys:
         self._read_at: float | None = None
 
     def find(self, presented: str) -> ApiKey | None:
-        """Return the key in use that was presented; None if there is no such key.
+        """Return the valid key that was presented; None if there is no such key.
 
         Raises
         ------
         EngineUnavailableError
-            If the database is away and nothing is known yet.
+            If the database is unavailable and nothing is cached yet.
         """
         secret_hash = hash_key(presented)
         age = None if self._read_at is None else self._monotonic() - self._read_at
@@ -73,7 +73,7 @@ class KnownKeys:
         try:
             keys = self._source.all_keys()
         except EngineUnavailableError:
-            # What was in use a moment ago still is: the next to fail is the request itself.
+            # A key valid a moment ago is still accepted; the request itself will fail next.
             if self._read_at is None:
                 raise
             return
@@ -84,8 +84,8 @@ class KnownKeys:
 class Authentication:
     """ASGI middleware: sets ``request.state.tenant``, or answers 401, 403 or 429.
 
-    Without ``keys`` everybody is the sole tenant; the settings see to it that the service is then
-    reached from its own machine only. Without a ``rate_limit`` a key may ask as often as it likes.
+    Without ``keys`` everybody is the sole tenant; the settings ensure that the service can then be
+    reached only from its own machine. Without a ``rate_limit`` requests are not limited.
     """
 
     def __init__(
@@ -96,7 +96,7 @@ class Authentication:
         self._rate_limit = rate_limit
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass the request on in the name of its tenant."""
+        """Pass the request on on behalf of its tenant."""
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return

@@ -1,4 +1,4 @@
-"""Refuse bodies that are too large before anything reads them whole."""
+"""Refuse bodies that are too large before anything reads them in full."""
 
 from typing import Final
 
@@ -10,14 +10,14 @@ from api_schemas.problems import Problem, problem
 from service.api.problems import ProblemError, problem_response
 
 DISCARDED_BYTES: Final = 10_000_000
-"""How much of a body is read and thrown away before it is refused unread."""
+"""How much of a refused body is read and discarded so that the client reads the answer."""
 
 REFUSALS: Final = 400
-"""Statuses from here on are no success, and may come before a body was read."""
+"""Statuses from here on are not successful, and may be sent before the body was read."""
 
 
 class BodyLimit:
-    """ASGI middleware: a declared or counted body above the limit is answered with 413."""
+    """ASGI middleware: answers 413 if the declared or counted size of a body exceeds the limit."""
 
     def __init__(self, app: ASGIApp, *, max_bytes: int) -> None:
         self._app = app
@@ -35,7 +35,7 @@ class BodyLimit:
             await refuse(answer, scope, receive, send, discard_bytes=2 * self._max_bytes)
             return
         received = 0
-        # A request without a body is asked for none: who else waits for its end is not disturbed.
+        # Without a body there is nothing to receive: whoever waits for the end is not disturbed.
         is_whole = declared in ("", "0") and "transfer-encoding" not in request.headers
 
         async def counted() -> Message:
@@ -50,7 +50,7 @@ class BodyLimit:
         async def after_the_body(message: Message) -> None:
             begins = message["type"] == "http.response.start"
             if begins and message["status"] >= REFUSALS and not is_whole:
-                # Refused before it was read: closing now would take the answer from its reader.
+                # Refused before it was read: closing now could cost the client the answer.
                 await _discard(receive, 2 * self._max_bytes)
             await send(message)
 
@@ -74,14 +74,14 @@ async def refuse(
 ) -> None:
     """Answer without having looked at the body.
 
-    Most clients read an answer only after they have sent their body: let them, within reason.
+    Most clients read the answer only after sending their body: let them, within reason.
     """
     await _discard(receive, discard_bytes)
     await answer(scope, receive, send)
 
 
 async def _discard(receive: Receive, most_bytes: int) -> None:
-    """Read what is left of the body and throw it away."""
+    """Read the rest of the body and discard it."""
     discarded = 0
     while discarded <= most_bytes:
         message = await receive()

@@ -1,7 +1,7 @@
-"""How long a body may take: answer 408 to who sends it byte by byte.
+"""How long a body may take: clients that send it byte by byte get 408.
 
-Only the time that is spent waiting for the client counts. While nobody asks for more, because the
-service is busy or its buffer is full, the client is not late.
+Only the time spent waiting for the client counts. While the service is not asking for more, because
+it is busy or its buffer is full, the client is not late.
 """
 
 import asyncio
@@ -20,7 +20,7 @@ LATE: Final = 408
 
 
 class BodyTimeLimit:
-    """ASGI middleware: a body may take a time, and a second more for each ``bytes_per_s``."""
+    """ASGI middleware: a body may take a fixed time plus one second per ``bytes_per_s``."""
 
     def __init__(self, app: ASGIApp, *, time_limit_s: float, bytes_per_s: int) -> None:
         self._app = app
@@ -40,7 +40,7 @@ class BodyTimeLimit:
         body = _TimedBody(receive, self._time_limit_s, self._bytes_per_s)
 
         async def noted(message: Message) -> None:
-            # Whatever else was to be said of half a body: late it was.
+            # Whatever the answer to an incomplete body would have been, the reason is lateness.
             if body.is_late and not body.is_answered and message.get("status") != LATE:
                 return
             body.is_answered = True
@@ -49,7 +49,7 @@ class BodyTimeLimit:
         try:
             await self._app(scope, body.receive, noted)
         except Exception:
-            # Some layers throw a body away before they answer, where no handler of problems is.
+            # Some layers discard a body before they answer, outside of the problem handlers.
             if not body.is_late or body.is_answered:
                 raise
         if body.is_late and not body.is_answered:
@@ -76,7 +76,7 @@ class _TimedBody:
         Raises
         ------
         ProblemError
-            The first time that the body is late; afterwards the client counts as gone.
+            The first time the body is late; afterwards the client counts as gone.
         """
         if self.is_late:
             return {"type": "http.disconnect"}
@@ -98,7 +98,7 @@ class _TimedBody:
         return message
 
     def lateness(self) -> Problem:
-        """Say what was waited for."""
+        """The problem that says what was waited for."""
         return problem(
             "request-timeout",
             code="body-too-slow",

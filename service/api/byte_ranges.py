@@ -19,14 +19,14 @@ class ByteRange:
 
 
 def parse_range(header: str, size: int) -> ByteRange | None:
-    """Read a Range header of one range; None where the whole is to be sent instead.
+    """Read a Range header of one range; None if the whole file is to be sent instead.
 
     A header that is not understood, or asks for several ranges, is ignored (RFC 9110 14.2).
 
     Raises
     ------
     ValueError
-        If the range lies outside the ``size`` bytes there are.
+        If the range lies outside the file's ``size`` bytes.
     """
     found = re.fullmatch(r"bytes=(\d{0,18})-(\d{0,18})", header.strip())
     if found is None or not (found[1] or found[2]):
@@ -53,10 +53,10 @@ def whole_or_part(
     range_header: str | None,
     if_range: str | None,
 ) -> Response:
-    """Answer with a file, or with the part of it that is asked for; 416 if it has none such.
+    """Answer with a file, or with the requested part of it; 416 if it has no such part.
 
-    A part is one of the file that ``if_range`` names: of another, the whole is sent. No date is
-    sent with a file, so one in ``if_range`` fits none (RFC 9110 13.1.5).
+    A part is sent only if ``if_range`` names this very file, else the whole. Files are sent without
+    a date, so a date in ``if_range`` never matches (RFC 9110 13.1.5).
     """
     of_another = if_range not in (None, headers["ETag"])
     wanted = None if of_another else range_header

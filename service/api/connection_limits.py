@@ -1,8 +1,8 @@
-"""How long a connection may take to ask, and how many there may be: what uvicorn leaves open.
+"""How long a connection may take to send a request, and how many there may be.
 
-Everything that we use of uvicorn beyond what it publishes is in this file, and
+Uvicorn limits neither. Everything private that we use of uvicorn is in this file, and
 ``tests/unit/service/test_connection_limits.py`` names it: an upgrade that changes it fails there.
-How long a body may take is :mod:`service.api.body_time`'s to say, where the application sees it.
+How long a body may take is limited by :mod:`service.api.body_time`, inside the application.
 """
 
 import asyncio
@@ -20,29 +20,30 @@ from service.api.farewell import Farewell, raw_answer
 LOG: Final = logging.getLogger(__name__)
 
 TIME_TO_ASK_S: Final = 1.0
-"""A new connection's first bytes may still be on their way: for so long it need not make room."""
+"""A new connection's first bytes may still be on their way: it is not closed within this time."""
 
 MOST_FAREWELLS: Final = 100
-"""Connections beyond the limit that are being told so; further ones are closed with the answer."""
+"""How many refused connections are kept until the answer is read; others are closed right after it.
+"""
 
 FAREWELL_S: Final = 2.0
-"""How long a refused client may go on sending before it reads why."""
+"""How long a refused client may go on sending before it reads the answer."""
 
 BETWEEN_WARNINGS_S: Final = 60.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ConnectionLimits:
-    """What one API process grants to those who connect."""
+    """The limits of one API process for its connections."""
 
     max_connections: int
     head_time_limit_s: float
     unread_body_time_limit_s: float
-    """How long what is left of a body may take once the request is answered."""
+    """How long the rest of a body may take once the request is answered."""
 
 
 class _Owed(Enum):
-    """What a client has begun to send and not ended."""
+    """What a client has begun to send but not finished."""
 
     NOTHING = auto()
     HEAD = auto()
@@ -51,7 +52,7 @@ class _Owed(Enum):
 
 @dataclass(slots=True)
 class _Gate:
-    """What the connections of one server share."""
+    """State shared by the connections of one server."""
 
     farewells: set[Farewell] = field(default_factory=set)
     warned_at: float = float("-inf")
@@ -66,11 +67,11 @@ class LimitedProtocol(H11Protocol):
     _owed = _Owed.NOTHING
     _timer: asyncio.TimerHandle | None = None
     quiet_since = 0.0
-    """When it opened or, later, when its last answer ended; seconds of the loop's clock."""
+    """When it opened or, later, when its last response ended; seconds of the loop's clock."""
 
-    # Named by the type of asyncio's base class, as uvicorn does not.
+    # Annotated with the type of asyncio's base class, unlike in uvicorn.
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """Take a place, or be told that there is none."""
+        """Take a place, or refuse the connection if there is none."""
         transport = cast("asyncio.Transport", transport)
         if len(self.connections) >= self.limits.max_connections and not self._make_room():
             self._warn_that_it_is_full()
@@ -86,18 +87,18 @@ class LimitedProtocol(H11Protocol):
         self._stop_watching()
 
     def data_received(self, data: bytes) -> None:
-        """Read on."""
+        """Read what has come."""
         super().data_received(data)
         self._watch()
 
     def on_response_complete(self) -> None:
-        """Wait for the next request, or for what is left of this one."""
+        """Wait for the next request, or for the rest of this one."""
         super().on_response_complete()
         self.quiet_since = self.loop.time()
         self._watch()
 
     def send_400_response(self, msg: str) -> None:
-        """Refuse what is no HTTP with a problem, as everything else is refused."""
+        """Refuse what is not HTTP with a problem, like everything else that is refused."""
         self._part(
             problem(
                 "malformed-request",
@@ -108,7 +109,7 @@ class LimitedProtocol(H11Protocol):
         )
 
     def _watch(self) -> None:
-        """Let a time limit begin or end with what is owed."""
+        """Start or stop the timer for what the client has not finished."""
         owed = self._what_is_owed()
         if owed is self._owed:
             return
@@ -133,7 +134,7 @@ class LimitedProtocol(H11Protocol):
         if self.transport.is_closing():
             return _Owed.NOTHING
         if self.conn.their_state is h11.IDLE:
-            # Bytes are looked for once a head, not with each of them.
+            # Looks for bytes once per head, not with each of them.
             if self._owed is _Owed.HEAD or self.cycle is None or self._has_begun_to_ask():
                 return _Owed.HEAD
         elif self.conn.their_state is h11.SEND_BODY and self.cycle.response_complete:
@@ -147,7 +148,7 @@ class LimitedProtocol(H11Protocol):
         if self.transport.is_closing():
             return
         if not self._has_begun_to_ask():
-            # An answer to nothing would be taken for that to a request still on its way.
+            # An unsolicited answer would be taken for that to a request still on its way.
             self.shutdown()
             return
         LOG.info("A request's head took longer than %g s.", self.limits.head_time_limit_s)
@@ -163,13 +164,13 @@ class LimitedProtocol(H11Protocol):
         )
 
     def _make_room(self) -> bool:
-        """End the connection that has asked nothing for longest, if there is one."""
+        """Close the connection that has been idle longest, if there is one."""
         quiet = [each for each in self._others() if each.asks_nothing]
         if not quiet:
             return False
         longest = min(quiet, key=lambda each: each.quiet_since)
         longest.shutdown()
-        # Its place is free at once, not when the loop comes to tell it so.
+        # Its place is free at once, not only when the loop reports the closing.
         self.connections.discard(longest)
         return True
 
@@ -178,12 +179,12 @@ class LimitedProtocol(H11Protocol):
 
     @property
     def asks_nothing(self) -> bool:
-        """Whether nobody would miss anything if the connection ended now."""
+        """Whether the connection is idle, so that nothing would be lost if it were closed now."""
         if self.conn.their_state is not h11.IDLE or self._has_begun_to_ask():
             return False
         if self.cycle is None:
             return self.loop.time() - self.quiet_since >= TIME_TO_ASK_S
-        # The end of a large answer may still be on its way.
+        # The end of a large response may still be on its way.
         return self.cycle.response_complete and self.transport.get_write_buffer_size() == 0
 
     def _warn_that_it_is_full(self) -> None:
@@ -195,14 +196,14 @@ class LimitedProtocol(H11Protocol):
             )
 
     def _part(self, reason: Problem) -> None:
-        """Answer in the application's place, and end."""
+        """Answer in place of the application, and close."""
         is_answering = self.cycle is not None and not self.cycle.response_complete
         if is_answering and self.cycle.response_started:
             self.transport.close()
             return
         self._unset_keepalive_if_required()
         self._bid_farewell(self.transport, reason)
-        # With a cause: without one uvicorn would close what is yet to be read.
+        # With a cause: without one uvicorn would close before the answer is read.
         self.connection_lost(ConnectionAbortedError(reason.detail))
 
     def _bid_farewell(self, transport: asyncio.Transport, reason: Problem) -> None:
@@ -216,7 +217,7 @@ class LimitedProtocol(H11Protocol):
 
 
 def limited_protocol(limits: ConnectionLimits) -> type[LimitedProtocol]:
-    """Make what one server is to be given as its ``http``."""
+    """Make the protocol class to pass to a server as its ``http``."""
 
     class ServersProtocol(LimitedProtocol):
         pass

@@ -1,4 +1,4 @@
-"""What the resources share, built once in :func:`service.api.app.create_app`, and whose it is."""
+"""What the resources share, built once in :func:`service.api.app.create_app`, and for whom."""
 
 import threading
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ from service.process.disk import Disk
 from service.settings import Settings
 
 SOLE_TENANT: Final = "default"
-"""Whose jobs there are where nobody needs a key."""
+"""The tenant of all jobs if no keys are required."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,7 +40,7 @@ class Parts:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ApiContext:
-    """The parts as one request may use them: ``jobs`` and ``images`` are those of its tenant."""
+    """The parts for one request: ``jobs`` and ``images`` are those of its tenant."""
 
     settings: Settings
     engine: JobEngine

@@ -1,4 +1,4 @@
-"""What the job of a derivation gets of its fit, and of others it names."""
+"""What the job of a derivation gets from its fit, and from others it names."""
 
 from collections.abc import Collection, Mapping
 from uuid import UUID
@@ -20,12 +20,12 @@ from service.submissions.refusal import RefusedError, refused
 def derivation_inputs(
     context: ApiContext, fit_id: UUID, options: AnyDerivationOptions, sent: Mapping[str, File]
 ) -> Inputs:
-    """What a derivation needs of its fit, and of others it names, beside what was sent.
+    """What a derivation needs from its fit and from others it names, besides what was sent.
 
     Raises
     ------
     ProblemError, RefusedError
-        If the fit has no result, or another one is none of the caller's that succeeded.
+        If the fit has no result, or another fit is not the caller's or has not succeeded.
     """
     fit = find(context.jobs, fit_id)
     if fit.state is not JobState.SUCCEEDED:
@@ -47,7 +47,7 @@ def derivation_inputs(
 
 
 def _copies_of(fit: JobRecord, needed: Collection[str]) -> dict[str, Copy]:
-    """Copies of a fit's inputs and files, so far as it has them."""
+    """Copies of those inputs and files that a fit has."""
     kept = dict(fit.inputs) | {REQUEST: fit.options}
     kept |= {
         artifact.name: StoredBlob(digest=artifact.sha256, media_type=artifact.media_type)
@@ -59,7 +59,7 @@ def _copies_of(fit: JobRecord, needed: Collection[str]) -> dict[str, Copy]:
 def _picture_of_another(
     context: ApiContext, index: int, other: UUID, *, than: UUID
 ) -> Mapping[str, Copy]:
-    """What a fit that a request names beside its own was made of, and its person."""
+    """The inputs and the person of another fit that a request names."""
     field = f"fits.{index}"
     if other == than:
         raise _unusable(field, f"The fit {other} is the one it is derived from.")
@@ -75,7 +75,7 @@ def _picture_of_another(
 
 
 def _require_picture(copies: Mapping[str, Copy], fit_id: UUID, *, field: str) -> None:
-    """Refuse a fit of an earlier version, which kept less."""
+    """Refuse a fit made by an earlier version, which kept less."""
     missing = [name for name in (PERSON, IMAGE) if name not in copies]
     if missing:
         raise refused(

@@ -1,4 +1,4 @@
-"""What a request for a derivation says, and the file that comes along with it."""
+"""A request for a derivation, and the file that may come with it."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ from service.submissions.validation import parsed
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sent:
-    """The request as JSON text, and the files that came along, by the names of their parts."""
+    """The request as JSON text, and the files sent with it, by the names of their parts."""
 
     text: bytes
     files: Mapping[str, File]
@@ -33,7 +33,7 @@ async def read_derivation(
     Raises
     ------
     RefusedError, ProblemError
-        If it is neither, or says or brings what cannot be.
+        If it is neither, or its content is invalid.
     """
     if media_type(request) == JSON:
         text, parts = await read_json_text(request), {}

@@ -1,7 +1,7 @@
 """What is derived from a finished fit, as jobs below it: they are erased and expire with it.
 
-Their paths lie below the fit's, because a derivation has no life of its own: who may see the fit
-may see it, and where the fit is gone there is nothing.
+Their paths lie below the fit's, because a derivation does not exist on its own: whoever may see the
+fit may see it, and once the fit is gone so is the derivation.
 """
 
 from typing import Any, Final
@@ -130,7 +130,7 @@ async def derive(
     check_webhook(asked.webhook, context.settings)
     inputs = await run_in_threadpool(derivation_inputs, context, fit_id, asked, sent.files)
     jobs = context.jobs.derivations(str(fit_id))
-    # At most one file comes along, and what was asked for says which.
+    # At most one file comes with a request, and the kind and its options say which.
     brought = b"".join(file.content for file in sent.files.values())
     key = idempotency(idempotency_key, b"derivation", str(fit_id).encode(), sent.text, brought)
     job = await accept(context, jobs, inputs, key=key)

@@ -1,4 +1,4 @@
-"""The estimator as the resources ask it: in threads of its own, its troubles told as problems."""
+"""The resources' access to the estimator: in separate threads, with its failures as problems."""
 
 import time
 from collections.abc import Callable, Mapping
@@ -26,10 +26,10 @@ from service.submissions.detector import DETECTOR_MISSING, NOT_INSTALLED, REMEDY
 from service.submissions.refusal import RefusedError
 
 SPARE_THREADS: Final = 4
-"""Beyond what the estimator takes at once: in these, one too many is turned away at once."""
+"""Threads beyond what the estimator takes at a time: here, one too many is refused at once."""
 
 SOON_S: Final = 2
-"""When an estimator that is busy or starting should be asked again."""
+"""When to ask an estimator again that is busy or starting."""
 
 ESTIMATE_PROBLEMS: Final = (
     "malformed-request",
@@ -40,7 +40,7 @@ ESTIMATE_PROBLEMS: Final = (
     "not-ready",
     "internal-error",
 )
-"""What may be wrong with a question, or with the estimator."""
+"""Problems with a question or with the estimator."""
 
 OUTCOMES: Final[Mapping[type[Exception], str]] = {
     RefusedError: "refused",
@@ -48,7 +48,7 @@ OUTCOMES: Final[Mapping[type[Exception], str]] = {
     EstimatorTimeoutError: "timed_out",
     NoDetectorError: "unavailable",
 }
-"""How figures call what a question ended with; all else is called failed."""
+"""How metrics label the outcome of a question; everything else is labelled failed."""
 
 Answer = TypeVar("Answer")
 
@@ -56,8 +56,8 @@ Answer = TypeVar("Answer")
 class Estimates:
     """Questions to the estimator.
 
-    They wait in threads that nothing else needs: however many there are, the rest of the API is not
-    held up.
+    They wait in threads that nothing else uses, so that however many there are, the rest of the API
+    is not held up.
     """
 
     def __init__(self, estimator: Estimator, metrics: ServiceMetrics) -> None:
@@ -78,7 +78,7 @@ class Estimates:
         return await self._answer("body", partial(self._estimator.body, task))
 
     async def initial_pose(self, task: InitialPoseTask) -> InitialPose:
-        """Pose the mean person by clicks; raises as :meth:`body` does."""
+        """Pose the mean person to match clicks; raises as :meth:`body` does."""
         return await self._answer("initial_pose", partial(self._estimator.initial_pose, task))
 
     async def points(self, task: PointsTask, image: bytes) -> ProposedPoints:
@@ -97,9 +97,9 @@ class Estimates:
         return await self._answer("conversion", partial(self._estimator.convert, task, glb))
 
     async def refuse_nobody(self, task: BodyTask) -> None:
-        """Raise :class:`service.submissions.refusal.RefusedError` if nobody has what is known.
+        """Raise :class:`service.submissions.refusal.RefusedError` if no body has what is known.
 
-        If no estimator is ready nothing is checked: the caller finds out later.
+        If no estimator is ready nothing is checked, and the caller finds out later.
         """
         try:
             await self._in_thread(
@@ -146,7 +146,7 @@ class Estimates:
 
 
 def no_detector() -> ProblemError:
-    """Say that nothing proposes points here, and how to change that."""
+    """Say that there is no detector here, and how to change that."""
     return ProblemError(
         problem("not-found", code=DETECTOR_MISSING, detail=NOT_INSTALLED, remedy=REMEDY)
     )

@@ -1,4 +1,4 @@
-"""Wakes those who wait for a job's next event: one query for all of them, however many."""
+"""Wakes everybody who waits for a job's next event: one query for all, however many."""
 
 import asyncio
 import logging
@@ -29,7 +29,7 @@ class EventFeed:
     async def wait_beyond(self, job_id: str, number: int, *, timeout_s: float) -> None:
         """Return when the job has an event numbered above ``number``, is gone, or time is up.
 
-        Returns at once when the process is being stopped.
+        Returns at once if the process is being stopped.
         """
         self._waiting[job_id] += 1
         try:
@@ -47,7 +47,7 @@ class EventFeed:
 
     @property
     def is_ending(self) -> bool:
-        """Whether the process is stopping: clients that follow a job should ask another one."""
+        """Whether the process is stopping: clients that follow a job should ask another process."""
         return self._draining.is_set()
 
     async def run(self) -> None:
@@ -64,7 +64,7 @@ class EventFeed:
             try:
                 numbers = await run_in_threadpool(self._engine.last_events, waiting)
             except Exception:
-                # Those who wait run into their timeouts and ask the database themselves.
+                # Waiting requests run into their timeouts and query the database themselves.
                 LOG.exception("The event feed could not reach the database.")
                 await asyncio.sleep(PAUSE_AFTER_FAILURE_S)
                 continue
@@ -76,4 +76,4 @@ class EventFeed:
 
 
 GONE: Final = -1
-"""Stands for the last event of a job that does not exist any more."""
+"""Stands for the last event of a job that no longer exists."""

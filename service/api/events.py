@@ -25,7 +25,7 @@ RECONNECT_MS: Final = 1_000
 LastEventId = Annotated[int | None, Header(ge=0, description="Resume after this event.")]
 
 ITEMS: Final = "x-itemSchema"
-"""OpenAPI 3.2 has `itemSchema` for the items of a stream; in 3.1 it may be said by an extension."""
+"""OpenAPI 3.2 has `itemSchema` for the items of a stream; in 3.1 this needs an extension."""
 
 _STREAM: Final[dict[str, Any]] = {
     "description": "Events until the job ends; the last one is `end`.",
@@ -103,7 +103,7 @@ async def _stream(
             if event.kind is EventKind.END:
                 return
         if context.feed.is_ending:
-            # The listener comes back by itself, to a process that stays, and misses nothing.
+            # The client reconnects on its own, to a process that stays, and misses nothing.
             return
         await context.feed.wait_beyond(
             job_id, seen, timeout_s=max(0.0, last_sign + PING_S - time.monotonic())

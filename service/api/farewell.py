@@ -1,4 +1,4 @@
-"""The last words on a connection, said where no application answers."""
+"""The last response on a connection, sent where no application answers."""
 
 import asyncio
 from collections.abc import Sequence
@@ -17,7 +17,7 @@ CLOSE: Final = {"Connection": "close"}
 
 
 def raw_answer(reason: Problem, default_headers: Headers = ()) -> bytes:
-    """Write a problem as HTTP/1.1, with the headers that all answers have."""
+    """Write a problem as HTTP/1.1, with the headers that all responses have."""
     body = reason.model_dump_json().encode()
     named = {
         "Content-Type": PROBLEM_MEDIA_TYPE,
@@ -44,10 +44,10 @@ def raw_answer(reason: Problem, default_headers: Headers = ()) -> bytes:
 
 
 class Farewell(asyncio.Protocol):
-    """A connection that is told why, and ends when the client has read it or time is up.
+    """A connection that gets a last answer, and is closed once that is read or time is up.
 
-    Closed at once, it would be reset by whatever the client is still sending, and the reset may
-    take the answer from its reader. It is in ``others`` for as long as it lasts.
+    If closed at once, it would be reset by whatever the client is still sending, and the reset may
+    make the client lose the answer. It is in ``others`` as long as it is open.
     """
 
     def __init__(
@@ -59,16 +59,16 @@ class Farewell(asyncio.Protocol):
         others.add(self)
 
     def say(self, answer: bytes) -> None:
-        """Write the answer, and that nothing follows."""
+        """Write the answer and the end of the stream."""
         self._transport.write(answer)
         self._transport.write_eof()
         if not self._transport.is_reading():
             self._transport.resume_reading()
 
     def data_received(self, data: bytes) -> None:
-        """Throw away what still comes."""
+        """Discard what still comes."""
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Be gone."""
+        """Stop the timer, and no longer count as open."""
         self._timer.cancel()
         self._others.discard(self)

@@ -1,4 +1,4 @@
-"""What a job was made of: its picture and its request, to be looked at again later."""
+"""The inputs of a job: its picture and its request, for later reference."""
 
 from typing import Final
 from uuid import UUID
@@ -72,7 +72,7 @@ def fit_request(fit_id: UUID, context: Context, if_none_match: IfNoneMatch = Non
 def serve_blob(
     context: ApiContext, record: JobRecord, blob: StoredBlob, if_none_match: str | None
 ) -> Response:
-    """Answer with what a job was made of."""
+    """Answer with an input of a job."""
     headers = {
         "ETag": f'"{blob.digest}"',
         "Cache-Control": "private, immutable, max-age=31536000",

@@ -1,4 +1,4 @@
-"""Is the process there, and can it do its work."""
+"""Is the process alive, and can it do its work."""
 
 from typing import Final
 
@@ -43,7 +43,7 @@ def ready(context: Context) -> Ready:
 
 
 def _check_disk(context: ApiContext) -> None:
-    # First: a database on a full disk cannot be written, and would be told to be away.
+    # First: a database on a full disk cannot be written, and would be reported as unavailable.
     if not context.disk.has_room_for():
         raise _not_ready(code="disk-full", detail="The disk of the data folder is nearly full.")
 

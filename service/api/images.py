@@ -129,7 +129,7 @@ def known_image(context: ApiContext, image_id: str, *, field: str) -> ImageRecor
     Raises
     ------
     RefusedError
-        If there is no such picture, or not any more.
+        If there is no such picture, or no longer.
     """
     record = context.images.find(image_id)
     if record is None:
@@ -166,7 +166,7 @@ def _keep(context: ApiContext, content: bytes) -> KeptImage:
     if not context.disk.has_room_for(len(content)):
         raise no_room()
     scope = str(uuid4())
-    # From here on the scope is erased by itself unless the picture is kept.
+    # From here on the scope is erased automatically unless the picture is kept.
     try:
         context.images.reserve(scope, size=len(content))
     except ImageQuotaError as error:
@@ -209,7 +209,7 @@ def _keep(context: ApiContext, content: bytes) -> KeptImage:
 
 
 def _erase_at_once(context: ApiContext, scope: str) -> None:
-    # If this fails too, the sweep comes to it.
+    # If this fails too, the sweep will do it.
     with contextlib.suppress(BlobsUnavailableError):
         context.blobs.erase(scope)
 

@@ -1,4 +1,4 @@
-"""The body a fit would begin from, at once: for a front end to show while points are clicked."""
+"""The body a fit would start from, at once: for a front end to show while points are clicked."""
 
 from typing import Any, Final
 
@@ -58,7 +58,7 @@ async def initial_pose(request: Request, context: Context) -> Response:
 async def _picture(
     context: ApiContext, asked: InitialPoseRequest
 ) -> tuple[ImageSize, float | None]:
-    """The picture's size and its own 35 mm equivalent, where that is known."""
+    """The picture's size and the 35 mm equivalent it records, if known."""
     if asked.image_id is not None:
         record = await run_in_threadpool(known_image, context, asked.image_id, field="image_id")
         return ImageSize(width=record.width, height=record.height), record.focal_length_35mm

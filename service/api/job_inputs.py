@@ -1,4 +1,4 @@
-"""What a job is made of, and how that comes into the job's own scope."""
+"""The inputs of a job, and how they get into the job's own scope."""
 
 import contextlib
 from collections.abc import Mapping
@@ -13,8 +13,8 @@ from service.blobs import BlobMissingError, BlobsUnavailableError
 from service.engine.port import FIT, StoredBlob
 
 COPIED_AT_ONCE: Final = 2
-"""Jobs of a process whose copies are made at the same time: each holds one file in memory, and a
-request of some hundred bytes can ask for a gigabyte of them."""
+"""For how many jobs a process makes copies at the same time: each holds one file in memory, and a
+request of a few hundred bytes can ask for a gigabyte of them."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,9 +35,9 @@ class Copy:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Inputs:
-    """What a job of a kind is made of; ``options`` is the request as JSON.
+    """The inputs of a job; ``options`` is the request as JSON.
 
-    ``sources`` are the fits, beside its own, that it has copies of.
+    ``sources`` are the fits, besides its own, that it has copies of.
     """
 
     kind: str = FIT
@@ -60,7 +60,7 @@ class Inputs:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StoredInputs:
-    """The same as blobs in the job's scope."""
+    """The inputs as blobs in the job's scope."""
 
     options: StoredBlob
     files: Mapping[str, StoredBlob]
@@ -68,12 +68,12 @@ class StoredInputs:
 
 
 def store_inputs(context: ApiContext, job_id: str, inputs: Inputs) -> StoredInputs:
-    """Put it all into the job's scope, one file after the other; all or nothing.
+    """Store all inputs in the job's scope, one file after the other; all or nothing.
 
     Raises
     ------
     ProblemError
-        If what is to be copied is gone.
+        If something to be copied is gone.
     BlobsUnavailableError
         If the storage does not answer.
     """
@@ -92,7 +92,7 @@ def store_inputs(context: ApiContext, job_id: str, inputs: Inputs) -> StoredInpu
 
 def erase_at_once(context: ApiContext, job_id: str) -> None:
     """Erase what was stored for a job that is not accepted."""
-    # If this fails too, the sweep comes to it.
+    # If this fails too, the sweep will do it.
     with contextlib.suppress(BlobsUnavailableError):
         context.blobs.erase(job_id)
 

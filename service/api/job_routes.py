@@ -29,7 +29,7 @@ JOB_PROBLEMS: Final = (
     "not-ready",
     "internal-error",
 )
-"""What may keep a caller from a job."""
+"""Problems that may keep a caller from a job."""
 
 NOT_MODIFIED: Final[dict[int | str, dict[str, Any]]] = {
     304: {"description": "Not changed since the given ETag."}
@@ -58,7 +58,7 @@ def find(jobs: TenantJobs, job_id: UUID) -> JobRecord:
 def not_modified(
     record: JobRecord, response: Response, if_none_match: str | None
 ) -> Response | None:
-    """Return a 304 to who has seen the job as it is; else complete the headers of the answer."""
+    """Return a 304 if the caller has the job's current state; else complete the headers."""
     tag = _tag(record)
     if if_none_match is not None and tag in if_none_match:
         return Response(status_code=304, headers={"ETag": tag})
@@ -78,7 +78,7 @@ def page_of(
     cursor: str | None,
     state: JobState | None,
 ) -> tuple[Sequence[JobRecord], str | None]:
-    """Return a page of jobs, newest first, and the path of the next, which is below ``path``."""
+    """Return a page of jobs, newest first, and the path of the next page, below ``path``."""
     before = None if cursor is None else _read_cursor(cursor)
     records = jobs.jobs(limit=limit + 1, before=before, state=state)
     page = records[:limit]
@@ -101,7 +101,7 @@ def cancel_job(jobs: TenantJobs, job_id: UUID, response: Response) -> JobRecord:
 
 
 def erase_job(context: ApiContext, jobs: TenantJobs, job_id: UUID) -> Response:
-    """Stop a job if it runs, and erase it with whatever it holds."""
+    """Stop a job if it is running, and erase it with everything it holds."""
     scopes = jobs.erase(str(job_id))
     if not scopes:
         raise not_found(what="such job")
@@ -111,7 +111,7 @@ def erase_job(context: ApiContext, jobs: TenantJobs, job_id: UUID) -> Response:
 
 
 def _tag(record: JobRecord) -> str:
-    """An entity tag that changes with whatever is shown of the job."""
+    """An entity tag that changes with everything that is shown of the job."""
     parts = [record.last_event, int(record.cancel_requested)]
     if record.webhook is not None:
         parts += [record.webhook.state, record.webhook.attempts]

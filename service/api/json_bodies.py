@@ -1,4 +1,4 @@
-"""Bodies that are JSON: read up to a limit, parsed as one of the wire types."""
+"""JSON bodies: read up to a limit, and parsed as one of the wire types."""
 
 from typing import Any, Final, TypeVar
 
@@ -16,12 +16,12 @@ Model = TypeVar("Model", bound=BaseModel)
 
 
 def media_type(request: Request) -> str:
-    """Return the declared kind of the body, in lower case, without its parameters."""
+    """Return the declared media type of the body, in lower case, without parameters."""
     return request.headers.get("content-type", "").partition(";")[0].strip().lower()
 
 
 def unsupported(request: Request, *, remedy: str, accepted: str) -> ProblemError:
-    """Say that a body of this kind is not accepted here."""
+    """Say that a body of this media type is not accepted here."""
     return ProblemError(
         problem(
             "unsupported-media-type",
@@ -38,7 +38,7 @@ async def read_json_text(request: Request) -> bytes:
     Raises
     ------
     ProblemError
-        If it is declared as something else, or too large for what it can say.
+        If it is declared as something else, or larger than any valid request.
     """
     if media_type(request) != JSON:
         raise unsupported(request, remedy=f"Send {JSON}.", accepted=JSON)

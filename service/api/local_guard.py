@@ -1,9 +1,9 @@
-"""Without API keys: only this machine's own pages and programs may ask.
+"""Without API keys, only this machine's own pages and programs may send requests.
 
-A service on a loopback address is still within reach of every page open in a browser here. Two ways
-lead to it: a site that lets its own name point to 127.0.0.1 (its pages could then read answers),
-and a form that posts to us (its pages could submit, though not read). The first shows in the Host
-header, the second in Origin.
+A service on a loopback address can still be reached by every page open in a browser on the machine.
+There are two ways: a site that resolves its own name to 127.0.0.1 (its pages could then read
+answers), and a form that posts to us (its pages could submit, though not read). The first shows in
+the Host header, the second in Origin.
 """
 
 from typing import Final
@@ -21,7 +21,7 @@ HARMLESS: Final = frozenset({"GET", "HEAD", "OPTIONS"})
 
 
 class LocalGuard:
-    """ASGI middleware: answers 403 to foreign hosts, and to changes asked for by foreign pages."""
+    """ASGI middleware: answers 403 to foreign hosts, and to changes requested by foreign pages."""
 
     def __init__(self, app: ASGIApp, *, allowed_origins: tuple[str, ...]) -> None:
         self._app = app
@@ -62,7 +62,7 @@ class LocalGuard:
 
 
 def _split(address: str) -> SplitResult:
-    """Split an address; what is none, an unclosed bracket for one, has no parts."""
+    """Split an address; one that is invalid, say with an unclosed bracket, has no parts."""
     try:
         return urlsplit(address)
     except ValueError:

@@ -1,4 +1,4 @@
-"""The figures of :mod:`service.api.service_metrics`, for Prometheus to fetch."""
+"""The metrics of :mod:`service.api.service_metrics`, for Prometheus to scrape."""
 
 from typing import Final
 

@@ -1,4 +1,4 @@
-"""What an Accept header asks for, among what there is (RFC 9110 12.5.1)."""
+"""Content negotiation: what an Accept header prefers of what is offered (RFC 9110 12.5.1)."""
 
 import re
 from collections.abc import Iterator, Sequence
@@ -11,10 +11,10 @@ from service.representation.formats import USD_MISSING, USD_REMEDY, USDZ, usd_is
 
 ANYTHING: Final = "*/*"
 OCTETS: Final = "application/octet-stream"
-"""Every file is one: a client that accepts bytes accepts any file."""
+"""Matches every file: a client that accepts bytes accepts any file."""
 
 LONGEST_QUOTED: Final = 100
-"""Characters of a header that a problem repeats."""
+"""How many characters of a header a problem quotes."""
 
 _RANGE: Final = re.compile(r"^([\w!#$&^.+*-]+)/([\w!#$&^.+*-]+)$")
 _WEIGHT: Final = re.compile(r"^[qQ]\s*=\s*(0(?:\.\d{0,3})?|1(?:\.0{0,3})?)$")
@@ -22,28 +22,28 @@ _WEIGHT: Final = re.compile(r"^[qQ]\s*=\s*(0(?:\.\d{0,3})?|1(?:\.0{0,3})?)$")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MediaRange:
-    """A part of the header: which types, how much they are wanted, which part it is."""
+    """An entry of the header: which types, their weight, and its position."""
 
     kind: str
     weight: float
     place: int
 
     def matches(self, media_type: str) -> bool:
-        """Whether it speaks of this type."""
+        """Whether it includes this type."""
         family, _, _ = media_type.partition("/")
         return self.kind in (ANYTHING, f"{family}/*", media_type)
 
     @property
     def specificity(self) -> int:
-        """The more specific of two ranges decides."""
+        """How specific the range is: the more specific of two decides."""
         return 2 - self.kind.count("*")
 
 
 def preferred(accept: str | None, offered: Sequence[str]) -> str | None:
-    """Choose the offered type that is wanted most, None if none is wanted.
+    """Choose the offered type that is preferred most; None if none is acceptable.
 
-    Of those wanted alike, the one asked for more specifically, then the one named first, then the
-    one offered first. A header that says nothing asks for anything.
+    Of types with equal weight, the one asked for more specifically wins, then the one named first,
+    then the one offered first. An empty header accepts anything.
     """
     ranges = list(_ranges(accept or ""))
     if not ranges:
@@ -57,7 +57,7 @@ def preferred(accept: str | None, offered: Sequence[str]) -> str | None:
 
 
 def not_acceptable(accept: str | None, *, what: str, offered: Sequence[str]) -> ProblemError:
-    """Say that nothing that is asked for can be had, and what can."""
+    """Say that nothing acceptable is available, and what is."""
     unwritten = USDZ.media_type in (accept or "").lower() and not usd_is_installed()
     there_are = f"Ask for one of {', '.join(offered)}, or leave the header out."
     return ProblemError(
@@ -83,7 +83,7 @@ def _speaking_of(media_type: str, ranges: Sequence[MediaRange]) -> MediaRange | 
 
 
 def _ranges(accept: str) -> Iterator[MediaRange]:
-    """The parts that can be understood; other parameters than the weight change nothing here."""
+    """The entries that can be parsed; parameters other than the weight are ignored."""
     for place, part in enumerate(accept.split(",")):
         kind, *parameters = (each.strip() for each in part.split(";"))
         if not _RANGE.match(kind):

@@ -1,4 +1,4 @@
-"""What is seen of a request from outside: its id, one line of log, figures, a span."""
+"""Observability of requests: an id, a log line, metrics and a span for each."""
 
 import logging
 import re
@@ -22,18 +22,18 @@ LOG: Final = logging.getLogger(__name__)
 HEADER: Final = "x-request-id"
 WELL_FORMED: Final = re.compile(r"[A-Za-z0-9._-]{1,64}")
 QUIET: Final = ("/healthz/", "/metrics")
-"""Asked every few seconds by machines: told at DEBUG only."""
+"""Requested by machines every few seconds: logged at DEBUG only."""
 
 
 class Observation:
-    """ASGI middleware, outermost of ours: sees every answer, and turns a fault into one."""
+    """ASGI middleware, our outermost: sees every response, and turns an exception into one."""
 
     def __init__(self, app: ASGIApp, *, metrics: ServiceMetrics) -> None:
         self._app = app
         self._metrics = metrics
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass the request on under its id."""
+        """Pass the request on, with its id."""
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
@@ -72,7 +72,7 @@ class Observation:
             )
 
     async def _answer(self, request: Request, request_id: str, receive: Receive, send: Send) -> int:
-        # What a client sees that hung up before there was an answer, in the logs of proxies.
+        # What the logs of proxies show for a client that hung up before there was an answer.
         status = 499
 
         async def identified(message: Message) -> None:
@@ -85,7 +85,7 @@ class Observation:
         try:
             await self._app(request.scope, receive, identified)
         except ClientDisconnect:
-            # It hung up before its request was whole: nobody is there to be answered.
+            # The client hung up before its request was complete: there is nobody to answer.
             pass
         except Exception:
             LOG.exception("%s %s failed.", request.method, _route(request.scope))
@@ -101,5 +101,5 @@ class Observation:
 
 
 def _route(scope: Scope) -> str:
-    """The template of the path that answered: bounded in number, and free of ids."""
+    """The template of the path that answered: of limited number, and free of ids."""
     return getattr(scope.get("route"), "path", "other")

@@ -1,7 +1,7 @@
 """Requests and answers for the OpenAPI document.
 
 Tables by operation, then by status: :func:`service.api.openapi.complete_openapi` puts them where
-they belong. Problems have theirs where they are documented.
+they belong. Examples of problems are where the problems are documented.
 """
 
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""The page at ``/`` and its files: built beforehand (``service/page``), served as they are."""
+"""The page at ``/`` and its files: built in advance (``service/page``), served as they are."""
 
 import gzip
 from dataclasses import dataclass
@@ -42,17 +42,17 @@ _SAMPLES: Final = {
     "sample.json": "request.json",
     **{name: name for name in ("woman.jpg", "woman.json", "arm_across.jpg", "arm_across.json")},
 }
-"""Pictures to try without one of one's own, and their clicks: the file of each name."""
+"""Sample pictures for users without one of their own, and their clicks: the file for each name."""
 
 _UNCHANGING: Final = "public, max-age=31536000, immutable"
-"""Of files whose names carry a hash of their content."""
+"""Cache header of files whose names contain a hash of their content."""
 
 _FOR_A_DAY: Final = "public, max-age=86400"
 
 
 @dataclass(frozen=True, slots=True)
 class PageFile:
-    """A file of the page; ``compressed`` where compressing it is worth while."""
+    """A file of the page; ``compressed`` if compression is worthwhile."""
 
     content: bytes
     compressed: bytes | None
@@ -100,7 +100,7 @@ def _answer(file: PageFile, accept_encoding: str, headers: dict[str, str]) -> Re
 
 @cache
 def _page_files() -> dict[str, PageFile]:
-    """All files by name; only these are served, whatever a path says."""
+    """All files by name; only these are served, whatever the path."""
     package = files("service")
     found = {each.name: _read(each) for each in (package / "page" / "dist").iterdir()}
     samples = package / "demo_data"

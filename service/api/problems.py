@@ -1,4 +1,4 @@
-"""Every error leaves the service here, as problem+json."""
+"""Every error leaves the service through here, as problem+json."""
 
 import logging
 import re
@@ -43,7 +43,7 @@ def not_found(*, what: str) -> ProblemError:
 
 
 def documented(*slugs: str) -> dict[int | str, dict[str, Any]]:
-    """Describe the problems an operation may answer, for the OpenAPI document."""
+    """Describe the problems an operation may answer with, for the OpenAPI document."""
     by_status: dict[int | str, dict[str, Any]] = {}
     for slug in slugs:
         kind = PROBLEM_TYPES[slug]
@@ -80,7 +80,7 @@ def problem_response(
 
 
 def retry_header(reason: Problem) -> dict[str, str]:
-    """Say when to try again, where trying again is the remedy."""
+    """The header that says when to try again, if trying again is the remedy."""
     return {"Retry-After": str(RETRY_AFTER_S)} if reason.status in (429, 503) else {}
 
 
@@ -190,7 +190,7 @@ def _on_fault(request: Request, error: Exception) -> Response:
 
 
 def _allowed_methods(request: Request) -> list[str]:
-    # Starlette names the methods of the first route of a path only; the document knows them all.
+    # Starlette names only the methods of a path's first route; the document has all of them.
     allowed: set[str] = set()
     for template, operations in request.app.openapi()["paths"].items():
         pattern = re.sub(r"\\\{\w+\\\}", "[^/]+", re.escape(template))

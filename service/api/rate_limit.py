@@ -1,10 +1,10 @@
-"""How often one API key may ask, at all API processes together.
+"""Rate limit of an API key, by token buckets that all API processes share.
 
-The bucket of a key is shared (:mod:`service.engine.token_port`). A process takes some tokens at a
-time from it and spends them in memory, so that few requests cost an exchange. Beside it each
-process keeps a bucket of its own of what it let pass: no request passes that this one refuses, and
-it alone counts while the shared one is out of reach or slow to answer. What passed meanwhile is
-taken from the shared one afterwards.
+The bucket of a key is shared (:mod:`service.engine.token_port`). A process takes several tokens at
+a time from it and spends them in memory, so that few requests cost an exchange. In addition each
+process keeps a bucket of its own for what it has let pass: a request that this one refuses never
+passes, and it alone counts while the shared one is unreachable or slow to answer. What passed
+meanwhile is taken from the shared one afterwards.
 """
 
 import asyncio
@@ -25,16 +25,16 @@ from service.engine.token_port import SharedTokens
 LOG: Final = logging.getLogger(__name__)
 
 ALLOTMENTS: Final = 20
-"""An allotment is this part of the capacity: what a process may hold and others cannot have."""
+"""An allotment is this share of the capacity: what a process may hold, out of reach for others."""
 
 UNSPENT_S: Final = 5.0
-"""Tokens of a key that has not asked for this long are given back."""
+"""Tokens of a key that has sent no request for this long are given back."""
 
 PATIENCE_S: Final = 1.0
-"""An exchange is waited for no longer than this; it goes on, and counts when it is done."""
+"""Requests wait no longer than this for an exchange; it continues, and counts when it is done."""
 
 RETRY_AWAY_S: Final = 1.0
-"""Shared buckets that were out of reach are tried again after this time."""
+"""Shared buckets that could not be reached are tried again after this time."""
 
 EXCHANGES_AT_ONCE: Final = 4
 """Threads and connections that exchanges may occupy, however slow the database is."""
@@ -42,7 +42,7 @@ EXCHANGES_AT_ONCE: Final = 4
 
 @dataclass(slots=True)
 class _Account:
-    """A key as this process knows it; times are those of its own clock."""
+    """What this process knows about a key; times are by its own clock."""
 
     own: TokenBucket
     met_at: float
@@ -55,9 +55,9 @@ class _Account:
 
 
 class RateLimit:
-    """At most ``per_minute`` requests a minute and key; bursts of as many.
+    """At most ``per_minute`` requests per minute and key, in bursts of up to as many.
 
-    To be used from one event loop, which the exchanges do not hold up.
+    For use from a single event loop, which the exchanges do not block.
     """
 
     def __init__(
@@ -84,7 +84,7 @@ class RateLimit:
         account.waiting += 1
         try:
             while (retry_after_s := self._answer(account)) is None:
-                # One exchange for all who wait.
+                # One exchange for all waiting requests.
                 exchange = account.exchange or self._begin_exchange(key, account)
                 done, _ = await asyncio.wait({exchange}, timeout=self._patience_s)
                 if not done:
@@ -95,7 +95,7 @@ class RateLimit:
 
     @asynccontextmanager
     async def giving_back(self) -> AsyncIterator[None]:
-        """Give back what is not spent: from time to time, and all of it at the end."""
+        """Give back what is unspent: from time to time, and all of it at the end."""
         regularly = asyncio.create_task(self._give_back_regularly())
         try:
             yield
@@ -106,7 +106,7 @@ class RateLimit:
             await self.give_back(unspent_s=0.0)
 
     async def give_back(self, *, unspent_s: float = UNSPENT_S) -> None:
-        """Give back the tokens of keys that did not ask for a while, and forget idle keys."""
+        """Give back the tokens of keys that have been idle for a while, and forget these keys."""
         now = self._monotonic()
         exchanges: list[asyncio.Task[None]] = []
         for key, account in list(self._accounts.items()):
@@ -129,7 +129,7 @@ class RateLimit:
         return account
 
     def _answer(self, account: _Account) -> int | None:
-        """Answer as :meth:`take` does; None if an exchange must tell."""
+        """Answer as :meth:`take` does; None if that needs an exchange."""
         now = self._monotonic()
         account.met_at = now
         account.own.fill(now)
@@ -154,11 +154,11 @@ class RateLimit:
         return account.exchange
 
     async def _exchange(self, key: str, account: _Account) -> None:
-        """Bring the account up to date; whatever befalls the shared bucket, it raises nothing."""
+        """Bring the account up to date; never raises, whatever happens to the shared bucket."""
         returned, account.held = account.held, 0
-        # The rest has come in again meanwhile, into the shared bucket too.
+        # The rest has been refilled meanwhile, in the shared bucket too.
         account.unpaid = min(account.unpaid, int(self._capacity - account.own.tokens))
-        # What those who wait spend at once nobody holds.
+        # What waiting requests spend at once is not held by the process.
         needed = max(self._allotment, account.waiting) if account.waiting else 0
         wanted = account.unpaid + needed
         exchange = partial(self._shared.exchange, key, returned=returned, wanted=wanted)

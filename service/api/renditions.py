@@ -1,7 +1,7 @@
-"""The files of a job as they can be asked for: as stored, or written from what is stored.
+"""The files of a job that can be requested: as stored, or converted from what is stored.
 
-Every GLB is a mesh in other formats too, and a result with measurements is a table as well. What is
-written here is never stored: it is written anew by an estimator process, and the same again.
+Every GLB is also available in other mesh formats, and a result with measurements also as a table.
+Converted files are never stored: an estimator process writes them each time, with the same bytes.
 """
 
 from collections.abc import Iterator, Mapping
@@ -32,15 +32,15 @@ from service.representation.formats import (
 from service.representation.measurement_table import CSV, TABLE
 
 TEXTURE_FILE: Final = "texture.png"
-"""What the material of a textured mesh refers to, beside it."""
+"""The file next to a textured mesh that its material refers to."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rendition:
-    """A file that can be asked for.
+    """A file that can be requested.
 
-    ``source`` is the stored file it is, or is written from; ``mesh_format`` what it is written as
-    if it is a mesh that is not stored. ``tag`` tells its bytes from all others.
+    ``source`` is the stored file that it is or is converted from; ``mesh_format`` is the format of
+    a mesh that is not stored. ``tag`` identifies its bytes.
     """
 
     name: str
@@ -51,12 +51,12 @@ class Rendition:
 
 
 def chosen_rendition(record: JobRecord, name: str, *, accept: str | None) -> Rendition:
-    """Find a file by its name; by the name of a GLB the format that ``accept`` wants most.
+    """Find a file by its name; for that of a GLB, in the format that ``accept`` prefers.
 
     Raises
     ------
     ProblemError
-        404 if nothing has that name, 406 if nothing that is accepted can be written.
+        404 if nothing has that name, 406 if no accepted format can be written.
     """
     there_are = {each.name: each for each in renditions(record)}
     if name not in there_are:
@@ -71,12 +71,12 @@ def chosen_rendition(record: JobRecord, name: str, *, accept: str | None) -> Ren
 
 
 def is_negotiated(name: str) -> bool:
-    """Whether what is answered to this name depends on the Accept header."""
+    """Whether the answer for this name depends on the Accept header."""
     return name.endswith(GLB_ENDING)
 
 
 def renditions(record: JobRecord) -> Iterator[Rendition]:
-    """All files of a job that can be asked for, each followed by its other formats."""
+    """All files of a job that can be requested, each followed by its other formats."""
     stored = {each.name: each for each in record.artifacts}
     for artifact in record.artifacts:
         if artifact.name.endswith(GLB_ENDING):
@@ -137,7 +137,7 @@ def _unknown(record: JobRecord, name: str, there_are: Mapping[str, Rendition]) -
 
 
 def _named(there_are: Mapping[str, Rendition]) -> str:
-    """All names, meshes with their endings together: ``body_posed (.glb, .obj, .ply, .stl)``."""
+    """All names, with the endings of a mesh combined: ``body_posed (.glb, .obj, .ply, .stl)``."""
     said: dict[str, list[str]] = {}
     for each in there_are.values():
         name = PurePath(each.name)

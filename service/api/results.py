@@ -1,4 +1,4 @@
-"""What a fit leaves behind: the result document and its files."""
+"""The results of a fit: the result document and its files."""
 
 from typing import Final
 from uuid import UUID

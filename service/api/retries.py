@@ -1,4 +1,4 @@
-"""A new job on the input of one that has ended."""
+"""A new job with the inputs of one that has ended."""
 
 from typing import Final
 from uuid import UUID

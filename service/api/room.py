@@ -1,4 +1,4 @@
-"""No room: new work is refused while less of the disk is free than is kept for what runs."""
+"""No room: new work is refused while less disk is free than is reserved for running jobs."""
 
 import contextlib
 from collections.abc import Iterator
@@ -14,7 +14,7 @@ RETRY_AFTER_S: Final = 60
 
 
 def no_room() -> ProblemError:
-    """Say that nothing is stored now."""
+    """Say that nothing can be stored now."""
     return ProblemError(
         problem(
             "insufficient-storage",
@@ -29,7 +29,7 @@ def no_room() -> ProblemError:
 
 @contextlib.contextmanager
 def storing() -> Iterator[None]:
-    """Say so too where the disk is full in the midst of it."""
+    """Say so too if the disk fills up while storing."""
     try:
         yield
     except (StorageFullError, EngineFullError) as error:

@@ -1,4 +1,4 @@
-"""Headers that tell browsers to do nothing with an answer that it is not meant for."""
+"""Headers that keep browsers from doing anything with a response that it is not meant for."""
 
 from collections.abc import Mapping
 from typing import Final
@@ -7,20 +7,20 @@ from starlette.datastructures import MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 NOTHING: Final = "default-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
-"""For answers that are no pages: opened in a browser, they may load and run nothing."""
+"""For responses that are not pages: opened in a browser, they may load and run nothing."""
 
 STAND_ALONE: Final = (
     "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; "
     "form-action 'none'; frame-ancestors 'none'"
 )
-"""For documents with all they need inside: they may show it, and run and load nothing."""
+"""For self-contained documents: they may show what is inside, and run and load nothing."""
 
 OWN_FILES: Final = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
     "font-src 'self'; connect-src 'self'; worker-src 'self'; manifest-src 'self'; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
-"""For pages of ours: files of this service only, nothing inline, nobody's frame."""
+"""For our own pages: only files of this service, nothing inline, no framing."""
 
 ALWAYS: Final[Mapping[str, str]] = {
     "X-Content-Type-Options": "nosniff",
@@ -33,7 +33,7 @@ ALWAYS: Final[Mapping[str, str]] = {
 
 UNLESS_SAID: Final[Mapping[str, str]] = {
     "Content-Security-Policy": NOTHING,
-    # Answers are a caller's own; none may stay in a cache that others share.
+    # Responses belong to their caller; none may stay in a shared cache.
     "Cache-Control": "no-store",
 }
 
@@ -45,11 +45,11 @@ class SecurityHeaders:
         self._app = app
         self._always = dict(ALWAYS)
         if cross_origin:
-            # Which origins those are, CORS decides.
+            # CORS decides which origins those are.
             self._always["Cross-Origin-Resource-Policy"] = "cross-origin"
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass the request on and complete its answer."""
+        """Pass the request on and complete the response."""
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return

@@ -1,4 +1,4 @@
-"""Uvicorn as we run it: told to stop, it first says so, then stops."""
+"""Uvicorn as we run it: told to stop, it first reports not ready, then stops."""
 
 import threading
 from types import FrameType
@@ -10,7 +10,7 @@ from starlette.types import ASGIApp
 from service.api.connection_limits import ConnectionLimits, limited_protocol
 
 GRACE_S: Final = 5
-"""How long open requests may take to end; event streams end by themselves at once."""
+"""How long open requests may take to end; event streams end at once."""
 
 
 class ApiServer(uvicorn.Server):
@@ -28,7 +28,7 @@ class ApiServer(uvicorn.Server):
         super().__init__(
             uvicorn.Config(
                 app,
-                # Whatever else is installed: each of uvicorn's others has other rooms inside.
+                # Whatever else is installed: uvicorn's other implementations differ internally.
                 http=limited_protocol(limits),
                 ws="none",
                 log_config=None,
@@ -43,7 +43,7 @@ class ApiServer(uvicorn.Server):
         self._stop_delay_s = stop_delay_s
 
     def handle_exit(self, sig: int, frame: FrameType | None) -> None:
-        """Be no longer ready; stop after the delay, or at once at the second signal."""
+        """Report not ready; stop after the delay, or at once at the second signal."""
         if self._draining.is_set() or self._stop_delay_s == 0.0:
             self._draining.set()
             super().handle_exit(sig, frame)

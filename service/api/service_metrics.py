@@ -1,7 +1,7 @@
-"""Figures: queue, workers and all endings from the database, requests from this process.
+"""Metrics: queue, workers and all endings from the database, requests from this process.
 
-What comes from the database is that of all machines together: where several API processes are
-scraped, take the maximum of these series, not their sum.
+What comes from the database covers all machines together: if several API processes are scraped,
+take the maximum of these series, not their sum.
 """
 
 from collections.abc import Iterator
@@ -91,7 +91,7 @@ class _EngineCollector(Collector):
         self._engine = engine
 
     def describe(self) -> Iterator[Metric]:
-        # Nothing is asked of the database when the collector is registered.
+        # The database is not queried when the collector is registered.
         return iter(())
 
     def collect(self) -> Iterator[Metric]:

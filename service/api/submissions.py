@@ -156,7 +156,7 @@ def _check_fit_of_image(context: ApiContext, text: bytes) -> tuple[CheckedSubmis
 
 
 async def _refuse_nobody(context: ApiContext, options: FitOptions) -> None:
-    """Refuse what the job would be refused for: measurements that nobody has together."""
+    """Refuse early what the job would be refused for: measurements that no body combines."""
     if not options.measurements and options.weight_kg is None:
         return
     known = BodyRequest(

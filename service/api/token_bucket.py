@@ -1,4 +1,4 @@
-"""The arithmetic of a bucket of tokens that fills evenly."""
+"""The arithmetic of a token bucket, which fills at a constant rate."""
 
 import math
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 @dataclass(slots=True)
 class TokenBucket:
-    """``tokens`` as they were at ``filled_at``, in seconds of any clock that does not jump."""
+    """``tokens`` as of ``filled_at``, in seconds of any clock that does not jump."""
 
     capacity: float
     per_second: float
@@ -14,21 +14,21 @@ class TokenBucket:
     filled_at: float
 
     def fill(self, now: float) -> None:
-        """Add what has come in since."""
+        """Add the tokens that have accrued since."""
         self.tokens = min(self.capacity, self.tokens + (now - self.filled_at) * self.per_second)
         self.filled_at = now
 
     @property
     def wait_s(self) -> float:
-        """Seconds until there is a token, by what was last filled; 0 if there is one."""
+        """Seconds from the last filling until there is a token; 0 if there is one."""
         return max(0.0, (1.0 - self.tokens) / self.per_second)
 
     @property
     def is_full(self) -> bool:
-        """Whether no more goes in, by what was last filled."""
+        """Whether it was full at the last filling."""
         return self.tokens >= self.capacity
 
 
 def whole_seconds(wait_s: float) -> int:
-    """What a caller is told to wait: whole seconds, at least one."""
+    """How long a caller is told to wait: whole seconds, at least one."""
     return max(1, math.ceil(wait_s))

@@ -36,7 +36,7 @@ async def read_upload(request: Request) -> Upload:
     Raises
     ------
     ProblemError
-        If the body is no multipart form, or a part is missing, unknown or doubled.
+        If the body is not a multipart form, or a part is missing, unknown or repeated.
     """
     if media_type(request) != MULTIPART:
         raise unsupported(
@@ -52,12 +52,12 @@ async def read_upload(request: Request) -> Upload:
 
 
 async def read_image(request: Request) -> bytes:
-    """Read the one part of an upload that is nothing but a picture.
+    """Read the only part of an upload that is just a picture.
 
     Raises
     ------
     ProblemError
-        If the body is no multipart form, or has other parts than ``image``.
+        If the body is not a multipart form, or has parts other than ``image``.
     """
     if media_type(request) != MULTIPART:
         raise unsupported(
@@ -67,7 +67,7 @@ async def read_image(request: Request) -> bytes:
 
 
 async def read_image_and_request(request: Request) -> tuple[bytes, bytes]:
-    """Read a picture and what is asked of it: JSON as a string or as a file, ``{}`` if none came.
+    """Read a picture and the request about it: JSON as a string or a file, ``{}`` if none came.
 
     Raises
     ------
@@ -90,12 +90,12 @@ async def read_image_and_request(request: Request) -> tuple[bytes, bytes]:
 async def read_request_and_files(
     request: Request, names: Sequence[str]
 ) -> tuple[bytes, dict[str, bytes]]:
-    """Read the part ``request``, JSON as a string or as a file, and files, none of which must come.
+    """Read the part ``request``, JSON as a string or a file, and files, all of them optional.
 
     Raises
     ------
     ProblemError
-        If the request is missing, or a part is unknown or doubled.
+        If the request is missing, or a part is unknown or repeated.
     """
     parts = await _parts(request, needed=("request",), known=("request", *names))
     return parts.pop("request"), parts
@@ -122,7 +122,7 @@ async def _form(request: Request, known: Sequence[str]) -> FormData:
     except UnicodeError as error:
         raise _malformed(_NO_TEXT, known) from error
     except OSError as error:
-        # Large parts are laid down in the folder of temporary files until they are whole.
+        # Large parts are stored in the folder of temporary files until they are complete.
         if error.errno in FULL:
             raise no_room() from error
         raise
@@ -136,7 +136,7 @@ _NO_TEXT: Final = "In the charset that it names, it is no text."
 
 
 def _is_text(value: UploadFile | str) -> bool:
-    """Whether a name or a content can be written: some charsets can say halves of characters."""
+    """Whether a name or a content can be encoded: some charsets can express lone surrogates."""
     if isinstance(value, str):
         try:
             value.encode()
