@@ -1,4 +1,4 @@
-"""``maquette health``: what a container of the API is asked every few seconds, so nothing heavy."""
+"""``maquette health``: run in an API container every few seconds, so it loads nothing heavy."""
 
 import http.client
 import json
@@ -9,7 +9,7 @@ from service.settings import Settings
 
 TIMEOUT_S: Final = 4.0
 UNHEALTHY: Final = 1
-"""The one exit status that Docker takes for a bad health."""
+"""The only exit status that Docker takes as unhealthy."""
 
 
 def api_health(settings: Settings) -> int:
@@ -30,13 +30,13 @@ def api_health(settings: Settings) -> int:
 
 
 def unhealthy(reason: str) -> int:
-    """Say why, and return the exit status that says so."""
+    """Print the reason, and return the exit status for it."""
     print(f"maquette health: {reason}", file=sys.stderr)
     return UNHEALTHY
 
 
 def _code(body: bytes) -> str:
-    """Return the code of a problem, or nothing if it is none of ours."""
+    """Return the code of a problem, or an empty string if it is not one of ours."""
     try:
         return str(json.loads(body)["code"])
     except (ValueError, LookupError, TypeError):

@@ -1,4 +1,4 @@
-"""``maquette fit``: one picture here and now, through the same checks and the same pipeline."""
+"""``maquette fit``: fit one picture locally, with the service's checks and pipeline."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -36,12 +36,12 @@ COMPILING: Final = (
     "Compiling kernels: one to three minutes, once per installation; where that is done, seconds."
 )
 UNUSABLE_INPUT: Final = 2
-"""Exit status when the input is at fault, as for wrong arguments."""
+"""Exit status if the input is at fault, as for wrong arguments."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FitArguments:
-    """What the command line says; ``overrides`` replace what the points file says.
+    """The command line's arguments; ``overrides`` replace fields of the points file.
 
     Without a ``points`` file all points are proposed.
     ``models`` is the folder of the body models, None for the service's setting; ``formats`` are the
@@ -58,12 +58,12 @@ class FitArguments:
 
 
 def request_from_file(text: str, overrides: Mapping[str, object]) -> bytes:
-    """Take the fields of a request out of a points file, which may hold other things besides.
+    """Extract the fields of a request from a points file, which may hold other things as well.
 
     Raises
     ------
     RefusedError
-        If the text is no JSON object.
+        If the text is not a JSON object.
     """
     try:
         values = json.loads(text)
@@ -120,7 +120,7 @@ def _request(arguments: FitArguments) -> bytes:
 
 
 def warm_up(*, pipeline: str = PIPELINE) -> int:
-    """Fit the sample and exaggerate it, so that what is compiled at first use is compiled."""
+    """Fit the sample and exaggerate it, so that everything compiled at first use is compiled."""
     console = Console()
     console.print(COMPILING, highlight=False)
     sample = load_sample()
@@ -182,7 +182,7 @@ def _in_formats(artifacts: Mapping[str, bytes], formats: Sequence[str]) -> dict[
     """Every mesh in every one of the formats, by file name."""
     if not formats:
         return {}
-    # Its libraries take a moment to load, which most fits need not wait for.
+    # Imported here: its libraries take a moment to load, and most fits do not need them.
     from fitter.export.formats import converted
 
     return {

@@ -1,4 +1,4 @@
-"""What the service stands on, looked at before anything is started."""
+"""Checks of everything the service depends on, before anything is started."""
 
 from service.engine.database import check_database
 from service.process.data_folder import prepare_data_folder
@@ -7,14 +7,14 @@ from service.worker.model_files import check_detector, check_models
 
 
 def check_ground(settings: Settings) -> None:
-    """Look at data folder, models, detector and database; a database that is away is waited for.
+    """Check data folder, models, detector and database; waits for an unavailable database.
 
     Raises
     ------
     SettingError
         If folder, models or detector cannot be used.
     DatabaseUnusableError
-        If the database cannot.
+        If the database cannot be used.
     """
     prepare_data_folder(settings)
     check_models(settings)

@@ -11,7 +11,7 @@ from service.settings import Settings
 
 
 def create_key(settings: Settings, *, tenant: str, role: Role) -> int:
-    """Make a key and print it alone, once."""
+    """Create a key and print it, alone and only this once."""
     ring = _open(settings)
     try:
         key = ring.create(tenant, role)
@@ -41,7 +41,7 @@ def revoke_key(settings: Settings, *, identity: str) -> int:
 
 def _open(settings: Settings) -> KeyRing:
     prepare_data_folder(settings)
-    # A key must be revoked on a full disk too.
+    # It must be possible to revoke a key on a full disk too.
     open_ballast(settings).make_room()
     prepare_database(settings.system_database_url)
     return KeyRing(open_database(settings.system_database_url, connections=1))

@@ -1,4 +1,4 @@
-"""``maquette prepare``: what API and workers expect to find, made before they start."""
+"""``maquette prepare``: create what API and workers expect to exist before they start."""
 
 from service.blobs import open_blob_store
 from service.engine.database import prepare_database
@@ -8,14 +8,14 @@ from service.worker.retrying import retry_while_storage_is_away
 
 
 def prepare(settings: Settings) -> int:
-    """Make the tables and the folder or bucket of the blobs; what is there already stays.
+    """Create the tables and the folder or bucket of the blobs; what exists is kept.
 
     Raises
     ------
     SettingError
         If the data folder cannot be used.
     BlobsUnavailableError
-        If the bucket cannot be made, after two minutes of trying.
+        If the bucket cannot be created within two minutes.
     """
     prepare_data_folder(settings)
     prepare_database(settings.system_database_url)

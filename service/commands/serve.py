@@ -25,7 +25,7 @@ LOG: Final = logging.getLogger(__name__)
 WORKER_COMMAND: Final = (*PYTHON, "-m", "service.worker")
 ESTIMATOR_COMMAND: Final = (*PYTHON, "-m", "service.estimates")
 STOP_MARGIN_S: Final = 5.0
-"""What a worker gets beyond its drain time before it is killed."""
+"""How much longer than its drain time a worker gets before it is killed."""
 
 
 def listen(settings: Settings) -> socket.socket:
@@ -34,13 +34,13 @@ def listen(settings: Settings) -> socket.socket:
     Raises
     ------
     OSError
-        If somebody else listens there.
+        If something else is listening there.
     SettingError
-        If the address can never be listened on.
+        If it is impossible to listen on the address.
     """
     family = socket.AF_INET6 if ":" in settings.host else socket.AF_INET
-    # With its protocol named, asyncio sends what is written at once: else each answer over a kept
-    # connection would wait for the acknowledgement of its headers, 40 ms.
+    # With the protocol given explicitly, asyncio sends what is written at once: otherwise each
+    # response on a kept-alive connection would wait 40 ms for the acknowledgement of its headers.
     listener = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
@@ -77,7 +77,7 @@ def serve(
 
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, stop_before_serving)
-    # All that settings may have wrong comes to light before anything is started that has the same.
+    # All faults of the settings come to light before anything with the same settings is started.
     ballast = open_ballast(settings)
     ballast.make_room()
     check_ground(settings)
@@ -163,7 +163,7 @@ def serve(
         draining=draining,
         stop_delay_s=settings.stop_delay_s,
     )
-    # The server takes the signals while it runs, and raises them again when it is done: they must
+    # The server handles signals while it runs, and raises them again when it is done: they must
     # not end the process before the worker is stopped.
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: setattr(server, "should_exit", True))
@@ -188,7 +188,7 @@ def _status(worker: SupervisedWorker | None) -> int:
 
 
 def _environment(settings: Settings) -> dict[str, str]:
-    """What the processes started from here find: our settings, and no slips of their names."""
+    """The environment of processes started from here: our settings, without misspelt ones."""
     others = {
         name: value for name, value in os.environ.items() if not name.upper().startswith(PREFIX)
     }

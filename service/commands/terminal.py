@@ -1,4 +1,4 @@
-"""What the command line shows: bars while a fit runs, tables afterwards."""
+"""What the command line shows: progress bars while a fit runs, tables afterwards."""
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -16,7 +16,7 @@ UNSHADED: Final = "SE"
 
 
 class StageBars:
-    """One bar a stage, running from its first report to the next stage's, and one for all."""
+    """One bar per stage, running from its first report to the next stage's, and one for all."""
 
     def __init__(self, progress: Progress) -> None:
         self._progress = progress
@@ -33,7 +33,7 @@ class StageBars:
             self._bar = self._progress.add_task(stage.replace("_", " "), total=None)
 
     def finish(self) -> None:
-        """The fit is done."""
+        """Complete the bars: the fit is done."""
         self._finish_stage()
         self._progress.update(self._whole, completed=1.0)
 
@@ -57,7 +57,7 @@ def stage_bars(console: Console) -> Iterator[StageBars]:
 
 
 def print_problem(console: Console, problem: Problem) -> None:
-    """Tell what is wrong and what to do."""
+    """Say what is wrong and what to do."""
     console.print(f"[bold red]{problem.title}[/]", highlight=False)
     for error in problem.errors:
         console.print(f"  {error.field}: {error.reason} {error.remedy}", markup=False)
@@ -68,7 +68,7 @@ def print_problem(console: Console, problem: Problem) -> None:
 def print_result(
     console: Console, result: FitResult, *, truth: Mapping[str, float] | None = None
 ) -> None:
-    """Print the measurements of SE and SES, beside the truth where there is one, and remarks."""
+    """Print the measurements of SE and SES, next to the truth if there is one, and remarks."""
     console.print(_measurements(result, truth or {}))
     console.print(
         f"Outcome: {result.outcome} ({result.outcome_explanation}) Silhouette overlap "

@@ -1,4 +1,4 @@
-"""``maquette health --worker``: what a container of a worker is asked."""
+"""``maquette health --worker``: the health check of a worker's container."""
 
 import time
 from typing import Final
@@ -14,14 +14,14 @@ from service.engine.tables import WORKERS
 from service.settings import Settings
 
 LATE_S: Final = 10.0
-"""So much later than its pace a beat may come: fits keep a machine busy. With the pace it is less
-than docker/compose.yaml gives this command."""
+"""How much later than its interval a beat may come: fits keep a machine busy. Together with the
+interval this is less than docker/compose.yaml gives this command."""
 
 LOOK_S: Final = 0.1
 
 
 def worker_health(settings: Settings) -> int:
-    """Look for a worker of this machine that runs and whose heart beats."""
+    """Look for a worker on this machine that is running and whose heartbeat goes on."""
     try:
         beating = _beating(settings)
     except EngineUnavailableError:
