@@ -21,7 +21,7 @@ from service.process.private_files import make_private_folder
 FULL: Final = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
 
 NAMELESS_UNKNOWN: Final = frozenset({errno.EOPNOTSUPP, errno.EISDIR, errno.EINVAL})
-"""What file systems without nameless files answer, NFS among them."""
+"""Errors of file systems without nameless files, such as NFS."""
 
 SCOPE_DEPTH: Final = 3
 """Folders of ours above a blob."""
@@ -34,7 +34,7 @@ class LocalBlobStore:
         self.root = root
 
     def prepare(self) -> None:
-        """Make the folder, unless it is there."""
+        """Create the folder unless it exists."""
         with _told():
             make_private_folder(self.root)
 
@@ -95,7 +95,7 @@ class LocalBlobStore:
 
 @contextlib.contextmanager
 def _told() -> Iterator[None]:
-    """Turn what a disk says into the store's own errors; a missing file stays what it is."""
+    """Turn errors of the disk into the store's own; a missing file is passed on as it is."""
     try:
         yield
     except FileNotFoundError:
@@ -125,7 +125,7 @@ def _write(path: Path, content: bytes) -> None:
 
 
 def _write_named(path: Path, content: bytes) -> None:
-    """Where a file needs a name: a process that dies here leaves it until its scope is erased."""
+    """For file systems that need a name: if the process dies here, the file stays in its scope."""
     handle, name = tempfile.mkstemp(dir=path.parent, prefix=".new-")
     temporary = Path(name)
     try:

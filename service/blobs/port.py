@@ -1,4 +1,4 @@
-"""What the service asks of a blob store, and how it says that it cannot."""
+"""What the service requires of a blob store, and the errors a store may raise."""
 
 from typing import Protocol
 
@@ -23,7 +23,7 @@ class BlobStore(Protocol):
     """
 
     def prepare(self) -> None:
-        """Make the folder or bucket that the blobs are to lie in, unless it is there."""
+        """Create the folder or bucket for the blobs unless it exists."""
         ...
 
     def put(self, scope: str, content: bytes) -> str:

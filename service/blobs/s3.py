@@ -19,13 +19,13 @@ from service.blobs.port import BlobMissingError, BlobsUnavailableError, StorageF
 MISSING: Final = frozenset({"NoSuchKey", "404", "NotFound"})
 FULL: Final = frozenset({"XMinioStorageFull", "QuotaExceeded", "InsufficientStorage", "507"})
 UNVERSIONED: Final = frozenset({"NotImplemented", "MethodNotAllowed"})
-"""What servers without versions answer when asked for them."""
+"""Errors of servers that do not support versions when asked for them."""
 
 UNNAMED_REGIONS: Final = frozenset({None, "us-east-1", "aws-global"})
-"""Where a new bucket lies that names no region; naming this one is refused."""
+"""The region of a new bucket that names none; naming this one is refused."""
 
 LISTED_AT_ONCE: Final = 1000
-"""Objects a page of a listing holds: as many as any server gives."""
+"""Objects per page of a listing: the most that servers return."""
 
 CONNECTIONS: Final = 32
 CONNECT_TIMEOUT_S: Final = 3
@@ -59,7 +59,7 @@ class S3BlobStore:
         )
 
     def prepare(self) -> None:
-        """Make the bucket, unless it is there; it is private, as every new bucket is."""
+        """Create the bucket unless it exists; like every new bucket it is private."""
         region = self._client.meta.region_name
         place = {} if region in UNNAMED_REGIONS else {"LocationConstraint": region}
         options = {"CreateBucketConfiguration": place} if place else {}
@@ -97,8 +97,8 @@ class S3BlobStore:
     def erase(self, scope: str) -> None:
         """Remove everything in a scope, in every version a bucket with versioning kept."""
         with _told(scope):
-            # Listed to the end first: not every server goes on behind an object that is gone. And
-            # deleted one by one: batches need a checksum that not every server accepts.
+            # Listed to the end first: not every server continues a listing after an object that is
+            # gone. Deleted one by one: batches need a checksum that not every server accepts.
             for version in list(self._versions(f"{self._prefix}{scope}/")):
                 self._client.delete_object(Bucket=self._bucket, **version)
 
@@ -133,7 +133,7 @@ class S3BlobStore:
 
 @contextlib.contextmanager
 def _told(name: str) -> Iterator[None]:
-    """Turn what the client says into the store's own errors."""
+    """Turn the client's errors into the store's own."""
     try:
         yield
     except ClientError as error:

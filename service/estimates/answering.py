@@ -13,7 +13,7 @@ class Answers(Protocol):
     """A module with these five functions.
 
     ``body``, ``initial_pose`` and ``points`` raise
-    :class:`service.worker.pipeline_port.UnusableInputError` where the question is at fault.
+    :class:`service.worker.pipeline_port.UnusableInputError` if the question is at fault.
     ``models`` and ``detector`` are folders, None for what is installed.
     """
 
@@ -26,7 +26,7 @@ class Answers(Protocol):
         ...
 
     def initial_pose(self, task: InitialPoseTask, models: Path | None) -> InitialPose:
-        """Pose the mean person by clicks."""
+        """Pose the mean person to match clicks."""
         ...
 
     def points(

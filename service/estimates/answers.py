@@ -39,7 +39,7 @@ _TOO_MUCH_MEMORY = FieldProblem(
 def prepare(models: Path | None, detector: Path | None) -> None:
     """Load both models and answer a question of each kind, which compiles or loads all kernels.
 
-    Without a detector nothing is proposed, which is said when somebody asks.
+    Without a detector nothing can be proposed; that is reported when somebody asks.
     """
     for gender in Gender:
         body(
@@ -99,7 +99,7 @@ def body(task: BodyTask, models: Path | None) -> EstimatedBody:
 
 
 def initial_pose(task: InitialPoseTask, models: Path | None) -> InitialPose:
-    """Pose the mean person by clicks."""
+    """Pose the mean person to match clicks."""
     request = translate.subject_request(task.subject)
     fittable = prepared_model(request.gender, models=models)
     try:

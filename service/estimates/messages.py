@@ -1,6 +1,6 @@
-"""What the API and its estimator tell each other, as JSON over a socket.
+"""The messages between the API and its estimator, as JSON over a socket.
 
-Questions and answers are two messages each: the JSON, and the bytes of a file, which may be none.
+Questions and answers are two messages each: the JSON, and the bytes of a file, which may be empty.
 """
 
 from typing import Annotated, Final, Literal
@@ -27,7 +27,7 @@ class BodyTask(WireModel):
 
 
 class InitialPoseTask(WireModel):
-    """Pose the mean person by clicks, which are named pixels of a picture of this size."""
+    """Pose the mean person to match clicks, named pixels of a picture of this size."""
 
     kind: Literal["initial_pose"] = "initial_pose"
     subject: SubjectOptions
@@ -37,14 +37,14 @@ class InitialPoseTask(WireModel):
 
 
 class ConversionTask(WireModel):
-    """Write the body of the GLB file that comes along in the format of this ending."""
+    """Write the body of the attached GLB file in the format of this ending."""
 
     kind: Literal["conversion"] = "conversion"
     ending: str
 
 
 class PointsTask(WireModel):
-    """Propose the points of a person in the picture that comes along."""
+    """Propose the points of a person in the attached picture."""
 
     kind: Literal["points"] = "points"
     request: PointsRequest
@@ -65,13 +65,13 @@ class InitialPoseAnswer(WireModel):
 
 
 class ConversionAnswer(WireModel):
-    """The file that comes along is what was asked for."""
+    """The attached file is the requested one."""
 
     kind: Literal["conversion"] = "conversion"
 
 
 class PointsAnswer(WireModel):
-    """The proposal; the file that comes along is the person's mask, if it was asked for."""
+    """The proposal; the attached file is the person's mask, if it was requested."""
 
     kind: Literal["points"] = "points"
     proposal: PointsProposal

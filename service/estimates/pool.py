@@ -1,4 +1,4 @@
-"""The API's estimator: a few processes, and a short queue before them."""
+"""The API's estimator: a few processes behind a short queue."""
 
 import queue
 import threading
@@ -33,13 +33,13 @@ from service.estimates.process import EstimatorProcess
 from service.submissions.refusal import refused
 
 MOST_WAITING: Final = 20
-"""Questions a process may have waiting: some two seconds' worth. More are told to come back."""
+"""Questions that may wait per process: about two seconds' worth. More are told to come back."""
 
 MOMENT_S: Final = 0.5
-"""What a question waits for a busy process where the answer can be done without."""
+"""How long a question waits for a busy process if it can do without an answer."""
 
 LOOK_AFTER_S: Final = 5.0
-"""How often idle processes are looked after, so that one that died is there again when asked."""
+"""How often idle processes are checked, so that one that died is back before the next question."""
 
 
 class EstimatorPool:
@@ -62,7 +62,7 @@ class EstimatorPool:
 
     @property
     def capacity(self) -> int:
-        """How many questions are taken at once."""
+        """How many questions are accepted at a time."""
         return self._capacity
 
     def body(self, task: BodyTask, *, patient: bool = True) -> EstimatedBody:
@@ -73,7 +73,7 @@ class EstimatorPool:
         return EstimatedBody(estimate=answer.estimate, glb=file)
 
     def initial_pose(self, task: InitialPoseTask) -> InitialPose:
-        """Pose the mean person by clicks."""
+        """Pose the mean person to match clicks."""
         answer, _ = self._ask(task, patient=True)
         if not isinstance(answer, InitialPoseAnswer):
             raise EstimatorFailedError
@@ -96,7 +96,7 @@ class EstimatorPool:
         return file
 
     def stop(self) -> None:
-        """End the processes; questions that are being answered fail."""
+        """End the processes; pending questions fail."""
         self._stopping.set()
         self._watch.join()
         for process in self._processes:

@@ -1,4 +1,4 @@
-"""What the API asks of an estimator, whatever stands behind it."""
+"""What the API requires of an estimator, however it is implemented."""
 
 from dataclasses import dataclass
 from typing import Protocol
@@ -11,7 +11,7 @@ from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EstimatedBody:
-    """The answer, and the GLB file where the task asks for it, else nothing."""
+    """The answer, and the GLB file if the task asks for it, else no bytes."""
 
     estimate: BodyEstimate
     glb: bytes
@@ -19,7 +19,7 @@ class EstimatedBody:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ProposedPoints:
-    """The answer, and the mask's PNG file where the task asks for it, else nothing."""
+    """The answer, and the mask's PNG file if the task asks for it, else no bytes."""
 
     proposal: PointsProposal
     mask: bytes
@@ -30,11 +30,11 @@ class NoDetectorError(Exception):
 
 
 class EstimatorUnavailableError(Exception):
-    """No answer can be had now: all are busy, starting, or cannot start."""
+    """No answer is available now: all processes are busy, starting, or cannot start."""
 
 
 class EstimatorFailedError(Exception):
-    """The question met a fault or ended its process; others are not affected."""
+    """The question caused a fault or ended its process; others are not affected."""
 
 
 class EstimatorTimeoutError(EstimatorFailedError):
@@ -50,7 +50,7 @@ class Estimator(Protocol):
 
     @property
     def capacity(self) -> int:
-        """How many questions are taken at once, answered and waiting; none if there is no process.
+        """How many questions are accepted at a time, being answered or waiting; 0 if no process.
 
         One more is refused with :class:`EstimatorUnavailableError`.
         """
@@ -59,13 +59,13 @@ class Estimator(Protocol):
     def body(self, task: BodyTask, *, patient: bool = True) -> EstimatedBody:
         """Estimate a body from measurements.
 
-        Who is not ``patient`` waits neither for a process that is still starting nor, for more than
-        a moment, for a busy one.
+        A caller that is not ``patient`` does not wait for a process that is still starting, and
+        only briefly for a busy one.
         """
         ...
 
     def initial_pose(self, task: InitialPoseTask) -> InitialPose:
-        """Pose the mean person by clicks."""
+        """Pose the mean person to match clicks."""
         ...
 
     def points(self, task: PointsTask, image: bytes) -> ProposedPoints:

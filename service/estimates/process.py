@@ -37,9 +37,9 @@ class RawAnswer:
 
 
 class EstimatorProcess:
-    """A process and the socket to it; not for several threads at once.
+    """A process and the socket to it; not thread-safe.
 
-    The process holds the other end of the socket, and ends when this end does: should the API be
+    The process holds the other end of the socket, and ends when this end is closed: if the API is
     killed, it does not stay behind.
     """
 
@@ -51,16 +51,16 @@ class EstimatorProcess:
         self._start()
 
     def ask(self, task: bytes, file: bytes = b"", *, patient: bool = True) -> RawAnswer:
-        """Put a question, with the file that belongs to it if any, and wait for its answer.
+        """Send a question, with its file if any, and wait for the answer.
 
-        A process that is starting is waited for only by who is ``patient``.
+        Only a ``patient`` caller waits for a process that is starting.
 
         Raises
         ------
         EstimatorUnavailableError
             If the process is still starting or cannot start.
         EstimatorFailedError
-            If it died over the question; the next one is started.
+            If it died while answering; the next one is started.
         EstimatorTimeoutError
             If it did not answer in time; the next one is started.
         """
@@ -83,14 +83,14 @@ class EstimatorProcess:
             raise EstimatorFailedError from error
 
     def revive(self) -> None:
-        """Start the process anew if it has died; what is too early for that is left as it is."""
+        """Restart the process if it has died, unless it is too early for that."""
         if self._process.poll() is not None and not self._stopped:
             LOG.error("An estimator died, exit code %d; starting another.", self._process.wait())
             with contextlib.suppress(EstimatorUnavailableError):
                 self._restart()
 
     def stop(self) -> None:
-        """End the process; no other takes its place."""
+        """End the process; it is not replaced."""
         self._stopped = True
         self._end()
 

@@ -1,4 +1,4 @@
-"""Between the wire types of estimates and the fitter's: pure, both ways, nothing else."""
+"""Pure translations between the wire types of estimates and the fitter's, both ways."""
 
 import io
 from collections.abc import Sequence
@@ -95,7 +95,7 @@ def points_proposal(found: Proposal) -> wire_proposals.PointsProposal:
 
 
 def grey_png(values: UInt8[np.ndarray, "h w"]) -> bytes:
-    """Write a grey picture, quickly rather than small."""
+    """Encode a grey picture, for speed rather than size."""
     encoded = io.BytesIO()
     Image.fromarray(values).save(encoded, "PNG", compress_level=1)
     return encoded.getvalue()

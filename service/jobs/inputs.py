@@ -1,4 +1,4 @@
-"""What a job is made of beside its request: blobs in its own scope, by name."""
+"""The inputs of a job besides its request: blobs in its own scope, by name."""
 
 from collections.abc import Mapping
 from typing import Final, TypeVar
@@ -16,10 +16,10 @@ PERSON: Final = "person.npz"
 SEGMENTATION: Final = "segmentation.png"
 OVERLAY: Final = "overlay.png"
 CLIP: Final = "bvh"
-"""A motion that came along with the request for a derivation."""
+"""A motion sent with the request for a derivation."""
 
 TEXTURE: Final = "texture"
-"""A painted atlas that came along."""
+"""A painted atlas sent with the request."""
 
 OF_EACH_PICTURE: Final = (PERSON, IMAGE, MASK, REQUEST)
 """What a combined body has copies of, of every fit; a mask is there if it was sent."""

@@ -1,1 +1,1 @@
-"""What every process of the service stands on: folders, logs, kernels, retries."""
+"""What every process of the service relies on: folders, logs, kernels, retries."""

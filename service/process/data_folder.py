@@ -1,4 +1,4 @@
-"""The data folder: made for its owner alone, and looked at before anything is kept in it."""
+"""The data folder: private to its owner, and checked before anything is stored in it."""
 
 import getpass
 import os
@@ -12,12 +12,12 @@ DATABASE_ENDINGS: Final = ("", "-wal", "-shm", "-journal")
 
 
 def database_files(database: Path) -> list[Path]:
-    """The file of an embedded database, and those that SQLite keeps beside it."""
+    """The file of an embedded database, and those that SQLite keeps next to it."""
     return [database.with_name(database.name + ending) for ending in DATABASE_ENDINGS]
 
 
 def prepare_data_folder(settings: Settings) -> None:
-    """Make the folder, unless nothing is kept there; keep others out of what is ours.
+    """Create the folder, unless nothing is kept there; deny others access to what is ours.
 
     Raises
     ------
@@ -31,7 +31,7 @@ def prepare_data_folder(settings: Settings) -> None:
         make_private_folder(folder)
         if settings.blob_url is None:
             make_private_folder(settings.blob_dir)
-    # Python tells a circle of links by an error that is none of the system's.
+    # Python reports a loop of links with an error that is not an OSError.
     except (OSError, RuntimeError) as error:
         raise _unusable(settings, f"it cannot be made ({_why(error)})") from error
     files = database_files(settings.database_file)

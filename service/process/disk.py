@@ -1,4 +1,4 @@
-"""The disk of the data folder, and what of it is kept free."""
+"""The disk of the data folder, and how much of it is kept free."""
 
 import shutil
 from pathlib import Path
@@ -9,7 +9,7 @@ BYTES_PER_MB = 1_000_000
 
 
 class Disk:
-    """Room below a folder; without a folder nothing is kept here, and there is always room."""
+    """Free space below a folder; without one nothing is kept here, and there is always room."""
 
     def __init__(self, folder: Path | None, *, reserve_bytes: int) -> None:
         self._folder = folder
@@ -25,7 +25,7 @@ class Disk:
         return shutil.disk_usage(folder).free
 
     def has_room_for(self, size: int = 0) -> bool:
-        """Say whether the reserve stays whole if so many bytes are stored."""
+        """Whether the reserve stays intact if ``size`` bytes are stored."""
         free = self.free_bytes()
         return free is None or free - size >= self._reserve_bytes
 

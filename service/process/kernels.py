@@ -1,7 +1,7 @@
-"""Where compiled kernels are kept: beside the code, in the user's cache, or in a folder of ours.
+"""Where compiled kernels are kept: next to the code, in the user's cache, or in a folder of ours.
 
-Numba knows the first two, and refuses to load the code at all where it can write in neither: as
-for a service that was installed by somebody else and runs as a user without a home.
+Numba knows the first two, and refuses to load the code at all if it can write to neither, for
+instance in a service that was installed by somebody else and runs as a user without a home.
 """
 
 import os
@@ -29,8 +29,8 @@ def keep_kernels() -> None:
 def own_folder(temporary: Path | None = None) -> Path:
     """The user's folder among the temporary files, the same one every time.
 
-    Compiled code is run as it is found: where somebody else owns a folder of that name or may write
-    into it, a new one is made.
+    Compiled code is run as it is found: if somebody else owns a folder of that name or may write to
+    it, a new one is created.
     """
     temporary = temporary or Path(tempfile.gettempdir())
     folder = temporary / f"maquette-kernels-{os.geteuid()}"

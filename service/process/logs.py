@@ -1,7 +1,7 @@
-"""Logging of the entry points: one line a record, with the ids of the request and the job.
+"""Logging of the entry points: one line per record, with the ids of the request and the job.
 
-No record carries pictures, points or other personal data. An exception's message could, unasked: it
-may quote the value it stumbled over. The database's driver and pydantic are told not to
+No record contains pictures, points or other personal data. An exception's message might, because it
+may quote the value at fault. The database's driver and pydantic are configured not to
 (``hide_parameters``, ``hide_input_in_errors``); the child process, which alone sees decoded
 pictures and points, logs an unexpected exception by type and place and withholds its message.
 """
@@ -33,12 +33,12 @@ def configure_logging(
     formatter = _JsonFormatter if log_format == "json" else _TextFormatter
     handler = logging.StreamHandler()
     handler.setFormatter(formatter(withhold_messages=withhold_messages))
-    # What libraries tell at DEBUG is their own affair, and thousands of lines.
+    # What libraries log at DEBUG is of no use here, and thousands of lines.
     others = max(logging.INFO, logging.getLevelNamesMapping()[level])
     logging.basicConfig(level=others, handlers=[handler], force=True)
     for ours in OURS:
         logging.getLogger(ours).setLevel(level)
-    # DBOS tells every migration and launch at INFO; what matters of jobs we log ourselves.
+    # DBOS logs every migration and launch at INFO; what matters about jobs we log ourselves.
     logging.getLogger("dbos").setLevel(max(logging.WARNING, logging.getLogger().level))
     # These log what they send and are sent.
     for chatty in ("botocore", "boto3", "urllib3", "s3transfer", "httpx", "httpcore", "PIL"):

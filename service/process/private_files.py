@@ -1,4 +1,4 @@
-"""Folders and files that only their owner may look into."""
+"""Folders and files that only their owner can access."""
 
 import os
 import stat
@@ -9,23 +9,23 @@ from typing import Final
 PRIVATE_FOLDER: Final = 0o700
 PRIVATE_FILE: Final = 0o600
 OTHERS: Final = 0o077
-"""The bits of a mode that speak of anybody but the owner."""
+"""The bits of a mode that concern anybody but the owner."""
 
 
 def make_private_folder(folder: Path) -> None:
-    """Make a folder, unless it is there; those above it are made as usual."""
+    """Create a folder unless it exists; those above it get the usual permissions."""
     folder.mkdir(mode=PRIVATE_FOLDER, parents=True, exist_ok=True)
 
 
 def make_private_file(path: Path) -> None:
-    """Make an empty file, unless it is there."""
+    """Create an empty file unless it exists."""
     os.close(os.open(path, os.O_CREAT | os.O_RDONLY | os.O_CLOEXEC, PRIVATE_FILE))
 
 
 def tighten(path: Path) -> None:
-    """Take from others what they may do with a file or folder, if it is there and ours to change.
+    """Remove others' permissions on a file or folder, if it exists and we may change it.
 
-    A symbolic link is left alone: what it leads to may be anybody's.
+    A symbolic link is left alone: its target may be anybody's.
     """
     try:
         found = path.lstat()
@@ -39,7 +39,7 @@ def tighten(path: Path) -> None:
 
 
 def tighten_own_folder(folder: Path, *, own: Collection[str]) -> None:
-    """Tighten a folder that holds nothing but what is ours: another may be shared for a reason."""
+    """Tighten a folder that holds nothing but ours: any other may be shared for a reason."""
     try:
         is_own = all(each.name in own for each in folder.iterdir())
     except OSError:

@@ -1,4 +1,4 @@
-"""Trying again, with pauses, while a database or a storage is away.
+"""Trying again, with pauses, while a database or a storage is unavailable.
 
 An attempt may have minutes of work behind it when the database is locked, restarted or out of
 reach, or a disk is full. Its writes are each one transaction and name their attempt, and blobs are
@@ -24,9 +24,9 @@ LONGEST_PAUSE_S: Final = 2.0
 def retry_with_pauses(
     absence: type[Exception], whose: str
 ) -> Callable[[Callable[P, T]], Callable[P, T]]:
-    """Repeat an operation that fails for want of something, with pauses, for up to two minutes.
+    """Retry an operation while something it needs is unavailable, with pauses, for two minutes.
 
-    ``absence`` is the error that says so, ``whose`` what is missing, for the log.
+    ``absence`` is the error that says so, ``whose`` names what is missing, for the log.
     """
 
     def retry(operation: Callable[P, T]) -> Callable[P, T]:

@@ -1,4 +1,4 @@
-"""A worker process beside the API, restarted when it dies."""
+"""A worker process next to the API, restarted when it dies."""
 
 import logging
 import subprocess
@@ -12,13 +12,13 @@ RESTART_PAUSE_S: Final = 1.0
 
 
 class SupervisedWorker:
-    """A worker process that is started again whenever it ends unasked.
+    """A worker process that is restarted whenever it ends without having been asked to.
 
-    But for one exit status, by which it says that starting it again is of no use: then
-    ``on_final_end`` is called, and no other is started.
+    The exception is the exit status that says that restarting is of no use: then ``on_final_end``
+    is called, and no other is started.
 
-    It holds the reading end of a pipe of ours as its standard input: should this process be
-    killed, the pipe ends and the worker stops by itself.
+    Its standard input is the reading end of a pipe of ours: if this process is killed, the pipe
+    ends and the worker stops.
     """
 
     def __init__(

@@ -1,7 +1,7 @@
-"""Traces, as an option: one from the request to the stages of the fit, over all processes.
+"""Optional traces: from the request to the stages of the fit, across all processes.
 
 Only OpenTelemetry's interface is needed to make spans; without a collector to send them to they are
-nothing. The exporter is an extra (``maquette[tracing]``).
+no-ops. The exporter is an extra (``maquette[tracing]``).
 """
 
 import time
@@ -63,7 +63,7 @@ def start_tracing(settings: Settings, *, role: str) -> Tracing:
 
 
 def current_traceparent() -> str | None:
-    """Return the W3C traceparent of the span at hand, to be carried to another process."""
+    """Return the W3C traceparent of the current span, to be passed to another process."""
     carrier: dict[str, str] = {}
     _PROPAGATOR.inject(carrier)
     return carrier.get(_HEADER)
@@ -77,7 +77,7 @@ def span(
     kind: SpanKind = SpanKind.INTERNAL,
     attributes: Attributes | None = None,
 ) -> Iterator[Span]:
-    """Make a span that lasts as the context does, below the one a traceparent names."""
+    """Make a span that lasts as long as the context, below the one a traceparent names."""
     context = _PROPAGATOR.extract({_HEADER: parent}) if parent else otel_context.get_current()
     with TRACER.start_as_current_span(
         name,
@@ -96,7 +96,7 @@ def span(
 
 
 class StageSpans:
-    """One span a stage, each from its first report to that of the next."""
+    """One span per stage, each from its first report to that of the next."""
 
     def __init__(self) -> None:
         self._stage: str | None = None
@@ -111,7 +111,7 @@ class StageSpans:
         self._span = TRACER.start_span(stage, start_time=time.time_ns())
 
     def close(self) -> None:
-        """End the stage at hand."""
+        """End the current stage."""
         if self._span is not None:
             self._span.end()
             self._span = None

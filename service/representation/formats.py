@@ -1,8 +1,8 @@
-"""The formats a mesh can be had in beside GLB. They are written when they are asked for.
+"""The mesh formats available besides GLB. They are written on request.
 
-GLB files are what is stored; all the others follow from one by
+Only GLB files are stored; the others are made from one by
 :func:`fitter.export.formats.converted`, which no process of the API can load. What the API needs to
-know of a format is here.
+know about a format is here.
 """
 
 import hashlib
@@ -17,7 +17,7 @@ GLB_ENDING: Final = ".glb"
 GLB: Final = "model/gltf-binary"
 
 WRITER_VERSION: Final = 1
-"""To be raised whenever :mod:`fitter.export.formats` writes other bytes than before."""
+"""Raise this whenever :mod:`fitter.export.formats` writes different bytes."""
 
 USD_DISTRIBUTION: Final = "usd-core"
 USD_PACKAGE: Final = "pxr"
@@ -61,7 +61,7 @@ def written_here() -> tuple[MeshFormat, ...]:
 
 @cache
 def tag_of(sha256: str, kind: MeshFormat) -> str:
-    """What tells the bytes that a GLB of this digest becomes in a format from all others."""
+    """The tag that identifies the bytes of a GLB with this digest when written in a format."""
     version = "" if kind.library is None else importlib.metadata.version(kind.library)
     said = f"{sha256} {kind.ending} {WRITER_VERSION} {version}"
     return hashlib.sha256(said.encode()).hexdigest()

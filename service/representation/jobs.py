@@ -12,7 +12,7 @@ from service.jobs.inputs import MASK
 from service.jobs.states import ACTIVE
 
 POLL_AFTER_S: Final = 1
-"""What Retry-After says of a job that has not ended."""
+"""What Retry-After says for a job that has not ended."""
 
 
 def derivations_path(fit_id: str) -> str:

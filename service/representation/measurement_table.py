@@ -22,7 +22,7 @@ class _Measured(BaseModel):
 
 
 def measurements_csv(measurements: Sequence[Measurement | EstimatedMeasurement]) -> bytes:
-    """One line a measurement, one column a field; an unknown standard error stays empty."""
+    """One line per measurement, one column per field; an unknown standard error stays empty."""
     fields = (type(measurements[0]) if measurements else Measurement).model_fields
     text = io.StringIO(newline="")
     table = csv.DictWriter(text, list(fields))
