@@ -1,7 +1,7 @@
-"""The fitter from a notebook: what needs a body model finds it by the person's gender.
+"""The fitter for notebooks: functions that load the body model for the person's gender.
 
-:func:`fitter.fits.pipeline.fit` fits a picture. These work on what it found, or without a picture
-at all. ``models`` is always the folder of the body models, None for those of the package.
+:func:`fitter.fits.pipeline.fit` fits a picture. These work on its result, or without a picture at
+all. ``models`` is always the folder with the body models, None for those of the package.
 """
 
 from collections.abc import Mapping
@@ -49,7 +49,7 @@ def measure(person: FittedPerson, *, models: Path | None = None) -> tuple[Measur
 def estimate_body(
     gender: Gender, known: Mapping[str, float | KnownMeasurement], *, models: Path | None = None
 ) -> BodyEstimate:
-    """The most probable body of known measurements, without a picture.
+    """The most probable body with known measurements, without a picture.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def estimate_body(
     Raises
     ------
     InvalidInputError
-        If a name is not measured, or nobody has such measurements.
+        If a name is not a measurement, or nobody has such measurements.
 
     Examples
     --------
@@ -108,7 +108,7 @@ def body_vertices(
 
 
 def files_of(result: FitResult, image: bytes, *, models: Path | None = None) -> dict[str, bytes]:
-    """Every file of a fit by its name: GLB meshes and pictures over the encoded ``image``.
+    """Every file of a fit by name: GLB meshes and pictures drawn over the encoded ``image``.
 
     Raises
     ------

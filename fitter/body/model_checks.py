@@ -1,4 +1,4 @@
-"""Every rule a body model's header and fields must keep, and what is said where one is broken.
+"""Every rule that a body model's header and fields must satisfy, and the messages for faults.
 
 Nothing here reads files; :mod:`fitter.body.storage` does, and adds the file's name.
 """
@@ -129,7 +129,7 @@ def model_faults(header: Mapping[str, object], arrays: Mapping[str, np.ndarray])
 def pointers_fault(
     pointers: Integer[np.ndarray, " r1"], entries: int, *, shortest: int
 ) -> str | None:
-    """Why pointers do not cut ``entries`` into rows, each so long at least; None if they do."""
+    """Why pointers do not cut ``entries`` into rows of a minimum length; None if they do."""
     if pointers[0] == 0 and pointers[-1] == entries and (np.diff(pointers) >= shortest).all():
         return None
     return (
@@ -143,7 +143,7 @@ def means_fault(
     pointers: Integer[np.ndarray, " r1"],
     weights: Float[np.ndarray, " z"],
 ) -> str | None:
-    """Which row of weights is no weighted mean; None if all are."""
+    """Which row of weights is not a weighted mean; None if all are."""
     sums = np.add.reduceat(weights.astype(np.float64), pointers[:-1])
     worst = int(np.argmax(np.abs(sums - 1.0)))
     if abs(sums[worst] - 1.0) > SUM_TOLERANCE:

@@ -1,8 +1,8 @@
 """What drives the pose-dependent term: (R_joint - I) of whole and of half turns.
 
-A part lists its joints by number. Joint j of p stands for its whole turn R_j, number p + j for half
-of it, H_j with H_j² = R_j and less than half a turn long: a shoulder blade goes along with a raised
-arm by a share of its angle, which the sine and cosine of the whole angle do not give.
+A part lists its joints by number. Number j of p stands for the joint's whole turn R_j, number p + j
+for half of it, H_j with H_j² = R_j and an angle of less than half a turn: a shoulder blade follows
+a raised arm by a share of its angle, which the sine and cosine of the whole angle do not give.
 """
 
 import numpy as np
@@ -15,7 +15,7 @@ FeatureJoints = Integer[np.ndarray, "p q"]
 
 
 def half_turns(pose: Pose) -> Pose:
-    """Rotation vectors of half the turns, each taken the short way round."""
+    """Rotation vectors of half the turns, each taken the short way around."""
     angles = np.linalg.norm(pose, axis=1, keepdims=True)
     whole_turns = 2.0 * np.pi * np.round(angles / (2.0 * np.pi))
     return 0.5 * pose * (1.0 - whole_turns / np.where(angles > 0.0, angles, 1.0))

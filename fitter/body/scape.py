@@ -1,7 +1,7 @@
 """SCAPE at run time: shape and pose to vertices, and its exact reverse (section 3).
 
-Every triangle t of part p asks its deformation gradient to be R_p [D_t(β) + E_t(β, θ)], and the
-mesh is the least-squares answer, min over Y of Σ_t w_t ‖R_p(t) [D_t + E_t] - grad_t(Y)‖². The
+Every triangle t of part p has the target deformation gradient R_p [D_t(β) + E_t(β, θ)], and the
+mesh is the least-squares solution, min over Y of Σ_t w_t ‖R_p(t) [D_t + E_t] - grad_t(Y)‖². The
 normal equations have one fixed matrix, L = Gᵀ W G, and a right-hand side that is a sum over parts
 of R_p times something linear in β and in the pose features (:mod:`fitter.body.pose_features`), each
 with its strength 1 + s . β: L is factored once, and an evaluation is an assembly and two triangular
@@ -192,8 +192,8 @@ def _terms(
 ) -> tuple[Float[np.ndarray, " t"], Integer[np.ndarray, " p"]]:
     """Rows of shape terms and used pose terms, part after part; and the rows' widths.
 
-    Most parts have fewer joints beside them than the chest. What an evaluation reads is read in
-    one go: it is more than a processor's own cache holds.
+    Most parts have fewer neighbouring joints than the chest. An evaluation reads all rows in one
+    pass, because they exceed a processor's own cache.
     """
     used = model.pose_feature_joints >= 0
     features = 9 * np.max(np.where(used, np.arange(used.shape[1]) + 1, 0), axis=1)
@@ -215,8 +215,8 @@ def _root_weights(model: BodyModel) -> Float[np.ndarray, " m"]:
 def _factor(laplacians: list[sparse.csr_array]) -> SupernodalFactor:
     """LDLᵀ of the whole Laplacian with vertex 0 held.
 
-    The matrix leaves translation free. A weight on one vertex removes that without changing the
-    answer, because the right-hand sides sum to zero: the held vertex simply lands at the origin.
+    The matrix leaves translation free. A weight on one vertex fixes it without changing the
+    solution, because the right-hand sides sum to zero: the held vertex simply lands at the origin.
     """
     matrix = sparse.lil_array(sum(laplacians[1:], start=laplacians[0]))
     matrix[0, 0] += matrix.diagonal().mean()

@@ -14,7 +14,7 @@ _TOLERANCE_M = 1e-6
 
 
 def rest_vertices(model: BodyModel, shape: Shape) -> Vertices:
-    """The mesh at rest of a shape, d = U β + μ; body frame, metres."""
+    """The rest mesh of a shape, d = U β + μ; body frame, metres."""
     return model.mean_vertices + np.tensordot(shape, model.shape_basis, axes=1)
 
 

@@ -1,4 +1,4 @@
-"""Read and write body model files: one ``.npz`` a gender, checked field by field."""
+"""Read and write body model files: one ``.npz`` per gender, checked field by field."""
 
 import hashlib
 import json

@@ -22,7 +22,7 @@ from fitter.parameters import BodyParameters
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Attachments:
-    """How k points hang on the body; in single precision, which halves what a search reads.
+    """How k points are attached to the body; in single precision, to halve what a search reads.
 
     Attributes
     ----------
@@ -41,7 +41,7 @@ class Attachments:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class TangentModel:
-    """What the tangent needs of a model, independent of shape and pose.
+    """What the tangent needs from a model, independent of shape and pose.
 
     Attributes
     ----------
@@ -160,7 +160,7 @@ def point_jacobian(
     frame
         From :func:`linearise`.
     attachments
-        How the points hang on the body.
+        How the points are attached to the body.
     points
         (k, 3) their positions now, camera frame, metres.
     """

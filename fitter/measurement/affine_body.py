@@ -1,4 +1,4 @@
-"""A body in one pose as a function of its shape: exact and without evaluating the model again."""
+"""A body in a fixed pose as a function of shape: exact, without evaluating the model again."""
 
 from dataclasses import dataclass
 
@@ -21,7 +21,7 @@ class AffineBody:
     derivative: Float[np.ndarray, "n m 3"]
 
     def at(self, shape: Shape) -> Vertices:
-        """Vertices of the body of this shape."""
+        """Vertices of the body with this shape."""
         return self.mean + np.tensordot(shape, self.derivative, axes=1)
 
 

@@ -1,7 +1,7 @@
 """Measure a body: canonical pose, plane cut, convex hull, volume (section 6).
 
-In one pose SCAPE's vertices are affine in the shape, so a body is measured without evaluating the
-model again, and how measurements change with shape costs tape measures only.
+In a fixed pose SCAPE's vertices are affine in the shape, so a body is measured without evaluating
+the model again, and derivatives by shape cost only tape measurements.
 """
 
 from collections.abc import Collection, Mapping, Sequence
@@ -48,12 +48,12 @@ is of second order; a change of 1e-3 moves a girth by about 0.05 mm, far above r
 
 
 UNEXPLAINED_KEY = "unexplained_measurements"
-"""Of a model's header: by name, how much people differ from the nearest body of the model."""
+"""Field of a model's header: by name, how much people differ from the model's nearest body."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class MeasuringBody:
-    """A body model made ready for measuring; one per model, shared by all fits.
+    """A body model prepared for measuring; one per model, shared by all fits.
 
     Attributes
     ----------
@@ -130,7 +130,7 @@ def measuring_body(
 def _unexplained(
     model: BodyModel, definitions: Sequence[MeasurementDefinition]
 ) -> Float[np.ndarray, " k"]:
-    """Zero where the header says nothing, as of models that were given no people to test on."""
+    """Zero where the header says nothing, as for models without people to test on."""
     said = model.header.get(UNEXPLAINED_KEY)
     by_name = said if isinstance(said, Mapping) else {}
     return np.array([float(by_name.get(each.about.name, 0.0)) for each in definitions])
@@ -144,7 +144,7 @@ def measure(
     given: Collection[str] = (),
     held: Collection[str] = (),
 ) -> tuple[Measurement, ...]:
-    """All measurements of the body of this shape.
+    """All measurements of the body with this shape.
 
     Parameters
     ----------
@@ -156,7 +156,7 @@ def measure(
         Covariance of ``shape`` at the final body; gives every measurement J Σ Jᵀ as its variance,
         and what the shapes leave unexplained besides.
     given
-        Names of measurements that were told and not inferred: nothing of them is unexplained.
+        Names of measurements that were given, not inferred: nothing about them is unexplained.
     held
         Names of measurements that every body under consideration has exactly: they do not vary.
         J Σ Jᵀ would leave them what rounding leaves of the directions that keep them.
@@ -221,8 +221,8 @@ def tape_lines(body: MeasuringBody, shape: Shape) -> Mapping[str, Float[np.ndarr
 def measurement_jacobian(body: MeasuringBody, shape: Shape) -> Float[np.ndarray, "k n"]:
     """Derivative of every measurement (rows, their units) by every shape coefficient.
 
-    Central differences with each tape held at the place along the body where it was laid: where a
-    girth is the largest or smallest of many, moving the tape changes it in second order only.
+    Central differences with each tape held at its place along the body: where a girth is the
+    largest or smallest of many, moving the tape changes it only in second order.
     """
     placements = _placements(body, _take(body, shape))
     ahead = _values_after(body, shape, placements, DIFFERENCE_STEP)

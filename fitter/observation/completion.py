@@ -12,7 +12,7 @@ from fitter.request import Click
 def completed_clicks(
     clicks: Mapping[str, Click], detected: DetectedBody | None
 ) -> dict[str, Click]:
-    """The clicks, and what is proposed of the points that are missing; all in one picture's pixels.
+    """The clicks, and proposals for the missing points; all in pixels of the same picture.
 
     Raises
     ------
@@ -33,7 +33,7 @@ def completed_clicks(
 def proposal_assumptions(
     clicks: Mapping[str, Click], completed: Mapping[str, Click]
 ) -> tuple[Assumption, ...]:
-    """That points were proposed, and which."""
+    """Report that points were proposed, and which."""
     proposed = [
         name
         for name, click in completed.items()
@@ -54,7 +54,7 @@ def proposal_assumptions(
 
 
 def crowd_warnings(clicks: Mapping[str, Click], persons: int) -> tuple[FitWarning, ...]:
-    """That the largest of several people was taken, where no click says who is meant."""
+    """Warn that the largest of several people was taken, if no click says who is meant."""
     if persons < 2 or clicks:
         return ()
     return (

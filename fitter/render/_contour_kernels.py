@@ -41,7 +41,7 @@ def describe_contour_edges(
     tolerance,
     beyond_rim,
 ):
-    """Directed vertex ids, image endpoints, outward normals, visible, outer; one row an edge."""
+    """Directed vertex ids, image endpoints, outward normals, visible, outer; one row per edge."""
     count = edge_ids.shape[0]
     height, width = inverse_depth.shape
     directed = np.empty((count, 2), dtype=np.int32)
@@ -67,13 +67,13 @@ def describe_contour_edges(
         dx, dy = x1 - x0, y1 - y0
         length = sqrt(dx * dx + dy * dy)
         scale = 1.0 / length if length > 0.0 else 0.0
-        # A front face runs clockwise round its inside as the image's axes are drawn (y down), so
+        # A front face runs clockwise around its inside in the image's axes (y down), so
         # the outside lies along (-dy, dx).
         nx, ny = -dy * scale, dx * scale
         outward[k, 0] = nx
         outward[k, 1] = ny
 
-        # The back face must fall away behind the front one's plane; at a dent it stands before it
+        # The back face must fall away behind the front one's plane; at a dent it is before that
         # and hides the edge itself, whatever the z-buffer's grain says.
         rise = 0.0
         a, b, c = triangles[front, 0], triangles[front, 1], triangles[front, 2]

@@ -1,4 +1,4 @@
-"""Compiled loops of the rasteriser. Plain arrays in and out; the wrappers carry the meaning."""
+"""Compiled loops of the rasteriser. Plain arrays in and out; the wrappers document them."""
 
 from math import ceil, sqrt
 from typing import no_type_check
@@ -6,7 +6,7 @@ from typing import no_type_check
 import numpy as np
 from numba import njit, uint32
 
-# What rounding may move the end of a row's span, in pixels.
+# How far rounding may move the end of a row's span, in pixels.
 ROUNDING = 1e-6
 
 
@@ -90,7 +90,7 @@ def rasterise(projected, inverse_depth, triangles, width, height, least_area):
         front_facing[t] = True
         if area > -least_area:
             continue
-        # Most triangles of a head or a hand hold no pixel's centre: out before anything is divided.
+        # Most triangles of a head or a hand contain no pixel centre: skip them before any division.
         first_row = max(ceil(min(ay, by, cy) - 0.5), 0)
         end_row = min(ceil(max(ay, by, cy) - 0.5), height)
         if first_row >= end_row:
@@ -136,9 +136,9 @@ def rasterise(projected, inverse_depth, triangles, width, height, least_area):
 def unoccluded(x, y, z, inverse_depth, tolerance):
     """Whether a point is no farther than the surface at any of the four pixel centres around it.
 
-    Beside a silhouette some of the four lie beyond it, where the surface is farther or absent:
-    a point on the rim passes there, although the surface it belongs to bulges toward the camera
-    within a fraction of a pixel by more than any tolerance of use.
+    Near a silhouette some of the four lie outside it, where the surface is farther or absent. This
+    lets a point on the rim pass, although within a fraction of a pixel its own surface bulges
+    toward the camera by more than any useful tolerance.
     """
     height, width = inverse_depth.shape
     if not (0.0 <= x < width and 0.0 <= y < height):
@@ -156,7 +156,7 @@ def unoccluded(x, y, z, inverse_depth, tolerance):
 @no_type_check
 @njit(cache=True, error_model="numpy", nogil=True)
 def visible_vertices(vertices, vertex_normals, projected, inverse_depth, near, tolerance):
-    """(m,) True where the vertex faces the camera and nothing lies before it."""
+    """(m,) True where the vertex faces the camera and nothing lies in front of it."""
     visible = np.zeros(vertices.shape[0], dtype=np.bool_)
     for i in range(vertices.shape[0]):
         if vertices[i, 2] <= near:
