@@ -1,1 +1,1 @@
-"""How every process begins: its settings, and what is wrong with them."""
+"""How every process starts: its settings, and what is wrong with them."""

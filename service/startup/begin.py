@@ -1,4 +1,4 @@
-"""How every command begins and ends: settings that cannot be followed are said in one line."""
+"""How every command starts and ends: unusable settings are reported in one line."""
 
 import logging
 import os
@@ -15,16 +15,16 @@ from service.startup.setting_faults import fault_lines, unknown_names
 LOG: Final = logging.getLogger(__name__)
 
 UNUSABLE_SETTINGS: Final = os.EX_CONFIG
-"""Exit status 78 where starting again is of no use: settings, or what they name, cannot be used."""
+"""Exit status 78: restarting is of no use, because settings or what they name cannot be used."""
 
 UNAVAILABLE: Final = os.EX_UNAVAILABLE
-"""Exit status 69 where a database or storage did not answer for as long as it is waited for."""
+"""Exit status 69: a database or storage did not answer within the time allowed."""
 
 NOTHING: Final[Mapping[str, object]] = {}
 
 
 def read_settings(command: str, given: Mapping[str, object] = NOTHING) -> Settings:
-    """Read the settings of a command, or end it; what was ``given`` as options goes before."""
+    """Read the settings of a command, or end it; options in ``given`` take precedence."""
     try:
         return Settings(**given)  # pyright: ignore[reportArgumentType]
     except ValidationError as error:
@@ -34,7 +34,7 @@ def read_settings(command: str, given: Mapping[str, object] = NOTHING) -> Settin
 
 
 def begin(command: str, given: Mapping[str, object] = NOTHING) -> Settings:
-    """Read the settings of a process that lasts, begin to log, and warn of unknown names."""
+    """Read the settings of a long-running process, start logging, and warn of unknown names."""
     settings = read_settings(command, given)
     configure_logging(settings.log_level, settings.log_format)
     warn_of_unknown_names()
@@ -42,14 +42,14 @@ def begin(command: str, given: Mapping[str, object] = NOTHING) -> Settings:
 
 
 def warn_of_unknown_names() -> None:
-    """Say which variables look like settings and are none."""
+    """Say which variables look like settings but are not."""
     for name, meant in unknown_names(os.environ).items():
         hint = "it is ignored" if meant is None else f"did you mean {meant}?"
         LOG.warning("There is no setting %s; %s", name, hint)
 
 
 def run_told(command: str, run: Callable[[], int | None]) -> int:
-    """Run a command; what only then turns out to be unusable or away is said in a line."""
+    """Run a command; anything that then proves unusable or unavailable is reported in one line."""
     from sqlalchemy.exc import OperationalError
 
     from service.blobs import BlobsUnavailableError

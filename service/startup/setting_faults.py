@@ -1,4 +1,4 @@
-"""What is wrong with settings, one line a fault: the variable, its value, the remedy."""
+"""What is wrong with settings, one line per fault: the variable, its value, the remedy."""
 
 import difflib
 from collections.abc import Collection, Iterator, Mapping, Sequence
@@ -15,7 +15,7 @@ SECRETS: Final = frozenset({"webhook_secret"})
 
 LONGEST_SHOWN: Final = 200
 LIKENESS: Final = 0.6
-"""How alike a name, behind the prefix, must be to one of ours to be taken for a slip of it."""
+"""How similar a name, after the prefix, must be to one of ours to be taken for a misspelling."""
 
 _BOUNDS: Final[Mapping[str, str]] = {
     "greater_than": "it must be above {gt:g}",
@@ -36,7 +36,7 @@ def fault_lines(error: ValidationError, *, options: Collection[str] = ()) -> Ite
 
 
 def unknown_names(environment: Mapping[str, str]) -> dict[str, str | None]:
-    """Variables named as settings are that are none, each with the setting it may have meant."""
+    """Variables named like settings that are none, each with the setting that may be meant."""
     known = [name.upper() for name in Settings.model_fields]
     named = {
         name: name.upper().removeprefix(PREFIX)

@@ -1,1 +1,1 @@
-"""What is sent, checked before it is stored or decoded."""
+"""Checks of what is sent, before it is stored or decoded."""

@@ -1,7 +1,7 @@
-"""Whether points can be proposed here, asked where no process may load what proposes them.
+"""Whether the detector is installed, for processes that may not load it.
 
-It is this machine that is looked at. Workers may run elsewhere, with the same settings: where one
-of them lacks the detector its fit fails with the same code.
+Only this machine is checked. Workers may run elsewhere with the same settings: if one of them lacks
+the detector, its fit fails with the same code.
 """
 
 import importlib.util
@@ -39,7 +39,7 @@ def detector_is_installed(folder: Path | None) -> bool:
 
 
 def check_detector(options: FitOptions, folder: Path | None) -> None:
-    """Refuse to propose points where nothing can.
+    """Refuse a request that needs the detector if there is none.
 
     Raises
     ------

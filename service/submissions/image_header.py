@@ -1,4 +1,4 @@
-"""What a picture's header says of it, read without decoding a pixel.
+"""What a picture's header says, read without decoding a pixel.
 
 Of several EXIF blocks, which no container allows, one is read: the one that decoders take, the last
 of a PNG and the first of others.
@@ -36,7 +36,7 @@ PNG_START = 8
 class ImageHeader:
     """Kind and upright size (EXIF orientation applied) of a picture.
 
-    ``focal_length_35mm`` is the equivalent its EXIF data name, None where they name none.
+    ``focal_length_35mm`` is the equivalent in its EXIF data, None if there is none.
     """
 
     media_type: str
@@ -47,7 +47,7 @@ class ImageHeader:
 
 
 class UnknownImageError(Exception):
-    """The bytes are no JPEG, PNG or WebP."""
+    """The bytes are not a JPEG, PNG or WebP."""
 
 
 class DamagedImageError(Exception):

@@ -1,7 +1,7 @@
-"""Which points a fit can begin from; checked before anything is stored or decoded.
+"""Which points a fit can start from; checked before anything is stored or decoded.
 
-The one rule of the service. The fitter keeps the same for those who call it directly
-(:mod:`fitter.observation.clicks`); a test holds the two together.
+These are the rules for the service. The fitter has the same for those who call it directly
+(:mod:`fitter.observation.clicks`); a test keeps the two in step.
 """
 
 import math
@@ -44,7 +44,7 @@ def checked_points(
 def placed_points(
     points: Points, layout: PointsFormat, *, width: int, height: int
 ) -> dict[PointName, Point]:
-    """Translate the points and check them as far as others are going to be added to them.
+    """Translate the points and check what can be checked before others are added.
 
     Raises
     ------

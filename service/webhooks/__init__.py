@@ -1,5 +1,5 @@
-"""Notices of jobs' ends, signed and sent to whom the callers named (Standard Webhooks).
+"""Notices of jobs' ends, signed and sent to the receivers that callers named (Standard Webhooks).
 
-What is to be sent stands in the job's record (:mod:`service.engine.webhooks`), written in the
-transaction that ends the job; here it is sent, by every API process, until it is accepted.
+What is to be sent is in the job's record (:mod:`service.engine.webhooks`), written in the
+transaction that ends the job; this package sends it, from any API process, until it is accepted.
 """

@@ -1,8 +1,9 @@
 """Which addresses a notice may go to: public ones at usual ports, and hosts the settings name.
 
-A caller chooses the address, and the service stands where the caller may not: a notice to a private
-address would be a request from inside somebody's network. A name is looked up once, what it stands
-for is checked, and that very address is connected to; a second look-up could answer otherwise.
+The caller chooses the address, and the service can reach what the caller cannot: a notice to a
+private address would be a request from inside somebody's network. A name is resolved once, its
+addresses are checked, and the connection goes to a checked address; resolving the name a second
+time could give another one.
 """
 
 import asyncio
@@ -22,15 +23,15 @@ DEFAULT_PORTS: Final = {"http": 80, "https": 443}
 
 
 class AddressRefusedError(Exception):
-    """The name is unknown, or stands for no address a notice may go to; the message says which.
+    """The name is unknown, or has no address a notice may go to; the message says which.
 
-    That is for whoever runs the service: callers who were told could find out by trying which names
-    there are in the network that the service stands in.
+    The message is for whoever runs the service: callers who saw it could find out which names exist
+    in the service's network.
     """
 
 
 def is_public(address: IPAddress) -> bool:
-    """Say whether an address, and any IPv4 address it carries inside, is on the open internet."""
+    """Whether an address, and any IPv4 address embedded in it, is on the open internet."""
     if not address.is_global or address.is_multicast:
         return False
     if isinstance(address, ipaddress.IPv4Address):
@@ -41,7 +42,7 @@ def is_public(address: IPAddress) -> bool:
 
 
 def _carried(address: ipaddress.IPv6Address) -> list[ipaddress.IPv4Address]:
-    """IPv4 addresses a packet to this IPv6 address may end up at."""
+    """IPv4 addresses at which a packet to this IPv6 address may end up."""
     carried = [address.sixtofour, *(address.teredo or ())]
     if address in NAT64:
         carried.append(ipaddress.IPv4Address(int(address) & LOW_32_BITS))
@@ -49,7 +50,7 @@ def _carried(address: ipaddress.IPv6Address) -> list[ipaddress.IPv4Address]:
 
 
 def is_refused_outright(host: str, allowed_hosts: Collection[str]) -> bool:
-    """Say whether a host can be refused without looking it up: a literal address, or localhost."""
+    """Whether a host can be refused without resolving it: a literal address, or localhost."""
     if host in allowed_hosts:
         return False
     try:
@@ -59,17 +60,17 @@ def is_refused_outright(host: str, allowed_hosts: Collection[str]) -> bool:
 
 
 def port_of(url: httpx.URL) -> int:
-    """The port of an address, named or usual."""
+    """The port of an address, explicit or default."""
     return DEFAULT_PORTS[url.scheme] if url.port is None else url.port
 
 
 def is_port_refused(url: httpx.URL, allowed_hosts: Collection[str], ports: Collection[int]) -> bool:
-    """Say whether an address has a port that notices are not sent to; a named host has any."""
+    """Whether notices are not sent to an address's port; allowed hosts may use any."""
     return url.host not in allowed_hosts and port_of(url) not in ports
 
 
 async def resolve(host: str, port: int, allowed_hosts: Collection[str]) -> Sequence[IPAddress]:
-    """Look a host up and return the addresses a notice may go to, at least one.
+    """Resolve a host and return the addresses a notice may go to, at least one.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""A thread that sends what is due, and sends again what was not accepted."""
+"""A thread that sends notices that are due, and retries those that were not accepted."""
 
 import asyncio
 import logging
@@ -26,20 +26,20 @@ LOG: Final = logging.getLogger(__name__)
 
 POLL_S: Final = 0.5
 AT_ONCE: Final = 16
-"""Attempts under way at a time, of one process."""
+"""Concurrent attempts per process."""
 
 JITTER: Final = 0.1
 """Pauses are longer by up to this share, so that what failed together is not repeated together."""
 
 LONGEST_PAUSE_S: Final = 86_400.0
 STORAGE_PAUSE_S: Final = 30.0
-"""How long a storage that does not tell whom to tell is left alone."""
+"""When to try again after the storage failed to say whom to notify."""
 
 USER_AGENT: Final = "Maquette (Standard Webhooks)"
 
 
 def notice(job: JobRecord) -> bytes:
-    """Write the body of the notice of an ended job; the same at every attempt."""
+    """Write the body of the notice of an ended job; it is the same at every attempt."""
     ended_at = datetime.fromtimestamp(job.finished_at or 0.0, UTC)
     unsent = {"webhook": None}
     if job.parent is None:
@@ -60,8 +60,8 @@ def notice(job: JobRecord) -> bytes:
 class Deliverer:
     """Delivers at least once: an attempt whose process dies is made again after its lease.
 
-    Several processes may do so on one database. ``pauses_s`` are those between the attempts, after
-    which a notice is given up; ``secret`` signs where the caller brought none.
+    Several processes may do so on one database. ``pauses_s`` are the pauses between attempts, after
+    which a notice is given up; ``secret`` signs if the caller sent none.
     """
 
     def __init__(
@@ -88,7 +88,7 @@ class Deliverer:
         self._thread.start()
 
     def stop(self) -> None:
-        """Break off the attempts under way; they are due at once, wherever it goes on."""
+        """Abort the attempts under way; they become due at once, for any process."""
         self._stopped.set()
         if self._thread.is_alive():
             self._thread.join()

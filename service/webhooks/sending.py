@@ -1,4 +1,4 @@
-"""One attempt to hand a notice to its receiver."""
+"""One attempt to deliver a notice to its receiver."""
 
 import asyncio
 import ssl
@@ -23,9 +23,9 @@ NO_PUBLIC_ADDRESS: Final = "The receiver's name stands for no public address."
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Answer:
-    """What came of an attempt: the receiver's status, or the reason why there is none.
+    """The outcome of an attempt: the receiver's status, or the reason why there is none.
 
-    ``retry_after_s`` is what the receiver asked for, if it did; ``cause`` is for logs alone.
+    ``retry_after_s`` is what the receiver asked for, if anything; ``cause`` is only for logs.
     """
 
     status: int | None = None
@@ -47,9 +47,9 @@ class Answer:
 class Sender:
     """Posts to public addresses at ``ports``, and to ``allowed_hosts`` wherever they are.
 
-    Nothing of this process goes along: no proxy, no cookies, no credentials. Redirects are not
-    followed, and of the answer only the head is read. A name that stands for nothing public is told
-    in the same words, and after the same time, whether it is known here or not.
+    Nothing of this process is sent along: no proxy, no cookies, no credentials. Redirects are not
+    followed, and only the head of the answer is read. A name without a public address gets the same
+    reason, after the same time, whether or not it is known here.
     """
 
     def __init__(
@@ -66,7 +66,7 @@ class Sender:
         self._tls = tls or httpx.create_ssl_context()
 
     async def post(self, url: str, *, headers: Mapping[str, str], body: bytes) -> Answer:
-        """Send; never raises for what the receiver or the way to it does."""
+        """Send; never raises because of the receiver or the network."""
         loop = asyncio.get_running_loop()
         began = loop.time()
         told_at = began + min(LOOK_UP_WITHIN_S, self._time_limit_s)
@@ -121,7 +121,7 @@ class Sender:
                 url.copy_with(host=str(address)),
                 content=body,
                 headers={"host": url.netloc.decode(), **headers},
-                # The certificate is to be the name's, not the address's.
+                # The certificate must be for the name, not for the address.
                 extensions={"sni_hostname": url.raw_host.decode()},
             ) as response,
         ):

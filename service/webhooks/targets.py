@@ -1,4 +1,4 @@
-"""Whom to tell of a job's end: whether a request may want that, and how it is found again."""
+"""Whom to notify of a job's end: checked in a request, and read back later."""
 
 import httpx
 
@@ -12,7 +12,7 @@ from service.webhooks.addresses import is_port_refused, is_refused_outright, por
 
 
 def read_target(blobs: BlobStore, job: JobRecord) -> WebhookTarget | None:
-    """Read whom to tell of a job's end; None if nobody.
+    """Read whom to notify of a job's end; None if nobody.
 
     Raises
     ------
