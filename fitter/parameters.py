@@ -9,7 +9,7 @@ from jaxtyping import Float
 from fitter.arrays import PerVertex, Pose, Shape, Vector3
 
 Surroundings = Float[np.ndarray, "9"]
-"""Light from all round: the coefficients e of :mod:`fitter.render.surroundings`."""
+"""Light from all around: the coefficients e of :mod:`fitter.render.surroundings`."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -60,7 +60,7 @@ class Light:
     distance
         Metres from the body's centre; meaningless and infinite for a directional light.
     surroundings
-        The light from all round relative to l = 1, camera frame; None where it is the constant
+        The light from all around relative to l = 1, camera frame; None where it is the constant
         ambient b of Eq. 1.
     """
 

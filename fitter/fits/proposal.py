@@ -1,4 +1,4 @@
-"""What the detector proposes for a picture, before a fit is requested.
+"""What the detector proposes for a picture, before any fit is requested.
 
 The picture is decoded and reduced just as in a fit, so that the points are those a fit would
 propose to itself.

@@ -2,8 +2,8 @@
 
 Accepted: JPEG, PNG and WebP; grey, palette, RGB and CMYK; 8 bits, and 16 reduced to 8, because
 the noise of a photograph is above half a step of 8 bits. Embedded colour profiles are honoured.
-Transparency is laid over white, as a browser shows it on its page, with a warning: guessing that
-the opaque part is the person is not ours to do, the caller can post it as the mask.
+Transparency is composited over white, as a browser shows it, with a warning: we do not guess that
+the opaque part is the person; the caller can send it as the mask.
 """
 
 import io
@@ -47,9 +47,9 @@ class DecodedPicture:
     stored_width
         Width before the orientation was applied: the direction EXIF's x refers to.
     exif
-        What the camera wrote, as far as it is of use.
+        The useful part of what the camera wrote.
     warnings
-        What the caller should know of the conversion.
+        What the caller should know about the conversion.
     """
 
     pixels: UInt8[np.ndarray, "h w 3"]
@@ -114,8 +114,8 @@ def decode_coverage(data: bytes, *, field: str, max_pixels: int) -> UInt8[np.nda
 def _damage_named(field: str) -> Iterator[None]:
     """Turn whatever a decoder makes of hostile bytes into one clear problem.
 
-    They raise nearly anything, hence the broad clause; and Pillow's warnings say nothing that the
-    checks here do not, its pixel limit being above or beside ours. Memory that runs out is no
+    Decoders may raise almost anything, hence the broad clause; and Pillow's warnings add nothing to
+    the checks here, which have their own pixel limit. Running out of memory does not count as
     damage.
     """
     with warnings.catch_warnings():
@@ -156,7 +156,7 @@ _TURNS = {
 
 
 def _upright(picture: PillowImage.Image, exif: ExifTags) -> PillowImage.Image:
-    # ImageOps.exif_transpose would also write the EXIF block anew, and fail on a damaged one.
+    # ImageOps.exif_transpose would also rewrite the EXIF block, and fail on a damaged one.
     return picture.transpose(_TURNS[exif.orientation]) if exif.orientation in _TURNS else picture
 
 

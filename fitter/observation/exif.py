@@ -51,8 +51,8 @@ class ExifTags:
 
 def read_exif(picture: PillowImage.Image) -> ExifTags:
     """Read the tags; a damaged EXIF block counts as none, as it does in browsers."""
-    # The block is the caller's bytes: parsers raise nearly anything on them. The orientation may be
-    # whole where the rest is not.
+    # The block is the caller's bytes: parsers may raise almost anything. The orientation may be
+    # intact even if the rest is not.
     try:
         exif = picture.getexif()
         orientation = exif.get(_Tag.ORIENTATION, 1)

@@ -1,4 +1,4 @@
-"""Focal length (section 3.1): from the caller, from EXIF, else assumed and said so."""
+"""Focal length (section 3.1): from the caller, from EXIF, or assumed and reported as such."""
 
 import math
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ from fitter.render.camera import (
 from fitter.request import FitRequest
 
 PLAUSIBLE_35MM = (5.0, 5000.0)
-"""35 mm equivalents outside this are no lenses: fisheyes begin at 8, telescopes end at 3000."""
+"""Range of real lenses in 35 mm equivalents: fisheyes start at 8, telescopes end at 3000."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,8 +32,8 @@ def focal_length(
 ) -> FocalLength:
     """The best known focal length.
 
-    The caller's word comes first: EXIF outlives cropping and scaling, and then misleads.
-    Implausible EXIF values are passed over, implausible ones of the caller are errors.
+    The caller's value comes first: EXIF survives cropping and scaling, and is then misleading.
+    Implausible EXIF values are ignored; implausible values from the caller are errors.
 
     Parameters
     ----------

@@ -40,7 +40,7 @@ class Observation:
     camera
         Of the working picture.
     image_camera
-        Of the upright original, whose pixels the caller's points and results refer to.
+        Of the upright original, to whose pixels the caller's points and the results refer.
     scale
         Working pixels per original pixel, at most 1.
     clicks
@@ -50,10 +50,10 @@ class Observation:
     clothing
         How the caller says the clothes lie.
     seed
-        (h, w) probability that a pixel is the person's, by the detector; None where segmentation
-        does without.
+        (h, w) probability that a pixel shows the person, by the detector; None if segmentation
+        does not use it.
     slants
-        How limbs slant, by the detector; None where nothing is known of it.
+        How limbs slant, by the detector; None if nothing is known about it.
     """
 
     display: Image
@@ -73,7 +73,7 @@ class Observation:
 
 
 def observe(request: FitRequest, detector: Detector | None = None) -> Observation:
-    """Decode and check a request, and see whom the detector finds.
+    """Decode and check a request, and run the detector, if any.
 
     Raises
     ------
@@ -103,7 +103,7 @@ def observe(request: FitRequest, detector: Detector | None = None) -> Observatio
     detected = body_of_clicks(bodies, clicks)
     if request.complete_clicks:
         clicks = completed_clicks(given, detected)
-        # Up to a working pixel of the original may be left out at its right and lower border.
+        # Up to one working pixel may be left out at the right and lower border of the original.
         check_clicks(clicks, width=size.width + 1, height=size.height + 1)
     image_camera = Camera(
         focal_length_px=focal.pixels,

@@ -1,4 +1,4 @@
-"""The working picture: the original averaged down to a size the fit is quick and precise at."""
+"""The working picture: the original averaged down to a size at which fits are fast and precise."""
 
 from dataclasses import dataclass
 
@@ -11,7 +11,7 @@ from fitter.observation.colour import display_from_linear, linear_from_display
 
 WORKING_PIXELS = 400_000
 """Largest working picture. At 640x480 a pixel is about 4 mm on a standing person, and the contour
-is found to a fraction of one; more pixels cost time in every stage and bring detail the body
+is found to a fraction of that; more pixels cost time in every stage and show detail that the body
 model does not have."""
 
 _LINEAR_OF_BYTE = linear_from_display(np.arange(256) / 255.0)
@@ -32,7 +32,7 @@ class WorkingSize:
 
 
 def working_size(*, width: int, height: int, pixels: int = WORKING_PIXELS) -> WorkingSize:
-    """The size to work at, of so many pixels at most; a picture is never enlarged."""
+    """The size to work at, with at most ``pixels`` pixels; a picture is never enlarged."""
     scale = min(1.0, (pixels / (width * height)) ** 0.5)
     return WorkingSize(width=int(width * scale), height=int(height * scale), scale=scale)
 
@@ -40,7 +40,7 @@ def working_size(*, width: int, height: int, pixels: int = WORKING_PIXELS) -> Wo
 def linear_working_picture(
     pixels: UInt8[np.ndarray, "h w 3"], size: WorkingSize
 ) -> Float[np.ndarray, "h2 w2 3"]:
-    """Linear light at the working size, float32: light averages, display values do not."""
+    """Linear light at the working size, float32: light can be averaged, display values cannot."""
     return _kernels.area_average(pixels, _LINEAR_OF_BYTE, 1.0 / size.scale, size.width, size.height)
 
 

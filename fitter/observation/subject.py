@@ -1,4 +1,4 @@
-"""What the caller says of the person and the light, checked."""
+"""Checks of what the caller says about the person and the light."""
 
 import math
 from collections.abc import Mapping
@@ -8,14 +8,15 @@ from fitter.remarks import Assumption
 from fitter.request import STATURE, FitRequest, Gender
 
 MEAN_HEIGHT_M: Mapping[Gender, float] = {Gender.FEMALE: 1.65, Gender.MALE: 1.82}
-"""Section 4: the heights taken for people, as in paintings, whose height nobody knows."""
+"""Section 4: the heights assumed for people whose height is not known, as in paintings."""
 
 PLAUSIBLE_HEIGHT_M = (1.2, 2.3)
-"""The adults the shape spaces were learned from, with room; outside, shapes are extrapolations."""
+"""Heights of the adults the shape spaces were learned from, with a margin; beyond is extrapolation.
+"""
 
 
 def check_subject(request: FitRequest) -> None:
-    """Refuse a height, a measurement or a first light that cannot be.
+    """Refuse an impossible height, measurement or first light.
 
     Raises
     ------
@@ -68,7 +69,7 @@ def check_subject(request: FitRequest) -> None:
 
 
 def subject_height(request: FitRequest) -> tuple[float, tuple[Assumption, ...]]:
-    """The caller's height, or the mean of the gender and the assumption that it is."""
+    """The caller's height, or the mean of the gender together with the assumption."""
     if request.height_m is not None:
         return request.height_m, ()
     mean = MEAN_HEIGHT_M[request.gender]

@@ -1,4 +1,4 @@
-"""What a finished fit knows that its applications need, in full precision, as one small file.
+"""What applications need of a finished fit, in full precision, as one small file.
 
 ``person.npz`` holds a JSON header and arrays in double precision, without pickle. Its fields:
 
@@ -54,7 +54,7 @@ class FittedPerson:
     albedo_rgb
         (m, 3) linear red, green and blue albedo; None where no colour was estimated.
     shape_covariance
-        (n, n) of the shape's coefficients; None for a body whose certainty is not known.
+        (n, n) of the shape's coefficients; None for a body whose uncertainty is not known.
     """
 
     gender: Gender
@@ -151,7 +151,7 @@ def require_model(person: FittedPerson, model: BodyModel) -> None:
     Raises
     ------
     InvalidInputError
-        If it is another: coefficients and vertices would mean something else.
+        If it is a different one: coefficients and vertices would mean something else.
     """
     if person.gender.value != model.gender:
         raise unusable_person(

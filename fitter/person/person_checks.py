@@ -1,7 +1,7 @@
-"""What a file ``person.npz`` must hold before anything is made of it: fields, shapes, values.
+"""Checks of a file ``person.npz`` before it is used: fields, shapes, values.
 
-The fields are listed in :mod:`fitter.person.fitted_person`. Files come back from where fits
-are kept, so that a damaged or foreign one is told by the field that is wrong.
+The fields are listed in :mod:`fitter.person.fitted_person`. Files are read back from where fits are
+kept, so the error for a damaged or foreign one names the field that is wrong.
 """
 
 import io
@@ -19,7 +19,7 @@ from fitter.request import Gender
 FORMAT_VERSION = 1
 
 MAX_BYTES = 64 * 2**20
-"""Of all arrays together, unpacked: 80 times what a body of 12,440 vertices takes."""
+"""All arrays together, unpacked: 80 times what a body of 12,440 vertices takes."""
 
 _LARGEST_TURN = 2.0 * np.pi
 """Of a part; a rotation vector longer than a whole turn was never fitted."""

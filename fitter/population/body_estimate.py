@@ -1,4 +1,4 @@
-"""The most probable body of a gender and known measurements, with what is left open."""
+"""The most probable body for a gender and known measurements, and how much is left open."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -24,9 +24,9 @@ class EstimatedMeasurement:
     Attributes
     ----------
     measurement
-        Its value, and as standard error how much people like this differ in it.
+        Its value and, as standard error, how much people like this differ in it.
     low, high
-        Between these lie 95 % of the people of whom the same is known.
+        95 % of the people about whom the same is known lie between these.
     given
         Whether it was known.
     """
@@ -50,8 +50,8 @@ class BodyEstimate:
     measurements
         In the order of the definitions.
     plausibility
-        Share of the population whose measurements of these names are together at least as
-        unusual; 1 where nothing was known.
+        Share of the population whose same measurements are together at least as unusual; 1 if
+        nothing was known.
     """
 
     shape: Shape
@@ -63,11 +63,11 @@ class BodyEstimate:
 def estimate_body(
     population: MeasuredPopulation, known: Mapping[str, KnownMeasurement]
 ) -> BodyEstimate:
-    """Estimate the body of which some measurements are known, none to all.
+    """Estimate a body from its known measurements, from none to all of them.
 
     Intervals are the population's spread given what is known, in the model's own terms (a Gaussian,
     linearised at the estimate): how people differ who agree in what was given. They do not include
-    what the model itself gets wrong of a person.
+    the error of the model itself.
 
     Raises
     ------
@@ -75,7 +75,7 @@ def estimate_body(
         If a name is not measured, or nobody has such measurements.
     """
     conditioned = conditioned_population(population, known)
-    # What is held exactly has no spread; rounding would leave it a millionth of a unit.
+    # What is held exactly has no spread; rounding would leave a millionth of a unit.
     held = {name for name, each in known.items() if not each.standard_error}
     spreads = {
         name: 0.0 if name in held else float(np.sqrt(max(variance, 0.0)))

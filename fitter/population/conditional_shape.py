@@ -1,4 +1,4 @@
-"""A standard normal population of shapes, conditioned on measurements of one of its people.
+"""A standard normal population of shapes, conditioned on measurements of one member.
 
 The shape space is whitened, β ~ N(0, I), so its most probable member with measurements y taken
 with variances R is the minimum of
@@ -10,10 +10,10 @@ and with R = 0 the shortest β with m(β) = y. Linearised at β, with J = ∂m/�
     β⁺ = Jᵀ (J Jᵀ + R)⁻¹ (y - m(β) + J β),    Σ = I - Jᵀ (J Jᵀ + R)⁻¹ J,
 
 the Gauss-Newton step and the covariance of what is left open. Measurements are nearly linear in β,
-so J is taken once, at the solution of the problem linearised at the mean, and held while the
-residual is driven to zero; only where that does not suffice it is taken anew. Where many
-measurements are held, some combination of them hardly changes with any shape, and the problem
-linearised far away asks for shapes that nobody has: then they are held ever more closely.
+so J is computed once, at the solution of the problem linearised at the mean, and held while the
+residual is driven to zero; only if that does not suffice is it computed again. If many measurements
+are held, some combination of them hardly changes with any shape, and the problem linearised far
+away asks for shapes that nobody has: then they are held more and more tightly in steps.
 """
 
 from collections.abc import Callable, Sequence
@@ -33,11 +33,12 @@ _STEPS_A_JACOBIAN = 5
 _SMALLEST_STEP = 0.1
 
 _SLACKS = (1.0, 0.3, 0.1, 0.03)
-"""Standard errors, centimetres or kilograms, granted to exact values on the way to none. With all
-eighteen measurements of 25 random men held, each is met on this way; at once five of them are."""
+"""Standard errors, centimetres or kilograms, allowed to exact values on the way to zero. With all
+eighteen measurements of 25 random men held, this way meets those of every man; in one step, of 5.
+"""
 
 _NOWHERE = 12.0
-"""Standard deviations from the mean beyond which no search goes: nobody is there."""
+"""Standard deviations from the mean beyond which no search goes: there is nobody there."""
 
 _SMALLEST_SHARE = 1e-10
 """Directions of J Jᵀ + R with less than this share of the largest are left out: two measurements
@@ -46,7 +47,7 @@ that say the same leave a residual instead of an infinity."""
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class MeasuredShapes:
-    """What of bodies is measured, k measurements of n coefficients.
+    """How bodies are measured: k measurements as functions of n coefficients.
 
     Attributes
     ----------
@@ -86,7 +87,7 @@ class ConditionedShape:
     jacobian
         (k, n) the Jacobian of all measurements that both belong to.
     met
-        Whether β is the solution: exact values are met, uncertain ones are in balance with the
+        Whether β is the solution: exact values are met, uncertain ones balanced against the
         population.
     squared_distance
         Twice the minimum's negative log-likelihood, ‖β‖² + Σ (y - m)²/R: of people of this
@@ -187,9 +188,9 @@ def _nearer(
     conditions: Conditions,
     shapes: MeasuredShapes,
 ) -> tuple[Shape, Float[np.ndarray, " r"]]:
-    """The step, or as much of it as brings exact values nearer, and what is measured there.
+    """The step, or as much of it as brings exact values nearer, and the measurements there.
 
-    Where nearly as much is known as there are coefficients, the whole step overshoots.
+    If nearly as much is known as there are coefficients, the whole step overshoots.
     """
     exact = conditions.variances == 0.0
     if not exact.any():

@@ -1,4 +1,4 @@
-"""What is known of somebody, and what is wrong with it where nobody is like that."""
+"""What is known about somebody, and what is wrong with it if nobody is like that."""
 
 from collections.abc import Mapping, Sequence
 
@@ -12,21 +12,21 @@ from fitter.population.measured_population import MeasuredPopulation
 from fitter.request import KnownMeasurement
 
 RAREST_SD = 5.0
-"""Who is further from the mean of the population in one measurement is one in two million, and the
-model, learned from a thousand, knows nothing of their shape."""
+"""One person in two million is farther from the population's mean in a measurement, and the model,
+learned from a thousand people, knows nothing about such shapes."""
 
 _RAREST_SHARE = 5.733e-7
-"""The share of people beyond that, either side; several measurements together are judged by it."""
+"""The share of people beyond that on either side; combined measurements are judged by it too."""
 
 _LEAST_SPREAD = 0.1
-"""Centimetres or kilograms: what follows from the others more closely than this is not told apart
-from what cannot differ at all."""
+"""Centimetres or kilograms: a measurement that follows from the others more closely than this is
+treated as one that cannot differ at all."""
 
 _OTHER_UNITS: Mapping[str, Sequence[tuple[float, str]]] = {
     "cm": ((100.0, "metres"), (0.1, "millimetres"), (2.54, "inches")),
     "kg": ((0.453_592, "pounds"), (6.350_29, "stones"), (0.001, "grams")),
 }
-"""By unit: what a value has to be multiplied by if it was given in another."""
+"""By unit: the factors that convert a value given in another one."""
 
 
 def conditioned_population(
@@ -73,7 +73,7 @@ def _conditions(
 
 
 def _farthest(count: int) -> float:
-    """The χ² of ``count`` measurements that as few people exceed as one exceeds its limit."""
+    """The χ² of ``count`` measurements exceeded by as few people as exceed the limit of one."""
     return float(chdtri(count, _RAREST_SHARE)) if count else 0.0
 
 
@@ -105,7 +105,7 @@ def _check_alone(population: MeasuredPopulation, name: str, measurement: KnownMe
 
 
 def _reach(alone: MeasuredPopulation) -> tuple[float, float]:
-    """The one measurement of the most probable people at both limits."""
+    """The measurement's values at both limits, on the most probable people there."""
     (slope,) = alone.shapes.jacobian_at_mean
     axis = RAREST_SD * slope / np.linalg.norm(slope)
     low, high = (float(alone.shapes.measure(sign * axis, [0])[0]) for sign in (-1.0, 1.0))
@@ -115,7 +115,7 @@ def _reach(alone: MeasuredPopulation) -> tuple[float, float]:
 def _contradiction(
     population: MeasuredPopulation, known: Mapping[str, KnownMeasurement]
 ) -> InvalidInputError:
-    """Name the measurement that the others speak against most, and what they would expect.
+    """Name the measurement that the others contradict most, and the value they predict.
 
     Judged on the population linearised at its mean, where every question has an answer.
     """

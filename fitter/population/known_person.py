@@ -1,4 +1,4 @@
-"""The person a fit begins from, of all that the caller knows (sections 3.1 and 4)."""
+"""The person a fit starts from, given all that the caller knows (sections 3.1 and 4)."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -32,13 +32,13 @@ class KnownPerson:
     shape
         (n,) coefficients; has the height and the held attributes.
     attributes
-        What is known beside the height.
+        What is known besides the height.
     given
         Names of all that the caller gave, the height as stature.
     held
         Names of those given without an error: every body of the fit has them.
     assumptions
-        The height, where nobody gave it.
+        The height, if it was not given.
     """
 
     height_m: float
@@ -53,7 +53,7 @@ class KnownPerson:
 def known_person(
     request: FitRequest, population: MeasuredPopulation, evaluator: ScapeEvaluator
 ) -> KnownPerson:
-    """Find the person that gender, height and measurements speak of.
+    """Find the most probable person with this gender, height and measurements.
 
     With a height or nothing this is the mean person of the height. Measurements make some heights
     more probable than others: without a height the most probable one is taken. The picture says

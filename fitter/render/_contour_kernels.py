@@ -73,7 +73,7 @@ def describe_contour_edges(
         outward[k, 0] = nx
         outward[k, 1] = ny
 
-        # The back face must fall away behind the front one's plane; at a dent it is before that
+        # The back face must fall away behind the front one's plane; at a dent it is in front
         # and hides the edge itself, whatever the z-buffer's grain says.
         rise = 0.0
         a, b, c = triangles[front, 0], triangles[front, 1], triangles[front, 2]
