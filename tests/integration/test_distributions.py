@@ -17,7 +17,7 @@ from tests.distributions import built
 from tests.installation import applies
 
 REPOSITORY = Path(__file__).parents[2]
-EXTRAS = ("s3", "tracing", "usdz")
+EXTRAS = ("s3", "tracing", "usdz", "detector")
 """Of users; the others are for those who develop and evaluate."""
 
 COMPANIONS = ("pydantic_core", "botocore")
