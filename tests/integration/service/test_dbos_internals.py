@@ -109,6 +109,7 @@ def test_a_process_says_by_itself_when_and_how_many_jobs_are_claimed(running: Ru
     running.looked()
     assert running.begun == ["one", "two"]
     running.usable_slots = 0
+    running.looked()  # A look that began before may still know of two.
     running.gate.set()
     eventually(lambda: running.status("two")[0] == "SUCCESS")
     running.looked()

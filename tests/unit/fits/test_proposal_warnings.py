@@ -29,7 +29,9 @@ def person(**moved: tuple[float, float]) -> DetectedBody:
     mask = np.zeros((320, 200), dtype=np.float32)
     mask[15:290, 45:155] = 1.0
     return DetectedBody(
-        person=DetectedPerson(score=0.9, middle=np.array([100.0, 150.0]), rim=np.array([100.0, 5.0])),
+        person=DetectedPerson(
+            score=0.9, middle=np.array([100.0, 150.0]), rim=np.array([100.0, 5.0])
+        ),
         points={name: Click(x=x, y=y) for name, (x, y) in (FRONT | moved).items()},
         visibility=dict.fromkeys(FRONT, 1.0),
         slants=DetectedSlants(limbs={}, middle=np.array([100.0, 150.0])),
