@@ -11,6 +11,7 @@ from typing import Annotated, Final
 from pydantic import AfterValidator
 
 from api_schemas.webhooks import secret_key
+from fitter.detection.weights import BODY_LANDMARKS, PERSON_DETECTOR
 from service.setting_addresses import (
     check_bucket,
     check_host_name,
@@ -72,8 +73,7 @@ def _with_both_models(folder: Path) -> Path:
     return folder
 
 
-DETECTOR_FILES: Final = ("pose_detection.tflite", "pose_landmark_full.tflite")
-"""The detector's weights, as :mod:`fitter.detection.weights` calls them; a test compares."""
+DETECTOR_FILES: Final = (PERSON_DETECTOR.name, BODY_LANDMARKS.name)
 
 
 def _with_both_weights(folder: Path) -> Path:

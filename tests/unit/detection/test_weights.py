@@ -43,15 +43,20 @@ def test_another_file_of_the_same_name_is_refused(tmp_path):
         read_weights(tmp_path)
 
 
-def test_without_the_runtime_there_is_no_detector(monkeypatch):
+@pytest.mark.parametrize(
+    ("gone", "told"), [("ai_edge_litert", "ai-edge-litert"), ("mediapipe", "mediapipe")]
+)
+def test_without_runtime_or_weights_there_is_no_detector(monkeypatch, tmp_path, gone, told):
     found = importlib.util.find_spec
     monkeypatch.setattr(
-        importlib.util,
-        "find_spec",
-        lambda name: None if name == "ai_edge_litert" else found(name),
+        importlib.util, "find_spec", lambda name: None if name == gone else found(name)
     )
+    # Files that happen to lie in the current folder are nobody's weights.
+    for each in (PERSON_DETECTOR, BODY_LANDMARKS):
+        (tmp_path / each.name).touch()
+    monkeypatch.chdir(tmp_path)
     assert detector_fault() is not None
-    with pytest.raises(DetectorUnavailableError, match="ai-edge-litert"):
+    with pytest.raises(DetectorUnavailableError, match=told):
         read_weights()
 
 

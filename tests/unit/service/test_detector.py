@@ -1,6 +1,5 @@
 """What the API knows of the detector agrees with what the fitter finds."""
 
-import importlib.util
 from pathlib import Path
 
 import pytest
@@ -10,29 +9,10 @@ from fitter.detection import weights
 from service.demo_data.sample import load_sample
 from service.setting_types import DETECTOR_FILES
 from service.settings import SettingError, Settings
-from service.submissions import detector
 from service.submissions.detector import detector_is_installed
 from service.worker import pipeline
 from service.worker.model_files import check_detector
 from service.worker.pipeline_port import PipelineInput, UnusableInputError
-
-FILES = (weights.PERSON_DETECTOR, weights.BODY_LANDMARKS)
-
-
-def test_names_and_places_are_the_fitter_s():
-    assert tuple(each.name for each in FILES) == DETECTOR_FILES
-    assert tuple(each.folder for each in FILES) == detector.CARRIER_FOLDERS
-    assert (weights.CARRIER, weights.RUNTIME) == (detector.CARRIER, detector.RUNTIME)
-    assert weights.CARRIER_REQUIREMENT in detector.REMEDY
-
-
-@pytest.mark.parametrize("gone", [None, weights.RUNTIME, weights.CARRIER])
-def test_both_find_the_same(monkeypatch: pytest.MonkeyPatch, gone: str | None):
-    found = importlib.util.find_spec
-    monkeypatch.setattr(
-        importlib.util, "find_spec", lambda name: None if name == gone else found(name)
-    )
-    assert detector_is_installed(None) is (weights.detector_fault() is None)
 
 
 def test_a_folder_counts_once_it_has_both_files(tmp_path: Path):
