@@ -12,9 +12,7 @@ from jaxtyping import Float, Integer
 from fitter.arrays import Points3D, Vector3
 from fitter.energies.rows import PositionRows
 from fitter.numerics.robust import huber, huber_weights
-
-TRUNCATION = 1.5
-"""Number of standard deviations beyond which a slant is trusted less: one in twenty is wrong."""
+from fitter.pose_init.limb_reaches import TRUNCATION
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -7,7 +7,7 @@ from fitter.energies.limb_slants import SlantEvidence
 from fitter.fits.prepared_model import PreparedModel
 from fitter.observation.observation import Observation
 from fitter.pose_init.landmark_rig import landmark_rig
-from fitter.pose_init.limbs import limb_lengths_m, limb_named
+from fitter.pose_init.limb_reaches import limb_reaches
 
 
 def limb_slants(
@@ -17,23 +17,18 @@ def limb_slants(
 
     ``shape`` (n,) gives the limbs' lengths.
     """
-    slants = observation.slants
-    if slants is None:
+    if observation.slants is None:
         return None
     names = list(observation.clicks)
-    limbs = [
-        limb
-        for limb in map(limb_named, slants.limbs)
-        if limb.proximal in names and limb.distal in names
-    ]
-    if not limbs:
+    rig = landmark_rig(prepared.operators.model, shape)
+    reaches = limb_reaches(observation.slants, rig, observation.camera, points=names)
+    if not reaches.limbs:
         return None
-    lengths = limb_lengths_m(landmark_rig(prepared.operators.model, shape))
-    told = [(slants.limbs[limb.name], lengths[limb.name]) for limb in limbs]
-    ray = observation.camera.rays(slants.middle)
     return SlantEvidence(
-        ends=np.array([[names.index(limb.proximal), names.index(limb.distal)] for limb in limbs]),
-        toward=ray / np.linalg.norm(ray),
-        reach_m=np.array([length * slant.sine for slant, length in told]),
-        sigma_m=np.array([length * slant.sigma for slant, length in told]),
+        ends=np.array(
+            [[names.index(limb.proximal), names.index(limb.distal)] for limb in reaches.limbs]
+        ),
+        toward=reaches.toward,
+        reach_m=reaches.reach_m,
+        sigma_m=reaches.sigma_m,
     )

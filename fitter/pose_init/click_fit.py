@@ -16,11 +16,11 @@ from fitter.pose_init._click_kernels import descend
 from fitter.pose_init.click_problem import (
     FACING_MARGIN_M,
     FACING_SPREAD_M,
-    HINT_TRUNCATION,
     TRUNK_LEAN_SPREAD,
     TRUNK_YAW_SPREAD,
     ClickProblem,
 )
+from fitter.pose_init.limb_reaches import TRUNCATION
 
 _FIRST_DAMPING = 1e-2
 _MOST_DAMPING = 1.0
@@ -113,7 +113,7 @@ def kernel_arguments(problem: ClickProblem, pixels: Points2D) -> KernelArguments
                 _floats(problem.hints.toward),
                 _floats(problem.hints.reach_m),
                 _floats(problem.hints.precision),
-                HINT_TRUNCATION,
+                TRUNCATION,
             ),
         ),
         _integers(np.flatnonzero(problem.turning)),

@@ -18,9 +18,10 @@ from jaxtyping import Bool, Float
 from fitter.arrays import Vector3
 from fitter.body.pose_prior import PosePrior
 from fitter.body.skeleton import descendants
-from fitter.detection.detector import DetectedSlants, LimbSlant
+from fitter.detection.detector import DetectedSlants
 from fitter.pose_init.landmark_rig import LandmarkRig
-from fitter.pose_init.limbs import LIMBS, MIDDLES, Limb, limb_lengths_m, limb_slant
+from fitter.pose_init.limb_reaches import limb_reaches
+from fitter.pose_init.limbs import LIMBS, MIDDLES, limb_slant
 from fitter.pose_init.points import ClickedPoints
 from fitter.render.camera import Camera
 from fitter.request import Facing
@@ -31,9 +32,6 @@ foreshortening of a lean is of second order, so a few per cent too little length
 
 TRUNK_YAW_SPREAD = 1.0
 """The same for the axis across the hips: only enough to break ties toward front and back views."""
-
-HINT_TRUNCATION = 1.5
-"""Number of standard deviations beyond which a detected slant is trusted less and less."""
 
 FACING_MARGIN_M = 0.02
 FACING_SPREAD_M = 0.02
@@ -159,22 +157,12 @@ def _hints(
     *,
     without: Container[str],
 ) -> SlantHints:
-    told: list[tuple[Limb, LimbSlant]] = []
-    ray = np.array([0.0, 0.0, 1.0])
-    if slants is not None:
-        ray = camera.rays(slants.middle)
-        told = [
-            (limb, slants.limbs[limb.name])
-            for limb in LIMBS
-            if limb.name in slants.limbs
-            and limb.name not in without
-            and {limb.proximal, limb.distal} <= {*clicks.names}
-        ]
-    lengths = limb_lengths_m(rig)
-    rows = [limb_slant(limb, rig.landmark_names) for limb, _ in told]
+    known = slants or DetectedSlants(limbs={}, middle=np.array([camera.centre_x, camera.centre_y]))
+    reaches = limb_reaches(known, rig, camera, points=clicks.names, without=without)
+    rows = [limb_slant(limb, rig.landmark_names) for limb in reaches.limbs]
     return SlantHints(
         rows=np.array(rows).reshape(-1, len(rig.landmark_names)),
-        toward=ray / np.linalg.norm(ray),
-        reach_m=np.array([lengths[limb.name] * slant.sine for limb, slant in told]),
-        precision=np.array([1.0 / (lengths[limb.name] * slant.sigma) for limb, slant in told]),
+        toward=reaches.toward,
+        reach_m=reaches.reach_m,
+        precision=1.0 / reaches.sigma_m,
     )

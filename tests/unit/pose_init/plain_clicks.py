@@ -10,12 +10,12 @@ from fitter.numerics.robust import huber, huber_weights
 from fitter.pose_init.click_problem import (
     FACING_MARGIN_M,
     FACING_SPREAD_M,
-    HINT_TRUNCATION,
     TRUNK_LEAN_SPREAD,
     TRUNK_YAW_SPREAD,
     ClickProblem,
 )
 from fitter.pose_init.landmark_rig import LandmarkRig, PosedLandmarks
+from fitter.pose_init.limb_reaches import TRUNCATION
 
 
 def click_energy(
@@ -30,7 +30,7 @@ def click_energy(
         + (_slant_residuals(problem, posed) ** 2).sum(axis=-1)
         + (_trunk_residuals(posed) ** 2).sum(axis=-1)
     )
-    energy += huber(_hint_residuals(problem, posed), HINT_TRUNCATION).sum(axis=-1)
+    energy += huber(_hint_residuals(problem, posed), TRUNCATION).sum(axis=-1)
     in_front = (posed.points[:, : problem.clicked, 2] > 0.05).all(axis=-1)
     return np.where(in_front, energy, np.inf)
 
@@ -56,7 +56,7 @@ def normal_equations(
         residuals.append(slants)
     if len(problem.hints.rows):
         hints = _hint_residuals(problem, posed)
-        share = np.sqrt(huber_weights(hints, HINT_TRUNCATION))
+        share = np.sqrt(huber_weights(hints, TRUNCATION))
         along = np.einsum("hk,bkrc,r->bhc", problem.hints.rows, landmarks, problem.hints.toward)
         rows.append((share * problem.hints.precision)[..., None] * along)
         residuals.append(share * hints)
