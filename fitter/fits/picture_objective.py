@@ -23,6 +23,7 @@ from fitter.render.rasterizer import render
 from fitter.request import Clothing
 from fitter.segmentation.bones import clicked_bones, foot_bones
 from fitter.segmentation.grabcut import Segmentation, border_warnings, segment
+from fitter.segmentation.preference import preference
 from fitter.segmentation.trimap import Trimap, first_band, seeded_trimap, trimap
 
 RESEGMENTED_BAND = 0.5
@@ -40,11 +41,12 @@ _EDGE_THRESHOLD_M = 0.03
 
 
 def segmented(
-    observation: Observation, prepared: PreparedModel, parameters: BodyParameters, narrowing: float
+    observation: Observation, prepared: PreparedModel, parameters: BodyParameters, *, fitted: bool
 ) -> tuple[Trimap | None, Segmentation]:
     """The caller's mask, or GrabCut (section 3.2).
 
-    Its tri-map lies around the detector's mask if there is one, else around a body.
+    Its tri-map lies around the detector's mask if there is one, else around a body. ``fitted`` says
+    that the body was fitted to the picture, and is no first guess.
     """
     if observation.mask is not None:
         return None, Segmentation(mask=observation.mask, warnings=border_warnings(observation.mask))
@@ -56,12 +58,14 @@ def segmented(
     bones = np.concatenate(
         [clicked_bones(observation.clicks), foot_bones(observation.clicks, seen)]
     )
+    # The body inside loose clothes does not say how far they reach.
+    telling = fitted and observation.clothing is Clothing.TIGHT
     if observation.seed is not None:
         labels = seeded_trimap(observation.seed, bones)
         if labels is not None:
-            return labels, segment(observation.display, labels)
-    # The body inside loose clothes does not say how far they reach.
-    share = narrowing if observation.clothing is Clothing.TIGHT else 1.0
+            preferred = preference(observation.seed, silhouette if telling else None)
+            return labels, segment(observation.display, labels, preferred)
+    share = RESEGMENTED_BAND if telling else 1.0
     labels = trimap(silhouette, bones, band=share * first_band(silhouette, bones))
     return labels, segment(observation.display, labels)
 

@@ -10,7 +10,6 @@ from fitter.fits.clothing import clothing_remarks
 from fitter.fits.descents import descents
 from fitter.fits.detecting import detector_for
 from fitter.fits.picture_objective import (
-    RESEGMENTED_BAND,
     segmented,
     silhouette_and_edges,
     with_silhouette,
@@ -77,7 +76,7 @@ def fit(
     searches = descents(request, observation)
     limits = searches.limits
     with clock.stage(Stage.SEGMENTATION) as report:
-        labels, segmentation = segmented(observation, prepared, initial.parameters, 1.0)
+        labels, segmentation = segmented(observation, prepared, initial.parameters, fitted=False)
         coarse = silhouette_and_edges(
             observation,
             prepared,
@@ -88,7 +87,7 @@ def fit(
         )
         nearer = searches.search(limits.first, report)(coarse, initial.parameters)
         labels, segmentation = segmented(
-            observation, prepared, nearer.candidate.parameters, RESEGMENTED_BAND
+            observation, prepared, nearer.candidate.parameters, fitted=True
         )
     with clock.stage(Stage.SILHOUETTE_AND_EDGES) as report:
         hypotheses = initial.hypotheses[: limits.hypotheses]

@@ -8,7 +8,7 @@ from fitter.energies.priors import ShapePrior
 from fitter.energies.scales import NEAR_BOUNDARY_ETA_M
 from fitter.fits.descents import descents
 from fitter.fits.detecting import detector_for
-from fitter.fits.picture_objective import RESEGMENTED_BAND, segmented, silhouette_and_edges
+from fitter.fits.picture_objective import segmented, silhouette_and_edges
 from fitter.fits.prepared_model import PreparedModel
 from fitter.fits.settling import settle, shade
 from fitter.observation.observation import observe
@@ -42,7 +42,7 @@ def refit(
     """
     observation = observe(request, detector_for(request, detector_weights))
     person = known_person(request, prepared.population, prepared.operators.evaluator)
-    _, segmentation = segmented(observation, prepared, start, RESEGMENTED_BAND)
+    _, segmentation = segmented(observation, prepared, start, fitted=True)
     objective = replace(
         silhouette_and_edges(
             observation,

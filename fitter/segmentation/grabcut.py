@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 from jaxtyping import UInt8
 
-from fitter.arrays import Image, Mask
+from fitter.arrays import GreyImage, Image, Mask
 from fitter.errors import InvalidInputError
 from fitter.remarks import FitWarning
 from fitter.segmentation.band_graph import BandGraph
@@ -69,7 +69,7 @@ class Segmentation:
     warnings: tuple[FitWarning, ...]
 
 
-def segment(display: Image, labels: Trimap) -> Segmentation:
+def segment(display: Image, labels: Trimap, preferred: GreyImage | None = None) -> Segmentation:
     """Cut the person out of the picture.
 
     GrabCut sees only the surroundings of the band. Of its result, what is connected to the sure
@@ -81,6 +81,9 @@ def segment(display: Image, labels: Trimap) -> Segmentation:
         (h, w, 3) display values in [0, 1]: the colour distances GrabCut was made for.
     labels
         The tri-map.
+    preferred
+        (h, w) what is known of pixels beside their colours, nats in favour of the person
+        (:mod:`fitter.segmentation.preference`); None is the paper's GrabCut.
 
     Raises
     ------
@@ -96,7 +99,8 @@ def segment(display: Image, labels: Trimap) -> Segmentation:
         reason = "The picture has one colour around the clicked points."
         raise _no_person(reason)
     mask = np.zeros(labels.shape, dtype=np.bool_)
-    mask[window] = _foreground(picture, labels[window])
+    nats = np.zeros(labels.shape, np.float32) if preferred is None else preferred
+    mask[window] = _foreground(picture, labels[window], nats[window])
     mask = _without_speckle(mask, labels == TrimapLabel.FOREGROUND)
     return Segmentation(mask=mask, warnings=(*_doubts(mask, labels), *border_warnings(mask)))
 
@@ -162,7 +166,7 @@ def _window(labels: Trimap) -> tuple[slice, slice]:
     )
 
 
-def _foreground(picture: UInt8[np.ndarray, "h w 3"], labels: Trimap) -> Mask:
+def _foreground(picture: UInt8[np.ndarray, "h w 3"], labels: Trimap, preferred: GreyImage) -> Mask:
     """GrabCut: learn the colours of both sides, cut by colours and contrast, and repeat.
 
     Parameters
@@ -179,6 +183,7 @@ def _foreground(picture: UInt8[np.ndarray, "h w 3"], labels: Trimap) -> Mask:
     band = picture[open_pixels].astype(np.float32)
     known_colours = [picture[side][::LEARNT_EVERY].astype(np.float32) for side in known]
     band_colours = band[::LEARNT_EVERY]
+    known_nats = preferred[open_pixels]
     mixtures = [first_mixture(colours) for colours in known_colours]
     taken = np.zeros(len(band), dtype=np.bool_)
     for cut in range(CUTS):
@@ -189,7 +194,7 @@ def _foreground(picture: UInt8[np.ndarray, "h w 3"], labels: Trimap) -> Mask:
             colours = [np.concatenate(each) for each in zip(known_colours, band_sides, strict=True)]
         mixtures = [relearnt_mixture(*each) for each in zip(mixtures, colours, strict=True)]
         background, foreground = (mixture.costs(band) for mixture in mixtures)
-        taken = graph.cut(background - foreground)
+        taken = graph.cut(background - foreground + known_nats)
     mask = known[1].copy()
     mask[open_pixels] = taken
     return mask

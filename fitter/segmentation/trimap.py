@@ -30,8 +30,8 @@ What the first body covers wrongly lies along its border; if GrabCut learns it a
 colour it stays, as the dark gap between the legs of a figure on a dark background did."""
 
 
-SEEDED_BAND_SHARE_OF_BODY = 0.008
-"""Half the width of the band about the detector's mask: the size of one of its pixels."""
+SEEDED_BAND_SHARE_OF_BODY = 0.02
+"""Half the width of the band about the detector's mask: three of its pixels, 3.5 cm on an adult."""
 
 LEAST_SEEDED_BAND_PX = 2.0
 
@@ -86,7 +86,7 @@ def trimap(silhouette: Mask, bones: Float[np.ndarray, "b 2 2"], *, band: float) 
 
 
 def seeded_trimap(seed: GreyImage, bones: Float[np.ndarray, "b 2 2"]) -> Trimap | None:
-    """Labels from the detector's mask, whose border is uncertain by no more than its resolution.
+    """Labels from the detector's mask, whose border is uncertain by a few of its pixels.
 
     Parameters
     ----------

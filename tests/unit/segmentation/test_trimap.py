@@ -125,9 +125,9 @@ def test_a_seeds_border_alone_is_open():
     labels = seeded_trimap(SEED, LIMB_WITHIN)
     assert labels is not None
     uncertain = is_uncertain(labels)
-    assert not uncertain[disc(56)].any()
-    assert not uncertain[~disc(64)].any()
-    assert uncertain[disc(61) & ~disc(59)].all()
+    assert not uncertain[disc(55)].any()
+    assert not uncertain[~disc(65)].any()
+    assert uncertain[disc(62) & ~disc(58)].all()
 
 
 def test_a_seed_that_leaves_out_a_clicked_limb_is_not_used():
