@@ -6,34 +6,30 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from fitter.request import Clothing, Cues, Gender, OutlineKind
+from tests.evaluation.body_tables import bmi_lines, distance_lines, trunk_lines
 from tests.evaluation.cases import CASES, PEOPLE
 from tests.evaluation.clothing_table import clothing_lines
-from tests.evaluation.detector_figures import detector_lines, foreign_figures, suite_figures
-from tests.evaluation.foreign import foreign_names
+from tests.evaluation.detector_figures import detector_lines, hinted_fits
+from tests.evaluation.foreign import MISSING, foreign_names
 from tests.evaluation.light_figures import InLight, in_both_lights, light_lines
+from tests.evaluation.limit_tables import limit_lines, outline_lines, several_lines
 from tests.evaluation.outline_limit import outline_limit
 from tests.evaluation.page import write_page
 from tests.evaluation.people import load_person
 from tests.evaluation.runs import Run, of_each, score_all, score_dressed
 from tests.evaluation.scene import Case, Half, Series
+from tests.evaluation.scoring import Scored
 from tests.evaluation.several import several_pictures
 from tests.evaluation.shape_limit import shape_limit
-from tests.evaluation.suite import Scored, Told
-from tests.evaluation.table import (
-    MEASUREMENTS,
-    case_lines,
-    limit_lines,
-    outline_lines,
-    several_lines,
-    summary_lines,
-    worst_lines,
-)
+from tests.evaluation.table import MEASUREMENTS, case_lines, summary_lines, worst_lines
+from tests.evaluation.true_picture import Told
 
 
 def main(arguments: Sequence[str]) -> int:
     """Run the command line; returns the exit status."""
     options = _parser().parse_args(arguments)
     chosen = [case for case in CASES.values() if _is_chosen(case, options)]
+    foreign = _foreign(options)
     if options.shape_limit:
         people = {case.person: PEOPLE[case.person] for case in chosen}
         limits = {name: shape_limit(load_person(source)) for name, source in people.items()}
@@ -60,19 +56,20 @@ def main(arguments: Sequence[str]) -> int:
         print("\n".join(light_lines(found)))
         return 0
     if options.detector:
-        half = None if options.half is None else Half(options.half)
-        people = [case for case in chosen if case.series is Series.PEOPLE]
-        for title, figures in (
-            ("suite", of_each(suite_figures, people, options.jobs)),
-            ("foreign", of_each(foreign_figures, foreign_names(half), options.jobs)),
-        ):
+        people = [case.name for case in chosen if case.series is Series.PEOPLE]
+        for title, names in (("suite", people), ("foreign", foreign)):
+            hinted = of_each(hinted_fits, names, options.jobs)
             print(f"\n{title}")
-            print("\n".join(detector_lines([each for several in figures for each in several])))
+            print("\n".join(detector_lines([each for several in hinted for each in several])))
         return 0
     if options.set == Series.CLOTHED.value and options.clothing is None:
         for title, part in _halves(chosen):
             print(f"\n{title}")
-            print("\n".join(clothing_lines(score_dressed(part, jobs=options.jobs))))
+            print(
+                "\n".join(
+                    clothing_lines(score_dressed([case.name for case in part], jobs=options.jobs))
+                )
+            )
         return 0
     run = Run(
         told=Told(
@@ -87,14 +84,15 @@ def main(arguments: Sequence[str]) -> int:
         pictures=options.page,
     )
     scored: list[Scored] = []
-    for pair in score_all(chosen, run, jobs=options.jobs):
+    names = [case.name for case in chosen] + foreign
+    for pair in score_all(names, run, jobs=options.jobs):
         lines = case_lines(pair)
         print("\n".join(lines[1:] if scored else lines), flush=True)
         scored += pair
     for title, part in _parts(scored):
         print(f"\n{title}: {_counts(part)}")
-        print("\n".join(summary_lines(part)))
-        print("\n".join(worst_lines(part)))
+        for lines in (summary_lines, trunk_lines, distance_lines, bmi_lines, worst_lines):
+            print("\n".join(lines(part)))
     if options.page is not None:
         print(f"\n{write_page(options.page, scored)}")
     return 0
@@ -109,17 +107,34 @@ def _is_chosen(case: Case, options: argparse.Namespace) -> bool:
     )
 
 
+def _foreign(options: argparse.Namespace) -> list[str]:
+    """The foreign pictures that are chosen, in a folder that may not be there."""
+    half = None if options.half is None else Half(options.half)
+    wanted = options.set in (None, Series.FOREIGN.value) or options.detector
+    if wanted and not options.case and not foreign_names():
+        print(MISSING, flush=True)
+    if options.case:
+        return [name for name in foreign_names() if name in options.case]
+    return foreign_names(half) if wanted else []
+
+
 def _parts(scored: Sequence[Scored]) -> list[tuple[str, list[Scored]]]:
-    """What is summed up apart: the halves of the people, then each other set."""
+    """What is summed up apart: the halves of people and foreigners, then all of each other set."""
+    of = {series: [each for each in scored if each.series is series] for series in Series}
     parts = [
-        (f"{half.value} half", [each for each in people if each.half is half])
-        for people in [[each for each in scored if each.case.series is Series.PEOPLE]]
+        (f"{half.value} half", [each for each in of[Series.PEOPLE] if each.half is half])
         for half in Half
     ]
     parts += [
-        (f"{series.value} set", [each for each in scored if each.case.series is series])
+        (f"{series.value} set", of[series])
         for series in (Series.LIGHTS, Series.CLOTHED, Series.SAMPLE)
     ]
+    parts += [
+        (f"foreign, {half.value} half", [each for each in of[Series.FOREIGN] if each.half is half])
+        for half in Half
+    ]
+    if len({each.half for each in of[Series.FOREIGN]}) > 1:
+        parts.append(("foreign set", of[Series.FOREIGN]))
     return [(title, part) for title, part in parts if part]
 
 
@@ -132,7 +147,7 @@ def _halves(cases: Sequence[Case]) -> list[tuple[str, list[Case]]]:
 
 
 def _counts(scored: Sequence[Scored]) -> str:
-    people = len({each.case.person for each in scored})
+    people = len({each.person for each in scored})
     return f"people {people}, pictures {len(scored) // len(Cues)}"
 
 
@@ -145,7 +160,10 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--set", choices=[series.value for series in Series], help="default: all")
     parser.add_argument(
-        "--case", action="append", choices=list(CASES), help="these alone (default: all)"
+        "--case",
+        action="append",
+        choices=[*CASES, *foreign_names()],
+        help="these alone (default: all)",
     )
     parser.add_argument("--jobs", type=int, default=1, help="fits made side by side")
     parser.add_argument(

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from fitter.request import Clothing
-from tests.evaluation.suite import Scored
+from tests.evaluation.scoring import Scored
 from tests.evaluation.table import INTERVALS, MEASUREMENTS
 
 LEVEL, DEVIATIONS = INTERVALS[1]
@@ -17,12 +17,12 @@ def clothing_lines(scored: Sequence[tuple[Clothing, Scored]]) -> list[str]:
     heading = f"{'case':40s}{'clothing':9s}"
     heading += "".join(f"{f'{name} {unit}':>13s}" for name, _, unit in MEASUREMENTS)
     lines = [f"{heading}{'vertex mm':>11s}{'joint mm':>10s}"]
-    by_case = sorted(scored, key=lambda pair: pair[1].case.name)
+    by_case = sorted(scored, key=lambda pair: pair[1].name)
     for clothing, each in by_case:
-        line = f"{each.case.name:40s}{clothing.value:9s}"
+        line = f"{each.name:40s}{clothing.value:9s}"
         for _, key, _ in MEASUREMENTS:
             line += f"{f'{each.errors[key]:+.1f} ({each.standard_errors[key]:.1f})':>13s}"
-        line += f"{each.vertex_mm:11.1f}{each.joint_mm:10.1f}"
+        line += f"{each.vertex_mm or np.nan:11.1f}{each.joint_mm:10.1f}"
         lines.append(f"{line}{'  failed' if each.failed else ''}")
     for clothing in Clothing:
         these = [each for said, each in scored if said is clothing]
@@ -30,7 +30,7 @@ def clothing_lines(scored: Sequence[tuple[Clothing, Scored]]) -> list[str]:
         for _, key, _ in MEASUREMENTS:
             away = np.abs([each.errors[key] for each in these])
             line += f"{f'{away.mean():.1f} ({np.median(away):.1f})':>13s}"
-        line += f"{np.mean([each.vertex_mm for each in these]):11.1f}"
+        line += f"{np.mean([each.vertex_mm or np.nan for each in these]):11.1f}"
         line += f"{np.mean([each.joint_mm for each in these]):10.1f}"
         held = [
             abs(each.errors[key]) <= DEVIATIONS * each.standard_errors[key]

@@ -6,17 +6,10 @@ from enum import StrEnum
 
 import numpy as np
 
-from fitter.fits.pipeline import fit
 from fitter.request import Cues, FitRequest, SegmentationKind
-from tests.evaluation.foreign import (
-    TRUE_NAMES,
-    foreign_joint_mm,
-    foreign_overlaps,
-    foreign_request,
-    read_foreign,
-)
-from tests.evaluation.scene import Case
-from tests.evaluation.suite import Fitted, fit_request, read_case, score, true_body_of
+from tests.evaluation.runs import picture_of
+from tests.evaluation.scoring import Scored, fit_picture, score
+from tests.evaluation.true_picture import Told
 
 DEVIATIONS_95 = 1.96
 
@@ -42,70 +35,22 @@ class Hints(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class DetectorFigures:
-    """Figures of one fit; errors are measured minus true."""
+class HintedFit:
+    """A fit with so much of the detector."""
 
-    picture: str
     hints: Hints
-    cues: Cues
-    errors: Mapping[str, float]
-    standard_errors: Mapping[str, float]
-    joint_mm: float
-    overlap: float
-    mask_overlap: float
+    scored: Scored
 
 
-def suite_figures(case: Case) -> list[DetectorFigures]:
-    """SE and SES of a case of the suite, with each kind of hints."""
-    files, truth = read_case(case), true_body_of(case)
-    figures: list[DetectorFigures] = []
-    for hints in Hints:
-        for cues in Cues:
-            result = fit(hinted(fit_request(files, cues), hints))
-            scored = score(
-                Fitted(case=case, cues=cues, files=files, result=result, truth=truth, seconds=0.0)
-            )
-            figures.append(
-                DetectorFigures(
-                    picture=case.name,
-                    hints=hints,
-                    cues=cues,
-                    errors={name: scored.errors[name] for name in UNITS},
-                    standard_errors=scored.standard_errors,
-                    joint_mm=scored.joint_mm,
-                    overlap=scored.overlap,
-                    mask_overlap=scored.mask_overlap,
-                )
-            )
-    return figures
-
-
-def foreign_figures(name: str) -> list[DetectorFigures]:
-    """SE and SES of a foreign picture, with each kind of hints."""
-    picture = read_foreign(name)
-    figures: list[DetectorFigures] = []
-    for hints in Hints:
-        for cues in Cues:
-            result = fit(hinted(foreign_request(picture, cues), hints))
-            found = {each.name: each for each in result.measurements}
-            body, mask = foreign_overlaps(picture, result)
-            figures.append(
-                DetectorFigures(
-                    picture=name,
-                    hints=hints,
-                    cues=cues,
-                    errors={
-                        each: found[each].value - picture.measurements[each] for each in TRUE_NAMES
-                    },
-                    standard_errors={
-                        each: found[each].standard_error or 0.0 for each in TRUE_NAMES
-                    },
-                    joint_mm=foreign_joint_mm(picture, result),
-                    overlap=body,
-                    mask_overlap=mask,
-                )
-            )
-    return figures
+def hinted_fits(name: str) -> list[HintedFit]:
+    """SE and SES of a picture, with each kind of hints."""
+    picture = picture_of(name)
+    return [
+        HintedFit(hints=hints, scored=score(fit_picture(asked, cues, Told())))
+        for hints in Hints
+        for asked in [replace(picture, request=hinted(picture.request, hints))]
+        for cues in Cues
+    ]
 
 
 def hinted(request: FitRequest, hints: Hints) -> FitRequest:
@@ -121,7 +66,7 @@ def hinted(request: FitRequest, hints: Hints) -> FitRequest:
     return request
 
 
-def detector_lines(figures: Sequence[DetectorFigures]) -> list[str]:
+def detector_lines(fits: Sequence[HintedFit]) -> list[str]:
     """Mean absolute errors, in brackets their mean; coverage; joints; masks, mean and worst."""
     heading = f"{'hints':10s}{'cues':5s}" + "".join(f"{unit:>16s}" for unit in UNITS.values())
     lines = [
@@ -129,13 +74,15 @@ def detector_lines(figures: Sequence[DetectorFigures]) -> list[str]:
     ]
     for hints in Hints:
         for cues in Cues:
-            these = [each for each in figures if each.hints is hints and each.cues is cues]
+            these = [
+                each.scored for each in fits if each.hints is hints and each.scored.cues is cues
+            ]
             if these:
                 lines.append(_line(hints, cues, these))
     return lines
 
 
-def _line(hints: Hints, cues: Cues, these: Sequence[DetectorFigures]) -> str:
+def _line(hints: Hints, cues: Cues, these: Sequence[Scored]) -> str:
     line = f"{hints.value:10s}{cues.value:5s}"
     within: list[bool] = []
     for name in UNITS:

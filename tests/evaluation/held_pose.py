@@ -1,17 +1,18 @@
-"""Fits whose pose is held at the truth: what is left is place, shape and light.
+"""Fits whose pose is held: what is left is place, shape and light.
 
-The fitter has no such option, and needs none: here its pose prior is narrowed about the true pose
+The fitter has no such option, and needs none: here its pose prior is narrowed about the pose
 to half a degree a joint, and the search begins there. Where the root joint lies, and with it how
 large the body appears, stays to be found.
 """
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 from unittest.mock import patch
 
 import numpy as np
+from jaxtyping import Float
 from scipy.spatial.transform import Rotation
 
 from fitter.arrays import Pose
@@ -29,6 +30,14 @@ HELD_WITHIN_RADIANS = np.radians(0.5)
 _BODY_TO_CAMERA_AXES = np.diag([1.0, -1.0, -1.0])
 
 
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class HeldBody:
+    """A pose to hold, and where the root joint is sought first: (3,) camera frame, metres."""
+
+    pose: Pose
+    place: Float[np.ndarray, "3"]
+
+
 def true_pose(staged: Staged) -> Pose:
     """(p, 3) the stance as the fitter writes it: the root turns the body before the camera."""
     pose = staged.pose.copy()
@@ -37,11 +46,16 @@ def true_pose(staged: Staged) -> Pose:
     return pose
 
 
-@contextmanager
-def held_at_true_pose(case: Case) -> Iterator[None]:
-    """Within it, :func:`fitter.fits.pipeline.fit` holds the pose of this case's person."""
+def held_body_of(case: Case) -> HeldBody:
+    """The true pose and place of a case's person."""
     staged = stage(load_person(PEOPLE[case.person]), case)
-    pose, place = true_pose(staged), staged.in_camera(root_joint(staged))
+    return HeldBody(pose=true_pose(staged), place=staged.in_camera(root_joint(staged)))
+
+
+@contextmanager
+def held_at(held: HeldBody) -> Iterator[None]:
+    """Within it, :func:`fitter.fits.pipeline.fit` holds this pose."""
+    pose, place = held.pose, held.place
     find_body, find_pose = pipeline.prepared_model, pipeline.initialize_pose
 
     def body(*arguments: Any, **options: Any) -> PreparedModel:

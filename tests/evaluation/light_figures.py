@@ -17,8 +17,10 @@ from fitter.render.shadow import cast_shadow, lamp_seen
 from fitter.request import Cues, SurroundingsKind
 from fitter.result import FitResult
 from tests.evaluation.scene import Case
-from tests.evaluation.suite import Scored, Told, fit_case, score
+from tests.evaluation.scoring import Scored, fit_picture, score
+from tests.evaluation.suite import case_picture
 from tests.evaluation.table import INTERVALS, MEASUREMENTS, held
+from tests.evaluation.true_picture import Told
 
 BARE_PARTS = ("forearm", "upper_arm", "shin")
 """What these parts' names hold: nobody in the suite wears anything there."""
@@ -56,9 +58,9 @@ class InLight:
 
 def in_both_lights(cases: Sequence[Case]) -> Iterator[InLight]:
     """Each picture with uniform ambient light and with spherical harmonics."""
-    for case in cases:
+    for picture in map(case_picture, cases):
         for kind in SurroundingsKind:
-            fitted = fit_case(case, Cues.SES, Told(surroundings=kind))
+            fitted = fit_picture(picture, Cues.SES, Told(surroundings=kind))
             yield InLight(
                 surroundings=kind, scored=score(fitted), figures=light_figures(fitted.result)
             )
@@ -122,7 +124,7 @@ def light_lines(found: Sequence[InLight]) -> list[str]:
         f"{name} [{unit}]": [abs(each.scored.errors[key]) for each in found]
         for name, key, unit in MEASUREMENTS
     }
-    rows["vertices [mm]"] = [each.scored.vertex_mm for each in found]
+    rows["vertices [mm]"] = [each.scored.vertex_mm or np.nan for each in found]
     rows["light [degrees]"] = [each.scored.light_degrees or 0.0 for each in found]
     for name in LightFigures.__slots__:
         rows[f"{name.replace('_', ' ')} [%]"] = [

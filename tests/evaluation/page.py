@@ -5,8 +5,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from fitter.request import Cues
+from tests.evaluation.scoring import Scored
 from tests.evaluation.sheets import FULL_SCALE_MM, PANELS, panel_name
-from tests.evaluation.suite import Scored
 from tests.evaluation.table import case_lines, summary_lines
 
 _HEAD = """<!doctype html>
@@ -31,7 +31,7 @@ _LEGEND = (
 
 def write_page(folder: Path, scored: Sequence[Scored]) -> Path:
     """``index.html`` beside the pictures of :func:`tests.evaluation.sheets.write_pictures`."""
-    names = list(dict.fromkeys(each.case.name for each in scored))
+    names = list(dict.fromkeys(each.name for each in scored))
     parts = [
         _HEAD,
         "<h1>Evaluation</h1>",
@@ -39,13 +39,12 @@ def write_page(folder: Path, scored: Sequence[Scored]) -> Path:
         _preformatted(summary_lines(scored)),
     ]
     for name in names:
-        fits = [
-            each for cues in Cues for each in scored if (each.case.name, each.cues) == (name, cues)
-        ]
+        fits = [each for cues in Cues for each in scored if (each.name, each.cues) == (name, cues)]
         figures = "".join(
             f'<figure><img src="{panel_name(name, number)}" alt="{title}" loading="lazy">'
             f"<figcaption>{title}</figcaption></figure>"
             for number, title in enumerate(PANELS)
+            if (folder / panel_name(name, number)).exists()
         )
         heading = f'<h2 id="{name}">{name} <small>({fits[0].half.value})</small></h2>'
         parts += [heading, f'<div class="row">{figures}</div>', _preformatted(case_lines(fits))]

@@ -8,9 +8,13 @@ from pathlib import Path
 from typing import TypeVar
 
 from fitter.request import Clothing, Cues
-from tests.evaluation.scene import Case
+from tests.evaluation.cases import CASES
+from tests.evaluation.foreign import foreign_picture
+from tests.evaluation.held_pose import held_body_of
+from tests.evaluation.scoring import Scored, fit_picture, score
 from tests.evaluation.sheets import write_pictures
-from tests.evaluation.suite import Scored, Told, fit_case, score
+from tests.evaluation.suite import case_picture
+from tests.evaluation.true_picture import Told, TruePicture
 
 Found = TypeVar("Found")
 Item = TypeVar("Item")
@@ -24,34 +28,42 @@ class Run:
     pictures: Path | None
 
 
-def score_all(cases: Sequence[Case], run: Run, *, jobs: int) -> Iterator[list[Scored]]:
+def picture_of(name: str) -> TruePicture:
+    """A picture of the suite's own, or a foreign one."""
+    return case_picture(CASES[name]) if name in CASES else foreign_picture(name)
+
+
+def score_all(names: Sequence[str], run: Run, *, jobs: int) -> Iterator[list[Scored]]:
     """SE and SES of each picture, in order; ``jobs`` processes, each with whole pictures."""
-    return of_each(partial(_score_both, run), cases, jobs)
+    return of_each(partial(_score_both, run), names, jobs)
 
 
-def score_dressed(cases: Sequence[Case], *, jobs: int) -> list[tuple[Clothing, Scored]]:
+def score_dressed(names: Sequence[str], *, jobs: int) -> list[tuple[Clothing, Scored]]:
     """Each picture by SES, its clothes said to be tight and loose."""
-    return [pair for pairs in of_each(_score_dressed, cases, jobs) for pair in pairs]
+    return [pair for pairs in of_each(_score_dressed, names, jobs) for pair in pairs]
 
 
-def of_each(task: Callable[[Item], Found], cases: Sequence[Item], jobs: int) -> Iterator[Found]:
+def of_each(task: Callable[[Item], Found], items: Sequence[Item], jobs: int) -> Iterator[Found]:
     """What comes of each, in order; ``jobs`` processes."""
     if jobs == 1:
-        yield from map(task, cases)
+        yield from map(task, items)
         return
     with multiprocessing.get_context("spawn").Pool(jobs) as pool:
-        yield from pool.imap(task, cases)
+        yield from pool.imap(task, items)
 
 
-def _score_both(run: Run, case: Case) -> list[Scored]:
-    fits = [fit_case(case, cues, run.told) for cues in Cues]
+def _score_both(run: Run, name: str) -> list[Scored]:
+    picture = picture_of(name)
+    held = held_body_of(CASES[name]) if run.told.pose else None
+    fits = [fit_picture(picture, cues, run.told, held=held) for cues in Cues]
     if run.pictures is not None:
         write_pictures(run.pictures, fits)
     return [score(fitted) for fitted in fits]
 
 
-def _score_dressed(case: Case) -> list[tuple[Clothing, Scored]]:
+def _score_dressed(name: str) -> list[tuple[Clothing, Scored]]:
+    picture = picture_of(name)
     return [
-        (clothing, score(fit_case(case, Cues.SES, Told(clothing=clothing))))
+        (clothing, score(fit_picture(picture, Cues.SES, Told(clothing=clothing))))
         for clothing in Clothing
     ]

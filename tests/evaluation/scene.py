@@ -26,6 +26,7 @@ class Series(StrEnum):
     LIGHTS = "lights"
     SAMPLE = "sample"
     CLOTHED = "clothed"
+    FOREIGN = "foreign"
 
 
 class FocalLength(StrEnum):

@@ -4,8 +4,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
-import numpy as np
-
 from fitter.arrays import Vertices
 from fitter.body.skeleton import regress
 from fitter.fits.joint_fit import JointFit, joint_fit
@@ -14,10 +12,13 @@ from fitter.measurement.anthropometry import measure
 from fitter.measurement.quantity import Measurement
 from fitter.person.fitted_person import FittedPerson
 from fitter.request import Cues, FitRequest
+from tests.evaluation.joint_figures import joint_error_mm
 from tests.evaluation.landmark_points import packaged_model
 from tests.evaluation.limbs_in_depth import wrong_limbs
 from tests.evaluation.scene import Case
-from tests.evaluation.suite import Told, fit_case, fit_request, joint_error_mm
+from tests.evaluation.scoring import fit_picture
+from tests.evaluation.suite import case_picture
+from tests.evaluation.true_picture import Told
 from tests.evaluation.truth import TrueBody
 
 
@@ -84,18 +85,17 @@ def several_pictures(cases: Sequence[Case], names: Sequence[str]) -> Iterator[Se
 
 
 def _fitted(case: Case) -> _Fitted:
-    fitted = fit_case(case, Cues.SES, Told())
-    result = fitted.result
+    picture = case_picture(case)
+    result = fit_picture(picture, Cues.SES, Told()).result
     person = result.person
-    true_joints = np.array(fitted.files.scene["joints_m"])
     return _Fitted(
         person=person,
-        request=fit_request(fitted.files, Cues.SES),
+        request=picture.request,
         measurements=result.measurements,
         given=result.given,
-        truth=fitted.truth,
-        true_joints=true_joints,
-        posed=_posed(result.found.posed_vertices, true_joints, person),
+        truth=picture.truth,
+        true_joints=picture.joints,
+        posed=_posed(result.found.posed_vertices, picture.joints, person),
     )
 
 

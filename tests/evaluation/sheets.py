@@ -7,13 +7,13 @@ import cv2
 import numpy as np
 from jaxtyping import Integer
 
-from fitter.arrays import GreyImage, Vertices
+from fitter.arrays import GreyImage, Triangles, Vertices
 from fitter.fits.prepared_model import prepared_model
 from fitter.render.camera import Camera
 from fitter.render.interpolation import shade_image
 from fitter.render.rasterizer import render
 from tests.evaluation.landmark_points import packaged_model
-from tests.evaluation.suite import Fitted, resampled, working_scale
+from tests.evaluation.scoring import Fitted, resampled, working_scale
 
 HEIGHT = 420
 FULL_SCALE_MM = 50.0
@@ -34,14 +34,15 @@ PANELS = (
     "errors of SE",
     "errors of SES",
 )
-"""Of each case in this order, as files ``<case>_<number>.jpg``."""
+"""Of each case in this order, as files ``<case>_<number>.jpg``; a body of another mesh than the
+model's has no errors of vertices."""
 
 
 def write_pictures(folder: Path, fits: Sequence[Fitted]) -> None:
     """The panels of a case from its SE and SES fits, in this order."""
     folder.mkdir(parents=True, exist_ok=True)
     for number, panel in enumerate(_panels(*fits)):
-        path = folder / panel_name(fits[0].case.name, number)
+        path = folder / panel_name(fits[0].picture.name, number)
         cv2.imwrite(str(path), panel[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, 88])
 
 
@@ -56,12 +57,15 @@ def _panels(se: Fitted, ses: Fitted) -> Iterator[Picture]:
     yield _outlines(se, evaluator.vertices(se.result.stages[0].body))
     for fitted in (se, ses):
         yield _outlines(fitted, fitted.result.found.posed_vertices)
-    true = _in_camera_axes(se.truth.canonical)
+    truth, triangles = se.picture.truth, packaged_model(se.result.person.gender).triangles
+    true = _in_camera_axes(truth.canonical)
     found = [_in_camera_axes(fitted.result.canonical_vertices) for fitted in (se, ses)]
-    for body in (true, *found):
-        yield np.hstack([_grey(se, body, angle) for angle in (FRONT, SIDE)])
+    yield _front_and_side(true, truth.triangles)
     for body in found:
-        yield np.hstack([_errors(se, true, body, angle) for angle in (FRONT, SIDE)])
+        yield _front_and_side(body, triangles)
+    if len(true) == len(found[0]):
+        for body in found:
+            yield np.hstack([_errors(true, body, triangles, angle) for angle in (FRONT, SIDE)])
 
 
 def _in_camera_axes(body: Vertices) -> Vertices:
@@ -77,7 +81,7 @@ def _outlines(fitted: Fitted, vertices: Vertices) -> Picture:
     result = fitted.result
     camera = result.camera
     true = resampled(
-        fitted.files.body_mask, 1.0 / working_scale(result), (camera.height, camera.width)
+        fitted.picture.body_mask, 1.0 / working_scale(result), (camera.height, camera.width)
     )
     found = render(vertices, packaged_model(result.person.gender).triangles, camera).silhouette
     drawn = _image(fitted)
@@ -92,22 +96,22 @@ def _at_height(picture: Picture) -> Picture:
     return cv2.resize(picture, (width, HEIGHT), interpolation=cv2.INTER_AREA)
 
 
-def _grey(fitted: Fitted, vertices: Vertices, angle: float) -> Picture:
-    drawn = _drawn(fitted, vertices, angle, None)
+def _front_and_side(vertices: Vertices, triangles: Triangles) -> Picture:
+    drawn = np.hstack([_drawn(vertices, triangles, angle, None) for angle in (FRONT, SIDE)])
     return np.repeat((255.0 * drawn).astype(np.uint8)[..., None], 3, axis=2)
 
 
-def _errors(fitted: Fitted, true: Vertices, found: Vertices, angle: float) -> Picture:
+def _errors(true: Vertices, found: Vertices, triangles: Triangles, angle: float) -> Picture:
     """Distances of vertices, black 0 to white at full scale, on the true body."""
     away = (found - found.mean(axis=0)) - (true - true.mean(axis=0))
     values = np.clip(1000.0 * np.linalg.norm(away, axis=1) / FULL_SCALE_MM, 0.0, 1.0)
-    drawn = _drawn(fitted, true, angle, 0.98 * values)
+    drawn = _drawn(true, triangles, angle, 0.98 * values)
     heat = cv2.applyColorMap((255.0 * drawn).astype(np.uint8), cv2.COLORMAP_INFERNO)[..., ::-1]
     return np.where((drawn == 1.0)[..., None], np.uint8(255), heat)
 
 
 def _drawn(
-    fitted: Fitted, vertices: Vertices, angle: float, values: np.ndarray | None
+    vertices: Vertices, triangles: Triangles, angle: float, values: np.ndarray | None
 ) -> GreyImage:
     """A body turned about the vertical, shaded or with values on it, on white."""
     turn = np.radians(angle)
@@ -123,7 +127,7 @@ def _drawn(
         width=width,
         height=HEIGHT,
     )
-    seen = render(turned, packaged_model(fitted.result.person.gender).triangles, camera)
+    seen = render(turned, triangles, camera)
     if values is None:
         toward_light = np.array([0.4, -0.5, -0.77])
         values = 0.15 + 0.8 * np.clip(seen.vertex_normals @ toward_light, 0.0, 1.0)

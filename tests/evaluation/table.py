@@ -1,23 +1,25 @@
-"""The suite's figures as text."""
+"""The suite's figures as text: signed errors of each fit, and their summary."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from fitter.request import Cues
-from tests.evaluation.several import SeveralPictures
-from tests.evaluation.shape_limit import ShapeLimit
-from tests.evaluation.suite import Scored
+from tests.evaluation.scoring import Scored
 
 MEASUREMENTS = (
     ("chest", "chest_girth", "cm"),
-    ("waist", "waist_girth_navel", "cm"),
+    ("waist", "waist_girth_smallest", "cm"),
     ("hip", "hip_girth", "cm"),
     ("weight", "weight", "kg"),
+    ("navel", "waist_girth_navel", "cm"),
 )
+"""The level-free waist is the smallest; the navel's level is a matter of definition."""
 
 INTERVALS = ((68, 1.0), (95, 1.96))
 """Per cent of a normal distribution within so many standard errors."""
+
+Figure = Callable[[Scored], float | None]
 
 
 def case_lines(scored: Sequence[Scored]) -> list[str]:
@@ -32,37 +34,50 @@ def case_lines(scored: Sequence[Scored]) -> list[str]:
 
 
 def summary_lines(scored: Sequence[Scored]) -> list[str]:
-    """Mean absolute, median and 95th percentile of the errors, SE and SES side by side."""
-    figures: list[tuple[str, Callable[[Scored], float | None]]] = [
-        (f"{name} [{unit}]", lambda each, key=key: abs(each.errors[key]))
-        for name, key, unit in MEASUREMENTS
-    ]
-    figures += [
-        ("vertices [mm]", lambda each: each.vertex_mm),
-        ("joints [mm]", lambda each: each.joint_mm),
-        ("1 - overlap [%]", lambda each: 100.0 * (1.0 - each.overlap)),
-        ("light [degrees]", lambda each: each.light_degrees),
-        ("seconds", lambda each: each.seconds),
-    ]
+    """Of each kind of fit: mean absolute, bias, median and 95th percentile of absolute errors, and
+    the median width of the 95 % interval; then shares."""
     lines = [
-        f"{'':18s}" + "".join(f"{f'{cues} mean':>11s}{'median':>8s}{'p95':>8s}" for cues in Cues)
+        f"{'':18s}"
+        + "".join(
+            f"{f'{cues} mean':>11s}{'bias':>8s}{'median':>8s}{'p95':>8s}{'width':>8s}"
+            for cues in Cues
+        )
     ]
-    for name, figure in figures:
-        line = f"{name:18s}"
-        for cues in Cues:
-            values = [figure(each) for each in scored if each.cues is cues]
-            known = [value for value in values if value is not None]
-            line += (
-                f"{np.mean(known):11.2f}{np.median(known):8.2f}{np.percentile(known, 95):8.2f}"
-                if known
-                else f"{'-':>11s}{'-':>8s}{'-':>8s}"
+    for name, key, unit in MEASUREMENTS:
+        lines.append(
+            _figure_line(
+                f"{name} [{unit}]",
+                scored,
+                lambda each, key=key: each.errors[key],
+                width=lambda each, key=key: _width(each, key),
             )
-        lines.append(line)
+        )
+    for name, figure in _unsigned_figures():
+        lines.append(_figure_line(name, scored, figure))
     lines += [
-        f"{name:18s}" + "".join(f"{_share(values[cues]):>11s}{'':16s}" for cues in Cues).rstrip()
+        f"{name:18s}" + "".join(f"{_share(values[cues]):>11s}{'':32s}" for cues in Cues).rstrip()
         for name, values in _shares(scored)
     ]
-    lines.append(f"{'SES waist better':18s}{'':27s}{_share(_waist_better(scored)):>11s}")
+    return [*lines, *_outcome_lines(scored), *cue_lines(scored)]
+
+
+def cue_lines(scored: Sequence[Scored]) -> list[str]:
+    """Pictures whose error is smaller by SES than by SE, and how mean absolute errors differ."""
+    fits = {(each.name, each.cues): each for each in scored}
+    pairs = [
+        (se, fits[name, Cues.SES])
+        for (name, cues), se in fits.items()
+        if cues is Cues.SE and (name, Cues.SES) in fits
+    ]
+    if not pairs:
+        return []
+    lines = [f"{'SES against SE':18s}{'nearer':>11s}{'SES - SE':>10s}"]
+    for name, key, unit in MEASUREMENTS:
+        se, ses = np.abs([[each.errors[key] for each in pair] for pair in pairs]).T
+        change = float(np.mean(ses - se))
+        worse = "  worse" if change > 0.0 else ""
+        share = _share(list(ses < se))
+        lines.append(f"{f'  {name} [{unit}]':18s}{share:>11s}{change:+10.2f}{worse}")
     return lines
 
 
@@ -75,6 +90,53 @@ def worst_lines(scored: Sequence[Scored], count: int = 5) -> list[str]:
 
     shaded = sorted((each for each in scored if each.cues is Cues.SES), key=distance)
     return ["worst", *(_case_line(each) for each in shaded[::-1][:count])] if shaded else []
+
+
+def held(scored: Scored, keys: Sequence[str], deviations: float) -> list[bool]:
+    """Whether intervals of so many standard errors hold the true measurements."""
+    return [
+        abs(scored.errors[key]) <= deviations * scored.standard_errors[key]
+        for key in keys
+        if key in scored.standard_errors
+    ]
+
+
+def _unsigned_figures() -> list[tuple[str, Figure]]:
+    return [
+        ("vertices [mm]", lambda each: each.vertex_mm),
+        ("joints [mm]", lambda each: each.joint_mm),
+        ("1 - overlap [%]", lambda each: 100.0 * (1.0 - each.overlap)),
+        ("light [degrees]", lambda each: each.light_degrees),
+        ("seconds", lambda each: each.seconds),
+    ]
+
+
+def _figure_line(
+    name: str, scored: Sequence[Scored], figure: Figure, *, width: Figure | None = None
+) -> str:
+    """A signed figure has a bias and a width, an unsigned one has neither."""
+    line = f"{name:18s}"
+    for cues in Cues:
+        fits = [each for each in scored if each.cues is cues]
+        values = np.array([value for each in fits if (value := figure(each)) is not None])
+        if not len(values):
+            line += f"{'-':>11s}" + 4 * f"{'-':>8s}"
+            continue
+        away, bias, median_width = np.abs(values), "-", "-"
+        if width is not None:
+            widths = [value for each in fits if (value := width(each)) is not None]
+            bias = f"{values.mean():+.2f}"
+            median_width = f"{np.median(widths):.2f}" if widths else "-"
+        line += f"{away.mean():11.2f}{bias:>8s}{np.median(away):8.2f}"
+        line += f"{np.percentile(away, 95):8.2f}{median_width:>8s}"
+    return line
+
+
+def _width(scored: Scored, key: str) -> float | None:
+    """Of the 95 % interval, from end to end."""
+    if key not in scored.standard_errors:
+        return None
+    return 2.0 * INTERVALS[-1][1] * scored.standard_errors[key]
 
 
 def _shares(scored: Sequence[Scored]) -> list[tuple[str, dict[Cues, list[bool]]]]:
@@ -100,22 +162,16 @@ def _shares(scored: Sequence[Scored]) -> list[tuple[str, dict[Cues, list[bool]]]
     return rows
 
 
-def held(scored: Scored, keys: Sequence[str], deviations: float) -> list[bool]:
-    """Whether intervals of so many standard errors hold the true measurements."""
+def _outcome_lines(scored: Sequence[Scored]) -> list[str]:
+    """How fits say they ended, one line an outcome."""
     return [
-        abs(scored.errors[key]) <= deviations * scored.standard_errors[key]
-        for key in keys
-        if key in scored.standard_errors
-    ]
-
-
-def _waist_better(scored: Sequence[Scored]) -> list[bool]:
-    """For each picture fitted with both: whether the waist of SES is nearer to the truth."""
-    waist = {(each.case.name, each.cues): abs(each.errors["waist_girth_navel"]) for each in scored}
-    return [
-        waist[name, Cues.SES] < error
-        for (name, cues), error in waist.items()
-        if cues is Cues.SE and (name, Cues.SES) in waist
+        f"{f'  {outcome}':18s}"
+        + "".join(
+            f"{_share([each.outcome == outcome for each in scored if each.cues is cues]):>11s}"
+            f"{'':32s}"
+            for cues in Cues
+        ).rstrip()
+        for outcome in sorted({each.outcome for each in scored})
     ]
 
 
@@ -123,61 +179,12 @@ def _share(yes: Sequence[bool]) -> str:
     return f"{sum(yes)}/{len(yes)} {np.mean(yes):4.0%}" if yes else "-"
 
 
-def limit_lines(limits: Mapping[str, ShapeLimit]) -> list[str]:
-    """What the shape space leaves of each person, by name."""
-    columns = "".join(f"{f'{name} {unit}':>10s}" for name, _, unit in MEASUREMENTS)
-    lines = [f"{'person':28s}{columns}{'rest mm':>9s}{'|shape|':>9s}"]
-    for name, limit in limits.items():
-        errors = "".join(f"{limit.errors[key]:+10.1f}" for _, key, _ in MEASUREMENTS)
-        lines.append(f"{name:28s}{errors}{limit.rest_mm:9.1f}{limit.length:9.1f}")
-    return lines
-
-
-def outline_lines(limits: Mapping[str, Mapping[str, Mapping[str, float]]]) -> list[str]:
-    """What exactly known outlines leave of each gender's measurements, mean absolute errors."""
-    columns = "".join(f"{f'{name} {unit}':>11s}" for name, _, unit in MEASUREMENTS)
-    lines = [f"{'outline from':28s}{columns}"]
-    for gender, views in limits.items():
-        for view, errors in views.items():
-            values = "".join(f"{errors[key]:11.2f}" for _, key, _ in MEASUREMENTS)
-            lines.append(f"{f'{view}, {gender}':28s}{values}")
-    return lines
-
-
 def _case_line(scored: Scored) -> str:
-    line = f"{scored.case.name:36s}{scored.cues.value:5s}"
+    line = f"{scored.name:36s}{scored.cues.value:5s}"
     line += "".join(f"{scored.errors[key]:+10.1f}" for _, key, _ in MEASUREMENTS)
-    line += f"{scored.vertex_mm:11.1f}{scored.joint_mm:10.1f}"
+    vertex = "-" if scored.vertex_mm is None else f"{scored.vertex_mm:.1f}"
+    line += f"{vertex:>11s}{scored.joint_mm:10.1f}"
     line += f"{scored.overlap:9.3f}{scored.mask_overlap:7.3f}"
     light = "-" if scored.light_degrees is None else f"{scored.light_degrees:.1f}"
     failed = " failed " + " ".join(scored.wrong_limbs) if scored.failed else ""
     return f"{line}{light:>8s}{scored.seconds:6.1f}{failed}".rstrip()
-
-
-def several_lines(found: Sequence[SeveralPictures]) -> list[str]:
-    """Mean (median) errors, mean standard errors and coverage by the number of pictures.
-
-    The poses are those in the pictures, by their own fits and with the shape in common; limbs are
-    wrong in so many of them.
-    """
-    heading = f"{'pictures':10s}{'choices':>8s}" + "".join(
-        f"{f'{name} {unit}':>16s}{'s.e.':>6s}" for name, _, unit in MEASUREMENTS
-    )
-    lines = [f"{heading}{'95 % hold':>11s}{'joints mm':>14s}{'limbs wrong':>16s}"]
-    for count in sorted({each.pictures for each in found}):
-        these = [each for each in found if each.pictures == count]
-        line = f"{count:<10d}{len(these):8d}"
-        within: list[bool] = []
-        for _, key, _ in MEASUREMENTS:
-            away = np.abs([each.errors[key] for each in these])
-            certain = np.array([each.standard_errors[key] for each in these])
-            line += f"{f'{away.mean():.2f} ({np.median(away):.2f})':>16s}{certain.mean():6.2f}"
-            within += list(away <= INTERVALS[1][1] * certain)
-        line += f"{100.0 * np.mean(within):10.0f}%"
-        before = [pose for each in these for pose in each.before]
-        after = [pose for each in these for pose in each.after]
-        joints = [np.mean([pose.joint_mm for pose in poses]) for poses in (before, after)]
-        wrong = [sum(pose.wrong_limbs > 0 for pose in poses) for poses in (before, after)]
-        line += f"{f'{joints[0]:.1f} > {joints[1]:.1f}':>14s}"
-        lines.append(line + f"{f'{wrong[0]} > {wrong[1]} of {len(after)}':>16s}")
-    return lines

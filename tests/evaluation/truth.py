@@ -1,16 +1,18 @@
 """The truth of a case: the body measured as the fitter measures, light, camera and joints."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
 
-from fitter.arrays import Vertices
+from fitter.arrays import Triangles, Vertices
 from fitter.body.skeleton import regress
 from fitter.fits.prepared_model import prepared_model
 from fitter.measurement.affine_body import AffineBody
-from fitter.measurement.anthropometry import measure
+from fitter.measurement.anthropometry import CENTIMETRES_PER_METRE, measure
 from fitter.parameters import Light, LightKind
+from fitter.request import STATURE
 from tests.evaluation.landmark_points import packaged_model
 from tests.evaluation.people import Person, posed_body
 from tests.evaluation.scene import DISTANT_M
@@ -19,13 +21,21 @@ from tests.evaluation.staging import Staged, lamp_place, root_joint
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class TrueBody:
-    """A person in the canonical pose, and what a tape finds on them.
+    """A person at rest with the arms off the trunk, and what a tape finds on them.
 
-    ``canonical`` (m, 3) body frame, metres; ``measurements`` by name, centimetres and kilograms.
+    ``canonical`` (m, 3) with its ``triangles``, body frame, metres; ``measurements`` by name,
+    centimetres and kilograms; ``stature_m`` standing.
     """
 
     canonical: Vertices
-    measurements: dict[str, float]
+    triangles: Triangles
+    measurements: Mapping[str, float]
+    stature_m: float
+
+    @property
+    def bmi(self) -> float:
+        """Weight over squared stature, kilograms per square metre."""
+        return self.measurements["weight"] / self.stature_m**2
 
 
 def true_body(person: Person) -> TrueBody:
@@ -43,7 +53,13 @@ def true_body(person: Person) -> TrueBody:
         standing_points=_fixed(_points(person, standing)),
     )
     found = measure(fixed, np.zeros(0))
-    return TrueBody(canonical=canonical, measurements={each.name: each.value for each in found})
+    measurements = {each.name: each.value for each in found}
+    return TrueBody(
+        canonical=canonical,
+        triangles=model.triangles,
+        measurements=measurements,
+        stature_m=measurements[STATURE] / CENTIMETRES_PER_METRE,
+    )
 
 
 def true_joints(staged: Staged) -> Float[np.ndarray, "p 3"]:
@@ -56,10 +72,16 @@ def true_light(staged: Staged) -> Light:
     """The lamp in the fitter's terms: spherical coordinates about the root joint."""
     lamp = staged.case.lighting.lamp
     toward = staged.to_camera @ (lamp_place(staged, lamp) - root_joint(staged))
+    distant = lamp.distance_m >= DISTANT_M
+    return light_toward(toward, LightKind.DIRECTIONAL if distant else LightKind.POINT)
+
+
+def light_toward(toward: Float[np.ndarray, "3"], kind: LightKind) -> Light:
+    """The light that lies so far from the root joint, camera frame, metres."""
     distance = float(np.linalg.norm(toward))
     x, y, z = toward / distance
     return Light(
-        kind=LightKind.DIRECTIONAL if lamp.distance_m >= DISTANT_M else LightKind.POINT,
+        kind=kind,
         azimuth=float(np.arctan2(x, -z)),
         elevation=float(np.arcsin(-y)),
         distance=distance,

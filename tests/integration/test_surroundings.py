@@ -17,7 +17,7 @@ from service.worker import translate
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import light_from_document, read_case
 from tests.evaluation.light_figures import light_figures
-from tests.evaluation.suite import light_error
+from tests.evaluation.scoring import light_error
 from tests.unit.export.glb_reader import read_glb
 
 FILES = read_case(CASES["light_two_lamps"])

@@ -3,21 +3,33 @@ from dataclasses import replace
 import numpy as np
 
 from fitter.request import Cues, SurroundingsKind
+from tests.evaluation.body_tables import bmi_class, bmi_lines, distance_lines, trunk_lines
 from tests.evaluation.cases import CASES, DEMO
+from tests.evaluation.joint_figures import PAIRS
 from tests.evaluation.light_figures import InLight, LightFigures, light_lines
 from tests.evaluation.scene import Case, Half
-from tests.evaluation.suite import Scored, resampled
-from tests.evaluation.table import MEASUREMENTS, case_lines, summary_lines, worst_lines
+from tests.evaluation.scoring import Scored, resampled
+from tests.evaluation.table import MEASUREMENTS, case_lines, cue_lines, summary_lines, worst_lines
+from tests.evaluation.trunk_sections import LEVELS, TrunkSections
 
 
 def _scored(
-    cues: Cues, error: float, *, case: Case = DEMO, wrong_limbs: tuple[str, ...] = ()
+    cues: Cues,
+    error: float,
+    *,
+    case: Case = DEMO,
+    bmi: float = 22.0,
+    wrong_limbs: tuple[str, ...] = (),
 ) -> Scored:
+    """Every figure errs alike; distances and depths in centimetres, breadths not at all."""
     return Scored(
-        case=case,
+        name=case.name,
+        person=case.person,
+        series=case.series,
         half=Half.TUNING,
         cues=cues,
         outcome="converged",
+        bmi=bmi,
         errors={key: error for _, key, _ in MEASUREMENTS},
         standard_errors={key: 2.0 for _, key, _ in MEASUREMENTS},
         vertex_mm=10.0,
@@ -26,16 +38,21 @@ def _scored(
         mask_overlap=0.97,
         light_degrees=None if cues is Cues.SE else 12.0,
         wrong_limbs=wrong_limbs,
+        distances_m=dict.fromkeys(PAIRS, error / 100.0),
+        trunk=TrunkSections(
+            breadth_m=np.zeros(len(LEVELS)), depth_m=np.full(len(LEVELS), error / 100.0)
+        ),
         seconds=1.0,
     )
 
 
-def test_the_summary_averages_absolute_errors_of_each_kind_of_fit():
+def test_the_summary_has_absolute_errors_and_their_bias_of_each_kind_of_fit():
     scored = [_scored(Cues.SE, error) for error in (-3.0, 1.0, 5.0)]
     scored += [_scored(Cues.SES, error) for error in (-1.0, 1.0, 4.0)]
     chest = next(line for line in summary_lines(scored) if line.startswith("chest"))
-    mean_se, median_se, _, mean_ses, median_ses, _ = map(float, chest.split()[2:])
-    assert (mean_se, median_se, mean_ses, median_ses) == (3.0, 3.0, 2.0, 1.0)
+    mean_se, bias_se, median_se, _, width_se, *ses = map(float, chest.split()[2:])
+    assert (mean_se, bias_se, median_se, width_se) == (3.0, 1.0, 3.0, 7.84)
+    assert ses[:3] == [2.0, 1.33, 1.0]
 
 
 def test_the_lines_of_cases_keep_the_errors_signs():
@@ -50,8 +67,8 @@ def _line(scored: list[Scored], start: str) -> str:
 
 def test_intervals_hold_the_truth_within_their_standard_errors():
     scored = [_scored(Cues.SE, error) for error in (-1.0, 1.9, 3.0, 5.0)]
-    assert "8/16  50%" in _line(scored, "truth in 68 %")
-    assert "12/16  75%" in _line(scored, "truth in 95 %")
+    assert "10/20  50%" in _line(scored, "truth in 68 %")
+    assert "15/20  75%" in _line(scored, "truth in 95 %")
     assert "2/4  50%" in _line(scored, "  waist in 68 %")
 
 
@@ -81,7 +98,7 @@ def test_both_descriptions_of_the_light_stand_side_by_side():
     assert lines["waist [cm]"] == ["4.00", "4.00", "1.00", "1.00"]
     assert lines["unexplained [%]"] == ["25.00", "25.00", "10.00", "10.00"]
     assert lines["unexplained in shadow [%]"] == ["50.00", "50.00", "7.00", "7.00"]
-    assert lines["truth in 95 %"] == ["4/8", "4/4"]
+    assert lines["truth in 95 %"] == ["5/10", "5/5"]
 
 
 def test_a_fit_fails_by_a_limb_that_faces_the_wrong_way():
@@ -91,11 +108,38 @@ def test_a_fit_fails_by_a_limb_that_faces_the_wrong_way():
     assert case_lines(scored)[2].endswith("left_forearm")
 
 
-def test_the_waist_of_ses_is_compared_with_that_of_se_on_the_same_picture():
+def test_ses_is_compared_with_se_on_the_same_picture():
     other = next(case for case in CASES.values() if case is not DEMO)
     scored = [_scored(Cues.SE, 3.0), _scored(Cues.SES, -1.0)]
-    scored += [_scored(Cues.SE, -2.0, case=other), _scored(Cues.SES, 2.5, case=other)]
-    assert "1/2  50%" in _line(scored, "SES waist better")
+    scored += [_scored(Cues.SE, -2.0, case=other), _scored(Cues.SES, 6.0, case=other)]
+    _, *lines = cue_lines(scored)
+    assert len(lines) == len(MEASUREMENTS)
+    assert all(line.split()[2:] == ["1/2", "50%", "+1.00", "worse"] for line in lines)
+    assert "worse" not in "".join(cue_lines(scored[:2]))
+
+
+def test_people_are_told_apart_by_body_mass_index():
+    assert [bmi_class(bmi) for bmi in (17.9, 18.5, 24.9, 25.0, 34.0, 35.0, 48.0)] == [
+        "< 18.5", "18.5-25", "18.5-25", "25-30", "30-35", ">= 35", ">= 35",
+    ]  # fmt: skip
+
+
+def test_errors_are_summed_up_by_class_of_body_mass_index():
+    scored = [_scored(Cues.SES, 1.0), _scored(Cues.SES, -3.0), _scored(Cues.SES, 5.0, bmi=40.0)]
+    _, slim, heavy = bmi_lines(scored)
+    assert slim.split()[:5] == ["18.5-25", "SES", "2", "2.00", "(-1.00)"]
+    assert heavy.split()[:6] == [">=", "35", "SES", "1", "5.00", "(+5.00)"]
+
+
+def test_bias_stands_beside_the_absolute_error_of_trunk_and_distance():
+    scored = [_scored(Cues.SES, -3.0), _scored(Cues.SES, 1.0)]
+    trunk = {line[:26].strip(): line[26:].split() for line in trunk_lines(scored)[1:]}
+    assert trunk["SES depth bias"] == ["-1.00"] * len(LEVELS)
+    assert trunk["SES depth mean absolute"] == ["2.00"] * len(LEVELS)
+    assert trunk["SES breadth mean absolute"] == ["0.00"] * len(LEVELS)
+    distance = {line[:26].strip(): line[26:].split() for line in distance_lines(scored)}
+    assert distance["SES bias"] == ["-1.00"] * len(PAIRS)
+    assert distance["SES standard deviation"] == ["2.00"] * len(PAIRS)
 
 
 def test_one_kind_of_fit_alone_can_be_summed_up():

@@ -1,0 +1,58 @@
+"""Errors of joints in the camera frame: among themselves, and in their distance from the camera."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from jaxtyping import Float
+
+from fitter.training.articulation.part_tree import part_index
+
+MOVED_PARTS: Mapping[str, str] = {
+    "shoulder": "upper_arm", "elbow": "forearm", "wrist": "hand", "hip": "thigh", "knee": "shin",
+    "ankle": "foot",
+}  # fmt: skip
+"""The part that turns about each joint."""
+
+PAIRS: Mapping[str, str] = {
+    "hips": "hip", "shoulders": "shoulder", "knees": "knee", "ankles": "ankle",
+}  # fmt: skip
+"""Left and right joints whose mean distance from the camera is compared."""
+
+Joints = Float[np.ndarray, "p 3"]
+"""Camera frame, metres; NaN where the truth has none."""
+
+_ROOT = 0
+_MILLIMETRES = 1000.0
+
+
+def part_of_joint(joint: str) -> int:
+    """The part that turns about a joint of a side, ``left_knee``."""
+    side, name = joint.split("_")
+    return part_index(f"{side}_{MOVED_PARTS[name]}")
+
+
+def joint_error_mm(found: Joints, true: Joints) -> float:
+    """Mean distance of the joints that the truth has.
+
+    Both root joints are put together; where the truth has none, both hips' middles.
+    """
+    middle = _hips_middle if np.isnan(true[_ROOT]).any() else _root
+    difference = (found - middle(found)) - (true - middle(true))
+    return _MILLIMETRES * float(np.nanmean(np.linalg.norm(difference, axis=1)))
+
+
+def distance_errors_m(found: Joints, true: Joints) -> dict[str, float]:
+    """Found minus true distance from the camera of each pair's middle, metres."""
+    return {
+        pair: float(np.mean(found[sides, 2] - true[sides, 2]))
+        for pair, joint in PAIRS.items()
+        for sides in [[part_of_joint(f"{side}_{joint}") for side in ("left", "right")]]
+    }
+
+
+def _root(joints: Joints) -> Float[np.ndarray, "3"]:
+    return joints[_ROOT]
+
+
+def _hips_middle(joints: Joints) -> Float[np.ndarray, "3"]:
+    return joints[[part_of_joint("left_hip"), part_of_joint("right_hip")]].mean(axis=0)

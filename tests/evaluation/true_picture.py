@@ -1,0 +1,98 @@
+"""A picture whose person, camera and light are known, whoever made it, and what a fit is told."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+
+from fitter.arrays import Mask
+from fitter.parameters import Light
+from fitter.request import (
+    Clothing,
+    FitRequest,
+    KnownMeasurement,
+    LightGuess,
+    OutlineKind,
+    SurroundingsKind,
+)
+from tests.evaluation.files import encoded_mask
+from tests.evaluation.scene import Half, Series
+from tests.evaluation.truth import TrueBody
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Told:
+    """What a fit is told beyond its request: what the errors would be without that difficulty.
+
+    ``mask`` the person as seen, in place of segmentation; ``light`` where the search for the light
+    begins; ``focal_length`` in pixels, where the picture does not give it; ``pose`` is held;
+    ``measurements`` are named and given as the caller of the service may give them; ``outline`` is
+    what the contour is to meet, in place of the default; ``clothing`` how clothes are said to lie.
+    """
+
+    mask: bool = False
+    light: bool = False
+    focal_length: bool = False
+    pose: bool = False
+    measurements: tuple[str, ...] = ()
+    outline: OutlineKind | None = None
+    surroundings: SurroundingsKind = SurroundingsKind.UNIFORM
+    clothing: Clothing = Clothing.TIGHT
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class TruePicture:
+    """One picture and its truth.
+
+    Attributes
+    ----------
+    request
+        What the service would be asked.
+    body_mask, person_mask
+        The body alone, and with hair and clothes.
+    focal_length_px
+        Of the picture as it was sent.
+    light
+        None where the truth does not tell it.
+    joints
+        (p, 3) of the body model's parts, camera frame, metres; NaN where the truth has none.
+    truth
+        The person's body.
+    """
+
+    name: str
+    person: str
+    series: Series
+    half: Half
+    request: FitRequest
+    body_mask: Mask
+    person_mask: Mask
+    focal_length_px: float
+    light: Light | None
+    joints: Float[np.ndarray, "p 3"]
+    truth: TrueBody
+
+
+def told_request(picture: TruePicture, told: Told) -> FitRequest:
+    """The picture's request with what is told beside."""
+    request = replace(picture.request, clothing=told.clothing)
+    if told.mask:
+        request = replace(request, mask=encoded_mask(picture.person_mask))
+    if told.outline is not None:
+        request = replace(request, outline=told.outline)
+    if told.focal_length:
+        request = replace(request, focal_length_px=picture.focal_length_px, focal_length_35mm=None)
+    if told.measurements:
+        true = picture.truth.measurements
+        known = {name: KnownMeasurement(value=true[name]) for name in told.measurements}
+        request = replace(request, measurements=known)
+    light = picture.light
+    if told.light and light is not None:
+        guess = LightGuess(
+            kind=light.kind,
+            azimuth=light.azimuth,
+            elevation=light.elevation,
+            distance=light.distance,
+        )
+        request = replace(request, light=guess)
+    return replace(request, light=replace(request.light, surroundings=told.surroundings))
