@@ -69,7 +69,7 @@ def distance_lines(scored: Sequence[Scored]) -> list[str]:
     title = "distance [cm]"
     lines = [f"{title:26s}" + "".join(f"{pair:>11s}" for pair in PAIRS) + "   (fitted minus true)"]
     for cues in Cues:
-        these = [each.distances_m for each in scored if each.cues is cues]
+        these = [each.distances_m for each in known if each.cues is cues]
         if not these:
             continue
         errors = CENTIMETRES * np.array([[each[pair] for pair in PAIRS] for each in these])

@@ -12,6 +12,7 @@ from fitter.arrays import Mask
 from fitter.body.skeleton import regress
 from fitter.fits.pipeline import fit
 from fitter.parameters import Light
+from fitter.render.camera import FocalLengthSource
 from fitter.render.light import direction_to_light
 from fitter.render.rasterizer import render
 from fitter.request import Cues
@@ -68,6 +69,8 @@ class Scored:
         Angle between found and true direction to the light; None without shading.
     wrong_limbs
         Limbs that slant toward the camera instead of away from it, or the other way.
+    focal_length_known
+        Whether the request or the file told the focal length, without which distances mean little.
     distances_m
         Found minus true distance from the camera, by pair of joints, metres.
     trunk
@@ -89,6 +92,7 @@ class Scored:
     mask_overlap: float
     light_degrees: float | None
     wrong_limbs: tuple[str, ...]
+    focal_length_known: bool
     distances_m: Mapping[str, float]
     trunk: TrunkSections
     seconds: float
@@ -139,6 +143,7 @@ def score(fitted: Fitted) -> Scored:
         mask_overlap=overlap(cut, picture.person_mask),
         light_degrees=light_error(result.person.light, picture.light),
         wrong_limbs=wrong_limbs(joints, picture.joints),
+        focal_length_known=result.focal_length_source is not FocalLengthSource.ASSUMED,
         distances_m=distance_errors_m(joints, picture.joints),
         trunk=trunk_sections(result.canonical_vertices, model.triangles)
         - trunk_sections(truth.canonical, truth.triangles),

@@ -9,9 +9,10 @@ from scipy.sparse.csgraph import connected_components
 
 from fitter.arrays import Triangles, Vertices
 
-LEVELS = tuple(round(0.50 + 0.03 * number, 2) for number in range(9))
-"""Heights as shares of the body's own, from the floor: seat (0.50, 0.53), navel (0.59), waist
-(0.62), chest (0.74). Below them legs part; above, arms begin, at rest as in the canonical pose."""
+LEVELS = tuple(round(0.48 + 0.03 * number, 2) for number in range(9))
+"""Heights as shares of the body's own, from the floor: from the crotch (0.48) over the seat (0.51),
+the navel (0.60) and the waist (0.63) to the chest (0.72). Heavy upper arms of the canonical pose
+join the trunk from 0.73 on."""
 
 NEAR_MIDDLE_M = 0.05
 """A loop of the trunk comes this near to the body's middle plane, an arm's does not. Between thin

@@ -38,6 +38,7 @@ def _scored(
         mask_overlap=0.97,
         light_degrees=None if cues is Cues.SE else 12.0,
         wrong_limbs=wrong_limbs,
+        focal_length_known=True,
         distances_m=dict.fromkeys(PAIRS, error / 100.0),
         trunk=TrunkSections(
             breadth_m=np.zeros(len(LEVELS)), depth_m=np.full(len(LEVELS), error / 100.0)
