@@ -8,6 +8,8 @@ from pathlib import Path
 from fitter.request import Clothing, Cues, Gender, OutlineKind
 from tests.evaluation.body_tables import bmi_lines, distance_lines, trunk_lines
 from tests.evaluation.cases import CASES, PEOPLE
+from tests.evaluation.chain import chain_of
+from tests.evaluation.chain_tables import chain_case_lines, chain_lines
 from tests.evaluation.clothing_table import clothing_lines
 from tests.evaluation.detector_figures import detector_lines, hinted_fits
 from tests.evaluation.foreign import MISSING, foreign_names
@@ -48,12 +50,17 @@ def main(arguments: Sequence[str]) -> int:
                 print("\n".join(several_lines(list(several_pictures(of_half, names)))))
         return 0
     if options.surroundings:
-        found: list[InLight] = []
+        in_light: list[InLight] = []
         for each in in_both_lights(chosen):
             line = case_lines([each.scored])[1]
             print(f"{each.surroundings.value:20s}{line}", flush=True)
-            found.append(each)
-        print("\n".join(light_lines(found)))
+            in_light.append(each)
+        print("\n".join(light_lines(in_light)))
+        return 0
+    if options.chain:
+        found = [each for links in of_each(chain_of, foreign, options.jobs) for each in links]
+        print("\n".join(chain_case_lines(found)))
+        print("\n".join(chain_lines(found)))
         return 0
     if options.detector:
         people = [case.name for case in chosen if case.series is Series.PEOPLE]
@@ -76,7 +83,8 @@ def main(arguments: Sequence[str]) -> int:
             mask=options.true_mask,
             light=options.true_light,
             focal_length=options.known_focal,
-            pose=options.true_pose,
+            pose=options.true_pose or options.true_place,
+            place=options.true_place,
             measurements=tuple(options.given or ()),
             outline=None if options.outline is None else OutlineKind(options.outline),
             clothing=Clothing(options.clothing or Clothing.TIGHT),
@@ -110,7 +118,7 @@ def _is_chosen(case: Case, options: argparse.Namespace) -> bool:
 def _foreign(options: argparse.Namespace) -> list[str]:
     """The foreign pictures that are chosen, in a folder that may not be there."""
     half = None if options.half is None else Half(options.half)
-    wanted = options.set in (None, Series.FOREIGN.value) or options.detector
+    wanted = options.set in (None, Series.FOREIGN.value) or options.detector or options.chain
     if wanted and not options.case and not foreign_names():
         print(MISSING, flush=True)
     if options.case:
@@ -198,6 +206,11 @@ def _parser() -> argparse.ArgumentParser:
         help="hold the pose at the truth, within half a degree a joint",
     )
     parser.add_argument(
+        "--true-place",
+        action="store_true",
+        help="hold the root joint at the truth too; say --known-focal with it",
+    )
+    parser.add_argument(
         "--given",
         action="append",
         choices=[key for _, key, _ in MEASUREMENTS],
@@ -222,6 +235,11 @@ def _parser() -> argparse.ArgumentParser:
         "--surroundings",
         action="store_true",
         help="fit with uniform ambient light and with spherical harmonics, side by side",
+    )
+    parser.add_argument(
+        "--chain",
+        action="store_true",
+        help="from a body fitted to the true mesh to a fit that is told nothing, foreign pictures",
     )
     parser.add_argument(
         "--detector",

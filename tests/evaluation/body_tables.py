@@ -65,9 +65,16 @@ def trunk_lines(scored: Sequence[Scored]) -> list[str]:
 
 
 def distance_lines(scored: Sequence[Scored]) -> list[str]:
-    """Fitted minus true distance from the camera of pairs of joints, centimetres."""
-    title = "distance [cm]"
-    lines = [f"{title:26s}" + "".join(f"{pair:>11s}" for pair in PAIRS) + "   (fitted minus true)"]
+    """Fitted minus true distance from the camera of pairs of joints, centimetres.
+
+    Where the focal length is known, because a wrong one is most of the error elsewhere.
+    """
+    known = [each for each in scored if each.focal_length_known]
+    of = f"{len({each.name for each in known})} of {len({each.name for each in scored})} pictures"
+    lines = [
+        f"distance [cm] in {of} whose focal length is known",
+        f"{'fitted minus true':26s}" + "".join(f"{pair:>11s}" for pair in PAIRS),
+    ]
     for cues in Cues:
         these = [each.distances_m for each in known if each.cues is cues]
         if not these:

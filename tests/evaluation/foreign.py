@@ -17,6 +17,7 @@ from fitter.parameters import Light, LightKind
 from fitter.request import Click, FitRequest, Gender
 from tests.evaluation.joint_figures import MOVED_PARTS, part_of_joint
 from tests.evaluation.landmark_points import packaged_model
+from tests.evaluation.mesh_fit import PosedMesh
 from tests.evaluation.scene import Half, Series
 from tests.evaluation.suite import VISIBLE
 from tests.evaluation.true_picture import TruePicture
@@ -82,6 +83,18 @@ def foreign_picture(name: str, folder: Path = FOLDER) -> TruePicture:
         joints=joints,
         truth=body,
     )
+
+
+def foreign_mesh(name: str, folder: Path = FOLDER) -> PosedMesh:
+    """The posed body of a picture."""
+    picture = foreign_picture(name, folder)
+    with np.load(folder / name / "bodies.npz", allow_pickle=False) as bodies:
+        return PosedMesh(
+            gender=picture.request.gender,
+            vertices=bodies["posed_camera_m"].astype(np.float64),
+            triangles=bodies["faces"],
+            joints=picture.joints,
+        )
 
 
 def _request(image: bytes, options: Mapping[str, Any]) -> FitRequest:

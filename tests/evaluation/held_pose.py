@@ -2,11 +2,11 @@
 
 The fitter has no such option, and needs none: here its pose prior is narrowed about the pose
 to half a degree a joint, and the search begins there. Where the root joint lies, and with it how
-large the body appears, stays to be found.
+large the body appears, stays to be found, unless its place is held too: then no step moves it.
 """
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from typing import Any
 from unittest.mock import patch
@@ -17,13 +17,18 @@ from scipy.spatial.transform import Rotation
 
 from fitter.arrays import Pose
 from fitter.body.pose_prior import PosePrior, joint_angles
+from fitter.energies.attributes import Attributes
 from fitter.fits import pipeline
 from fitter.fits.prepared_model import PreparedModel
+from fitter.optimizer import gauss_newton, uncertainty
+from fitter.optimizer.free_space import FreeSpace, free_space
+from fitter.parameters import BodyParameters
 from fitter.pose_init.initial_pose import InitialPose, PoseHypothesis
 from tests.evaluation.people import load_person
 from tests.evaluation.people_table import PEOPLE
 from tests.evaluation.scene import Case
-from tests.evaluation.staging import Staged, root_joint, stage
+from tests.evaluation.staging import Staged, stage
+from tests.evaluation.truth import true_joints
 
 HELD_WITHIN_RADIANS = np.radians(0.5)
 
@@ -32,10 +37,14 @@ _BODY_TO_CAMERA_AXES = np.diag([1.0, -1.0, -1.0])
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class HeldBody:
-    """A pose to hold, and where the root joint is sought first: (3,) camera frame, metres."""
+    """A pose to hold, and where the root joint is sought first, or held too.
+
+    ``place`` (3,) camera frame, metres.
+    """
 
     pose: Pose
     place: Float[np.ndarray, "3"]
+    place_held: bool = False
 
 
 def true_pose(staged: Staged) -> Pose:
@@ -49,7 +58,7 @@ def true_pose(staged: Staged) -> Pose:
 def held_body_of(case: Case) -> HeldBody:
     """The true pose and place of a case's person."""
     staged = stage(load_person(PEOPLE[case.person]), case)
-    return HeldBody(pose=true_pose(staged), place=staged.in_camera(root_joint(staged)))
+    return HeldBody(pose=true_pose(staged), place=true_joints(staged)[0])
 
 
 @contextmanager
@@ -71,11 +80,20 @@ def held_at(held: HeldBody) -> Iterator[None]:
             found, parameters=parameters, hypotheses=(only,), root_depth_m=float(place[2])
         )
 
-    with (
-        patch.object(pipeline, "prepared_model", body),
-        patch.object(pipeline, "initialize_pose", initial),
-    ):
+    with ExitStack() as patched:
+        patched.enter_context(patch.object(pipeline, "prepared_model", body))
+        patched.enter_context(patch.object(pipeline, "initialize_pose", initial))
+        if held.place_held:
+            for module in (gauss_newton, uncertainty):
+                patched.enter_context(patch.object(module, "free_space", _without_moves))
         yield
+
+
+def _without_moves(held: Attributes, parameters: BodyParameters) -> FreeSpace:
+    """The space of steps that leave the root joint where it is."""
+    space = free_space(held, parameters)
+    first = parameters.pose.size
+    return replace(space, directions=np.delete(space.directions, range(first, first + 3), axis=1))
 
 
 def narrowed(prior: PosePrior, pose: Pose) -> PosePrior:

@@ -25,7 +25,8 @@ class Told:
     """What a fit is told beyond its request: what the errors would be without that difficulty.
 
     ``mask`` the person as seen, in place of segmentation; ``light`` where the search for the light
-    begins; ``focal_length`` in pixels, where the picture does not give it; ``pose`` is held;
+    begins; ``focal_length`` in pixels, where the picture does not give it; ``pose`` is held,
+    and ``place`` with it;
     ``measurements`` are named and given as the caller of the service may give them; ``outline`` is
     what the contour is to meet, in place of the default; ``clothing`` how clothes are said to lie.
     """
@@ -34,6 +35,7 @@ class Told:
     light: bool = False
     focal_length: bool = False
     pose: bool = False
+    place: bool = False
     measurements: tuple[str, ...] = ()
     outline: OutlineKind | None = None
     surroundings: SurroundingsKind = SurroundingsKind.UNIFORM
