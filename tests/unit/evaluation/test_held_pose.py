@@ -1,12 +1,16 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from fitter.body.pose_prior import prior_residuals
+from fitter.energies.attributes import NOTHING_KNOWN
 from fitter.energies.fitting_operators import fitting_operators
 from fitter.fits.prepared_model import prepared_model
+from fitter.optimizer import gauss_newton
 from fitter.parameters import BodyParameters
 from tests.evaluation.cases import CASES, DEMO
-from tests.evaluation.held_pose import HELD_WITHIN_RADIANS, narrowed, true_pose
+from tests.evaluation.held_pose import HELD_WITHIN_RADIANS, HeldBody, held_at, narrowed, true_pose
 from tests.evaluation.people import load_person
 from tests.evaluation.people_table import PEOPLE
 from tests.evaluation.shape_limit import nearest_shape
@@ -40,3 +44,21 @@ def test_a_narrowed_prior_expects_one_pose_of_every_joint():
     turned = pose.copy()
     turned[0, 1] += HELD_WITHIN_RADIANS
     assert np.linalg.norm(prior_residuals(narrow, turned)) == pytest.approx(1.0)
+
+
+def test_a_held_place_leaves_pose_and_shape_free():
+    model = prepared_model(PEOPLE[DEMO.person].gender).operators.model
+    body = BodyParameters(
+        pose=model.canonical_pose,
+        translation=np.array([0.0, 0.0, 3.0]),
+        shape=np.zeros(len(model.shape_basis)),
+    )
+    pose = HeldBody(pose=body.pose, place=body.translation)
+    with held_at(pose):
+        free = gauss_newton.free_space(NOTHING_KNOWN.held, body).directions
+    with held_at(replace(pose, place_held=True)):
+        held = gauss_newton.free_space(NOTHING_KNOWN.held, body).directions
+    moves = slice(body.pose.size, body.pose.size + 3)
+    assert free.shape[1] - held.shape[1] == 3
+    assert not held[moves].any()
+    assert (np.abs(held[: body.pose.size]).max(axis=1) == 1.0).all()
