@@ -8,7 +8,7 @@ from pathlib import Path
 from fitter.request import Clothing, Cues, Gender, OutlineKind
 from tests.evaluation.body_tables import bmi_lines, distance_lines, trunk_lines
 from tests.evaluation.cases import CASES, PEOPLE
-from tests.evaluation.chain import chain_of
+from tests.evaluation.chain import Link, chain_of
 from tests.evaluation.chain_tables import chain_case_lines, chain_lines
 from tests.evaluation.clothing_table import clothing_lines
 from tests.evaluation.detector_figures import detector_lines, hinted_fits
@@ -57,14 +57,21 @@ def main(arguments: Sequence[str]) -> int:
             in_light.append(each)
         print("\n".join(light_lines(in_light)))
         return 0
+    if options.chain and not foreign:
+        return 0
     if options.chain:
-        found = [each for links in of_each(chain_of, foreign, options.jobs) for each in links]
-        print("\n".join(chain_case_lines(found)))
-        print("\n".join(chain_lines(found)))
+        links: list[Link] = []
+        for of_picture in of_each(chain_of, foreign, options.jobs):
+            lines = chain_case_lines(of_picture)
+            print("\n".join(lines[1:] if links else lines), flush=True)
+            links += of_picture
+        print("\n".join(chain_lines(links)))
         return 0
     if options.detector:
         people = [case.name for case in chosen if case.series is Series.PEOPLE]
         for title, names in (("suite", people), ("foreign", foreign)):
+            if not names:
+                continue
             hinted = of_each(hinted_fits, names, options.jobs)
             print(f"\n{title}")
             print("\n".join(detector_lines([each for several in hinted for each in several])))

@@ -12,7 +12,7 @@ from fitter.measurement.anthropometry import measure
 from fitter.request import Cues
 from fitter.result import before_shading
 from tests.evaluation.foreign import foreign_mesh, foreign_picture
-from tests.evaluation.joint_figures import distance_errors_m
+from tests.evaluation.joint_figures import distance_errors_m, joint_error_mm
 from tests.evaluation.mesh_fit import MeshFit, fit_mesh
 from tests.evaluation.runs import held_on
 from tests.evaluation.scoring import fit_picture, score
@@ -36,9 +36,9 @@ RUNGS: Mapping[str, Told] = {
 class Link:
     """A picture on one rung; errors are found minus true.
 
-    ``hips_m`` is of the hips' distance from the camera; what it is on the mesh tells how hip joints
-    are defined. ``cues`` are None there, and ``trunk_mm``, the mesh's distance from our trunk, is
-    None of pictures.
+    ``joint_mm`` is as in :class:`~tests.evaluation.scoring.Scored`, ``hips_m`` of the hips'
+    distance from the camera; what they are on the mesh tells how differently joints are defined.
+    There ``cues`` are None, and in pictures ``trunk_mm``, the mesh's distance from our trunk.
     """
 
     picture: str
@@ -46,6 +46,7 @@ class Link:
     cues: Cues | None
     errors: Mapping[str, float]
     trunk: TrunkSections
+    joint_mm: float
     hips_m: float
     trunk_mm: float | None
 
@@ -80,6 +81,7 @@ def _on_mesh(picture: TruePicture, count: int, fitted: MeshFit) -> Link:
         cues=None,
         errors={name: found[name] - value for name, value in truth.measurements.items()},
         trunk=ours - trunk_sections(truth.canonical, truth.triangles),
+        joint_mm=joint_error_mm(joints, picture.joints),
         hips_m=distance_errors_m(joints, picture.joints)["hips"],
         trunk_mm=fitted.trunk_mm,
     )
@@ -100,6 +102,7 @@ def _in_picture(picture: TruePicture, on_mesh: MeshFit) -> Iterator[Link]:
                 cues=scored.cues,
                 errors=scored.errors,
                 trunk=scored.trunk,
+                joint_mm=scored.joint_mm,
                 hips_m=scored.distances_m["hips"],
                 trunk_mm=None,
             )

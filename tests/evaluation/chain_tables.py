@@ -16,7 +16,9 @@ def chain_case_lines(links: Sequence[Link]) -> list[str]:
     heading = f"{'case':8s}{'told':24s}" + "".join(
         f"{f'{name} {unit}':>11s}" for name, _, unit in MEASUREMENTS
     )
-    lines = [f"{heading}{'breadth':>9s}{'depth':>9s}{'hips cm':>9s}{'trunk mm':>10s}"]
+    lines = [
+        f"{heading}{'breadth':>9s}{'depth':>9s}{'hips cm':>9s}{'joint mm':>10s}{'trunk mm':>10s}"
+    ]
     for each in links:
         if each.cues is Cues.SE:
             continue
@@ -24,7 +26,7 @@ def chain_case_lines(links: Sequence[Link]) -> list[str]:
         line += "".join(f"{each.errors[key]:+11.1f}" for _, key, _ in MEASUREMENTS)
         for extents in (each.trunk.breadth_m, each.trunk.depth_m):
             line += f"{CENTIMETRES * extents.mean():+9.1f}"
-        line += f"{CENTIMETRES * each.hips_m:+9.1f}"
+        line += f"{CENTIMETRES * each.hips_m:+9.1f}{each.joint_mm:10.1f}"
         line += "         -" if each.trunk_mm is None else f"{each.trunk_mm:10.1f}"
         lines.append(line)
     return lines
@@ -39,14 +41,17 @@ def chain_lines(links: Sequence[Link]) -> list[str]:
     rungs = list(dict.fromkeys((each.rung, each.cues) for each in links))
     of = {rung: [each for each in links if (each.rung, each.cues) == rung] for rung in rungs}
     columns = "".join(f"{f'{name} {unit}':>16s}" for name, _, unit in MEASUREMENTS)
-    lines = ["", f"{'told':24s}{'cues':5s}{columns}{'hips cm':>16s}{'trunk mm':>10s}"]
+    lines = [
+        "",
+        f"{'told':24s}{'cues':5s}{columns}{'hips cm':>16s}{'joint mm':>10s}{'trunk mm':>10s}",
+    ]
     for (rung, cues), these in of.items():
         line = f"{rung:24s}{cues or '-':5s}"
         for _, key, _ in MEASUREMENTS:
             line += f"{_absolute_and_bias([each.errors[key] for each in these]):>16s}"
         hips = [CENTIMETRES * each.hips_m for each in these]
         away = [each.trunk_mm for each in these if each.trunk_mm is not None]
-        line += f"{_absolute_and_bias(hips):>16s}"
+        line += f"{_absolute_and_bias(hips):>16s}{np.mean([each.joint_mm for each in these]):10.1f}"
         lines.append(line + (f"{np.mean(away):10.1f}" if away else f"{'-':>10s}"))
     for name in ("breadth", "depth"):
         heading = "".join(f"{level:15.2f}" for level in LEVELS)

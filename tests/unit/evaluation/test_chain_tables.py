@@ -15,6 +15,7 @@ def _link(picture: str, rung: str, cues: Cues | None, error: float) -> Link:
         cues=cues,
         errors={key: error for _, key, _ in MEASUREMENTS},
         trunk=TrunkSections(breadth_m=extents, depth_m=-extents),
+        joint_mm=30.0,
         hips_m=error / 100.0,
         trunk_mm=6.0 if cues is None else None,
     )
