@@ -118,7 +118,8 @@ def _drawn(
     rotation = np.array(
         [[np.cos(turn), 0, np.sin(turn)], [0, 1, 0], [-np.sin(turn), 0, np.cos(turn)]]
     )
-    turned = (vertices - vertices.mean(axis=0)) @ rotation.T + [0.0, 0.0, VIEWING_DISTANCE_M]
+    middle = 0.5 * (vertices.min(axis=0) + vertices.max(axis=0))
+    turned = (vertices - middle) @ rotation.T + [0.0, 0.0, VIEWING_DISTANCE_M]
     width = round(0.64 * HEIGHT)
     camera = Camera(
         focal_length_px=2.1 * HEIGHT,
