@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 
 from fitter.body.skeleton import regress
 from fitter.fits.prepared_model import prepared_model
-from fitter.measurement.anthropometry import measure
-from fitter.request import Cues
+from fitter.measurement.anthropometry import CENTIMETRES_PER_METRE, measure
+from fitter.request import STATURE, Cues
 from fitter.result import before_shading
 from tests.evaluation.foreign import foreign_mesh, foreign_picture
 from tests.evaluation.joint_figures import distance_errors_m, joint_error_mm
@@ -37,8 +37,9 @@ class Link:
     """A picture on one rung; errors are found minus true.
 
     ``joint_mm`` is as in :class:`~tests.evaluation.scoring.Scored`, ``hips_m`` of the hips'
-    distance from the camera; what they are on the mesh tells how differently joints are defined.
-    There ``cues`` are None, and in pictures ``trunk_mm``, the mesh's distance from our trunk.
+    distance from the camera, None where the fit knows no focal length; what they are on the mesh
+    tells how differently joints are defined. There ``cues`` are None; in pictures ``stature_cm`` is,
+    which is given, and ``trunk_mm``, the mesh's distance from our trunk.
     """
 
     picture: str
@@ -47,7 +48,8 @@ class Link:
     errors: Mapping[str, float]
     trunk: TrunkSections
     joint_mm: float
-    hips_m: float
+    hips_m: float | None
+    stature_cm: float | None
     trunk_mm: float | None
 
 
@@ -83,6 +85,7 @@ def _on_mesh(picture: TruePicture, count: int, fitted: MeshFit) -> Link:
         trunk=ours - trunk_sections(truth.canonical, truth.triangles),
         joint_mm=joint_error_mm(joints, picture.joints),
         hips_m=distance_errors_m(joints, picture.joints)["hips"],
+        stature_cm=found[STATURE] - CENTIMETRES_PER_METRE * truth.stature_m,
         trunk_mm=fitted.trunk_mm,
     )
 
@@ -103,6 +106,7 @@ def _in_picture(picture: TruePicture, on_mesh: MeshFit) -> Iterator[Link]:
                 errors=scored.errors,
                 trunk=scored.trunk,
                 joint_mm=scored.joint_mm,
-                hips_m=scored.distances_m["hips"],
+                hips_m=scored.distances_m["hips"] if scored.focal_length_known else None,
+                stature_cm=None,
                 trunk_mm=None,
             )

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 
 from fitter.request import Cues
@@ -17,6 +19,7 @@ def _link(picture: str, rung: str, cues: Cues | None, error: float) -> Link:
         trunk=TrunkSections(breadth_m=extents, depth_m=-extents),
         joint_mm=30.0,
         hips_m=error / 100.0,
+        stature_cm=None if cues else -1.5,
         trunk_mm=6.0 if cues is None else None,
     )
 
@@ -52,3 +55,10 @@ def test_pictures_show_the_mesh_and_ses():
     ]  # fmt: skip
     assert lines[1].count("+3.0") == len(MEASUREMENTS) + 2
     assert lines[1].count("-3.0") == 1
+
+
+def test_distances_are_of_pictures_whose_focal_length_is_known():
+    known, unknown = LINKS[2], replace(LINKS[5], hips_m=None)
+    assert "3.00 (+3.00)" in chain_lines([known, unknown])[2]
+    assert chain_lines([unknown])[2].split()[-4:] == ["-", "-", "30.0", "-"]
+    assert chain_case_lines([unknown])[1].split()[-4:] == ["-", "-", "30.0", "-"]
