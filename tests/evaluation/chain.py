@@ -38,7 +38,7 @@ class Link:
 
     ``joint_mm`` is as in :class:`~tests.evaluation.scoring.Scored`, ``hips_m`` of the hips'
     distance from the camera, None where the fit knows no focal length; what they are on the mesh
-    tells how differently joints are defined. There ``cues`` are None; in pictures ``stature_cm`` is,
+    tells how differently joints are defined. There ``cues`` are None, in pictures ``stature_cm``,
     which is given, and ``trunk_mm``, the mesh's distance from our trunk.
     """
 
