@@ -137,7 +137,8 @@ class Objective:
         if evidence.slants is not None:
             energies["limb_slants"] = slant_energy(landmarks, evidence.slants)
         if evidence.shading is not None:
-            energies["shading"] = shading_energy(rendering, evidence.shading, scales)
+            shading = evidence.shading.about(parameters.translation)
+            energies["shading"] = shading_energy(rendering, shading, scales)
         for name, value in energies.items():
             if not np.isfinite(value):
                 message = f"The {name} energy is {value}."

@@ -50,6 +50,8 @@ class ShadingRows:
         (k,) vertex ids.
     position_derivatives, normal_derivatives
         (k, 3) by camera-frame position (per metre) and by the unit normal.
+    centre_derivatives
+        (k, 3) by the body's root joint, with which the lamp moves.
     """
 
     residuals: Float[np.ndarray, " k"]
@@ -57,6 +59,7 @@ class ShadingRows:
     vertices: Integer[np.ndarray, " k"]
     position_derivatives: Points3D
     normal_derivatives: Points3D
+    centre_derivatives: Points3D
 
 
 def thinned(rows: PositionRows, limit: int) -> PositionRows:

@@ -34,8 +34,9 @@ class ShadingEvidence:
     intensity
         The picture's linear luminance and where it can be trusted.
     light, body_centre
-        The light is fixed while the body moves: ``body_centre`` is the origin of its coordinates,
-        camera frame.
+        ``body_centre`` is the origin of the light's coordinates, camera frame: the body's root
+        joint. The light keeps its coordinates while the body moves: a lamp of unknown place must
+        not tell how far away the body is, by lighting it more brightly nearer by.
     reflectance
         Per-vertex albedo and specularity, ambient and exponent.
     vertex_areas
@@ -59,6 +60,10 @@ class ShadingEvidence:
     shadowed: Bool[np.ndarray, " m"]
     eta: float
     lit: PerVertex | None = None
+
+    def about(self, body_centre: Vector3) -> "ShadingEvidence":
+        """The same with the light about another place of the body's root joint."""
+        return replace(self, body_centre=body_centre)
 
     def lit_at(self, vertices: Integer[np.ndarray, " k"]) -> Float[np.ndarray, " k"] | None:
         """``lit`` of some vertices."""
@@ -151,6 +156,7 @@ def shading_rows(
         position_derivatives=derivatives.by_position
         - rendering.camera.pull_back(positions, slopes),
         normal_derivatives=derivatives.by_normal,
+        centre_derivatives=derivatives.by_body_centre,
     )
 
 
@@ -167,4 +173,5 @@ def thinned_shading(rows: ShadingRows, limit: int) -> ShadingRows:
         vertices=rows.vertices[chosen],
         position_derivatives=rows.position_derivatives[chosen],
         normal_derivatives=rows.normal_derivatives[chosen],
+        centre_derivatives=rows.centre_derivatives[chosen],
     )

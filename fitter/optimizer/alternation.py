@@ -30,8 +30,7 @@ from fitter.optimizer.reflectance_solve import (
     ReflectanceProblem,
     ReflectanceSolver,
 )
-from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
-from fitter.render.light import light_about
+from fitter.parameters import BodyParameters, Light, Reflectance
 from fitter.render.reflectance import shading_terms
 from fitter.request import SurroundingsKind
 
@@ -81,8 +80,7 @@ class ShadedFit:
     hidden
         The vertices whose reflectance was not observed but filled in.
     evidence
-        The shading term of the last round; its light still refers to the centre where the
-        alternation began, and its reflectance is smoother than the one reported.
+        The shading term of the last round; its reflectance is smoother than the one reported.
     evaluations
         True energies computed.
     """
@@ -129,8 +127,7 @@ def fit_shading(
     """
     if np.count_nonzero(seen_vertices(start.rendering, intensity)) < _LEAST_USABLE:
         return None
-    centre = start.parameters.translation
-    state = first_state(objective, start, intensity, lights, centre)
+    state = first_state(objective, start, intensity, lights)
     told = np.count_nonzero(explained_vertices(start.rendering, state))
     if surroundings is SurroundingsKind.SPHERICAL_HARMONICS and told >= _LEAST_FOR_SURROUNDINGS:
         state = first_surroundings(objective, start, state)
@@ -138,6 +135,7 @@ def fit_shading(
     evaluations = 0
     now = start
     for round_index, smoothness in enumerate(SMOOTHNESS_SCHEDULE):
+        state = state.about(now.parameters.translation)
         if round_index > 0:
             state = with_new_light(now, state)
         state = with_new_shadows(objective, now, state)
@@ -149,6 +147,7 @@ def fit_shading(
         now = minimum.candidate
     assert minimum is not None
     # The reflectance is found again for the final body, so that what is drawn is what was found.
+    state = state.about(now.parameters.translation)
     reported = state
     if state.light.surroundings is not None:
         reported = _with_shadows_explained(objective, now, state)
@@ -159,11 +158,10 @@ def fit_shading(
         albedo=hidden.filled(reported.reflectance.albedo),
         specularity=hidden.filled(reported.reflectance.specularity),
     )
-    light = light_about(reported.light, old_centre=centre, new_centre=now.parameters.translation)
     return ShadedFit(
         minimum=minimum,
-        light=light,
-        reflectance=_at_distance(reflectance, reported.light, light),
+        light=reported.light,
+        reflectance=reflectance,
         hidden=hidden,
         evidence=state,
         evaluations=evaluations,
@@ -269,15 +267,3 @@ def _edge_lengths(vertices: Vertices, edges: Integer[np.ndarray, "e 2"]) -> Floa
     first, second = edges.T
     lengths = np.linalg.norm(vertices[first] - vertices[second], axis=1)
     return np.maximum(lengths / lengths.mean(), 0.05)
-
-
-def _at_distance(reflectance: Reflectance, old: Light, new: Light) -> Reflectance:
-    """Keep the shading when intensity 1 refers to another distance z: a l = a' l'."""
-    if old.kind is LightKind.DIRECTIONAL:
-        return reflectance
-    factor = (old.distance / new.distance) ** 2
-    return replace(
-        reflectance,
-        albedo=factor * reflectance.albedo,
-        specularity=factor * reflectance.specularity,
-    )

@@ -35,6 +35,7 @@ def information_lost_to_light(
     for albedo and specularity are free, as in :mod:`fitter.optimizer.light_solve`; the rows are
     those of the normal equations, so that the difference stays positive semidefinite.
     """
+    evidence = evidence.about(candidate.parameters.translation)
     rows = shading_rows(candidate.rendering, evidence, objective.scales)
     rows = thinned_shading(rows, MATRIX_SHADING_ROWS)
     frame = linearise(objective.operators.tangent, candidate.parameters)

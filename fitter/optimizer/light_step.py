@@ -41,7 +41,6 @@ def first_state(
     candidate: Candidate,
     intensity: IntensityMap,
     lights: tuple[Light, ...],
-    centre: np.ndarray,
 ) -> ShadingEvidence:
     """The first light, with uniform albedo and specularity (section 5), under Eq. 1 itself."""
     lights = tuple(replace(light, surroundings=None) for light in lights)
@@ -52,7 +51,7 @@ def first_state(
     state = ShadingEvidence(
         intensity=intensity,
         light=lights[0],
-        body_centre=centre,
+        body_centre=candidate.parameters.translation,
         reflectance=Reflectance(
             albedo=np.ones(m), specularity=np.ones(m), ambient=0.0, specular_exponent=1.0
         ),

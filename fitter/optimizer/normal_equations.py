@@ -5,6 +5,8 @@ back through the body by its reverse mode. The matrix uses the linear-blend tang
 the rows: it merely shapes the step.
 """
 
+from dataclasses import replace
+
 import numpy as np
 from jaxtyping import Float
 
@@ -54,7 +56,7 @@ def normal_equations(
     operators, evidence, scales = objective.operators, objective.evidence, objective.scales
     rendering, parameters = candidate.rendering, candidate.parameters
     frame = linearise(operators.tangent, parameters)
-    pull = np.zeros_like(candidate.vertices)
+    pull, by_centre = np.zeros_like(candidate.vertices), np.zeros(3)
     jacobians: list[RowJacobian] = []
     eases: list[tuple[RowJacobian, PositionRows]] = []
     for rows in (
@@ -92,13 +94,15 @@ def normal_equations(
         _scatter_through(rows, support, len(positions), pull)
         jacobians.append(position_row_jacobian(rows, frame, attachments, positions))
     if evidence.shading is not None:
-        rows = shading_rows(rendering, evidence.shading, scales)
+        rows = shading_rows(rendering, evidence.shading.about(parameters.translation), scales)
+        by_centre += rows.centre_derivatives.T @ (rows.weights * rows.residuals)
         _add_shading_pull(objective, candidate, rows, pull)
         few = thinned_shading(rows, MATRIX_SHADING_ROWS)
         jacobians.append(shading_row_jacobian(few, frame, operators, candidate))
     every = np.concatenate(jacobians)
     matrix = every.T @ every
-    gradient = as_vector(operators.evaluator.derivative(parameters, pull))
+    derivative = operators.evaluator.derivative(parameters, pull)
+    gradient = as_vector(replace(derivative, translation=derivative.translation + by_centre))
     _add_priors(objective, candidate, matrix, gradient)
     return matrix, gradient
 

@@ -58,7 +58,7 @@ def shading_row_jacobian(
     """√w ∂r of each row, through the vertex and through its normal.
 
     The normal turns with the body (:func:`fitter.body.tangent.direction_jacobian`), and changes
-    with the shape as it does on the body at rest.
+    with the shape as it does on the body at rest. The light moves with the root joint.
     """
     attachments = operators.tangent.vertices
     model = operators.model
@@ -85,6 +85,8 @@ def shading_row_jacobian(
         operators.rings.triangles,
         result,
     )
+    place = slice(3 * len(frame.joints), 3 * len(frame.joints) + 3)
+    result[:, place] += np.sqrt(rows.weights)[:, None] * rows.centre_derivatives
     return result
 
 

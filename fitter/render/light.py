@@ -4,7 +4,7 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Vector3
-from fitter.parameters import Light, LightKind
+from fitter.parameters import Light
 
 
 def direction_to_light(light: Light) -> Vector3:
@@ -33,25 +33,3 @@ def direction_derivatives(light: Light) -> Float[np.ndarray, "2 3"]:
 def light_position(light: Light, body_centre: Vector3) -> Vector3:
     """Position of a point light, camera frame, metres."""
     return body_centre + light.distance * direction_to_light(light)
-
-
-def light_about(light: Light, *, old_centre: Vector3, new_centre: Vector3) -> Light:
-    """The same light in spherical coordinates about another centre of the body.
-
-    Where the lamp is nearer to the new centre, the surroundings are less beside it.
-    """
-    if light.kind is LightKind.DIRECTIONAL:
-        return light
-    toward = light_position(light, old_centre) - new_centre
-    distance = float(np.linalg.norm(toward))
-    x, y, z = toward / distance
-    surroundings = light.surroundings
-    if surroundings is not None:
-        surroundings = (distance / light.distance) ** 2 * surroundings
-    return Light(
-        kind=light.kind,
-        azimuth=float(np.arctan2(x, -z)),
-        elevation=float(np.arcsin(np.clip(-y, -1.0, 1.0))),
-        distance=distance,
-        surroundings=surroundings,
-    )

@@ -344,6 +344,17 @@ class TestShading:
         gained = shading_energy(ahead, evidence, SCALES) - shading_energy(behind, evidence, SCALES)
         assert (pull * direction).sum() == pytest.approx(gained / (2 * step), rel=0.02)
 
+    def test_rows_know_how_the_light_moves_with_the_body(self, lit):
+        _, rendering, evidence = lit
+        rows = shading_rows(rendering, evidence, SCALES)
+        slope = rows.centre_derivatives.T @ (rows.weights * rows.residuals)
+        for axis, direction in enumerate(1e-5 * np.eye(3)):
+            ahead, behind = (
+                shading_energy(rendering, evidence.about(evidence.body_centre + each), SCALES)
+                for each in (direction, -direction)
+            )
+            assert slope[axis] == pytest.approx((ahead - behind) / 2e-5, rel=1e-3)
+
 
 def test_the_lean_of_an_upright_body_is_none_and_its_slope_is_exact():
     pose = np.zeros((3, 3))

@@ -4,15 +4,14 @@ import numpy as np
 import pytest
 
 from fitter.energies.shading import usable_vertices
-from fitter.optimizer.alternation import _at_distance, fit_shading
+from fitter.optimizer.alternation import fit_shading
 from fitter.optimizer.gauss_newton import Minimum, minimize_gauss_newton
 from fitter.optimizer.light_solve import guessed_lights
 from fitter.optimizer.normal_equations import normal_equations
 from fitter.optimizer.parameter_vector import moved
 from fitter.optimizer.simplex import minimize_simplex
 from fitter.optimizer.uncertainty import shape_covariance
-from fitter.parameters import Reflectance
-from fitter.render.light import direction_to_light, light_about
+from fitter.render.light import direction_to_light
 from fitter.render.reflectance import shade
 from fitter.request import LightGuess
 from tests.unit.optimizer.rendered_scene import LIGHT, RenderedScene, rendered_scene
@@ -132,29 +131,6 @@ def test_shading_finds_the_light_and_betters_the_body(scene, silhouette_fit):
     usable = usable_vertices(final.rendering, shaded.evidence)
     observed = scene.intensity.at(final.rendering.projected[usable])
     assert np.median(np.abs(reported[usable] - observed)) < 0.05 * np.median(observed)
-
-
-def test_moving_the_centre_a_light_refers_to_changes_nothing_that_is_seen():
-    rng = np.random.default_rng(0)
-    points = 0.3 * rng.standard_normal((20, 3)) + [0.0, 0.0, 3.0]
-    normals = rng.standard_normal((20, 3))
-    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-    reflectance = Reflectance(
-        albedo=rng.random(20), specularity=rng.random(20), ambient=0.1, specular_exponent=9.0
-    )
-    old, new = np.array([0.0, 0.0, 3.0]), np.array([0.05, -0.1, 3.2])
-    moved = light_about(LIGHT, old_centre=old, new_centre=new)
-    np.testing.assert_allclose(
-        shade(
-            points,
-            normals,
-            light=moved,
-            body_centre=new,
-            reflectance=_at_distance(reflectance, LIGHT, moved),
-        ),
-        shade(points, normals, light=LIGHT, body_centre=old, reflectance=reflectance),
-        atol=1e-12,
-    )
 
 
 def test_the_shape_is_known_better_than_before_the_picture(scene, silhouette_fit):

@@ -56,6 +56,7 @@ def test_shading_rows_are_the_dense_jacobians_contracted(scene):
         vertices=rng.choice(len(candidate.vertices), ROWS, replace=False),
         position_derivatives=rng.standard_normal((ROWS, 3)),
         normal_derivatives=rng.standard_normal((ROWS, 3)),
+        centre_derivatives=rng.standard_normal((ROWS, 3)),
     )
     frame = linearise(tangent, scene.start)
     attachments = attached_vertices(tangent, rows.vertices)
@@ -67,6 +68,8 @@ def test_shading_rows_are_the_dense_jacobians_contracted(scene):
     by_position = point_jacobian(frame, attachments, candidate.vertices[rows.vertices])
     expected = np.einsum("ki,kic->kc", rows.position_derivatives, by_position)
     expected += np.einsum("ki,kic->kc", rows.normal_derivatives, by_normal)
+    place = slice(scene.start.pose.size, scene.start.pose.size + 3)
+    expected[:, place] += rows.centre_derivatives
     np.testing.assert_allclose(
         shading_row_jacobian(rows, frame, operators, candidate),
         np.sqrt(rows.weights)[:, None] * expected,

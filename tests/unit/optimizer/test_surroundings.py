@@ -232,7 +232,7 @@ def test_a_light_whose_shadows_hide_all_there_is_to_see_is_not_believed():
     hidden = cast_shadow(candidate.vertices, triangles, light=high, body_centre=centre)
     seen = seen_vertices(candidate.rendering, dark.intensity)
     intensity = seeing_only(dark, hidden & seen)
-    state = first_state(dark.objective, candidate, intensity, (high,), centre)
+    state = first_state(dark.objective, candidate, intensity, (high,))
     lit = replace(state, light=high)
     kept = with_new_shadows(dark.objective, candidate, lit)
     assert explained_vertices(candidate.rendering, kept).any()

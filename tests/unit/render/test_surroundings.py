@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from fitter.parameters import Light, LightKind, Reflectance
-from fitter.render.light import light_about
 from fitter.render.reflectance import shade, shade_with_derivatives, shading_terms
 from fitter.render.surroundings import (
     BAND_OF,
@@ -203,13 +202,3 @@ def test_derivatives_with_surroundings_and_shadow_are_those_of_finite_difference
     ]
     slope = (turned[0] - turned[1]) / (2 * step)
     np.testing.assert_allclose(found.by_light[clear, 0], slope[clear], rtol=1e-5, atol=1e-7)
-
-
-def test_about_a_centre_nearer_to_the_lamp_the_surroundings_count_less():
-    light = replace(LAMP, surroundings=_surroundings(9))
-    moved = light_about(light, old_centre=CENTRE, new_centre=CENTRE + [0.3, -0.2, -0.5])
-    assert moved.distance < light.distance
-    assert light.surroundings is not None
-    np.testing.assert_allclose(
-        moved.surroundings, (moved.distance / light.distance) ** 2 * light.surroundings
-    )
