@@ -1,5 +1,6 @@
-"""The unknowns of the fit: body, light and reflectance (Θ_B, Θ_L, Θ_R in the paper)."""
+"""The unknowns of a fit: body, light, reflectance (Θ_B, Θ_L, Θ_R in the paper), camera tilt."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -32,6 +33,58 @@ class BodyParameters:
     pose: Pose
     translation: Vector3
     shape: Shape
+
+
+class StanceKind(StrEnum):
+    """How a person stands: on both feet, striding or on one foot, or neither."""
+
+    STANDING = "standing"
+    STRIDING = "striding"
+    OTHER = "other"
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class CameraTilt:
+    """How the camera is held against gravity, and how the person stands under it.
+
+    In the camera frame (OpenCV axes) up is
+    (-sin roll cos pitch, -cos roll cos pitch, sin pitch).
+
+    Attributes
+    ----------
+    pitch
+        Radians; positive for a camera that looks up, negative for one that looks down.
+    roll
+        Radians; positive for a camera turned clockwise, seen from behind it.
+    covariance
+        (2, 2) of pitch and roll, squared radians.
+    stances
+        The probability of each kind.
+    """
+
+    pitch: float
+    roll: float
+    covariance: Float[np.ndarray, "2 2"]
+    stances: Mapping[StanceKind, float]
+
+    @property
+    def stance(self) -> StanceKind:
+        """The most probable kind."""
+        return max(self.stances, key=lambda kind: self.stances[kind])
+
+    @property
+    def standard_errors(self) -> tuple[float, float]:
+        """Of pitch and roll, radians."""
+        pitch, roll = np.sqrt(self.covariance.diagonal())
+        return float(pitch), float(roll)
+
+    @property
+    def up(self) -> Vector3:
+        """(3,) unit vector against gravity, camera frame."""
+        level = np.cos(self.pitch)
+        return np.array(
+            [-np.sin(self.roll) * level, -np.cos(self.roll) * level, np.sin(self.pitch)]
+        )
 
 
 class LightKind(StrEnum):

@@ -3,12 +3,14 @@
 from dataclasses import dataclass
 
 import numpy as np
+from jaxtyping import Float
 
 from fitter.body.model import BodyModel
 from fitter.body.pose_prior import PosePrior, pose_prior
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.tangent import Attachments, TangentModel, attached_rows, tangent_model
 from fitter.energies.penetration import PenetrationProxy, penetration_proxy
+from fitter.energies.stance import stance_vectors
 from fitter.numerics.mesh_topology import MeshTopology, mesh_topology
 from fitter.numerics.meshes import vertex_areas
 from fitter.numerics.normals import VertexRings, vertex_rings
@@ -29,8 +31,11 @@ class FittingOperators:
     shaded
         The vertices at which shading is evaluated, chosen on the mean body: head, hands and feet
         hold two thirds of all vertices on a sixth of the skin.
-    landmark_attachments, sphere_attachments
-        How the model's landmarks and the spheres of the penetration proxy are attached to the body.
+    landmark_attachments, sphere_attachments, joint_attachments
+        How the model's landmarks, the spheres of the penetration proxy and the joints are attached
+        to the body.
+    stance_vectors
+        What the camera's tilt is found from (:mod:`fitter.energies.stance`).
     """
 
     model: BodyModel
@@ -42,6 +47,8 @@ class FittingOperators:
     penetration: PenetrationProxy
     landmark_attachments: Attachments
     sphere_attachments: Attachments
+    joint_attachments: Attachments
+    stance_vectors: Float[np.ndarray, "5 p"]
     shaded: SurfaceSample
 
 
@@ -69,6 +76,8 @@ def fitting_operators(model: BodyModel) -> FittingOperators:
         penetration=penetration,
         landmark_attachments=attached_rows(tangent, model.landmarks),
         sphere_attachments=attached_rows(tangent, penetration.centres),
+        joint_attachments=attached_rows(tangent, model.joint_regressor),
+        stance_vectors=stance_vectors(model.part_names),
         shaded=surface_sample(
             model.mean_vertices,
             topology.edges,

@@ -21,10 +21,11 @@ from fitter.energies.edges import edge_energy
 from fitter.energies.fitting_operators import FittingOperators
 from fitter.energies.limb_slants import SlantEvidence, slant_energy
 from fitter.energies.penetration import penetration_energy, sphere_positions
-from fitter.energies.priors import ShapePrior, lean_residual
+from fitter.energies.priors import ShapePrior
 from fitter.energies.scales import EnergyScales
 from fitter.energies.shading import ShadingEvidence, shading_energy
 from fitter.energies.silhouette import silhouette_energy, silhouette_overlap
+from fitter.energies.stance import Tilt, most_probable_tilt
 from fitter.errors import NumericalError
 from fitter.evidence.correspondence_lines import CorrespondenceLines
 from fitter.evidence.edge_cost import EdgeCostMap
@@ -74,13 +75,18 @@ class PictureEvidence:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Candidate:
-    """One body with everything its energies were computed from."""
+    """One body with everything its energies were computed from.
+
+    ``joints`` (p, 3) lie in the camera frame, metres; ``tilt`` is the camera's, as they tell it.
+    """
 
     parameters: BodyParameters
     vertices: Vertices
     rendering: Rendering
     edges: ModelEdges
     landmarks: Points3D
+    joints: Points3D
+    tilt: Tilt
     spheres: Float[np.ndarray, "s 3"]
     radii: Float[np.ndarray, " s"]
     energies: Mapping[str, float]
@@ -118,6 +124,8 @@ class Objective:
         rendering = render(vertices, operators.model.triangles, evidence.camera)
         edges = model_edges(rendering, operators.topology)
         landmarks = regress(evidence.clicks.landmarks, vertices)
+        joints = regress(operators.model.joint_regressor, vertices)
+        tilt = most_probable_tilt(joints, operators.stance_vectors)
         spheres, radii = sphere_positions(operators.penetration, vertices)
         energies = {
             "silhouette": silhouette_energy(rendering, evidence.silhouette, scales)
@@ -129,9 +137,8 @@ class Objective:
             "shape_prior": self.shape_prior.energy(parameters.shape),
             "pose_prior": 0.5
             * float((prior_residuals(operators.pose_prior, parameters.pose) ** 2).sum()),
+            "stance": tilt.energy,
         }
-        lean, _ = lean_residual(parameters.pose)
-        energies["pose_prior"] += 0.5 * lean * lean
         if len(self.attributes.standard_errors):
             energies["attributes"] = attribute_energy(self.attributes, parameters.shape)
         if evidence.slants is not None:
@@ -149,6 +156,8 @@ class Objective:
             rendering=rendering,
             edges=edges,
             landmarks=landmarks,
+            joints=joints,
+            tilt=tilt,
             spheres=spheres,
             radii=radii,
             energies=energies,

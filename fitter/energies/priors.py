@@ -1,19 +1,11 @@
-"""Priors on the whole body: what is known about its shape, and that people stand upright."""
+"""The prior on the shape: what is known about it before the picture is seen."""
 
 from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
 
-from fitter.arrays import Pose, Shape
-from fitter.numerics.rotations import rotation_matrices
-
-LEAN_SPREAD = 0.2
-"""Standard deviation of the sine of the angle by which the pelvis leans out of the picture's plane.
-Leaning toward or away from the camera hardly changes the outline, so a faulty outline is easily
-explained by it: without this prior a body leans back 40 degrees to cover ground with its feet.
-People who lie down are recognised by their clicks, whose foreshortening far outweighs this prior.
-"""
+from fitter.arrays import Shape
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -45,12 +37,3 @@ def population_prior(count: int) -> ShapePrior:
     precision = np.eye(count)
     precision[0, 0] = 0.0
     return ShapePrior(mean=np.zeros(count), precision=precision)
-
-
-def lean_residual(pose: Pose) -> tuple[float, Float[np.ndarray, "3"]]:
-    """Depth component of the pelvis' upward axis divided by its spread, and the derivative.
-
-    The derivative is by the root's increment δ: d(R e_y) = δ × R e_y.
-    """
-    up = rotation_matrices(pose[:1])[0, :, 1]
-    return float(up[2]) / LEAN_SPREAD, np.array([up[1], -up[0], 0.0]) / LEAN_SPREAD

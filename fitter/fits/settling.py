@@ -13,7 +13,7 @@ from fitter.optimizer.albedo_colour import albedo_rgb
 from fitter.optimizer.alternation import ShadedFit
 from fitter.optimizer.gauss_newton import EnergyObserver, Minimum
 from fitter.optimizer.light_solve import guessed_lights
-from fitter.optimizer.uncertainty import shape_covariance
+from fitter.optimizer.uncertainty import camera_tilt, certainty, shape_covariance
 from fitter.person.fitted_person import FittedPerson
 from fitter.request import Cues, FitRequest
 from fitter.result import PictureFit
@@ -84,6 +84,9 @@ def settle(
     candidate, shading = shaded.minimum.candidate, shaded.shading
     objective = searches.about(shaded.objective, candidate.parameters)
     overlap = objective.overlap(candidate)
+    certain = certainty(
+        objective if shading is None else objective.with_shading(shading.evidence), candidate
+    )
     person = FittedPerson(
         gender=request.gender,
         model_checksum=model.checksum,
@@ -92,11 +95,8 @@ def settle(
         light=None,
         reflectance=None,
         albedo_rgb=None,
-        shape_covariance=shape_covariance(
-            objective if shading is None else objective.with_shading(shading.evidence),
-            candidate,
-            height_variance=height_variance,
-        ),
+        shape_covariance=shape_covariance(certain, height_variance=height_variance),
+        tilt=camera_tilt(certain),
     )
     if shading is not None:
         colours = albedo_rgb(

@@ -22,10 +22,10 @@ from fitter.energies.fitting_operators import FittingOperators
 from fitter.energies.limb_slants import slant_rows
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.penetration import penetration_rows
-from fitter.energies.priors import lean_residual
 from fitter.energies.rows import PositionRows, ShadingRows, thinned
 from fitter.energies.shading import shading_rows, thinned_shading
 from fitter.energies.silhouette import silhouette_rows
+from fitter.energies.stance import stance_rows
 from fitter.numerics.normals import add_normal_derivative
 from fitter.optimizer.ease_freedom import with_free_ease
 from fitter.optimizer.parameter_vector import as_vector
@@ -36,6 +36,7 @@ from fitter.optimizer.row_jacobians import (
     scatter_sums,
     shading_row_jacobian,
 )
+from fitter.optimizer.tilt_freedom import stance_jacobian, with_free_tilt
 
 # At most this many rows of each kind enter the matrix; the gradient uses all of them.
 MATRIX_ROWS = 300
@@ -93,6 +94,9 @@ def normal_equations(
             continue
         _scatter_through(rows, support, len(positions), pull)
         jacobians.append(position_row_jacobian(rows, frame, attachments, positions))
+    stance = stance_rows(candidate.joints, operators.stance_vectors, candidate.tilt)
+    _scatter_through(stance.rows, operators.model.joint_regressor, len(candidate.joints), pull)
+    jacobians.append(with_free_tilt(stance_jacobian(stance, frame, operators, candidate), stance))
     if evidence.shading is not None:
         rows = shading_rows(rendering, evidence.shading.about(parameters.translation), scales)
         by_centre += rows.centre_derivatives.T @ (rows.weights * rows.residuals)
@@ -137,9 +141,6 @@ def _add_priors(
         span = slice(3 * part, 3 * part + 3)
         matrix[span, span] += block
     gradient[:pose_size] += np.einsum("pra,pr->pa", terms.jacobian, terms.residuals).ravel()
-    lean, by_root = lean_residual(parameters.pose)
-    matrix[:3, :3] += np.outer(by_root, by_root)
-    gradient[:3] += lean * by_root
     shape = slice(pose_size + 3, None)
     matrix[shape, shape] += objective.shape_prior.precision
     gradient[shape] += objective.shape_prior.slope(parameters.shape)

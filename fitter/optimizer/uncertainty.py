@@ -1,4 +1,6 @@
-"""How certain the shape is: the Laplace approximation at the final body."""
+"""How certain shape and tilt are: the Laplace approximation at the final body."""
+
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
@@ -9,18 +11,36 @@ from fitter.energies.objective import Candidate, Objective
 from fitter.optimizer.free_space import FreeSpace, free_space, kept_directions
 from fitter.optimizer.light_freedom import information_lost_to_light
 from fitter.optimizer.normal_equations import normal_equations
+from fitter.optimizer.tilt_freedom import tilt_covariance
+from fitter.parameters import CameraTilt, StanceKind
 
 
-def shape_covariance(
-    objective: Objective, candidate: Candidate, *, height_variance: float
-) -> Float[np.ndarray, "n n"]:
-    """Covariance of the shape, with pose, position, light and ease of loose clothes marginalised.
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Certainty:
+    """The covariance of all body parameters at a minimum, with light and ease marginalised.
+
+    Attributes
+    ----------
+    objective, candidate
+        Whose minimum.
+    space
+        The steps that keep what is held.
+    covariance
+        Of all parameters within that space, (columns, columns).
+    """
+
+    objective: Objective
+    candidate: Candidate
+    space: FreeSpace
+    covariance: Float[np.ndarray, "columns columns"]
+
+
+def certainty(objective: Objective, candidate: Candidate) -> Certainty:
+    """How certain the body is.
 
     The albedo of each vertex is held, as is everything else the objective fixes. Energies are
     negative log-likelihoods, so the inverse of the Gauss-Newton matrix is the covariance of all
-    parameters near the minimum. What is held exactly does not vary. The height is never estimated
-    from the picture: ``height_variance`` is the population's, given what is known, in its
-    coefficient's unit; zero for a height that is known.
+    parameters near the minimum. What is held exactly does not vary.
     """
     matrix, _ = normal_equations(objective, candidate, marginal=True)
     if objective.evidence.shading is not None:
@@ -28,9 +48,35 @@ def shape_covariance(
     space = free_space(objective.attributes.held, candidate.parameters)
     inner = space.directions.T @ matrix @ space.directions
     inverse = np.linalg.inv(inner + 1e-9 * np.eye(len(inner)))
-    shapes = space.directions[-len(candidate.parameters.shape) :]
-    response = _height_response(objective, candidate, space)
-    return shapes @ inverse @ shapes.T + height_variance * np.outer(response, response)
+    return Certainty(
+        objective=objective,
+        candidate=candidate,
+        space=space,
+        covariance=space.directions @ inverse @ space.directions.T,
+    )
+
+
+def shape_covariance(certain: Certainty, *, height_variance: float) -> Float[np.ndarray, "n n"]:
+    """Covariance of the shape, with pose and position marginalised.
+
+    The height is never estimated from the picture: ``height_variance`` is the population's, given
+    what is known, in its coefficient's unit; zero for a height that is known.
+    """
+    n = len(certain.candidate.parameters.shape)
+    response = _height_response(certain.objective, certain.candidate, certain.space)
+    return certain.covariance[-n:, -n:] + height_variance * np.outer(response, response)
+
+
+def camera_tilt(certain: Certainty) -> CameraTilt:
+    """The camera's tilt, as the body tells it, with its covariance."""
+    candidate = certain.candidate
+    tilt = candidate.tilt
+    return CameraTilt(
+        pitch=tilt.pitch,
+        roll=tilt.roll,
+        covariance=tilt_covariance(certain.objective.operators, candidate, certain.covariance),
+        stances=dict(zip(StanceKind, tilt.shares.tolist(), strict=True)),
+    )
 
 
 def _height_response(objective: Objective, candidate: Candidate, space: FreeSpace) -> Shape:

@@ -31,7 +31,14 @@ from jaxtyping import Float
 from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
 from fitter.numerics.array_archive import write_arrays
-from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
+from fitter.parameters import (
+    BodyParameters,
+    CameraTilt,
+    Light,
+    LightKind,
+    Reflectance,
+    StanceKind,
+)
 from fitter.person.person_checks import FORMAT_VERSION, checked_person, unusable_person
 from fitter.render.camera import Camera
 from fitter.request import Gender
@@ -55,6 +62,8 @@ class FittedPerson:
         (m, 3) linear red, green and blue albedo; None where no colour was estimated.
     shape_covariance
         (n, n) of the shape's coefficients; None for a body whose uncertainty is not known.
+    tilt
+        How the camera was held, and how the person stands; None where it was not estimated.
     """
 
     gender: Gender
@@ -65,6 +74,7 @@ class FittedPerson:
     reflectance: Reflectance | None
     albedo_rgb: Vertices | None
     shape_covariance: Float[np.ndarray, "n n"] | None = None
+    tilt: CameraTilt | None = None
 
     def to_bytes(self) -> bytes:
         """The file; the same person gives the same bytes."""
@@ -91,6 +101,12 @@ class FittedPerson:
         }
         if self.shape_covariance is not None:
             arrays["shape_covariance"] = self.shape_covariance
+        if self.tilt is not None:
+            arrays |= {
+                "tilt": np.array([self.tilt.pitch, self.tilt.roll]),
+                "tilt_covariance": self.tilt.covariance,
+                "stances": np.array([self.tilt.stances[kind] for kind in StanceKind]),
+            }
         if light is not None and reflectance is not None:
             arrays |= {
                 "light": np.array([light.azimuth, light.elevation, light.distance]),
@@ -142,6 +158,7 @@ class FittedPerson:
             reflectance=_reflectance(arrays) if header["light"] is not None else None,
             albedo_rgb=arrays.get("albedo_rgb"),
             shape_covariance=arrays.get("shape_covariance"),
+            tilt=_tilt(arrays),
         )
 
 
@@ -190,6 +207,18 @@ def _light(kind: object, arrays: Mapping[str, np.ndarray]) -> Light | None:
             field="light", reason=f"is {distance} m away, expected {wanted} for a {kind} light"
         )
     return light
+
+
+def _tilt(arrays: Mapping[str, np.ndarray]) -> CameraTilt | None:
+    if "tilt" not in arrays:
+        return None
+    pitch, roll = arrays["tilt"].tolist()
+    return CameraTilt(
+        pitch=pitch,
+        roll=roll,
+        covariance=arrays["tilt_covariance"],
+        stances=dict(zip(StanceKind, arrays["stances"].tolist(), strict=True)),
+    )
 
 
 def _reflectance(arrays: Mapping[str, np.ndarray]) -> Reflectance:

@@ -26,6 +26,7 @@ _LARGEST_TURN = 2.0 * np.pi
 
 _BODY = {"pose": (-1, 3), "translation": (3,), "shape": (-1,), "camera": (5,)}
 _CERTAINTY = {"shape_covariance": (-1, -1)}
+_TILT = {"tilt": (2,), "tilt_covariance": (2, 2), "stances": (3,)}
 _SHADING = {"light": (3,), "eq_1": (2,), "albedo": (-1,), "specularity": (-1,)}
 _COLOUR = {"albedo_rgb": (-1, 3)}
 _SURROUNDINGS = {"surroundings": (9,)}
@@ -99,7 +100,8 @@ def _header(encoded: np.ndarray | None) -> dict[str, object]:
 
 
 def _require_fields(arrays: Mapping[str, np.ndarray], *, shaded: bool) -> None:
-    required = _BODY | (_SHADING if shaded else {})
+    tilted = not arrays.keys().isdisjoint(_TILT)
+    required = _BODY | (_TILT if tilted else {}) | (_SHADING if shaded else {})
     allowed = required | _CERTAINTY | (_COLOUR | _SURROUNDINGS if shaded else {})
     for field in required.keys() - arrays.keys():
         raise unusable_person(field=field, reason="is missing")
@@ -125,13 +127,11 @@ def _require_fields(arrays: Mapping[str, np.ndarray], *, shaded: bool) -> None:
             )
 
 
-def _require_covariance(covariance: np.ndarray, n: int) -> None:
+def _require_covariance(field: str, covariance: np.ndarray, n: int) -> None:
     if covariance.shape != (n, n):
-        raise unusable_person(
-            field="shape_covariance", reason=f"is of shape {covariance.shape}, not ({n}, {n})"
-        )
+        raise unusable_person(field=field, reason=f"is of shape {covariance.shape}, not ({n}, {n})")
     if not np.allclose(covariance, covariance.T, atol=1e-9):
-        raise unusable_person(field="shape_covariance", reason="is not symmetric")
+        raise unusable_person(field=field, reason="is not symmetric")
 
 
 def _require_values(arrays: Mapping[str, np.ndarray]) -> None:
@@ -140,7 +140,13 @@ def _require_values(arrays: Mapping[str, np.ndarray]) -> None:
         if not np.isfinite(finite).all():
             raise unusable_person(field=field, reason="holds a number that is not finite")
     if "shape_covariance" in arrays:
-        _require_covariance(arrays["shape_covariance"], len(arrays["shape"]))
+        _require_covariance("shape_covariance", arrays["shape_covariance"], len(arrays["shape"]))
+    if "tilt" in arrays:
+        _require_covariance("tilt_covariance", arrays["tilt_covariance"], 2)
+        if arrays["tilt_covariance"].diagonal().min() < 0.0:
+            raise unusable_person(field="tilt_covariance", reason="has a negative variance")
+        if arrays["stances"].min() < 0.0 or not np.isclose(arrays["stances"].sum(), 1.0):
+            raise unusable_person(field="stances", reason="are no probabilities")
     if np.linalg.norm(arrays["pose"], axis=1).max() > _LARGEST_TURN:
         raise unusable_person(field="pose", reason="turns a part by more than a whole turn")
     if arrays["translation"][2] <= 0.0:

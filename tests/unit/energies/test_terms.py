@@ -19,7 +19,6 @@ from fitter.energies.penetration import (
     penetration_rows,
     sphere_positions,
 )
-from fitter.energies.priors import lean_residual
 from fitter.energies.scales import scales_at
 from fitter.energies.shading import (
     ShadingEvidence,
@@ -34,7 +33,6 @@ from fitter.evidence.silhouette_evidence import silhouette_evidence
 from fitter.fits.prepared_model import prepared_model
 from fitter.numerics.mesh_topology import mesh_topology
 from fitter.numerics.normals import add_normal_derivative
-from fitter.numerics.rotations import compose
 from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
 from fitter.render.camera import Camera
 from fitter.render.contours import model_edges
@@ -354,17 +352,3 @@ class TestShading:
                 for each in (direction, -direction)
             )
             assert slope[axis] == pytest.approx((ahead - behind) / 2e-5, rel=1e-3)
-
-
-def test_the_lean_of_an_upright_body_is_none_and_its_slope_is_exact():
-    pose = np.zeros((3, 3))
-    assert lean_residual(pose)[0] == 0.0
-    rng = np.random.default_rng(0)
-    pose = rng.standard_normal((3, 3))
-    _, slope = lean_residual(pose)
-    for axis in range(3):
-        delta = np.zeros((3, 3))
-        delta[0, axis] = 1e-6
-        plus, _ = lean_residual(compose(delta, pose))
-        minus, _ = lean_residual(compose(-delta, pose))
-        assert slope[axis] == pytest.approx((plus - minus) / 2e-6, abs=1e-6)

@@ -19,7 +19,7 @@ from fitter.optimizer.free_space import HELD_WITHIN, free_space, held_shape
 from fitter.optimizer.gauss_newton import minimize_gauss_newton
 from fitter.optimizer.normal_equations import normal_equations
 from fitter.optimizer.simplex import minimize_simplex
-from fitter.optimizer.uncertainty import shape_covariance
+from fitter.optimizer.uncertainty import certainty, shape_covariance
 from fitter.parameters import BodyParameters
 from fitter.population.known_person import KnownPerson, known_person
 from fitter.request import FitRequest, Gender, KnownMeasurement
@@ -49,7 +49,7 @@ def spreads(objective: Objective, candidate: Candidate, height_variance: float) 
     """Standard errors of the body's own measurements: how certain the fit is."""
     shape = candidate.parameters.shape
     measuring = replace(body().measuring, unexplained=np.zeros_like(body().measuring.unexplained))
-    covariance = shape_covariance(objective, candidate, height_variance=height_variance)
+    covariance = shape_covariance(certainty(objective, candidate), height_variance=height_variance)
     return {
         each.name: each.standard_error or 0.0
         for each in measure(measuring, shape, shape_covariance=covariance)
@@ -270,7 +270,7 @@ def test_the_simplex_holds_attributes_as_well(scene):
 
 def test_an_unknown_height_spreads_all_but_what_is_held(scene, held_fit):
     objective, minimum = held_fit
-    covariance = shape_covariance(objective, minimum.candidate, height_variance=0.4)
+    covariance = shape_covariance(certainty(objective, minimum.candidate), height_variance=0.4)
     assert covariance[0, 0] == pytest.approx(0.4)
     errors = spreads(objective, minimum.candidate, 0.4)
     assert errors["stature"] > 3.0

@@ -7,7 +7,7 @@ from fitter.energies.objective import Candidate, Objective
 from fitter.energies.shading import ShadingEvidence, usable_vertices
 from fitter.optimizer.light_freedom import information_lost_to_light, light_slopes
 from fitter.optimizer.normal_equations import normal_equations
-from fitter.optimizer.uncertainty import shape_covariance
+from fitter.optimizer.uncertainty import certainty, shape_covariance
 from fitter.parameters import Light, LightKind, Reflectance
 from fitter.render.reflectance import shade
 from tests.unit.optimizer.rendered_scene import LIGHT, rendered_scene
@@ -132,7 +132,7 @@ def test_a_shape_is_less_certain_under_a_light_that_is_not_known():
     shape = slice(len(held) - len(candidate.parameters.shape) + 1, None)
     free = np.delete(np.arange(len(held)), shape.start - 1)
     known = np.linalg.inv(held[np.ix_(free, free)])[shape.start - 1 :, shape.start - 1 :]
-    found = shape_covariance(objective, candidate, height_variance=0.0)[1:, 1:]
+    found = shape_covariance(certainty(objective, candidate), height_variance=0.0)[1:, 1:]
     gain = np.linalg.eigvalsh(found - known)
     assert gain.min() > -1e-6
     assert gain.max() > 0.005

@@ -10,7 +10,7 @@ from fitter.optimizer.light_solve import guessed_lights
 from fitter.optimizer.normal_equations import normal_equations
 from fitter.optimizer.parameter_vector import moved
 from fitter.optimizer.simplex import minimize_simplex
-from fitter.optimizer.uncertainty import shape_covariance
+from fitter.optimizer.uncertainty import certainty, shape_covariance
 from fitter.render.light import direction_to_light
 from fitter.render.reflectance import shade
 from fitter.request import LightGuess
@@ -51,8 +51,9 @@ def test_gauss_newton_finds_the_way_back_from_perturbed_bodies():
         posed.append(scene.posed_error_mm(found.parameters) / scene.posed_error_mm(scene.start))
         shapes.append(scene.shape_error_mm(found.parameters) / scene.shape_error_mm(scene.start))
     # Depth is poorly seen, and a spine may bend for the pelvis: rounding alone takes one body from
-    # 0.33 to 0.56 of its first error. The means over twelve are 0.41 to 0.44 and 0.62 by processor.
-    assert np.exp(np.log(posed).mean()) < 0.5
+    # 0.33 to 0.56 of its first error. Nor do random poses balance, as the fit expects of people:
+    # without that the mean over twelve is 0.42, with it 0.63; of shapes it is 0.61 to 0.65.
+    assert np.exp(np.log(posed).mean()) < 0.75
     assert np.mean(shapes) < 0.7
 
 
@@ -134,7 +135,9 @@ def test_shading_finds_the_light_and_betters_the_body(scene, silhouette_fit):
 
 
 def test_the_shape_is_known_better_than_before_the_picture(scene, silhouette_fit):
-    covariance = shape_covariance(scene.objective, silhouette_fit.candidate, height_variance=0.0)
+    covariance = shape_covariance(
+        certainty(scene.objective, silhouette_fit.candidate), height_variance=0.0
+    )
     variances = np.diag(covariance)
     assert variances[0] == 0.0
     assert (variances[1:] > 0.0).all()
@@ -143,5 +146,7 @@ def test_the_shape_is_known_better_than_before_the_picture(scene, silhouette_fit
 
 
 def test_an_assumed_height_is_as_uncertain_as_the_populations(scene, silhouette_fit):
-    covariance = shape_covariance(scene.objective, silhouette_fit.candidate, height_variance=1.0)
+    covariance = shape_covariance(
+        certainty(scene.objective, silhouette_fit.candidate), height_variance=1.0
+    )
     assert covariance[0, 0] == 1.0

@@ -17,7 +17,7 @@ from fitter.optimizer.shape_likelihood import (
     shape_likelihood,
 )
 from fitter.optimizer.simplex import minimize_simplex
-from fitter.optimizer.uncertainty import shape_covariance
+from fitter.optimizer.uncertainty import certainty, shape_covariance
 from tests.unit.optimizer.rendered_scene import RenderedScene, rendered_scene
 
 N = 6
@@ -155,7 +155,7 @@ def test_the_covariance_is_what_prior_and_picture_say_together(scene):
     found = []
     for prior in (population_prior(n), told(scene)):
         objective = replace(scene.objective, shape_prior=prior)
-        covariance = shape_covariance(objective, candidate, height_variance=0.3)
+        covariance = shape_covariance(certainty(objective, candidate), height_variance=0.3)
         assert covariance[0, 0] == pytest.approx(0.3)
         found.append(
             shape_likelihood(
@@ -177,5 +177,5 @@ def test_a_shape_that_is_held_leaves_pose_and_place_free(scene):
     found = minimize_gauss_newton(held, start, max_evaluations=60, on_energies=ignore)
     np.testing.assert_array_equal(found.candidate.parameters.shape, scene.truth.shape)
     assert held.overlap(found.candidate) > 0.96
-    covariance = shape_covariance(held, found.candidate, height_variance=0.0)
+    covariance = shape_covariance(certainty(held, found.candidate), height_variance=0.0)
     np.testing.assert_array_equal(covariance, np.zeros_like(covariance))

@@ -8,6 +8,7 @@ import pytest
 
 from fitter.errors import InvalidInputError
 from fitter.numerics.array_archive import write_arrays
+from fitter.parameters import CameraTilt, StanceKind
 from fitter.person.fitted_person import FittedPerson, require_model
 from fitter.person.person_checks import MAX_BYTES
 from tests.unit.body.synthetic_model import bar_model
@@ -18,12 +19,20 @@ COLOURS = np.random.default_rng(1).uniform(0.0, 1.2, size=(len(MODEL.mean_vertic
 
 SURROUNDED = replace(POINT_LIGHT, surroundings=np.linspace(1.0, -0.2, 9))
 
+TILT = CameraTilt(
+    pitch=-0.12,
+    roll=0.03,
+    covariance=np.array([[2e-3, 1e-4], [1e-4, 1e-3]]),
+    stances={StanceKind.STANDING: 0.9, StanceKind.STRIDING: 0.08, StanceKind.OTHER: 0.02},
+)
+
 PEOPLE = {
     "point light": result_of(MODEL).person,
     "surroundings": result_of(MODEL, light=SURROUNDED).person,
     "directional light": result_of(MODEL, light=SUN).person,
     "coloured": result_of(MODEL, albedo_rgb=COLOURS).person,
     "without shading": result_of(MODEL, light=None).person,
+    "tilt": replace(result_of(MODEL).person, tilt=TILT),
 }
 
 
@@ -76,6 +85,31 @@ def test_every_number_comes_back_as_it_was(kind):
         assert found.albedo_rgb is None
     else:
         np.testing.assert_array_equal(found.albedo_rgb, person.albedo_rgb)
+    assert (found.tilt is None) == (person.tilt is None)
+    if found.tilt is not None and person.tilt is not None:
+        assert (found.tilt.pitch, found.tilt.roll) == (person.tilt.pitch, person.tilt.roll)
+        assert found.tilt.stances == person.tilt.stances
+        np.testing.assert_array_equal(found.tilt.covariance, person.tilt.covariance)
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("tilt_covariance", np.diag([1.0, -1.0])),
+        ("tilt_covariance", np.array([[1.0, 0.5], [0.0, 1.0]])),
+        ("stances", np.array([0.5, 0.5, 0.5])),
+        ("tilt", np.array([np.nan, 0.0])),
+    ],
+)
+def test_a_tilt_that_no_fit_gives_is_refused(field, value):
+    arrays = members(PEOPLE["tilt"])
+    assert refusal(packed(arrays | {field: value})).field == f"person.{field}"
+
+
+def test_a_tilt_without_its_covariance_is_refused():
+    arrays = members(PEOPLE["tilt"])
+    del arrays["tilt_covariance"]
+    assert refusal(packed(arrays)).field == "person.tilt_covariance"
 
 
 @pytest.mark.parametrize("kind", PEOPLE)
