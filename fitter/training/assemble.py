@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 from jaxtyping import Float, Integer
@@ -32,8 +33,8 @@ from fitter.training.articulation.pose_term import (
     pose_feature_joints,
     train_pose_term,
 )
-from fitter.training.articulation.random_poses import random_pose
 from fitter.training.articulation.registered_bodies import RegisteredBodies
+from fitter.training.articulation.taught_poses import taught_poses
 from fitter.training.makehuman.meshes import BaseMesh
 from fitter.training.shapes.attribute_spaces import attribute_space
 from fitter.training.shapes.height_rotation import Attribute
@@ -236,13 +237,12 @@ def pose_examples(
     count: int,
     rng: np.random.Generator,
 ) -> Iterator[PoseExample]:
-    """Posed bodies with their shape coefficients; subjects taken in turn, poses at random.
+    """Posed bodies with their shape coefficients; subjects and taught poses in turn.
 
     Every body is followed by its mirror image, so that both sides are taught alike.
     """
-    for k in range((count + 1) // 2):
+    for k, pose in enumerate(islice(taught_poses(rng), (count + 1) // 2)):
         subject = k % len(bodies.rest)
-        pose = random_pose(rng)
         example = PoseExample(
             rest=bodies.rest[subject].astype(np.float64),
             posed=bodies.posed(subject, pose),

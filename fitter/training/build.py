@@ -14,6 +14,7 @@ from fitter.training.articulation.inner_points import with_inner_points
 from fitter.training.articulation.registered_bodies import RegisteredBodies
 from fitter.training.articulation.rig import load_rig
 from fitter.training.articulation.rigged_bodies import RiggedMesh, rigged_bodies, rigged_mesh
+from fitter.training.articulation.shoulder_girdle import with_shoulder_girdle
 from fitter.training.articulation.volume_learning import with_volume_learned
 from fitter.training.assemble import assemble_body_model, model_arrays, with_height_axis
 from fitter.training.makehuman.body_space import BodySpace, load_body_space
@@ -65,7 +66,9 @@ def read_materials(folder: Path) -> Materials:
     cubes = load_rig(folder, base.groups, len(base.source_vertices))
     return Materials(
         meshes={
-            gender: rigged_mesh(base, with_skin_centres(cubes, base, space))
+            gender: rigged_mesh(
+                base, with_shoulder_girdle(with_skin_centres(cubes, base, space), base)
+            )
             for gender, space in spaces.items()
         },
         spaces=spaces,

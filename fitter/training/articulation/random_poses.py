@@ -33,14 +33,16 @@ _SLACK_DEGREES = 8.0
 _CALM_SHARE = 0.35
 """Share of joints kept within a quarter of their range: pictures show more calm than bent ones."""
 
+SIDES = {"left": np.array([1.0, 1.0, 1.0]), "right": np.array([1.0, -1.0, -1.0])}
+"""What makes a left limb's turn that of either side."""
+
 
 def random_pose(rng: np.random.Generator) -> Pose:
     """One pose; the whole body's own turn stays zero, because nothing depends on it."""
     pose = np.zeros((len(PART_NAMES), 3))
     for part, limits in _TRUNK.items():
         pose[part_index(part)] = np.radians(_vector(rng, limits))
-    for side in ("left", "right"):
-        mirror = np.array([1.0, 1.0, 1.0]) if side == "left" else np.array([1.0, -1.0, -1.0])
+    for side, mirror in SIDES.items():
         for part, vector in _left_limbs(rng).items():
             pose[part_index(f"{side}_{part}")] = vector * mirror
     return pose
@@ -61,6 +63,31 @@ def _left_limbs(rng: np.random.Generator) -> dict[str, Float[np.ndarray, "3"]]:
     }
 
 
+def aimed_limb(
+    rng: np.random.Generator,
+    axis: Float[np.ndarray, "3"],
+    elevation: tuple[float, float],
+    azimuth: tuple[float, float],
+    twist: tuple[float, float],
+) -> Float[np.ndarray, "3"]:
+    """The turn that aims a left limb along a random direction, and twists it.
+
+    Parameters
+    ----------
+    rng
+        Draws the angles.
+    axis
+        Unit direction of the limb at rest.
+    elevation, azimuth, twist
+        Degrees, (lowest, highest): from straight down, from straight out (forward positive), and
+        about the limb.
+    """
+    up, round_, turn = (np.radians(rng.uniform(*limits)) for limits in (elevation, azimuth, twist))
+    target = np.array([np.sin(up) * np.cos(round_), -np.cos(up), np.sin(up) * np.sin(round_)])
+    swing = rotation_between(axis, target)
+    return rotation_vectors(swing[None] @ rotation_matrices((turn * axis)[None]))[0]
+
+
 def _aim(
     rng: np.random.Generator,
     axis: Float[np.ndarray, "3"],
@@ -70,10 +97,7 @@ def _aim(
 ) -> Float[np.ndarray, "3"]:
     if rng.random() < _CALM_SHARE:
         return np.radians(rng.uniform(-15.0, 15.0, size=3))
-    up, round_, turn = (np.radians(rng.uniform(*limits)) for limits in (elevation, azimuth, twist))
-    target = np.array([np.sin(up) * np.cos(round_), -np.cos(up), np.sin(up) * np.sin(round_)])
-    swing = rotation_between(axis, target)
-    return rotation_vectors(swing[None] @ rotation_matrices((turn * axis)[None]))[0]
+    return aimed_limb(rng, axis, elevation, azimuth, twist)
 
 
 def _bend(

@@ -21,6 +21,7 @@ from fitter.body.skeleton import global_rotations
 from fitter.numerics.rotations import rotation_matrices
 from fitter.training.articulation.part_tree import PART_NAMES, PART_PARENT
 from fitter.training.articulation.rig_drives import BoneDrives, bone_drives
+from fitter.training.articulation.scapular_rhythm import raised_shares
 from fitter.training.articulation.skinning import blend_half_dual_quaternion
 from fitter.training.articulation.twist import partial_rotations
 
@@ -108,8 +109,12 @@ def bone_rotations(rig: Rig, pose: Pose) -> Float[np.ndarray, "b 3 3"]:
     parents = PART_PARENT[drives.part]
     base = np.where((parents < 0)[:, None, None], np.eye(3), parts[parents])
     own = partial_rotations(pose[drives.part], drives.axis, drives.swing, drives.twist)
+    raised = raised_shares(pose[drives.beyond], drives.beyond_axis)
     beyond = partial_rotations(
-        pose[drives.beyond], drives.beyond_axis, drives.beyond_swing, drives.beyond_twist
+        pose[drives.beyond],
+        drives.beyond_axis,
+        drives.beyond_swing + drives.raised_swing * raised,
+        drives.beyond_twist,
     )
     whole = (drives.swing == 1.0) & (drives.twist == 1.0)
     own = np.where(whole[:, None, None], rotation_matrices(pose)[drives.part], own)

@@ -2,8 +2,8 @@
 
 Shares along a chain spread one joint of ours over several bones, as the body spreads it over
 several bones and over skin: two vertebrae of the rig for the spine and for the chest each, the
-collar bone and shoulder blade that give a raised arm about a quarter of its turn, the forearm in
-which the wrist's twist happens between the elbow and the wrist.
+collar bone and shoulder blade that go along with an arm, the forearm in which the wrist's twist
+happens between the elbow and the wrist.
 """
 
 from dataclasses import dataclass
@@ -19,6 +19,7 @@ class BoneDrives:
     """Per bone: its part with its shares of swing and twist, and the same of the part beyond.
 
     ``axis`` and ``beyond_axis`` are unit vectors, body frame at rest, about which twist is meant.
+    ``raised_swing`` comes on top of ``beyond_swing`` where the part beyond is an arm raised high.
     """
 
     part: Integer[np.ndarray, " b"]
@@ -29,6 +30,7 @@ class BoneDrives:
     beyond_axis: Float[np.ndarray, "b 3"]
     beyond_swing: Float[np.ndarray, " b"]
     beyond_twist: Float[np.ndarray, " b"]
+    raised_swing: Float[np.ndarray, " b"]
 
 
 # Directions of the bones of the MakeHuman base mesh at rest, left side; right is mirrored in x.
@@ -108,6 +110,7 @@ def bone_drives(bone_names: tuple[str, ...]) -> BoneDrives:
         beyond_axis=np.array(beyond_axis),
         beyond_swing=np.array(beyond_swing),
         beyond_twist=np.array(beyond_twist),
+        raised_swing=np.zeros(len(bone_names)),
     )
 
 

@@ -11,6 +11,7 @@ from fitter.training.report.limb_length_figures import limb_length_lines
 from fitter.training.report.measurement_figures import measurement_lines
 from fitter.training.report.mesh_balance import mesh_balance_lines
 from fitter.training.report.provenance import residual_lines
+from fitter.training.report.raised_arm_figures import raised_arm_lines
 from fitter.training.report.repeatability_figures import repeatability_lines
 from fitter.training.report.reported import Reported
 from fitter.training.report.shape_figures import shape_lines
@@ -23,6 +24,7 @@ SECTIONS: tuple[Section, ...] = (
     agreement_lines,
     shape_lines,
     articulation_lines,
+    raised_arm_lines,
     attribute_lines,
     comparison_lines,
     limb_length_lines,

@@ -7,6 +7,7 @@ import numpy as np
 from fitter.training.articulation.registered_bodies import RegisteredBodies
 from fitter.training.articulation.rig import Rig, load_rig
 from fitter.training.articulation.rigged_bodies import RiggedMesh, rigged_bodies, rigged_mesh
+from fitter.training.articulation.shoulder_girdle import with_shoulder_girdle
 from fitter.training.makehuman.body_space import Traits, source_vertices
 from fitter.training.makehuman.local_changes import FACE_CHANGES
 from fitter.training.makehuman.meshes import makehuman_folder
@@ -17,13 +18,14 @@ NEUTRAL = Traits(age=0.5, ancestry=np.full(3, 1.0 / 3.0), face=np.zeros(len(FACE
 
 @cache
 def rig() -> Rig:
+    """As MakeHuman paints it."""
     base = base_mesh()
     return load_rig(makehuman_folder(), base.groups, len(base.source_vertices))
 
 
 @cache
 def mesh() -> RiggedMesh:
-    return rigged_mesh(base_mesh(), rig())
+    return rigged_mesh(base_mesh(), with_shoulder_girdle(rig(), base_mesh()))
 
 
 @cache
