@@ -103,7 +103,7 @@ def thigh_against_thigh(body: Body, push: float) -> Pose:
 
 def forearm_against_head(body: Body, push: float) -> Pose:
     """The arm raised beside the head, the elbow bent until the forearm is in the head."""
-    up, bend = np.radians(140.0), np.radians(115.0 - 25.0 * push)
+    up, bend = np.radians(130.0), np.radians(115.0 - 25.0 * push)
     return body.arm([np.sin(up), -np.cos(up), 0.15], [-np.sin(bend), -np.cos(bend), 0.0])
 
 
