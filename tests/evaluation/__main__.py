@@ -15,6 +15,7 @@ from tests.evaluation.detector_figures import detector_lines, hinted_fits
 from tests.evaluation.foreign import MISSING, foreign_names
 from tests.evaluation.light_figures import InLight, in_both_lights, light_lines
 from tests.evaluation.limit_tables import limit_lines, outline_lines, several_lines
+from tests.evaluation.moved_points import moved_fits, moved_lines
 from tests.evaluation.outline_limit import outline_limit
 from tests.evaluation.page import write_page
 from tests.evaluation.people import load_person
@@ -75,6 +76,10 @@ def main(arguments: Sequence[str]) -> int:
             hinted = of_each(hinted_fits, names, options.jobs)
             print(f"\n{title}")
             print("\n".join(detector_lines([each for several in hinted for each in several])))
+        return 0
+    if options.moved_points:
+        fits = of_each(moved_fits, [case.name for case in chosen] + foreign, options.jobs)
+        print("\n".join(moved_lines([each for several in fits for each in several])))
         return 0
     if options.set == Series.CLOTHED.value and options.clothing is None:
         for title, part in _halves(chosen):
@@ -247,6 +252,11 @@ def _parser() -> argparse.ArgumentParser:
         "--chain",
         action="store_true",
         help="from a body fitted to the true mesh to a fit that is told nothing, foreign pictures",
+    )
+    parser.add_argument(
+        "--moved-points",
+        action="store_true",
+        help="fit with the points 2 cm away from where they were, in several ways",
     )
     parser.add_argument(
         "--detector",
