@@ -186,6 +186,13 @@ class FitChoices(Subject):
         ),
     )
     light: LightGuess = LightGuess()
+    force: bool = Field(
+        default=False,
+        description=(
+            "Give measurements even if the verdict is `implausible` or `no_person`; otherwise they "
+            "are withheld."
+        ),
+    )
 
 
 class FitOptions(FitChoices, SubjectOptions):

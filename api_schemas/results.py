@@ -18,6 +18,18 @@ class Outcome(StrEnum):
     POOR_FIT = "poor_fit"
 
 
+class Verdict(StrEnum):
+    """Whether the picture bears out that a person was measured.
+
+    `no_person`: nothing shows a person where the points are. `implausible`: a body was fitted, but
+    the points, the mask or the picture contradict it. `outcome` is then `poor_fit`.
+    """
+
+    PLAUSIBLE = "plausible"
+    IMPLAUSIBLE = "implausible"
+    NO_PERSON = "no_person"
+
+
 class FocalLengthSource(StrEnum):
     """Where the focal length came from, best first."""
 
@@ -182,6 +194,8 @@ class FitResult(WireModel):
     optimizer: OptimizerKind
     outcome: Outcome
     outcome_explanation: str
+    # Earlier versions wrote none.
+    verdict: Verdict = Verdict.PLAUSIBLE
     camera: CameraResult
     image_camera: CameraResult
     focal_length_source: FocalLengthSource
@@ -191,7 +205,12 @@ class FitResult(WireModel):
     energies: dict[str, float]
     evaluations: int
     silhouette_overlap: float = Field(description="Intersection over union of body and silhouette.")
-    measurements: tuple[Measurement, ...]
+    measurements: tuple[Measurement, ...] = Field(
+        description=(
+            "Empty, as in the stages, where the verdict is `implausible` or `no_person` and the "
+            "request did not `force` them."
+        )
+    )
     stages: tuple[Stage, ...]
     limb_facing: tuple[LimbFacing, ...]
     assumptions: tuple[Assumption, ...]

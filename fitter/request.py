@@ -165,6 +165,8 @@ class FitRequest:
         Whether the detector says how limbs slant in depth.
     mask
         An encoded grey picture of the same size; above half is foreground. Replaces GrabCut.
+    force
+        Whether measurements are given even if the evidence contradicts a person.
     max_pixels
         Largest picture accepted, checked before decoding.
     """
@@ -188,4 +190,5 @@ class FitRequest:
     segmentation: SegmentationKind = SegmentationKind.SEEDED_GRABCUT
     slant_hints: bool = True
     mask: bytes | None = None
+    force: bool = False
     max_pixels: int = 50_000_000

@@ -35,6 +35,29 @@ OUTCOME_EXPLANATIONS: Mapping[Outcome, str] = {
 }
 
 
+class Verdict(StrEnum):
+    """Whether the picture bears out that a person was measured.
+
+    Where it does not, the outcome is a poor fit.
+    """
+
+    PLAUSIBLE = "plausible"
+    IMPLAUSIBLE = "implausible"
+    NO_PERSON = "no_person"
+
+
+VERDICT_EXPLANATIONS: Mapping[Verdict, str] = {
+    Verdict.IMPLAUSIBLE: (
+        "A body was fitted, but the picture contradicts it. See whether the points are on the "
+        "right joints of one person, and whether a mask that was sent shows this person alone."
+    ),
+    Verdict.NO_PERSON: (
+        "The picture shows no person where the points are. Click the joints of a person, or send "
+        "another picture."
+    ),
+}
+
+
 class FacingSource(StrEnum):
     """Who decided which way a limb faces."""
 
@@ -91,7 +114,8 @@ class Pictures:
 class PictureFit:
     """The person as found in one picture.
 
-    ``posed_vertices`` lie in the camera frame, metres.
+    ``posed_vertices`` lie in the camera frame, metres. ``contradictions`` says in sentences what
+    in the picture contradicts a person; empty where the verdict is that it is plausible.
     """
 
     person: FittedPerson
@@ -100,6 +124,20 @@ class PictureFit:
     outcome: Outcome
     posed_vertices: Vertices
     silhouette_overlap: float
+    verdict: Verdict = Verdict.PLAUSIBLE
+    contradictions: tuple[str, ...] = ()
+
+    @property
+    def is_plausible(self) -> bool:
+        """Whether nothing contradicts that a person was measured."""
+        return self.verdict is Verdict.PLAUSIBLE
+
+    @property
+    def outcome_explanation(self) -> str:
+        """What the outcome means; if a person is contradicted, what to do and by what."""
+        if self.is_plausible:
+            return OUTCOME_EXPLANATIONS[self.outcome]
+        return " ".join((VERDICT_EXPLANATIONS[self.verdict], *self.contradictions))
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -108,7 +146,8 @@ class FitResult:
 
     ``given`` names the measurements the request gave, its height as stature. ``camera`` refers to
     the working picture. ``canonical_vertices`` are in the body frame, metres. ``stage_seconds`` is
-    wall time by stage name.
+    wall time by stage name. ``measurements``, and those of stages, are empty where a person is
+    contradicted and the request does not insist.
     """
 
     found: PictureFit

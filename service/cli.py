@@ -87,6 +87,9 @@ def _parser() -> argparse.ArgumentParser:
     fit.add_argument("--optimizer", choices=("gauss_newton", "simplex"))
     fit.add_argument("--mask", type=Path, metavar="IMAGE", help="replaces the segmentation")
     fit.add_argument(
+        "--force", action="store_true", help="give measurements even if nothing shows a person"
+    )
+    fit.add_argument(
         "--models",
         type=Path,
         metavar="DIR",
@@ -264,7 +267,7 @@ def _fit(parsed: argparse.Namespace) -> int:
                 )
                 if (value := getattr(parsed, name)) is not None
             }
-            | ({"complete_points": True} if parsed.complete_points else {}),
+            | {name: True for name in ("complete_points", "force") if getattr(parsed, name)},
         )
     )
 

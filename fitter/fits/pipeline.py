@@ -16,7 +16,12 @@ from fitter.fits.picture_objective import (
 )
 from fitter.fits.prepared_model import prepared_model
 from fitter.fits.progress import Observer, Stage, ignore_progress
-from fitter.fits.reporting import fit_warnings, limb_facings, shading_warnings
+from fitter.fits.reporting import (
+    fit_warnings,
+    insistence_warnings,
+    limb_facings,
+    shading_warnings,
+)
 from fitter.fits.settling import settle, shade
 from fitter.fits.stage_clock import StageClock
 from fitter.measurement.anthropometry import measure
@@ -152,6 +157,9 @@ def fit(
                 measurements=tuple(replace(each, standard_error=None) for each in measurements),
             )
         )
+    if not (found.is_plausible or request.force):
+        measurements = ()
+        stages = [replace(stage, measurements=()) for stage in stages]
     facings = limb_facings(hypotheses, tried, request.limb_facing)
     clothing_assumptions, clothing_warnings = clothing_remarks(objective)
     return FitResult(
@@ -174,7 +182,8 @@ def fit(
         + segmentation.warnings
         + clothing_warnings
         + fit_warnings(found.silhouette_overlap, facings)
-        + shading_warnings(request, found),
+        + shading_warnings(request, found)
+        + insistence_warnings(request, found),
         stage_seconds=clock.seconds,
         pictures=Pictures(
             image=observation.display,

@@ -6,7 +6,7 @@ from fitter.optimizer.hypotheses import TriedHypotheses
 from fitter.pose_init.initial_pose import PoseHypothesis
 from fitter.remarks import FitWarning
 from fitter.request import Cues, Facing, FitRequest, SurroundingsKind
-from fitter.result import FacingSource, LimbFacing, Outcome, PictureFit
+from fitter.result import FacingSource, LimbFacing, Outcome, PictureFit, Verdict
 
 LEAST_OVERLAP = 0.85
 """A fit with less intersection over union than this is called poor: half an arm is about 4 %."""
@@ -16,9 +16,9 @@ AMBIGUOUS_NATS = 6.0
 generous because the spreads of clicks and joints behind the energies are themselves guesses."""
 
 
-def outcome_of(*, converged: bool, overlap: float) -> Outcome:
+def outcome_of(*, converged: bool, overlap: float, verdict: Verdict) -> Outcome:
     """How the search ended."""
-    if overlap < LEAST_OVERLAP:
+    if overlap < LEAST_OVERLAP or verdict is not Verdict.PLAUSIBLE:
         return Outcome.POOR_FIT
     return Outcome.CONVERGED if converged else Outcome.EVALUATION_LIMIT
 
@@ -78,6 +78,21 @@ def fit_warnings(overlap: float, facings: Sequence[LimbFacing]) -> tuple[FitWarn
             )
         )
     return tuple(warnings)
+
+
+def insistence_warnings(request: FitRequest, found: PictureFit) -> tuple[FitWarning, ...]:
+    """What measurements are worth that are given because the request insists."""
+    if found.is_plausible or not request.force:
+        return ()
+    return (
+        FitWarning(
+            code=found.verdict.value.replace("_", "-"),
+            message=(
+                "Measurements are given because the request forces them, and may be those of "
+                f"nobody. {found.outcome_explanation}"
+            ),
+        ),
+    )
 
 
 def shading_warnings(request: FitRequest, found: PictureFit) -> tuple[FitWarning, ...]:

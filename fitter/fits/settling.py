@@ -6,7 +6,9 @@ from fitter.body.model import BodyModel
 from fitter.energies.objective import Objective
 from fitter.evidence.intensity import IntensityMap, intensity_map
 from fitter.fits.clothing import where_bare
+from fitter.fits.contradiction import contradiction
 from fitter.fits.descents import Descents
+from fitter.fits.plausibility import plausibility
 from fitter.fits.reporting import outcome_of
 from fitter.observation.observation import Observation
 from fitter.optimizer.albedo_colour import albedo_rgb
@@ -109,12 +111,18 @@ def settle(
         person = replace(
             person, light=shading.light, reflectance=shading.reflectance, albedo_rgb=colours
         )
+    figures = plausibility(observation, objective, candidate, overlap)
+    contradicted = contradiction(figures)
     found = PictureFit(
         person=person,
         height_m=height_m,
         cues=request.cues,
-        outcome=outcome_of(converged=shaded.minimum.converged, overlap=overlap),
+        outcome=outcome_of(
+            converged=shaded.minimum.converged, overlap=overlap, verdict=contradicted.verdict
+        ),
         posed_vertices=candidate.vertices,
         silhouette_overlap=overlap,
+        verdict=contradicted.verdict,
+        contradictions=contradicted.sentences,
     )
     return found, objective

@@ -4,7 +4,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from fitter.arrays import GreyImage, Image, Mask
-from fitter.detection.detector import DetectedSlants, Detector, body_of_clicks
+from fitter.detection.detector import (
+    DetectedSlants,
+    Detector,
+    body_of_clicks,
+    is_somebody_at,
+)
 from fitter.observation.clicks import check_clicks, check_places, side_warnings
 from fitter.observation.colour import bytes_of_display, luminance_of
 from fitter.observation.completion import (
@@ -54,6 +59,8 @@ class Observation:
         does not use it.
     slants
         How limbs slant, by the detector; None if nothing is known about it.
+    detected
+        Whether the detector finds a person where the points are; None if it was not asked.
     """
 
     display: Image
@@ -68,6 +75,7 @@ class Observation:
     clothing: Clothing
     seed: GreyImage | None
     slants: DetectedSlants | None
+    detected: bool | None
     assumptions: tuple[Assumption, ...]
     warnings: tuple[FitWarning, ...]
 
@@ -125,6 +133,7 @@ def observe(request: FitRequest, detector: Detector | None = None) -> Observatio
         clothing=request.clothing,
         seed=detected.mask if detected is not None and _is_seeded(request) else None,
         slants=detected.slants if detected is not None and request.slant_hints else None,
+        detected=None if detector is None else is_somebody_at(bodies, given),
         assumptions=focal.assumptions + proposal_assumptions(given, clicks),
         warnings=picture.warnings
         + side_warnings(clicks)

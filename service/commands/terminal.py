@@ -69,10 +69,13 @@ def print_result(
     console: Console, result: FitResult, *, truth: Mapping[str, float] | None = None
 ) -> None:
     """Print the measurements of SE and SES, next to the truth if there is one, and remarks."""
-    console.print(_measurements(result, truth or {}))
+    if result.measurements:
+        console.print(_measurements(result, truth or {}))
+    else:
+        console.print("[bold]Measurements are withheld;[/] with --force they are given.")
     console.print(
-        f"Outcome: {result.outcome} ({result.outcome_explanation}) Silhouette overlap "
-        f"{result.silhouette_overlap:.3f}, {result.evaluations} evaluations, "
+        f"Outcome: {result.outcome}, {result.verdict} ({result.outcome_explanation}) "
+        f"Silhouette overlap {result.silhouette_overlap:.3f}, {result.evaluations} evaluations, "
         f"{sum(result.stage_seconds.values()):.1f} s.",
         highlight=False,
     )

@@ -21,7 +21,7 @@ CLIP: Final = "bvh"
 TEXTURE: Final = "texture"
 """A painted atlas sent with the request."""
 
-OF_EACH_PICTURE: Final = (PERSON, IMAGE, MASK, REQUEST)
+OF_EACH_PICTURE: Final = (PERSON, IMAGE, MASK, REQUEST, RESULT)
 """What a combined body has copies of, of every fit; a mask is there if it was sent."""
 
 

@@ -31,7 +31,7 @@ from fitter.request import (
     SegmentationKind,
     SurroundingsKind,
 )
-from fitter.result import OUTCOME_EXPLANATIONS, FitResult, LimbFacing, PictureFit, StageBody
+from fitter.result import FitResult, LimbFacing, PictureFit, StageBody
 from service.engine.port import Report
 from service.submissions.detector import DETECTOR_MISSING
 
@@ -69,6 +69,7 @@ def fit_request(
             surroundings=SurroundingsKind(options.light.surroundings),
         ),
         limb_facing={limb.value: Facing(facing) for limb, facing in options.limb_facing.items()},
+        force=options.force,
         max_pixels=max_pixels,
     )
 
@@ -125,7 +126,8 @@ def fit_result(result: FitResult, *, part_names: Sequence[str]) -> wire.FitResul
         cues=wire_request.Cues(found.cues.value),
         optimizer=wire_request.OptimizerKind(result.optimizer.value),
         outcome=wire.Outcome(found.outcome.value),
-        outcome_explanation=OUTCOME_EXPLANATIONS[found.outcome],
+        verdict=wire.Verdict(found.verdict.value),
+        outcome_explanation=found.outcome_explanation,
         camera=camera_result(result.camera),
         image_camera=camera_result(person.camera),
         focal_length_source=wire.FocalLengthSource(result.focal_length_source.value),

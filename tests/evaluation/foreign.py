@@ -105,6 +105,7 @@ def _request(image: bytes, options: Mapping[str, Any]) -> FitRequest:
         height_m=options["height_m"],
         focal_length_px=options.get("focal_length_px"),
         focal_length_35mm=options.get("focal_length_35mm"),
+        force=True,
     )
 
 

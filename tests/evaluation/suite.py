@@ -44,4 +44,5 @@ def fit_request(files: CaseFiles, cues: Cues) -> FitRequest:
         height_m=options["height_m"],
         focal_length_px=options.get("focal_length_px"),
         cues=cues,
+        force=True,
     )

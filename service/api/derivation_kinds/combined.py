@@ -8,7 +8,7 @@ from service.api.derivation_kinds.definition import DerivationKindDefinition, Ne
 from service.api.examples.files import files
 from service.api.examples.jobs import FIT_ID
 from service.api.examples.results import RESULT as RESULT_OF_A_FIT
-from service.jobs.inputs import OF_EACH_PICTURE, RESULT
+from service.jobs.inputs import OF_EACH_PICTURE
 
 OTHER_FIT_ID: Final = "0d3c1b6e-52a4-4f0e-9e37-0a4f6c2f7d10"
 
@@ -23,7 +23,7 @@ KIND: Final = DerivationKindDefinition(
     kind=DerivationKind.COMBINED,
     options=CombinedOptions,
     result=CombinedResult,
-    needs=lambda options: Needs(of_fit=(RESULT, *OF_EACH_PICTURE), other_fits=options.fits),
+    needs=lambda options: Needs(of_fit=OF_EACH_PICTURE, other_fits=options.fits),
     requests={"combined": {"kind": "combined", "fits": [OTHER_FIT_ID]}},
     answer={
         "artifacts": files(

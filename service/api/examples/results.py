@@ -47,6 +47,7 @@ RESULT: Final[dict[str, Any]] = {
     "optimizer": "gauss_newton",
     "outcome": "converged",
     "outcome_explanation": "The energy stopped decreasing.",
+    "verdict": "plausible",
     "camera": {
         "focal_length_px": 1054.85,
         "centre_x": 273.86,

@@ -9,6 +9,7 @@ from fitter.applications.previews import View, preview
 from fitter.applications.several_pictures import CombinedShape
 from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
+from fitter.errors import InvalidInputError
 from fitter.export import overlay_png
 from fitter.export.display import png
 from fitter.export.gltf import body_posed_glb
@@ -37,9 +38,10 @@ def derive(
 ) -> DerivationOutput[CombinedResult]:
     """Combine; see :class:`service.worker.derivers.Deriver`."""
     options = job.options
+    pictures = [job.inputs, *job.others]
+    _require_measurements(pictures)
     fit = FitResult.model_validate_json(job.inputs[RESULT])
     first, operators = person_and_operators(job.inputs[PERSON], job.models)
-    pictures = [job.inputs, *job.others]
     people = [first, *(FittedPerson.from_bytes(each[PERSON]) for each in pictures[1:])]
     found = joint_fit(
         people,
@@ -97,6 +99,28 @@ def derive(
         }
         | _files_of_pictures(found.pictures, model, [each[IMAGE] for each in pictures]),
     )
+
+
+def _require_measurements(pictures: Sequence[Mapping[str, bytes]]) -> None:
+    """Refuse fits whose measurements were withheld: what they found is no person's shape.
+
+    Raises
+    ------
+    InvalidInputError
+        ``fits-unusable``.
+    """
+    for number, inputs in enumerate(pictures):
+        # Jobs accepted by an earlier version have no copies of the other fits' results.
+        if RESULT not in inputs:
+            continue
+        fit = FitResult.model_validate_json(inputs[RESULT])
+        if not fit.measurements:
+            raise InvalidInputError(
+                code="fits-unusable",
+                field=f"fits.{number - 1}" if number else "kind",
+                reason=f"That fit's measurements are withheld. {fit.outcome_explanation}",
+                remedy="Leave it out, or fit its picture again with `force`.",
+            )
 
 
 def _request(inputs: Mapping[str, bytes], max_pixels: int) -> FitRequest:

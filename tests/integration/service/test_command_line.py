@@ -124,6 +124,15 @@ def test_points_can_be_completed_on_the_command_line(tmp_path, capsys):
         assert told in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("insists", [False, True])
+def test_measurements_can_be_forced_on_the_command_line(tmp_path, monkeypatch, insists):
+    asked: list[FitArguments] = []
+    monkeypatch.setattr("service.commands.fit.fit_locally", lambda given: asked.append(given) or 0)
+    with pytest.raises(SystemExit):
+        main(["fit", str(tmp_path / "picture.png"), *(["--force"] if insists else [])])
+    assert asked[0].overrides == ({"force": True} if insists else {})
+
+
 @pytest.mark.parametrize(
     ("changes", "told"),
     [

@@ -7,7 +7,12 @@ import numpy as np
 import pytest
 from PIL import Image as PillowImage
 
-from fitter.detection.detector import Detector, body_of_clicks, installed_detector
+from fitter.detection.detector import (
+    Detector,
+    body_of_clicks,
+    installed_detector,
+    is_somebody_at,
+)
 from fitter.detection.person_detector import PersonDetector
 from fitter.request import Click
 from tests.evaluation.files import PICTURES_FOLDER
@@ -81,6 +86,16 @@ def test_who_was_clicked_is_chosen_among_several(detector):
 def test_clicks_on_somebody_who_was_not_found_are_nobodys(detector):
     bodies = detector.bodies(picture(STANDING))
     assert body_of_clicks(bodies, clicks(STANDING, shift=300.0)) is None
+
+
+def test_somebody_is_where_the_points_are_even_if_they_are_roughly_there(detector):
+    bodies = detector.bodies(picture(STANDING))
+    said = [
+        is_somebody_at(bodies, clicks(STANDING, shift=shift * bodies[0].person.radius))
+        for shift in (0.0, 0.2, 0.5)
+    ]
+    assert said == [True, True, False]
+    assert (is_somebody_at(bodies, {}), is_somebody_at((), {})) == (True, False)
     assert body_of_clicks((), clicks(STANDING)) is None
 
 

@@ -102,6 +102,17 @@ def test_what_was_assumed_and_what_to_look_at_are_listed_or_said_to_be_nothing()
     assert section(fit_result(warnings=[]), "Warnings").remarks == ("None.",)
 
 
+def test_where_measurements_are_withheld_the_pages_say_so():
+    nobody = fit_result(measurements=[], verdict="no_person", outcome="poor_fit")
+    content = report_content(nobody)
+    text = Elements(report_html(content, PICTURES)).text
+    assert "withheld" in text
+    assert "95 % interval" not in text
+    ((_, ended), *_) = section(nobody, "The fit").facts
+    assert ended.startswith("no person. ")
+    assert pages(report_pdf(content, PICTURES)) == 1
+
+
 def test_the_page_stands_alone_and_runs_nothing():
     page = report_html(report_content(fit_result()), PICTURES)
     elements = Elements(page)

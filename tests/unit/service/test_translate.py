@@ -151,6 +151,7 @@ def test_what_the_caller_leaves_open_stays_open():
         (wire_request.Facing, fitter_request.Facing),
         (wire_request.LightKind, LightKind),
         (wire.Outcome, fitter_result.Outcome),
+        (wire.Verdict, fitter_result.Verdict),
         (wire.FacingSource, fitter_result.FacingSource),
         (wire.FocalLengthSource, FocalLengthSource),
     ],
@@ -292,6 +293,30 @@ def test_a_result_says_the_same_in_both_languages():
     assert translated.limb_facing[0].facing == wire_request.Facing.AWAY
     assert translated.assumptions[0].value == 50.0
     assert translated.warnings[0].code == "a-warning"
+
+
+@pytest.mark.parametrize("verdict", fitter_result.VERDICT_EXPLANATIONS)
+def test_where_a_person_is_contradicted_the_outcome_is_explained_by_it(verdict):
+    ended = result(light=None)
+    found = replace(ended.found, verdict=verdict, contradictions=("It is a circle.",))
+    translated = translate.fit_result(replace(ended, found=found), part_names=PARTS)
+    assert translated.verdict == verdict.value
+    explained = fitter_result.VERDICT_EXPLANATIONS[verdict]
+    assert translated.outcome_explanation == f"{explained} It is a circle."
+
+
+def test_results_of_earlier_versions_have_no_verdict_and_are_read():
+    document = json.loads(
+        translate.fit_result(result(light=None), part_names=PARTS).model_dump_json()
+    )
+    del document["verdict"]
+    read = wire.FitResult.model_validate_json(json.dumps(document))
+    assert read.verdict is wire.Verdict.PLAUSIBLE
+
+
+def test_who_insists_says_so_in_both_languages():
+    assert not fit_request().force
+    assert translated(force=True).force
 
 
 def test_surroundings_are_nine_coefficients_or_null():

@@ -5,7 +5,8 @@ import { tableOf } from "./files";
 
 export function Downloads({ job, result }: { job: Job; result: FitResult }) {
   const sizes = new Map((result.artifacts ?? []).map((artifact) => [artifact.name, artifact.size]));
-  const links = [...Object.entries(job.links.artifacts ?? {}), tableOf(job)];
+  const table = result.measurements.length > 0 ? [tableOf(job)] : [];
+  const links = [...Object.entries(job.links.artifacts ?? {}), ...table];
   const rank = (name: string) => Object.keys(FILE_LABELS).indexOf(name) + (name in FILE_LABELS ? 0 : 100);
   return (
     <details class="section fold-section">

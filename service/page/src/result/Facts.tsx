@@ -2,6 +2,7 @@
 import type { FitResult } from "../api/types";
 import { termLabel } from "../fit/stages";
 import { AssumptionNotes } from "../ui/AssumptionNotes";
+import { isContradicted } from "./outcome";
 
 const SOURCES: Readonly<Record<string, string>> = {
   caller: "as given",
@@ -29,8 +30,9 @@ export function Facts({ result, onChange }: Props) {
   const open = result.limb_facing.filter((limb) => limb.ambiguous);
   return (
     <>
+      {isContradicted(result) && <p class="note is-problem">{result.outcome_explanation}</p>}
       <p class="fine">
-        {result.outcome !== "converged" && `${result.outcome_explanation} `}
+        {result.outcome !== "converged" && !isContradicted(result) && `${result.outcome_explanation} `}
         Found by {result.cues === "SES" ? "silhouette, edges and shading" : "silhouette and edges"}.
       </p>
       {warnings.map((warning) => (

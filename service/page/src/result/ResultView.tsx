@@ -11,6 +11,8 @@ import { Facts } from "./Facts";
 import { useResultFiles } from "./files";
 import { Look } from "./Look";
 import { Measures } from "./Measures";
+import { Withheld } from "./Withheld";
+import { headingOf } from "./outcome";
 import type { Placement } from "../viewer/BodyScene";
 
 export function ResultView({ job, picture }: { job: Job; picture: Picture | null }) {
@@ -41,7 +43,7 @@ export function ResultView({ job, picture }: { job: Job; picture: Picture | null
       <div class="panel">
         <div class="panel-scroll">
           <section class="section">
-            <h1 class="title">{files && files.result.outcome === "poor_fit" ? "A poor fit" : "The body"}</h1>
+            <h1 class="title">{files ? headingOf(files.result) : "The body"}</h1>
             {files && (
               <Facts
                 result={files.result}
@@ -49,7 +51,8 @@ export function ResultView({ job, picture }: { job: Job; picture: Picture | null
               />
             )}
           </section>
-          {files && (
+          {files && files.result.measurements.length === 0 && <Withheld job={job} picture={picture} />}
+          {files && files.result.measurements.length > 0 && (
             <Measures
               result={files.result}
               pointedAt={pointedAt ?? shown}

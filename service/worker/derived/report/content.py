@@ -15,6 +15,7 @@ from api_schemas.results import (
     Measurement,
     ReflectanceResult,
     SurroundingsResult,
+    Verdict,
 )
 
 WITHIN_95: Final = 1.96
@@ -29,6 +30,10 @@ FOOTNOTE: Final = (
     "Measured in the canonical pose, right limbs; every definition and its source is in the fit's "
     "result.json. Intervals are 1.96 standard errors of the fit on either side. This is no medical "
     "device."
+)
+
+WITHHELD: Final = (
+    "Measurements are withheld, because the picture contradicts a person: see the outcome."
 )
 
 _CUES: Final = {
@@ -64,7 +69,10 @@ class Section:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReportContent:
-    """The page without its pictures; plain text throughout."""
+    """The page without its pictures; plain text throughout.
+
+    Without measurements :data:`WITHHELD` stands in their place.
+    """
 
     subtitle: str
     measurements: tuple[MeasurementRow, ...]
@@ -143,12 +151,16 @@ def _fit(result: FitResult) -> Section:
     return Section(
         heading="The fit",
         facts=(
-            ("Outcome", f"{_words(result.outcome)}. {result.outcome_explanation}"),
+            ("Outcome", f"{_ended(result)}. {result.outcome_explanation}"),
             ("Overlap with the silhouette", f"{100.0 * result.silhouette_overlap:.1f} %"),
             ("Focal length", _lens(result.image_camera, result.focal_length_source)),
             ("Picture", f"{result.image_camera.width} × {result.image_camera.height} pixels"),
         ),
     )
+
+
+def _ended(result: FitResult) -> str:
+    return _words(result.outcome if result.verdict is Verdict.PLAUSIBLE else result.verdict)
 
 
 def _lens(camera: CameraResult, source: FocalLengthSource) -> str:

@@ -7,6 +7,7 @@ from typing import Final
 from service.worker.derived.report.content import (
     FOOTNOTE,
     TITLE,
+    WITHHELD,
     MeasurementRow,
     ReportContent,
     Section,
@@ -103,6 +104,8 @@ def _figure(picture: Picture) -> str:
 
 
 def _measurements(rows: tuple[MeasurementRow, ...]) -> str:
+    if not rows:
+        return f"<section><p>{escape(WITHHELD)}</p></section>"
     lines = "\n".join(
         f'<tr><th scope="row">{escape(row.name)}</th><td>{escape(row.value)}</td>'
         f'<td>{escape(row.unit)}</td><td class="interval">{escape(row.interval)}</td></tr>'

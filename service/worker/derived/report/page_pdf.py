@@ -15,6 +15,7 @@ from reportlab.platypus import Flowable, Frame, KeepInFrame, Paragraph, Spacer, 
 from service.worker.derived.report.content import (
     FOOTNOTE,
     TITLE,
+    WITHHELD,
     MeasurementRow,
     ReportContent,
     Section,
@@ -153,7 +154,9 @@ def _fill(
     frame.add(KeepInFrame(width, height, flowables, mode="shrink"), canvas)
 
 
-def _measurements(rows: tuple[MeasurementRow, ...], width: float) -> Table:
+def _measurements(rows: tuple[MeasurementRow, ...], width: float) -> Flowable:
+    if not rows:
+        return Paragraph(_text(WITHHELD), TEXT)
     cells = [["Measurement", "Value", "Unit", "95 % interval"]]
     cells += [
         [_shown(text) for text in (row.name, row.value, row.unit, row.interval)] for row in rows

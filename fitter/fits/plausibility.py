@@ -1,0 +1,100 @@
+"""How far the picture bears out that it is a person whom a body was fitted to.
+
+A body can be fitted to anything that points are put on. What tells a person from a landscape, a
+circle, a dog or two people in one mask is how well the end of the search agrees with the evidence
+(:mod:`fitter.fits.contradiction` judges it).
+"""
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from fitter.energies.objective import Candidate, Objective
+from fitter.evidence.correspondence_lines import LEAST_WINDOW_PX, WINDOW_M
+from fitter.observation.observation import Observation
+from fitter.optimizer.renewed_lines import with_lines_about
+
+BEYOND_M = 0.1
+"""What is taken for the person and lies farther than this from the body is none of its own: hair,
+clothes and errors of segmentation are nearer."""
+
+CLEAR_SHARE = 0.25
+"""The boundary is found clearly on a line where its standard deviation is within this share of the
+window that it is sought in."""
+
+SEEN_CONFIDENCE = 0.2
+"""Clicks trusted less are guesses at hidden points, or the top of the hair."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Plausibility:
+    """How far the evidence agrees with a fitted body.
+
+    Attributes
+    ----------
+    overlap
+        Intersection over union of the body's silhouette and the observed one.
+    boundary
+        Share of the body's outline along which the colours of the picture change clearly.
+    beyond
+        Area observed farther than :data:`BEYOND_M` from the body, over the body's own.
+    click_deviations
+        Root mean square distance of the seen points from the body's own, standard deviations.
+    strain
+        What pose and shape cost under their priors, nats.
+    detected
+        Whether the detector finds a person where the points are; None if it was not asked.
+    """
+
+    overlap: float
+    boundary: float
+    beyond: float
+    click_deviations: float
+    strain: float
+    detected: bool | None
+
+
+def plausibility(
+    observation: Observation, objective: Objective, candidate: Candidate, overlap: float
+) -> Plausibility:
+    """Compare the body at the end of a search with the evidence of its objective."""
+    return Plausibility(
+        overlap=overlap,
+        boundary=_clear_boundary(observation, objective, candidate),
+        beyond=_beyond(objective, candidate),
+        click_deviations=_click_deviations(objective, candidate),
+        strain=candidate.energies["pose_prior"] + candidate.energies["shape_prior"],
+        detected=observation.detected,
+    )
+
+
+def _clear_boundary(observation: Observation, objective: Objective, candidate: Candidate) -> float:
+    """A caller's mask does not hide what the picture shows: lines are then placed here."""
+    pixels_per_metre = objective.scales.pixels_per_metre
+    window = max(round(WINDOW_M * pixels_per_metre), LEAST_WINDOW_PX)
+    if objective.evidence.lines is None:
+        objective = with_lines_about(objective, candidate.parameters, observation.display)
+    lines = objective.evidence.lines
+    if lines is None or not len(lines.variances):
+        return 0.0
+    return float(np.mean(np.sqrt(lines.variances) < CLEAR_SHARE * window))
+
+
+def _beyond(objective: Objective, candidate: Candidate) -> float:
+    body = candidate.rendering.silhouette
+    distance = cv2.distanceTransform((~body).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
+    far = distance > BEYOND_M * objective.scales.pixels_per_metre
+    observed = objective.evidence.silhouette.mask
+    return float(np.count_nonzero(observed & far) / max(np.count_nonzero(body), 1))
+
+
+def _click_deviations(objective: Objective, candidate: Candidate) -> float:
+    clicks = objective.evidence.clicks
+    seen = clicks.confidence > SEEN_CONFIDENCE
+    if not seen.any():
+        return 0.0
+    distances = np.linalg.norm(
+        objective.evidence.camera.project(candidate.landmarks) - clicks.clicks, axis=1
+    )
+    return float(np.sqrt(np.mean((distances / clicks.sigma(objective.scales))[seen] ** 2)))

@@ -1,0 +1,60 @@
+"""Fits of pictures without a person to measure: what is told, and what is withheld."""
+
+from dataclasses import replace
+
+import pytest
+
+from fitter.fits.pipeline import fit
+from fitter.request import Cues, SegmentationKind
+from fitter.result import FitResult, Outcome, Verdict
+from tests.evaluation.cases import CASES
+from tests.evaluation.files import read_case
+from tests.evaluation.nonsense import DONORS, NAMED_KINDS, nonsense
+from tests.evaluation.scene import Half
+from tests.evaluation.suite import fit_request
+
+MADE = {each.kind: each.request for each in nonsense(Half.TUNING, Cues.SE) if each.number == 0}
+
+
+def fitted(kind: str, *, with_detector: bool = False, force: bool = False) -> FitResult:
+    return fit(
+        replace(
+            MADE[kind],
+            force=force,
+            segmentation=SegmentationKind.SEEDED_GRABCUT
+            if with_detector
+            else SegmentationKind.GRABCUT,
+            slant_hints=with_detector,
+        )
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("with_detector", [False, True], ids=["without", "with detector"])
+@pytest.mark.parametrize("kind", NAMED_KINDS)
+def test_what_is_no_person_gets_no_measurements(kind, with_detector):
+    result = fitted(kind, with_detector=with_detector)
+    assert not result.found.is_plausible
+    assert result.found.contradictions
+    assert result.measurements == ()
+    assert all(stage.measurements == () for stage in result.stages)
+    assert len(result.found.posed_vertices)
+    assert (result.found.verdict is Verdict.NO_PERSON) == (kind != "two in one mask")
+    assert result.found.outcome is Outcome.POOR_FIT
+
+
+def test_who_insists_gets_measurements_and_a_warning():
+    result = fitted("landscape", force=True)
+    assert result.found.verdict is Verdict.NO_PERSON
+    assert len(result.measurements) > 10
+    (warning,) = [each for each in result.warnings if each.code == "no-person"]
+    assert result.found.outcome_explanation in warning.message
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", DONORS[Half.TUNING])
+def test_the_people_whose_points_these_are_get_theirs(name):
+    request = replace(fit_request(read_case(CASES[name]), Cues.SE), force=False)
+    result = fit(request)
+    assert result.found.is_plausible
+    assert len(result.measurements) > 10
