@@ -37,6 +37,7 @@ from .result import LimbFacing as LimbFacing
 from .result import Outcome as Outcome
 from .result import PictureFit as PictureFit
 from .result import StageBody as StageBody
+from .result import Verdict as Verdict
 
 __all__ = [
     "Assumption",
@@ -71,6 +72,7 @@ __all__ = [
     "Stage",
     "StageBody",
     "SurroundingsKind",
+    "Verdict",
     "body_vertices",
     "estimate_body",
     "files_of",

@@ -12,6 +12,7 @@ import numpy as np
 
 from fitter.energies.objective import Candidate, Objective
 from fitter.evidence.correspondence_lines import LEAST_WINDOW_PX, WINDOW_M
+from fitter.evidence.loose_outline import FARTHEST_M
 from fitter.observation.observation import Observation
 from fitter.optimizer.renewed_lines import with_lines_about
 
@@ -84,9 +85,11 @@ def _clear_boundary(observation: Observation, objective: Objective, candidate: C
 def _beyond(objective: Objective, candidate: Candidate) -> float:
     body = candidate.rendering.silhouette
     distance = cv2.distanceTransform((~body).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
-    far = distance > BEYOND_M * objective.scales.pixels_per_metre
-    observed = objective.evidence.silhouette.mask
-    return float(np.count_nonzero(observed & far) / max(np.count_nonzero(body), 1))
+    silhouette = objective.evidence.silhouette
+    # Loose clothes may reach as far as the outline is searched for.
+    reach_m = BEYOND_M if silhouette.cloth is None else FARTHEST_M
+    far = distance > reach_m * objective.scales.pixels_per_metre
+    return float(np.count_nonzero(silhouette.mask & far) / max(np.count_nonzero(body), 1))
 
 
 def _click_deviations(objective: Objective, candidate: Candidate) -> float:

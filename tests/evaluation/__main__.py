@@ -16,6 +16,7 @@ from tests.evaluation.foreign import MISSING, foreign_names
 from tests.evaluation.light_figures import InLight, in_both_lights, light_lines
 from tests.evaluation.limit_tables import limit_lines, outline_lines, several_lines
 from tests.evaluation.moved_points import moved_fits, moved_lines
+from tests.evaluation.nonsense import nonsense
 from tests.evaluation.outline_limit import outline_limit
 from tests.evaluation.page import write_page
 from tests.evaluation.people import load_person
@@ -26,6 +27,7 @@ from tests.evaluation.several import several_pictures
 from tests.evaluation.shape_limit import shape_limit
 from tests.evaluation.table import MEASUREMENTS, case_lines, summary_lines, worst_lines
 from tests.evaluation.true_picture import Told
+from tests.evaluation.verdict_table import judged_nonsense, judged_picture, verdict_lines
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -80,6 +82,17 @@ def main(arguments: Sequence[str]) -> int:
     if options.moved_points:
         fits = of_each(moved_fits, [case.name for case in chosen] + foreign, options.jobs)
         print("\n".join(moved_lines([each for several in fits for each in several])))
+        return 0
+    if options.nonsense:
+        for half in [Half(options.half)] if options.half else list(Half):
+            names = [case.name for case in chosen if PEOPLE[case.person].half is half]
+            names += [each for each in foreign if foreign_half(each) is half]
+            judged = [
+                *of_each(judged_picture, names, options.jobs),
+                *of_each(judged_nonsense, nonsense(half, Cues.SES), options.jobs),
+            ]
+            print(f"\n{half.value} half")
+            print("\n".join(verdict_lines([each for several in judged for each in several])))
         return 0
     if options.set == Series.CLOTHED.value and options.clothing is None:
         for title, part in _halves(chosen):
@@ -262,6 +275,11 @@ def _parser() -> argparse.ArgumentParser:
         "--detector",
         action="store_true",
         help="fit with none, each and all of what the detector tells, foreign pictures too",
+    )
+    parser.add_argument(
+        "--nonsense",
+        action="store_true",
+        help="fit people and what is none: how many of each the verdicts contradict",
     )
     return parser
 

@@ -46,6 +46,7 @@ NAMES = [
     "Stage",
     "StageBody",
     "SurroundingsKind",
+    "Verdict",
     "body_vertices",
     "estimate_body",
     "files_of",

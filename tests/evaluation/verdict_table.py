@@ -1,0 +1,59 @@
+"""How many people and how much nonsense each verdict is given to, with a detector and without."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from fitter.fits.pipeline import fit
+from fitter.request import Cues, FitRequest
+from fitter.result import Verdict
+from tests.evaluation.detector_figures import Hints, hinted
+from tests.evaluation.nonsense import Nonsense
+from tests.evaluation.runs import picture_of
+
+ASKED = (Hints.NONE, Hints.ALL)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Judged:
+    """The verdict on one request."""
+
+    kind: str
+    name: str
+    hints: Hints
+    verdict: Verdict
+
+
+def judged_picture(name: str) -> list[Judged]:
+    """A picture of the suite's own or a foreign one, by the name of its set."""
+    picture = picture_of(name)
+    return _judged(picture.series.value, name, replace(picture.request, cues=Cues.SES))
+
+
+def judged_nonsense(made: Nonsense) -> list[Judged]:
+    """A request without an answer."""
+    return _judged(made.kind, made.name, made.request)
+
+
+def verdict_lines(judged: Sequence[Judged]) -> list[str]:
+    """One line a kind: of how many a person is contradicted, without and with the detector."""
+    lines = [f"{'kind':24s}{'requests':>9s}{'without':>9s}{'with':>6s}"]
+    for kind in dict.fromkeys(each.kind for each in judged):
+        of_kind = [each for each in judged if each.kind == kind]
+        counts = [
+            sum(each.verdict is not Verdict.PLAUSIBLE for each in of_kind if each.hints is hints)
+            for hints in ASKED
+        ]
+        lines.append(f"{kind:24s}{len(of_kind) // len(ASKED):9d}{counts[0]:9d}{counts[1]:6d}")
+    return lines
+
+
+def _judged(kind: str, name: str, request: FitRequest) -> list[Judged]:
+    return [
+        Judged(
+            kind=kind,
+            name=name,
+            hints=hints,
+            verdict=fit(hinted(replace(request, force=True), hints)).found.verdict,
+        )
+        for hints in ASKED
+    ]
