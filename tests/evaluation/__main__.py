@@ -12,7 +12,7 @@ from tests.evaluation.chain import Link, chain_of
 from tests.evaluation.chain_tables import chain_case_lines, chain_lines
 from tests.evaluation.clothing_table import clothing_lines
 from tests.evaluation.detector_figures import detector_lines, hinted_fits
-from tests.evaluation.foreign import MISSING, foreign_names
+from tests.evaluation.foreign import MISSING, foreign_half, foreign_names
 from tests.evaluation.light_figures import InLight, in_both_lights, light_lines
 from tests.evaluation.limit_tables import limit_lines, outline_lines, several_lines
 from tests.evaluation.moved_points import moved_fits, moved_lines
