@@ -1,7 +1,7 @@
 """One shape from several pictures of one person, each with its own pose and light (section 7).
 
 Near its minimum the energy of picture k is a paraboloid over the shape β, once pose, place and
-light have been minimised out: ½ (β - β_k)ᵀ H_k (β - β_k), the prior ½ |β|² included. The person's
+light have been minimised out: ½ (β - β_k)ᵀ H_k (β - β_k), the prior ½ βᵀ P β included. The person's
 energy is the sum of the pictures' and of one prior, and its minimum a linear solve. What pictures
 of one person err in alike (shapes the model does not have, cloth, a prior about how people stand)
 more of them do not mend, so that they count as fewer than they are.
@@ -15,6 +15,7 @@ from jaxtyping import Float
 from scipy.stats import chi2
 
 from fitter.arrays import Shape
+from fitter.energies.priors import population_prior
 from fitter.errors import InvalidInputError
 from fitter.person.fitted_person import FittedPerson
 
@@ -89,17 +90,19 @@ def combined_shape(people: Sequence[FittedPerson]) -> CombinedShape:
             raise told_differently(index)
     count = len(people)
     weight = counted_as(count) / count
+    precision = directions.T @ population_prior(len(origin)).precision @ directions
     prior_step = -directions.T @ origin
-    matrix, pull = np.eye(len(prior_step)), prior_step.copy()
+    matrix, pull = precision.copy(), precision @ prior_step
     informations = [_information(person, directions) for person in people]
     for information, step in zip(informations, steps, strict=True):
-        # What the picture says, without the prior: H_k - I, at whose minimum lies H_k t_k - t_0.
-        matrix += weight * (information - np.eye(len(matrix)))
-        pull += weight * (information @ step - prior_step)
+        # What the picture says, without the prior: H_k - P, at whose minimum lies H_k t_k - P t_0.
+        matrix += weight * (information - precision)
+        pull += weight * (information @ step - precision @ prior_step)
     covariance = np.linalg.inv(matrix)
     step = covariance @ pull
     agreements = [
-        _agreement(index, informations, steps, prior_step) for index in range(len(people))
+        _agreement(index, informations, steps, precision, prior_step)
+        for index in range(len(people))
     ]
     return CombinedShape(
         shape=origin + directions @ step,
@@ -133,23 +136,25 @@ def _agreement(
     index: int,
     informations: Sequence[Float[np.ndarray, "d d"]],
     steps: Sequence[Float[np.ndarray, " d"]],
+    precision: Float[np.ndarray, "d d"],
     prior_step: Float[np.ndarray, " d"],
 ) -> float:
     """How probable so large a difference between one picture and the others together is."""
-    count, identity = len(steps), np.eye(len(prior_step))
+    count = len(steps)
     weight = counted_as(count - 1) / (count - 1)
-    matrix, pull = identity.copy(), prior_step.copy()
+    matrix, pull = precision.copy(), precision @ prior_step
     for other in range(count):
         if other != index:
-            matrix = matrix + weight * (informations[other] - identity)
-            pull = pull + weight * (informations[other] @ steps[other] - prior_step)
+            matrix += weight * (informations[other] - precision)
+            pull += weight * (informations[other] @ steps[other] - precision @ prior_step)
     rest = np.linalg.solve(matrix, pull)
-    # Each posterior's mean keeps M = H⁻¹ (H - I) of the truth, the rest is the prior's: their
+    # Each posterior's mean keeps M = H⁻¹ (H - P) of the truth, the rest is the prior's: their
     # difference varies by the noise of both, M H⁻¹, and by the truth that one keeps more of.
     own, others = np.linalg.inv(informations[index]), np.linalg.inv(matrix)
-    kept, kept_by_others = identity - own, identity - others
+    identity = np.eye(len(prior_step))
+    kept, kept_by_others = identity - own @ precision, identity - others @ precision
     unlike = kept - kept_by_others
-    spread = kept @ own + kept_by_others @ others + unlike @ unlike.T
+    spread = kept @ own + kept_by_others @ others + unlike @ np.linalg.solve(precision, unlike.T)
     values, vectors = np.linalg.eigh(0.5 * (spread + spread.T))
     told = values > _LEAST_VARIANCE
     if not told.any():

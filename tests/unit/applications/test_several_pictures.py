@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from fitter.applications.several_pictures import SHARED_ERROR, combined_shape
+from fitter.energies.priors import POPULATION_PRECISION
 from fitter.errors import InvalidInputError
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
@@ -20,7 +21,7 @@ def fit_of(shape, told, *, height=0.3):
     Its minimum is where prior and picture balance.
     """
     told = np.asarray(told, dtype=float)
-    found = np.concatenate([[height], told * shape[1:] / (told + 1.0)])
+    found = np.concatenate([[height], told * shape[1:] / (told + POPULATION_PRECISION)])
     return FittedPerson(
         gender=Gender.FEMALE,
         model_checksum="one",
@@ -29,7 +30,7 @@ def fit_of(shape, told, *, height=0.3):
         light=None,
         reflectance=None,
         albedo_rgb=None,
-        shape_covariance=np.diag([0.0, *(1.0 / (told + 1.0))]),
+        shape_covariance=np.diag([0.0, *(1.0 / (told + POPULATION_PRECISION))]),
     )
 
 
@@ -42,8 +43,8 @@ def test_what_one_picture_does_not_tell_comes_from_the_other():
     both = combined_shape([front, side])
     weight = 1.0 / (1.0 + SHARED_ERROR)
     told = weight * (np.array(FRONT) + SIDE)
-    np.testing.assert_allclose(both.shape[1:], told * SHAPE[1:] / (told + 1.0))
-    np.testing.assert_allclose(np.diag(both.covariance)[1:], 1.0 / (told + 1.0))
+    np.testing.assert_allclose(both.shape[1:], told * SHAPE[1:] / (told + POPULATION_PRECISION))
+    np.testing.assert_allclose(np.diag(both.covariance)[1:], 1.0 / (told + POPULATION_PRECISION))
     assert both.shape[0] == 0.3
     assert np.abs(both.covariance[0]).max() == 0.0
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fitter.energies.priors import ShapePrior, population_prior
+from fitter.energies.priors import POPULATION_PRECISION, ShapePrior, population_prior
 
 N = 6
 
@@ -17,11 +17,12 @@ def told() -> ShapePrior:
     return ShapePrior(mean=rng.standard_normal(N), precision=root @ root.T)
 
 
-def test_the_population_is_standard_normal_but_for_the_height():
+def test_the_population_is_wider_than_standard_normal_but_for_the_height():
     shape = np.array([5.0, 1.0, -2.0, 0.0, 3.0, 0.5])
     prior = population_prior(N)
-    assert prior.energy(shape) == 0.5 * (1.0 + 4.0 + 9.0 + 0.25)
-    np.testing.assert_array_equal(prior.slope(shape), [0.0, *shape[1:]])
+    standard = 0.5 * (1.0 + 4.0 + 9.0 + 0.25)
+    assert prior.energy(shape) == pytest.approx(POPULATION_PRECISION * standard)
+    np.testing.assert_allclose(prior.slope(shape), POPULATION_PRECISION * shape * (shape != 5.0))
 
 
 def test_the_energy_is_least_at_the_mean(told):
