@@ -57,6 +57,39 @@ class CameraResult(WireModel):
     height: int
 
 
+class StanceKind(StrEnum):
+    """How a person stands: on both feet, striding or on one foot, or neither."""
+
+    STANDING = "standing"
+    STRIDING = "striding"
+    OTHER = "other"
+
+
+class FittedCameraResult(CameraResult):
+    """The camera of a picture, with how it was held against gravity.
+
+    That is told by how the person stands: in the camera frame (x right, y down, z along the view)
+    up is (-sin roll cos pitch, -cos roll cos pitch, sin pitch). Null in results that were made
+    before it was estimated.
+    """
+
+    pitch_deg: float | None = Field(
+        default=None, description="Positive where it looks up, negative where it looks down."
+    )
+    pitch_standard_error_deg: float | None = None
+    roll_deg: float | None = Field(
+        default=None, description="Positive where it is turned clockwise, seen from behind it."
+    )
+    roll_standard_error_deg: float | None = None
+
+
+class StanceResult(WireModel):
+    """How the person stands: the most probable kind, and the probability of each."""
+
+    kind: StanceKind
+    probabilities: dict[StanceKind, float]
+
+
 class PartRotation(WireModel):
     """The turn of one body part relative to its parent: axis times angle, radians, body frame."""
 
@@ -196,10 +229,13 @@ class FitResult(WireModel):
     outcome_explanation: str
     # Earlier versions wrote none.
     verdict: Verdict = Verdict.PLAUSIBLE
-    camera: CameraResult
-    image_camera: CameraResult
+    camera: FittedCameraResult
+    image_camera: FittedCameraResult
     focal_length_source: FocalLengthSource
     body: BodyResult
+    stance: StanceResult | None = Field(
+        default=None, description="Null in results that were made before it was estimated."
+    )
     light: LightResult | None
     reflectance: ReflectanceResult | None
     energies: dict[str, float]

@@ -9,7 +9,7 @@ from api_schemas.base import WireModel, refusal
 from api_schemas.derivation_kinds.base import DerivationOptions, DerivedFiles
 from api_schemas.results import (
     BodyResult,
-    CameraResult,
+    FittedCameraResult,
     FitWarning,
     LightResult,
     Measurement,
@@ -57,7 +57,7 @@ class CombinedPicture(WireModel):
     number: int = Field(ge=1, description="1 is this fit, the others follow as they were named.")
     fit_id: UUID
     outcome: Outcome
-    image_camera: CameraResult
+    image_camera: FittedCameraResult
     body: BodyResult
     light: LightResult | None
     reflectance: ReflectanceResult | None

@@ -16,7 +16,14 @@ from fitter.detection.landmark_meanings import INDEX_OF_POINT, spread_m
 from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.fits.progress import Progress
 from fitter.measurement.quantity import Measurement
-from fitter.parameters import BodyParameters, Light, LightKind, Reflectance, Surroundings
+from fitter.parameters import (
+    BodyParameters,
+    CameraTilt,
+    Light,
+    LightKind,
+    Reflectance,
+    Surroundings,
+)
 from fitter.render.camera import Camera
 from fitter.request import (
     Click,
@@ -128,10 +135,11 @@ def fit_result(result: FitResult, *, part_names: Sequence[str]) -> wire.FitResul
         outcome=wire.Outcome(found.outcome.value),
         verdict=wire.Verdict(found.verdict.value),
         outcome_explanation=found.outcome_explanation,
-        camera=camera_result(result.camera),
-        image_camera=camera_result(person.camera),
+        camera=_fitted_camera(result.camera, person.tilt),
+        image_camera=_fitted_camera(person.camera, person.tilt),
         focal_length_source=wire.FocalLengthSource(result.focal_length_source.value),
         body=body_result(person.body, part_names),
+        stance=None if person.tilt is None else _stance(person.tilt),
         light=None if person.light is None else _light(person.light),
         reflectance=None if person.reflectance is None else _reflectance(person.reflectance),
         energies=dict(result.energies),
@@ -161,7 +169,7 @@ def combined_picture(
         number=number,
         fit_id=fit_id,
         outcome=wire.Outcome(found.outcome.value),
-        image_camera=camera_result(person.camera),
+        image_camera=_fitted_camera(person.camera, person.tilt),
         body=body_result(person.body, part_names),
         light=None if person.light is None else _light(person.light),
         reflectance=None if person.reflectance is None else _reflectance(person.reflectance),
@@ -193,6 +201,27 @@ def camera_result(camera: Camera) -> wire.CameraResult:
         centre_y=float(camera.centre_y),
         width=camera.width,
         height=camera.height,
+    )
+
+
+def _fitted_camera(camera: Camera, tilt: CameraTilt | None) -> wire.FittedCameraResult:
+    plain = camera_result(camera).model_dump()
+    if tilt is None:
+        return wire.FittedCameraResult(**plain)
+    pitch_error, roll_error = tilt.standard_errors
+    return wire.FittedCameraResult(
+        **plain,
+        pitch_deg=math.degrees(tilt.pitch),
+        pitch_standard_error_deg=math.degrees(pitch_error),
+        roll_deg=math.degrees(tilt.roll),
+        roll_standard_error_deg=math.degrees(roll_error),
+    )
+
+
+def _stance(tilt: CameraTilt) -> wire.StanceResult:
+    return wire.StanceResult(
+        kind=wire.StanceKind(tilt.stance.value),
+        probabilities={wire.StanceKind(kind.value): share for kind, share in tilt.stances.items()},
     )
 
 

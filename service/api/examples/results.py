@@ -54,6 +54,10 @@ RESULT: Final[dict[str, Any]] = {
         "centre_y": 365.15,
         "width": 547,
         "height": 730,
+        "pitch_deg": -7.4,
+        "pitch_standard_error_deg": 2.2,
+        "roll_deg": -0.3,
+        "roll_standard_error_deg": 1.6,
     },
     "image_camera": {
         "focal_length_px": 1386.64,
@@ -61,9 +65,17 @@ RESULT: Final[dict[str, Any]] = {
         "centre_y": 480.0,
         "width": 720,
         "height": 960,
+        "pitch_deg": -7.4,
+        "pitch_standard_error_deg": 2.2,
+        "roll_deg": -0.3,
+        "roll_standard_error_deg": 1.6,
     },
     "focal_length_source": "assumed",
     "body": _BODY,
+    "stance": {
+        "kind": "standing",
+        "probabilities": {"standing": 0.92, "striding": 0.08, "other": 0.0},
+    },
     "light": {
         "kind": "point",
         "azimuth_deg": -35.7,

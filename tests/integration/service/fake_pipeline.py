@@ -27,8 +27,8 @@ from api_schemas.requests import FitOptions, Gender
 from api_schemas.results import (
     Assumption,
     BodyResult,
-    CameraResult,
     FitResult,
+    FittedCameraResult,
     FocalLengthSource,
     Measurement,
     Outcome,
@@ -261,7 +261,7 @@ def _work(seconds: float, *, burn: bool) -> None:
 
 
 def _result(job: PipelineInput) -> FitResult:
-    camera = CameraResult(
+    camera = FittedCameraResult(
         focal_length_px=700.0, centre_x=320.0, centre_y=240.0, width=640, height=480
     )
     return FitResult(

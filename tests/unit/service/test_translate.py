@@ -16,7 +16,14 @@ from fitter.detection.landmark_meanings import spread_m
 from fitter.errors import InvalidInputError
 from fitter.fits.progress import Progress, Stage
 from fitter.measurement.quantity import Measurement
-from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
+from fitter.parameters import (
+    BodyParameters,
+    CameraTilt,
+    Light,
+    LightKind,
+    Reflectance,
+    StanceKind,
+)
 from fitter.person.fitted_person import FittedPerson
 from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera, FocalLengthSource
@@ -317,6 +324,38 @@ def test_results_of_earlier_versions_have_no_verdict_and_are_read():
 def test_who_insists_says_so_in_both_languages():
     assert not fit_request().force
     assert translated(force=True).force
+
+
+def test_the_tilt_is_told_with_both_cameras_and_the_stance():
+    tilt = CameraTilt(
+        pitch=math.radians(-8.0),
+        roll=math.radians(1.5),
+        covariance=np.diag([math.radians(2.0) ** 2, math.radians(1.0) ** 2]),
+        stances={StanceKind.STANDING: 0.2, StanceKind.STRIDING: 0.7, StanceKind.OTHER: 0.1},
+    )
+    fitted = result(light=None)
+    found = replace(fitted.found, person=replace(fitted.person, tilt=tilt))
+    translated = translate.fit_result(replace(fitted, found=found), part_names=PARTS)
+    for camera in (translated.camera, translated.image_camera):
+        assert camera.pitch_deg == pytest.approx(-8.0)
+        assert camera.pitch_standard_error_deg == pytest.approx(2.0)
+        assert camera.roll_deg == pytest.approx(1.5)
+        assert camera.roll_standard_error_deg == pytest.approx(1.0)
+    assert translated.stance is not None
+    assert translated.stance.kind is wire.StanceKind.STRIDING
+    assert translated.stance.probabilities[wire.StanceKind.STANDING] == 0.2
+    assert wire.FitResult.model_validate_json(translated.model_dump_json()) == translated
+
+
+def test_a_result_of_before_the_tilt_can_be_read():
+    old = translate.fit_result(result(light=None), part_names=PARTS).model_dump(mode="json")
+    del old["stance"]
+    for camera in (old["camera"], old["image_camera"]):
+        for field in [name for name in camera if name.startswith(("pitch", "roll"))]:
+            del camera[field]
+    read = wire.FitResult.model_validate_json(json.dumps(old))
+    assert read.stance is None
+    assert read.camera.pitch_deg is None
 
 
 def test_surroundings_are_nine_coefficients_or_null():

@@ -17,6 +17,7 @@ const TERMS: Readonly<Record<string, string>> = {
   clicks: "Clicks",
   shape_prior: "Unusual shape",
   pose_prior: "Unusual pose",
+  stance: "Unusual stance",
   shading: "Shading",
   measurements: "Known measures",
 };
