@@ -1,6 +1,6 @@
 """Numba kernels of the tilt; see :mod:`fitter.energies.stance` for what they compute.
 
-A stance is five vectors in the camera frame, metres: rows of a (5, 3) array. Derivatives are by
+A stance is nine vectors in the camera frame, metres: rows of a (9, 3) array. Derivatives are by
 complex steps, f(x + ih) = f(x) + ih f'(x), exact to rounding because every feature is analytic.
 """
 
@@ -9,7 +9,8 @@ from typing import no_type_check
 import numpy as np
 from numba import njit
 
-HIPS, BALANCE, ANKLES, TRUNK, MIDDLE = range(5)
+HIPS, BALANCE, ANKLES, TRUNK, MIDDLE, LEFT_THIGH, LEFT_SHIN, RIGHT_THIGH, RIGHT_SHIN = range(9)
+VECTORS, FEATURES = 9, 9
 
 _STEP = 1e-20
 _ITERATIONS = 30
@@ -26,8 +27,15 @@ def dot(a, b):
 
 @no_type_check
 @njit(cache=True)
+def cosine(a, b):
+    """Of the angle between two vectors."""
+    return dot(a, b) / np.sqrt(dot(a, a) * dot(b, b))
+
+
+@no_type_check
+@njit(cache=True)
 def fill_features(vectors, pitch, roll, result):
-    """Balance forward and to the left, ankles in height and forward, trunk, camera height, roll."""
+    """Balance forward and to the left, ankles in height and forward, trunk, knees, camera."""
     up = np.empty(3, dtype=np.complex128)
     up[0] = -np.sin(roll) * np.cos(pitch)
     up[1] = -np.cos(roll) * np.cos(pitch)
@@ -45,17 +53,19 @@ def fill_features(vectors, pitch, roll, result):
     result[3] = dot(vectors[ANKLES], forward)
     result[4] = dot(vectors[TRUNK], forward) / length
     result[5] = dot(vectors[TRUNK], left) / length
-    result[6] = -dot(vectors[MIDDLE], up)
-    result[7] = roll
+    result[6] = 2.0 - cosine(vectors[LEFT_THIGH], vectors[LEFT_SHIN])
+    result[6] -= cosine(vectors[RIGHT_THIGH], vectors[RIGHT_SHIN])
+    result[7] = -dot(vectors[MIDDLE], up)
+    result[8] = roll
 
 
 @no_type_check
 @njit(cache=True)
 def fill_slopes(vectors, tilt, by_vectors, by_tilt):
-    """Derivatives of the features: (8, 5, 3) by the vectors, (8, 2) by pitch and roll."""
-    features = np.empty(8, dtype=np.complex128)
+    """Derivatives of the features: (9, 9, 3) by the vectors, (9, 2) by pitch and roll."""
+    features = np.empty(FEATURES, dtype=np.complex128)
     moved = vectors.astype(np.complex128)
-    for v in range(5):
+    for v in range(VECTORS):
         for c in range(3):
             moved[v, c] += 1j * _STEP
             fill_features(moved, complex(tilt[0]), complex(tilt[1]), features)
@@ -70,16 +80,16 @@ def fill_slopes(vectors, tilt, by_vectors, by_tilt):
 @no_type_check
 @njit(cache=True)
 def weigh(vectors, tilt, means, precisions, offsets, departures, weights, shares):
-    """Energy at a tilt; fills departures from the means, weights (8,) and shares of the kinds."""
-    features = np.empty(8, dtype=np.complex128)
+    """Energy at a tilt; fills departures from the means, weights (9,) and shares of the kinds."""
+    features = np.empty(FEATURES, dtype=np.complex128)
     fill_features(vectors.astype(np.complex128), complex(tilt[0]), complex(tilt[1]), features)
     kinds = len(precisions)
-    for i in range(8):
+    for i in range(FEATURES):
         departures[i] = features[i].real - means[i]
     least = np.inf
     for k in range(kinds):
         cost = offsets[k]
-        for i in range(8):
+        for i in range(FEATURES):
             cost += 0.5 * precisions[k, i] * departures[i] ** 2
         shares[k] = cost
         least = min(least, cost)
@@ -90,7 +100,7 @@ def weigh(vectors, tilt, means, precisions, offsets, departures, weights, shares
     weights[:] = 0.0
     for k in range(kinds):
         shares[k] /= total
-        for i in range(8):
+        for i in range(FEATURES):
             weights[i] += shares[k] * precisions[k, i]
     return least - np.log(total)
 
@@ -103,15 +113,15 @@ def descend(vectors, tilt, means, precisions, offsets):
     Damped Gauss-Newton with the shares of each step held: expectation and maximisation.
     """
     kinds = len(precisions)
-    departures, weights, shares = np.empty(8), np.empty(8), np.empty(kinds)
-    by_vectors, by_tilt = np.empty((8, 5, 3)), np.empty((8, 2))
+    departures, weights, shares = np.empty(FEATURES), np.empty(FEATURES), np.empty(kinds)
+    by_vectors, by_tilt = np.empty((FEATURES, VECTORS, 3)), np.empty((FEATURES, 2))
     energy = weigh(vectors, tilt, means, precisions, offsets, departures, weights, shares)
     damping = 1e-3
     reached = np.empty(2)
     for _ in range(_ITERATIONS):
         fill_slopes(vectors, tilt, by_vectors, by_tilt)
         a, b, c, x, y = 0.0, 0.0, 0.0, 0.0, 0.0
-        for i in range(8):
+        for i in range(FEATURES):
             a += weights[i] * by_tilt[i, 0] ** 2
             b += weights[i] * by_tilt[i, 0] * by_tilt[i, 1]
             c += weights[i] * by_tilt[i, 1] ** 2

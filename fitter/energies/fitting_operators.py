@@ -48,7 +48,7 @@ class FittingOperators:
     landmark_attachments: Attachments
     sphere_attachments: Attachments
     joint_attachments: Attachments
-    stance_vectors: Float[np.ndarray, "5 p"]
+    stance_vectors: Float[np.ndarray, "9 p"]
     shaded: SurfaceSample
 
 

@@ -2,7 +2,8 @@
 
 Nothing else in the picture is asked. What is known of people and of cameras:
 
-- who *stands* has both ankles at one height, the centre of mass above the feet, the trunk upright;
+- who *stands* has both ankles at one height, the centre of mass above the feet, the trunk upright
+  and the knees straight;
 - who *strides* or stands on one foot has the centre of mass near the middle between the ankles and
   the trunk upright, and one ankle may be higher;
 - *others* (who jump, sit, lie or lean) do anything;
@@ -44,6 +45,8 @@ class StanceSpreads:
         Difference of the ankles' heights, and how far one is before the other.
     bend, lean
         Sines of the angles by which the trunk leaves the vertical.
+    knees
+        Sum of 1 - cos of the angles by which the knees are bent.
     """
 
     probability: float
@@ -53,6 +56,7 @@ class StanceSpreads:
     stride_m: float
     bend: float
     lean: float
+    knees: float
 
 
 # Spreads of standing and striding are those of motion capture, rounded: 1,911 poses in which no
@@ -71,6 +75,7 @@ STANCES: Mapping[StanceKind, StanceSpreads] = {
         stride_m=0.1,
         bend=0.14,
         lean=0.07,
+        knees=0.2,
     ),
     StanceKind.STRIDING: StanceSpreads(
         probability=0.25,
@@ -80,6 +85,7 @@ STANCES: Mapping[StanceKind, StanceSpreads] = {
         stride_m=0.45,
         bend=0.11,
         lean=0.05,
+        knees=0.4,
     ),
     StanceKind.OTHER: StanceSpreads(
         probability=0.1,
@@ -89,6 +95,7 @@ STANCES: Mapping[StanceKind, StanceSpreads] = {
         stride_m=0.4,
         bend=0.3,
         lean=0.3,
+        knees=1.0,
     ),
 }
 """By kind."""
@@ -143,18 +150,19 @@ class Tilt:
 class StanceRows:
     """The energy at a body as rows, with the tilt as two more unknowns.
 
-    ``rows`` are over the joints; ``by_tilt`` (8, 2) are √w ∂r of the same rows by pitch and roll.
+    ``rows`` are over the joints; ``by_tilt`` (9, 2) are √w ∂r of the same rows by pitch and roll.
     """
 
     rows: PositionRows
-    by_tilt: Float[np.ndarray, "8 2"]
+    by_tilt: Float[np.ndarray, "9 2"]
 
 
-def stance_vectors(part_names: tuple[str, ...]) -> Float[np.ndarray, "5 p"]:
-    """What makes the five vectors of a stance of the joints.
+def stance_vectors(part_names: tuple[str, ...]) -> Float[np.ndarray, "9 p"]:
+    """What makes the nine vectors of a stance of the joints.
 
     Right to left hip; middle of the ankles to centre of mass; right to left ankle; middle of the
-    hips to middle of the shoulders; middle of the ankles.
+    hips to middle of the shoulders; middle of the ankles; left thigh, left shin, right thigh,
+    right shin.
     """
     unit = dict(zip(part_names, np.eye(len(part_names)), strict=True))
 
@@ -172,11 +180,24 @@ def stance_vectors(part_names: tuple[str, ...]) -> Float[np.ndarray, "5 p"]:
         mass = mass + 2.0 * share * (middle(near) + place * (middle(far) - middle(near)))
     ankles = middle("foot")
     return np.stack(
-        [across("thigh"), mass / mass.sum() - ankles, across("foot"), shoulders - hips, ankles]
+        [
+            *(
+                across("thigh"),
+                mass / mass.sum() - ankles,
+                across("foot"),
+                shoulders - hips,
+                ankles,
+            ),
+            *(
+                unit[f"{side}_{far}"] - unit[f"{side}_{near}"]
+                for side in ("left", "right")
+                for near, far in (("thigh", "shin"), ("shin", "foot"))
+            ),
+        ]
     )
 
 
-def most_probable_tilt(joints: Points3D, vectors: Float[np.ndarray, "5 p"]) -> Tilt:
+def most_probable_tilt(joints: Points3D, vectors: Float[np.ndarray, "9 p"]) -> Tilt:
     """The tilt of least energy; joints (p, 3) in the camera frame."""
     stance = vectors @ joints
     best: Tilt | None = None
@@ -189,17 +210,17 @@ def most_probable_tilt(joints: Points3D, vectors: Float[np.ndarray, "5 p"]) -> T
     return Tilt(pitch=best.pitch, roll=best.roll, energy=best.energy, shares=shares)
 
 
-def stance_rows(joints: Points3D, vectors: Float[np.ndarray, "5 p"], tilt: Tilt) -> StanceRows:
+def stance_rows(joints: Points3D, vectors: Float[np.ndarray, "9 p"], tilt: Tilt) -> StanceRows:
     """The rows of the energy at its most probable tilt."""
     stance, place = vectors @ joints, np.array([tilt.pitch, tilt.roll])
     departures, weights, _ = _weighed(stance, place)
-    by_vectors, by_tilt = np.empty((8, 5, 3)), np.empty((8, 2))
+    by_vectors, by_tilt = np.empty((9, 9, 3)), np.empty((9, 2))
     kernels.fill_slopes(stance, place, by_vectors, by_tilt)
     return StanceRows(
         rows=PositionRows(
             residuals=departures,
             weights=weights,
-            points=np.tile(np.arange(len(joints)), (8, 1)),
+            points=np.tile(np.arange(len(joints)), (9, 1)),
             derivatives=np.einsum("kvc,vp->kpc", by_vectors, vectors),
         ),
         by_tilt=np.sqrt(weights)[:, None] * by_tilt,
@@ -207,15 +228,15 @@ def stance_rows(joints: Points3D, vectors: Float[np.ndarray, "5 p"], tilt: Tilt)
 
 
 def _weighed(
-    stance: Float[np.ndarray, "5 3"], tilt: Float[np.ndarray, "2"]
-) -> tuple[Float[np.ndarray, "8"], Float[np.ndarray, "8"], Float[np.ndarray, "3"]]:
+    stance: Float[np.ndarray, "9 3"], tilt: Float[np.ndarray, "2"]
+) -> tuple[Float[np.ndarray, "9"], Float[np.ndarray, "9"], Float[np.ndarray, "3"]]:
     """Departures of the features from their means, their weights, and the kinds' shares."""
-    departures, weights, shares = np.empty(8), np.empty(8), np.empty(len(_TABLE[2]))
+    departures, weights, shares = np.empty(9), np.empty(9), np.empty(len(_TABLE[2]))
     kernels.weigh(stance, tilt, *_TABLE, departures, weights, shares)
     return departures, weights, shares.reshape(len(StanceKind), -1).sum(axis=1)
 
 
-def _starts(stance: Float[np.ndarray, "5 3"]) -> list[Float[np.ndarray, "2"]]:
+def _starts(stance: Float[np.ndarray, "9 3"]) -> list[Float[np.ndarray, "2"]]:
     """A level camera, and one under which the centre of mass is above the ankles."""
     up = stance[kernels.BALANCE] / np.linalg.norm(stance[kernels.BALANCE])
     level = np.zeros(2)
@@ -224,16 +245,14 @@ def _starts(stance: Float[np.ndarray, "5 3"]) -> list[Float[np.ndarray, "2"]]:
 
 
 def _table() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Means (8,), precisions (6, 8) and offsets (6,): every kind of stance with every camera."""
-    means = np.array(
-        [FORWARD_OF_ANKLES_M, 0.0, 0.0, 0.0, 0.0, 0.0, CAMERA_HEIGHT_M - ANKLE_HEIGHT_M, 0.0]
-    )
+    """Means (9,), precisions (6, 9) and offsets (6,): every kind of stance with every camera."""
+    means = np.array([FORWARD_OF_ANKLES_M, *[0.0] * 6, CAMERA_HEIGHT_M - ANKLE_HEIGHT_M, 0.0])
     pairs = [(STANCES[kind], camera) for kind in StanceKind for camera in CAMERA_SPREADS]
     spreads = np.array(
         [
             [
                 *(each.forward_m, each.sideways_m, each.ankles_m, each.stride_m),
-                *(each.bend, each.lean, height_m, ROLL_SPREAD),
+                *(each.bend, each.lean, each.knees, height_m, ROLL_SPREAD),
             ]
             for each, (_, height_m) in pairs
         ]
