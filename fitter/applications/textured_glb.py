@@ -15,9 +15,10 @@ from fitter.body.model import BodyModel
 from fitter.body.scape import CAMERA_AXES
 from fitter.export.glb import BinaryChunk, Target, pack_glb
 from fitter.export.gltf_camera import CAMERA_NODE, camera_description
-from fitter.export.gltf_document import Frame, Node, gltf_document
+from fitter.export.gltf_document import Node, gltf_document
 from fitter.export.gltf_light import PUNCTUAL, light_and_node
 from fitter.export.gltf_mesh import BODY_NODE, NEUTRAL_ROUGHNESS, unit_normals
+from fitter.export.gltf_upright import set_upright
 from fitter.person.fitted_person import FittedPerson
 
 UNLIT = "KHR_materials_unlit"
@@ -96,9 +97,8 @@ def textured_glb(
         nodes.append(node)
         extensions = {PUNCTUAL: {"lights": [light]}}
         used = [PUNCTUAL]
-    document = gltf_document(
-        nodes, model, name="body_textured", frame=Frame.CAMERA, extras=extras
-    ) | {
+    nodes, frame = set_upright(nodes, person, in_file_axes(vertices))
+    document = gltf_document(nodes, model, name="body_textured", frame=frame, extras=extras) | {
         "cameras": [camera_description(person.camera)],
         "meshes": [{"name": "body", "primitives": [primitive]}],
         "materials": [material],
@@ -122,5 +122,5 @@ def owners_of_texels(model: BodyModel) -> Integer[np.ndarray, " u"]:
 
 
 def in_file_axes(vertices: Vertices) -> Vertices:
-    """From the camera frame to glTF's axes."""
+    """From the camera frame to glTF's axes, and back."""
     return vertices * CAMERA_AXES

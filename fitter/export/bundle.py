@@ -48,6 +48,7 @@ def artifacts(result: FitResult, *, model: BodyModel, image: bytes) -> dict[str,
             views_picture(
                 posed_vertices=result.found.posed_vertices,
                 root=result.person.body.translation,
+                tilt=result.person.tilt,
                 canonical_vertices=result.canonical_vertices,
                 triangles=triangles,
             )

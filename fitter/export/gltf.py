@@ -1,10 +1,11 @@
 """The fitted body as glTF 2.0 binary files.
 
 ``body_posed.glb`` lies in the camera frame with glTF's axes (OpenCV x diag(1, -1, -1): x right,
-y up, looking along -z), metres, so that its camera node is the identity; it carries camera, light,
-and reflectance per vertex. Light from all round, where it was found as spherical harmonics, is the
-light's extra ``surroundings`` (:mod:`fitter.render.surroundings`, in the file's axes), and what
-cast shadows leave of the lamp the vertex attribute ``_LIT``. ``body_canonical.glb`` lies in the
+y up, looking along -z), metres, so that its camera node is the identity, under a node that sets all
+of it upright (:mod:`fitter.export.gltf_upright`); it carries camera, light, and reflectance per
+vertex. Light from all round, where it was found as spherical harmonics, is the light's extra
+``surroundings`` (:mod:`fitter.render.surroundings`, in the camera's axes), and what cast shadows
+leave of the lamp the vertex attribute ``_LIT``. ``body_canonical.glb`` lies in the
 body frame (y up, facing +z) in the canonical pose with its feet on y = 0. Vertex order is the body
 model's, in both.
 """
@@ -17,6 +18,7 @@ from fitter.export.gltf_camera import CAMERA_NODE, camera_description
 from fitter.export.gltf_document import Frame, Node, gltf_document
 from fitter.export.gltf_light import PUNCTUAL, light_and_node
 from fitter.export.gltf_mesh import BODY_NODE, add_body_mesh, colour_scale_of
+from fitter.export.gltf_upright import set_upright
 from fitter.export.plain_gltf import plain_glb
 from fitter.render.shadow import lamp_seen
 from fitter.result import FitResult, PictureFit
@@ -43,8 +45,9 @@ def body_posed_glb(found: PictureFit, model: BodyModel) -> bytes:
             light=person.light,
             body_centre=person.body.translation,
         )
+    nodes, frame = set_upright(nodes, person, found.posed_vertices)
     document = gltf_document(
-        nodes, model, name="body_posed", frame=Frame.CAMERA, extras=_provenance(found)
+        nodes, model, name="body_posed", frame=frame, extras=_provenance(found)
     )
     document["cameras"] = [camera_description(person.camera)]
     if shining:

@@ -16,6 +16,11 @@ class Frame(StrEnum):
 
     STANDING = "metres; +y is up, the body faces +z and stands on y = 0"
     ON_THE_GROUND = "metres; +y is up, the ground is y = 0"
+    UPRIGHT = (
+        "metres; +y points against gravity as it was estimated, and the lowest point is at y = 0. "
+        "The node 'upright' turns the camera's axes into these: in it the camera stands at the "
+        "origin and looks along -z, +x is right and +y up in its picture"
+    )
     CAMERA = (
         "metres; the camera's axes: it stands at the origin and looks along -z, +x is right and +y "
         "up in its picture. Which way gravity points is not known"

@@ -11,6 +11,8 @@ from fitter.arrays import Triangles, Vector3, Vertices
 from fitter.body.scape import CAMERA_AXES
 from fitter.export.display import block_means, finer, to_levels
 from fitter.observation.colour import display_from_linear
+from fitter.parameters import CameraTilt
+from fitter.person.upright import upright_rotation
 from fitter.render.camera import Camera
 from fitter.render.interpolation import shade_image
 from fitter.render.rasterizer import render
@@ -47,6 +49,7 @@ def views_picture(
     *,
     posed_vertices: Vertices,
     root: Vector3,
+    tilt: CameraTilt | None,
     canonical_vertices: Vertices,
     triangles: Triangles,
 ) -> UInt8[np.ndarray, "h w 3"]:
@@ -58,6 +61,8 @@ def views_picture(
         (m, 3) camera frame, metres; seen in the fit's own perspective.
     root
         Position of the root joint in the camera frame: the side view turns about its vertical.
+    tilt
+        Of the camera: what is vertical. None where it is not known, and the camera taken as level.
     canonical_vertices
         (m, 3) body frame, metres.
     """
@@ -66,7 +71,9 @@ def views_picture(
     canonical = (canonical_vertices - middle) * CAMERA_AXES + there
     panels = {
         "from the camera": posed_vertices,
-        "from the right of the picture": turned_about_vertical(posed_vertices, root, 90.0),
+        "from the right of the picture": turned_about_vertical(
+            under_level_camera(posed_vertices, root, tilt), root, 90.0
+        ),
         "canonical, front": canonical,
         "canonical, side": turned_about_vertical(canonical, there, 90.0),
     }
@@ -80,9 +87,9 @@ def views_picture(
 
 
 def sides_pictures(
-    posed_vertices: Vertices, root: Vector3, triangles: Triangles
+    posed_vertices: Vertices, root: Vector3, tilt: CameraTilt | None, triangles: Triangles
 ) -> dict[str, UInt8[np.ndarray, "h w 3"]]:
-    """The posed body from the camera and from its three other sides, by name, in one scale.
+    """The posed body from the camera's side and from the three others, by name, in one scale.
 
     Parameters
     ----------
@@ -90,13 +97,23 @@ def sides_pictures(
         (m, 3) camera frame, metres.
     root
         Position of the root joint in the camera frame: the onlooker walks round its vertical.
+    tilt
+        Of the camera: what is vertical. None where it is not known, and the camera taken as level.
     """
+    upright = under_level_camera(posed_vertices, root, tilt)
     turned = {
-        side: turned_about_vertical(posed_vertices, root, degrees)
+        side: turned_about_vertical(upright, root, degrees)
         for side, degrees in SIDES_DEGREES.items()
     }
     camera = _panel_camera(np.concatenate(list(turned.values())))
     return {side: clay_picture(vertices, triangles, camera) for side, vertices in turned.items()}
+
+
+def under_level_camera(vertices: Vertices, root: Vector3, tilt: CameraTilt | None) -> Vertices:
+    """Camera-frame vertices as a level camera would see them, turned about the root joint."""
+    if tilt is None:
+        return vertices
+    return (vertices - root) @ upright_rotation(tilt).T * CAMERA_AXES + root
 
 
 def turned_about_vertical(vertices: Vertices, centre: Vector3, degrees: float) -> Vertices:

@@ -17,9 +17,9 @@ from fitter.applications.motion import moving_body
 from fitter.applications.rig import rig_of
 from fitter.applications.walk import walk
 from fitter.arrays import Vertices
-from fitter.body.scape import CAMERA_AXES
 from fitter.fits.prepared_model import PreparedModel, prepared_model
-from fitter.parameters import BodyParameters
+from fitter.parameters import BodyParameters, CameraTilt
+from fitter.person.upright import upright_frame
 from fitter.request import Gender
 
 ROUNDING_M = 2e-5
@@ -77,10 +77,19 @@ class _Results:
         counts = {"vertices": len(self.model.mean_vertices), "triangles": len(self.model.triangles)}
         return Shown(frames=frames, **(counts | more))
 
-    def posed(self, body: Mapping[str, Any], **more: Any) -> Shown:
-        """A body before its camera."""
-        vertices = self.evaluator.vertices(_parameters(body)) * CAMERA_AXES
-        return self.shown(vertices, cameras=1, **more)
+    def posed(
+        self, body: Mapping[str, Any], camera: Mapping[str, Any] | None = None, **more: Any
+    ) -> Shown:
+        """A body under its camera, by default that of the fit, upright."""
+        parameters = _parameters(body)
+        vertices = self.evaluator.vertices(parameters)
+        tilt = _tilt(camera or self.of("fit")["image_camera"])
+        world = upright_frame(tilt, vertices=vertices, root=parameters.translation)
+        return self.shown(world.points(vertices), cameras=1, **more)
+
+    def combined(self, number: int) -> Shown:
+        body = self.of("combined")["bodies"][number - 1]
+        return self.posed(body["body"], body["image_camera"], lights=1)
 
     def textured(self, **more: Any) -> Shown:
         corners = len(self.model.uv)
@@ -116,6 +125,15 @@ def _parameters(body: Mapping[str, Any]) -> BodyParameters:
     )
 
 
+def _tilt(camera: Mapping[str, Any]) -> CameraTilt:
+    return CameraTilt(
+        pitch=np.radians(camera["pitch_deg"]),
+        roll=np.radians(camera["roll_deg"]),
+        covariance=np.eye(2),
+        stances={},
+    )
+
+
 def _standing(vertices: Vertices) -> Vertices:
     return vertices - np.array([0.0, vertices[:, 1].min(), 0.0])
 
@@ -140,6 +158,6 @@ _SHOWN: Mapping[str, Callable[[_Results], Shown]] = {
         _parameters(r.of("fit")["body"] | {"shape": r.of("caricature")["shape"]})
     ),
     "combined/body_combined.glb": lambda r: r.canonical(r.of("combined")["shape"]),
-    "combined/body_posed_1.glb": lambda r: r.posed(r.of("combined")["bodies"][0]["body"], lights=1),
-    "combined/body_posed_2.glb": lambda r: r.posed(r.of("combined")["bodies"][1]["body"], lights=1),
+    "combined/body_posed_1.glb": lambda r: r.combined(1),
+    "combined/body_posed_2.glb": lambda r: r.combined(2),
 }

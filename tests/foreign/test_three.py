@@ -40,10 +40,13 @@ def test_three_js_has_the_camera_of_the_picture_and_the_light_of_the_result(
     tangent = np.tan(np.radians(camera["fov"]) / 2)
     assert asked["height"] / (2 * tangent) == pytest.approx(asked["focal_length_px"])
     assert camera["aspect"] == pytest.approx(asked["width"] / asked["height"])
-    np.testing.assert_array_equal(camera["matrix"], np.eye(4).ravel())
+    # Column after column.
+    place = np.array(camera["matrix"]).reshape(4, 4).T
+    assert np.arcsin(-place[1, 2]) == pytest.approx(np.radians(asked["pitch_deg"]), abs=1e-6)
     assert camera["userData"]["cx_px"] == pytest.approx(asked["centre_x"])
     (light,) = told["lights"]
-    away = np.array(light["position"]) - np.array(result["body"]["translation_m"]) * [1, -1, -1]
+    body = np.array(result["body"]["translation_m"]) * [1, -1, -1]
+    away = np.array(light["position"]) - (place[:3, :3] @ body + place[:3, 3])
     assert np.linalg.norm(away) == pytest.approx(result["light"]["distance_m"])
 
 

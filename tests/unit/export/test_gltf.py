@@ -8,6 +8,8 @@ from scipy.spatial.transform import Rotation
 
 from fitter.export.gltf import body_canonical_glb, body_posed_glb
 from fitter.export.gltf_light import quaternion_from_z_to
+from fitter.parameters import CameraTilt, StanceKind
+from fitter.person.upright import upright_frame
 from fitter.render.shadow import cast_shadow
 from fitter.render.surroundings import irradiance
 from tests.unit.body.synthetic_model import bar_model
@@ -46,6 +48,29 @@ def test_another_reader_finds_the_same_vertices_and_triangles_in_the_same_order(
     np.testing.assert_allclose(mesh.vertices, result.found.posed_vertices * TO_GLTF, atol=1e-6)
     np.testing.assert_array_equal(mesh.faces, model.triangles)
     assert mesh.volume > 0.0, "turning the axes has not turned the surface inside out"
+
+
+def test_where_the_tilt_is_known_all_of_the_file_is_set_upright(result, model, posed):
+    tilt = CameraTilt(
+        pitch=-0.2, roll=0.05, covariance=np.eye(2), stances={StanceKind.STANDING: 1.0}
+    )
+    person = replace(result.person, tilt=tilt)
+    content = body_posed_glb(replace(result.found, person=person), model)
+    file = read_glb(content)
+    np.testing.assert_array_equal(file.attribute("POSITION"), posed.attribute("POSITION"))
+    scene = trimesh.load(io.BytesIO(content), file_type="glb", process=False)
+    vertices = result.found.posed_vertices
+    world = upright_frame(tilt, vertices=vertices, root=result.person.body.translation)
+    np.testing.assert_allclose(scene.to_mesh().vertices, world.points(vertices), atol=1e-6)
+    assert scene.to_mesh().bounds[0, 1] == pytest.approx(0.0, abs=1e-6)
+    camera = scene.graph.get("upright")[0]  # in which it is the identity
+    np.testing.assert_allclose(camera[:3, 3], world.translation, atol=1e-9)
+    np.testing.assert_allclose(-camera[:3, 2], world.directions(np.array([0, 0, 1.0])), atol=1e-9)
+    *placed, upright = file.document["nodes"]
+    assert upright["children"] == list(range(len(placed)))
+    assert "matrix" not in upright
+    assert "against gravity" in file.document["scenes"][0]["extras"]["frame"]
+    assert "not known" in posed.document["scenes"][0]["extras"]["frame"]
 
 
 def test_the_gltf_camera_projects_the_file_to_the_same_pixels(result, posed):

@@ -7,8 +7,10 @@ from fitter.export.views import (
     framing_camera,
     sides_pictures,
     turned_about_vertical,
+    under_level_camera,
     views_picture,
 )
+from fitter.parameters import CameraTilt, StanceKind
 from tests.unit.measurement.solids import sphere
 
 ROOT = np.array([0.2, -0.1, 3.0])
@@ -29,6 +31,16 @@ def test_walking_to_the_right_brings_the_right_to_the_front():
     np.testing.assert_allclose(turned[1], ROOT + [-0.5, 0.2, 0.0], atol=1e-12)
 
 
+def test_under_a_tilted_camera_the_side_view_turns_about_the_worlds_vertical():
+    tilt = CameraTilt(
+        pitch=np.radians(-20.0), roll=0.0, covariance=np.eye(2), stances={StanceKind.STANDING: 1.0}
+    )
+    above = ROOT + 0.5 * tilt.up
+    level = under_level_camera(np.stack([ROOT, above]), ROOT, tilt)
+    np.testing.assert_allclose(level, [ROOT, ROOT + [0.0, -0.5, 0.0]], atol=1e-12)
+    np.testing.assert_array_equal(under_level_camera(level, ROOT, None), level)
+
+
 def test_the_framed_body_touches_the_margins_and_keeps_its_perspective(slab):
     vertices = slab[0] * [1, -1, -1] + ROOT
     camera = framing_camera(vertices, width=520, height=720)
@@ -43,6 +55,7 @@ def test_four_panels_show_a_thin_body_wide_from_the_front_and_thin_from_the_side
     picture = views_picture(
         posed_vertices=vertices * [1, -1, -1] + ROOT,
         root=ROOT,
+        tilt=None,
         canonical_vertices=vertices,
         triangles=triangles,
     )
@@ -55,7 +68,7 @@ def test_four_panels_show_a_thin_body_wide_from_the_front_and_thin_from_the_side
 
 def test_four_sides_are_drawn_in_one_scale_and_the_back_mirrors_the_front(slab):
     vertices, triangles = slab
-    pictures = sides_pictures(vertices * [1, -1, -1] + ROOT, ROOT, triangles)
+    pictures = sides_pictures(vertices * [1, -1, -1] + ROOT, ROOT, None, triangles)
     widths, heights = zip(*(extent(picture) for picture in pictures.values()), strict=True)
     front, right, behind, left = widths
     assert front == pytest.approx(behind, abs=2)

@@ -180,11 +180,24 @@ export class BodyScene {
     const { camera } = this.table;
     if (this.placement === "picture") this.useFittedCamera();
     else this.useFreeCamera();
-    mesh.material.uniforms.eye!.value.copy(camera.position);
+    this.setUpright();
+    // Light and surface are in the axes of the file.
+    mesh.material.uniforms.eye!.value.copy(mesh.worldToLocal(camera.position.clone()));
     this.renderer.render(this.scene, camera);
     // What is drawn, not what is wanted: the outlined body comes later than its choice.
     const cues = this.cues === "SE" && this.outlined ? "SE" : "SES";
     this.renderer.domElement.dataset.shows = [this.placement, this.kind, cues, this.marked ?? "none"].join(" ");
+  }
+
+  /** Over its picture the body is in the camera's axes; turned, it stands as gravity has it. */
+  private setUpright(): void {
+    for (const { posed } of [this.parts, this.outlined ?? this.parts]) {
+      const { mesh, centre } = posed;
+      mesh.quaternion.identity();
+      if (this.placement === "turned" && this.body.upright) mesh.quaternion.fromArray(this.body.upright);
+      mesh.position.copy(centre).sub(centre.clone().applyQuaternion(mesh.quaternion));
+      mesh.updateMatrixWorld();
+    }
   }
 
   private useFreeCamera(): void {

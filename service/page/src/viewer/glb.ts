@@ -38,6 +38,8 @@ export interface GlbBody {
   readonly unlit: boolean;
   readonly camera: GlbCamera | null;
   readonly light: GlbLight | null;
+  /** The rotation, as a quaternion, that sets the camera's axes upright; null where it is not known. */
+  readonly upright: readonly [number, number, number, number] | null;
 }
 
 interface Document {
@@ -97,6 +99,7 @@ export function readGlb(content: ArrayBuffer): GlbBody {
     unlit: document.materials?.[0]?.extensions?.KHR_materials_unlit !== undefined,
     camera: cameraOf(document),
     light: lightOf(document),
+    upright: document.nodes.find((each) => each.name === "upright")?.rotation ?? null,
   };
 }
 

@@ -33,7 +33,7 @@ const VERTEX = /* glsl */ `
     vLit = lit;
     vPosedLit = posedLit;
     vShift = shift;
-    gl_Position = projectionMatrix * viewMatrix * vec4(position, 1.0);
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
   }
 `;
 

@@ -71,6 +71,7 @@ def _sides(person_file: bytes, models: Path | None) -> tuple[Picture, ...]:
     sides = sides_pictures(
         operators.evaluator.vertices(person.body),
         person.body.translation,
+        person.tilt,
         operators.model.triangles,
     )
     return tuple(_drawing(png(levels), side.capitalize()) for side, levels in sides.items())
