@@ -86,8 +86,8 @@ _CLICK_PIXELS = 2.5
 
 
 # What Eq. 1 leaves unexplained, a sixteenth of the median brightness, is correlated over patches of
-# more than a hand's breadth. Chosen on the tuning halves of both makers' bodies together: DECISIONS,
-# "Shading that helps at home only".
+# more than a hand's breadth. Chosen on the tuning halves of both makers' bodies together:
+# DECISIONS, "Shading that helps at home only".
 _SHADING_NATS = 130.0
 
 # Chosen on the clothed pictures of the tuning half (4), where waists, without the common offset,

@@ -24,6 +24,7 @@ from fitter.body.pose_prior import pose_prior
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.skeleton import regress
 from fitter.detection.detector import DetectedSlants
+from fitter.errors import InvalidInputError
 from fitter.parameters import BodyParameters
 from fitter.pose_init.click_fit import FittedPoses, fit_clicks
 from fitter.pose_init.click_problem import ClickProblem, click_problem
@@ -42,6 +43,10 @@ from fitter.render.camera import Camera
 from fitter.request import Facing
 
 _SETTLING_ITERATIONS = 3
+
+_NEAREST_M = 0.1
+"""How near to the camera a landmark may be: nearer by, or behind it, it has no place in a picture.
+"""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -122,7 +127,8 @@ def initialize_pose(
     Raises
     ------
     InvalidInputError
-        Where too little of the trunk was clicked to place it.
+        Where too little of the trunk was clicked to place it, and where the points can only be
+        those of a body behind the camera.
     """
     model = evaluator.model
     rig = landmark_rig(model, shape)
@@ -141,7 +147,8 @@ def initialize_pose(
         reference=reference,
         limb_facing=limb_facing,
     )
-    fitted = _on_the_surface(evaluator, problem, shape, fitted)
+    fitted = _in_front(problem.rig, fitted)
+    fitted = _in_front(problem.rig, _on_the_surface(evaluator, problem, shape, fitted))
     hypotheses = _described(problem.rig, shape, fitted)
     best = hypotheses[0].parameters
     seen = camera.project(_surface_landmarks(evaluator, best, clicks.names))
@@ -197,6 +204,20 @@ def _on_the_surface(
     shifted = dataclasses.replace(problem, pixels=problem.pixels + shift)
     settled = fit_clicks(shifted, fitted.pose, fitted.translation, iterations=_SETTLING_ITERATIONS)
     return distinct_hypotheses(settled)
+
+
+def _in_front(rig: LandmarkRig, fitted: FittedPoses) -> FittedPoses:
+    """The poses in front of the camera; absurd points may be met best by a body behind it."""
+    landmarks = pose_landmarks(rig, fitted.pose, fitted.translation).points
+    rows = np.flatnonzero(landmarks[:, :, 2].min(axis=1) > _NEAREST_M)
+    if not len(rows):
+        raise InvalidInputError(
+            code="person-not-found",
+            field="points",
+            reason="No person in front of the camera has points like these.",
+            remedy="Check that every point has the name of the landmark that it lies on.",
+        )
+    return fitted.chosen(rows)
 
 
 def _described(rig: LandmarkRig, shape: Shape, fitted: FittedPoses) -> tuple[PoseHypothesis, ...]:

@@ -1,6 +1,7 @@
 """The whole of section 3.1 on the shipped body models."""
 
 import functools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -152,3 +153,19 @@ def test_a_trunk_without_points_is_refused():
     clicks = clicked(body, "male", noise_px=0.0, seed=10).only(("left_knee", "left_ankle", "nose"))
     with pytest.raises(InvalidInputError):
         found(body, "male", clicks)
+
+
+def test_a_person_is_never_put_behind_the_camera():
+    body = true_body("male", 11, spread=0.1)
+    clicks = clicked(body, "male", noise_px=0.0, seed=11)
+    rng = np.random.default_rng(0)
+    found_in_front = refused = 0
+    for _ in range(12):
+        permuted = replace(clicks, pixels=clicks.pixels[rng.permutation(len(clicks.names))])
+        try:
+            assert found(body, "male", permuted).root_depth_m > 0.1
+            found_in_front += 1
+        except InvalidInputError:
+            refused += 1
+    assert found_in_front
+    assert refused
