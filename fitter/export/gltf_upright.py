@@ -9,10 +9,9 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from fitter.arrays import Vertices
-from fitter.body.scape import CAMERA_AXES
 from fitter.export.gltf_document import Frame, Node
 from fitter.person.fitted_person import FittedPerson
-from fitter.person.upright import upright_frame
+from fitter.person.upright import upright_frame, upright_turn
 
 UPRIGHT_NODE = "upright"
 
@@ -33,7 +32,7 @@ def set_upright(
     upright: Node = {
         "name": UPRIGHT_NODE,
         "children": list(range(len(nodes))),
-        "rotation": Rotation.from_matrix(world.rotation * CAMERA_AXES).as_quat().tolist(),
+        "rotation": Rotation.from_matrix(upright_turn(person.tilt)).as_quat().tolist(),
         "translation": np.asarray(world.translation).tolist(),
     }
     return [*nodes, upright], Frame.UPRIGHT

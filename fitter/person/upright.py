@@ -43,6 +43,14 @@ def upright_rotation(tilt: CameraTilt) -> Float[np.ndarray, "3 3"]:
     return about_x @ about_z * CAMERA_AXES
 
 
+def upright_turn(tilt: CameraTilt | None) -> Float[np.ndarray, "3 3"]:
+    """From the camera's axes turned to y up, as those of the body frame, to the world's.
+
+    The same axes where the tilt is not known.
+    """
+    return np.eye(3) if tilt is None else upright_rotation(tilt) * CAMERA_AXES
+
+
 def upright_frame(tilt: CameraTilt, *, vertices: Vertices, root: Vector3) -> UprightFrame:
     """The world in which the root joint is above the origin and the lowest vertex on the floor.
 

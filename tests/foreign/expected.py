@@ -19,7 +19,7 @@ from fitter.applications.walk import walk
 from fitter.arrays import Vertices
 from fitter.fits.prepared_model import PreparedModel, prepared_model
 from fitter.parameters import BodyParameters, CameraTilt
-from fitter.person.upright import upright_frame
+from fitter.person.upright import upright_frame, upright_turn
 from fitter.request import Gender
 
 ROUNDING_M = 2e-5
@@ -101,6 +101,11 @@ class _Results:
     def upright(self, body: BodyParameters) -> Shown:
         return self.shown(_standing(self.evaluator.body_frame_vertices(body)))
 
+    def turned_upright(self, body: BodyParameters) -> Shown:
+        """Upright as the picture has it."""
+        turn = upright_turn(_tilt(self.of("fit")["image_camera"]))
+        return self.shown(_standing(self.evaluator.body_frame_vertices(body) @ turn.T))
+
     def animated(self, *, error: str, **more: Any) -> Shown:
         """The walk that ships with the package, by exact SCAPE."""
         shape = np.array(self.of("fit")["body"]["shape"])
@@ -154,7 +159,7 @@ _SHOWN: Mapping[str, Callable[[_Results], Shown]] = {
     "animation/body_skinned.glb": lambda r: r.animated(
         error="skin_largest_error_mm", bones=len(r.model.part_names)
     ),
-    "caricature/body_caricature.glb": lambda r: r.upright(
+    "caricature/body_caricature.glb": lambda r: r.turned_upright(
         _parameters(r.of("fit")["body"] | {"shape": r.of("caricature")["shape"]})
     ),
     "combined/body_combined.glb": lambda r: r.canonical(r.of("combined")["shape"]),

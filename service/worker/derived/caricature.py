@@ -9,6 +9,7 @@ from fitter.applications.previews import View, preview
 from fitter.export.display import png
 from fitter.export.gltf_document import Frame
 from fitter.export.plain_gltf import plain_glb
+from fitter.person.upright import upright_turn
 from service.jobs.inputs import PERSON
 from service.worker.derived.person import person_and_operators
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
@@ -23,8 +24,11 @@ def derive(
     model, evaluator = operators.model, operators.evaluator
     found = caricature(evaluator, person.body.shape, options.factor)
     observe(0.7)
-    fitted = evaluator.body_frame_vertices(person.body)
-    exaggerated = evaluator.body_frame_vertices(dataclasses.replace(person.body, shape=found.shape))
+    turn = upright_turn(person.tilt)
+    fitted, exaggerated = (
+        evaluator.body_frame_vertices(dataclasses.replace(person.body, shape=shape)) @ turn.T
+        for shape in (person.body.shape, found.shape)
+    )
     result = CaricatureResult(
         factor=found.factor,
         coefficient=found.coefficient,
@@ -50,7 +54,7 @@ def derive(
                 exaggerated,
                 model,
                 name="body_caricature",
-                frame=Frame.CAMERA_TURNED,
+                frame=Frame.CAMERA_TURNED if person.tilt is None else Frame.ON_THE_GROUND,
                 extras={
                     "factor": found.factor,
                     "coefficient": found.coefficient,

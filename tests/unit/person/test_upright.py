@@ -3,7 +3,7 @@
 import numpy as np
 
 from fitter.parameters import CameraTilt, StanceKind
-from fitter.person.upright import upright_frame
+from fitter.person.upright import upright_frame, upright_rotation, upright_turn
 
 TILT = CameraTilt(
     pitch=np.radians(-12.0),
@@ -34,3 +34,11 @@ def test_a_camera_that_looks_down_is_above_what_it_looks_at():
     ahead = np.array([[0.0, 0.0, 3.0]])
     frame = upright_frame(TILT, vertices=ahead, root=ahead[0])
     np.testing.assert_allclose(frame.translation[1], 3.0 * np.sin(np.radians(12.0)))
+
+
+def test_a_turn_of_axes_with_y_up_is_the_rotation_of_the_camera_frame():
+    body_axes = np.random.default_rng(1).standard_normal((5, 3))
+    np.testing.assert_allclose(
+        body_axes @ upright_turn(TILT).T, (body_axes * [1, -1, -1]) @ upright_rotation(TILT).T
+    )
+    np.testing.assert_array_equal(upright_turn(None), np.eye(3))
