@@ -116,7 +116,7 @@ def sample_inputs() -> dict[str, bytes]:
     }
     fitted = FittedPerson.from_bytes(own[PERSON])
     inputs = own | {RESULT: output.result.model_dump_json().encode()}
-    for index, offset in enumerate(([0.0, 0.0, 0.1, 0.1], [0.0, 4.0, -4.0, 4.0])):
+    for index, offset in enumerate(([0.0, 0.0, 0.1, 0.1], [0.0, 6.0, -6.0, 6.0])):
         shape = fitted.body.shape.copy()
         shape[: len(offset)] += offset
         body = replace(fitted.body, shape=shape)
