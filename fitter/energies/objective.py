@@ -85,7 +85,7 @@ class Candidate:
     rendering: Rendering
     edges: ModelEdges
     landmarks: Points3D
-    joints: Points3D
+    joints: Float[np.ndarray, "p 3"]
     tilt: Tilt
     spheres: Float[np.ndarray, "s 3"]
     radii: Float[np.ndarray, " s"]
