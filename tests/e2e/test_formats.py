@@ -15,7 +15,6 @@ import trimesh
 from pxr import Usd, UsdGeom, UsdValidation
 
 from tests.e2e.service import REPOSITORY, ended_job
-from tests.unit.export.glb_reader import read_glb
 
 SAMPLE = REPOSITORY / "service" / "demo_data"
 MICROMETRE = 1e-6
@@ -33,11 +32,12 @@ def fit(client: httpx.Client, finished_fit: str) -> dict:
 
 
 def mesh_of(glb: bytes) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices and triangles of a GLB whose mesh its node leaves where it is."""
-    file = read_glb(glb)
-    primitive = file.document["meshes"][0]["primitives"][0]
-    assert not {"rotation", "translation", "matrix"} & set(file.document["nodes"][0])
-    return file.attribute("POSITION"), file.accessor(primitive["indices"]).reshape(-1, 3)
+    """Vertices, where its nodes put them, and triangles of a GLB with one mesh."""
+    scene = trimesh.load_scene(io.BytesIO(glb), file_type="glb", process=False)
+    (node,) = scene.graph.nodes_geometry
+    turned, name = scene.graph[node]
+    mesh = scene.geometry[name]
+    return trimesh.transform_points(mesh.vertices, turned), np.asarray(mesh.faces)
 
 
 def same(read: np.ndarray, vertices: np.ndarray) -> bool:
