@@ -35,3 +35,19 @@ for step in range(12):
 
 def test_a_signal_at_any_line_of_the_wait_ends_it():
     subprocess.run([sys.executable, "-c", WAITS_AND_IS_SIGNALLED], timeout=60, check=True)
+
+
+ASLEEP_BEFORE_THE_HANDLER_RUNS = """
+import _thread, signal, threading
+from service.process.stop_request import StopRequest
+
+stop = StopRequest()
+signal.signal(signal.SIGTERM, lambda *_: stop.ask())
+# Python notes the signal, and nothing wakes the main thread, which sleeps by then.
+threading.Timer(0.3, lambda: _thread.interrupt_main(signal.SIGTERM)).start()
+stop.wait()
+"""
+
+
+def test_a_signal_noted_just_before_the_wait_sleeps_ends_it():
+    subprocess.run([sys.executable, "-c", ASLEEP_BEFORE_THE_HANDLER_RUNS], timeout=60, check=True)
