@@ -9,11 +9,11 @@ from dataclasses import dataclass
 from typing import Final
 
 from fitter.fits.plausibility import Plausibility
+from fitter.fits.reporting import POOR_OVERLAP
 from fitter.result import Verdict
 
-POOR_OVERLAP: Final = 0.85
 BAD_OVERLAP: Final = 0.78
-LEAST_OVERLAP: Final = 0.3
+ELSEWHERE_OVERLAP: Final = 0.3
 """With less the body and the mask are in different places; a table hides half a person."""
 
 USUAL_BOUNDARY, LITTLE_BOUNDARY = 0.46, 0.22
@@ -49,7 +49,7 @@ def contradiction(found: Plausibility) -> Contradiction:
         and found.click_deviations > POOR_CLICK_DEVIATIONS
         and found.strain > MUCH_STRAIN
     )
-    is_elsewhere = found.overlap < LEAST_OVERLAP
+    is_elsewhere = found.overlap < ELSEWHERE_OVERLAP
     is_more = found.beyond > MOST_BEYOND
     is_muddled = found.click_deviations > MOST_CLICK_DEVIATIONS
     if not (is_empty or is_no_body or is_elsewhere or is_more or is_muddled):

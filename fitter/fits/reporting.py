@@ -8,7 +8,7 @@ from fitter.remarks import FitWarning
 from fitter.request import Cues, Facing, FitRequest, SurroundingsKind
 from fitter.result import FacingSource, LimbFacing, Outcome, PictureFit, Verdict
 
-LEAST_OVERLAP = 0.85
+POOR_OVERLAP = 0.85
 """A fit with less intersection over union than this is called poor: half an arm is about 4 %."""
 
 AMBIGUOUS_NATS = 6.0
@@ -18,7 +18,7 @@ generous because the spreads of clicks and joints behind the energies are themse
 
 def outcome_of(*, converged: bool, overlap: float, verdict: Verdict) -> Outcome:
     """How the search ended."""
-    if overlap < LEAST_OVERLAP or verdict is not Verdict.PLAUSIBLE:
+    if overlap < POOR_OVERLAP or verdict is not Verdict.PLAUSIBLE:
         return Outcome.POOR_FIT
     return Outcome.CONVERGED if converged else Outcome.EVALUATION_LIMIT
 
@@ -56,7 +56,7 @@ def limb_facings(
 def fit_warnings(overlap: float, facings: Sequence[LimbFacing]) -> tuple[FitWarning, ...]:
     """What the caller should look at."""
     warnings: list[FitWarning] = []
-    if overlap < LEAST_OVERLAP:
+    if overlap < POOR_OVERLAP:
         warnings.append(
             FitWarning(
                 code="low-silhouette-overlap",

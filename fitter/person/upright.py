@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from fitter.arrays import Points3D, Vector3, Vertices
+from fitter.arrays import Vector3, Vertices
 from fitter.body.scape import CAMERA_AXES
 from fitter.numerics.rotations import rotation_matrices
 from fitter.parameters import CameraTilt
@@ -28,13 +28,9 @@ class UprightFrame:
     rotation: Float[np.ndarray, "3 3"]
     translation: Vector3
 
-    def directions(self, directions: Float[np.ndarray, "... 3"]) -> Float[np.ndarray, "... 3"]:
-        """Directions of the camera frame in the world."""
-        return directions @ self.rotation.T
-
     def points(self, points: Float[np.ndarray, "... 3"]) -> Float[np.ndarray, "... 3"]:
         """Points of the camera frame in the world."""
-        return self.directions(points) + self.translation
+        return points @ self.rotation.T + self.translation
 
 
 def upright_rotation(tilt: CameraTilt) -> Float[np.ndarray, "3 3"]:
@@ -65,9 +61,5 @@ def upright_frame(tilt: CameraTilt, *, vertices: Vertices, root: Vector3) -> Upr
     x, _, z = rotation @ root
     return UprightFrame(
         rotation=rotation,
-        translation=np.array([-x, -float(_heights(rotation, vertices).min()), -z]),
+        translation=np.array([-x, -float((vertices @ tilt.up).min()), -z]),
     )
-
-
-def _heights(rotation: Float[np.ndarray, "3 3"], points: Points3D) -> Float[np.ndarray, "_"]:
-    return points @ rotation[1]

@@ -65,7 +65,7 @@ def test_where_the_tilt_is_known_all_of_the_file_is_set_upright(result, model, p
     assert scene.to_mesh().bounds[0, 1] == pytest.approx(0.0, abs=1e-6)
     camera = scene.graph.get("upright")[0]  # in which it is the identity
     np.testing.assert_allclose(camera[:3, 3], world.translation, atol=1e-9)
-    np.testing.assert_allclose(-camera[:3, 2], world.directions(np.array([0, 0, 1.0])), atol=1e-9)
+    np.testing.assert_allclose(-camera[:3, 2], world.rotation @ np.array([0, 0, 1.0]), atol=1e-9)
     *placed, upright = file.document["nodes"]
     assert upright["children"] == list(range(len(placed)))
     assert "matrix" not in upright

@@ -16,7 +16,7 @@ TILT = CameraTilt(
 def test_a_level_camera_looks_along_minus_z():
     level = CameraTilt(pitch=0.0, roll=0.0, covariance=np.eye(2), stances=TILT.stances)
     frame = upright_frame(level, vertices=np.array([[0.0, 1.0, 3.0]]), root=np.array([0.2, 0, 3.0]))
-    np.testing.assert_allclose(frame.directions(np.eye(3)), np.diag([1.0, -1.0, -1.0]), atol=1e-15)
+    np.testing.assert_allclose(frame.rotation.T, np.diag([1.0, -1.0, -1.0]), atol=1e-15)
     np.testing.assert_allclose(frame.translation, [-0.2, 1.0, 3.0])
 
 
