@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from fitter.errors import InvalidInputError
 from fitter.fits.pipeline import fit
 from fitter.request import Cues, FitRequest
 from fitter.result import Verdict
@@ -53,7 +54,17 @@ def _judged(kind: str, name: str, request: FitRequest) -> list[Judged]:
             kind=kind,
             name=name,
             hints=hints,
-            verdict=fit(hinted(replace(request, force=True), hints)).found.verdict,
+            verdict=_verdict(hinted(replace(request, force=True), hints)),
         )
         for hints in ASKED
     ]
+
+
+def _verdict(request: FitRequest) -> Verdict:
+    """The fit's, or that of the refusal of points that nobody in front of a camera has."""
+    try:
+        return fit(request).found.verdict
+    except InvalidInputError as error:
+        if error.code != "person-not-found":
+            raise
+        return Verdict.NO_PERSON
