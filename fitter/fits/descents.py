@@ -8,7 +8,8 @@ from fitter.energies.objective import Candidate, Objective
 from fitter.evidence.intensity import IntensityMap
 from fitter.observation.observation import Observation
 from fitter.optimizer.alternation import BodySearch, ShadedFit, fit_shading
-from fitter.optimizer.gauss_newton import EnergyObserver, Minimum
+from fitter.optimizer.damped_descent import EnergyObserver
+from fitter.optimizer.gauss_newton import Minimum
 from fitter.optimizer.renewed_lines import renewing_lines, with_lines_about
 from fitter.optimizer.search import SearchLimits, body_search, limits_of
 from fitter.parameters import BodyParameters, Light

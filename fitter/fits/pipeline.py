@@ -5,16 +5,8 @@ from pathlib import Path
 
 from fitter.arrays import Vertices
 from fitter.energies.objective import Candidate
-from fitter.energies.scales import FAR_BOUNDARY_ETA_M, NEAR_BOUNDARY_ETA_M, scales_at
 from fitter.fits.clothing import clothing_remarks
-from fitter.fits.descents import descents
-from fitter.fits.detecting import detector_for
-from fitter.fits.picture_objective import (
-    segmented,
-    silhouette_and_edges,
-    with_silhouette,
-)
-from fitter.fits.prepared_model import prepared_model
+from fitter.fits.outlined import outlined
 from fitter.fits.progress import Observer, Stage, ignore_progress
 from fitter.fits.reporting import (
     fit_warnings,
@@ -22,15 +14,11 @@ from fitter.fits.reporting import (
     limb_facings,
     shading_warnings,
 )
-from fitter.fits.settling import settle, shade
+from fitter.fits.settling import compared_with, settle, shade
 from fitter.fits.stage_clock import StageClock
 from fitter.measurement.anthropometry import measure
 from fitter.measurement.quantity import Measurement
-from fitter.observation.observation import observe
-from fitter.optimizer.hypotheses import try_hypotheses
-from fitter.population.known_person import known_person
-from fitter.pose_init.initial_pose import initialize_pose
-from fitter.pose_init.points import clicked_points
+from fitter.optimizer.uncertainty import certainty
 from fitter.request import FitRequest
 from fitter.result import FitResult, Pictures, StageBody
 
@@ -65,77 +53,33 @@ def fit(
     ('converged', True)
     """
     clock = StageClock(observer)
-    with clock.stage(Stage.OBSERVATION):
-        observation = observe(request, detector_for(request, detector_weights))
-        prepared = prepared_model(request.gender, models=models)
-        person = known_person(request, prepared.population, prepared.operators.evaluator)
-    with clock.stage(Stage.INITIAL_POSE):
-        initial = initialize_pose(
-            prepared.operators.evaluator,
-            camera=observation.camera,
-            clicks=clicked_points(observation.clicks),
-            shape=person.shape,
-            limb_facing=request.limb_facing,
-            slants=observation.slants,
-        )
-    searches = descents(request, observation)
-    limits = searches.limits
-    with clock.stage(Stage.SEGMENTATION) as report:
-        labels, segmentation = segmented(observation, prepared, initial.parameters, fitted=False)
-        coarse = silhouette_and_edges(
-            observation,
-            prepared,
-            initial.parameters,
-            segmentation,
-            person.attributes,
-            boundary_eta_m=FAR_BOUNDARY_ETA_M,
-        )
-        nearer = searches.search(limits.first, report)(coarse, initial.parameters)
-        labels, segmentation = segmented(
-            observation, prepared, nearer.candidate.parameters, fitted=True
-        )
-    with clock.stage(Stage.SILHOUETTE_AND_EDGES) as report:
-        hypotheses = initial.hypotheses[: limits.hypotheses]
-        far = with_silhouette(
-            coarse, segmentation, observation, prepared, nearer.candidate.parameters
-        )
-        objective = replace(
-            far,
-            scales=scales_at(
-                observation.camera, initial.root_depth_m, boundary_eta_m=NEAR_BOUNDARY_ETA_M
-            ),
-        )
-        tried = try_hypotheses(
-            far,
-            objective,
-            [hypothesis.parameters for hypothesis in hypotheses],
-            trial=searches.search(limits.trial, report),
-            contenders=limits.contenders,
-            contest=searches.search(limits.contest, report),
-        )
-        se = searches.silhouette_and_edges(objective, tried.ends[tried.best].parameters, report)
+    view = outlined(request, clock, models=models, detector_weights=detector_weights)
+    observation, known, prepared, se = view.observation, view.known, view.prepared, view.minimum
     with clock.stage(Stage.SHADING) as report:
-        shaded = shade(request, observation, segmentation, searches, objective, se, report)
+        shaded = shade(
+            request, observation, view.segmentation, view.searches, view.objective, se, report
+        )
     final = shaded.minimum.candidate
     with clock.stage(Stage.MEASUREMENT):
-        found, objective = settle(
+        objective = compared_with(view.searches, shaded)
+        found = settle(
             request,
             observation,
             prepared.operators.model,
-            searches,
             shaded,
-            height_m=person.height_m,
-            height_variance=person.height_variance,
+            certainty(shaded.with_shading(objective), final),
+            height_m=known.height_m,
+            height_variance=known.height_variance,
         )
         measurements = measure(
             prepared.measuring,
             final.parameters.shape,
             shape_covariance=found.person.shape_covariance,
-            given=person.given,
-            held=person.held,
+            given=known.given,
+            held=known.held,
         )
         canonical = prepared.measuring.canonical.at(final.parameters.shape)
-        before = {"initial": objective.evaluate(hypotheses[0].parameters)}
+        before = {"initial": objective.evaluate(view.hypotheses[0].parameters)}
         if shaded.shading is not None:
             before["SE"] = se.candidate
         stages = [
@@ -160,26 +104,24 @@ def fit(
     if not (found.is_plausible or request.force):
         measurements = ()
         stages = [replace(stage, measurements=()) for stage in stages]
-    facings = limb_facings(hypotheses, tried, request.limb_facing)
+    facings = limb_facings(view.hypotheses, view.tried, request.limb_facing)
     clothing_assumptions, clothing_warnings = clothing_remarks(objective)
     return FitResult(
         found=found,
-        given=person.given,
+        given=known.given,
         optimizer=request.optimizer,
         camera=observation.camera,
         focal_length_source=observation.focal_length_source,
         canonical_vertices=canonical,
         energies=final.energies,
-        evaluations=nearer.evaluations
-        + tried.evaluations
-        + se.evaluations
+        evaluations=view.evaluations
         + (0 if shaded.shading is None else shaded.shading.evaluations),
         stages=tuple(stages),
         measurements=measurements,
         limb_facing=facings,
-        assumptions=observation.assumptions + person.assumptions + clothing_assumptions,
+        assumptions=observation.assumptions + known.assumptions + clothing_assumptions,
         warnings=observation.warnings
-        + segmentation.warnings
+        + view.segmentation.warnings
         + clothing_warnings
         + fit_warnings(found.silhouette_overlap, facings)
         + shading_warnings(request, found)
@@ -187,8 +129,8 @@ def fit(
         stage_seconds=clock.seconds,
         pictures=Pictures(
             image=observation.display,
-            trimap=labels,
-            segmentation=segmentation.mask,
+            trimap=view.trimap,
+            segmentation=view.segmentation.mask,
         ),
     )
 

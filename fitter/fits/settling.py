@@ -13,9 +13,10 @@ from fitter.fits.reporting import outcome_of
 from fitter.observation.observation import Observation
 from fitter.optimizer.albedo_colour import albedo_rgb
 from fitter.optimizer.alternation import ShadedFit
-from fitter.optimizer.gauss_newton import EnergyObserver, Minimum
+from fitter.optimizer.damped_descent import EnergyObserver
+from fitter.optimizer.gauss_newton import Minimum
 from fitter.optimizer.light_solve import guessed_lights
-from fitter.optimizer.uncertainty import camera_tilt, certainty, shape_covariance
+from fitter.optimizer.uncertainty import Certainty, camera_tilt, shape_covariance
 from fitter.person.fitted_person import FittedPerson
 from fitter.request import Cues, FitRequest
 from fitter.result import PictureFit
@@ -43,6 +44,10 @@ class Shaded:
     minimum: Minimum
     shading: ShadedFit | None
 
+    def with_shading(self, objective: Objective) -> Objective:
+        """E1 with the shading that was found: E2."""
+        return objective if self.shading is None else objective.with_shading(self.shading.evidence)
+
 
 def shade(
     request: FitRequest,
@@ -68,27 +73,29 @@ def shade(
     )
 
 
+def compared_with(searches: Descents, shaded: Shaded) -> Objective:
+    """E1 with the outline found from the final body: other bodies can be compared with it."""
+    return searches.about(shaded.objective, shaded.minimum.candidate.parameters)
+
+
 def settle(
     request: FitRequest,
     observation: Observation,
     model: BodyModel,
-    searches: Descents,
     shaded: Shaded,
+    certain: Certainty,
     *,
     height_m: float,
     height_variance: float,
-) -> tuple[PictureFit, Objective]:
+) -> PictureFit:
     """The person that the searches found, with light, reflectance and the shape's covariance.
 
-    Also returns E1 with the outline found from this body, under which other bodies can be compared
-    with it. ``height_variance`` is the variance of the shape's first coefficient.
+    ``certain`` is how certain the final body is, ``height_variance`` the variance of the shape's
+    first coefficient.
     """
     candidate, shading = shaded.minimum.candidate, shaded.shading
-    objective = searches.about(shaded.objective, candidate.parameters)
+    objective = certain.objective
     overlap = objective.overlap(candidate)
-    certain = certainty(
-        objective if shading is None else objective.with_shading(shading.evidence), candidate
-    )
     person = FittedPerson(
         gender=request.gender,
         model_checksum=model.checksum,
@@ -113,7 +120,7 @@ def settle(
         )
     figures = plausibility(observation, objective, candidate, overlap)
     contradicted = contradiction(figures)
-    found = PictureFit(
+    return PictureFit(
         person=person,
         height_m=height_m,
         cues=request.cues,
@@ -125,4 +132,3 @@ def settle(
         verdict=contradicted.verdict,
         contradictions=contradicted.sentences,
     )
-    return found, objective

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
 from fitter.fits.progress import Observer, Progress, Stage
-from fitter.optimizer.gauss_newton import EnergyObserver
+from fitter.optimizer.damped_descent import EnergyObserver
 
 # Where each stage begins, as a share of a typical fit's time (640x480, Gauss-Newton, SES).
 _BEGINS_AT: Mapping[Stage, float] = {

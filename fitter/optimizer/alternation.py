@@ -40,6 +40,8 @@ between two neighbours costs as much as this many vertices left wholly unexplain
 last value (0.3) the albedo absorbs what the shape should explain; chosen on the evaluation's tuning
 half."""
 
+ROUNDS = len(SMOOTHNESS_SCHEDULE)
+
 SHADOW_ROUNDS = 1
 """Times that light and reflectance are found with the shadows, for a light with surroundings."""
 
@@ -117,13 +119,39 @@ def fit_shading(
     search
         Minimises an objective over the body from given parameters: the third step.
     surroundings
-        How light from all around is modelled: Eq. 1's constant, or spherical harmonics, which also
-        tell the albedo inside a cast shadow. Too small a surface cannot tell them from the lamp;
-        then Eq. 1's constant is used.
+        See :func:`first_shading`.
 
     Returns
     -------
     None if too few vertices are visible and trusted for shading to tell anything.
+    """
+    state = first_shading(objective, start, intensity, lights, surroundings)
+    if state is None:
+        return None
+    minimum: Minimum | None = None
+    evaluations = 0
+    now = start
+    for round_index in range(ROUNDS):
+        state = next_shading(objective, now, state, round_index)
+        minimum = search(objective.with_shading(state), now.parameters)
+        evaluations += minimum.evaluations
+        now = minimum.candidate
+    assert minimum is not None
+    return shaded_fit(objective, minimum, state, evaluations=evaluations)
+
+
+def first_shading(
+    objective: Objective,
+    start: Candidate,
+    intensity: IntensityMap,
+    lights: tuple[Light, ...],
+    surroundings: SurroundingsKind,
+) -> ShadingEvidence | None:
+    """The first light on the minimum of E1; None if too little is seen to tell anything.
+
+    ``surroundings`` is how light from all around is modelled: Eq. 1's constant, or spherical
+    harmonics, which also tell the albedo inside a cast shadow. Too small a surface cannot tell them
+    from the lamp; then Eq. 1's constant is used.
     """
     if np.count_nonzero(seen_vertices(start.rendering, intensity)) < _LEAST_USABLE:
         return None
@@ -131,22 +159,31 @@ def fit_shading(
     told = np.count_nonzero(explained_vertices(start.rendering, state))
     if surroundings is SurroundingsKind.SPHERICAL_HARMONICS and told >= _LEAST_FOR_SURROUNDINGS:
         state = first_surroundings(objective, start, state)
-    minimum: Minimum | None = None
-    evaluations = 0
-    now = start
-    for round_index, smoothness in enumerate(SMOOTHNESS_SCHEDULE):
-        state = state.about(now.parameters.translation)
-        if round_index > 0:
-            state = with_new_light(now, state)
-        state = with_new_shadows(objective, now, state)
-        state = _with_new_reflectance(
-            objective, now, state, smoothness, REFINEMENT if round_index else GRADUATION
-        )
-        minimum = search(objective.with_shading(state), now.parameters)
-        evaluations += minimum.evaluations
-        now = minimum.candidate
-    assert minimum is not None
-    # The reflectance is found again for the final body, so that what is drawn is what was found.
+    return state
+
+
+def next_shading(
+    objective: Objective, now: Candidate, state: ShadingEvidence, round_index: int
+) -> ShadingEvidence:
+    """Light, shadows and reflectance of a body: what a round does before the body moves."""
+    state = state.about(now.parameters.translation)
+    if round_index > 0:
+        state = with_new_light(now, state)
+    state = with_new_shadows(objective, now, state)
+    smoothness = SMOOTHNESS_SCHEDULE[round_index]
+    return _with_new_reflectance(
+        objective, now, state, smoothness, REFINEMENT if round_index else GRADUATION
+    )
+
+
+def shaded_fit(
+    objective: Objective, minimum: Minimum, state: ShadingEvidence, *, evaluations: int
+) -> ShadedFit:
+    """What is reported once the body no longer moves.
+
+    The reflectance is found again for the final body, so that what is drawn is what was found.
+    """
+    now = minimum.candidate
     state = state.about(now.parameters.translation)
     reported = state
     if state.light.surroundings is not None:

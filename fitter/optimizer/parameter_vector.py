@@ -27,13 +27,17 @@ def limited(
     parameters: BodyParameters, step: Float[np.ndarray, " columns"]
 ) -> Float[np.ndarray, " columns"]:
     """The step, scaled down if necessary to where its linearisation still holds."""
+    return step / max(excess(parameters, step), 1.0)
+
+
+def excess(parameters: BodyParameters, step: Float[np.ndarray, " columns"]) -> float:
+    """The length of a step as a share of the longest whose linearisation still holds."""
     pose, translation, shape = _split(parameters, step)
-    excess = max(
+    return max(
         float(np.linalg.norm(pose, axis=1).max()) / _LONGEST_TURN,
         float(np.linalg.norm(translation)) / _LONGEST_MOVE_M,
         float(np.abs(shape).max()) / _LONGEST_SHAPE,
     )
-    return step / max(excess, 1.0)
 
 
 def _split(

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 from fitter.energies.objective import Objective
 from fitter.optimizer.alternation import BodySearch
-from fitter.optimizer.gauss_newton import EnergyObserver, Minimum, minimize_gauss_newton
+from fitter.optimizer.damped_descent import EnergyObserver
+from fitter.optimizer.gauss_newton import Minimum, minimize_gauss_newton
 from fitter.optimizer.simplex import minimize_simplex
 from fitter.parameters import BodyParameters
 from fitter.request import OptimizerKind

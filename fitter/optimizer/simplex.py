@@ -4,8 +4,9 @@ import numpy as np
 from scipy.optimize import minimize
 
 from fitter.energies.objective import Candidate, Objective
+from fitter.optimizer.damped_descent import EnergyObserver
 from fitter.optimizer.free_space import free_space
-from fitter.optimizer.gauss_newton import EnergyObserver, Minimum
+from fitter.optimizer.gauss_newton import Minimum
 from fitter.parameters import BodyParameters
 
 # First simplex: a few degrees, centimetres and half a standard deviation along each axis.

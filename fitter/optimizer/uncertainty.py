@@ -42,9 +42,7 @@ def certainty(objective: Objective, candidate: Candidate) -> Certainty:
     negative log-likelihoods, so the inverse of the Gauss-Newton matrix is the covariance of all
     parameters near the minimum. What is held exactly does not vary.
     """
-    matrix, _ = normal_equations(objective, candidate, marginal=True)
-    if objective.evidence.shading is not None:
-        matrix -= information_lost_to_light(objective, candidate, objective.evidence.shading)
+    matrix = body_information(objective, candidate)
     space = free_space(objective.attributes.held, candidate.parameters)
     inner = space.directions.T @ matrix @ space.directions
     inverse = np.linalg.inv(inner + 1e-9 * np.eye(len(inner)))
@@ -54,6 +52,16 @@ def certainty(objective: Objective, candidate: Candidate) -> Certainty:
         space=space,
         covariance=space.directions @ inverse @ space.directions.T,
     )
+
+
+def body_information(
+    objective: Objective, candidate: Candidate
+) -> Float[np.ndarray, "columns columns"]:
+    """The Gauss-Newton matrix of all body parameters, with light and ease marginalised."""
+    matrix, _ = normal_equations(objective, candidate, marginal=True)
+    if objective.evidence.shading is not None:
+        matrix -= information_lost_to_light(objective, candidate, objective.evidence.shading)
+    return matrix
 
 
 def shape_covariance(certain: Certainty, *, height_variance: float) -> Float[np.ndarray, "n n"]:

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from fitter.energies.objective import Objective
 from fitter.fits import descents
 from fitter.optimizer.alternation import BodySearch
-from fitter.optimizer.gauss_newton import EnergyObserver, Minimum
+from fitter.optimizer.damped_descent import EnergyObserver
+from fitter.optimizer.gauss_newton import Minimum
 from fitter.optimizer.search import body_search
 from fitter.parameters import BodyParameters
 from fitter.request import OptimizerKind

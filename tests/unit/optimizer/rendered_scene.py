@@ -21,6 +21,7 @@ from fitter.evidence.edge_cost import edge_cost_map
 from fitter.evidence.intensity import IntensityMap, intensity_map
 from fitter.evidence.silhouette_evidence import silhouette_evidence
 from fitter.fits.prepared_model import prepared_model
+from fitter.numerics.rotations import compose
 from fitter.observation.colour import display_from_linear
 from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
 from fitter.render.camera import Camera
@@ -64,14 +65,22 @@ class RenderedScene:
         return 1000 * float(np.linalg.norm(difference - difference.mean(axis=0), axis=1).mean())
 
 
-def rendered_scene(seed: int, light: Light = LIGHT) -> RenderedScene:
-    """A standing man of random shape near the mean pose, in ambient light or in surroundings."""
+def rendered_scene(
+    seed: int, light: Light = LIGHT, *, shape_seed: int | None = None, turned: float = 0.0
+) -> RenderedScene:
+    """A standing man of random shape near the mean pose, in ambient light or in surroundings.
+
+    Scenes of one ``shape_seed`` show the same man; ``turned`` is about his own axis, radians.
+    """
     rng = np.random.default_rng(seed)
     operators = prepared_model(Gender.MALE).operators
     model, evaluator = operators.model, operators.evaluator
     p, n = len(model.part_names), len(model.shape_basis)
     pose = mean_pose(operators.pose_prior) + 0.06 * rng.standard_normal((p, 3))
+    pose[0] = compose(np.array([[0.0, turned, 0.0]]), pose[:1])[0]
     shape = np.concatenate([[0.0], rng.standard_normal(n - 1)])
+    if shape_seed is not None:
+        shape[1:] = np.random.default_rng([shape_seed, 1]).standard_normal(n - 1)
     truth = BodyParameters(pose=pose, translation=np.array([0.0, 0.0, DEPTH_M]), shape=shape)
     start = increment(
         BodyParameters(pose=pose, translation=truth.translation, shape=np.zeros(n)),

@@ -1,0 +1,105 @@
+"""The energy of one person in several pictures, as a function of a body in each.
+
+With one shape β, a pose and place θ_k in picture k, and E_k what that picture says (E1 or E2 with
+the priors on pose and stance, but without any on the shape),
+
+    E(β, θ_1 ... θ_K) = w Σ_k E_k(β, θ_k) + prior(β) + known(β).
+
+What is known of the shape counts once, however many pictures there are. The weight w is less than
+one where the pictures share part of their errors.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from fitter.arrays import Shape
+from fitter.energies.attributes import NOTHING_KNOWN, KnownAttributes, attribute_energy
+from fitter.energies.objective import Candidate, Objective
+from fitter.energies.priors import ShapePrior
+from fitter.parameters import BodyParameters
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class JointCandidate:
+    """One shape, posed in each picture, with its energies.
+
+    ``energies`` are those of the whole: each picture's terms, weighted and summed by name, and
+    those of the shape.
+    """
+
+    views: tuple[Candidate, ...]
+    energies: Mapping[str, float]
+
+    @property
+    def total(self) -> float:
+        """The sum of all terms, nats."""
+        return sum(self.energies.values())
+
+    @property
+    def shape(self) -> Shape:
+        """(n,) that all bodies have."""
+        return self.views[0].parameters.shape
+
+    @property
+    def bodies(self) -> tuple[BodyParameters, ...]:
+        """The body in each picture."""
+        return tuple(view.parameters for view in self.views)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class JointObjective:
+    """See the module.
+
+    Attributes
+    ----------
+    views
+        What each picture says; see :func:`without_knowledge`.
+    weight
+        w.
+    shape_prior, attributes
+        What is known of the shape; held attributes have no term.
+    """
+
+    views: tuple[Objective, ...]
+    weight: float
+    shape_prior: ShapePrior
+    attributes: KnownAttributes
+
+    def evaluate(self, bodies: Sequence[BodyParameters]) -> JointCandidate:
+        """The true energy of bodies of one shape.
+
+        Raises
+        ------
+        NumericalError
+            If a term is not finite.
+        """
+        found = [view.evaluate(body) for view, body in zip(self.views, bodies, strict=True)]
+        shape = bodies[0].shape
+        energies: dict[str, float] = {}
+        for each in found:
+            for name, energy in each.energies.items():
+                energies[name] = energies.get(name, 0.0) + self.weight * energy
+        energies["shape_prior"] = self.shape_prior.energy(shape)
+        if len(self.attributes.standard_errors):
+            energies["attributes"] = attribute_energy(self.attributes, shape)
+        return JointCandidate(views=tuple(found), energies=energies)
+
+    def with_knowledge(self, view: Objective) -> Objective:
+        """A picture with what is known of the shape: the energy of this picture alone."""
+        return replace(view, shape_prior=self.shape_prior, attributes=self.attributes)
+
+    def with_views(self, views: Sequence[Objective]) -> "JointObjective":
+        """The same with other evidence."""
+        return replace(self, views=tuple(views))
+
+
+def without_knowledge(objective: Objective) -> Objective:
+    """What a picture says by itself, without what is known of the shape."""
+    n = len(objective.shape_prior.mean)
+    return replace(
+        objective,
+        shape_prior=ShapePrior(mean=np.zeros(n), precision=np.zeros((n, n))),
+        attributes=NOTHING_KNOWN,
+    )

@@ -1,0 +1,141 @@
+"""One shape for several pictures in one search: to the joint minimum of E1, then to that of E2.
+
+Searches follow those of a single picture (:mod:`fitter.fits.descents`, and section 5's alternation,
+:mod:`fitter.optimizer.alternation`): outlines are found again before each, and light and
+reflectance of every picture in turn with the bodies in all of them.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+
+from fitter.arrays import Shape
+from fitter.energies.joint_objective import JointObjective
+from fitter.energies.objective import Candidate, Objective
+from fitter.energies.priors import population_prior
+from fitter.fits.joint_view import JointView
+from fitter.fits.lit_view import LitView, first_lit
+from fitter.fits.settling import compared_with, settle
+from fitter.optimizer.alternation import ROUNDS
+from fitter.optimizer.damped_descent import EnergyObserver
+from fitter.optimizer.gauss_newton import Minimum
+from fitter.optimizer.joint_gauss_newton import JointMinimum, minimize_jointly
+from fitter.optimizer.joint_uncertainty import joint_certainty
+from fitter.optimizer.search import limits_of
+from fitter.optimizer.uncertainty import shape_covariance
+from fitter.parameters import BodyParameters
+from fitter.population.known_person import KnownPerson
+from fitter.request import OptimizerKind
+from fitter.result import PictureFit
+
+SHARED_ERROR = 0.0
+"""Correlation of the errors of two pictures of one person, by which k pictures count as
+k / (1 + (k - 1) r)."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class JointlyFound:
+    """One person in several pictures.
+
+    Attributes
+    ----------
+    shape, covariance
+        (n,) coefficients and their (n, n) covariance.
+    pictures
+        The person in each picture, in the order given.
+    """
+
+    shape: Shape
+    covariance: Float[np.ndarray, "n n"]
+    pictures: tuple[PictureFit, ...]
+
+
+def search_jointly(
+    views: Sequence[JointView], known: KnownPerson, start: Shape, report: EnergyObserver
+) -> JointlyFound:
+    """From bodies near the person in each picture, and a shape, to the joint minimum.
+
+    ``start`` has what is held. Pictures whose request has no shading take part with E1.
+    """
+    bodies: Sequence[BodyParameters] = [replace(view.body, shape=start) for view in views]
+    objective = JointObjective(
+        views=tuple(view.objective for view in views),
+        weight=1.0 / (1.0 + (len(views) - 1) * SHARED_ERROR),
+        shape_prior=population_prior(len(start)),
+        attributes=known.attributes,
+    )
+
+    def minimum(energies: Sequence[Objective], most: int) -> JointMinimum:
+        """Search against outlines that are found anew along the present bodies."""
+        about = _about(views, energies, bodies)
+        return minimize_jointly(
+            objective.with_views(about), bodies, max_evaluations=most, on_energies=report
+        )
+
+    limits = limits_of(OptimizerKind.GAUSS_NEWTON)
+    found = minimum([view.objective for view in views], limits.contest)
+    bodies = found.candidate.bodies
+    found = minimum([view.objective for view in views], limits.silhouette_and_edges)
+    bodies = found.candidate.bodies
+    lit = [first_lit(view, seen) for view, seen in zip(views, found.candidate.views, strict=True)]
+    if any(each.shading is not None for each in lit):
+        for number in range(ROUNDS):
+            seen = found.candidate.views
+            lit = [each.next(body, number) for each, body in zip(lit, seen, strict=True)]
+            found = minimum([each.energy for each in lit], limits.shading_round)
+            bodies = found.candidate.bodies
+    return _settled(views, known, objective, lit, found)
+
+
+def _about(
+    views: Sequence[JointView], energies: Sequence[Objective], bodies: Sequence[BodyParameters]
+) -> list[Objective]:
+    return [
+        view.searches.about(energy, body)
+        for view, energy, body in zip(views, energies, bodies, strict=True)
+    ]
+
+
+def _settled(
+    views: Sequence[JointView],
+    known: KnownPerson,
+    objective: JointObjective,
+    lit: Sequence[LitView],
+    found: JointMinimum,
+) -> JointlyFound:
+    """The person in every picture, with light and reflectance, and how certain the shape is."""
+    shape_energy = found.candidate.energies["shape_prior"]
+    seen: list[Candidate] = [
+        replace(each, energies={**each.energies, "shape_prior": shape_energy})
+        for each in found.candidate.views
+    ]
+    shaded = [
+        each.settled(
+            Minimum(candidate=body, converged=found.converged, evaluations=found.evaluations)
+        )
+        for each, body in zip(lit, seen, strict=True)
+    ]
+    compared = [
+        each.with_shading(compared_with(view.searches, each))
+        for view, each in zip(views, shaded, strict=True)
+    ]
+    certain = joint_certainty(objective.with_views(compared), seen)
+    pictures = tuple(
+        settle(
+            view.request,
+            view.observation,
+            each.objective.operators.model,
+            each,
+            certainty,
+            height_m=known.height_m,
+            height_variance=known.height_variance,
+        )
+        for view, each, certainty in zip(views, shaded, certain, strict=True)
+    )
+    return JointlyFound(
+        shape=found.candidate.shape,
+        covariance=shape_covariance(certain[0], height_variance=known.height_variance),
+        pictures=pictures,
+    )
