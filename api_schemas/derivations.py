@@ -60,7 +60,7 @@ class DerivationLinks(WireModel):
 class Derivation(JobStanding):
     """One accepted derivation; it is erased with its fit, and expires when the fit does.
 
-    A combined one goes with any of its fits.
+    One of several fits, combined or compared, goes with any of them.
     """
 
     kind: DerivationKind

@@ -6,11 +6,17 @@ from typing import Annotated
 from pydantic import Tag
 
 from api_schemas.derivation_kinds.animation import AnimationOptions, AnimationResult
+from api_schemas.derivation_kinds.body_composition import (
+    BodyCompositionOptions,
+    BodyCompositionResult,
+)
 from api_schemas.derivation_kinds.caricature import CaricatureOptions, CaricatureResult
+from api_schemas.derivation_kinds.change import ChangeOptions, ChangeResult
 from api_schemas.derivation_kinds.combined import CombinedOptions, CombinedResult
 from api_schemas.derivation_kinds.figure import FigureOptions, FigureResult
 from api_schemas.derivation_kinds.pose import PoseOptions, PoseResult
 from api_schemas.derivation_kinds.report import ReportOptions, ReportResult
+from api_schemas.derivation_kinds.size import SizeOptions, SizeResult
 from api_schemas.derivation_kinds.texture import TextureOptions, TextureResult
 
 
@@ -24,6 +30,9 @@ class DerivationKind(StrEnum):
     TEXTURE = "texture"
     FIGURE = "figure"
     COMBINED = "combined"
+    SIZE = "size"
+    BODY_COMPOSITION = "body_composition"
+    CHANGE = "change"
 
 
 AnyDerivationOptions = (
@@ -34,6 +43,9 @@ AnyDerivationOptions = (
     | Annotated[TextureOptions, Tag("[texture]")]
     | Annotated[FigureOptions, Tag("[figure]")]
     | Annotated[CombinedOptions, Tag("[combined]")]
+    | Annotated[SizeOptions, Tag("[size]")]
+    | Annotated[BodyCompositionOptions, Tag("[body_composition]")]
+    | Annotated[ChangeOptions, Tag("[change]")]
 )
 """What is asked for. The tag is the kind in brackets."""
 
@@ -45,5 +57,8 @@ AnyDerivationResult = (
     | Annotated[TextureResult, Tag("[texture]")]
     | Annotated[FigureResult, Tag("[figure]")]
     | Annotated[CombinedResult, Tag("[combined]")]
+    | Annotated[SizeResult, Tag("[size]")]
+    | Annotated[BodyCompositionResult, Tag("[body_composition]")]
+    | Annotated[ChangeResult, Tag("[change]")]
 )
 """What came of it."""

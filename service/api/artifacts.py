@@ -131,6 +131,6 @@ async def _content(context: ApiContext, record: JobRecord, rendition: Rendition)
     stored = await run_in_threadpool(partial(stored_content, context, record, rendition.source))
     if rendition.mesh_format is not None:
         return await context.estimates.convert(stored, rendition.mesh_format)
-    if rendition.media_type == CSV:
+    if rendition.media_type == CSV and rendition.source.media_type != CSV:
         return measurements_csv_of(stored)
     return stored

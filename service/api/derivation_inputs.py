@@ -13,7 +13,7 @@ from service.api.job_routes import find
 from service.api.problems import ProblemError
 from service.api.results import no_result
 from service.engine.port import JobExpiredError, JobRecord, StoredBlob
-from service.jobs.inputs import IMAGE, OF_EACH_PICTURE, PERSON, REQUEST, of_other
+from service.jobs.inputs import IMAGE, PERSON, REQUEST, of_other
 from service.submissions.refusal import RefusedError, refused
 
 
@@ -33,15 +33,15 @@ def derivation_inputs(
     needs = needs_of(options)
     copies = _copies_of(fit, needs.of_fit)
     if needs.other_fits:
-        _require_picture(copies, fit_id, field="kind")
-    for index, other in enumerate(needs.other_fits):
-        of_another = _picture_of_another(context, index, other, than=fit_id)
+        _require(_always_kept(needs.of_others), copies, fit_id, field="kind")
+    for index, (field, other) in enumerate(needs.other_fits.items()):
+        of_another = _of_another(context, other, needs.of_others, field=field, than=fit_id)
         copies |= {of_other(name, index): copy for name, copy in of_another.items()}
     return Inputs(
         kind=options.kind,
         options=options.model_dump_json(exclude={"webhook"}).encode(),
         files={**copies, **sent},
-        sources=tuple(map(str, needs.other_fits)),
+        sources=tuple(map(str, needs.other_fits.values())),
         webhook=options.webhook,
     )
 
@@ -56,11 +56,10 @@ def _copies_of(fit: JobRecord, needed: Collection[str]) -> dict[str, Copy]:
     return {name: Copy(scope=fit.id, blob=kept[name]) for name in needed if name in kept}
 
 
-def _picture_of_another(
-    context: ApiContext, index: int, other: UUID, *, than: UUID
+def _of_another(
+    context: ApiContext, other: UUID, needed: Collection[str], *, field: str, than: UUID
 ) -> Mapping[str, Copy]:
-    """The inputs and the person of another fit that a request names."""
-    field = f"fits.{index}"
+    """The inputs and files of another fit, which a field of the request names."""
     if other == than:
         raise _unusable(field, f"The fit {other} is the one it is derived from.")
     try:
@@ -69,14 +68,21 @@ def _picture_of_another(
         raise _unusable(field, f"The fit {other} has expired.") from error
     if record is None or record.state is not JobState.SUCCEEDED:
         raise _unusable(field, f"The fit {other} has not succeeded here.")
-    copies = _copies_of(record, OF_EACH_PICTURE)
-    _require_picture(copies, other, field=field)
+    copies = _copies_of(record, needed)
+    _require(_always_kept(needed), copies, other, field=field)
     return copies
 
 
-def _require_picture(copies: Mapping[str, Copy], fit_id: UUID, *, field: str) -> None:
+def _always_kept(needed: Collection[str]) -> tuple[str, ...]:
+    """What a fit is of no use without, if it is needed at all."""
+    return tuple(name for name in (PERSON, IMAGE) if name in needed)
+
+
+def _require(
+    names: Collection[str], copies: Mapping[str, Copy], fit_id: UUID, *, field: str
+) -> None:
     """Refuse a fit made by an earlier version, which kept less."""
-    missing = [name for name in (PERSON, IMAGE) if name not in copies]
+    missing = [name for name in names if name not in copies]
     if missing:
         raise refused(
             FieldProblem(

@@ -49,12 +49,15 @@ async def read_derivation(
             accepted=f"{JSON}, {MULTIPART}",
         )
     _refuse_wrong_parts(asked, parts)
-    return asked, Sent(text=text, files=await run_in_threadpool(_checked, parts, max_pixels))
+    files = await run_in_threadpool(_checked, asked, parts, max_pixels)
+    return asked, Sent(text=text, files=files)
 
 
-def _checked(parts: Mapping[str, bytes], max_pixels: int) -> dict[str, File]:
+def _checked(
+    asked: AnyDerivationOptions, parts: Mapping[str, bytes], max_pixels: int
+) -> dict[str, File]:
     return {
-        name: File(content=content, media_type=FORM_PARTS[name].check(content, max_pixels))
+        name: File(content=content, media_type=FORM_PARTS[name].check(content, asked, max_pixels))
         for name, content in parts.items()
     }
 

@@ -122,7 +122,13 @@ async def derive(
 
     It has copies of its own of what it needs of the fit; erasing the fit erases it too. A file
     comes along as a part of a form, whose part `request` is the JSON: `bvh`, a motion for an
-    animation, without which the body walks; `texture`, for a texture with the colours `own`.
+    animation, without which the body walks; `texture`, for a texture with the colours `own`;
+    `chart`, a size chart as CSV.
+
+    What follows from the measurements, `size`, `body_composition` and `change`, follows from all of
+    them together, with what is known of their errors. A size of a brand's chart, say:
+    `curl -F 'request={"kind": "size"}' -F chart=@chart.csv .../derivations`, with a chart such as
+    `size,chest_girth,waist_girth_navel`, `M,94-98,80-84`, `L,98-102,84-88`.
 
     `Idempotency-Key` and `Prefer` are as for fits.
     """

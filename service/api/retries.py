@@ -116,4 +116,4 @@ def _sources(kind: str, options: bytes) -> tuple[str, ...]:
     if kind == FIT:
         return ()
     asked = DerivationRequest.model_validate_json(options).root
-    return tuple(map(str, needs_of(asked).other_fits))
+    return tuple(map(str, needs_of(asked).other_fits.values()))

@@ -21,6 +21,9 @@ CLIP: Final = "bvh"
 TEXTURE: Final = "texture"
 """A painted atlas sent with the request."""
 
+CHART: Final = "chart"
+"""A size chart sent with the request, as CSV."""
+
 OF_EACH_PICTURE: Final = (PERSON, IMAGE, MASK, REQUEST, RESULT)
 """What a combined body has copies of, of every fit; a mask is there if it was sent."""
 

@@ -1,7 +1,5 @@
-"""Measurements as CSV, for spreadsheets: RFC 4180, UTF-8, one header line."""
+"""Measurements as CSV, for spreadsheets."""
 
-import csv
-import io
 from collections.abc import Sequence
 from typing import Final
 
@@ -9,6 +7,7 @@ from pydantic import BaseModel
 
 from api_schemas.bodies import EstimatedMeasurement
 from api_schemas.results import Measurement
+from service.representation.csv_table import models_csv
 
 CSV: Final = "text/csv"
 TABLE: Final = "measurements.csv"
@@ -24,19 +23,9 @@ class _Measured(BaseModel):
 def measurements_csv(measurements: Sequence[Measurement | EstimatedMeasurement]) -> bytes:
     """One line per measurement, one column per field; an unknown standard error stays empty."""
     fields = (type(measurements[0]) if measurements else Measurement).model_fields
-    text = io.StringIO(newline="")
-    table = csv.DictWriter(text, list(fields))
-    table.writeheader()
-    for each in measurements:
-        table.writerow({name: _cell(value) for name, value in each.model_dump().items()})
-    return text.getvalue().encode()
+    return models_csv(measurements, fields)
 
 
 def measurements_csv_of(result: bytes) -> bytes:
     """The same of a result document, of a fit or of several combined."""
     return measurements_csv(_Measured.model_validate_json(result).measurements)
-
-
-def _cell(value: object) -> object:
-    """As JSON has it, which spreadsheets read too."""
-    return str(value).lower() if isinstance(value, bool) else value

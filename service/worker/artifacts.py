@@ -14,6 +14,7 @@ MEDIA_TYPES: Final[Mapping[str, str]] = {
     ".png": "image/png",
     ".jpg": "image/jpeg",
     ".json": "application/json",
+    ".csv": "text/csv",
     ".npz": "application/zip",
     ".html": "text/html",
     ".pdf": "application/pdf",

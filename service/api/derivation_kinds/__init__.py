@@ -10,18 +10,24 @@ from typing import Any, Final
 from api_schemas.derivation_kinds import AnyDerivationOptions
 from service.api.derivation_kinds import (
     animation,
+    body_composition,
     caricature,
+    change,
     combined,
     figure,
     pose,
     report,
+    size,
     texture,
 )
 from service.api.derivation_kinds.definition import DerivationKindDefinition, FormPart, Needs
 
 KINDS: Final[Mapping[str, DerivationKindDefinition[Any, Any]]] = {
     each.KIND.kind: each.KIND
-    for each in (report, caricature, pose, animation, figure, texture, combined)
+    for each in (
+        *(report, caricature, pose, animation, figure, texture, combined),
+        *(size, body_composition, change),
+    )
 }
 
 FORM_PARTS: Final[Mapping[str, FormPart]] = {

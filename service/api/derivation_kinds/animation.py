@@ -3,7 +3,7 @@
 import codecs
 from typing import Final
 
-from api_schemas.derivation_kinds import DerivationKind
+from api_schemas.derivation_kinds import AnyDerivationOptions, DerivationKind
 from api_schemas.derivation_kinds.animation import AnimationOptions, AnimationResult
 from api_schemas.problems import FieldProblem, problem
 from service.api.derivation_kinds.definition import DerivationKindDefinition, FormPart, Needs
@@ -15,9 +15,9 @@ MAX_CLIP_BYTES: Final = 32 * 1024 * 1024
 """What the fitter reads at most; a minute of motion capture is a tenth of it."""
 
 
-def _check(clip: bytes, max_pixels: int) -> str:
+def _check(clip: bytes, options: AnyDerivationOptions, max_pixels: int) -> str:
     """Check what can be told of a BVH file without reading it."""
-    del max_pixels
+    del options, max_pixels
     if len(clip) > MAX_CLIP_BYTES:
         raise RefusedError(
             problem(

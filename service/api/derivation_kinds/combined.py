@@ -23,7 +23,11 @@ KIND: Final = DerivationKindDefinition(
     kind=DerivationKind.COMBINED,
     options=CombinedOptions,
     result=CombinedResult,
-    needs=lambda options: Needs(of_fit=OF_EACH_PICTURE, other_fits=options.fits),
+    needs=lambda options: Needs(
+        of_fit=OF_EACH_PICTURE,
+        other_fits={f"fits.{place}": fit for place, fit in enumerate(options.fits)},
+        of_others=OF_EACH_PICTURE,
+    ),
     requests={"combined": {"kind": "combined", "fits": [OTHER_FIT_ID]}},
     answer={
         "artifacts": files(

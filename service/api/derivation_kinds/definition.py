@@ -1,7 +1,7 @@
 """What there is to say of a kind of derivation: its types, what it is made of, its examples."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Generic, TypeVar
 from uuid import UUID
 
@@ -16,8 +16,9 @@ Result = TypeVar("Result", bound=DerivedFiles)
 class FormPart:
     """A file that may come along with a request, as a part of its form.
 
-    ``check`` is given the file and the most pixels a picture may have. It returns the file's media
-    type; of what cannot be used it raises :class:`service.submissions.refusal.RefusedError`.
+    ``check`` is given the file, what is asked for and the most pixels a picture may have. It
+    returns the file's media type; of what cannot be used it raises
+    :class:`service.submissions.refusal.RefusedError`.
     ``sent_for`` says in words which requests take the part.
     """
 
@@ -25,7 +26,7 @@ class FormPart:
     description: str
     media_types: str
     sent_for: str
-    check: Callable[[bytes, int], str]
+    check: Callable[[bytes, AnyDerivationOptions, int], str]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,12 +34,14 @@ class Needs:
     """What a derivation is made of beside its request.
 
     Of the fit's inputs and files it has copies of those in ``of_fit``, so far as the fit has them.
-    Of every one of ``other_fits`` it has copies of :data:`service.jobs.inputs.OF_EACH_PICTURE`.
+    Of every one of ``other_fits``, by the fields of the request that name them, it has copies of
+    those in ``of_others``.
     ``part`` may come along. Where it must, ``part_is_for`` goes on from "is missing, which".
     """
 
     of_fit: tuple[str, ...]
-    other_fits: tuple[UUID, ...] = ()
+    other_fits: Mapping[str, UUID] = field(default_factory=dict[str, UUID])
+    of_others: tuple[str, ...] = ()
     part: FormPart | None = None
     part_is_for: str | None = None
 

@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from api_schemas.derivation_kinds import DerivationKind
+from api_schemas.derivation_kinds import AnyDerivationOptions, DerivationKind
 from api_schemas.derivation_kinds.texture import (
     LEAST_OWN_TEXTURE,
     TEXTURE_SIZES,
@@ -18,8 +18,9 @@ from service.submissions.refusal import refused
 from service.submissions.submission import check_picture
 
 
-def _check(texture: bytes, max_pixels: int) -> str:
+def _check(texture: bytes, options: AnyDerivationOptions, max_pixels: int) -> str:
     """Check a painted atlas by its header alone; returns its media type."""
+    del options
     header = check_picture(TEXTURE, texture, max_pixels=max_pixels)
     largest = TEXTURE_SIZES[-1]
     reason = None

@@ -4,6 +4,7 @@ from pathlib import PurePath
 from typing import Any, Final
 
 MEDIA_TYPES: Final = {
+    ".csv": "text/csv",
     ".glb": "model/gltf-binary",
     ".html": "text/html",
     ".pdf": "application/pdf",

@@ -57,6 +57,7 @@ LARGEST_FACTOR = 6.0
 """Of a caricature."""
 
 FILES = {
+    ".csv": b"label,probability\r\n",
     ".glb": b"glTF",
     ".html": b"<!doctype html><p>A report.",
     ".pdf": b"%PDF-1.4",

@@ -77,8 +77,9 @@ def test_what_a_request_needs_is_of_the_person_and_no_other_part_than_the_declar
         needs = needs_of(DerivationRequest.model_validate_json(json.dumps(example)).root)
         assert PERSON in needs.of_fit
         assert needs.part in (None, kind.part)
-        # Only of a picture that was fitted here can others be joined with.
-        assert not needs.other_fits or set(OF_EACH_PICTURE) <= set(needs.of_fit)
+        # What is needed of others is needed of the fit itself, and told apart by its names.
+        assert set(needs.of_others) <= set(needs.of_fit) & set(OF_EACH_PICTURE)
+        assert bool(needs.other_fits) is bool(needs.of_others)
 
 
 @each_kind

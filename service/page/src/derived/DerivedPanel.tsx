@@ -1,9 +1,9 @@
 // What can be made of a finished fit: asked for, followed, looked at and kept.
 import { useState } from "preact/hooks";
-import type { DerivationKind, Job } from "../api/types";
+import type { Job } from "../api/types";
 import { Choice } from "../ui/Choice";
 import { ProblemNote } from "../ui/ProblemNote";
-import { FIRST_WISHES, KINDS, kindLabel } from "./kinds";
+import { FIRST_WISHES, KINDS, type OfferedKind, kindLabel } from "./kinds";
 import { useDerivations } from "./follow";
 import { DerivationCard } from "./DerivationCard";
 
@@ -14,7 +14,7 @@ interface Props {
 
 export function DerivedPanel({ fit, hasLight }: Props) {
   const { list, problem, start, retry, erase } = useDerivations(fit);
-  const [kind, setKind] = useState<DerivationKind>("report");
+  const [kind, setKind] = useState<OfferedKind>("report");
   const [wishes, wish] = useState(FIRST_WISHES);
   const [asking, setAsking] = useState(false);
   const chosen = KINDS[kind];
@@ -27,7 +27,7 @@ export function DerivedPanel({ fit, hasLight }: Props) {
         name="derivation"
         legend="What to make"
         quiet
-        options={(Object.keys(KINDS) as DerivationKind[]).map((value) => ({ value, label: kindLabel(value) }))}
+        options={(Object.keys(KINDS) as OfferedKind[]).map((value) => ({ value, label: kindLabel(value) }))}
         value={kind}
         onChange={setKind}
       />

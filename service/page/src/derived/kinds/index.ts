@@ -20,8 +20,12 @@ export const FIRST_WISHES = {
 };
 export type Wishes = typeof FIRST_WISHES;
 
+/** What the API offers to programs alone. */
+type Unoffered = "size" | "body_composition" | "change";
+export type OfferedKind = Exclude<DerivationKind, Unoffered>;
+
 /** In the order they are offered. */
-export const KINDS: Readonly<Record<DerivationKind, Kind<Wishes>>> = {
+export const KINDS: Readonly<Record<OfferedKind, Kind<Wishes>>> = {
   report,
   figure,
   pose,
@@ -33,7 +37,7 @@ export const KINDS: Readonly<Record<DerivationKind, Kind<Wishes>>> = {
 
 /** Of a kind that this page may not know yet, too. */
 export function kindOf(kind: string): Kind<Wishes> | null {
-  return KINDS[kind as DerivationKind] ?? null;
+  return KINDS[kind as OfferedKind] ?? null;
 }
 
 export function kindLabel(kind: string): string {

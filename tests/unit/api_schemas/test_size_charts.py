@@ -1,0 +1,194 @@
+"""Size charts of requests: as JSON and as tables, and what is said of bad ones."""
+
+import json
+
+import pytest
+
+from api_schemas.derivations import DerivationRequest
+from api_schemas.measurement_names import MEASUREMENT_UNITS, suggested_names
+from api_schemas.size_chart_csv import ChartTableError, read_chart
+from api_schemas.size_charts import MAX_SIZES, BodyRange
+from fitter.measurement.definitions import load_definitions
+from service.submissions.refusal import RefusedError
+from service.submissions.validation import parsed
+
+M = {"label": "M", "measurements": {"chest_girth": {"low": 94, "high": 98}}}
+HEADER = "size,chest_girth,waist_girth_navel\n"
+
+
+def test_the_names_of_the_wire_are_those_of_the_definitions():
+    defined = {each.about.name: each.about.unit.value for each in load_definitions()}
+    assert defined == MEASUREMENT_UNITS, "set api_schemas/measurement_names.py to these"
+
+
+def table(text: str) -> dict[str, dict[str, object]]:
+    chart = read_chart(text.encode())
+    return {
+        size.label: {
+            name: (each.low, each.high) if isinstance(each, BodyRange) else each
+            for name, each in size.measurements.items()
+        }
+        for size in chart.sizes
+    }
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "size,chest_girth,waist_girth_navel\nM,94-98,80-84\nL,98-102,\n",
+        "\ufeffSize; Chest girth ;waist-girth navel\r\nM;94,0–98;80 to 84\r\n;;\r\nL;98 — 102;",
+        'size\tchest_girth\twaist_girth_navel\nM\t"94-98"\t80 - 84\t\nL\t98-102\n',
+        "size,chest_girth_low,chest_girth_high,waist_girth_navel\nM,94,98,80-84\nL,98,102,\n",
+    ],
+    ids=["commas", "semicolons", "tabs", "pairs"],
+)
+def test_a_table_is_read_as_spreadsheets_write_it(text):
+    assert table(text) == {
+        "M": {"chest_girth": (94.0, 98.0), "waist_girth_navel": (80.0, 84.0)},
+        "L": {"chest_girth": (98.0, 102.0)},
+    }
+
+
+def test_single_values_are_targets():
+    assert table(HEADER + "M,96,82.5\n") == {"M": {"chest_girth": 96.0, "waist_girth_navel": 82.5}}
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "said"),
+    [
+        ("", "no-sizes", "empty"),
+        (HEADER, "no-sizes", "no rows"),
+        ("size\nM\n", "not-a-table", "0 measurements"),
+        ("size,waist\nM,80-84\n", "unknown-value", "Row 1, column 'waist'"),
+        ("size,chest_girth,chest_girth\nM,1,2\n", "repeated", "Column 3"),
+        ("size,,chest_girth\nM,1,2\n", "missing", "Column 2"),
+        ("size,chest_girth_low\nM,1\n", "missing", "chest_girth_high"),
+        (HEADER + "M,98-94,\n", "low-above-high", "Row 2 ('M'), column 'chest_girth'"),
+        (HEADER + "M,94-98,\n\nM,98-102,\n", "repeated", "Row 4"),
+        (HEADER + "M,nan,\n", "not-a-range", "holds 'nan'"),
+        (HEADER + "M,1e3,\n", "not-a-range", "'1e3'"),
+        (HEADER + "M,-5,\n", "not-a-range", "'-5'"),
+        (HEADER + "M,940-980,\n", "out-of-range", "940-980"),
+        (HEADER + "M,0,\n", "out-of-range", "holds 0"),
+        (HEADER + "M,,\n", "missing", "says nothing"),
+        (HEADER + ",94-98,\n", "missing", "Row 2 has no label"),
+        (HEADER + "M,94-98,80-84,5\n", "not-a-table", "Row 2 has more cells"),
+        (HEADER + "M,94-98,\nL,100,\n", "mixed-column", "Row 3, column 'chest_girth'"),
+        (HEADER + 'M,"94-98\n', "not-a-table", "cannot be read"),
+        ("size,chest_girth_low,chest_girth_high\nM,94,\n", "missing", "column 'chest_girth_low'"),
+        (HEADER + "".join(f"S{i},{i + 1},\n" for i in range(MAX_SIZES + 1)), "wrong-length", "201"),
+    ],
+)
+def test_a_bad_table_is_refused_with_its_row_and_column(text, code, said):
+    with pytest.raises(ChartTableError) as caught:
+        read_chart(text.encode())
+    assert caught.value.code == code
+    assert said in caught.value.reason
+    assert caught.value.remedy
+
+
+def test_what_is_no_text_is_no_table():
+    with pytest.raises(ChartTableError, match="UTF-8"):
+        read_chart(b"size,\xff\xfe\n")
+
+
+@pytest.mark.parametrize(
+    ("unknown", "meant"),
+    [
+        ("waist", "waist_girth_navel"),
+        ("bust", "chest_girth"),
+        ("hips", "hip_girth"),
+        ("chst_girth", "chest_girth"),
+        ("inside leg", "inseam"),
+        ("height", "stature"),
+    ],
+)
+def test_a_name_that_there_is_not_suggests_one_that_there_is(unknown, meant):
+    assert meant in suggested_names(unknown)
+
+
+def test_nothing_is_suggested_for_what_is_like_no_name():
+    assert suggested_names("xyz") == ()
+
+
+def faults(**request: object) -> list[tuple[str, str]]:
+    text = json.dumps({"kind": "size"} | request).encode()
+    try:
+        parsed(DerivationRequest, text, whole="body", called="the body")
+    except RefusedError as error:
+        return [(each.field, each.code) for each in error.problem.errors]
+    return []
+
+
+def size(label: str, **measurements: object) -> dict[str, object]:
+    return {"label": label, "measurements": measurements}
+
+
+@pytest.mark.parametrize(
+    ("request_", "fault"),
+    [
+        ({"chart": {"sizes": []}}, ("chart.sizes", "wrong-length")),
+        ({"chart": {"sizes": [size("M")]}}, ("chart.sizes.0.measurements", "wrong-length")),
+        (
+            {"chart": {"sizes": [M, size("L", waist=84)]}},
+            ("chart.sizes.1.measurements.waist", "unknown-value"),
+        ),
+        (
+            {"chart": {"sizes": [M, size("L", hip_girth={"low": 9, "high": 8})]}},
+            ("chart.sizes.1.measurements.hip_girth", "low-above-high"),
+        ),
+        ({"chart": {"sizes": [M, M]}}, ("chart.sizes.1.label", "repeated")),
+        (
+            {"chart": {"sizes": [M, size("L", chest_girth=100)]}},
+            ("chart.sizes.1.measurements.chest_girth", "mixed-column"),
+        ),
+        (
+            {"chart": {"sizes": [size("M", chest_girth=1e4)]}},
+            ("chart.sizes.0.measurements.chest_girth", "out-of-range"),
+        ),
+        (
+            {"chart": {"sizes": [size(f"S{i}", hip_girth=i + 1) for i in range(201)]}},
+            ("chart.sizes", "wrong-length"),
+        ),
+        ({"chart": {"sizes": [M]}, "chart_csv": HEADER}, ("chart_csv", "two-charts")),
+        ({"chart_csv": HEADER}, ("chart_csv", "no-sizes")),
+        ({"chart": {"sizes": [M]}, "ease": {"hip_girth": 2}}, ("ease.hip_girth", "unknown-value")),
+        (
+            {"chart": {"sizes": [size("M", hip_girth=100)]}},
+            ("tolerances.hip_girth", "tolerance-needed"),
+        ),
+    ],
+)
+def test_a_bad_chart_is_refused_with_the_field(request_, fault):
+    assert faults(**request_)[0] == fault
+
+
+def test_numbers_that_are_none_are_refused_in_a_chart():
+    text = (
+        b'{"kind": "size", "chart": {"sizes": [{"label": "M", "measurements": {"weight": NaN}}]}}'
+    )
+    with pytest.raises(RefusedError):
+        parsed(DerivationRequest, text, whole="body", called="the body")
+
+
+def test_a_chart_may_be_json_a_table_or_come_later():
+    assert faults(chart={"sizes": [M]}) == []
+    assert faults(chart_csv=HEADER + "M,94-98,\n") == []
+    assert faults() == []
+    one = size("one size", head_girth=57)
+    tolerance = {"head_girth": {"too_small": 1, "too_large": 2}}
+    assert faults(chart={"sizes": [one]}, tolerances=tolerance) == []
+
+
+@pytest.mark.parametrize(
+    ("names", "fault"),
+    [
+        (["waist"], ("measurements.0", "unknown-value")),
+        (["weight", "weight"], ("measurements.1", "repeated")),
+        ([], ("measurements", "wrong-length")),
+    ],
+)
+def test_measurements_that_are_compared_are_named_once_and_are_there(names, fault):
+    since = "0d3c1b6e-52a4-4f0e-9e37-0a4f6c2f7d10"
+    found = faults(kind="change", since=since, measurements=names)
+    assert found[0] == fault
