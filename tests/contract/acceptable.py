@@ -39,6 +39,14 @@ ACCEPTED: dict[str, Any] = {
 }
 """Of what is related to something else, one value that goes with anything."""
 
+SIZE: dict[str, Any] = {
+    "chart": {"sizes": [{"label": "M", "measurements": {"hip_girth": {"low": 94, "high": 98}}}]},
+    "chart_csv": None,
+    "ease": {},
+    "tolerances": {},
+}
+"""A chart in order, with what goes with it."""
+
 FIT = "CONTRACT_FIT"
 DERIVATION = "CONTRACT_DERIVATION"
 """Variables with the ids of a fit that has succeeded and of a pose derived from it."""
@@ -70,6 +78,8 @@ def before_call(context: HookContext, case: Case, kwargs: dict[str, Any]) -> Non
         return
     if operation in (("POST", "/v1/fits"), ("POST", DERIVATIONS)):
         changes = ACCEPTED | BY_ID if case.operation.path == "/v1/fits" else {"webhook": None}
+        if case.body.get("kind") == "size":
+            changes |= SIZE
         case.body = case.body | changes
 
 

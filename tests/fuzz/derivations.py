@@ -23,6 +23,19 @@ KINDS = tuple(each.value for each in DerivationKind)
 FACTORS = (0, 1, 0.5, 2.5, 3, 6, 99.9, 100, 100.1, -1, 1e-300)
 PARTS = ("head", "left_forearm", "right_thigh", "pelvis", "left_foot", "chest", "tail")
 POSES = ("rest", "standing", "a_pose", "t_pose", "relaxed", "walking", "sitting", "arms_raised")
+CHART_HEADS = (
+    "size,chest_girth,waist_girth_navel",
+    "size;chest_girth_low;chest_girth_high",
+    "size,waist",
+    "size",
+)
+CHART_CELLS = ("94-98", "80-84", "96", "", "98-94", "nan", "1e9", "94–98", "94,5-98", '"', "-", "0")
+SIZES = (
+    {"label": "M", "measurements": {"chest_girth": {"low": 94, "high": 98}}},
+    {"label": "L", "measurements": {"chest_girth": {"low": 98, "high": 102}, "weight": 80}},
+    {"label": "S", "measurements": {"chest_girth": 92}},
+    {"label": "M", "measurements": {"waist": 80}},
+)
 LONG_FITS = ([UNKNOWN_ID], [FIT_ID], [OTHER_FIT_ID], [OTHER_FIT_ID] * 2, [], ["x"])
 SUBPATHS = (
     *("", "/", "/events", "/request", "/result", "/cancel", "/retry"),
@@ -43,10 +56,15 @@ def derivation_body(chance: random.Random) -> RawRequest:
 
 
 def derivation_form(chance: random.Random) -> RawRequest:
-    """A form with a motion or a texture, mostly damaged, and now and then of the wrong kind."""
+    """A form with a file, mostly damaged, and now and then of the wrong kind."""
     document = _document(chance)
     parts: dict[str, bytes] = {}
-    if chance.random() < 0.5:
+    roll = chance.random()
+    if roll < 0.25:
+        document = {"kind": "size"}
+        chart = chart_table(chance).encode()
+        parts["chart"] = damaged(chart, chance) if chance.random() < 0.3 else chart
+    elif roll < 0.6:
         document = {"kind": "animation", "start_s": chance.choice((0, 0, 0.05, 3600, -1))}
         parts["bvh"] = motion(chance)
     else:
@@ -55,7 +73,7 @@ def derivation_form(chance: random.Random) -> RawRequest:
     if chance.random() < 0.15:
         document = _document(chance)
     if chance.random() < 0.1:
-        parts[chance.choice(("bvh", "texture", "image", "mask", ""))] = b"HIERARCHY\n"
+        parts[chance.choice(("bvh", "texture", "chart", "image", "mask", ""))] = b"HIERARCHY\n"
     parts["request"] = json.dumps(document).encode()
     if chance.random() < 0.1:
         parts["request"] = damaged(parts["request"], chance)
@@ -121,8 +139,35 @@ def _document(chance: random.Random) -> dict[str, Any]:
             }
         case "combined":
             return {"kind": kind, "fits": chance.choice(LONG_FITS)}
+        case "change":
+            return {
+                "kind": kind,
+                "since": chance.choice((OTHER_FIT_ID, OTHER_FIT_ID, UNKNOWN_ID, FIT_ID, "x")),
+                "measurements": chance.choice((None, ["weight"], ["waist"], [])),
+            }
+        case "body_composition":
+            return {"kind": kind, "age_years": chance.choice((None, 0, 17.5, 40, 120, 121))}
+        case "size":
+            sizes = chance.sample(SIZES, chance.randint(0, len(SIZES)))
+            inline = {"chart": {"sizes": sizes}}
+            return {
+                "kind": kind,
+                **chance.choice((inline, inline, {"chart_csv": chart_table(chance)}, {})),
+                "ease": chance.choice(({}, {}, {"chest_girth": 4}, {"waist": 1}, {"weight": 1e9})),
+            }
         case _:
             return {"kind": kind}
+
+
+def chart_table(chance: random.Random) -> str:
+    """A size chart as CSV, sound or not."""
+    head = chance.choice(CHART_HEADS)
+    by = ";" if ";" in head else ","
+    rows = [
+        by.join([chance.choice("SML"), *chance.choices(CHART_CELLS[:4] * 4 + CHART_CELLS, k=2)])
+        for _ in range(chance.choice((0, 1, 2, 3, 3, 3, 201)))
+    ]
+    return "\n".join([head, *rows])
 
 
 def _rotation(chance: random.Random) -> Any:
