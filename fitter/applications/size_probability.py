@@ -20,7 +20,7 @@ from fitter.measurement.joint_measurements import JointMeasurements
 from fitter.numerics.gaussian_points import gaussian_points
 
 POINTS_POWER = 13
-"""8,192 points: probabilities err by a thousandth or two."""
+"""8,192 points: probabilities err by 0.0026 at most against 262,144, of three to eight measurements."""
 
 _LARGEST_COST = 1.0 + 1e-9
 
