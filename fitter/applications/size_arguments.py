@@ -9,6 +9,9 @@ from scipy.special import ndtr
 from fitter.applications.size_chart import SizeChart, size_of_least_cost
 from fitter.measurement.joint_measurements import JointMeasurements
 
+NO_DIFFERENCE = 1e-3
+"""Centimetres or kilograms: so far off the value that was given exactly a held one may lie."""
+
 
 class SizedAs(StrEnum):
     """How a size fits a body in one measurement, at the body's most probable value."""
@@ -69,22 +72,23 @@ def sized_measurement(
     size: int,
     column: int,
     body: JointMeasurements,
-    eased: float,
+    ease: float,
     cost: float,
 ) -> SizedMeasurement:
     """What the measurement of a column says of a size.
 
-    ``eased`` is the body's value with its ease, ``cost`` what the size costs there.
+    ``ease`` is added to the body, ``cost`` is what the size costs there.
     """
+    eased = float(body.values[column]) + ease
     error = float(body.standard_errors[column])
     low, high = float(chart.low[size, column]), float(chart.high[size, column])
     is_said = bool(chart.is_said[size, column])
-    too_small = 1.0 - _below(high, eased, error) if is_said else 0.0
+    too_small = _below(-high, -eased, error) if is_said else 0.0
     too_large = _below(low, eased, error) if is_said else 0.0
     off = max(eased - high, low - eased, 0.0) if is_said else 0.0
     if not is_said:
         sized_as = SizedAs.UNSAID
-    elif off == 0.0:
+    elif off < NO_DIFFERENCE:
         sized_as = SizedAs.WITHIN
     else:
         sized_as = SizedAs.TOO_SMALL if eased > high else SizedAs.TOO_LARGE
@@ -95,7 +99,7 @@ def sized_measurement(
         unit=unit,
         value=float(body.values[column]),
         standard_error=error,
-        ease=eased - float(body.values[column]),
+        ease=ease,
         low=low if is_said else None,
         high=high if is_said else None,
         sized_as=sized_as,
@@ -105,7 +109,7 @@ def sized_measurement(
         too_small=too_small,
         too_large=too_large,
         sizes=sizes,
-        says=_says(chart, size, column, eased, error, unit, sized_as, off, sizes),
+        says=_says(chart, size, column, body, ease, sized_as, off, sizes),
     )
 
 
@@ -133,7 +137,7 @@ def sizes_asked_for(chart: SizeChart, column: int, value: float, error: float) -
 def _below(bound: float, value: float, error: float) -> float:
     """Probability that a value with this error lies below a bound."""
     if error <= 0.0:
-        return float(value < bound)
+        return float(value < bound - NO_DIFFERENCE)
     return float(ndtr((bound - value) / error))
 
 
@@ -141,15 +145,16 @@ def _says(
     chart: SizeChart,
     size: int,
     column: int,
-    eased: float,
-    error: float,
-    unit: str,
+    body: JointMeasurements,
+    ease: float,
     sized_as: SizedAs,
     off: float,
     sizes: tuple[str, ...],
 ) -> str:
-    label = chart.labels[size]
-    found = f"{eased:.1f} ± {error:.1f} {unit}"
+    label, unit = chart.labels[size], body.units[column]
+    found = f"{body.values[column] + ease:.1f} ± {body.standard_errors[column]:.1f} {unit}"
+    if ease:
+        found += f" with {ease:g} {unit} of ease"
     low, high = chart.low[size, column], chart.high[size, column]
     match sized_as:
         case SizedAs.UNSAID:
@@ -160,5 +165,15 @@ def _says(
             where = f"{off:.1f} {unit} more than {label} is made for ({low:g} to {high:g})"
         case SizedAs.TOO_LARGE:
             where = f"{off:.1f} {unit} less than {label} is made for ({low:g} to {high:g})"
-    asks = f"between {sizes[0]} and {sizes[-1]}" if len(sizes) > 1 else f"asks for {''.join(sizes)}"
-    return f"{chart.names[column]} {found}: {where}; {asks}."
+    return f"{chart.names[column]} {found}: {where}; {_asks(chart, column, sizes)}."
+
+
+def _asks(chart: SizeChart, column: int, sizes: tuple[str, ...]) -> str:
+    """Which sizes a measurement asks for; those with one range are alternatives to each other."""
+    by_range: dict[tuple[float, float], list[str]] = {}
+    for label in sizes:
+        row = chart.labels.index(label)
+        ends = float(chart.low[row, column]), float(chart.high[row, column])
+        by_range.setdefault(ends, []).append(label)
+    first, *more = (" or ".join(labels) for labels in by_range.values())
+    return f"between {first} and {more[-1]}" if more else f"asks for {first}"

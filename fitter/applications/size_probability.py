@@ -20,7 +20,7 @@ from fitter.measurement.joint_measurements import JointMeasurements
 from fitter.numerics.gaussian_points import gaussian_points
 
 POINTS_POWER = 13
-"""8,192 points: probabilities err by 0.0026 at most against 262,144, of three to eight measurements."""
+"""8,192 points: of three to eight measurements probabilities err by 0.003 at most."""
 
 _LARGEST_COST = 1.0 + 1e-9
 
@@ -77,7 +77,8 @@ def size_answer(
 ) -> SizeAnswer:
     """Find the size; ``ease`` is added to the body before it is compared, none where not named."""
     body = person.of(chart.names)
-    eased = body.values + np.array([ease.get(name, 0.0) for name in chart.names])
+    eases = [ease.get(name, 0.0) for name in chart.names]
+    eased = body.values + np.array(eases)
     points = gaussian_points(eased, body.covariance, power=POINTS_POWER)
     shares = _shares(chart, points)
     at_best = costs(chart, eased)
@@ -97,7 +98,7 @@ def size_answer(
             for label, share, cost, fit in zip(chart.labels, shares, sums, fits, strict=True)
         ),
         measurements=tuple(
-            sized_measurement(chart, spoken_of, column, body, float(eased[column]), float(cost))
+            sized_measurement(chart, spoken_of, column, body, eases[column], float(cost))
             for column, cost in enumerate(at_best[spoken_of])
         ),
     )

@@ -49,6 +49,8 @@ def test_values_given_exactly_differ_exactly_and_are_not_tested():
     assert found["weight"].standard_error == 0.0
     assert not found["stature"].is_change
     assert [each.name for each in changed(tuple(found.values()))] == ["weight"]
+    held_again = replace(before, values=before.values + np.array([0.0, 0.0, 0.002, 0.0]))
+    assert not {each.name: each for each in changes(before, held_again)}["weight"].is_change
     # Two are left to be tested.
     assert found["waist"].least == pytest.approx(2.2414 * found["waist"].standard_error, rel=1e-4)
 

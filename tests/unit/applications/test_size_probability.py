@@ -137,6 +137,7 @@ def test_ease_is_added_to_the_body():
     assert chances(eased) == pytest.approx(chances(answer(WAISTS, larger)))
     assert eased.measurements[0].value == 82.0
     assert eased.measurements[0].ease == 4.0
+    assert "86.0 ± 1.0 cm with 4 cm of ease" in eased.measurements[0].says
 
 
 def test_targets_stand_for_ranges_that_reach_half_way_to_the_next():
@@ -209,3 +210,20 @@ def test_what_does_not_vary_is_the_same_in_all_points():
     points = gaussian_points(np.array([1.0, 7.0]), covariance, power=4)
     assert set(points[:, 1]) == {7.0}
     assert len(set(points[:, 0])) == 16
+
+
+def test_sizes_of_one_range_are_alternatives_and_no_two_to_be_between():
+    chart = {
+        "M": {"waist": (80.0, 84.0)},
+        "M long": {"waist": (80.0, 84.0)},
+        "L": {"waist": (84.0, 88.0)},
+    }
+    (inside,) = answer(chart, person({"waist": 82.0}, [0.5])).measurements
+    assert inside.says.endswith("asks for M or M long.")
+    (near,) = answer(chart, person({"waist": 83.8}, [0.5])).measurements
+    assert near.says.endswith("between M or M long and L.")
+
+
+def test_a_body_at_the_very_end_of_a_range_lies_in_it():
+    (waist,) = answer(WAISTS, person({"waist": 84.0004}, [0.0])).measurements
+    assert (waist.sized_as, waist.within, waist.too_small) == (SizedAs.WITHIN, 1.0, 0.0)
