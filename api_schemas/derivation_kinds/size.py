@@ -9,9 +9,10 @@ from pydantic import Field, model_validator
 from api_schemas.base import WireModel, refusal
 from api_schemas.derivation_kinds.base import DerivationOptions, DerivedFiles
 from api_schemas.known import MeasurementName
+from api_schemas.problems import FieldProblem
 from api_schemas.results import FitWarning
 from api_schemas.size_chart_csv import MAX_CHART_BYTES, ChartTableError, read_chart
-from api_schemas.size_charts import ChartFault, SizeChart, chart_faults, columns_without_step
+from api_schemas.size_charts import SizeChart, chart_faults, columns_without_step
 
 CHART: Final = "chart"
 """The field, and the part of a form, that hold the chart."""
@@ -83,14 +84,15 @@ class SizeOptions(DerivationOptions):
             )
         if self.chart is not None:
             for fault in chart_faults(self.chart):
-                raise _refused(fault, f"{CHART}{fault.path}")
+                field = f"{CHART}{fault.path}"
+                raise refusal(fault.code, fault.reason, remedy=fault.remedy, field=field)
         try:
             sent = self.sent_chart
         except ChartTableError as error:
             raise refusal(error.code, error.reason, remedy=error.remedy, field=CHART_CSV) from error
         if sent is not None:
-            for fault in options_faults(self, sent):
-                raise _refused(fault, fault.column or CHART)
+            for each in options_faults(self, sent):
+                raise refusal(each.code, each.reason, remedy=each.remedy, field=each.field)
         return self
 
     @property
@@ -99,40 +101,36 @@ class SizeOptions(DerivationOptions):
         return self.chart if self.chart_csv is None else read_chart(self.chart_csv.encode())
 
 
-def options_faults(options: SizeOptions, chart: SizeChart) -> tuple[ChartFault, ...]:
-    """What of the options does not go with the chart; ``column`` is the field at fault."""
+def options_faults(options: SizeOptions, chart: SizeChart) -> tuple[FieldProblem, ...]:
+    """What of the options does not go with the chart."""
     names = chart.columns
     given: Mapping[str, Mapping[str, object]] = {
         "ease": options.ease,
         "tolerances": options.tolerances,
     }
-    faults = [
-        ChartFault(
+    unknown = (
+        FieldProblem(
+            field=f"{field}.{name}",
             code="unknown-value",
-            column=f"{field}.{name}",
             reason=f"The chart has no column '{name}'.",
             remedy=f"Its columns are {', '.join(names)}.",
         )
         for field, values in given.items()
         for name in values
         if name not in names
-    ]
-    faults += [
-        ChartFault(
+    )
+    needed = (
+        FieldProblem(
+            field=f"tolerances.{name}",
             code="tolerance-needed",
-            column=f"tolerances.{name}",
             reason=f"All sizes of the chart have the same target of {name}, which does not say how "
             "far a body may be from it.",
             remedy="Give ranges, or this measurement's tolerance.",
         )
         for name in columns_without_step(chart)
         if name not in options.tolerances
-    ]
-    return tuple(faults)
-
-
-def _refused(fault: ChartFault, field: str) -> Exception:
-    return refusal(fault.code, fault.reason, remedy=fault.remedy, field=field)
+    )
+    return (*unknown, *needed)
 
 
 class SizedAs(StrEnum):

@@ -33,17 +33,7 @@ def _check(chart: bytes, options: AnyDerivationOptions, max_pixels: int) -> str:
     assert isinstance(options, SizeOptions)
     faults = options_faults(options, read)
     if faults:
-        raise refused(
-            *(
-                FieldProblem(
-                    field=each.column or CHART,
-                    code=each.code,
-                    reason=each.reason,
-                    remedy=each.remedy,
-                )
-                for each in faults
-            )
-        )
+        raise refused(*faults)
     return "text/csv"
 
 

@@ -41,5 +41,5 @@ export function kindOf(kind: string): Kind<Wishes> | null {
 }
 
 export function kindLabel(kind: string): string {
-  return kindOf(kind)?.label ?? kind.charAt(0).toUpperCase() + kind.slice(1);
+  return kindOf(kind)?.label ?? (kind.charAt(0).toUpperCase() + kind.slice(1)).replaceAll("_", " ");
 }
