@@ -76,6 +76,16 @@ class Clothing(StrEnum):
     LOOSE = "loose"
 
 
+class Posture(StrEnum):
+    """What is known of how the person stands.
+
+    ``MEASURED`` people were asked to stand upright, straight and still on both feet.
+    """
+
+    ANY = "any"
+    MEASURED = "measured"
+
+
 class Facing(StrEnum):
     """Whether the far end of a limb is nearer to the camera than its near end, or farther."""
 
@@ -184,6 +194,7 @@ class FitRequest:
     optimizer: OptimizerKind = OptimizerKind.GAUSS_NEWTON
     outline: OutlineKind = OutlineKind.LINES
     clothing: Clothing = Clothing.TIGHT
+    posture: Posture = Posture.ANY
     light: LightGuess = field(default_factory=LightGuess)
     limb_facing: Mapping[str, Facing] = field(default_factory=dict[str, Facing])
     complete_clicks: bool = False

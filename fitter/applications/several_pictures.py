@@ -29,12 +29,17 @@ MOST_PICTURES = 12
 SAME_PERSON_PROBABILITY = 0.01
 """Shapes that differ so much that pictures of one person would do so more rarely than this."""
 
+_SAME_HEIGHT, _HELD_WITHIN = 0.01, 0.3
+"""Standard deviations by which what was given may seem to differ: what is held is a curved surface,
+and the directions in which it is free are those at the first of the fits."""
+
 _GIVEN_VARIANCE = 1e-9
 """Along what was given the shape does not vary."""
 
 
-_LEAST_VARIANCE = 0.05
-"""Directions in which two pictures cannot differ by more than this say nothing."""
+_LEAST_SPREAD = 0.1
+"""Standard deviations of a shape that nothing tells apart: pictures that both say nothing in a
+direction agree in it because of the prior, and those that both know it well, only to about this."""
 
 _LONGER_TAILS = 1.3
 """Errors of a fit vary by so much more than its matrix knows: of 95 % intervals 91 % hold."""
@@ -85,8 +90,8 @@ def combined_shape(people: Sequence[FittedPerson]) -> CombinedShape:
     directions = _free_directions(people)
     steps = [directions.T @ (person.body.shape - origin) for person in people]
     for index, (person, step) in enumerate(zip(people, steps, strict=True)):
-        beside = person.body.shape - origin - directions @ step
-        if np.abs(beside).max() > 0.01:
+        beside = np.abs(person.body.shape - origin - directions @ step)
+        if beside[0] > _SAME_HEIGHT or beside.max() > _HELD_WITHIN:
             raise told_differently(index)
     count = len(people)
     weight = counted_as(count) / count
@@ -156,12 +161,20 @@ def _agreement(
     unlike = kept - kept_by_others
     spread = kept @ own + kept_by_others @ others + unlike @ np.linalg.solve(precision, unlike.T)
     values, vectors = np.linalg.eigh(0.5 * (spread + spread.T))
-    told = values > _LEAST_VARIANCE
-    if not told.any():
-        return 1.0
-    along = vectors[:, told].T @ (steps[index] - rest)
-    distance = float((along**2 / values[told]).sum())
-    return float(chi2.sf(distance / _LONGER_TAILS, int(told.sum())))
+    squares = (vectors.T @ (steps[index] - rest)) ** 2 / (values + _LEAST_SPREAD**2)
+    return _as_extreme(squares / _LONGER_TAILS)
+
+
+def _as_extreme(squares: Float[np.ndarray, " d"]) -> float:
+    """How probable independent squared deviations like these are: of the largest, or their sum.
+
+    People differ most in how heavy they are, along one or two directions among many; the sum alone
+    would lose them. The smaller probability counts twice, because there are two.
+    """
+    count = len(squares)
+    largest = -np.expm1(count * chi2.logcdf(squares.max(), 1))
+    together = chi2.sf(squares.sum(), count)
+    return float(min(1.0, 2.0 * min(largest, together)))
 
 
 def _free_directions(people: Sequence[FittedPerson]) -> Float[np.ndarray, "n d"]:

@@ -35,6 +35,7 @@ from fitter.parameters import BodyParameters
 from fitter.render.camera import Camera
 from fitter.render.contours import ModelEdges, model_edges
 from fitter.render.rasterizer import Rendering, render
+from fitter.request import Posture
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -102,7 +103,7 @@ class Objective:
     """An energy as a function of the body: operators, evidence, scales and what is known are fixed.
 
     Held attributes have no energy term: a search stays among the bodies that have them.
-    ``shape_prior`` is that of the population, unless other pictures of the person say more.
+    ``shape_prior`` is that of the population; ``posture`` what is known of how the person stands.
     """
 
     operators: FittingOperators
@@ -110,6 +111,7 @@ class Objective:
     scales: EnergyScales
     shape_prior: ShapePrior
     attributes: KnownAttributes = NOTHING_KNOWN
+    posture: Posture = Posture.ANY
 
     def evaluate(self, parameters: BodyParameters) -> Candidate:
         """The true energy of a body.
@@ -125,7 +127,7 @@ class Objective:
         edges = model_edges(rendering, operators.topology)
         landmarks = regress(evidence.clicks.landmarks, vertices)
         joints = regress(operators.model.joint_regressor, vertices)
-        tilt = most_probable_tilt(joints, operators.stance_vectors)
+        tilt = most_probable_tilt(joints, operators.stance_vectors, self.posture)
         spheres, radii = sphere_positions(operators.penetration, vertices)
         energies = {
             "silhouette": silhouette_energy(rendering, evidence.silhouette, scales)

@@ -7,7 +7,7 @@ information matrix. Lengths on the body are given in metres and converted to pix
 distance, so that a fit does not depend on the size of the picture.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from fitter.render.camera import Camera
 
@@ -99,6 +99,24 @@ _EASE_CORRELATION_METRES = 0.15
 # With the offset, 95 % intervals hold 87 of 92 values on 23 other pictures of that half, in random
 # outfits.
 _EASE_COMMON_M = 0.02
+
+
+# Where several views show breadths and depths, shading is no longer what tells the depth.
+_SCAN_LINES, _SCAN_SHADING = 2.0, 0.25
+
+
+def scan_scales(scales: EnergyScales) -> EnergyScales:
+    """Scales for a picture that is one of several of a person: its outline counts for more.
+
+    Chosen on the tuning half of the suite's phone pairs and on the foreign pairs together
+    (DECISIONS.md).
+    """
+    return replace(
+        scales,
+        correlation_length=scales.correlation_length / _SCAN_LINES,
+        line_correlation_length=scales.line_correlation_length / _SCAN_LINES,
+        shading_weight=_SCAN_SHADING * scales.shading_weight,
+    )
 
 
 def scales_at(camera: Camera, depth_m: float, *, boundary_eta_m: float) -> EnergyScales:

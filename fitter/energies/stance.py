@@ -29,6 +29,10 @@ from fitter.arrays import Points3D
 from fitter.energies import _stance_kernels as kernels
 from fitter.energies.rows import PositionRows
 from fitter.parameters import StanceKind
+from fitter.request import Posture
+
+_Table = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""Means (9,), precisions (6, 9) and offsets (6,): every kind of stance with every camera."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -100,6 +104,19 @@ STANCES: Mapping[StanceKind, StanceSpreads] = {
 }
 """By kind."""
 
+MEASURED_STANDING = StanceSpreads(
+    probability=0.9,
+    forward_m=0.035,
+    sideways_m=0.03,
+    ankles_m=0.015,
+    stride_m=0.06,
+    bend=0.09,
+    lean=0.04,
+    knees=0.06,
+)
+"""Who was asked to stand upright, straight and still: about half of what standing people leave to
+chance. Nobody follows to the centimetre; half of these spreads gained no more (DECISIONS.md)."""
+
 FORWARD_OF_ANKLES_M = 0.045
 """Where the centre of mass of quiet standing is: D. A. Winter, "Human balance and posture control
 during standing and walking", Gait & Posture 3 (1995); motion capture has 6 to 7 cm."""
@@ -138,12 +155,15 @@ class Tilt:
         Nats.
     shares
         Probability of each kind of stance, in the order of :class:`StanceKind`.
+    posture
+        What was known of the stance.
     """
 
     pitch: float
     roll: float
     energy: float
     shares: Float[np.ndarray, "3"]
+    posture: Posture
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -197,23 +217,24 @@ def stance_vectors(part_names: tuple[str, ...]) -> Float[np.ndarray, "9 p"]:
     )
 
 
-def most_probable_tilt(joints: Points3D, vectors: Float[np.ndarray, "9 p"]) -> Tilt:
+def most_probable_tilt(
+    joints: Points3D, vectors: Float[np.ndarray, "9 p"], posture: Posture = Posture.ANY
+) -> Tilt:
     """The tilt of least energy; joints (p, 3) in the camera frame."""
-    stance = vectors @ joints
-    best: Tilt | None = None
+    stance, table = vectors @ joints, _TABLES[posture]
+    place, least = np.zeros(2), np.inf
     for start in _starts(stance):
-        energy = kernels.descend(stance, start, *_TABLE)
-        if best is None or energy < best.energy:
-            best = Tilt(pitch=start[0], roll=start[1], energy=energy, shares=np.zeros(3))
-    assert best is not None
-    _, _, shares = _weighed(stance, np.array([best.pitch, best.roll]))
-    return Tilt(pitch=best.pitch, roll=best.roll, energy=best.energy, shares=shares)
+        energy = kernels.descend(stance, start, *table)
+        if energy < least:
+            place, least = start, energy
+    _, _, shares = _weighed(stance, place, table)
+    return Tilt(pitch=place[0], roll=place[1], energy=least, shares=shares, posture=posture)
 
 
 def stance_rows(joints: Points3D, vectors: Float[np.ndarray, "9 p"], tilt: Tilt) -> StanceRows:
     """The rows of the energy at its most probable tilt."""
     stance, place = vectors @ joints, np.array([tilt.pitch, tilt.roll])
-    departures, weights, _ = _weighed(stance, place)
+    departures, weights, _ = _weighed(stance, place, _TABLES[tilt.posture])
     by_vectors, by_tilt = np.empty((9, 9, 3)), np.empty((9, 2))
     kernels.fill_slopes(stance, place, by_vectors, by_tilt)
     return StanceRows(
@@ -228,11 +249,11 @@ def stance_rows(joints: Points3D, vectors: Float[np.ndarray, "9 p"], tilt: Tilt)
 
 
 def _weighed(
-    stance: Float[np.ndarray, "9 3"], tilt: Float[np.ndarray, "2"]
+    stance: Float[np.ndarray, "9 3"], tilt: Float[np.ndarray, "2"], table: _Table
 ) -> tuple[Float[np.ndarray, "9"], Float[np.ndarray, "9"], Float[np.ndarray, "3"]]:
     """Departures of the features from their means, their weights, and the kinds' shares."""
-    departures, weights, shares = np.empty(9), np.empty(9), np.empty(len(_TABLE[2]))
-    kernels.weigh(stance, tilt, *_TABLE, departures, weights, shares)
+    departures, weights, shares = np.empty(9), np.empty(9), np.empty(len(table[2]))
+    kernels.weigh(stance, tilt, *table, departures, weights, shares)
     return departures, weights, shares.reshape(len(StanceKind), -1).sum(axis=1)
 
 
@@ -244,10 +265,9 @@ def _starts(stance: Float[np.ndarray, "9 3"]) -> list[Float[np.ndarray, "2"]]:
     return [level, above]
 
 
-def _table() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Means (9,), precisions (6, 9) and offsets (6,): every kind of stance with every camera."""
+def _table(kinds: Mapping[StanceKind, StanceSpreads]) -> _Table:
     means = np.array([FORWARD_OF_ANKLES_M, *[0.0] * 6, CAMERA_HEIGHT_M - ANKLE_HEIGHT_M, 0.0])
-    pairs = [(STANCES[kind], camera) for kind in StanceKind for camera in CAMERA_SPREADS]
+    pairs = [(kinds[kind], camera) for kind in StanceKind for camera in CAMERA_SPREADS]
     spreads = np.array(
         [
             [
@@ -258,9 +278,13 @@ def _table() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         ]
     )
     probable = np.array([each.probability * camera for each, (camera, _) in pairs])
+    probable /= probable.sum()
     offsets = np.log(spreads).sum(axis=1) - np.log(probable)
     # At the means the energy is zero, and nowhere is it less.
     return means, spreads**-2, offsets + np.log(np.exp(-offsets).sum())
 
 
-_TABLE = _table()
+_TABLES: Mapping[Posture, _Table] = {
+    Posture.ANY: _table(STANCES),
+    Posture.MEASURED: _table({**STANCES, StanceKind.STANDING: MEASURED_STANDING}),
+}

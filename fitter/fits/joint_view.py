@@ -1,10 +1,10 @@
 """One of several pictures of a person, ready to be searched with the others."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from fitter.energies.joint_objective import without_knowledge
 from fitter.energies.objective import Objective
-from fitter.energies.scales import NEAR_BOUNDARY_ETA_M
+from fitter.energies.scales import NEAR_BOUNDARY_ETA_M, scan_scales
 from fitter.fits.descents import Descents, descents
 from fitter.fits.outlined import Outlined
 from fitter.fits.picture_objective import segmented, silhouette_and_edges
@@ -43,7 +43,7 @@ def view_of(picture: Outlined) -> JointView:
         observation=picture.observation,
         segmentation=picture.segmentation,
         searches=picture.searches,
-        objective=without_knowledge(picture.objective),
+        objective=_one_of_several(picture.objective),
         body=picture.minimum.candidate.parameters,
     )
 
@@ -70,6 +70,11 @@ def view_around(
         observation=observation,
         segmentation=segmentation,
         searches=descents(request, observation),
-        objective=without_knowledge(objective),
+        objective=_one_of_several(objective),
         body=body,
     )
+
+
+def _one_of_several(objective: Objective) -> Objective:
+    """What a picture says beside others, which say the rest."""
+    return replace(without_knowledge(objective), scales=scan_scales(objective.scales))

@@ -102,6 +102,7 @@ def silhouette_and_edges(
         scales=scales_at(observation.camera, depth, boundary_eta_m=boundary_eta_m),
         shape_prior=population_prior(len(near.shape)),
         attributes=attributes,
+        posture=observation.posture,
     )
     return dressed(objective, observation, prepared, near)
 

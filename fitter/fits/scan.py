@@ -1,14 +1,14 @@
 """A scan: one person measured from several pictures that were taken for it."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
 
-from fitter.applications.several_pictures import CombinedShape, combined_shape, told_differently
+from fitter.applications.several_pictures import CombinedShape, combined_shape
 from fitter.arrays import Shape, Vertices
 from fitter.errors import InvalidInputError
 from fitter.fits.joint_search import JointlyFound, search_jointly
@@ -24,7 +24,7 @@ from fitter.optimizer.uncertainty import certainty, shape_covariance
 from fitter.person.fitted_person import FittedPerson
 from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera, FocalLengthSource
-from fitter.request import FitRequest
+from fitter.request import FitRequest, Posture
 from fitter.result import PictureFit, Pictures
 
 LEAST_VIEWS, MOST_VIEWS = 2, 6
@@ -135,7 +135,7 @@ def scan(
         clock = StageClock(_of_view(number, len(views), observe))
         try:
             pictures.append(
-                outlined(view.request, clock, models=models, detector_weights=detector_weights)
+                outlined(_posed(view), clock, models=models, detector_weights=detector_weights)
             )
         except InvalidInputError as error:
             raise of_view(number, error) from error
@@ -191,6 +191,13 @@ def of_view(number: int, error: InvalidInputError) -> InvalidInputError:
     )
 
 
+def _posed(view: ScanView) -> FitRequest:
+    """Who is measured stands as asked; in other pictures people do as they like."""
+    if view.kind is ViewKind.OTHER:
+        return view.request
+    return replace(view.request, posture=Posture.MEASURED)
+
+
 def _check(views: Sequence[ScanView]) -> None:
     if not LEAST_VIEWS <= len(views) <= MOST_VIEWS:
         raise InvalidInputError(
@@ -204,7 +211,12 @@ def _check(views: Sequence[ScanView]) -> None:
         each = view.request
         said = (each.gender, each.height_m, each.measurements)
         if said != (first.gender, first.height_m, first.measurements):
-            raise told_differently(number)
+            raise InvalidInputError(
+                code="views-differ",
+                field=f"views.{number}",
+                reason="Views say different heights, genders or measurements of the person.",
+                remedy="Say the same of the person in all views.",
+            )
 
 
 def _of_view(

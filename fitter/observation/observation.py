@@ -29,7 +29,7 @@ from fitter.observation.resampling import (
 from fitter.observation.subject import check_subject
 from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera, FocalLengthSource
-from fitter.request import Click, Clothing, FitRequest, SegmentationKind
+from fitter.request import Click, Clothing, FitRequest, Posture, SegmentationKind
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -54,6 +54,8 @@ class Observation:
         (h, w) the caller's foreground, None where none was sent.
     clothing
         How the caller says the clothes lie.
+    posture
+        What the caller knows of how the person stands.
     seed
         (h, w) probability that a pixel shows the person, by the detector; None if segmentation
         does not use it.
@@ -73,6 +75,7 @@ class Observation:
     clicks: Mapping[str, Click]
     mask: Mask | None
     clothing: Clothing
+    posture: Posture
     seed: GreyImage | None
     slants: DetectedSlants | None
     detected: bool | None
@@ -131,6 +134,7 @@ def observe(request: FitRequest, detector: Detector | None = None) -> Observatio
         clicks=clicks,
         mask=mask,
         clothing=request.clothing,
+        posture=request.posture,
         seed=detected.mask if detected is not None and _is_seeded(request) else None,
         slants=detected.slants if detected is not None and request.slant_hints else None,
         detected=None if detector is None else is_somebody_at(bodies, given),

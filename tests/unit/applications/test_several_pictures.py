@@ -107,3 +107,12 @@ def test_other_heights_are_other_people():
 def test_one_picture_is_not_several(count):
     with pytest.raises(InvalidInputError, match=f"not from {count}"):
         combined_shape([fit_of(SHAPE, FRONT)] * count)
+
+
+def test_people_who_differ_only_where_both_pictures_are_sure_are_told_apart():
+    told = np.array([400.0, 0.5, 0.5, 0.5, 0.5])
+    same = combined_shape([fit_of(SHAPE, told), fit_of(SHAPE + 0.02, told)])
+    assert not same.doubtful
+    heavier = SHAPE + np.array([0.0, 1.0, 0.0, 0.0, 0.0, 0.0])
+    other = combined_shape([fit_of(SHAPE, told), fit_of(heavier, told)])
+    assert other.doubtful
