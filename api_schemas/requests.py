@@ -2,13 +2,14 @@
 
 from collections.abc import Mapping
 from enum import StrEnum
-from typing import Any, Final, Self
+from typing import Any, Final
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from api_schemas.base import WireModel, refusal
+from api_schemas.base import WireModel
 from api_schemas.images import ImageId
 from api_schemas.known import KnownMeasurements
+from api_schemas.lens import Lens
 from api_schemas.points import AUTO, Point, PointName, Points, PointsFormat, PointsOrAuto
 from api_schemas.webhooks import WebhookTarget
 
@@ -114,27 +115,12 @@ _POINTS_EXAMPLE: Final = {
 }
 
 
-class Subject(KnownMeasurements):
+class Subject(KnownMeasurements, Lens):
     """Who is in the picture, and through which lens it was taken."""
 
     gender: Gender
     format: PointsFormat = PointsFormat.NAMED
-    focal_length_px: float | None = Field(default=None, gt=0.0, le=1_000_000.0)
-    focal_length_35mm: float | None = Field(
-        default=None, ge=5.0, le=5_000.0, description="Focal length in 35 mm equivalent."
-    )
     limb_facing: dict[Limb, Facing] = Field(default_factory=dict[Limb, Facing])
-
-    @model_validator(mode="after")
-    def _one_focal_length(self) -> Self:
-        if self.focal_length_px is not None and self.focal_length_35mm is not None:
-            raise refusal(
-                code="two-focal-lengths",
-                reason="Both focal_length_px and focal_length_35mm are given.",
-                field="focal_length_35mm",
-                remedy="Send one of the two.",
-            )
-        return self
 
 
 class SubjectOptions(Subject):
