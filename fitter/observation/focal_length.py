@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from typing import Protocol, runtime_checkable
 
 from fitter.errors import InvalidInputError
 from fitter.observation.exif import ExifTags
@@ -12,10 +13,24 @@ from fitter.render.camera import (
     FocalLengthSource,
     focal_length_px_from_35mm,
 )
-from fitter.request import FitRequest
 
 PLAUSIBLE_35MM = (5.0, 5000.0)
 """Range of real lenses in 35 mm equivalents: fisheyes start at 8, telescopes end at 3000."""
+
+
+@runtime_checkable
+class SaysLens(Protocol):
+    """A request that may name a focal length: in pixels, or in 35 mm terms."""
+
+    @property
+    def focal_length_px(self) -> float | None:
+        """Pixels of the upright original."""
+        ...
+
+    @property
+    def focal_length_35mm(self) -> float | None:
+        """The 35 mm equivalent, millimetres."""
+        ...
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,7 +43,7 @@ class FocalLength:
 
 
 def focal_length(
-    request: FitRequest, exif: ExifTags, *, width: int, height: int, stored_width: int
+    request: SaysLens, exif: ExifTags, *, width: int, height: int, stored_width: int
 ) -> FocalLength:
     """The best known focal length.
 

@@ -23,14 +23,7 @@ def check_subject(request: FitRequest) -> None:
     InvalidInputError
         ``height-out-of-range``, ``two-heights``, ``measurement-invalid`` or ``light-invalid``.
     """
-    low, high = PLAUSIBLE_HEIGHT_M
-    if request.height_m is not None and not low <= request.height_m <= high:
-        raise InvalidInputError(
-            code="height-out-of-range",
-            field="height_m",
-            reason=f"A height of {request.height_m:g} m is outside {low:g} to {high:g} m.",
-            remedy="Give the standing height in metres, or leave it out for the mean.",
-        )
+    check_height(request.height_m)
     if request.height_m is not None and STATURE in request.measurements:
         raise InvalidInputError(
             code="two-heights",
@@ -65,6 +58,24 @@ def check_subject(request: FitRequest) -> None:
             field="light.distance",
             reason="A light's distance is positive.",
             remedy="Give metres from the person, or leave it out.",
+        )
+
+
+def check_height(height_m: float | None) -> None:
+    """Refuse an impossible height.
+
+    Raises
+    ------
+    InvalidInputError
+        ``height-out-of-range``.
+    """
+    low, high = PLAUSIBLE_HEIGHT_M
+    if height_m is not None and not low <= height_m <= high:
+        raise InvalidInputError(
+            code="height-out-of-range",
+            field="height_m",
+            reason=f"A height of {height_m:g} m is outside {low:g} to {high:g} m.",
+            remedy="Give the standing height in metres, or leave it out for the mean.",
         )
 
 
