@@ -11,6 +11,8 @@ import cv2
 import numpy as np
 from jaxtyping import UInt8
 
+from fitter.capture.capture import box_of
+from fitter.capture.finding import Box
 from fitter.detection.detector import DetectedBody, Detector
 from fitter.errors import InvalidInputError
 from fitter.fits.proposal_warnings import proposal_warnings
@@ -29,11 +31,6 @@ from fitter.request import Click
 CIRCLE_RADIUS_M = 0.95
 """Assumed radius of the circle around a person: 0.54 of 1.75 m. The person's height is not known
 yet."""
-
-MASK_LEVEL = 0.5
-"""Probability from which a pixel belongs to the person, as in a caller's own mask."""
-
-Box = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -126,7 +123,7 @@ def proposal_of(
     size = working_size(width=width, height=height)
     working = display_working_picture(linear_working_picture(picture.pixels, size))
     bodies = detector.bodies(bytes_of_display(working))
-    chosen = _chosen(len(bodies), person)
+    chosen = chosen_person(len(bodies), person)
     body = None if chosen is None else bodies[chosen]
     return Proposal(
         width=width,
@@ -144,7 +141,14 @@ def proposal_of(
     )
 
 
-def _chosen(count: int, person: int | None) -> int | None:
+def chosen_person(count: int, person: int | None) -> int | None:
+    """Index of the one who is meant of so many; None of nobody.
+
+    Raises
+    ------
+    InvalidInputError
+        ``person-unknown``.
+    """
     if count == 0:
         return None
     if person is not None and person >= count:
@@ -170,16 +174,7 @@ def _points(body: DetectedBody, scale: float) -> dict[str, ProposedPoint]:
 
 
 def _box(body: DetectedBody, scale: float) -> Box:
-    """The bounding box of the mask, or of the points if the mask is empty."""
-    rows = np.flatnonzero((body.mask >= MASK_LEVEL).any(axis=1))
-    columns = np.flatnonzero((body.mask >= MASK_LEVEL).any(axis=0))
-    if len(rows):
-        corners = columns[0], rows[0], columns[-1] + 1, rows[-1] + 1
-    else:
-        across = [click.x for click in body.points.values()] or [float(body.person.middle[0])]
-        down = [click.y for click in body.points.values()] or [float(body.person.middle[1])]
-        corners = min(across), min(down), max(across), max(down)
-    left, top, right, bottom = (float(each) / scale for each in corners)
+    left, top, right, bottom = (each / scale for each in box_of(body))
     return left, top, right, bottom
 
 

@@ -3,19 +3,12 @@
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 
+from fitter.capture.capture import MASK_LEVEL
+from fitter.capture.framing import LEAST_STATURE_PX, points_beyond
+from fitter.capture.joints import joints_of, stature_px
 from fitter.detection.detector import DetectedBody
-from fitter.detection.landmark_meanings import INDEX_OF_POINT
 from fitter.remarks import FitWarning
 from fitter.request import Click
-
-RADIUS_OF_STATURE = 0.54
-"""Radius of the circle around a person, as a share of their stature."""
-
-LEAST_STATURE_PX = 170.0
-"""Stature in pixels of the working picture below which a pixel covers more than a centimetre."""
-
-BORDER_PX = 1.0
-"""What comes this close to the picture's border may continue beyond it."""
 
 FACE = ("nose", "left_eye", "right_eye")
 
@@ -66,10 +59,10 @@ def proposal_warnings(
             ),
         ),
         "person-too-small": (
-            body.person.radius / RADIUS_OF_STATURE < LEAST_STATURE_PX,
+            _is_small(body),
             (
-                "The person is so small that a pixel shows more than a centimetre: crop the "
-                "picture to the person, or send a larger one."
+                "The person is so small that measurements suffer: crop the picture to the person, "
+                "or send a larger one."
             ),
         ),
         "seen-from-behind": (
@@ -88,14 +81,13 @@ def proposal_warnings(
 
 def _is_cut_off(body: DetectedBody) -> bool:
     """Whether a point lies outside the picture, or the mask reaches its border."""
-    mask = body.mask >= 0.5
-    edges = mask[0].any(), mask[-1].any(), mask[:, 0].any(), mask[:, -1].any()
-    height, width = mask.shape
-    at_border = any(
-        min(click.x, click.y, width - click.x, height - click.y) < BORDER_PX
-        for click in body.points.values()
-    )
-    return any(edges) or at_border or not INDEX_OF_POINT.keys() <= body.points.keys()
+    mask = body.mask >= MASK_LEVEL
+    return bool(points_beyond(joints_of(body.points), mask, mask.shape))
+
+
+def _is_small(body: DetectedBody) -> bool:
+    tall = stature_px(joints_of(body.points), body)
+    return tall is not None and tall < LEAST_STATURE_PX
 
 
 def _is_from_behind(points: Mapping[str, Click]) -> bool:

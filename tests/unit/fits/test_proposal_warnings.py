@@ -65,12 +65,11 @@ def test_somebody_who_goes_on_beyond_the_picture_is_cut_off():
     assert codes(whole) == ["cut-off"]
 
 
-@pytest.mark.parametrize(("radius", "told"), [(90.0, ["person-too-small"]), (93.0, [])])
-def test_a_person_of_whom_a_pixel_shows_more_than_a_centimetre_is_small(radius, told):
-    """A pixel a centimetre is a stature of 170 pixels, and a circle of 92."""
-    found = person()
-    rim = found.person.middle - np.array([0.0, radius])
-    assert codes(replace(found, person=replace(found.person, rim=rim))) == told
+@pytest.mark.parametrize(("shrink", "told"), [(0.88, ["person-too-small"]), (0.91, [])])
+def test_a_person_of_less_than_250_pixels_is_small(shrink, told):
+    """Shoulders to ankles are 210 pixels, three quarters of the stature."""
+    smaller = {name: (x, shrink * y) for name, (x, y) in FRONT.items()}
+    assert codes(person(**smaller)) == told
 
 
 def test_a_back_is_told_from_a_front_by_the_face():

@@ -1,0 +1,138 @@
+"""A picture that was taken, with what is known of the person in it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from functools import cached_property
+
+import cv2
+import numpy as np
+from jaxtyping import Float, UInt8
+
+from fitter.arrays import Mask
+from fitter.capture.finding import Box
+from fitter.capture.joints import Joints, joints_of, middle, stature_px
+from fitter.detection.detector import DetectedBody
+from fitter.request import Click
+
+MASK_LEVEL = 0.5
+"""Probability from which a pixel belongs to the person."""
+
+LIMB_BREADTH = 0.05
+"""Breadth of what is taken for the person along the bones where there is no mask, of the stature:
+about that of an arm."""
+
+_BONES = (
+    ("left_shoulder", "right_shoulder"), ("left_hip", "right_hip"),
+    ("left_shoulder", "left_hip"), ("right_shoulder", "right_hip"),
+    ("left_shoulder", "right_hip"), ("right_shoulder", "left_hip"),
+    ("left_hip", "left_knee"), ("left_knee", "left_ankle"),
+    ("right_hip", "right_knee"), ("right_knee", "right_ankle"),
+    ("left_shoulder", "left_elbow"), ("right_shoulder", "right_elbow"),
+)  # fmt: skip
+
+
+class View(StrEnum):
+    """From where a person is to be seen; ``OTHER`` is any view, which nothing contradicts."""
+
+    FRONT = "front"
+    SIDE = "side"
+    BACK = "back"
+    OTHER = "other"
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Capture:
+    """A picture and what is known of it; places are in pixels of the working picture (h, w).
+
+    Attributes
+    ----------
+    picture
+        (h, w, 3) sRGB, 8 bits.
+    width, height
+        Of the upright original.
+    scale
+        Working pixels per original pixel, at most 1.
+    bodies
+        Everybody a detector found; None where there was no detector.
+    body
+        The one of them who is meant; None if nobody was found, or nobody where the points are.
+    points
+        The caller's, by name; empty if there are none.
+    is_chosen
+        Whether the caller says who is meant, by points or otherwise.
+    view
+        From where the person is said to be seen; None if nothing is said.
+    focal_length_px
+        Of the working picture; None if it could only be assumed.
+    height_m
+        Given or assumed.
+    """
+
+    picture: UInt8[np.ndarray, "h w 3"]
+    width: int
+    height: int
+    scale: float
+    bodies: tuple[DetectedBody, ...] | None
+    body: DetectedBody | None
+    points: Mapping[str, Click]
+    is_chosen: bool
+    view: View | None
+    focal_length_px: float | None
+    height_m: float
+
+    @property
+    def shows_somebody(self) -> bool:
+        """Whether there is anything to check but the picture as such."""
+        return self.body is not None or (self.bodies is None and bool(self.points))
+
+    @cached_property
+    def joints(self) -> Joints:
+        """Where the points are that are looked at: the detector's own, else the caller's."""
+        return joints_of(self.points if self.body is None else self.body.points)
+
+    @cached_property
+    def mask(self) -> Mask | None:
+        """(h, w) the person as the detector cuts them out."""
+        return None if self.body is None else self.body.mask >= MASK_LEVEL
+
+    @cached_property
+    def region(self) -> Mask:
+        """(h, w) the person: their mask, else what lies along the bones, else the whole picture."""
+        if self.mask is not None and self.mask.any():
+            return self.mask
+        drawn = np.zeros(self.picture.shape[:2], np.uint8)
+        breadth = max(1, round(LIMB_BREADTH * (self.stature_px or 0.5 * max(drawn.shape))))
+        for start, end in _BONES:
+            if start in self.joints and end in self.joints:
+                cv2.line(drawn, _whole(self.joints[start]), _whole(self.joints[end]), 1, breadth)
+        return drawn > 0 if drawn.any() else np.ones(drawn.shape, bool)
+
+    @cached_property
+    def stature_px(self) -> float | None:
+        """Height in the picture of the person, were they to stand straight; None if not known."""
+        return stature_px(self.joints, self.body)
+
+    def middle(self, pair: str) -> Float[np.ndarray, "2"] | None:
+        """The middle of a left and a right point; None if one is missing."""
+        return middle(self.joints, pair)
+
+    def in_original(self, box: Box) -> Box:
+        """A box of the working picture in pixels of the original."""
+        left, top, right, bottom = (each / self.scale for each in box)
+        return left, top, right, bottom
+
+
+def box_of(body: DetectedBody) -> Box:
+    """The bounding box of a mask, or of the points if the mask is empty; of the same picture."""
+    rows = np.flatnonzero((body.mask >= MASK_LEVEL).any(axis=1))
+    columns = np.flatnonzero((body.mask >= MASK_LEVEL).any(axis=0))
+    if len(rows):
+        return float(columns[0]), float(rows[0]), float(columns[-1] + 1), float(rows[-1] + 1)
+    across = [click.x for click in body.points.values()] or [float(body.person.middle[0])]
+    down = [click.y for click in body.points.values()] or [float(body.person.middle[1])]
+    return min(across), min(down), max(across), max(down)
+
+
+def _whole(place: Float[np.ndarray, "2"]) -> tuple[int, int]:
+    return int(place[0]), int(place[1])

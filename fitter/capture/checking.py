@@ -1,0 +1,102 @@
+"""All checks of a picture, and what they say together."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from fitter.capture.arms import arms
+from fitter.capture.camera_place import camera_distance_m, distance, lean_deg, roll
+from fitter.capture.capture import Capture, box_of
+from fitter.capture.clothes import clothes
+from fitter.capture.exposure import brightness, darkness
+from fitter.capture.finding import Box, Code, Finding, Remark, Severity, Unchecked
+from fitter.capture.framing import picture_size, size, wholeness
+from fitter.capture.people import nobody_else, somebody
+from fitter.capture.sharpness import sharpness
+from fitter.capture.turning import Seen, announced_view, facing, seen_from
+
+Check = Callable[[Capture], Remark | None]
+
+CHECKS_OF_PICTURE: tuple[Check, ...] = (
+    somebody,
+    nobody_else,
+    picture_size,
+    darkness,
+    brightness,
+    sharpness,
+)
+CHECKS_OF_PERSON: tuple[Check, ...] = (
+    wholeness,
+    size,
+    announced_view,
+    arms,
+    clothes,
+    roll,
+    distance,
+)
+"""Made where somebody was found."""
+
+CODES_OF_PERSON = (
+    Code.CUT_OFF,
+    Code.PERSON_TOO_SMALL,
+    Code.ARMS_AGAINST_TRUNK,
+    Code.CLOTHES_LOOSE,
+    Code.CAMERA_ROLLED,
+    Code.CAMERA_TOO_NEAR,
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Checked:
+    """What all checks say of a picture.
+
+    Attributes
+    ----------
+    findings
+        What blocks first, then in the order of the checks.
+    unchecked
+        What could not be checked, and why.
+    box
+        The person who is meant, pixels of the upright original; None without a detector or where
+        nobody was found.
+    seen
+        From where they are seen; None if not known.
+    lean_deg
+        How far they lean to the right of the picture, degrees, if they stand upright.
+    distance_m
+        From the camera to them, if focal length and stature are known.
+    """
+
+    findings: tuple[Finding, ...]
+    unchecked: tuple[Unchecked, ...]
+    box: Box | None
+    seen: Seen | None
+    lean_deg: float | None
+    distance_m: float | None
+
+    @property
+    def usable(self) -> bool:
+        """Whether nothing blocks."""
+        return all(each.severity is not Severity.BLOCKS for each in self.findings)
+
+
+def check_capture(capture: Capture) -> Checked:
+    """Make every check that can be made."""
+    remarks = _remarks(capture)
+    findings = [each for each in remarks if isinstance(each, Finding)]
+    cosine = facing(capture) if capture.shows_somebody else None
+    return Checked(
+        findings=tuple(sorted(findings, key=lambda each: each.severity is not Severity.BLOCKS)),
+        unchecked=tuple(each for each in remarks if isinstance(each, Unchecked)),
+        box=None if capture.body is None else capture.in_original(box_of(capture.body)),
+        seen=None if cosine is None else seen_from(cosine),
+        lean_deg=lean_deg(capture) if capture.shows_somebody else None,
+        distance_m=camera_distance_m(capture) if capture.shows_somebody else None,
+    )
+
+
+def _remarks(capture: Capture) -> list[Remark]:
+    made = [remark for check in CHECKS_OF_PICTURE if (remark := check(capture)) is not None]
+    if capture.shows_somebody:
+        return made + [remark for check in CHECKS_OF_PERSON if (remark := check(capture))]
+    codes = CODES_OF_PERSON if capture.view is None else (*CODES_OF_PERSON, Code.OTHER_VIEW)
+    return made + [Unchecked(code=code, reason="Nobody was found.") for code in codes]

@@ -1,0 +1,75 @@
+"""What a check finds, and what it could not look at."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+Box = tuple[float, float, float, float]
+"""Left, top, right and bottom, pixels of the upright original."""
+
+
+class Severity(StrEnum):
+    """What a finding means for measurements.
+
+    ``BLOCKS``: take the picture again, for there is nothing to measure or not what was asked for.
+    ``HARMS``: measurements can be had and will be worse.
+    """
+
+    BLOCKS = "blocks"
+    HARMS = "harms"
+
+
+class Code(StrEnum):
+    """What may be found. Where proposals of points warn of the same, they use the same code."""
+
+    NOBODY_FOUND = "nobody-found"
+    SEVERAL_PEOPLE = "several-people"
+    CUT_OFF = "cut-off"
+    PERSON_TOO_SMALL = "person-too-small"
+    PICTURE_TOO_SMALL = "picture-too-small"
+    OTHER_VIEW = "other-view"
+    ARMS_AGAINST_TRUNK = "arms-against-trunk"
+    CLOTHES_LOOSE = "clothes-loose"
+    BLURRED = "blurred"
+    TOO_DARK = "too-dark"
+    TOO_BRIGHT = "too-bright"
+    CAMERA_ROLLED = "camera-rolled"
+    CAMERA_TOO_NEAR = "camera-too-near"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Finding:
+    """Something that is wrong with a picture.
+
+    Attributes
+    ----------
+    code
+        Stable.
+    severity
+        What it means for measurements.
+    reason
+        What was measured, in a sentence with the figure.
+    remedy
+        What to do about it, in a sentence.
+    points
+        Names of the points it is about.
+    box
+        Where in the picture it is, if at one place.
+    """
+
+    code: Code
+    severity: Severity
+    reason: str
+    remedy: str
+    points: tuple[str, ...] = ()
+    box: Box | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Unchecked:
+    """A check that was not made, and a sentence that says why."""
+
+    code: Code
+    reason: str
+
+
+Remark = Finding | Unchecked

@@ -1,0 +1,155 @@
+"""The checks of an encoded picture: decoded and reduced just as a fit does it."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from fitter.capture.capture import Capture, View
+from fitter.capture.checking import Checked, check_capture
+from fitter.detection.detector import DetectedBody, Detector, body_of_clicks
+from fitter.fits.proposal import chosen_person
+from fitter.observation.clicks import check_places
+from fitter.observation.colour import bytes_of_display
+from fitter.observation.completion import scaled_clicks
+from fitter.observation.decoding import DecodedPicture, decode_picture
+from fitter.observation.focal_length import focal_length
+from fitter.observation.resampling import (
+    display_working_picture,
+    linear_working_picture,
+    working_size,
+)
+from fitter.observation.subject import MEAN_HEIGHT_M, check_height
+from fitter.remarks import Assumption, FitWarning
+from fitter.render.camera import FocalLengthSource
+from fitter.request import Click, Gender
+
+ASSUMED_HEIGHT_M = 1.7
+"""Of people whose gender is not known either."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CaptureQuestion:
+    """What is said of the picture.
+
+    Attributes
+    ----------
+    view
+        From where the person is to be seen.
+    person
+        Index among those found; None takes the largest, or the one the points are of.
+    points
+        By name, pixels of the upright original; they need not be many.
+    """
+
+    view: View | None = None
+    person: int | None = None
+    points: Mapping[str, Click] = field(default_factory=dict[str, Click])
+    gender: Gender | None = None
+    height_m: float | None = None
+    focal_length_px: float | None = None
+    focal_length_35mm: float | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CaptureCheck:
+    """What the checks say, of a picture of this size, with what they assumed.
+
+    ``warnings`` are of decoding.
+    """
+
+    width: int
+    height: int
+    checked: Checked
+    assumptions: tuple[Assumption, ...]
+    warnings: tuple[FitWarning, ...]
+
+
+def check_picture(
+    image: bytes, question: CaptureQuestion, *, detector: Detector | None, max_pixels: int
+) -> CaptureCheck:
+    """Decode a picture, look for people in it and make every check that can be made.
+
+    Parameters
+    ----------
+    image
+        The encoded picture.
+    detector
+        None where there is none: then only what the points and the picture tell is checked.
+    max_pixels
+        Largest picture accepted, checked before decoding.
+
+    Raises
+    ------
+    InvalidInputError
+        As :func:`fitter.observation.decoding.decode_picture`, ``person-unknown``,
+        ``height-out-of-range``, or as :func:`fitter.observation.focal_length.focal_length` and
+        :func:`fitter.observation.clicks.check_places`.
+    """
+    check_height(question.height_m)
+    picture = decode_picture(image, field="image", max_pixels=max_pixels)
+    capture = capture_of(picture, question, detector=detector)
+    return CaptureCheck(
+        width=capture.width,
+        height=capture.height,
+        checked=check_capture(capture),
+        assumptions=_assumed(question, capture.height_m),
+        warnings=picture.warnings,
+    )
+
+
+def capture_of(
+    picture: DecodedPicture, question: CaptureQuestion, *, detector: Detector | None
+) -> Capture:
+    """What there is to check of a decoded picture; raises as :func:`check_picture`."""
+    height, width = picture.pixels.shape[:2]
+    check_places(question.points, width=width, height=height)
+    focal = focal_length(
+        question, picture.exif, width=width, height=height, stored_width=picture.stored_width
+    )
+    size = working_size(width=width, height=height)
+    working = bytes_of_display(
+        display_working_picture(linear_working_picture(picture.pixels, size))
+    )
+    points = scaled_clicks(question.points, size.scale)
+    bodies = None if detector is None else detector.bodies(working)
+    known = focal.source is not FocalLengthSource.ASSUMED
+    return Capture(
+        picture=working,
+        width=width,
+        height=height,
+        scale=size.scale,
+        bodies=bodies,
+        body=_meant(bodies or (), question.person, points),
+        points=points,
+        is_chosen=question.person is not None or bool(points),
+        view=question.view,
+        focal_length_px=focal.pixels * size.scale if known else None,
+        height_m=_height_m(question),
+    )
+
+
+def _meant(
+    bodies: Sequence[DetectedBody], person: int | None, points: Mapping[str, Click]
+) -> DetectedBody | None:
+    if points and person is None:
+        return body_of_clicks(bodies, points)
+    chosen = chosen_person(len(bodies), person)
+    return None if chosen is None else bodies[chosen]
+
+
+def _height_m(question: CaptureQuestion) -> float:
+    if question.height_m is not None:
+        return question.height_m
+    return ASSUMED_HEIGHT_M if question.gender is None else MEAN_HEIGHT_M[question.gender]
+
+
+def _assumed(question: CaptureQuestion, height_m: float) -> tuple[Assumption, ...]:
+    if question.height_m is not None:
+        return ()
+    whose = "people" if question.gender is None else f"the gender ({question.gender.value})"
+    return (
+        Assumption(
+            quantity="height_m",
+            value=height_m,
+            reason=f"No height was given; about the mean of {whose} was taken.",
+        ),
+    )

@@ -1,0 +1,120 @@
+"""Whole and large enough."""
+
+import cv2
+import numpy as np
+import pytest
+
+from fitter.capture.finding import Code, Finding, Severity, Unchecked
+from fitter.capture.framing import (
+    BLOCKING_STATURE_PX,
+    LEAST_STATURE_PX,
+    picture_size,
+    size,
+    wholeness,
+)
+from tests.unit.capture.made_up import STATURE_PX, by_points_alone, capture, person
+
+
+def test_somebody_whole_is_not_cut_off():
+    assert wholeness(capture()) is None
+    assert wholeness(by_points_alone()) is None
+
+
+@pytest.mark.parametrize(
+    ("missing", "parts", "severity"),
+    [
+        (("left_toe",), "left foot", Severity.HARMS),
+        (("nose", "left_eye", "right_eye", "left_ear", "right_ear"), "head", Severity.HARMS),
+        (("right_wrist",), "right arm", Severity.HARMS),
+        (("left_ankle", "left_toe"), "left leg, left foot", Severity.BLOCKS),
+        (("left_hip",), "trunk", Severity.BLOCKS),
+    ],
+)
+def test_parts_that_are_not_in_the_picture_are_named(missing, parts, severity):
+    found = person()
+    for name in missing:
+        found.points.pop(name)
+    told = wholeness(capture(found))
+    assert isinstance(told, Finding)
+    assert told.reason.endswith(f": {parts}.")
+    assert (told.severity, set(told.points)) == (severity, set(missing))
+
+
+@pytest.mark.parametrize(
+    ("rows", "columns", "part"),
+    [
+        (slice(0, 60), slice(180, 220), "head"),
+        (slice(570, 640), slice(240, 250), "left foot"),
+        (slice(280, 300), slice(0, 60), "right arm"),
+        (slice(280, 300), slice(340, 400), "left arm"),
+    ],
+)
+def test_where_the_outline_reaches_the_border_the_nearest_part_is_cut_off(rows, columns, part):
+    found = person()
+    found.mask[rows, columns] = 1.0
+    told = wholeness(capture(found))
+    assert isinstance(told, Finding)
+    assert told.reason.endswith(f": {part}.")
+
+
+def test_points_that_were_not_clicked_are_not_cut_off_but_points_at_the_border_are():
+    some = {name: at for name, at in by_points_alone().points.items() if "left" in name}
+    assert wholeness(by_points_alone(points=some)) is None
+    at_border = by_points_alone(points=some | {"nose": some["left_eye"].__class__(x=5.0, y=0.5)})
+    assert isinstance(wholeness(at_border), Finding)
+
+
+@pytest.mark.parametrize(
+    ("stature_px", "severity"),
+    [
+        (LEAST_STATURE_PX + 1, None),
+        (LEAST_STATURE_PX - 1, Severity.HARMS),
+        (BLOCKING_STATURE_PX + 1, Severity.HARMS),
+        (BLOCKING_STATURE_PX - 1, Severity.BLOCKS),
+    ],
+)
+def test_a_person_is_too_small_below_so_many_pixels(stature_px, severity):
+    shrink = stature_px / STATURE_PX
+    small = person()
+    for name, click in list(small.points.items()):
+        small.points[name] = click.__class__(x=200 + shrink * (click.x - 200), y=shrink * click.y)
+    told = size(capture(small))
+    if severity is None:
+        assert told is None
+        return
+    assert isinstance(told, Finding)
+    assert (told.code, told.severity) == (Code.PERSON_TOO_SMALL, severity)
+    # In pixels of the original, which is twice as large.
+    assert f"{2 * stature_px:.0f} pixels tall" in told.reason
+
+
+def test_where_the_picture_itself_is_too_small_that_is_told_instead():
+    whole = capture()
+    small = cv2.resize(whole.picture, (150, 240), interpolation=cv2.INTER_AREA)
+    shrunk = person(**{name: (0.375 * x, 0.375 * y) for name, (x, y) in _places().items()})
+    tiny = capture(shrunk, picture=small, width=150, height=240, scale=1.0)
+    assert size(tiny) is None
+    told = picture_size(tiny)
+    assert isinstance(told, Finding)
+    assert told.code is Code.PICTURE_TOO_SMALL
+    assert "150 x 240" in told.reason
+    assert picture_size(whole) is None
+
+
+def test_of_a_face_alone_the_stature_is_not_known():
+    face = {name: at for name, at in by_points_alone().points.items() if "eye" in name}
+    assert isinstance(size(by_points_alone(points=face)), Unchecked)
+
+
+def _places() -> dict[str, tuple[float, float]]:
+    return {name: (click.x, click.y) for name, click in person().points.items()}
+
+
+def test_without_legs_the_stature_is_that_of_the_detector_s_circle():
+    trunk = person()
+    for name in [each for each in trunk.points if "ankle" in each]:
+        trunk.points.pop(name)
+    tall = capture(trunk).stature_px
+    assert tall == pytest.approx(290.0 / 0.54)
+    assert capture().stature_px == pytest.approx(STATURE_PX, rel=0.01)
+    assert np.isfinite(tall)

@@ -1,0 +1,44 @@
+"""Nobody, one or several people."""
+
+from dataclasses import replace
+
+from fitter.capture.finding import Code, Finding, Severity, Unchecked
+from fitter.capture.people import nobody_else, somebody
+from fitter.request import Click
+from tests.unit.capture.made_up import by_points_alone, capture, of_nobody, person
+
+
+def test_one_person_is_what_is_wanted():
+    assert somebody(capture()) is None
+    assert nobody_else(capture()) is None
+
+
+def test_a_picture_of_nobody_blocks():
+    found = somebody(of_nobody())
+    assert isinstance(found, Finding)
+    assert (found.code, found.severity) == (Code.NOBODY_FOUND, Severity.BLOCKS)
+    assert nobody_else(of_nobody()) is None
+
+
+def test_somebody_who_is_not_where_the_points_lie_is_nobody():
+    elsewhere = capture(points={"nose": Click(x=1.0, y=1.0)}, body=None)
+    found = somebody(elsewhere)
+    assert isinstance(found, Finding)
+    assert "where the points lie" in found.reason
+
+
+def test_another_person_is_told_with_their_place_unless_the_caller_chose():
+    two = capture(person(), person())
+    found = nobody_else(two)
+    assert isinstance(found, Finding)
+    assert (found.code, found.severity) == (Code.SEVERAL_PEOPLE, Severity.HARMS)
+    assert found.reason.startswith("2 people")
+    assert found.box is not None
+    # The wrists are drawn 10 pixels beyond 60 and 340, in a working picture of half the size.
+    assert found.box[0] == 2 * 50.0
+    assert nobody_else(replace(two, is_chosen=True)) is None
+
+
+def test_without_a_detector_neither_is_known():
+    for check in (somebody, nobody_else):
+        assert isinstance(check(by_points_alone()), Unchecked)

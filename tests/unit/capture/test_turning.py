@@ -1,0 +1,78 @@
+"""From where a person is seen."""
+
+import math
+
+import pytest
+
+from fitter.capture.capture import View
+from fitter.capture.finding import Code, Finding, Severity, Unchecked
+from fitter.capture.turning import Seen, announced_view, facing, seen_from
+from tests.unit.capture.made_up import FRONT, by_points_alone, capture, person
+
+
+def turned(degrees: float) -> dict[str, tuple[float, float]]:
+    """Shoulders and hips of the person who faces the camera, turned about the upright axis."""
+    shrink = math.cos(math.radians(degrees))
+    return {
+        name: (200 + shrink * (x - 200), y)
+        for name, (x, y) in FRONT.items()
+        if "shoulder" in name or "hip" in name
+    }
+
+
+@pytest.mark.parametrize("degrees", [20.0, 45.0, 70.0, 90.0, 110.0, 150.0, 180.0])
+def test_how_far_a_trunk_is_turned_is_found_from_its_breadth(degrees):
+    cosine = facing(capture(person(**turned(degrees))))
+    assert cosine is not None
+    assert math.degrees(math.acos(cosine)) == pytest.approx(degrees, abs=8.0)
+
+
+def test_a_roll_of_the_camera_turns_nobody():
+    rolled = {name: (640.0 - y, x) for name, (x, y) in FRONT.items()}
+    assert facing(capture(person(**rolled))) == pytest.approx(facing(capture()))
+
+
+@pytest.mark.parametrize(
+    ("degrees", "seen"),
+    [
+        (0.0, Seen.FRONT),
+        (35.0, Seen.FRONT),
+        (58.0, Seen.BETWEEN),
+        (80.0, Seen.SIDE),
+        (100.0, Seen.SIDE),
+        (122.0, Seen.BETWEEN),
+        (150.0, Seen.BACK),
+    ],
+)
+def test_views_have_names(degrees, seen):
+    assert seen_from(math.cos(math.radians(degrees))) is seen
+
+
+@pytest.mark.parametrize(
+    ("view", "degrees", "severity"),
+    [
+        (View.FRONT, 10.0, None),
+        (View.SIDE, 85.0, None),
+        (View.BACK, 175.0, None),
+        (View.OTHER, 60.0, None),
+        (None, 60.0, None),
+        (View.FRONT, 60.0, Severity.HARMS),
+        (View.FRONT, 90.0, Severity.BLOCKS),
+        (View.FRONT, 180.0, Severity.BLOCKS),
+        (View.SIDE, 0.0, Severity.BLOCKS),
+        (View.BACK, 0.0, Severity.BLOCKS),
+    ],
+)
+def test_a_view_other_than_was_said_is_told(view, degrees, severity):
+    found = announced_view(capture(person(**turned(degrees)), view=view))
+    if severity is None:
+        assert found is None
+        return
+    assert isinstance(found, Finding)
+    assert (found.code, found.severity) == (Code.OTHER_VIEW, severity)
+
+
+def test_points_alone_tell_the_view_and_half_a_trunk_does_not():
+    assert isinstance(announced_view(by_points_alone(view=View.SIDE)), Finding)
+    half = {name: at for name, at in by_points_alone().points.items() if "left" in name}
+    assert isinstance(announced_view(by_points_alone(view=View.SIDE, points=half)), Unchecked)
