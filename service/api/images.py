@@ -13,6 +13,7 @@ from api_schemas.images import ImageId, UploadedImage
 from api_schemas.problems import FieldProblem, problem
 from service.api.context import ApiContext, Context
 from service.api.json_bodies import JSON, json_content
+from service.api.picture_forms import picture_form
 from service.api.problems import ProblemError, documented, not_found
 from service.api.room import no_room, storing
 from service.api.uploads import read_image
@@ -23,28 +24,7 @@ from service.submissions.submission import check_picture
 
 ROUTER: Final = APIRouter(prefix="/v1/images", tags=["images"])
 
-_UPLOAD: Final[dict[str, Any]] = {
-    "requestBody": {
-        "required": True,
-        "content": {
-            "multipart/form-data": {
-                "schema": {
-                    "type": "object",
-                    "additionalProperties": False,
-                    "required": ["image"],
-                    "properties": {
-                        "image": {
-                            "type": "string",
-                            "format": "binary",
-                            "description": "JPEG, PNG or WebP.",
-                        }
-                    },
-                },
-                "encoding": {"image": {"contentType": "image/jpeg, image/png, image/webp"}},
-            }
-        },
-    }
-}
+_UPLOAD: Final[dict[str, Any]] = {"requestBody": {"required": True, "content": picture_form()}}
 _CONTENT: Final = {JSON: json_content(UploadedImage)}
 _LOCATION: Final = {
     "Location": {"description": "Path of the picture.", "schema": {"type": "string"}}
