@@ -7,11 +7,18 @@ from typing import Final, TypeVar
 
 from anyio import CapacityLimiter, to_thread
 
+from api_schemas.checks import CaptureCheck
 from api_schemas.initial_poses import InitialPose
 from api_schemas.problems import problem
 from service.api.problems import ProblemError
 from service.api.service_metrics import ServiceMetrics
-from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask, PointsTask
+from service.estimates.messages import (
+    BodyTask,
+    CheckTask,
+    ConversionTask,
+    InitialPoseTask,
+    PointsTask,
+)
 from service.estimates.port import (
     EstimatedBody,
     Estimator,
@@ -88,6 +95,13 @@ class Estimates:
         """
         try:
             return await self._answer("points", partial(self._estimator.points, task, image))
+        except NoDetectorError as error:
+            raise no_detector() from error
+
+    async def check(self, task: CheckTask, image: bytes) -> CaptureCheck:
+        """Say what is wrong with an encoded picture; raises as :meth:`points` does."""
+        try:
+            return await self._answer("check", partial(self._estimator.check, task, image))
         except NoDetectorError as error:
             raise no_detector() from error
 

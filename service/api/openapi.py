@@ -7,6 +7,7 @@ from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 
 from api_schemas.bodies import BodyEstimate, BodyRequest
+from api_schemas.checks import CaptureCheck, CheckOfImage, CheckRequest
 from api_schemas.derivation_kinds.combined import MOST_OTHER_FITS
 from api_schemas.derivation_kinds.texture import TEXTURE_SIZES
 from api_schemas.derivations import DerivationEvent, DerivationRequest, DerivationResult
@@ -189,6 +190,8 @@ def _models(mode: str) -> tuple[type[BaseModel], ...]:
             InitialPoseRequest,
             PointsRequest,
             PointsOfImage,
+            CheckRequest,
+            CheckOfImage,
             DerivationRequest,
         )
     return (
@@ -197,6 +200,7 @@ def _models(mode: str) -> tuple[type[BaseModel], ...]:
         BodyEstimate,
         InitialPose,
         PointsProposal,
+        CaptureCheck,
         UploadedImage,
         WebhookEvent,
         DerivationEvent,

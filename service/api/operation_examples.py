@@ -30,6 +30,7 @@ REQUESTS: Final[Mapping[str, Examples]] = {
     "initial_pose": estimates.INITIAL_POSE_REQUESTS,
     "estimate_body": estimates.BODY_REQUESTS,
     "propose_points": estimates.POINTS_REQUESTS,
+    "check_capture": estimates.CHECK_REQUESTS,
 }
 
 ANSWERS: Final[Mapping[str, Mapping[int, Examples]]] = {
@@ -59,6 +60,7 @@ ANSWERS: Final[Mapping[str, Mapping[int, Examples]]] = {
     "initial_pose": {200: {"standing": estimates.INITIAL_POSE_ANSWER}},
     "estimate_body": {200: {"from-height-and-weight": estimates.BODY_ANSWER}},
     "propose_points": {200: {"standing": estimates.POINTS_ANSWER}},
+    "check_capture": {200: estimates.CHECK_ANSWERS},
     "body_models": {200: {"both": whole_service.BODY_MODELS}},
     "live": {200: {"live": {"status": "live"}}},
     "ready": {200: {"ready": {"status": "ready", "workers": 1, "queued": 0}}},

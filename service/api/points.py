@@ -9,44 +9,15 @@ from starlette.concurrency import run_in_threadpool
 from api_schemas.proposals import PointsOfImage, PointsProposal, PointsRequest
 from service.api.context import ApiContext, Context
 from service.api.estimates import ESTIMATE_PROBLEMS, no_detector
-from service.api.images import image_content
-from service.api.json_bodies import JSON, json_content, media_type, read_json
+from service.api.json_bodies import JSON, json_content
+from service.api.picture_questions import question_body, read_question
 from service.api.problems import documented
-from service.api.uploads import read_image_and_request
 from service.estimates.messages import PointsTask
 from service.submissions.detector import detector_is_installed
 from service.submissions.submission import check_picture
-from service.submissions.validation import parsed
 
 ROUTER: Final = APIRouter(prefix="/v1/points", tags=["estimates"])
 
-_QUESTION: Final[dict[str, Any]] = {
-    "requestBody": {
-        "required": True,
-        "content": {
-            "multipart/form-data": {
-                "schema": {
-                    "type": "object",
-                    "additionalProperties": False,
-                    "required": ["image"],
-                    "properties": {
-                        "image": {
-                            "type": "string",
-                            "format": "binary",
-                            "description": "JPEG, PNG or WebP.",
-                        },
-                        "request": {"$ref": "#/components/schemas/PointsRequest"},
-                    },
-                },
-                "encoding": {
-                    "image": {"contentType": "image/jpeg, image/png, image/webp"},
-                    "request": {"contentType": "application/json"},
-                },
-            },
-            JSON: json_content(PointsOfImage),
-        },
-    }
-}
 _ANSWER: Final[dict[int | str, dict[str, Any]]] = {
     200: {
         "description": "Who was found, and the points of one of them; nobody is no error.",
@@ -59,7 +30,7 @@ _ANSWER: Final[dict[int | str, dict[str, Any]]] = {
     "",
     response_class=Response,
     summary="Propose the points of a person",
-    openapi_extra=_QUESTION,
+    openapi_extra=question_body(PointsRequest, PointsOfImage),
     responses=_ANSWER | documented("not-found", *ESTIMATE_PROBLEMS),
 )
 async def propose_points(request: Request, context: Context) -> Response:
@@ -74,7 +45,7 @@ async def propose_points(request: Request, context: Context) -> Response:
     """
     if not detector_is_installed(context.settings.detector_dir):
         raise no_detector()
-    asked, image = await _question(request, context)
+    asked, image = await read_question(request, context, PointsRequest, PointsOfImage)
     await run_in_threadpool(_check_picture, context, image)
     proposed = await context.estimates.points(PointsTask(request=asked), image)
     answer = proposed.proposal
@@ -83,15 +54,6 @@ async def propose_points(request: Request, context: Context) -> Response:
         answer = answer.model_copy(update={"mask": mask})
     text = answer.model_dump_json()
     return Response(text, media_type=JSON, headers={"Cache-Control": "no-store"})
-
-
-async def _question(request: Request, context: ApiContext) -> tuple[PointsRequest, bytes]:
-    if media_type(request) == JSON:
-        asked = await read_json(request, PointsOfImage)
-        image = await run_in_threadpool(image_content, context, asked.image_id, field="image_id")
-        return PointsRequest(person=asked.person, mask=asked.mask), image
-    image, text = await read_image_and_request(request)
-    return parsed(PointsRequest, text, whole="request", called="the part 'request'"), image
 
 
 def _check_picture(context: ApiContext, image: bytes) -> None:

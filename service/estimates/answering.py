@@ -4,15 +4,22 @@ import importlib
 from pathlib import Path
 from typing import Protocol, cast
 
+from api_schemas.checks import CaptureCheck
 from api_schemas.initial_poses import InitialPose
-from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask, PointsTask
+from service.estimates.messages import (
+    BodyTask,
+    CheckTask,
+    ConversionTask,
+    InitialPoseTask,
+    PointsTask,
+)
 from service.estimates.port import EstimatedBody, ProposedPoints
 
 
 class Answers(Protocol):
-    """A module with these five functions.
+    """A module with these six functions.
 
-    ``body``, ``initial_pose`` and ``points`` raise
+    ``body``, ``initial_pose``, ``points`` and ``check`` raise
     :class:`service.worker.pipeline_port.UnusableInputError` if the question is at fault.
     ``models`` and ``detector`` are folders, None for what is installed.
     """
@@ -38,6 +45,18 @@ class Answers(Protocol):
         ------
         NoDetectorError
             If there is no detector.
+        """
+        ...
+
+    def check(
+        self, task: CheckTask, image: bytes, *, max_pixels: int, detector: Path | None
+    ) -> CaptureCheck:
+        """Say what is wrong with an encoded picture.
+
+        Raises
+        ------
+        NoDetectorError
+            If there is no detector, nor points to check without one.
         """
         ...
 

@@ -4,14 +4,16 @@ from contextlib import suppress
 from pathlib import Path
 
 from api_schemas.bodies import BodyRequest
+from api_schemas.checks import CaptureCheck
 from api_schemas.initial_poses import InitialPose
 from api_schemas.problems import FieldProblem
 from api_schemas.proposals import PointsRequest
-from fitter.detection.detector import installed_detector
+from fitter.detection.detector import Detector, installed_detector
 from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.export.formats import converted
 from fitter.export.gltf_document import Frame
 from fitter.export.plain_gltf import plain_glb
+from fitter.fits.capture_check import check_picture
 from fitter.fits.initial_body import initial_body
 from fitter.fits.prepared_model import prepared_model
 from fitter.fits.proposal import propose
@@ -19,7 +21,13 @@ from fitter.population.body_estimate import estimate_body
 from fitter.request import STATURE, Gender, KnownMeasurement
 from service.demo_data.sample import load_sample
 from service.estimates import translate
-from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask, PointsTask
+from service.estimates.messages import (
+    BodyTask,
+    CheckTask,
+    ConversionTask,
+    InitialPoseTask,
+    PointsTask,
+)
 from service.estimates.port import EstimatedBody, NoDetectorError, ProposedPoints
 from service.submissions.submission import check_submission
 from service.worker.pipeline_port import UnusableInputError
@@ -137,9 +145,35 @@ def points(
     return ProposedPoints(proposal=translate.points_proposal(found), mask=mask)
 
 
+def check(task: CheckTask, image: bytes, *, max_pixels: int, detector: Path | None) -> CaptureCheck:
+    """Say what is wrong with an encoded picture."""
+    asked = translate.capture_question(task.request)
+    try:
+        found = check_picture(
+            image,
+            asked,
+            detector=_detector(detector, needed=not asked.points),
+            max_pixels=max_pixels,
+        )
+    except MemoryError as error:
+        raise UnusableInputError(_TOO_MUCH_MEMORY) from error
+    except InvalidInputError as error:
+        raise UnusableInputError(field_problem(error)) from error
+    return translate.capture_check(found)
+
+
 def conversion(task: ConversionTask, glb: bytes) -> bytes:
     """Write the body of a GLB file in another format."""
     return converted(glb, task.ending)
+
+
+def _detector(folder: Path | None, *, needed: bool) -> Detector | None:
+    try:
+        return installed_detector(folder)
+    except DetectorUnavailableError as error:
+        if needed:
+            raise NoDetectorError from error
+        return None
 
 
 def _known(request: BodyRequest) -> dict[str, KnownMeasurement]:

@@ -15,6 +15,8 @@ from service.estimates.messages import (
     Answer,
     BodyAnswer,
     BodyTask,
+    CheckAnswer,
+    CheckTask,
     ConversionAnswer,
     ConversionTask,
     FaultAnswer,
@@ -80,6 +82,14 @@ def _answer(
                 detector=settings.detector_dir,
             )
             return PointsAnswer(proposal=proposed.proposal), proposed.mask
+        if isinstance(task, CheckTask):
+            check = module.check(
+                task,
+                brought,
+                max_pixels=settings.max_pixels,
+                detector=settings.detector_dir,
+            )
+            return CheckAnswer(check=check), b""
         return InitialPoseAnswer(pose=module.initial_pose(task, settings.models_dir)), b""
     except UnusableInputError as error:
         return RefusalAnswer(error=error.error), b""

@@ -9,6 +9,7 @@ from pydantic import Field, TypeAdapter
 
 from api_schemas.base import WireModel
 from api_schemas.bodies import BodyEstimate, BodyRequest
+from api_schemas.checks import CaptureCheck, CheckRequest
 from api_schemas.initial_poses import InitialPose
 from api_schemas.problems import FieldProblem
 from api_schemas.proposals import PointsProposal, PointsRequest
@@ -50,6 +51,13 @@ class PointsTask(WireModel):
     request: PointsRequest
 
 
+class CheckTask(WireModel):
+    """Say what is wrong with the attached picture; points are named."""
+
+    kind: Literal["check"] = "check"
+    request: CheckRequest
+
+
 class BodyAnswer(WireModel):
     """The estimated body."""
 
@@ -77,6 +85,13 @@ class PointsAnswer(WireModel):
     proposal: PointsProposal
 
 
+class CheckAnswer(WireModel):
+    """What is wrong with the picture."""
+
+    kind: Literal["check"] = "check"
+    check: CaptureCheck
+
+
 class NoDetectorAnswer(WireModel):
     """The estimator has no detector."""
 
@@ -97,13 +112,15 @@ class FaultAnswer(WireModel):
 
 
 Task = Annotated[
-    BodyTask | InitialPoseTask | ConversionTask | PointsTask, Field(discriminator="kind")
+    BodyTask | InitialPoseTask | ConversionTask | PointsTask | CheckTask,
+    Field(discriminator="kind"),
 ]
 Answer = Annotated[
     BodyAnswer
     | InitialPoseAnswer
     | ConversionAnswer
     | PointsAnswer
+    | CheckAnswer
     | NoDetectorAnswer
     | RefusalAnswer
     | FaultAnswer,

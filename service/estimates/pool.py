@@ -6,12 +6,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Final
 
+from api_schemas.checks import CaptureCheck
 from api_schemas.initial_poses import InitialPose
 from service.estimates.messages import (
     ANSWERS,
     Answer,
     BodyAnswer,
     BodyTask,
+    CheckAnswer,
+    CheckTask,
     ConversionAnswer,
     ConversionTask,
     InitialPoseAnswer,
@@ -87,6 +90,15 @@ class EstimatorPool:
         if not isinstance(answer, PointsAnswer):
             raise EstimatorFailedError
         return ProposedPoints(proposal=answer.proposal, mask=file)
+
+    def check(self, task: CheckTask, image: bytes) -> CaptureCheck:
+        """Say what is wrong with an encoded picture."""
+        answer, _ = self._ask(task, brought=image, patient=True)
+        if isinstance(answer, NoDetectorAnswer):
+            raise NoDetectorError
+        if not isinstance(answer, CheckAnswer):
+            raise EstimatorFailedError
+        return answer.check
 
     def convert(self, task: ConversionTask, glb: bytes) -> bytes:
         """Write the body of a GLB file in another format."""

@@ -4,9 +4,16 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from api_schemas.bodies import BodyEstimate
+from api_schemas.checks import CaptureCheck
 from api_schemas.initial_poses import InitialPose
 from api_schemas.proposals import PointsProposal
-from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask, PointsTask
+from service.estimates.messages import (
+    BodyTask,
+    CheckTask,
+    ConversionTask,
+    InitialPoseTask,
+    PointsTask,
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -26,7 +33,7 @@ class ProposedPoints:
 
 
 class NoDetectorError(Exception):
-    """Points cannot be proposed: the detector is not installed."""
+    """Nothing can be proposed or checked: the detector is not installed."""
 
 
 class EstimatorUnavailableError(Exception):
@@ -75,6 +82,16 @@ class Estimator(Protocol):
         ------
         NoDetectorError
             If there is no detector.
+        """
+        ...
+
+    def check(self, task: CheckTask, image: bytes) -> CaptureCheck:
+        """Say what is wrong with an encoded picture.
+
+        Raises
+        ------
+        NoDetectorError
+            If there is no detector, nor points to check without one.
         """
         ...
 

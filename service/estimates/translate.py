@@ -9,6 +9,7 @@ from jaxtyping import Float, UInt8
 from PIL import Image
 
 from api_schemas import bodies as wire_bodies
+from api_schemas import checks as wire_checks
 from api_schemas import initial_poses as wire_poses
 from api_schemas import proposals as wire_proposals
 from api_schemas import requests as wire_request
@@ -16,6 +17,9 @@ from api_schemas import results as wire_results
 from api_schemas.known import STATURE
 from api_schemas.points import PointName, PointSource
 from fitter.body.model import BodyModel
+from fitter.capture.capture import View
+from fitter.capture.finding import Box, Finding
+from fitter.fits.capture_check import CaptureCheck, CaptureQuestion
 from fitter.fits.initial_body import InitialBody
 from fitter.fits.proposal import Proposal, ProposedPoint
 from fitter.population.body_estimate import BodyEstimate
@@ -92,6 +96,62 @@ def points_proposal(found: Proposal) -> wire_proposals.PointsProposal:
             wire_results.FitWarning(code=each.code, message=each.message) for each in found.warnings
         ),
     )
+
+
+def capture_question(asked: wire_checks.CheckRequest) -> CaptureQuestion:
+    """Translate what is said of a picture; points are named."""
+    return CaptureQuestion(
+        view=None if asked.view is None else View(asked.view),
+        person=asked.person,
+        points=clicks(asked.points),
+        gender=None if asked.gender is None else Gender(asked.gender),
+        height_m=asked.height_m,
+        focal_length_px=asked.focal_length_px,
+        focal_length_35mm=asked.focal_length_35mm,
+    )
+
+
+def capture_check(found: CaptureCheck) -> wire_checks.CaptureCheck:
+    """Translate what the checks of a picture say."""
+    checked = found.checked
+    return wire_checks.CaptureCheck(
+        image_size=wire_proposals.PictureSize(width=found.width, height=found.height),
+        usable=checked.usable,
+        findings=tuple(_finding(each) for each in checked.findings),
+        not_checked=tuple(
+            wire_checks.NotChecked(code=each.code.value, reason=each.reason)
+            for each in checked.unchecked
+        ),
+        box=_rounded_box(checked.box),
+        seen_from=None if checked.seen is None else wire_checks.SeenFrom(checked.seen.value),
+        lean_deg=None if checked.lean_deg is None else round(checked.lean_deg, 1),
+        distance_m=None if checked.distance_m is None else round(checked.distance_m, 2),
+        assumptions=tuple(
+            wire_results.Assumption(quantity=each.quantity, value=each.value, reason=each.reason)
+            for each in found.assumptions
+        ),
+        warnings=tuple(
+            wire_results.FitWarning(code=each.code, message=each.message) for each in found.warnings
+        ),
+    )
+
+
+def _finding(found: Finding) -> wire_checks.Finding:
+    return wire_checks.Finding(
+        code=found.code.value,
+        severity=wire_checks.Severity(found.severity.value),
+        reason=found.reason,
+        remedy=found.remedy,
+        points=tuple(cast("PointName", name) for name in found.points),
+        box=_rounded_box(found.box),
+    )
+
+
+def _rounded_box(box: Box | None) -> Box | None:
+    if box is None:
+        return None
+    left, top, right, bottom = (round(each, 2) for each in box)
+    return left, top, right, bottom
 
 
 def grey_png(values: UInt8[np.ndarray, "h w"]) -> bytes:

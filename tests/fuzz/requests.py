@@ -44,6 +44,17 @@ DOCUMENTS: tuple[tuple[str, dict[str, Any]], ...] = (
     ("/v1/bodies", {"gender": "male", "height_m": 1.8, "measurements": {"inseam": 80}}),
     ("/v1/initial-poses", SUBJECT | {"image_size": {"width": 72, "height": 96}}),
     ("/v1/points", {"image_id": "0" * 64, "person": 0, "mask": True}),
+    (
+        "/v1/checks",
+        {
+            "image_id": "0" * 64,
+            "view": "side",
+            "person": 0,
+            "points": POINTS,
+            "height_m": 1.7,
+            "focal_length_px": 90.0,
+        },
+    ),
     ("/v1/fits", FIT | {"image_id": "0" * 64, "mask_id": "1" * 64}),
 )
 HEADERS = (
@@ -126,6 +137,14 @@ def proposed_picture(chance: random.Random) -> RawRequest:
     )
 
 
+def checked_picture(chance: random.Random) -> RawRequest:
+    """A damaged picture to check, of the same processes."""
+    request = json.dumps({"view": "front", "focal_length_35mm": 26.0}).encode()
+    return head_and_body(
+        "/v1/checks", MULTIPART, multipart({"image": picture(chance), "request": request})
+    )
+
+
 def json_body(chance: random.Random) -> RawRequest:
     """A damaged JSON document: its values, its nesting or its text."""
     path, document = chance.choice(DOCUMENTS)
@@ -184,7 +203,8 @@ def address(chance: random.Random) -> RawRequest:
 KINDS: Mapping[str, tuple[Callable[[random.Random], RawRequest], float]] = {
     "picture, uploaded": (uploaded_picture, 0.15),
     "picture, fitted": (fitted_picture, 0.1),
-    "picture, proposed": (proposed_picture, 0.1),
+    "picture, proposed": (proposed_picture, 0.06),
+    "picture, checked": (checked_picture, 0.04),
     "JSON body": (json_body, 0.2),
     "multipart body": (multipart_body, 0.13),
     "headers": (headers, 0.1),

@@ -121,6 +121,53 @@ POINTS_ANSWER: Final[dict[str, Any]] = {
     ],
 }
 
+CHECK_REQUESTS: Final[dict[str, Any]] = {
+    "front": {"image_id": PICTURE_ID, "view": "front", "height_m": 1.8},
+    "nothing-said": {"image_id": PICTURE_ID},
+}
+
+_CHECKED: Final[dict[str, Any]] = {
+    "image_size": {"width": 720, "height": 960},
+    "usable": True,
+    "findings": [],
+    "not_checked": [],
+    "box": [163.0, 40.75, 558.68, 895.2],
+    "seen_from": "front",
+    "lean_deg": -0.1,
+    "distance_m": 3.03,
+    "assumptions": [],
+    "warnings": [],
+}
+
+CHECK_ANSWERS: Final[dict[str, Any]] = {
+    "good-picture": _CHECKED,
+    "to-be-taken-again": _CHECKED
+    | {
+        "usable": False,
+        "findings": [
+            {
+                "code": "other-view",
+                "severity": "blocks",
+                "reason": (
+                    "The person is to be seen from the front and is turned from the camera by "
+                    "about 81 degrees, where 0 are meant."
+                ),
+                "remedy": "Have the person turn until the camera sees them from the front.",
+                "points": ["left_shoulder", "right_shoulder", "left_hip", "right_hip"],
+                "box": None,
+            },
+        ],
+        "not_checked": [
+            {
+                "code": "camera-too-near",
+                "reason": "Neither the request nor the picture's EXIF data names a focal length.",
+            }
+        ],
+        "seen_from": "side",
+        "distance_m": None,
+    },
+}
+
 BODY_REQUESTS: Final[dict[str, Any]] = {
     "height-and-weight": {"gender": "female", "height_m": 1.68, "weight_kg": 64.5},
     "girths": {

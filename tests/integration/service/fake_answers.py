@@ -10,6 +10,7 @@ import time
 from pathlib import Path
 
 from api_schemas.bodies import BodyEstimate, EstimatedMeasurement
+from api_schemas.checks import CaptureCheck, Finding, SeenFrom, Severity
 from api_schemas.initial_poses import InitialPose, LimbReading
 from api_schemas.points import PointSource
 from api_schemas.problems import FieldProblem
@@ -22,7 +23,13 @@ from api_schemas.results import (
     FocalLengthSource,
     PartRotation,
 )
-from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask, PointsTask
+from service.estimates.messages import (
+    BodyTask,
+    CheckTask,
+    ConversionTask,
+    InitialPoseTask,
+    PointsTask,
+)
 from service.estimates.port import EstimatedBody, NoDetectorError, ProposedPoints
 from service.worker.pipeline_port import UnusableInputError
 from tests.integration.service.fake_pipeline import NOBODYS_WEIGHT_KG, SCRIPT_MARK
@@ -145,6 +152,35 @@ def points(
             warnings=() if count else (FitWarning(code="nobody-found", message="Nobody."),),
         ),
         mask=MASK if task.request.mask and count else b"",
+    )
+
+
+def check(task: CheckTask, image: bytes, *, max_pixels: int, detector: Path | None) -> CaptureCheck:
+    """Find as many people as the picture says, and repeat what was asked."""
+    del max_pixels, detector
+    script = json.loads(image.partition(SCRIPT_MARK)[2])
+    if script.get("no_detector") and not task.request.points:
+        raise NoDetectorError
+    found = script.get("people", 1)
+    nobody = Finding(
+        code="nobody-found",
+        severity=Severity.BLOCKS,
+        reason="0 people were found.",
+        remedy="Have one in the picture.",
+        points=(),
+        box=None,
+    )
+    return CaptureCheck(
+        image_size=PictureSize(width=640, height=480),
+        usable=found > 0,
+        findings=() if found else (nobody,),
+        not_checked=(),
+        box=(0.0, 0.0, 64.0, 48.0) if found else None,
+        seen_from=None if task.request.view is None else SeenFrom(task.request.view.value),
+        lean_deg=float(len(task.request.points)),
+        distance_m=task.request.focal_length_px,
+        assumptions=(),
+        warnings=(),
     )
 
 

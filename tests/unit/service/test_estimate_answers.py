@@ -1,18 +1,20 @@
 """The estimator's real answers, with the measurements a request knows."""
 
 import io
+from pathlib import Path
 
 import pytest
 from PIL import Image
 
 from api_schemas.bodies import BodyRequest
+from api_schemas.checks import CheckRequest, SeenFrom, Severity, View
 from api_schemas.known import UncertainMeasurement
 from api_schemas.points import Point, PointSource
 from api_schemas.proposals import PointsRequest
 from api_schemas.requests import Facing, Gender, Limb
 from service.demo_data.sample import load_sample
-from service.estimates.answers import body, initial_pose, points
-from service.estimates.messages import BodyTask, InitialPoseTask, PointsTask
+from service.estimates.answers import body, check, initial_pose, points
+from service.estimates.messages import BodyTask, CheckTask, InitialPoseTask, PointsTask
 from service.estimates.port import NoDetectorError
 from service.submissions.submission import check_submission
 from service.worker.pipeline_port import UnusableInputError
@@ -111,6 +113,61 @@ def test_points_of_the_sample_are_proposed_with_a_mask_of_its_size():
     for name, point in proposal.points.items():
         assert Point.model_validate_json(point.model_dump_json()).source is PointSource.PROPOSAL
         assert 2.0 < point.expected_error_px < 20.0, name
+
+
+def checked_sample(*, detector: Path | None = None, **said: object):
+    request = CheckRequest.model_validate(said)
+    return check(
+        CheckTask(request=request),
+        load_sample().image,
+        max_pixels=1_000_000,
+        detector=detector,
+    )
+
+
+def test_nothing_is_wrong_with_the_sample_and_it_was_taken_from_3_metres():
+    found = checked_sample(view=View.FRONT, height_m=1.804)
+    assert (found.usable, found.findings, found.not_checked) == (True, (), ())
+    assert (found.seen_from, found.assumptions) == (SeenFrom.FRONT, ())
+    assert found.distance_m == pytest.approx(3.0, rel=0.05)
+    assert found.lean_deg == pytest.approx(0.0, abs=2.0)
+    assert found.box == pytest.approx((163, 41, 559, 895), abs=12)
+
+
+def test_the_sample_is_not_seen_from_the_side_nor_far_enough_through_half_the_lens():
+    found = checked_sample(view=View.SIDE, gender=Gender.MALE, focal_length_35mm=25.0)
+    assert [(each.code, each.severity) for each in found.findings] == [
+        ("other-view", Severity.BLOCKS),
+        ("camera-too-near", Severity.HARMS),
+    ]
+    assert not found.usable
+    assert [(each.quantity, each.value) for each in found.assumptions] == [("height_m", 1.82)]
+
+
+def test_without_a_detector_points_are_checked_and_a_picture_alone_is_not(tmp_path):
+    points = check_submission(
+        request=load_sample().request, image=load_sample().image, mask=None, max_pixels=1_000_000
+    ).options.points
+    found = checked_sample(detector=tmp_path, points=points, view=View.FRONT)
+    assert (found.findings, found.box, found.seen_from) == ((), None, SeenFrom.FRONT)
+    assert {each.code for each in found.not_checked} == {
+        "nobody-found",
+        "several-people",
+        "arms-against-trunk",
+        "clothes-loose",
+    }
+    assert found.distance_m == pytest.approx(checked_sample().distance_m, rel=0.05)
+    with pytest.raises(NoDetectorError):
+        checked_sample(detector=tmp_path)
+
+
+def test_points_say_who_is_to_be_checked_and_must_be_somebody_s():
+    points = {"nose": Point(x=30.0, y=30.0), "left_ankle": Point(x=60.0, y=900.0)}
+    found = checked_sample(points=points)
+    assert [each.code for each in found.findings] == ["nobody-found"]
+    with pytest.raises(UnusableInputError) as caught:
+        checked_sample(person=1)
+    assert (caught.value.error.field, caught.value.error.code) == ("person", "person-unknown")
 
 
 def test_what_is_wrong_with_a_picture_or_a_question_is_told_by_field(tmp_path):

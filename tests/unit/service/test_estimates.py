@@ -5,6 +5,7 @@ import asyncio
 import pytest
 
 from api_schemas.bodies import BodyRequest
+from api_schemas.checks import CaptureCheck, CheckRequest
 from api_schemas.initial_poses import InitialPose
 from api_schemas.problems import FieldProblem
 from api_schemas.proposals import PointsRequest
@@ -12,7 +13,13 @@ from api_schemas.requests import Gender
 from service.api.estimates import Estimates
 from service.api.problems import ProblemError
 from service.api.service_metrics import ServiceMetrics
-from service.estimates.messages import BodyTask, ConversionTask, InitialPoseTask, PointsTask
+from service.estimates.messages import (
+    BodyTask,
+    CheckTask,
+    ConversionTask,
+    InitialPoseTask,
+    PointsTask,
+)
 from service.estimates.port import (
     EstimatedBody,
     EstimatorFailedError,
@@ -57,6 +64,9 @@ class RaisingEstimator:
     def points(self, task: PointsTask, image: bytes) -> ProposedPoints:
         raise self.error
 
+    def check(self, task: CheckTask, image: bytes) -> CaptureCheck:
+        raise self.error
+
     def convert(self, task: ConversionTask, glb: bytes) -> bytes:
         raise self.error
 
@@ -80,11 +90,15 @@ def test_an_estimator_s_troubles_are_problems(error, status, code, retry):
 
 def test_a_detector_that_is_not_there_is_told_with_what_to_install():
     estimates = Estimates(RaisingEstimator(NoDetectorError()), METRICS)
-    with pytest.raises(ProblemError) as caught:
-        asyncio.run(estimates.points(PointsTask(request=PointsRequest()), b"a picture"))
-    told = caught.value.problem
-    assert (told.status, told.code) == (404, "detector-not-installed")
-    assert "pip install" in told.remedy
+    for question in (
+        estimates.points(PointsTask(request=PointsRequest()), b"a picture"),
+        estimates.check(CheckTask(request=CheckRequest()), b"a picture"),
+    ):
+        with pytest.raises(ProblemError) as caught:
+            asyncio.run(question)
+        told = caught.value.problem
+        assert (told.status, told.code) == (404, "detector-not-installed")
+        assert "pip install" in told.remedy
 
 
 def test_who_is_nobody_is_refused_and_other_troubles_are_left_to_the_job():

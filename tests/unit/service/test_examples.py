@@ -6,6 +6,7 @@ import pytest
 
 from api_schemas.bodies import BodyEstimate, BodyRequest
 from api_schemas.body_models import BodyModels
+from api_schemas.checks import CaptureCheck, CheckOfImage
 from api_schemas.derivations import (
     Derivation,
     DerivationEvent,
@@ -46,6 +47,7 @@ KINDS = {
     "initial_pose": InitialPose,
     "estimate_body": BodyEstimate,
     "propose_points": PointsProposal,
+    "check_capture": CaptureCheck,
     "body_models": BodyModels,
     "live": Live,
     "ready": Ready,
@@ -70,6 +72,7 @@ def test_examples_of_answers_are_of_their_types(operation):
         ("initial_pose", InitialPoseRequest),
         ("estimate_body", BodyRequest),
         ("propose_points", PointsOfImage),
+        ("check_capture", CheckOfImage),
     ],
 )
 def test_examples_of_requests_are_of_their_types(operation, kind):
