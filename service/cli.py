@@ -1,4 +1,4 @@
-"""``maquette serve | worker | prepare | keys | health | fit | demo | warm-up | openapi``.
+"""``maquette serve | worker | prepare | keys | health | fit | check | demo | warm-up | openapi``.
 
 Every command imports what it needs itself: ``maquette --help`` and the processes forked by a worker
 load this module and nothing heavy with it.
@@ -110,6 +110,24 @@ def _parser() -> argparse.ArgumentParser:
         help="default: %(default)s",
     )
     fit.set_defaults(command=_fit)
+
+    check = commands.add_parser(
+        "check", help="say what is wrong with a picture before it is fitted"
+    )
+    check.add_argument("image", type=Path, metavar="IMAGE", help="JPEG, PNG or WebP")
+    check.add_argument(
+        "--view",
+        choices=("front", "side", "back", "other"),
+        help="from where the person is to be seen",
+    )
+    check.add_argument(
+        "--points", type=Path, metavar="FILE", help="JSON of a request: points of who is meant"
+    )
+    check.add_argument("--gender", choices=("female", "male"))
+    check.add_argument("--height-m", type=float, metavar="METRES")
+    check.add_argument("--focal-length-px", type=float, metavar="PIXELS")
+    check.add_argument("--focal-length-35mm", type=float, metavar="MM")
+    check.set_defaults(command=_check)
 
     demo = commands.add_parser("demo", help="start a service, fit the sample picture, show it all")
     demo.add_argument(
@@ -268,6 +286,21 @@ def _fit(parsed: argparse.Namespace) -> int:
                 if (value := getattr(parsed, name)) is not None
             }
             | {name: True for name in ("complete_points", "force") if getattr(parsed, name)},
+        )
+    )
+
+
+def _check(parsed: argparse.Namespace) -> int:
+    from service.commands.check import CheckArguments, check_locally
+    from service.startup.begin import read_settings
+
+    read_settings("check")
+    names = ("view", "gender", "height_m", "focal_length_px", "focal_length_35mm")
+    return check_locally(
+        CheckArguments(
+            image=parsed.image,
+            points=parsed.points,
+            said={name: value for name in names if (value := getattr(parsed, name)) is not None},
         )
     )
 

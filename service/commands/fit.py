@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
+from pydantic import BaseModel
 from rich.console import Console
 
 from api_schemas.derivation_kinds.caricature import CaricatureOptions
@@ -57,7 +58,9 @@ class FitArguments:
     formats: tuple[str, ...] = ()
 
 
-def request_from_file(text: str, overrides: Mapping[str, object]) -> bytes:
+def request_from_file(
+    text: str, overrides: Mapping[str, object], *, kind: type[BaseModel] = FitOptions
+) -> bytes:
     """Extract the fields of a request from a points file, which may hold other things as well.
 
     Raises
@@ -71,7 +74,7 @@ def request_from_file(text: str, overrides: Mapping[str, object]) -> bytes:
         raise RefusedError(_unreadable(str(error))) from error
     if not isinstance(values, dict):
         raise RefusedError(_unreadable("it is no object"))
-    known = {name: value for name, value in values.items() if name in FitOptions.model_fields}
+    known = {name: value for name, value in values.items() if name in kind.model_fields}
     return json.dumps(known | dict(overrides)).encode()
 
 

@@ -62,10 +62,13 @@ def test_the_curl_examples_bring_points_results_a_texture_and_other_formats(
     address: str, clean_root: Path
 ):
     commands = block("curl") + block("derivation") + block("formats") + block("points")
+    commands += block("checks")
     done = run(["bash", "-euo", "pipefail", "-c", commands], SERVICE=address)
     assert done.returncode == 0, done.stderr
     assert done.stdout.count("event: end") == 3
     assert len(json.loads((clean_root / "points.json").read_text())["points"]) == 21
+    check = json.loads((clean_root / "check.json").read_text())
+    assert (check["usable"], check["findings"], check["seen_from"]) == (True, [], "front")
     assert json.loads((clean_root / "result.json").read_text())["measurements"]
     for name in ("body_posed.glb", "body_textured.glb"):
         assert (clean_root / name).read_bytes()[:4] == b"glTF"

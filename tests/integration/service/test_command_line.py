@@ -1,4 +1,4 @@
-"""``maquette fit`` and ``maquette demo`` with the fake pipeline."""
+"""``maquette fit``, ``check`` and ``demo`` with the fake pipeline and answers."""
 
 import csv
 import json
@@ -12,6 +12,7 @@ import pytest
 
 from api_schemas.results import FitResult
 from service.cli import main
+from service.commands.check import CheckArguments, check_locally
 from service.commands.demo import run_demo
 from service.commands.fit import FitArguments, fit_locally, warm_up
 from service.demo_data.sample import Sample, load_sample
@@ -20,6 +21,7 @@ from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import POINTS, QUICK, REQUEST
 
 FAKE = "tests.integration.service.fake_pipeline"
+FAKE_ANSWERS = "tests.integration.service.fake_answers"
 FAKE_SERVE = (sys.executable, "-m", "tests.integration.service.fake_serve")
 
 FAKE_WAIST = 80.0 + len(POINTS)
@@ -92,6 +94,48 @@ def test_a_folder_without_models_is_told(tmp_path, capsys):
     printed = capsys.readouterr().out
     assert "female.npz" in printed
     assert "python -m fitter.training" in printed
+
+
+def test_a_good_picture_is_said_to_be_usable(tmp_path, capsys):
+    picture = tmp_path / "picture.png"
+    picture.write_bytes(scripted_image())
+    given = CheckArguments(image=picture, points=None, said={"view": "front"})
+    assert check_locally(given, answers=FAKE_ANSWERS) == 0
+    printed = capsys.readouterr().out
+    assert "Nothing was found to be wrong." in printed
+    assert "is usable" in printed
+
+
+def test_a_picture_to_be_taken_again_is_said_with_what_to_do_and_by_the_exit_status(
+    tmp_path, capsys
+):
+    picture = tmp_path / "picture.png"
+    picture.write_bytes(scripted_image({"people": 0}))
+    given = CheckArguments(image=picture, points=None, said={})
+    assert check_locally(given, answers=FAKE_ANSWERS) == 1
+    printed = " ".join(capsys.readouterr().out.split())
+    assert "blocks (nobody-found): 0 people were found. Have one in the picture." in printed
+    assert "Take the picture again." in printed
+
+
+@pytest.mark.parametrize(
+    ("script", "points", "told"),
+    [
+        (None, {"points": {"nose": [641, 5]}}, "points.nose"),
+        (None, None, "No such file"),
+        ({"no_detector": True}, {}, "is not installed"),
+    ],
+)
+def test_what_cannot_be_checked_is_told_with_another_exit_status(
+    tmp_path, capsys, script, points, told
+):
+    picture, file = tmp_path / "picture.png", tmp_path / "points.json"
+    picture.write_bytes(scripted_image(script))
+    if points is not None:
+        file.write_text(json.dumps(points))
+    given = CheckArguments(image=picture, points=file, said={})
+    assert check_locally(given, answers=FAKE_ANSWERS) == 2
+    assert told in " ".join(capsys.readouterr().out.split())
 
 
 def test_a_points_file_may_hold_other_things_and_the_command_line_wins(tmp_path):
