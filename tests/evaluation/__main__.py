@@ -7,6 +7,7 @@ from pathlib import Path
 
 from fitter.request import Clothing, Cues, Gender, OutlineKind
 from tests.evaluation.body_tables import bmi_lines, distance_lines, trunk_lines
+from tests.evaluation.capture_table import capture_lines, judged_by, judgements
 from tests.evaluation.cases import CASES, PEOPLE
 from tests.evaluation.chain import Link, chain_of
 from tests.evaluation.chain_tables import chain_case_lines, chain_lines
@@ -82,6 +83,15 @@ def main(arguments: Sequence[str]) -> int:
     if options.moved_points:
         fits = of_each(moved_fits, [case.name for case in chosen] + foreign, options.jobs)
         print("\n".join(moved_lines([each for several in fits for each in several])))
+        return 0
+    if options.checks:
+        for half in [Half(options.half)] if options.half else list(Half):
+            names = [case.name for case in chosen if PEOPLE[case.person].half is half]
+            names += [each for each in foreign if foreign_half(each) is half]
+            tasks = judgements(names, half)
+            judged = of_each(judged_by, tasks, options.jobs)
+            print(f"\n{half.value} half")
+            print("\n".join(capture_lines([each for several in judged for each in several])))
         return 0
     if options.nonsense:
         for half in [Half(options.half)] if options.half else list(Half):
@@ -275,6 +285,11 @@ def _parser() -> argparse.ArgumentParser:
         "--detector",
         action="store_true",
         help="fit with none, each and all of what the detector tells, foreign pictures too",
+    )
+    parser.add_argument(
+        "--checks",
+        action="store_true",
+        help="fit nothing: how often the checks of a capture find what is wrong, and what is not",
     )
     parser.add_argument(
         "--nonsense",

@@ -24,6 +24,18 @@ def test_the_blur_of_an_edge_is_found_whatever_its_contrast(deviation_px):
         assert found == pytest.approx(np.hypot(deviation_px, 0.6), rel=0.1)
 
 
+@pytest.mark.parametrize("shape", [(1, 11), (11, 1)], ids=["sideways", "up and down"])
+def test_a_motion_blurs_the_edges_across_it(shape):
+    """A box of 11 pixels has a standard deviation of 3.2; its ramps look softer yet."""
+    grid = np.maximum(steps(), steps().T)
+    found = blur_of_edges(
+        cv2.filter2D(grid, -1, np.full(shape, 1.0 / 11.0, np.float32)),
+        np.ones(grid.shape, bool),
+    )
+    assert found is not None
+    assert 3.0 < found < 6.0
+
+
 def test_only_edges_of_the_region_count():
     half = np.zeros((300, 300), bool)
     half[:, :140] = True
