@@ -15,6 +15,7 @@ from fitter.arrays import Shape
 from fitter.energies.joint_objective import JointObjective
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.priors import population_prior
+from fitter.fits.foretold import Foretold, foretold
 from fitter.fits.joint_view import JointView
 from fitter.fits.lit_view import LitView, first_lit
 from fitter.fits.settling import compared_with, settle
@@ -45,11 +46,14 @@ class JointlyFound:
         (n,) coefficients and their (n, n) covariance.
     pictures
         The person in each picture, in the order given.
+    foretold
+        What all pictures say of the measurements that were given besides the height.
     """
 
     shape: Shape
     covariance: Float[np.ndarray, "n n"]
     pictures: tuple[PictureFit, ...]
+    foretold: tuple[Foretold, ...]
 
 
 def search_jointly(
@@ -138,4 +142,7 @@ def _settled(
         shape=found.candidate.shape,
         covariance=shape_covariance(certain[0], height_variance=known.height_variance),
         pictures=pictures,
+        foretold=foretold(
+            objective.with_views(compared), replace(found.candidate, views=tuple(seen)), known
+        ),
     )

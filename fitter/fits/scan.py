@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from enum import StrEnum
 from pathlib import Path
 
 import numpy as np
@@ -10,12 +9,17 @@ from jaxtyping import Float
 
 from fitter.applications.several_pictures import CombinedShape, combined_shape
 from fitter.arrays import Shape, Vertices
-from fitter.errors import InvalidInputError
+from fitter.capture.capture import View
+from fitter.capture.finding import Finding
+from fitter.detection.detector import installed_detector
+from fitter.errors import DetectorUnavailableError, InvalidInputError
+from fitter.fits.capture_check import CaptureQuestion, check_picture
 from fitter.fits.joint_search import JointlyFound, search_jointly
 from fitter.fits.joint_view import view_of
 from fitter.fits.outlined import Outlined, outlined
 from fitter.fits.progress import Progress, Stage
 from fitter.fits.reporting import insistence_warnings, shading_warnings
+from fitter.fits.scan_remarks import scan_warnings
 from fitter.fits.stage_clock import StageClock
 from fitter.measurement.anthropometry import measure
 from fitter.measurement.quantity import Measurement
@@ -33,20 +37,11 @@ ALONE_SHARE = 0.45
 """Share of the work that is done once every picture has been searched by itself."""
 
 
-class ViewKind(StrEnum):
-    """From where a person is seen."""
-
-    FRONT = "front"
-    SIDE = "side"
-    BACK = "back"
-    OTHER = "other"
-
-
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class ScanView:
     """One picture of a scan; its request says the same of the person as all others."""
 
-    kind: ViewKind
+    kind: View
     request: FitRequest
 
 
@@ -67,10 +62,12 @@ class ScanProgress:
 class ScannedView:
     """The person in one of the pictures.
 
-    ``camera`` refers to the working picture.
+    ``findings`` is what is wrong with the picture as one to measure by; ``camera`` refers to the
+    working picture.
     """
 
-    kind: ViewKind
+    kind: View
+    findings: tuple[Finding, ...]
     found: PictureFit
     camera: Camera
     focal_length_source: FocalLengthSource
@@ -130,10 +127,12 @@ def scan(
         As :func:`fitter.fits.pipeline.fit` does.
     """
     _check(views)
+    findings: list[tuple[Finding, ...]] = []
     pictures: list[Outlined] = []
     for number, view in enumerate(views):
         clock = StageClock(_of_view(number, len(views), observe))
         try:
+            findings.append(_findings(view, detector_weights))
             pictures.append(
                 outlined(_posed(view), clock, models=models, detector_weights=detector_weights)
             )
@@ -160,7 +159,7 @@ def scan(
         shape=found.shape,
         covariance=found.covariance,
         canonical_vertices=prepared.measuring.canonical.at(found.shape),
-        views=_scanned(views, pictures, found),
+        views=_scanned(views, findings, pictures, found),
         measurements=measure(
             prepared.measuring,
             found.shape,
@@ -173,7 +172,13 @@ def scan(
         given=known.given,
         alone=alone,
         assumptions=known.assumptions,
-        warnings=_warnings(alone),
+        warnings=scan_warnings(
+            alone,
+            found.foretold,
+            dict(zip(prepared.population.names, prepared.population.units, strict=True)),
+            [view.kind for view in views],
+            [each.person.body for each in found.pictures],
+        ),
     )
 
 
@@ -191,9 +196,30 @@ def of_view(number: int, error: InvalidInputError) -> InvalidInputError:
     )
 
 
+def _findings(view: ScanView, weights: Path | None) -> tuple[Finding, ...]:
+    """What the checks of a capture say of a view's picture, which is measured all the same."""
+    request = view.request
+    question = CaptureQuestion(
+        view=view.kind,
+        points=request.clicks,
+        gender=request.gender,
+        height_m=request.height_m,
+        focal_length_px=request.focal_length_px,
+        focal_length_35mm=request.focal_length_35mm,
+    )
+    try:
+        detector = installed_detector(weights)
+    except DetectorUnavailableError:
+        detector = None
+    checked = check_picture(
+        request.image, question, detector=detector, max_pixels=request.max_pixels
+    )
+    return checked.checked.findings
+
+
 def _posed(view: ScanView) -> FitRequest:
     """Who is measured stands as asked; in other pictures people do as they like."""
-    if view.kind is ViewKind.OTHER:
+    if view.kind is View.OTHER:
         return view.request
     return replace(view.request, posture=Posture.MEASURED)
 
@@ -257,11 +283,15 @@ def _alone(picture: Outlined) -> FittedPerson:
 
 
 def _scanned(
-    views: Sequence[ScanView], pictures: Sequence[Outlined], found: JointlyFound
+    views: Sequence[ScanView],
+    findings: Sequence[tuple[Finding, ...]],
+    pictures: Sequence[Outlined],
+    found: JointlyFound,
 ) -> tuple[ScannedView, ...]:
     return tuple(
         ScannedView(
             kind=view.kind,
+            findings=seen,
             found=body,
             camera=picture.observation.camera,
             focal_length_source=picture.observation.focal_length_source,
@@ -276,20 +306,5 @@ def _scanned(
                 segmentation=picture.segmentation.mask,
             ),
         )
-        for view, picture, body in zip(views, pictures, found.pictures, strict=True)
-    )
-
-
-def _warnings(alone: CombinedShape) -> tuple[FitWarning, ...]:
-    if not alone.doubtful:
-        return ()
-    return (
-        FitWarning(
-            code="different-people",
-            message=(
-                f"The pictures seem to show different people: the body in view {alone.differing} "
-                "differs from that in the others as pictures of one person hardly do. Check that "
-                "view and its points, and left and right in it."
-            ),
-        ),
+        for view, seen, picture, body in zip(views, findings, pictures, found.pictures, strict=True)
     )

@@ -63,6 +63,13 @@ class JointEquations:
         own = tuple(solved[:, -1] - solved[:, :-1] @ shape for solved in back)
         return JointStep(own=own, shape=shape, promised=self._promised(own, shape))
 
+    def shape_information(self) -> Float[np.ndarray, "free free"]:
+        """S: what all say of the shape, poses and places eliminated."""
+        information = self.shared
+        for matrix, border in zip(self.own, self.border, strict=True):
+            information = information - border.T @ np.linalg.solve(matrix, border)
+        return information
+
     def _promised(
         self, own: tuple[Float[np.ndarray, " own"], ...], shape: Float[np.ndarray, " free"]
     ) -> float:
