@@ -1,0 +1,118 @@
+"""What ``python -m tests.evaluation`` can be asked."""
+
+import argparse
+from pathlib import Path
+
+from fitter.request import Clothing, OutlineKind
+from tests.evaluation.cases import CASES
+from tests.evaluation.foreign import foreign_names
+from tests.evaluation.scene import Half, Series
+from tests.evaluation.table import MEASUREMENTS
+
+
+def parser(description: str | None) -> argparse.ArgumentParser:
+    """Options that choose pictures, what fits are told, or something else to do."""
+    found = argparse.ArgumentParser(prog="python -m tests.evaluation", description=description)
+    _add_choice(found)
+    _add_told(found)
+    _add_modes(found)
+    return found
+
+
+def _add_choice(to: argparse.ArgumentParser) -> None:
+    to.add_argument(
+        "--half",
+        choices=[half.value for half in Half],
+        help="choose constants on tuning, report figures on reporting (default: both)",
+    )
+    to.add_argument(
+        "--set",
+        choices=[series.value for series in Series],
+        help="default: all",
+    )
+    to.add_argument(
+        "--case",
+        action="append",
+        choices=[*CASES, *foreign_names()],
+        metavar="NAME",
+        help="these alone (default: all)",
+    )
+    to.add_argument("--jobs", type=int, default=1, help="fits made side by side")
+    to.add_argument(
+        "--page", type=Path, metavar="DIR", help="write an HTML page with pictures of every fit"
+    )
+
+
+def _add_told(to: argparse.ArgumentParser) -> None:
+    to.add_argument(
+        "--true-mask",
+        action="store_true",
+        help="give the person's true mask: what the errors would be without segmentation",
+    )
+    to.add_argument(
+        "--outline",
+        choices=[kind.value for kind in OutlineKind],
+        help="what the contour is to meet (default: as every fit)",
+    )
+    to.add_argument(
+        "--clothing",
+        choices=[each.value for each in Clothing],
+        help="how clothes are said to lie (default: tight; of the clothed set both, side by side)",
+    )
+    to.add_argument(
+        "--true-light", action="store_true", help="begin the search for the light at the truth"
+    )
+    to.add_argument(
+        "--known-focal",
+        action="store_true",
+        help="give the focal length in pixels, where it is in the file or missing too",
+    )
+    to.add_argument(
+        "--true-pose",
+        action="store_true",
+        help="hold the pose at the truth, within half a degree a joint",
+    )
+    to.add_argument(
+        "--true-place",
+        action="store_true",
+        help="hold the root joint at the truth too; say --known-focal with it",
+    )
+    to.add_argument(
+        "--given",
+        action="append",
+        choices=[key for _, key, _ in MEASUREMENTS],
+        help="give this measurement, as a caller of the service may; may be repeated",
+    )
+
+
+def _add_modes(to: argparse.ArgumentParser) -> None:
+    for name, what in (
+        ("--shape-limit", "fit nothing: print what the shape space's own coarseness costs"),
+        (
+            "--outline-limit",
+            "fit nothing: print how well exactly known outlines foretell measurements",
+        ),
+        (
+            "--several",
+            "combine one, two and three pictures of each person: how measurements tighten",
+        ),
+        (
+            "--surroundings",
+            "fit with uniform ambient light and with spherical harmonics, side by side",
+        ),
+        (
+            "--chain",
+            "from a body fitted to the true mesh to a fit that is told nothing, foreign pictures",
+        ),
+        ("--moved-points", "fit with the points 2 cm away from where they were, in several ways"),
+        (
+            "--detector",
+            "fit with none, each and all of what the detector tells, foreign pictures too",
+        ),
+        (
+            "--checks",
+            "fit nothing: how often the checks of a capture find what is wrong, and what is not",
+        ),
+        ("--nonsense", "fit people and what is none: how many of each the verdicts contradict"),
+    ):
+        to.add_argument(name, action="store_true", help=what)

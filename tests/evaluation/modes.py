@@ -1,0 +1,178 @@
+"""What the evaluation can do beside scoring fits, each by the option of its name."""
+
+import argparse
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from fitter.request import Cues, Gender
+from tests.evaluation.capture_table import capture_lines, judged_by, judgements
+from tests.evaluation.cases import PEOPLE
+from tests.evaluation.chain import Link, chain_of
+from tests.evaluation.chain_tables import chain_case_lines, chain_lines
+from tests.evaluation.clothing_table import clothing_lines
+from tests.evaluation.detector_figures import detector_lines, hinted_fits
+from tests.evaluation.foreign import foreign_half
+from tests.evaluation.light_figures import InLight, in_both_lights, light_lines
+from tests.evaluation.limit_tables import limit_lines, outline_lines, several_lines
+from tests.evaluation.moved_points import moved_fits, moved_lines
+from tests.evaluation.nonsense import nonsense
+from tests.evaluation.outline_limit import outline_limit
+from tests.evaluation.people import load_person
+from tests.evaluation.runs import of_each, score_dressed
+from tests.evaluation.scene import Case, Half, Series
+from tests.evaluation.several import several_pictures
+from tests.evaluation.shape_limit import shape_limit
+from tests.evaluation.table import MEASUREMENTS, case_lines
+from tests.evaluation.verdict_table import judged_nonsense, judged_picture, verdict_lines
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Choice:
+    """The pictures that were chosen, the suite's own and foreign ones by name, and all options."""
+
+    cases: Sequence[Case]
+    foreign: Sequence[str]
+    options: argparse.Namespace
+
+    @property
+    def jobs(self) -> int:
+        """Processes."""
+        return self.options.jobs
+
+    @property
+    def halves(self) -> Sequence[Half]:
+        """The half that was asked for, or both."""
+        return list(Half) if self.options.half is None else [Half(self.options.half)]
+
+    @property
+    def cases_by_half(self) -> Mapping[Half, Sequence[Case]]:
+        """Without halves that have none."""
+        of = {
+            half: [case for case in self.cases if PEOPLE[case.person].half is half] for half in Half
+        }
+        return {half: cases for half, cases in of.items() if cases}
+
+    @property
+    def people_cases(self) -> Sequence[Case]:
+        """Those of everybody's ordinary pictures."""
+        return [case for case in self.cases if case.series is Series.PEOPLE]
+
+
+def shape_limits(choice: Choice) -> None:
+    """What the shape space leaves of each person."""
+    people = {case.person: PEOPLE[case.person] for case in choice.cases}
+    limits = {name: shape_limit(load_person(source)) for name, source in people.items()}
+    _print(limit_lines(limits))
+
+
+def outline_limits(choice: Choice) -> None:
+    """What exactly known outlines leave."""
+    _print(outline_lines({each.value: outline_limit(each) for each in Gender}))
+
+
+def several(choice: Choice) -> None:
+    """Every choice of one, two, three pictures of each person."""
+    names = [key for _, key, _ in MEASUREMENTS]
+    for half, cases in choice.cases_by_half.items():
+        people = [case for case in cases if case.series is Series.PEOPLE]
+        if people:
+            _print(several_lines(list(several_pictures(people, names))), f"{half.value} half")
+
+
+def surroundings(choice: Choice) -> None:
+    """With uniform ambient light and with spherical harmonics."""
+    in_light: list[InLight] = []
+    for each in in_both_lights(choice.cases):
+        line = case_lines([each.scored])[1]
+        print(f"{each.surroundings.value:20s}{line}", flush=True)
+        in_light.append(each)
+    _print(light_lines(in_light))
+
+
+def chain(choice: Choice) -> None:
+    """From the true mesh to a fit that is told nothing."""
+    links: list[Link] = []
+    for of_picture in of_each(chain_of, choice.foreign, choice.jobs):
+        lines = chain_case_lines(of_picture)
+        print("\n".join(lines[1:] if links else lines), flush=True)
+        links += of_picture
+    if links:
+        _print(chain_lines(links))
+
+
+def detector(choice: Choice) -> None:
+    """With none, each and all of what the detector tells."""
+    people = [case.name for case in choice.people_cases]
+    for title, names in (("suite", people), ("foreign", choice.foreign)):
+        if names:
+            hinted = of_each(hinted_fits, names, choice.jobs)
+            _print(detector_lines([each for several in hinted for each in several]), title)
+
+
+def moved_points(choice: Choice) -> None:
+    """With points that are not where they should be."""
+    names = [*(case.name for case in choice.cases), *choice.foreign]
+    fits = of_each(moved_fits, names, choice.jobs)
+    _print(moved_lines([each for several in fits for each in several]))
+
+
+def checks(choice: Choice) -> None:
+    """What the checks of a capture find, and what is not wrong."""
+    for half in choice.halves:
+        tasks = judgements(_names(choice, half), half)
+        judged = of_each(judged_by, tasks, choice.jobs)
+        lines = capture_lines([each for several in judged for each in several])
+        _print(lines, f"{half.value} half")
+
+
+def verdicts(choice: Choice) -> None:
+    """On people and on what is none."""
+    for half in choice.halves:
+        judged = [
+            *of_each(judged_picture, _names(choice, half), choice.jobs),
+            *of_each(judged_nonsense, nonsense(half, Cues.SES), choice.jobs),
+        ]
+        lines = verdict_lines([each for several in judged for each in several])
+        _print(lines, f"{half.value} half")
+
+
+def dressed(choice: Choice) -> None:
+    """Loose clothes said to be tight and loose."""
+    for half, cases in choice.cases_by_half.items():
+        names = [case.name for case in cases]
+        _print(clothing_lines(score_dressed(names, jobs=choice.jobs)), f"{half.value} half")
+
+
+Mode = Callable[[Choice], None]
+
+MODES: Mapping[str, Mode] = {
+    "shape_limit": shape_limits,
+    "outline_limit": outline_limits,
+    "several": several,
+    "surroundings": surroundings,
+    "chain": chain,
+    "detector": detector,
+    "moved_points": moved_points,
+    "checks": checks,
+    "nonsense": verdicts,
+}
+
+
+def mode_of(options: argparse.Namespace) -> Mode | None:
+    """What is asked for, None for scores."""
+    asked = [mode for name, mode in MODES.items() if getattr(options, name)]
+    if asked:
+        return asked[0]
+    both = options.set == Series.CLOTHED.value and options.clothing is None
+    return dressed if both else None
+
+
+def _names(choice: Choice, half: Half) -> list[str]:
+    """The chosen pictures of a half, foreign ones too."""
+    own = [case.name for case in choice.cases_by_half.get(half, ())]
+    return own + [each for each in choice.foreign if foreign_half(each) is half]
+
+
+def _print(lines: Sequence[str], title: str | None = None) -> None:
+    heading = [] if title is None else ["", title]
+    print("\n".join([*heading, *lines]), flush=True)
