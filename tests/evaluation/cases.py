@@ -1,7 +1,8 @@
 """The pictures of the suite: a table of people, rooms and stances, varied from seeds.
 
 Three pictures of each person, one of each kind of stance; eight of the tuning half in unusual
-light; eight people of both halves in loose clothes; and the sample of ``maquette demo``.
+light; eight people of both halves in loose clothes; phone pairs; and the sample of ``maquette
+demo``.
 """
 
 from collections.abc import Mapping
@@ -20,6 +21,7 @@ from tests.evaluation.outfits import (
     WIDE_SHIRT_AND_TROUSERS,
 )
 from tests.evaluation.people_table import PEOPLE, SITTERS, Sitter
+from tests.evaluation.phone_cases import PHONE_CASES
 from tests.evaluation.scene import (
     Case,
     Floor,
@@ -297,4 +299,6 @@ _CLOTHED = tuple(
     )
 )
 
-CASES: Mapping[str, Case] = {case.name: case for case in (DEMO, *_people(), *_LIGHTS, *_CLOTHED)}
+CASES: Mapping[str, Case] = {
+    case.name: case for case in (DEMO, *_people(), *_LIGHTS, *_CLOTHED, *PHONE_CASES)
+}

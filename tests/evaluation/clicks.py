@@ -66,6 +66,15 @@ def noisy_clicks(
     return clicks
 
 
+def hidden_points(staged: Staged, seen: Rendering) -> list[str]:
+    """Points that the body itself hides, whether or not they are clicked."""
+    return [
+        name
+        for name, point in true_points(staged).items()
+        if not _visible(name, point, staged.camera.project(point), seen)
+    ]
+
+
 def _visible(
     name: str, point: Float[np.ndarray, "3"], place: Float[np.ndarray, "2"], seen: Rendering
 ) -> bool:

@@ -11,9 +11,9 @@ from PIL import Image as PillowImage
 
 from fitter.arrays import Mask
 from fitter.parameters import Light, LightKind
-from tests.evaluation.clicks import noisy_clicks, rendering
+from tests.evaluation.clicks import hidden_points, noisy_clicks, rendering
 from tests.evaluation.photograph import photograph
-from tests.evaluation.scene import Case, FocalLength
+from tests.evaluation.scene import PAIRED_SERIES, Case, FocalLength
 from tests.evaluation.staging import Staged, root_joint
 from tests.evaluation.truth import true_body, true_joints, true_light
 
@@ -41,7 +41,7 @@ class CaseFiles:
 
     @property
     def scene(self) -> dict[str, Any]:
-        """Light, camera and joints, which a request does not tell."""
+        """Light, camera and joints, which a request does not tell, and hidden points."""
         return self.document["scene"]
 
 
@@ -73,19 +73,26 @@ def write_document(folder: Path, staged: Staged) -> None:
 
 def document(staged: Staged) -> dict[str, object]:
     """Request and truth of a case."""
-    case = staged.case
     return {
         "request": request_of(staged),
         "truth": true_measurements(staged),
-        "scene": {
-            "person": case.person,
-            "light": _light_document(true_light(staged)),
-            "focal_length_px": round(staged.camera.focal_length_px, 3),
-            "root_joint_m": _rounded(staged.in_camera(root_joint(staged))),
-            "joints_m": [_rounded(joint) for joint in true_joints(staged)],
-        },
+        "scene": _scene_document(staged),
         "credits": CREDITS,
     }
+
+
+def _scene_document(staged: Staged) -> dict[str, object]:
+    """What a request does not tell; of pairs, whose sides hide half the body, also which points."""
+    scene: dict[str, object] = {
+        "person": staged.case.person,
+        "light": _light_document(true_light(staged)),
+        "focal_length_px": round(staged.camera.focal_length_px, 3),
+        "root_joint_m": _rounded(staged.in_camera(root_joint(staged))),
+        "joints_m": [_rounded(joint) for joint in true_joints(staged)],
+    }
+    if staged.case.series in PAIRED_SERIES:
+        scene["hidden_points"] = hidden_points(staged, rendering(staged))
+    return scene
 
 
 def request_of(staged: Staged) -> dict[str, object]:

@@ -24,8 +24,22 @@ from tests.evaluation.people import load_person
 from tests.evaluation.scene import Case, Series
 from tests.evaluation.staging import Staged, stage
 
-SAMPLES = {Series.SAMPLE: 64, Series.PEOPLE: 36, Series.LIGHTS: 36, Series.CLOTHED: 25}
-QUALITY = {Series.SAMPLE: 92, Series.PEOPLE: 86, Series.LIGHTS: 86, Series.CLOTHED: 86}
+SAMPLES = {
+    Series.SAMPLE: 64,
+    Series.PEOPLE: 36,
+    Series.LIGHTS: 36,
+    Series.CLOTHED: 25,
+    Series.PHONE: 36,
+    Series.REPEATED: 36,
+}
+QUALITY = {
+    Series.SAMPLE: 92,
+    Series.PEOPLE: 86,
+    Series.LIGHTS: 86,
+    Series.CLOTHED: 86,
+    Series.PHONE: 86,
+    Series.REPEATED: 86,
+}
 SAMPLE_FOLDER = Path(__file__).parents[2] / "service" / "demo_data"
 
 
@@ -48,7 +62,7 @@ def _render(staged: Staged, options: argparse.Namespace) -> None:
 
     case = staged.case
     linear, person = linear_picture_and_person(
-        staged, samples=options.samples or SAMPLES[case.series], seed=case.seed
+        staged, samples=options.samples or SAMPLES[case.series]
     )
     write_picture(options.output, staged, linear, person, quality=QUALITY[case.series])
 

@@ -32,14 +32,15 @@ _MIRRORED_AXES = np.array([-1.0, -1.0, 1.0])
 
 
 def linear_picture_and_person(
-    staged: Staged, *, samples: int, seed: int
+    staged: Staged, *, samples: int
 ) -> tuple[Float[np.ndarray, "h w 3"], Bool[np.ndarray, "h w"]]:
     """Path-trace a case; and the pixels whose centre shows the person, hair and clothes included.
 
     Both from one set of meshes, which take longer to paint than a small picture to trace.
     """
     _choose_variant()
-    rng = np.random.default_rng(seed)
+    case = staged.case
+    rng = np.random.default_rng(case.seed if case.surface_seed is None else case.surface_seed)
     meshes = [_shape(mesh) for mesh in person_meshes(staged, rng)]
     person = {f"mesh{k}": mesh for k, mesh in enumerate(meshes)}
     linear: Any = mitsuba.load_dict(
@@ -58,14 +59,17 @@ def linear_picture_and_person(
     depth: Any = mitsuba.load_dict(
         {"type": "scene", "integrator": {"type": "depth"}, "sensor": sensor, **person}
     )
-    light = np.array(mitsuba.render(linear, spp=samples, seed=seed), dtype=np.float64)
+    light = np.array(mitsuba.render(linear, spp=samples, seed=case.seed), dtype=np.float64)
     seen = np.array(mitsuba.render(depth, spp=1), dtype=np.float64)
     return light[..., :3], seen[..., 0] > 0.0
 
 
 def _choose_variant() -> None:
-    """``llvm_ad_rgb``, several times faster, where an LLVM library of version 19 or so is found
-    (``DRJIT_LIBLLVM_PATH``), else ``scalar_rgb``."""
+    """``llvm_ad_rgb``, several times faster, where ``DRJIT_LIBLLVM_PATH`` names an LLVM library of
+    version 19 or later, such as a Rust toolchain's own, else ``scalar_rgb``.
+
+    Pictures of both differ by the noise of their paths alone.
+    """
     if mitsuba.variant() is None:
         mitsuba.set_variant("llvm_ad_rgb" if LLVM_LIBRARY in os.environ else "scalar_rgb")
 

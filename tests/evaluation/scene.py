@@ -26,7 +26,13 @@ class Series(StrEnum):
     LIGHTS = "lights"
     SAMPLE = "sample"
     CLOTHED = "clothed"
+    PHONE = "phone"
+    REPEATED = "repeated"
     FOREIGN = "foreign"
+
+
+PAIRED_SERIES = frozenset({Series.PHONE, Series.REPEATED})
+"""A person from the front and from the side; fitted where they are asked for."""
 
 
 class FocalLength(StrEnum):
@@ -44,6 +50,7 @@ class Wall(StrEnum):
     PLASTER = "plaster"
     BRICK = "brick"
     BOARDS = "boards"
+    STRIPES = "stripes"
     SHELVES = "shelves"
     HEDGE = "hedge"
 
@@ -258,7 +265,11 @@ class PersonSource:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Case:
-    """One picture."""
+    """One picture.
+
+    ``seed`` is that of the clicks and the camera's noise; ``surface_seed`` that of skin, hair and
+    room where pictures share them, else it is the same.
+    """
 
     name: str
     person: str
@@ -271,3 +282,4 @@ class Case:
     focal_length: FocalLength = FocalLength.GIVEN
     outfit: Outfit | None = None
     seed: int = 0
+    surface_seed: int | None = None

@@ -39,6 +39,7 @@ def wall_texture(surroundings: Surroundings, rng: np.random.Generator) -> Textur
         Wall.PLASTER: _plaster,
         Wall.BRICK: _brick,
         Wall.BOARDS: _boards,
+        Wall.STRIPES: _stripes,
         Wall.SHELVES: _shelves,
         Wall.HEDGE: _hedge,
     }[surroundings.wall]
@@ -94,6 +95,16 @@ def _brick(sheet: _Sheet, colour: Rgb, rng: np.random.Generator) -> Texture:
 
 def _boards(sheet: _Sheet, colour: Rgb, rng: np.random.Generator) -> Texture:
     return _planks(sheet.x, sheet.y, sheet, colour, rng, width=0.14)
+
+
+def _stripes(sheet: _Sheet, colour: Rgb, rng: np.random.Generator) -> Texture:
+    """Striped wallpaper: every other stripe darker, with a narrow line along it."""
+    width, edge = 0.11, 0.002
+    across = (sheet.x / width) % 2.0
+    dark = smooth_step(0.5 - np.abs(across - 1.0), -edge / width, edge / width)
+    line = smooth_step(0.06 - np.abs(across - 1.0), -edge / width, edge / width)
+    paper = np.exp(0.02 * sheet.noise(rng, (0.5, 0.5)) + 0.03 * sheet.noise(rng, (0.01, 0.01), 2))
+    return np.array(colour) * (paper * (1.0 - 0.45 * dark + 0.3 * line))[..., None]
 
 
 def _shelves(sheet: _Sheet, colour: Rgb, rng: np.random.Generator) -> Texture:
