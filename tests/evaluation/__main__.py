@@ -12,7 +12,7 @@ from tests.evaluation.foreign import MISSING, foreign_names
 from tests.evaluation.modes import Choice, mode_of
 from tests.evaluation.page import write_page
 from tests.evaluation.runs import Run, score_all
-from tests.evaluation.scene import Case, Half, Series
+from tests.evaluation.scene import PAIRED_SERIES, Case, Half, Series
 from tests.evaluation.scoring import Scored
 from tests.evaluation.table import case_lines, summary_lines, worst_lines
 from tests.evaluation.true_picture import Told
@@ -20,7 +20,10 @@ from tests.evaluation.true_picture import Told
 
 def main(arguments: Sequence[str]) -> int:
     """Run the command line; returns the exit status."""
-    options = parser(__doc__).parse_args(arguments)
+    asked = parser(__doc__)
+    options = asked.parse_args(arguments)
+    if options.repeat and not options.scan:
+        asked.error("--repeat goes with --scan")
     choice = Choice(
         cases=[case for case in CASES.values() if _is_chosen(case, options)],
         foreign=_foreign(options),
@@ -64,10 +67,10 @@ def _score(choice: Choice) -> None:
 def _is_chosen(case: Case, options: argparse.Namespace) -> bool:
     if options.case:
         return case.name in options.case
-    return options.set in (None, case.series.value) and options.half in (
-        None,
-        PEOPLE[case.person].half.value,
-    )
+    in_set = case.series.value == options.set
+    if options.set is None:
+        in_set = case.series not in PAIRED_SERIES
+    return in_set and options.half in (None, PEOPLE[case.person].half.value)
 
 
 def _foreign(options: argparse.Namespace) -> list[str]:
@@ -91,6 +94,15 @@ def _parts(scored: Sequence[Scored]) -> list[tuple[str, list[Scored]]]:
     parts += [
         (f"{series.value} set", of[series])
         for series in (Series.LIGHTS, Series.CLOTHED, Series.SAMPLE)
+    ]
+    parts += [
+        (
+            f"{series.value} set, {half.value} half",
+            [each for each in of[series] if each.half is half],
+        )
+        for series in Series
+        if series in PAIRED_SERIES
+        for half in Half
     ]
     parts += [
         (f"foreign, {half.value} half", [each for each in of[Series.FOREIGN] if each.half is half])

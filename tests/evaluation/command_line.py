@@ -28,7 +28,7 @@ def _add_choice(to: argparse.ArgumentParser) -> None:
     to.add_argument(
         "--set",
         choices=[series.value for series in Series],
-        help="default: all",
+        help="default: all but the pairs from front and side",
     )
     to.add_argument(
         "--case",
@@ -114,5 +114,14 @@ def _add_modes(to: argparse.ArgumentParser) -> None:
             "fit nothing: how often the checks of a capture find what is wrong, and what is not",
         ),
         ("--nonsense", "fit people and what is none: how many of each the verdicts contradict"),
+        (
+            "--scan",
+            "measure people from the front, from the side and from both, foreign ones too",
+        ),
     ):
         to.add_argument(name, action="store_true", help=what)
+    to.add_argument(
+        "--repeat",
+        action="store_true",
+        help="with --scan: how much measurements differ between pairs of one person",
+    )

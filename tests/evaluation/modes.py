@@ -19,6 +19,8 @@ from tests.evaluation.nonsense import nonsense
 from tests.evaluation.outline_limit import outline_limit
 from tests.evaluation.people import load_person
 from tests.evaluation.runs import of_each, score_dressed
+from tests.evaluation.scan_tables import repeat_lines, scan_lines, worst_scan_lines
+from tests.evaluation.scans import Pair, Scanned, foreign_pairs, own_pairs, repeated_pairs, scanned
 from tests.evaluation.scene import Case, Half, Series
 from tests.evaluation.several import several_pictures
 from tests.evaluation.shape_limit import shape_limit
@@ -136,6 +138,25 @@ def verdicts(choice: Choice) -> None:
         _print(lines, f"{half.value} half")
 
 
+def scan(choice: Choice) -> None:
+    """People from the front, from the side and from both; of one set if one is asked for."""
+    for half in choice.halves:
+        for series, pairs in (
+            (Series.PHONE, own_pairs(half)),
+            (Series.FOREIGN, foreign_pairs(half)),
+        ):
+            if pairs and choice.options.set in (None, series.value):
+                found = _scans(pairs, choice.jobs)
+                lines = [*scan_lines(found), *worst_scan_lines(found)]
+                _print(lines, f"{series.value} set, {half.value} half: {len(pairs)} people")
+
+
+def repeat(choice: Choice) -> None:
+    """How much measurements differ between pairs of one person."""
+    for half in choice.halves:
+        _print(repeat_lines(_scans(repeated_pairs(half), choice.jobs)), f"{half.value} half")
+
+
 def dressed(choice: Choice) -> None:
     """Loose clothes said to be tight and loose."""
     for half, cases in choice.cases_by_half.items():
@@ -155,6 +176,8 @@ MODES: Mapping[str, Mode] = {
     "moved_points": moved_points,
     "checks": checks,
     "nonsense": verdicts,
+    "repeat": repeat,
+    "scan": scan,
 }
 
 
@@ -171,6 +194,10 @@ def _names(choice: Choice, half: Half) -> list[str]:
     """The chosen pictures of a half, foreign ones too."""
     own = [case.name for case in choice.cases_by_half.get(half, ())]
     return own + [each for each in choice.foreign if foreign_half(each) is half]
+
+
+def _scans(pairs: Sequence[Pair], jobs: int) -> list[Scanned]:
+    return [each for found in of_each(scanned, pairs, jobs) for each in found]
 
 
 def _print(lines: Sequence[str], title: str | None = None) -> None:

@@ -1,0 +1,94 @@
+"""What scans are worth, as text: errors by views, the worst of them, and how well they repeat."""
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from tests.evaluation.scans import Scanned, Views
+from tests.evaluation.table import INTERVALS, MEASUREMENTS
+
+WORST = 8
+
+WIDTHS = 2.0 * INTERVALS[-1][1]
+"""Of a 95 % interval from end to end, in standard errors."""
+
+
+def scan_lines(found: Sequence[Scanned]) -> list[str]:
+    """Mean absolute errors, in brackets their mean, by views, without the weight and with it.
+
+    Beside each the median width of its 95 % interval; then the share of truths in these intervals,
+    of what was not given, the joints' mean distance and the overlap with the true body.
+    """
+    columns = "".join(f"{f'{name} {unit}':>15s}{'width':>6s}" for name, _, unit in MEASUREMENTS)
+    heading = f"{'views':24s}{'people':>7s}{columns}"
+    lines = [f"{heading}{'95 % hold':>11s}{'joints mm':>11s}{'overlap':>9s}"]
+    for name, these in _kinds(found):
+        line = f"{name:24s}{len(these):7d}"
+        held: list[bool] = []
+        for _, key, _ in MEASUREMENTS:
+            errors = np.array([each.errors[key] for each in these])
+            known = [each for each in these if key in each.standard_errors]
+            line += f"{f'{np.abs(errors).mean():.2f} ({errors.mean():+.2f})':>15s}"
+            width = WIDTHS * np.median([each.standard_errors[key] for each in known] or [np.nan])
+            line += f"{width:6.1f}" if known else f"{'-':>6s}"
+            held += [
+                abs(each.errors[key]) <= INTERVALS[-1][1] * each.standard_errors[key]
+                for each in known
+            ]
+        line += f"{100.0 * np.mean(held):10.0f}%"
+        line += f"{np.mean([each.joint_mm for each in these]):11.1f}"
+        lines.append(line + f"{np.mean([each.overlap for each in these]):9.3f}")
+    return lines
+
+
+def worst_scan_lines(found: Sequence[Scanned]) -> list[str]:
+    """The people whose girths, from front and side, are farthest from the truth on the mean."""
+    girths = [key for _, key, unit in MEASUREMENTS if unit == "cm"]
+
+    def distance(each: Scanned) -> float:
+        return float(np.mean([abs(each.errors[key]) for key in girths]))
+
+    unaided = [each for each in found if each.views is Views.BOTH and not each.weight_given]
+    columns = "".join(f"{f'{name} {unit}':>11s}" for name, _, unit in MEASUREMENTS)
+    lines = [f"{f'worst, {Views.BOTH}':32s}{columns}{'joints mm':>11s}{'overlap':>9s}"]
+    for each in sorted(unaided, key=distance, reverse=True)[:WORST]:
+        errors = "".join(f"{each.errors[key]:+11.1f}" for _, key, _ in MEASUREMENTS)
+        lines.append(f"{each.person:32s}{errors}{each.joint_mm:11.1f}{each.overlap:9.3f}")
+    return lines
+
+
+def repeat_lines(found: Sequence[Scanned]) -> list[str]:
+    """Of every measurement the standard deviation over a person's pairs (and the mean error).
+
+    ``stated`` is the mean standard error that the fits themselves give, from front and side.
+    """
+    lines: list[str] = []
+    for person in dict.fromkeys(each.person for each in found):
+        kinds = list(_kinds([each for each in found if each.person == person]))
+        pairs = len(kinds[0][1])
+        lines += ["", f"{person}, {pairs} pairs"]
+        lines.append(f"{'':28s}" + "".join(f"{name:>22s}" for name, _ in kinds) + f"{'stated':>8s}")
+        for name in kinds[0][1][0].errors:
+            line = f"{name:28s}"
+            for _, these in kinds:
+                errors = np.array([each.errors[name] for each in these])
+                line += f"{f'{errors.std(ddof=1):.2f} ({errors.mean():+.2f})':>22s}"
+            stated = [
+                each.standard_errors[name]
+                for each in found
+                if each.person == person
+                and each.views is Views.BOTH
+                and not each.weight_given
+                and name in each.standard_errors
+            ]
+            lines.append(line + (f"{np.mean(stated):8.2f}" if stated else f"{'-':>8s}"))
+    return lines
+
+
+def _kinds(found: Sequence[Scanned]) -> Iterator[tuple[str, list[Scanned]]]:
+    """Scans of one kind, with the kind's name: without the weight first, then with it."""
+    for given in (False, True):
+        for views in Views:
+            these = [each for each in found if each.views is views and each.weight_given is given]
+            if these:
+                yield f"{views}, weight" if given else views.value, these
