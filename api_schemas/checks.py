@@ -13,17 +13,9 @@ from api_schemas.points import NamedPoint, PointName, Points, PointsFormat
 from api_schemas.proposals import PictureSize
 from api_schemas.requests import Gender
 from api_schemas.results import Assumption, FitWarning
+from api_schemas.views import ViewKind
 
 Box = tuple[float, float, float, float]
-
-
-class View(StrEnum):
-    """From where a person is to be seen; ``other`` is any view, which nothing contradicts."""
-
-    FRONT = "front"
-    SIDE = "side"
-    BACK = "back"
-    OTHER = "other"
 
 
 class SeenFrom(StrEnum):
@@ -52,7 +44,7 @@ _POINTS_DESCRIPTION: Final = (
 class CheckRequest(Lens):
     """What is said of the picture; nothing needs to be."""
 
-    view: View | None = Field(
+    view: ViewKind | None = Field(
         default=None, description="From where the person is to be seen; not checked if left out."
     )
     person: Place | None = Field(

@@ -106,6 +106,9 @@ class EventData(WireModel):
 
     state: JobState
     stage: str | None
+    view: int | None = Field(
+        default=None, description="Of a scan, the picture that is searched by itself, from 0 on."
+    )
     progress: float = Field(ge=0.0, le=1.0)
     energies: dict[str, float] = Field(default_factory=dict[str, float])
     at: datetime

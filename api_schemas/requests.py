@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from enum import StrEnum
-from typing import Any, Final
+from typing import Annotated, Any, Final
 
 from pydantic import Field
 
@@ -115,12 +115,21 @@ _POINTS_EXAMPLE: Final = {
 }
 
 
-class Subject(KnownMeasurements, Lens):
-    """Who is in the picture, and through which lens it was taken."""
+class Person(KnownMeasurements):
+    """Who is in the pictures."""
 
     gender: Gender
+
+
+class PictureFacts(Lens):
+    """Through which lens a picture was taken, and what its points are."""
+
     format: PointsFormat = PointsFormat.NAMED
     limb_facing: dict[Limb, Facing] = Field(default_factory=dict[Limb, Facing])
+
+
+class Subject(PictureFacts, Person):
+    """Who is in the picture, and through which lens it was taken."""
 
 
 class SubjectOptions(Subject):
@@ -137,8 +146,8 @@ class SubjectOptions(Subject):
     )
 
 
-class FitChoices(Subject):
-    """The subject, and what to do."""
+class PictureChoices(WireModel):
+    """How a picture is read."""
 
     complete_points: bool = Field(
         default=False,
@@ -147,8 +156,6 @@ class FitChoices(Subject):
             "are, and one is enough to say who of several people is meant. Needs the detector."
         ),
     )
-    cues: Cues = Cues.SES
-    optimizer: OptimizerKind = OptimizerKind.GAUSS_NEWTON
     clothing: Clothing = Field(
         default=Clothing.TIGHT,
         description=(
@@ -172,45 +179,71 @@ class FitChoices(Subject):
         ),
     )
     light: LightGuess = LightGuess()
-    force: bool = Field(
-        default=False,
+
+
+Force = Annotated[
+    bool,
+    Field(
         description=(
             "Give measurements even if the verdict is `implausible` or `no_person`; otherwise they "
             "are withheld."
         ),
-    )
+    ),
+]
+
+
+class FitChoices(PictureChoices, Subject):
+    """The subject, and what to do."""
+
+    cues: Cues = Cues.SES
+    optimizer: OptimizerKind = OptimizerKind.GAUSS_NEWTON
+    force: Force = False
 
 
 class FitOptions(FitChoices, SubjectOptions):
     """One fit, as it was understood: points are named, and none where all are to be proposed."""
 
 
-class FitRequest(FitChoices):
-    """The JSON part ``request`` of a submission: the fit, and whom to tell of its end."""
-
-    points: PointsOrAuto = Field(
+AskedPoints = Annotated[
+    PointsOrAuto,
+    Field(
         description=(
             _POINTS_DESCRIPTION.format(unless=", unless `complete_points` is set")
             + " `auto`: all are proposed, of the largest person in the picture. Needs the detector."
         ),
         examples=[_POINTS_EXAMPLE, AUTO],
-    )
-    webhook: WebhookTarget | None = None
+    ),
+]
+
+
+class AskedPicture(PictureChoices, PictureFacts):
+    """What is asked of a picture, points included."""
+
+    points: AskedPoints
 
     @property
     def are_points_completed(self) -> bool:
         """Whether points that are not given are to be proposed."""
         return self.complete_points or self.points == AUTO
 
-    def options(self, points: Mapping[PointName, Point]) -> FitOptions:
-        """The fit alone, without what concerns only the submission, of these named points."""
-        values: dict[str, Any] = {name: getattr(self, name) for name in FitChoices.model_fields}
-        values |= {
+    def named(self, points: Mapping[PointName, Point]) -> dict[str, Any]:
+        """The values that its points have once they are understood to be these."""
+        return {
             "points": dict(points),
             "format": PointsFormat.NAMED,
             "complete_points": self.are_points_completed,
         }
-        return FitOptions.model_construct(**values)
+
+
+class FitRequest(AskedPicture, FitChoices):
+    """The JSON part ``request`` of a submission: the fit, and whom to tell of its end."""
+
+    webhook: WebhookTarget | None = None
+
+    def options(self, points: Mapping[PointName, Point]) -> FitOptions:
+        """The fit alone, without what concerns only the submission, of these named points."""
+        values: dict[str, Any] = {name: getattr(self, name) for name in FitChoices.model_fields}
+        return FitOptions.model_construct(**values | self.named(points))
 
 
 class FitOfImage(FitRequest):

@@ -214,6 +214,20 @@ class Artifact(WireModel):
     sha256: str
 
 
+class PictureResult(WireModel):
+    """The person in one of several pictures, with the shape that all have in common.
+
+    Its fields are as in the result of a fit.
+    """
+
+    outcome: Outcome
+    image_camera: FittedCameraResult
+    body: BodyResult
+    light: LightResult | None
+    reflectance: ReflectanceResult | None
+    silhouette_overlap: float = Field(description="Intersection over union of body and silhouette.")
+
+
 class FitResult(WireModel):
     """The whole result of a fit.
 

@@ -5,17 +5,9 @@ from uuid import UUID
 
 from pydantic import AfterValidator, Field
 
-from api_schemas.base import WireModel, refusal
+from api_schemas.base import refusal
 from api_schemas.derivation_kinds.base import DerivationOptions, DerivedFiles
-from api_schemas.results import (
-    BodyResult,
-    FittedCameraResult,
-    FitWarning,
-    LightResult,
-    Measurement,
-    Outcome,
-    ReflectanceResult,
-)
+from api_schemas.results import FitWarning, Measurement, PictureResult
 
 MOST_OTHER_FITS: Final = 11
 """Twelve pictures of one person in all."""
@@ -47,7 +39,7 @@ class CombinedOptions(DerivationOptions):
     )
 
 
-class CombinedPicture(WireModel):
+class CombinedPicture(PictureResult):
     """The person in one of the pictures, with the shape that all have in common.
 
     ``outcome``, ``light`` and the others are as in the result of a fit. The picture's files are
@@ -56,12 +48,6 @@ class CombinedPicture(WireModel):
 
     number: int = Field(ge=1, description="1 is this fit, the others follow as they were named.")
     fit_id: UUID
-    outcome: Outcome
-    image_camera: FittedCameraResult
-    body: BodyResult
-    light: LightResult | None
-    reflectance: ReflectanceResult | None
-    silhouette_overlap: float = Field(description="Intersection over union of body and silhouette.")
 
 
 class CombinedResult(DerivedFiles):

@@ -32,7 +32,7 @@ _BONES = (
 )  # fmt: skip
 
 
-class View(StrEnum):
+class ViewKind(StrEnum):
     """From where a person is to be seen; ``OTHER`` is any view, which nothing contradicts."""
 
     FRONT = "front"
@@ -77,7 +77,7 @@ class Capture:
     body: DetectedBody | None
     points: Mapping[str, Click]
     is_chosen: bool
-    view: View | None
+    view: ViewKind | None
     focal_length_px: float | None
     height_m: float
 

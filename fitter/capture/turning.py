@@ -10,7 +10,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from fitter.capture.capture import Capture, View
+from fitter.capture.capture import Capture, ViewKind
 from fitter.capture.finding import Code, Finding, Remark, Severity, Unchecked
 
 FRONTAL_BREADTHS = {"shoulder": 0.71, "hip": 0.40}
@@ -22,8 +22,12 @@ LEAST_FRONTAL = 0.65
 MOST_LATERAL = 0.4
 """Cosine up to which a person is seen from the side: within 24 degrees of profile."""
 
-_SAID = {View.FRONT: "from the front", View.SIDE: "from the side", View.BACK: "from behind"}
-_TURN_DEG = {View.FRONT: 0, View.SIDE: 90, View.BACK: 180}
+_SAID = {
+    ViewKind.FRONT: "from the front",
+    ViewKind.SIDE: "from the side",
+    ViewKind.BACK: "from behind",
+}
+_TURN_DEG = {ViewKind.FRONT: 0, ViewKind.SIDE: 90, ViewKind.BACK: 180}
 
 
 class Seen(StrEnum):
@@ -72,7 +76,7 @@ def is_broadside(capture: Capture) -> bool:
 
 def announced_view(capture: Capture) -> Remark | None:
     """Whether the person is seen from where they are said to be."""
-    if capture.view is None or capture.view is View.OTHER:
+    if capture.view is None or capture.view is ViewKind.OTHER:
         return None
     cosine = facing(capture)
     if cosine is None:

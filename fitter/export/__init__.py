@@ -1,6 +1,6 @@
 """Files for people and programs out of a fit's result."""
 
 from fitter.export.bundle import artifacts, overlay_png
-from fitter.export.tapes import tapes_json
+from fitter.export.tapes import tapes_json, tapes_of
 
-__all__ = ["artifacts", "overlay_png", "tapes_json"]
+__all__ = ["artifacts", "overlay_png", "tapes_json", "tapes_of"]

@@ -2,6 +2,7 @@
 
 import json
 
+from fitter.arrays import Shape, Vertices
 from fitter.measurement.anthropometry import MeasuringBody, tape_lines
 from fitter.result import FitResult
 
@@ -10,19 +11,26 @@ DECIMALS = 4
 
 
 def tapes_json(result: FitResult, measuring: MeasuringBody) -> bytes:
+    """The lines of a fit's body; see :func:`tapes_of`."""
+    return tapes_of(result.canonical_vertices, result.person.body.shape, measuring)
+
+
+def tapes_of(canonical_vertices: Vertices, shape: Shape, measuring: MeasuringBody) -> bytes:
     """Lines by the measurements' names, in the frame of ``body_canonical.glb`` (feet on y = 0).
 
     Parameters
     ----------
-    result
-        Of the fit.
+    canonical_vertices
+        (m, 3) body frame, metres.
+    shape
+        (n,) coefficients of that body.
     measuring
         The body it was measured with.
     """
-    lowest = float(result.canonical_vertices[:, 1].min())
+    lowest = float(canonical_vertices[:, 1].min())
     lines = {
         name: (line - [0.0, lowest, 0.0]).round(DECIMALS).tolist()
-        for name, line in tape_lines(measuring, result.person.body.shape).items()
+        for name, line in tape_lines(measuring, shape).items()
     }
     document = {"frame": "metres, +y up", "lines": lines}
     return json.dumps(document, separators=(",", ":")).encode()

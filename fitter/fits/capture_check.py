@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from fitter.capture.capture import Capture, View
+from fitter.capture.capture import Capture, ViewKind
 from fitter.capture.checking import Checked, check_capture
 from fitter.detection.detector import DetectedBody, Detector, body_of_clicks
 from fitter.fits.proposal import chosen_person
@@ -40,7 +40,7 @@ class CaptureQuestion:
         By name, pixels of the upright original; they need not be many.
     """
 
-    view: View | None = None
+    view: ViewKind | None = None
     person: int | None = None
     points: Mapping[str, Click] = field(default_factory=dict[str, Click])
     gender: Gender | None = None

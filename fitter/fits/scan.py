@@ -9,7 +9,7 @@ from jaxtyping import Float
 
 from fitter.applications.several_pictures import CombinedShape, combined_shape
 from fitter.arrays import Shape, Vertices
-from fitter.capture.capture import View
+from fitter.capture.capture import ViewKind
 from fitter.capture.finding import Finding
 from fitter.detection.detector import installed_detector
 from fitter.errors import DetectorUnavailableError, InvalidInputError
@@ -41,7 +41,7 @@ ALONE_SHARE = 0.45
 class ScanView:
     """One picture of a scan; its request says the same of the person as all others."""
 
-    kind: View
+    kind: ViewKind
     request: FitRequest
 
 
@@ -66,7 +66,7 @@ class ScannedView:
     working picture.
     """
 
-    kind: View
+    kind: ViewKind
     findings: tuple[Finding, ...]
     found: PictureFit
     camera: Camera
@@ -219,7 +219,7 @@ def _findings(view: ScanView, weights: Path | None) -> tuple[Finding, ...]:
 
 def _posed(view: ScanView) -> FitRequest:
     """Who is measured stands as asked; in other pictures people do as they like."""
-    if view.kind is View.OTHER:
+    if view.kind is ViewKind.OTHER:
         return view.request
     return replace(view.request, posture=Posture.MEASURED)
 

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from fitter.applications.several_pictures import CombinedShape
-from fitter.capture.capture import View
+from fitter.capture.capture import ViewKind
 from fitter.fits.joint_search import Foretold
 from fitter.numerics.rotations import rotation_matrices
 from fitter.parameters import BodyParameters
@@ -22,15 +22,15 @@ MOST_TURNED_DEG = 50.0
 MOST_DEVIATIONS = 3.0
 """Standard errors by which what was given may differ from what pictures say of it."""
 
-_ANNOUNCED_DEG = {View.FRONT: 0.0, View.SIDE: 90.0, View.BACK: 180.0}
-_SAID = {View.FRONT: "the front", View.SIDE: "the side", View.BACK: "behind"}
+_ANNOUNCED_DEG = {ViewKind.FRONT: 0.0, ViewKind.SIDE: 90.0, ViewKind.BACK: 180.0}
+_SAID = {ViewKind.FRONT: "the front", ViewKind.SIDE: "the side", ViewKind.BACK: "behind"}
 
 
 def scan_warnings(
     alone: CombinedShape,
     foretold: Sequence[Foretold],
     units: Mapping[str, str],
-    views: Sequence[View],
+    views: Sequence[ViewKind],
     bodies: Sequence[BodyParameters],
 ) -> tuple[FitWarning, ...]:
     """What the caller should look at, in the scan as a whole; ``units`` are by measurement."""
@@ -51,8 +51,8 @@ def turned_deg(body: BodyParameters) -> float:
     return float(np.degrees(np.arctan2(np.hypot(forward[0], forward[1]), forward[2])))
 
 
-def _other_view(number: int, view: View, body: BodyParameters) -> FitWarning | None:
-    if view is View.OTHER:
+def _other_view(number: int, view: ViewKind, body: BodyParameters) -> FitWarning | None:
+    if view is ViewKind.OTHER:
         return None
     found = turned_deg(body)
     if abs(found - _ANNOUNCED_DEG[view]) <= MOST_TURNED_DEG:

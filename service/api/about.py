@@ -8,7 +8,8 @@ SUMMARY: Final = "Human body shape, pose, light and measurements from a single p
 DESCRIPTION: Final = """\
 A picture and a few clicked points are posted to `/v1/fits`; the answer is a job, which is \
 followed by its events or looked at now and then. Once it has succeeded, its result and its files \
-are below it, and more can be made of it (derivations). Points, initial poses and bodies are \
+are below it, and more can be made of it (derivations). Two to six pictures of one person go to \
+`/v1/scans`. Points, initial poses and bodies are \
 answered at once.
 
 Every error is `application/problem+json` and says which field, why, and what to do about it."""
@@ -17,8 +18,9 @@ LICENCE: Final[Mapping[str, str]] = {"name": "Apache License 2.0", "identifier":
 
 TAGS: Final[Sequence[Mapping[str, str]]] = (
     {"name": "fits", "description": "Jobs that fit a body to a picture."},
+    {"name": "scans", "description": "Jobs that measure a person from several pictures."},
     {"name": "results", "description": "What a fit that has succeeded found, and its files."},
-    {"name": "derivations", "description": "Jobs that make something of a fit."},
+    {"name": "derivations", "description": "Jobs that make something of a fit or a scan."},
     {"name": "images", "description": "Pictures that are uploaded once, for any number of fits."},
     {"name": "estimates", "description": "Points, initial poses and bodies, answered at once."},
     {"name": "body models", "description": "The bodies that are fitted."},

@@ -160,6 +160,7 @@ def _store(
         kind=inputs.kind,
         options=stored.options,
         inputs=stored.files,
+        pictures=inputs.pictures,
         sources=inputs.sources,
         idempotency=key,
         request_id=context.request_id,

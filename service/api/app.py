@@ -30,6 +30,8 @@ from service.api import (
     problem_types,
     results,
     retries,
+    scan_submissions,
+    scans,
     submissions,
 )
 from service.api.authentication import Authentication, KeySource, KnownKeys
@@ -197,6 +199,8 @@ def _resources(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]] 
         results,
         retries,
         fit_inputs,
+        scan_submissions,
+        scans,
         derivations,
         images,
         points,

@@ -12,7 +12,7 @@ from service.api.event_feed import EventFeed
 from service.api.service_metrics import ServiceMetrics
 from service.blobs import BlobStore
 from service.engine.image_port import TenantImages
-from service.engine.port import JobEngine, TenantJobs
+from service.engine.port import FIT, SCAN, JobEngine, TenantJobs
 from service.process.disk import Disk
 from service.settings import Settings
 
@@ -40,7 +40,7 @@ class Parts:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ApiContext:
-    """The parts for one request: ``jobs`` and ``images`` are those of its tenant."""
+    """The parts for one request: ``jobs``, its tenant's fits, ``scans`` and ``images``."""
 
     settings: Settings
     engine: JobEngine
@@ -53,6 +53,7 @@ class ApiContext:
     copying: CapacityLimiter
     tenant: str
     jobs: TenantJobs
+    scans: TenantJobs
     images: TenantImages
     request_id: str | None
 
@@ -71,7 +72,8 @@ def _context(request: Request) -> ApiContext:
         draining=parts.draining,
         copying=parts.copying,
         tenant=tenant,
-        jobs=parts.engine.of(tenant),
+        jobs=parts.engine.of(tenant, FIT),
+        scans=parts.engine.of(tenant, SCAN),
         images=parts.engine.images_of(tenant),
         request_id=getattr(request.state, "request_id", None),
     )

@@ -1,4 +1,4 @@
-"""What the job of a derivation gets from its fit, and from others it names."""
+"""What the job of a derivation gets from its fit or scan, and from others it names."""
 
 from collections.abc import Collection, Mapping
 from uuid import UUID
@@ -7,31 +7,39 @@ from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.jobs import JobState
 from api_schemas.problems import FieldProblem
 from service.api.context import ApiContext
-from service.api.derivation_kinds import needs_of
+from service.api.derivation_kinds import KINDS, needs_of
 from service.api.job_inputs import Copy, File, Inputs
-from service.api.job_routes import find
 from service.api.problems import ProblemError
 from service.api.results import no_result
-from service.engine.port import JobExpiredError, JobRecord, StoredBlob
-from service.jobs.inputs import IMAGE, PERSON, REQUEST, of_other
+from service.engine.port import SCAN, JobExpiredError, JobRecord, StoredBlob
+from service.jobs.inputs import (
+    IMAGE,
+    OF_FIRST_VIEW,
+    PERSON,
+    REQUEST,
+    of_other,
+)
 from service.submissions.refusal import RefusedError, refused
 
 
 def derivation_inputs(
-    context: ApiContext, fit_id: UUID, options: AnyDerivationOptions, sent: Mapping[str, File]
+    context: ApiContext, parent: JobRecord, options: AnyDerivationOptions, sent: Mapping[str, File]
 ) -> Inputs:
-    """What a derivation needs from its fit and from others it names, besides what was sent.
+    """What a derivation needs from its fit or scan and from others it names, besides what was sent.
 
     Raises
     ------
     ProblemError, RefusedError
-        If the fit has no result, or another fit is not the caller's or has not succeeded.
+        If that has no result, the kind is not made of scans, or another fit is not the caller's or
+        has not succeeded.
     """
-    fit = find(context.jobs, fit_id)
-    if fit.state is not JobState.SUCCEEDED:
-        raise ProblemError(no_result(fit))
+    if parent.state is not JobState.SUCCEEDED:
+        raise ProblemError(no_result(parent))
+    if parent.root == SCAN:
+        _require_of_scan(options)
     needs = needs_of(options)
-    copies = _copies_of(fit, needs.of_fit)
+    copies = _copies_of(parent, needs.of_fit)
+    fit_id = UUID(parent.id)
     if needs.other_fits:
         _require(_always_kept(needs.of_others), copies, fit_id, field="kind")
     for index, (field, other) in enumerate(needs.other_fits.items()):
@@ -46,14 +54,30 @@ def derivation_inputs(
     )
 
 
-def _copies_of(fit: JobRecord, needed: Collection[str]) -> dict[str, Copy]:
-    """Copies of those inputs and files that a fit has."""
-    kept = dict(fit.inputs) | {REQUEST: fit.options}
+def _require_of_scan(options: AnyDerivationOptions) -> None:
+    if KINDS[options.kind].of_scans:
+        return
+    there_are = ", ".join(kind for kind, each in KINDS.items() if each.of_scans)
+    raise refused(
+        FieldProblem(
+            field="kind",
+            code="not-of-scans",
+            reason=f"Nothing of kind {options.kind} is made of a scan.",
+            remedy=f"Of a scan there are: {there_are}.",
+        )
+    )
+
+
+def _copies_of(parent: JobRecord, needed: Collection[str]) -> dict[str, Copy]:
+    """Copies of those inputs and files that a fit has; of a scan its first picture's."""
+    kept = dict(parent.inputs) | {REQUEST: parent.options}
     kept |= {
         artifact.name: StoredBlob(digest=artifact.sha256, media_type=artifact.media_type)
-        for artifact in fit.artifacts
+        for artifact in parent.artifacts
     }
-    return {name: Copy(scope=fit.id, blob=kept[name]) for name in needed if name in kept}
+    if parent.root == SCAN:
+        kept |= {name: kept[first] for name, first in OF_FIRST_VIEW.items() if first in kept}
+    return {name: Copy(scope=parent.id, blob=kept[name]) for name in needed if name in kept}
 
 
 def _of_another(

@@ -16,7 +16,8 @@ from service.jobs.inputs import IMAGE, MASK
 ROUTER: Final = APIRouter(prefix="/v1/fits", tags=["fits"])
 
 _BINARY: Final = {"schema": {"type": "string", "format": "binary"}}
-_AS_SENT: Final = {
+UNDERSTOOD: Final = "As it was understood, defaults included."
+AS_SENT: Final = {
     200: {
         "description": "The file as it was sent.",
         "content": {"image/jpeg": _BINARY, "image/png": _BINARY, "image/webp": _BINARY},
@@ -28,7 +29,7 @@ _AS_SENT: Final = {
     "/{fit_id}/image",
     summary="The picture of a job",
     response_class=Response,
-    responses=_AS_SENT | NOT_MODIFIED | documented(*JOB_PROBLEMS),
+    responses=AS_SENT | NOT_MODIFIED | documented(*JOB_PROBLEMS),
 )
 def fit_image(fit_id: UUID, context: Context, if_none_match: IfNoneMatch = None) -> Response:
     """Return the picture as it was sent; it is erased with the job."""
@@ -40,7 +41,7 @@ def fit_image(fit_id: UUID, context: Context, if_none_match: IfNoneMatch = None)
     "/{fit_id}/mask",
     summary="The mask of a job",
     response_class=Response,
-    responses=_AS_SENT | NOT_MODIFIED | documented(*JOB_PROBLEMS),
+    responses=AS_SENT | NOT_MODIFIED | documented(*JOB_PROBLEMS),
 )
 def fit_mask(fit_id: UUID, context: Context, if_none_match: IfNoneMatch = None) -> Response:
     """Return the mask as it was sent; `not-found` if none was."""
@@ -56,7 +57,7 @@ def fit_mask(fit_id: UUID, context: Context, if_none_match: IfNoneMatch = None) 
     response_class=Response,
     responses={
         200: {
-            "description": "As it was understood, defaults included.",
+            "description": UNDERSTOOD,
             "content": {JSON: {"schema": {"$ref": "#/components/schemas/FitOptions"}}},
         },
     }

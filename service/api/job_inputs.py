@@ -37,12 +37,14 @@ class Copy:
 class Inputs:
     """The inputs of a job; ``options`` is the request as JSON.
 
+    ``pictures`` is how many pictures of a person are sent for it, where it waits as so many jobs.
     ``sources`` are the fits, besides its own, that it has copies of.
     """
 
     kind: str = FIT
     options: bytes
     files: Mapping[str, File | Copy]
+    pictures: int = 1
     sources: tuple[str, ...] = ()
     webhook: WebhookTarget | None
 

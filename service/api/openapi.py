@@ -26,9 +26,26 @@ from api_schemas.points import (
 from api_schemas.problems import PROBLEM_MEDIA_TYPE, Problem
 from api_schemas.proposals import PointsOfImage, PointsProposal, PointsRequest
 from api_schemas.requests import FitOfImage, FitOptions, FitRequest
+from api_schemas.scans import (
+    LEAST_VIEWS,
+    MOST_VIEWS,
+    ScanDerivationEvent,
+    ScanEvent,
+    ScanOfImages,
+    ScanOptions,
+    ScanRequest,
+)
 from api_schemas.webhooks import WebhookEvent
 from service.api.json_bodies import JSON, json_content
-from service.api.operation_examples import ANSWERS, DERIVATION_NOTICE, NOTICE, REQUESTS, Examples
+from service.api.operation_examples import (
+    ANSWERS,
+    DERIVATION_NOTICE,
+    NOTICE,
+    REQUESTS,
+    SCAN_DERIVATION_NOTICE,
+    SCAN_NOTICE,
+    Examples,
+)
 from service.api.problems import documented
 from service.representation.links import LINKS
 
@@ -105,6 +122,15 @@ _WEBHOOKS: dict[str, Any] = {
         summary="A derivation has ended",
         example=DERIVATION_NOTICE,
     ),
+    "scan-ended": _notice(
+        ScanEvent, name="scan_ended", summary="A scan has ended", example=SCAN_NOTICE
+    ),
+    "scan-derivation-ended": _notice(
+        ScanDerivationEvent,
+        name="scan_derivation_ended",
+        summary="A derivation of a scan has ended",
+        example=SCAN_DERIVATION_NOTICE,
+    ),
 }
 
 
@@ -121,6 +147,7 @@ _LIMITS: dict[str, Any] = {
     "height_m": {"least": MIN_HEIGHT_M, "most": MAX_HEIGHT_M},
     "texture_sizes": TEXTURE_SIZES,
     "most_other_fits": MOST_OTHER_FITS,
+    "views": {"least": LEAST_VIEWS, "most": MOST_VIEWS},
 }
 
 
@@ -193,6 +220,9 @@ def _models(mode: str) -> tuple[type[BaseModel], ...]:
             CheckRequest,
             CheckOfImage,
             DerivationRequest,
+            ScanOptions,
+            ScanRequest,
+            ScanOfImages,
         )
     return (
         Problem,
@@ -205,6 +235,8 @@ def _models(mode: str) -> tuple[type[BaseModel], ...]:
         WebhookEvent,
         DerivationEvent,
         DerivationResult,
+        ScanEvent,
+        ScanDerivationEvent,
     )
 
 

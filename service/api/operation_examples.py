@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import Any, Final
 
 from service.api.derivation_kinds import KINDS
-from service.api.examples import derivations, estimates, jobs, results, whole_service
+from service.api.examples import derivations, estimates, jobs, results, scans, whole_service
 
 Examples = Mapping[str, Any]
 """Values by their names."""
@@ -16,6 +16,13 @@ Examples = Mapping[str, Any]
 _DERIVATIONS: Final[Examples] = {
     name: request for kind in KINDS.values() for name, request in kind.requests.items()
 } | {"told-of-its-end": derivations.TOLD_OF_ITS_END}
+
+_OF_SCANS: Final[Examples] = {
+    name: request
+    for kind in KINDS.values()
+    if kind.of_scans
+    for name, request in kind.requests.items()
+}
 
 _SHOWN: Final = ("report", "caricature", "pose", "combined", "figure", "texture", "animation")
 """The order of the first results in the document; those of other kinds follow."""
@@ -27,6 +34,8 @@ UPLOADED: Final = {"photograph": estimates.UPLOADED_IMAGE}
 REQUESTS: Final[Mapping[str, Examples]] = {
     "submit": jobs.SUBMISSIONS,
     "derive": _DERIVATIONS,
+    "submit_scan": scans.SUBMISSIONS,
+    "derive_of_scan": _OF_SCANS,
     "initial_pose": estimates.INITIAL_POSE_REQUESTS,
     "estimate_body": estimates.BODY_REQUESTS,
     "propose_points": estimates.POINTS_REQUESTS,
@@ -55,6 +64,27 @@ ANSWERS: Final[Mapping[str, Mapping[int, Examples]]] = {
     "derivation_request": {200: derivations.UNDERSTOOD},
     "derivation_result": {200: _DERIVED},
     "derivation_artifact": {200: {"result.json": _DERIVED["report"]}},
+    "submit_scan": {200: scans.ENDED, 202: scans.ACCEPTED, 422: scans.REFUSED},
+    "retry_scan": {200: scans.ENDED, 202: scans.ACCEPTED},
+    "list_scans": {200: {"first-page": scans.PAGE}},
+    "get_scan": {200: scans.ACCEPTED | scans.UNDER_WAY | scans.ENDED},
+    "cancel_scan": {200: {"canceled": scans.CANCELED}, 202: {"stopping": scans.STOPPING}},
+    "follow_scan": {200: {"short-scan": scans.EVENTS}},
+    "scan_request": {200: {"as-understood": scans.OPTIONS}},
+    "scan_result": {200: {"front-and-side": scans.RESULT}},
+    "scan_artifact": {200: {"result.json": scans.RESULT}},
+    "derive_of_scan": {200: scans.DERIVATION_ENDED, 202: scans.DERIVATION_ACCEPTED},
+    "retry_derivation_of_scan": {200: scans.DERIVATION_ENDED, 202: scans.DERIVATION_ACCEPTED},
+    "list_derivations_of_scan": {200: {"only-page": scans.DERIVATION_PAGE}},
+    "get_derivation_of_scan": {200: scans.DERIVATION_ACCEPTED | scans.DERIVATION_ENDED},
+    "cancel_derivation_of_scan": {
+        200: {"canceled": scans.DERIVATION_CANCELED},
+        202: {"stopping": scans.DERIVATION_STOPPING},
+    },
+    "follow_derivation_of_scan": {200: {"caricature": jobs.EVENTS}},
+    "derivation_request_of_scan": {200: _OF_SCANS},
+    "derivation_result_of_scan": {200: {"caricature": _DERIVED["caricature"]}},
+    "derivation_artifact_of_scan": {200: {"result.json": _DERIVED["caricature"]}},
     "upload_image": {200: UPLOADED, 201: UPLOADED},
     "get_image": {200: UPLOADED},
     "initial_pose": {200: {"standing": estimates.INITIAL_POSE_ANSWER}},
@@ -70,3 +100,5 @@ ANSWERS: Final[Mapping[str, Mapping[int, Examples]]] = {
 
 NOTICE: Final = jobs.NOTICE
 DERIVATION_NOTICE: Final = derivations.NOTICE
+SCAN_NOTICE: Final = scans.NOTICE
+SCAN_DERIVATION_NOTICE: Final = scans.DERIVATION_NOTICE

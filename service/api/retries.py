@@ -6,7 +6,7 @@ from uuid import UUID
 from fastapi import APIRouter, Response
 from starlette.concurrency import run_in_threadpool
 
-from api_schemas.derivations import Derivation, DerivationRequest
+from api_schemas.derivations import DerivationRequest
 from api_schemas.jobs import Job
 from api_schemas.problems import problem
 from service.api.acceptance import (
@@ -24,23 +24,22 @@ from service.api.job_inputs import Copy, Inputs
 from service.api.job_routes import find
 from service.api.problems import ProblemError, documented, not_found
 from service.blobs import BlobMissingError
-from service.engine.port import FIT, TenantJobs
+from service.engine.port import JobRecord, TenantJobs
 from service.jobs.states import ACTIVE
-from service.representation.jobs import represent, represent_derivation
+from service.representation.jobs import represent
 from service.webhooks.targets import read_target
 
-ROUTER: Final = APIRouter(prefix="/v1/fits")
+ROUTER: Final = APIRouter(prefix="/v1/fits", tags=["fits"])
 
-_PROBLEMS: Final = ("not-found", "fit-expired", "not-ended", *ACCEPTANCE_PROBLEMS)
+RETRY_PROBLEMS: Final = ("not-found", "fit-expired", "not-ended", *ACCEPTANCE_PROBLEMS)
 
 
 @ROUTER.post(
     "/{fit_id}/retry",
-    tags=["fits"],
     status_code=202,
     response_model=Job,
     summary="Fit the same picture again",
-    responses=accepted(Job) | documented(*_PROBLEMS),
+    responses=accepted(Job) | documented(*RETRY_PROBLEMS),
 )
 async def retry(
     fit_id: UUID,
@@ -53,38 +52,33 @@ async def retry(
 
     It has a copy of its own of both, and its notice goes where the first one's went.
     """
-    jobs = context.jobs
-    inputs = await run_in_threadpool(_inputs, context, jobs, fit_id)
-    key = idempotency(idempotency_key, b"retry", str(fit_id).encode())
-    job = await accept(context, jobs, inputs, key=key)
-    return represent(await answer(context, jobs, response, job, prefer=prefer))
+    return represent(
+        await accept_again(
+            context, context.jobs, fit_id, response, key=idempotency_key, prefer=prefer
+        )
+    )
 
 
-@ROUTER.post(
-    "/{fit_id}/derivations/{derivation_id}/retry",
-    tags=["derivations"],
-    status_code=202,
-    response_model=Derivation,
-    summary="Derive the same again",
-    responses=accepted(Derivation) | documented(*_PROBLEMS),
-)
-async def retry_derivation(
-    fit_id: UUID,
-    derivation_id: UUID,
+async def accept_again(
+    context: ApiContext,
+    jobs: TenantJobs,
+    job_id: UUID,
     response: Response,
-    context: Context,
-    idempotency_key: IdempotencyKey = None,
-    prefer: Prefer = None,
-) -> Derivation:
-    """Accept a new job on all that one that has ended was made of.
+    *,
+    key: str | None,
+    prefer: str | None,
+) -> JobRecord:
+    """Accept a new job with copies of all that one that has ended was made of.
 
-    It has a copy of its own of that, and its notice goes where the first one's went.
+    Raises
+    ------
+    ProblemError
+        If it has not ended, or is gone.
     """
-    jobs = context.jobs.derivations(str(fit_id))
-    inputs = await run_in_threadpool(_inputs, context, jobs, derivation_id)
-    key = idempotency(idempotency_key, b"retry", str(derivation_id).encode())
-    job = await accept(context, jobs, inputs, key=key)
-    return represent_derivation(await answer(context, jobs, response, job, prefer=prefer))
+    inputs = await run_in_threadpool(_inputs, context, jobs, job_id)
+    hashed = idempotency(key, b"retry", str(job_id).encode())
+    job = await accept(context, jobs, inputs, key=hashed)
+    return await answer(context, jobs, response, job, prefer=prefer)
 
 
 def _inputs(context: ApiContext, jobs: TenantJobs, job_id: UUID) -> Inputs:
@@ -107,13 +101,12 @@ def _inputs(context: ApiContext, jobs: TenantJobs, job_id: UUID) -> Inputs:
         kind=record.kind,
         options=options,
         files={name: Copy(scope=record.id, blob=blob) for name, blob in record.inputs.items()},
-        sources=_sources(record.kind, options),
+        pictures=record.pictures,
+        sources=() if record.parent is None else _sources(options),
         webhook=webhook,
     )
 
 
-def _sources(kind: str, options: bytes) -> tuple[str, ...]:
-    if kind == FIT:
-        return ()
+def _sources(options: bytes) -> tuple[str, ...]:
     asked = DerivationRequest.model_validate_json(options).root
     return tuple(map(str, needs_of(asked).other_fits.values()))

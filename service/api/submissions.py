@@ -8,7 +8,7 @@ from starlette.concurrency import run_in_threadpool
 
 from api_schemas.bodies import BodyRequest
 from api_schemas.jobs import Job
-from api_schemas.requests import FitOfImage, FitOptions
+from api_schemas.requests import FitOfImage, Person
 from service.api.acceptance import (
     ACCEPTANCE_PROBLEMS,
     IdempotencyKey,
@@ -108,12 +108,13 @@ async def submit(
     else:
         upload = await read_upload(request)
         checked = await run_in_threadpool(_check, context, upload)
-    files = {IMAGE: File(content=upload.image, media_type=checked.image_media_type)}
-    if upload.mask is not None and checked.mask_media_type is not None:
-        files[MASK] = File(content=upload.mask, media_type=checked.mask_media_type)
+    contents = {IMAGE: upload.image} | ({} if upload.mask is None else {MASK: upload.mask})
     inputs = Inputs(
         options=checked.options.model_dump_json().encode(),
-        files=files,
+        files={
+            name: File(content=content, media_type=checked.media_types[name])
+            for name, content in contents.items()
+        },
         webhook=checked.webhook,
     )
     job = await accept(
@@ -121,7 +122,7 @@ async def submit(
         context.jobs,
         inputs,
         key=idempotency(idempotency_key, upload.request, upload.image, upload.mask or b""),
-        check=partial(_refuse_nobody, context, checked.options),
+        check=partial(refuse_nobody, context, checked.options),
     )
     return represent(await answer(context, context.jobs, response, job, prefer=prefer))
 
@@ -155,14 +156,14 @@ def _check_fit_of_image(context: ApiContext, text: bytes) -> tuple[CheckedSubmis
     return checked, upload
 
 
-async def _refuse_nobody(context: ApiContext, options: FitOptions) -> None:
+async def refuse_nobody(context: ApiContext, person: Person) -> None:
     """Refuse early what the job would be refused for: measurements that no body combines."""
-    if not options.measurements and options.weight_kg is None:
+    if not person.measurements and person.weight_kg is None:
         return
     known = BodyRequest(
-        gender=options.gender,
-        height_m=options.height_m,
-        weight_kg=options.weight_kg,
-        measurements=options.measurements,
+        gender=person.gender,
+        height_m=person.height_m,
+        weight_kg=person.weight_kg,
+        measurements=person.measurements,
     )
     await context.estimates.refuse_nobody(BodyTask(request=known, with_glb=False))

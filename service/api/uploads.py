@@ -1,6 +1,6 @@
 """Read the multipart body of a submission."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -17,6 +17,9 @@ from service.blobs.local import FULL
 
 NEEDED_PARTS: Final = ("image", "request")
 PARTS: Final = (*NEEDED_PARTS, "mask")
+MOST_PARTS: Final = 32
+"""Of a form whose request says what comes with it: more than any such request can ask for."""
+
 MULTIPART: Final = "multipart/form-data"
 MAX_REQUEST_PART_BYTES: Final = 1_000_000
 
@@ -101,6 +104,39 @@ async def read_request_and_files(
     return parts.pop("request"), parts
 
 
+async def read_request_and_some(
+    request: Request, known: Sequence[str]
+) -> tuple[bytes, dict[str, bytes]]:
+    """Read the part ``request`` and whatever comes with it; what should, the request says.
+
+    Raises
+    ------
+    ProblemError
+        If the body is not a multipart form, the request is missing, or a part is repeated. Parts
+        that are not ``known`` are for the caller to refuse.
+    """
+    form = await _form(request, ("request", *known), most=MOST_PARTS)
+    try:
+        _check_parts(form, needed=("request",), known=tuple(form))
+        parts = {name: await _content(part) for name, part in form.items()}
+    finally:
+        await form.close()
+    return parts.pop("request"), parts
+
+
+def check_names(parts: Mapping[str, bytes], *, needed: Sequence[str], known: Sequence[str]) -> None:
+    """Refuse parts that are missing or unknown.
+
+    Raises
+    ------
+    ProblemError
+        With every one of them.
+    """
+    errors = (*_missing(parts, needed), *_unknown(parts, known))
+    if errors:
+        raise ProblemError(field_problem("invalid-request", *errors))
+
+
 async def _parts(
     request: Request, *, needed: Sequence[str], known: Sequence[str]
 ) -> dict[str, bytes]:
@@ -112,10 +148,10 @@ async def _parts(
         await form.close()
 
 
-async def _form(request: Request, known: Sequence[str]) -> FormData:
+async def _form(request: Request, known: Sequence[str], *, most: int = len(PARTS)) -> FormData:
     try:
         form = await request.form(
-            max_files=len(PARTS), max_fields=len(PARTS), max_part_size=MAX_REQUEST_PART_BYTES
+            max_files=most, max_fields=most, max_part_size=MAX_REQUEST_PART_BYTES
         )
     except HTTPException as error:
         raise _malformed(error.detail, known) from error
@@ -157,26 +193,7 @@ def _malformed(reason: str, known: Sequence[str]) -> ProblemError:
 
 def _check_parts(form: FormData, *, needed: Sequence[str], known: Sequence[str]) -> None:
     names = [name for name, _ in form.multi_items()]
-    errors = [
-        FieldProblem(
-            field=name,
-            code="missing",
-            reason=f"The part '{name}' is missing.",
-            remedy=f"Send a multipart part named '{name}'.",
-        )
-        for name in needed
-        if name not in names
-    ]
-    errors += [
-        FieldProblem(
-            field=name,
-            code="unknown-field",
-            reason=f"There is no part called '{name}'.",
-            remedy=f"Parts there are: {', '.join(known)}.",
-        )
-        for name in dict.fromkeys(names)
-        if name not in known
-    ]
+    errors = [*_missing(names, needed), *_unknown(names, known)]
     errors += [
         FieldProblem(
             field=name,
@@ -189,6 +206,28 @@ def _check_parts(form: FormData, *, needed: Sequence[str], known: Sequence[str])
     ]
     if errors:
         raise ProblemError(field_problem("invalid-request", *errors))
+
+
+def _missing(names: Collection[str], needed: Sequence[str]) -> Iterator[FieldProblem]:
+    for name in needed:
+        if name not in names:
+            yield FieldProblem(
+                field=name,
+                code="missing",
+                reason=f"The part '{name}' is missing.",
+                remedy=f"Send a multipart part named '{name}'.",
+            )
+
+
+def _unknown(names: Iterable[str], known: Sequence[str]) -> Iterator[FieldProblem]:
+    for name in dict.fromkeys(names):
+        if name not in known:
+            yield FieldProblem(
+                field=name,
+                code="unknown-field",
+                reason=f"There is no part called '{name}'.",
+                remedy=f"Parts there are: {', '.join(known)}.",
+            )
 
 
 async def _content(part: UploadFile | str) -> bytes:

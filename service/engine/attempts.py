@@ -63,6 +63,7 @@ class RecordedAttempt:
                     .where(*_current(self._job))
                     .values(
                         stage=report.stage,
+                        view=report.view,
                         progress=sa.case(
                             (JOBS.c.progress > report.progress, JOBS.c.progress),
                             else_=report.progress,
@@ -142,6 +143,7 @@ class AttemptLog:
                     "attempt": JOBS.c.attempt + 1,
                     "claimed_by": self._executor_id,
                     "stage": None,
+                    "view": None,
                     "progress": 0.0,
                 },
             )
@@ -200,7 +202,7 @@ class AttemptLog:
                     job_id,
                     JOBS.c.claimed_by == self._executor_id,
                     state=JobState.QUEUED,
-                    values={"claimed_by": None, "stage": None, "progress": 0.0},
+                    values={"claimed_by": None, "stage": None, "view": None, "progress": 0.0},
                 )
 
 

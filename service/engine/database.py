@@ -26,7 +26,7 @@ from service.setting_addresses import without_secrets
 MIGRATION_LOCK: Final = 0x6D617175
 """Key of the Postgres advisory lock held while tables are created."""
 
-SCHEMA_VERSION: Final = "5"
+SCHEMA_VERSION: Final = "6"
 SCHEMA_FACT: Final = "schema_version"
 
 POSTGRES_CONNECTION: Final = {

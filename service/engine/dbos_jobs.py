@@ -18,7 +18,7 @@ from service.engine.facts import read_fact, touch_fact
 from service.engine.image_port import ImageQuota
 from service.engine.images import StoredImages
 from service.engine.liveness import WorkerWatch
-from service.engine.port import EngineStatistics, EngineUnavailableError, WorkerStatus
+from service.engine.port import FIT, EngineStatistics, EngineUnavailableError, WorkerStatus
 from service.engine.queue import APPLICATION
 from service.engine.statistics import read_durations, read_outcomes
 from service.engine.sweeper import Sweeper
@@ -84,8 +84,8 @@ class DbosJobEngine:
         self._client.destroy()
         self._database.dispose()
 
-    def of(self, tenant: str) -> DbosTenantJobs:
-        """Return the jobs of a tenant."""
+    def of(self, tenant: str, root: str = FIT) -> DbosTenantJobs:
+        """Return the fits of a tenant, or its scans."""
         return DbosTenantJobs(
             tenant,
             database=self._database,
@@ -94,6 +94,7 @@ class DbosJobEngine:
             max_queued_per_tenant=self._max_queued_per_tenant,
             retention_s=self._retention_s,
             ballast=self._ballast,
+            root=root,
         )
 
     def images_of(self, tenant: str) -> StoredImages:

@@ -128,7 +128,9 @@ def expire_jobs(connection: sa.Connection) -> int:
     rows = connection.execute(
         sa.delete(JOBS)
         .where(JOBS.c.id.in_(ids))
-        .returning(JOBS.c.id, JOBS.c.tenant, JOBS.c.parent_id, JOBS.c.expires_at, JOBS.c.state)
+        .returning(
+            *(JOBS.c[name] for name in ("id", "tenant", "root", "parent_id", "expires_at", "state"))
+        )
     ).all()
     connection.execute(
         sa.insert(TOMBSTONES),
@@ -136,6 +138,7 @@ def expire_jobs(connection: sa.Connection) -> int:
             {
                 "id": row.id,
                 "tenant": row.tenant,
+                "root": row.root,
                 "parent_id": row.parent_id,
                 "expired_at": row.expires_at,
             }

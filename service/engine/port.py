@@ -12,7 +12,8 @@ from api_schemas.results import Artifact
 from service.engine.image_port import TenantImages
 
 FIT: Final = "fit"
-"""The kind of a job that is not a derivation."""
+SCAN: Final = "scan"
+"""The kinds of jobs that are no derivations."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,9 +36,11 @@ class Idempotency:
 class NewJob:
     """A job to accept; its blobs are already stored, ``options`` being the request as JSON.
 
-    ``inputs`` is what else it needs, by name; ``sources`` are the fits, besides its own, whose
-    pictures are among the inputs: it is erased and expires with the first of them. ``request_id``
-    and ``traceparent`` identify the HTTP request in logs and traces; ``webhook`` is a blob too, a
+    ``inputs`` is what else it needs, by name, ``pictures`` of them pictures of a person that came
+    with the request: so many jobs it counts for while it waits. ``sources`` are the fits, besides
+    its own, whose pictures are among the inputs: it is erased and expires with the first of them.
+    ``request_id`` and ``traceparent`` identify the HTTP request in logs and traces; ``webhook`` is
+    a blob too, a
     :class:`api_schemas.webhooks.WebhookTarget` as JSON: whom to notify of the job's end.
     """
 
@@ -45,6 +48,7 @@ class NewJob:
     kind: str
     options: StoredBlob
     inputs: Mapping[str, StoredBlob]
+    pictures: int = 1
     sources: tuple[str, ...] = ()
     idempotency: Idempotency | None = None
     request_id: str | None = None
@@ -71,15 +75,18 @@ class WebhookRecord:
 class JobRecord:
     """A stored job; times are seconds since the epoch.
 
-    ``parent`` is the fit it is derived from, None for a fit.
+    ``parent`` is the fit or scan it is derived from, None for one of these; ``root`` is the kind of
+    that one, or its own. ``view`` is the picture of a scan that its stage is about.
     """
 
     id: str
     tenant: str
     kind: str
+    root: str
     parent: str | None
     state: JobState
     stage: str | None
+    view: int | None
     progress: float
     attempt: int
     cancel_requested: bool
@@ -90,6 +97,7 @@ class JobRecord:
     problem: Problem | None
     options: StoredBlob
     inputs: Mapping[str, StoredBlob]
+    pictures: int
     artifacts: tuple[Artifact, ...]
     fingerprint: str | None
     last_event: int
@@ -153,15 +161,15 @@ class Submission:
 
 
 class TenantJobs(Protocol):
-    """The fits of one tenant, or the derivations of one of them.
+    """The fits or the scans of one tenant, or the derivations of one of them.
 
     Other jobs can be neither seen nor touched through it. Every method but ``derivations`` may
     raise :class:`EngineUnavailableError`; those that name a job raise :class:`JobExpiredError` if
     it has expired.
     """
 
-    def derivations(self, fit_id: str) -> "TenantJobs":
-        """Return the jobs derived from a fit of this tenant; they are erased with it."""
+    def derivations(self, parent_id: str) -> "TenantJobs":
+        """Return the jobs derived from a fit or scan of this tenant; they are erased with it."""
         ...
 
     def reserve(self, job_id: str, idempotency: Idempotency | None) -> Submission:
@@ -246,8 +254,8 @@ class JobEngine(Protocol):
     Every method but ``of`` and ``images_of`` may raise :class:`EngineUnavailableError`.
     """
 
-    def of(self, tenant: str) -> TenantJobs:
-        """Return the jobs of a tenant."""
+    def of(self, tenant: str, root: str = FIT) -> TenantJobs:
+        """Return the fits of a tenant, or its scans."""
         ...
 
     def images_of(self, tenant: str) -> TenantImages:
@@ -294,6 +302,7 @@ class Report:
     stage: str
     progress: float
     energies: dict[str, float] = field(default_factory=dict[str, float])
+    view: int | None = None
 
 
 class Ending(StrEnum):

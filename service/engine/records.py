@@ -27,9 +27,11 @@ def job_record(values: sa.RowMapping) -> JobRecord:
         id=values["id"],
         tenant=values["tenant"],
         kind=values["kind"],
+        root=values["root"],
         parent=values["parent_id"],
         state=JobState(values["state"]),
         stage=values["stage"],
+        view=values["view"],
         progress=values["progress"],
         attempt=values["attempt"],
         cancel_requested=values["cancel_requested"],
@@ -42,6 +44,7 @@ def job_record(values: sa.RowMapping) -> JobRecord:
         else Problem.model_validate_json(values["problem"]),
         options=StoredBlob(digest=values["options_digest"], media_type=JSON),
         inputs=INPUTS.validate_json(values["inputs"]),
+        pictures=values["pictures"],
         artifacts=ARTIFACTS.validate_json(values["artifacts"]),
         fingerprint=values["fingerprint"],
         request_id=values["request_id"],
@@ -76,6 +79,7 @@ def append_event(
     data = EventData(
         state=job.state,
         stage=job.stage,
+        view=job.view,
         progress=job.progress,
         energies=dict(energies or {}),
         at=datetime.now(UTC),
@@ -119,8 +123,9 @@ def end_job(
     """End a job like :func:`move_job`; it expires ``retention_s`` from now.
 
     If its creation is later than now, it expires ``retention_s`` from then: a clock that has been
-    set back must not make the job expire the moment it is corrected. A derivation expires when its
-    fit does, as recorded when it was accepted. The notice of its end, if any, becomes due now.
+    set back must not make the job expire the moment it is corrected. A derivation expires when what
+    it is made of does, as recorded when it was accepted. The notice of its end, if any, becomes due
+    now.
     """
     now = time.time()
     latest = sa.case((JOBS.c.created_at > now, JOBS.c.created_at), else_=now)

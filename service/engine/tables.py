@@ -10,9 +10,12 @@ JOBS = sa.Table(
     sa.Column("id", sa.String(36), primary_key=True),
     sa.Column("tenant", sa.String(64), nullable=False),
     sa.Column("kind", sa.String(32), nullable=False),
+    sa.Column("root", sa.String(32), nullable=False),
     sa.Column("parent_id", sa.String(36)),
+    sa.Column("pictures", sa.Integer, nullable=False),
     sa.Column("state", sa.String(16), nullable=False),
     sa.Column("stage", sa.String(64)),
+    sa.Column("view", sa.Integer),
     sa.Column("progress", sa.Double, nullable=False),
     sa.Column("attempt", sa.Integer, nullable=False),
     sa.Column("crashes", sa.Integer, nullable=False),
@@ -38,16 +41,17 @@ JOBS = sa.Table(
     sa.Column("webhook_status", sa.Integer),
     sa.Column("webhook_error", sa.Text),
     sa.UniqueConstraint("tenant", "idempotency_key", name="maquette_jobs_key"),
-    sa.Index("maquette_jobs_newest", "tenant", "parent_id", "created_at", "id"),
+    sa.Index("maquette_jobs_newest", "tenant", "root", "parent_id", "created_at", "id"),
     sa.Index("maquette_jobs_parent", "parent_id"),
     sa.Index("maquette_jobs_state", "state", "created_at"),
     sa.Index("maquette_jobs_expiry", "expires_at"),
     sa.Index("maquette_jobs_webhooks", "webhook_due_at"),
 )
-"""Fits and derivations; a derivation names its fit in ``parent_id``. ``inputs`` are blobs in the
-job's own scope, by name, as JSON; ``webhook_target`` is the digest of another, which holds whom to
-notify and the secret to sign with. It is not in the database, because databases keep what was
-deleted in dead rows, logs and backups."""
+"""Fits, scans and derivations; a derivation names in ``parent_id`` the fit or scan it is made of,
+and ``root`` is the kind of that one, or a job's own. ``inputs`` are blobs in the job's own scope,
+by name, as JSON, ``pictures`` of them pictures of a person; ``webhook_target`` is the digest of
+another, which holds whom to notify and the secret to sign with. It is not in the database, because
+databases keep what was deleted in dead rows, logs and backups."""
 
 SOURCES = sa.Table(
     "maquette_sources",
@@ -111,6 +115,7 @@ TOMBSTONES = sa.Table(
     METADATA,
     sa.Column("id", sa.String(36), primary_key=True),
     sa.Column("tenant", sa.String(64), nullable=False),
+    sa.Column("root", sa.String(32), nullable=False),
     sa.Column("parent_id", sa.String(36)),
     sa.Column("expired_at", sa.Double, nullable=False),
     sa.Index("maquette_tombstones_age", "expired_at"),

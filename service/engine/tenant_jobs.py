@@ -50,9 +50,11 @@ class DbosTenantJobs:
         max_queued_per_tenant: int,
         retention_s: float,
         ballast: Ballast,
+        root: str,
         parent: str | None = None,
     ) -> None:
         self._tenant = tenant
+        self._root = root
         self._parent = parent
         self._database = database
         self._client = client
@@ -61,8 +63,8 @@ class DbosTenantJobs:
         self._retention_s = retention_s
         self._ballast = ballast
 
-    def derivations(self, fit_id: str) -> "DbosTenantJobs":
-        """Return the jobs derived from a fit of this tenant."""
+    def derivations(self, parent_id: str) -> "DbosTenantJobs":
+        """Return the jobs derived from a fit or scan of this tenant."""
         return DbosTenantJobs(
             self._tenant,
             database=self._database,
@@ -71,7 +73,8 @@ class DbosTenantJobs:
             max_queued_per_tenant=self._max_queued_per_tenant,
             retention_s=self._retention_s,
             ballast=self._ballast,
-            parent=fit_id,
+            root=self._root,
+            parent=parent_id,
         )
 
     @available
@@ -229,7 +232,11 @@ class DbosTenantJobs:
             ]
 
     def _ours(self) -> tuple[sa.ColumnElement[bool], ...]:
-        return (JOBS.c.tenant == self._tenant, JOBS.c.parent_id == self._parent)
+        return (
+            JOBS.c.tenant == self._tenant,
+            JOBS.c.root == self._root,
+            JOBS.c.parent_id == self._parent,
+        )
 
     def _own(self, job_id: str) -> tuple[sa.ColumnElement[bool], ...]:
         return (JOBS.c.id == job_id, *self._ours())
@@ -248,6 +255,7 @@ class DbosTenantJobs:
             .where(
                 JOBS.c.id.in_(fits),
                 JOBS.c.tenant == self._tenant,
+                JOBS.c.root == self._root,
                 JOBS.c.parent_id.is_(None),
                 JOBS.c.expires_at > time.time(),
             )
@@ -269,6 +277,7 @@ class DbosTenantJobs:
             sa.select(TOMBSTONES.c.expired_at).where(
                 TOMBSTONES.c.id == job_id,
                 TOMBSTONES.c.tenant == self._tenant,
+                TOMBSTONES.c.root == self._root,
                 TOMBSTONES.c.parent_id == self._parent,
             )
         ).scalar_one_or_none()
@@ -290,8 +299,10 @@ class DbosTenantJobs:
         waiting = JOBS.c.state == JobState.QUEUED.value
         everyone, ours = connection.execute(
             sa.select(
-                sa.func.count(),
-                sa.func.count(sa.case((JOBS.c.tenant == self._tenant, 1))),
+                sa.func.coalesce(sa.func.sum(JOBS.c.pictures), 0),
+                sa.func.coalesce(
+                    sa.func.sum(sa.case((JOBS.c.tenant == self._tenant, JOBS.c.pictures))), 0
+                ),
             ).where(waiting)
         ).one()
         if everyone >= self._max_queued:
@@ -331,7 +342,9 @@ class DbosTenantJobs:
                     id=job.id,
                     tenant=self._tenant,
                     kind=job.kind,
+                    root=self._root,
                     parent_id=self._parent,
+                    pictures=job.pictures,
                     state=JobState.QUEUED.value,
                     progress=0.0,
                     attempt=0,

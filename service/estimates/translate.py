@@ -17,13 +17,13 @@ from api_schemas import results as wire_results
 from api_schemas.known import STATURE
 from api_schemas.points import PointName, PointSource
 from fitter.body.model import BodyModel
-from fitter.capture.capture import View
-from fitter.capture.finding import Box, Finding
+from fitter.capture.capture import ViewKind
 from fitter.fits.capture_check import CaptureCheck, CaptureQuestion
 from fitter.fits.initial_body import InitialBody
 from fitter.fits.proposal import Proposal, ProposedPoint
 from fitter.population.body_estimate import BodyEstimate
 from fitter.request import Facing, FitRequest, Gender
+from service.worker.findings import finding_results, rounded_box
 from service.worker.translate import SEEN, body_result, camera_result, clicks, known_measurements
 
 
@@ -101,7 +101,7 @@ def points_proposal(found: Proposal) -> wire_proposals.PointsProposal:
 def capture_question(asked: wire_checks.CheckRequest) -> CaptureQuestion:
     """Translate what is said of a picture; points are named."""
     return CaptureQuestion(
-        view=None if asked.view is None else View(asked.view),
+        view=None if asked.view is None else ViewKind(asked.view),
         person=asked.person,
         points=clicks(asked.points),
         gender=None if asked.gender is None else Gender(asked.gender),
@@ -117,12 +117,12 @@ def capture_check(found: CaptureCheck) -> wire_checks.CaptureCheck:
     return wire_checks.CaptureCheck(
         image_size=wire_proposals.PictureSize(width=found.width, height=found.height),
         usable=checked.usable,
-        findings=tuple(_finding(each) for each in checked.findings),
+        findings=finding_results(checked.findings),
         not_checked=tuple(
             wire_checks.NotChecked(code=each.code.value, reason=each.reason)
             for each in checked.unchecked
         ),
-        box=_rounded_box(checked.box),
+        box=rounded_box(checked.box),
         seen_from=None if checked.seen is None else wire_checks.SeenFrom(checked.seen.value),
         lean_deg=None if checked.lean_deg is None else round(checked.lean_deg, 1),
         distance_m=None if checked.distance_m is None else round(checked.distance_m, 2),
@@ -134,24 +134,6 @@ def capture_check(found: CaptureCheck) -> wire_checks.CaptureCheck:
             wire_results.FitWarning(code=each.code, message=each.message) for each in found.warnings
         ),
     )
-
-
-def _finding(found: Finding) -> wire_checks.Finding:
-    return wire_checks.Finding(
-        code=found.code.value,
-        severity=wire_checks.Severity(found.severity.value),
-        reason=found.reason,
-        remedy=found.remedy,
-        points=tuple(cast("PointName", name) for name in found.points),
-        box=_rounded_box(found.box),
-    )
-
-
-def _rounded_box(box: Box | None) -> Box | None:
-    if box is None:
-        return None
-    left, top, right, bottom = (round(each, 2) for each in box)
-    return left, top, right, bottom
 
 
 def grey_png(values: UInt8[np.ndarray, "h w"]) -> bytes:

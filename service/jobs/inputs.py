@@ -15,6 +15,7 @@ RESULT: Final = "result.json"
 PERSON: Final = "person.npz"
 SEGMENTATION: Final = "segmentation.png"
 OVERLAY: Final = "overlay.png"
+BODY_POSED: Final = "body_posed.glb"
 CLIP: Final = "bvh"
 """A motion sent with the request for a derivation."""
 
@@ -26,6 +27,32 @@ CHART: Final = "chart"
 
 OF_EACH_PICTURE: Final = (PERSON, IMAGE, MASK, REQUEST, RESULT)
 """What a combined body has copies of, of every fit; a mask is there if it was sent."""
+
+
+def image_of(number: int) -> str:
+    """The picture of a view of a scan, by its place in the request; a form's part is called so."""
+    return f"{IMAGE}_{number}"
+
+
+def mask_of(number: int) -> str:
+    """The mask that came with it, if one did."""
+    return f"{MASK}_{number}"
+
+
+def file_of(name: str, number: int) -> str:
+    """A file that a scan has of each of its views: ``overlay_1.png`` of the second."""
+    stem, point, ending = name.partition(".")
+    return f"{stem}_{number}{point}{ending}"
+
+
+OF_FIRST_VIEW: Final[Mapping[str, str]] = {
+    IMAGE: image_of(0),
+    MASK: mask_of(0),
+    OVERLAY: file_of(OVERLAY, 0),
+    SEGMENTATION: file_of(SEGMENTATION, 0),
+}
+"""What a scan has where a fit has its picture and what was made of it; the person of ``person.npz``
+stands in the first one too."""
 
 
 def of_other(name: str, index: int) -> str:

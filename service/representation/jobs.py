@@ -7,24 +7,37 @@ from uuid import UUID
 from api_schemas.derivation_kinds import DerivationKind
 from api_schemas.derivations import Derivation, DerivationLinks
 from api_schemas.jobs import Job, JobLinks, JobState, WebhookDelivery
-from service.engine.port import JobRecord, WebhookRecord
-from service.jobs.inputs import MASK
+from api_schemas.scans import (
+    MOST_VIEWS,
+    Scan,
+    ScanDerivation,
+    ScanDerivationLinks,
+    ScanLinks,
+    ScanViewLinks,
+)
+from service.engine.port import FIT, SCAN, JobRecord, WebhookRecord
+from service.jobs.inputs import MASK, image_of, mask_of
 from service.jobs.states import ACTIVE
 
 POLL_AFTER_S: Final = 1
 """What Retry-After says for a job that has not ended."""
 
 
-def derivations_path(fit_id: str) -> str:
-    """Path of what is derived from a fit, below the service's root."""
-    return f"/v1/fits/{fit_id}/derivations"
+def collection_path(root: str) -> str:
+    """Path of the fits, or of the scans, below the service's root."""
+    return f"/v1/{root}s"
+
+
+def derivations_path(root: str, parent_id: str) -> str:
+    """Path of what is derived from a fit or a scan, below the service's root."""
+    return f"{collection_path(root)}/{parent_id}/derivations"
 
 
 def job_path(record: JobRecord) -> str:
     """Path of a job below the service's root."""
     if record.parent is None:
-        return f"/v1/fits/{record.id}"
-    return f"{derivations_path(record.parent)}/{record.id}"
+        return f"{collection_path(record.root)}/{record.id}"
+    return f"{derivations_path(record.root, record.parent)}/{record.id}"
 
 
 def represent(record: JobRecord) -> Job:
@@ -37,28 +50,74 @@ def represent(record: JobRecord) -> Job:
             **_links(record),
             image=f"{path}/image",
             mask=f"{path}/mask" if MASK in record.inputs else None,
-            derivations=derivations_path(record.id) if succeeded else None,
+            derivations=derivations_path(FIT, record.id) if succeeded else None,
+        ),
+    )
+
+
+def represent_scan(record: JobRecord) -> Scan:
+    """Translate the record of a scan."""
+    path = job_path(record)
+    succeeded = record.state is JobState.SUCCEEDED
+    numbers = range(sum(image_of(number) in record.inputs for number in range(MOST_VIEWS)))
+    return Scan(
+        **_standing(record),
+        view=record.view,
+        links=ScanLinks(
+            **_links(record),
+            views=tuple(
+                ScanViewLinks(
+                    image=f"{path}/views/{number}/image",
+                    mask=f"{path}/views/{number}/mask"
+                    if mask_of(number) in record.inputs
+                    else None,
+                )
+                for number in numbers
+            ),
+            derivations=derivations_path(SCAN, record.id) if succeeded else None,
         ),
     )
 
 
 def represent_derivation(record: JobRecord) -> Derivation:
-    """Translate the record of a derivation.
+    """Translate the record of a derivation of a fit.
 
     Raises
     ------
     ValueError
-        If it is the record of a fit.
+        If it is derived from none.
     """
-    if record.parent is None:
-        message = f"job {record.id} is derived from nothing"
-        raise ValueError(message)
+    fit = _parent(record, FIT)
     return Derivation(
         **_standing(record),
         kind=DerivationKind(record.kind),
-        fit_id=UUID(record.parent),
-        links=DerivationLinks(**_links(record), fit=f"/v1/fits/{record.parent}"),
+        fit_id=UUID(fit),
+        links=DerivationLinks(**_links(record), fit=f"{collection_path(FIT)}/{fit}"),
     )
+
+
+def represent_scan_derivation(record: JobRecord) -> ScanDerivation:
+    """Translate the record of a derivation of a scan.
+
+    Raises
+    ------
+    ValueError
+        If it is derived from none.
+    """
+    scan = _parent(record, SCAN)
+    return ScanDerivation(
+        **_standing(record),
+        kind=DerivationKind(record.kind),
+        scan_id=UUID(scan),
+        links=ScanDerivationLinks(**_links(record), scan=f"{collection_path(SCAN)}/{scan}"),
+    )
+
+
+def _parent(record: JobRecord, root: str) -> str:
+    if record.parent is None or record.root != root:
+        message = f"job {record.id} is derived from no {root}"
+        raise ValueError(message)
+    return record.parent
 
 
 def _standing(record: JobRecord) -> dict[str, Any]:

@@ -9,6 +9,7 @@ from typing import Final
 
 from api_schemas.problems import FieldProblem
 from api_schemas.requests import FitOptions
+from api_schemas.scans import ScanViewOptions
 from fitter.detection.weights import INSTALLATION, detector_fault
 from service.submissions.refusal import refused
 
@@ -26,7 +27,7 @@ def detector_is_installed(folder: Path | None) -> bool:
     return detector_fault(folder) is None
 
 
-def check_detector(options: FitOptions, folder: Path | None) -> None:
+def check_detector(options: FitOptions | ScanViewOptions, folder: Path | None) -> None:
     """Refuse a request that needs the detector if there is none.
 
     Raises

@@ -4,13 +4,15 @@ The API makes them at ``POST``, the command line before it fits. What only a dec
 (a truncated picture, a strange colour space) ends the job with the same kind of problem later.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
 
 from api_schemas.points import AUTO, Point, PointName
 from api_schemas.problems import FieldProblem
-from api_schemas.requests import FitOptions, FitRequest
+from api_schemas.requests import AskedPicture, FitOptions, FitRequest
 from api_schemas.webhooks import WebhookTarget
+from service.jobs.inputs import IMAGE, MASK
 from service.submissions.image_header import (
     DamagedImageError,
     ImageHeader,
@@ -25,6 +27,14 @@ ACCEPTED_KINDS: Final = "JPEG, PNG or WebP"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class CheckedPicture:
+    """Points that are named pixels inside the picture, and the kinds of picture and mask."""
+
+    points: Mapping[PointName, Point]
+    media_types: Mapping[str, str]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class CheckedSubmission:
     """Options whose points are named pixels inside the picture, and the pictures' kinds.
 
@@ -33,8 +43,7 @@ class CheckedSubmission:
 
     options: FitOptions
     webhook: WebhookTarget | None
-    image_media_type: str
-    mask_media_type: str | None
+    media_types: Mapping[str, str]
 
 
 def check_submission(
@@ -74,21 +83,34 @@ def check_parts(
     RefusedError
         With the problem to answer.
     """
-    header = check_picture("image", image, max_pixels=max_pixels)
-    mask_media_type = None
-    if mask is not None:
-        mask_header = check_picture("mask", mask, max_pixels=max_pixels)
-        _check_same_size(header, mask_header)
-        mask_media_type = mask_header.media_type
+    picture = check_image(asked, image=image, mask=mask, max_pixels=max_pixels)
     return CheckedSubmission(
-        options=asked.options(_points(asked, header)),
+        options=asked.options(picture.points),
         webhook=asked.webhook,
-        image_media_type=header.media_type,
-        mask_media_type=mask_media_type,
+        media_types=picture.media_types,
     )
 
 
-def _points(asked: FitRequest, picture: ImageHeader) -> dict[PointName, Point]:
+def check_image(
+    asked: AskedPicture, *, image: bytes, mask: bytes | None, max_pixels: int
+) -> CheckedPicture:
+    """Check what is asked of one encoded picture against it and its mask.
+
+    Raises
+    ------
+    RefusedError
+        With the problem to answer.
+    """
+    header = check_picture(IMAGE, image, max_pixels=max_pixels)
+    media_types = {IMAGE: header.media_type}
+    if mask is not None:
+        mask_header = check_picture(MASK, mask, max_pixels=max_pixels)
+        _check_same_size(header, mask_header)
+        media_types[MASK] = mask_header.media_type
+    return CheckedPicture(points=_points(asked, header), media_types=media_types)
+
+
+def _points(asked: AskedPicture, picture: ImageHeader) -> dict[PointName, Point]:
     if asked.points == AUTO:
         return {}
     check = placed_points if asked.complete_points else checked_points

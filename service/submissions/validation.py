@@ -90,7 +90,7 @@ def _field_problem(error: ErrorDetails, whole: str) -> FieldProblem:
     context: Context = error.get("ctx", {})
     code, remedy = _code_and_remedy(error["type"], context)
     return FieldProblem(
-        field=str(context.get("field") or _field(error["loc"]) or whole),
+        field=_said_field(context, error["loc"]) or _field(error["loc"]) or whole,
         code=code,
         reason=_sentence(str(context.get("reason") or error["msg"])),
         remedy=str(context.get("remedy") or remedy),
@@ -107,6 +107,14 @@ def _code_and_remedy(kind: str, context: Context) -> tuple[str, str]:
     if "remedy" in context:  # a refusal of our own carries its code as the kind
         return kind, ""
     return "wrong-kind", "Correct the value as the schema in /openapi.json describes it."
+
+
+def _said_field(context: Context, location: Sequence[str | int]) -> str:
+    """The field that a refusal names itself, which is one of the list's item it was met in."""
+    if not context.get("field"):
+        return ""
+    items = [at for at, part in enumerate(location, start=1) if isinstance(part, int)]
+    return ".".join(filter(None, (_field(location[: max(items, default=0)]), context["field"])))
 
 
 def _field(location: Sequence[str | int]) -> str:

@@ -12,12 +12,18 @@ from typing import Final
 
 from api_schemas.derivations import DerivationEvent, DerivationEventType
 from api_schemas.jobs import WebhookState
+from api_schemas.scans import ScanDerivationEvent, ScanEvent, ScanEventType
 from api_schemas.webhooks import WebhookEvent, WebhookEventType
 from service.blobs import BlobMissingError, BlobStore, BlobsUnavailableError
-from service.engine.port import EngineUnavailableError, JobRecord
+from service.engine.port import SCAN, EngineUnavailableError, JobRecord
 from service.engine.webhooks import DueWebhook, WebhookLedger
 from service.process.logs import fields
-from service.representation.jobs import represent, represent_derivation
+from service.representation.jobs import (
+    represent,
+    represent_derivation,
+    represent_scan,
+    represent_scan_derivation,
+)
 from service.webhooks.sending import Answer, Sender
 from service.webhooks.signing import signed_headers
 from service.webhooks.targets import read_target
@@ -40,21 +46,30 @@ USER_AGENT: Final = "Maquette (Standard Webhooks)"
 
 def notice(job: JobRecord) -> bytes:
     """Write the body of the notice of an ended job; it is the same at every attempt."""
+    return _event(job).model_dump_json().encode()
+
+
+def _event(job: JobRecord) -> WebhookEvent | DerivationEvent | ScanEvent | ScanDerivationEvent:
     ended_at = datetime.fromtimestamp(job.finished_at or 0.0, UTC)
     unsent = {"webhook": None}
-    if job.parent is None:
-        event = WebhookEvent(
-            type=WebhookEventType(f"fit.{job.state}"),
+    if job.parent is not None:
+        how = DerivationEventType(f"derivation.{job.state}")
+        if job.root == SCAN:
+            scanned = represent_scan_derivation(job).model_copy(update=unsent)
+            return ScanDerivationEvent(type=how, timestamp=ended_at, data=scanned)
+        derived = represent_derivation(job).model_copy(update=unsent)
+        return DerivationEvent(type=how, timestamp=ended_at, data=derived)
+    if job.root == SCAN:
+        return ScanEvent(
+            type=ScanEventType(f"scan.{job.state}"),
             timestamp=ended_at,
-            data=represent(job).model_copy(update=unsent),
+            data=represent_scan(job).model_copy(update=unsent),
         )
-    else:
-        event = DerivationEvent(
-            type=DerivationEventType(f"derivation.{job.state}"),
-            timestamp=ended_at,
-            data=represent_derivation(job).model_copy(update=unsent),
-        )
-    return event.model_dump_json().encode()
+    return WebhookEvent(
+        type=WebhookEventType(f"fit.{job.state}"),
+        timestamp=ended_at,
+        data=represent(job).model_copy(update=unsent),
+    )
 
 
 class Deliverer:

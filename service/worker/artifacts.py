@@ -7,6 +7,7 @@ from typing import Final, TypeVar
 
 from api_schemas.derivation_kinds.base import DerivedFiles
 from api_schemas.results import Artifact, FitResult
+from api_schemas.scans import ScanResult
 from service.jobs.inputs import RESULT
 
 MEDIA_TYPES: Final[Mapping[str, str]] = {
@@ -21,7 +22,7 @@ MEDIA_TYPES: Final[Mapping[str, str]] = {
     ".webp": "image/webp",
 }
 
-Result = TypeVar("Result", FitResult, DerivedFiles)
+Result = TypeVar("Result", FitResult, ScanResult, DerivedFiles)
 
 
 def describe_artifact(name: str, content: bytes) -> Artifact:

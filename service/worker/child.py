@@ -23,8 +23,9 @@ from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivations import DerivationRequest
 from api_schemas.problems import Problem, field_problem, problem
 from api_schemas.requests import FitOptions
-from service.engine.port import FIT, Report
-from service.jobs.inputs import IMAGE, MASK, own_and_others
+from api_schemas.scans import ScanOptions
+from service.engine.port import FIT, SCAN, Report
+from service.jobs.inputs import IMAGE, MASK, image_of, mask_of, own_and_others
 from service.process.logs import LogContext, configure_logging, log_context
 from service.worker.artifacts import with_result_document
 from service.worker.messages import (
@@ -38,6 +39,8 @@ from service.worker.messages import (
 from service.worker.pipeline_port import (
     DerivationInput,
     PipelineInput,
+    ScanInput,
+    ScanPicture,
     UnusableInputError,
     load_pipeline,
 )
@@ -93,7 +96,11 @@ def _work(
     def observe(report: Report) -> None:
         _send(connection, _progress(report))
 
-    if task.kind == FIT:
+    if task.kind == SCAN:
+        scanned = pipeline.scan(_scan_input(task, options, inputs), observe)
+        files = with_result_document(scanned.result, scanned.artifacts)
+        stage_seconds = {}
+    elif task.kind == FIT:
         fitted = pipeline.run(_fit_input(task, options, inputs), observe)
         files = with_result_document(fitted.result, fitted.artifacts)
         stage_seconds = fitted.result.stage_seconds
@@ -112,6 +119,20 @@ def _fit_input(task: ChildTask, options: bytes, inputs: Mapping[str, bytes]) -> 
         options=FitOptions.model_validate_json(options),
         image=inputs[IMAGE],
         mask=inputs.get(MASK),
+        max_pixels=task.max_pixels,
+        models=task.models,
+        detector=task.detector,
+    )
+
+
+def _scan_input(task: ChildTask, options: bytes, inputs: Mapping[str, bytes]) -> ScanInput:
+    asked = ScanOptions.model_validate_json(options)
+    return ScanInput(
+        options=asked,
+        pictures=tuple(
+            ScanPicture(image=inputs[image_of(number)], mask=inputs.get(mask_of(number)))
+            for number in range(len(asked.views))
+        ),
         max_pixels=task.max_pixels,
         models=task.models,
         detector=task.detector,
@@ -147,7 +168,9 @@ def _answer(connection: Connection, work: Callable[[], Message]) -> None:
 
 
 def _progress(report: Report) -> ProgressMessage:
-    return ProgressMessage(stage=report.stage, progress=report.progress, energies=report.energies)
+    return ProgressMessage(
+        stage=report.stage, progress=report.progress, energies=report.energies, view=report.view
+    )
 
 
 def _send(connection: Connection, message: Message) -> None:

@@ -189,13 +189,14 @@ class _ThrottledProgress:
         self._attempt = attempt
         self._interval_s = interval_s
         self._due = 0.0
-        self._stage: str | None = None
+        self._news: tuple[str, int | None] | None = None
         self._latest: ProgressMessage | None = None
 
     def take(self, message: ProgressMessage) -> None:
-        if message.stage != self._stage:
-            # A new stage is news: it does not wait.
-            self._stage = message.stage
+        news = (message.stage, message.view)
+        if news != self._news:
+            # A new stage, or the next picture, is news: it does not wait.
+            self._news = news
             self._due = 0.0
         self._latest = message
 
@@ -208,6 +209,7 @@ class _ThrottledProgress:
                 stage=self._latest.stage,
                 progress=min(max(self._latest.progress, 0.0), 1.0),
                 energies=self._latest.energies,
+                view=self._latest.view,
             )
         )
         self._latest = None

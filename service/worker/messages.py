@@ -15,6 +15,7 @@ class ProgressMessage(WireModel):
     stage: str
     progress: float
     energies: dict[str, float]
+    view: int | None = None
 
 
 class FileMessage(WireModel):

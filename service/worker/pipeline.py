@@ -16,6 +16,8 @@ from service.worker.pipeline_port import (
     DerivationOutput,
     PipelineInput,
     PipelineOutput,
+    ScanInput,
+    ScanOutput,
     UnusableInputError,
 )
 
@@ -44,6 +46,16 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
     return PipelineOutput(
         result=translate.fit_result(result, part_names=model.part_names), artifacts=files
     )
+
+
+def scan(job: ScanInput, observe: Callable[[Report], None]) -> ScanOutput:
+    """Measure one person from several pictures; see :class:`service.worker.pipeline_port.Pipeline`.
+
+    What it needs is imported when it is asked for: no fit carries it along.
+    """
+    from service.worker.scanning import scanned
+
+    return scanned(job, observe)
 
 
 def derive(

@@ -1,6 +1,6 @@
 """What a child process runs: a pipeline from a request to a result and its files.
 
-A fit goes through ``run``, what is derived from one through ``derive``.
+A fit goes through ``run``, a scan through ``scan``, what is derived from one through ``derive``.
 
 The real one is :mod:`service.worker.pipeline`. It is handed around by its dotted name, because it
 is imported in the child process only: the worker itself loads no numerics.
@@ -18,6 +18,7 @@ from api_schemas.derivation_kinds.base import DerivedFiles
 from api_schemas.problems import FieldProblem
 from api_schemas.requests import FitOptions
 from api_schemas.results import FitResult
+from api_schemas.scans import ScanOptions, ScanResult
 from service.engine.port import Report
 
 Options_co = TypeVar("Options_co", bound=AnyDerivationOptions, covariant=True)
@@ -45,6 +46,33 @@ class PipelineOutput:
     """The result, whose list of artifacts is still empty, and the artifacts by file name."""
 
     result: FitResult
+    artifacts: Mapping[str, bytes]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ScanPicture:
+    """The encoded picture of one view of a scan, and its mask if one was sent."""
+
+    image: bytes
+    mask: bytes | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ScanInput:
+    """A scan as it reaches the pipeline: options with named points, pictures in their order."""
+
+    options: ScanOptions
+    pictures: tuple[ScanPicture, ...]
+    max_pixels: int
+    models: Path | None = None
+    detector: Path | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ScanOutput:
+    """The result, whose list of artifacts is still empty, and the artifacts by file name."""
+
+    result: ScanResult
     artifacts: Mapping[str, bytes]
 
 
@@ -82,7 +110,7 @@ class UnusableInputError(Exception):
 
 
 class Pipeline(Protocol):
-    """A module with these two functions."""
+    """A module with these three functions."""
 
     def run(self, job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput:
         """Fit.
@@ -92,6 +120,10 @@ class Pipeline(Protocol):
         UnusableInputError
             If the input is at fault.
         """
+        ...
+
+    def scan(self, job: ScanInput, observe: Callable[[Report], None]) -> ScanOutput:
+        """Measure one person from several pictures; raises as ``run`` does."""
         ...
 
     def derive(

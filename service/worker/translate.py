@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from typing import Any
 from uuid import UUID
 
 import numpy as np
@@ -24,6 +25,8 @@ from fitter.parameters import (
     Reflectance,
     Surroundings,
 )
+from fitter.person.fitted_person import FittedPerson
+from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera
 from fitter.request import (
     Click,
@@ -135,11 +138,11 @@ def fit_result(result: FitResult, *, part_names: Sequence[str]) -> wire.FitResul
         outcome=wire.Outcome(found.outcome.value),
         verdict=wire.Verdict(found.verdict.value),
         outcome_explanation=found.outcome_explanation,
-        camera=_fitted_camera(result.camera, person.tilt),
-        image_camera=_fitted_camera(person.camera, person.tilt),
+        camera=fitted_camera(result.camera, person.tilt),
+        image_camera=fitted_camera(person.camera, person.tilt),
         focal_length_source=wire.FocalLengthSource(result.focal_length_source.value),
         body=body_result(person.body, part_names),
-        stance=None if person.tilt is None else _stance(person.tilt),
+        stance=stance_result(person),
         light=None if person.light is None else _light(person.light),
         reflectance=None if person.reflectance is None else _reflectance(person.reflectance),
         energies=dict(result.energies),
@@ -148,13 +151,8 @@ def fit_result(result: FitResult, *, part_names: Sequence[str]) -> wire.FitResul
         measurements=measurement_results(result.measurements, result.given),
         stages=tuple(_stage(stage, part_names, result.given) for stage in result.stages),
         limb_facing=tuple(_limb_facing(facing) for facing in result.limb_facing),
-        assumptions=tuple(
-            wire.Assumption(quantity=each.quantity, value=each.value, reason=each.reason)
-            for each in result.assumptions
-        ),
-        warnings=tuple(
-            wire.FitWarning(code=each.code, message=each.message) for each in result.warnings
-        ),
+        assumptions=assumption_results(result.assumptions),
+        warnings=warning_results(result.warnings),
         stage_seconds=dict(result.stage_seconds),
         artifacts=(),
     )
@@ -164,17 +162,38 @@ def combined_picture(
     found: PictureFit, *, number: int, fit_id: UUID, part_names: Sequence[str]
 ) -> CombinedPicture:
     """Translate the person as fitted in one of several pictures."""
+    return CombinedPicture(number=number, fit_id=fit_id, **in_picture(found, part_names))
+
+
+def in_picture(found: PictureFit, part_names: Sequence[str]) -> dict[str, Any]:
+    """The fields of a :class:`api_schemas.results.PictureResult`."""
     person = found.person
-    return CombinedPicture(
-        number=number,
-        fit_id=fit_id,
-        outcome=wire.Outcome(found.outcome.value),
-        image_camera=_fitted_camera(person.camera, person.tilt),
-        body=body_result(person.body, part_names),
-        light=None if person.light is None else _light(person.light),
-        reflectance=None if person.reflectance is None else _reflectance(person.reflectance),
-        silhouette_overlap=found.silhouette_overlap,
+    return {
+        "outcome": wire.Outcome(found.outcome.value),
+        "image_camera": fitted_camera(person.camera, person.tilt),
+        "body": body_result(person.body, part_names),
+        "light": None if person.light is None else _light(person.light),
+        "reflectance": None if person.reflectance is None else _reflectance(person.reflectance),
+        "silhouette_overlap": found.silhouette_overlap,
+    }
+
+
+def stance_result(person: FittedPerson) -> wire.StanceResult | None:
+    """Translate how the person stands, None where it was not estimated."""
+    return None if person.tilt is None else _stance(person.tilt)
+
+
+def assumption_results(assumptions: Sequence[Assumption]) -> tuple[wire.Assumption, ...]:
+    """Translate what was assumed."""
+    return tuple(
+        wire.Assumption(quantity=each.quantity, value=each.value, reason=each.reason)
+        for each in assumptions
     )
+
+
+def warning_results(warnings: Sequence[FitWarning]) -> tuple[wire.FitWarning, ...]:
+    """Translate warnings."""
+    return tuple(wire.FitWarning(code=each.code, message=each.message) for each in warnings)
 
 
 def _click(name: str, point: Point) -> Click:
@@ -204,7 +223,8 @@ def camera_result(camera: Camera) -> wire.CameraResult:
     )
 
 
-def _fitted_camera(camera: Camera, tilt: CameraTilt | None) -> wire.FittedCameraResult:
+def fitted_camera(camera: Camera, tilt: CameraTilt | None) -> wire.FittedCameraResult:
+    """Translate a camera with how it was held."""
     plain = camera_result(camera).model_dump()
     if tilt is None:
         return wire.FittedCameraResult(**plain)

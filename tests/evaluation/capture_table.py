@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fitter.capture.capture import Capture, View
+from fitter.capture.capture import Capture, ViewKind
 from fitter.capture.checking import check_capture
 from fitter.capture.finding import Code
 from fitter.detection.detector import installed_detector
@@ -34,7 +34,7 @@ from tests.evaluation.stance_kinds import Kind
 MAX_PIXELS = 50_000_000
 OF_EACH_KIND = 6
 
-SEEN_AT = {0.0: View.FRONT, 90.0: View.SIDE, 180.0: View.BACK, 270.0: View.SIDE}
+SEEN_AT = {0.0: ViewKind.FRONT, 90.0: ViewKind.SIDE, 180.0: ViewKind.BACK, 270.0: ViewKind.SIDE}
 """From where somebody is seen who is turned by so many degrees."""
 
 
@@ -149,7 +149,7 @@ def _judged_turned(name: str) -> list[JudgedFinding]:
     for degrees, seen in SEEN_AT.items():
         picture = plain_picture(CASES[name], turned_deg=degrees)
         capture = _capture_of(picture, CaptureQuestion())
-        for view in (View.FRONT, View.SIDE, View.BACK):
+        for view in (ViewKind.FRONT, ViewKind.SIDE, ViewKind.BACK):
             found = {each.code for each in check_capture(replace(capture, view=view)).findings}
             truth = {Code.OTHER_VIEW: view is not seen}
             judged += _judged(name, f"seen from the {seen}, said {view}", found, truth)

@@ -9,7 +9,7 @@ import numpy as np
 from fitter.arrays import Mask
 from fitter.capture.arms import free_share
 from fitter.capture.camera_place import NEAREST_M
-from fitter.capture.capture import Capture, View
+from fitter.capture.capture import Capture, ViewKind
 from fitter.capture.finding import Code
 from tests.evaluation.joint_figures import part_of_joint
 from tests.evaluation.scene import Series
@@ -48,10 +48,10 @@ def variants_of(
         plain |= {Code.ARMS_AGAINST_TRUNK: None, Code.CLOTHES_LOOSE: None}
     zoomed = None if capture.focal_length_px is None else 0.5 * capture.focal_length_px
     variants = [
-        ("as it is, said from the front", replace(capture, view=View.FRONT), plain),
+        ("as it is, said from the front", replace(capture, view=ViewKind.FRONT), plain),
         (
             "said from the side",
-            replace(capture, view=View.SIDE),
+            replace(capture, view=ViewKind.SIDE),
             {
                 Code.OTHER_VIEW: False
                 if turned >= LATERAL_DEG
@@ -60,7 +60,7 @@ def variants_of(
                 else True
             },
         ),
-        ("said from behind", replace(capture, view=View.BACK), {Code.OTHER_VIEW: True}),
+        ("said from behind", replace(capture, view=ViewKind.BACK), {Code.OTHER_VIEW: True}),
         (
             "half the focal length",
             replace(capture, focal_length_px=zoomed),

@@ -8,8 +8,9 @@ from jaxtyping import Float
 
 from fitter.applications.several_pictures import known_covariance
 from fitter.arrays import Shape
+from fitter.capture.capture import ViewKind
 from fitter.fits.pipeline import fit
-from fitter.fits.scan import ScanView, ViewKind, scan
+from fitter.fits.scan import ScanView, scan
 from fitter.measurement.quantity import Measurement
 from fitter.request import Posture
 from fitter.result import PictureFit

@@ -7,7 +7,8 @@ from enum import StrEnum
 import numpy as np
 
 from fitter.body.skeleton import regress
-from fitter.fits.scan import ScanView, ViewKind
+from fitter.capture.capture import ViewKind
+from fitter.fits.scan import ScanView
 from fitter.render.rasterizer import render
 from fitter.request import Cues
 from tests.evaluation.cases import CASES

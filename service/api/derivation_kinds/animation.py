@@ -56,6 +56,7 @@ KIND: Final = DerivationKindDefinition(
     result=AnimationResult,
     needs=lambda _: Needs(of_fit=(PERSON,), part=BVH),
     part=BVH,
+    of_scans=True,
     requests={"walk": {"kind": "animation"}},
     answer={
         "artifacts": files(body_animated__glb=4321000, animation__webp=151000),

@@ -13,6 +13,7 @@ KIND: Final = DerivationKindDefinition(
     options=CaricatureOptions,
     result=CaricatureResult,
     needs=lambda _: Needs(of_fit=(PERSON,)),
+    of_scans=True,
     requests={"caricature": {"kind": "caricature", "factor": 2.5}},
     answer={
         "artifacts": files(body_caricature__glb=699740, caricature__png=238067),

@@ -66,6 +66,7 @@ KIND: Final = DerivationKindDefinition(
     result=TextureResult,
     needs=_needs,
     part=ATLAS,
+    of_scans=True,
     requests={"texture": {"kind": "texture", "colours": "albedo", "size": 2048}},
     answer={
         "artifacts": files(

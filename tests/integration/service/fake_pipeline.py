@@ -34,14 +34,28 @@ from api_schemas.results import (
     Outcome,
     PartRotation,
 )
+from api_schemas.scans import ScannedView, ScanResult
 from service.api.derivation_kinds import KINDS
 from service.engine.port import Report
-from service.jobs.inputs import CLIP, IMAGE, PERSON, REQUEST, RESULT, TEXTURE
+from service.jobs.inputs import (
+    BODY_POSED,
+    CLIP,
+    IMAGE,
+    OVERLAY,
+    PERSON,
+    REQUEST,
+    RESULT,
+    SEGMENTATION,
+    TEXTURE,
+    file_of,
+)
 from service.worker.pipeline_port import (
     DerivationInput,
     DerivationOutput,
     PipelineInput,
     PipelineOutput,
+    ScanInput,
+    ScanOutput,
     UnusableInputError,
 )
 
@@ -110,6 +124,67 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
         }
         | ({} if script.get("old") else {"person.npz": job.image}),
     )
+
+
+def scan(job: ScanInput, observe: Callable[[Report], None]) -> ScanOutput:
+    """Do what each picture says, one after the other, and what the first says in the end."""
+    scripts = [json.loads(each.image.partition(SCRIPT_MARK)[2]) for each in job.pictures]
+    _begin(scripts[0])
+    for view, script in enumerate(scripts):
+        observe(Report(stage=STAGES[0], progress=0.5 * view / len(scripts), view=view))
+        if script.get("unusable"):
+            raise UnusableInputError(
+                FieldProblem(
+                    field=f"views.{view}.image",
+                    code="image-truncated",
+                    reason="The picture ends too early.",
+                    remedy="Send the whole file.",
+                )
+            )
+        _go_on(script)
+    observe(Report(stage="shading", progress=0.5))
+    fits = [
+        _result(
+            PipelineInput(
+                options=job.options.of_view(view),
+                image=each.image,
+                mask=each.mask,
+                max_pixels=job.max_pixels,
+            )
+        )
+        for view, each in enumerate(job.pictures)
+    ]
+    first = fits[0]
+    result = ScanResult(
+        gender=first.gender,
+        height_m=first.height_m,
+        cues=first.cues,
+        verdict=first.verdict,
+        shape=first.body.shape,
+        views=tuple(
+            ScannedView(
+                number=number,
+                view=job.options.views[number].view,
+                findings=(),
+                **{name: getattr(fit, name) for name in _OF_A_VIEW},
+            )
+            for number, fit in enumerate(fits)
+        ),
+        measurements=first.measurements,
+        agreement=0.5,
+        assumptions=(),
+        warnings=(),
+        artifacts=(),
+    )
+    files = {"body_canonical.glb": b"glTF", "scan.png": b"PNG", PERSON: job.pictures[0].image}
+    for number, each in enumerate(job.pictures):
+        files[file_of(BODY_POSED, number)] = b"glTF" + bytes([number])
+        files[file_of(OVERLAY, number)] = each.image
+        files[file_of(SEGMENTATION, number)] = b"PNG"
+    return ScanOutput(result=result, artifacts=files)
+
+
+_OF_A_VIEW = tuple(set(ScannedView.model_fields) & set(FitResult.model_fields))
 
 
 def derive(

@@ -5,7 +5,7 @@ from dataclasses import replace
 import cv2
 import numpy as np
 
-from fitter.capture.capture import View
+from fitter.capture.capture import ViewKind
 from fitter.capture.checking import check_capture
 from fitter.capture.finding import Code, Severity
 from fitter.capture.turning import Seen
@@ -13,7 +13,7 @@ from tests.unit.capture.made_up import by_points_alone, capture, of_nobody, pers
 
 
 def test_nothing_is_wrong_with_a_good_picture_and_everything_was_checked():
-    checked = check_capture(capture(view=View.FRONT))
+    checked = check_capture(capture(view=ViewKind.FRONT))
     assert (checked.findings, checked.unchecked, checked.usable) == ((), (), True)
     assert checked.seen is Seen.FRONT
     assert checked.box is not None
@@ -23,7 +23,7 @@ def test_nothing_is_wrong_with_a_good_picture_and_everything_was_checked():
 
 def test_what_blocks_comes_first_and_makes_a_picture_useless():
     dark = (0.05 * capture().picture).astype(np.uint8)
-    checked = check_capture(capture(view=View.SIDE, picture=dark))
+    checked = check_capture(capture(view=ViewKind.SIDE, picture=dark))
     assert [each.severity for each in checked.findings] == [Severity.BLOCKS, Severity.HARMS]
     assert [each.code for each in checked.findings] == [Code.OTHER_VIEW, Code.TOO_DARK]
     assert not checked.usable
@@ -42,10 +42,10 @@ def test_every_check_is_made_or_said_not_to_be():
     for nothing, expected in (
         (by_points_alone(), {Code.NOBODY_FOUND, Code.SEVERAL_PEOPLE, Code.ARMS_AGAINST_TRUNK,
                              Code.CLOTHES_LOOSE}),
-        (of_nobody(view=View.FRONT), {Code.CUT_OFF, Code.PERSON_TOO_SMALL, Code.OTHER_VIEW,
+        (of_nobody(view=ViewKind.FRONT), {Code.CUT_OFF, Code.PERSON_TOO_SMALL, Code.OTHER_VIEW,
                                       Code.ARMS_AGAINST_TRUNK, Code.CLOTHES_LOOSE,
                                       Code.CAMERA_ROLLED, Code.CAMERA_TOO_NEAR}),
-        (by_points_alone(view=View.FRONT, points=face),
+        (by_points_alone(view=ViewKind.FRONT, points=face),
          {Code.NOBODY_FOUND, Code.SEVERAL_PEOPLE, Code.ARMS_AGAINST_TRUNK, Code.CLOTHES_LOOSE,
           Code.PERSON_TOO_SMALL, Code.OTHER_VIEW, Code.CAMERA_ROLLED, Code.CAMERA_TOO_NEAR}),
     ):  # fmt: skip
@@ -67,7 +67,7 @@ def test_of_nobody_only_what_is_wrong_with_the_picture_is_found():
 
 def test_every_finding_says_what_was_measured_and_what_to_do():
     spoilt = replace(
-        capture(person(), person(), view=View.BACK, focal_length_px=300.0),
+        capture(person(), person(), view=ViewKind.BACK, focal_length_px=300.0),
         picture=cv2.GaussianBlur((0.1 * capture().picture).astype(np.uint8), (0, 0), 3.0),
     )
     findings = check_capture(spoilt).findings

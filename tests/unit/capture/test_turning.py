@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from fitter.capture.capture import View
+from fitter.capture.capture import ViewKind
 from fitter.capture.finding import Code, Finding, Severity, Unchecked
 from fitter.capture.turning import Seen, announced_view, facing, seen_from
 from tests.unit.capture.made_up import FRONT, by_points_alone, capture, person
@@ -51,16 +51,16 @@ def test_views_have_names(degrees, seen):
 @pytest.mark.parametrize(
     ("view", "degrees", "severity"),
     [
-        (View.FRONT, 10.0, None),
-        (View.SIDE, 85.0, None),
-        (View.BACK, 175.0, None),
-        (View.OTHER, 60.0, None),
+        (ViewKind.FRONT, 10.0, None),
+        (ViewKind.SIDE, 85.0, None),
+        (ViewKind.BACK, 175.0, None),
+        (ViewKind.OTHER, 60.0, None),
         (None, 60.0, None),
-        (View.FRONT, 60.0, Severity.HARMS),
-        (View.FRONT, 90.0, Severity.BLOCKS),
-        (View.FRONT, 180.0, Severity.BLOCKS),
-        (View.SIDE, 0.0, Severity.BLOCKS),
-        (View.BACK, 0.0, Severity.BLOCKS),
+        (ViewKind.FRONT, 60.0, Severity.HARMS),
+        (ViewKind.FRONT, 90.0, Severity.BLOCKS),
+        (ViewKind.FRONT, 180.0, Severity.BLOCKS),
+        (ViewKind.SIDE, 0.0, Severity.BLOCKS),
+        (ViewKind.BACK, 0.0, Severity.BLOCKS),
     ],
 )
 def test_a_view_other_than_was_said_is_told(view, degrees, severity):
@@ -73,6 +73,6 @@ def test_a_view_other_than_was_said_is_told(view, degrees, severity):
 
 
 def test_points_alone_tell_the_view_and_half_a_trunk_does_not():
-    assert isinstance(announced_view(by_points_alone(view=View.SIDE)), Finding)
+    assert isinstance(announced_view(by_points_alone(view=ViewKind.SIDE)), Finding)
     half = {name: at for name, at in by_points_alone().points.items() if "left" in name}
-    assert isinstance(announced_view(by_points_alone(view=View.SIDE, points=half)), Unchecked)
+    assert isinstance(announced_view(by_points_alone(view=ViewKind.SIDE, points=half)), Unchecked)

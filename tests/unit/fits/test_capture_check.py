@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image as PillowImage
 
-from fitter.capture.capture import View
+from fitter.capture.capture import ViewKind
 from fitter.capture.finding import Severity
 from fitter.capture.turning import Seen
 from fitter.detection.detector import installed_detector
@@ -75,7 +75,7 @@ def spoilt(how: str) -> np.ndarray:
     ],
 )
 def test_what_is_done_to_a_good_picture_is_found(how, code, severity):
-    assert codes(checked(sample(), view=View.FRONT)) == []
+    assert codes(checked(sample(), view=ViewKind.FRONT)) == []
     check = checked(spoilt(how))
     found = {each.code.value: each for each in check.checked.findings}
     assert code in found
@@ -138,7 +138,7 @@ def test_without_a_detector_points_tell_their_part():
     }  # fmt: skip
     check = check_picture(
         load_sample().image,
-        CaptureQuestion(points=points, view=View.BACK, height_m=1.804),
+        CaptureQuestion(points=points, view=ViewKind.BACK, height_m=1.804),
         detector=None,
         max_pixels=50_000_000,
     )

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitter.capture.capture import View
+from fitter.capture.capture import ViewKind
 from fitter.errors import InvalidInputError
 from fitter.fits.pipeline import fit
 from fitter.fits.progress import Stage
@@ -24,20 +24,20 @@ def asked(name: str, cues: Cues = Cues.SE) -> FitRequest:
     return resized(fit_request(read_case(CASES[name]), cues), width=300, height=400)
 
 
-def view(name: str, kind: View = View.OTHER, cues: Cues = Cues.SE) -> ScanView:
+def view(name: str, kind: ViewKind = ViewKind.OTHER, cues: Cues = Cues.SE) -> ScanView:
     return ScanView(kind=kind, request=asked(name, cues))
 
 
 @pytest.fixture(scope="module")
 def scanned() -> tuple[ScanResult, list[ScanProgress]]:
     reports: list[ScanProgress] = []
-    views = [view(STANDING, View.FRONT), view(TURNED, cues=Cues.SES)]
+    views = [view(STANDING, ViewKind.FRONT), view(TURNED, cues=Cues.SES)]
     return scan(views, observe=reports.append), reports
 
 
 def test_all_views_show_one_shape_in_poses_of_their_own(scanned):
     result, _ = scanned
-    assert [each.kind for each in result.views] == [View.FRONT, View.OTHER]
+    assert [each.kind for each in result.views] == [ViewKind.FRONT, ViewKind.OTHER]
     for each in result.views:
         np.testing.assert_array_equal(each.found.person.body.shape, result.shape)
         np.testing.assert_allclose(each.found.person.shape_covariance, result.covariance, atol=1e-9)
@@ -84,7 +84,7 @@ def test_too_few_and_too_many_views_are_refused(count):
 def test_a_view_that_cannot_be_used_is_named():
     broken = replace(asked(TURNED), image=asked(TURNED).image[:2000])
     with pytest.raises(InvalidInputError) as caught:
-        scan([view(STANDING), ScanView(kind=View.SIDE, request=broken)])
+        scan([view(STANDING), ScanView(kind=ViewKind.SIDE, request=broken)])
     assert caught.value.field == "views.1.image"
     assert caught.value.code.startswith("image-")
 
@@ -93,7 +93,7 @@ def test_a_view_that_cannot_be_used_is_named():
     "told", [{"height_m": 1.5}, {"measurements": {"weight": KnownMeasurement(value=70.0)}}]
 )
 def test_views_that_say_different_things_of_the_person_are_refused(told):
-    other = ScanView(kind=View.SIDE, request=replace(asked(TURNED), **told))
+    other = ScanView(kind=ViewKind.SIDE, request=replace(asked(TURNED), **told))
     with pytest.raises(InvalidInputError, match="different heights, genders") as caught:
         scan([view(STANDING), other])
     assert (caught.value.code, caught.value.field) == ("views-differ", "views.1")
@@ -101,7 +101,7 @@ def test_views_that_say_different_things_of_the_person_are_refused(told):
 
 def test_views_of_different_people_are_told():
     stranger = replace(asked(SOMEBODY_ELSE), height_m=asked(STANDING).height_m)
-    result = scan([view(STANDING), ScanView(kind=View.OTHER, request=stranger)])
+    result = scan([view(STANDING), ScanView(kind=ViewKind.OTHER, request=stranger)])
     assert [each.code for each in result.warnings] == ["different-people"]
     assert result.alone.agreement < 0.01
 
@@ -120,7 +120,7 @@ def test_a_weight_that_was_given_is_held():
 def test_a_weight_that_the_pictures_contradict_is_named():
     known = {"weight": KnownMeasurement(value=48.0)}
     views = [
-        ScanView(kind=View.OTHER, request=replace(asked(name), measurements=known))
+        ScanView(kind=ViewKind.OTHER, request=replace(asked(name), measurements=known))
         for name in (STANDING, TURNED)
     ]
     (warning,) = scan(views).warnings
@@ -129,7 +129,7 @@ def test_a_weight_that_the_pictures_contradict_is_named():
 
 
 def test_a_view_from_another_side_than_announced_is_named():
-    result = scan([view(STANDING, View.SIDE), view(TURNED)])
+    result = scan([view(STANDING, ViewKind.SIDE), view(TURNED)])
     assert [each.code for each in result.warnings] == ["other-view"]
     assert "views.0 is said to be from the side" in result.warnings[0].message
     assert "other-view" in {each.code for each in result.views[0].findings}
@@ -142,7 +142,7 @@ def test_left_and_right_of_a_mirrored_picture_are_doubted():
         for name, click in mirrored.clicks.items()
     }
     views = [
-        ScanView(kind=View.FRONT, request=replace(mirrored, clicks=swapped)),
+        ScanView(kind=ViewKind.FRONT, request=replace(mirrored, clicks=swapped)),
         view(TURNED),
     ]
     result = scan(views)

@@ -34,6 +34,8 @@ def database(tmp_path):
                 created_at=1.0,
                 options_digest="0" * 64,
                 kind="fit",
+                root="fit",
+                pictures=1,
                 inputs="{}",
                 artifacts="[]",
                 last_event=0,

@@ -11,7 +11,7 @@ from api_schemas.jobs import JobState
 from api_schemas.results import Artifact
 from service.api.context import ApiContext
 from service.api.derivation_inputs import derivation_inputs
-from service.engine.port import JobExpiredError, StoredBlob
+from service.engine.port import FIT, JobExpiredError, StoredBlob
 from service.jobs.inputs import IMAGE, PERSON
 from service.submissions.refusal import RefusedError
 
@@ -29,6 +29,7 @@ class Jobs:
         person = Artifact(name=PERSON, media_type="application/zip", size=1, sha256="0" * 64)
         return SimpleNamespace(
             id=job_id,
+            root=FIT,
             state=JobState.SUCCEEDED,
             options=BLOB,
             inputs={IMAGE: BLOB},
@@ -39,7 +40,9 @@ class Jobs:
 def test_another_fit_that_has_expired_is_a_fault_of_the_request():
     context = cast("ApiContext", SimpleNamespace(jobs=Jobs()))
     with pytest.raises(RefusedError) as caught:
-        derivation_inputs(context, OWN, CombinedOptions(kind="combined", fits=(EXPIRED,)), {})
+        derivation_inputs(
+            context, Jobs().job(str(OWN)), CombinedOptions(kind="combined", fits=(EXPIRED,)), {}
+        )
     (error,) = caught.value.problem.errors
     assert (caught.value.problem.status, error.field, error.code) == (
         422,

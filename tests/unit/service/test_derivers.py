@@ -216,12 +216,13 @@ def shape_of(inputs: dict[str, bytes], name: str = PERSON) -> np.ndarray:
     return FittedPerson.from_bytes(inputs[name]).body.shape
 
 
-def test_the_combined_body_lies_between_those_of_the_fits():
+def test_the_combined_body_is_one_body_near_those_of_the_fits():
     inputs = sample_inputs()
     result = derived(kind="combined", **NEEDED["combined"]).result.model_dump()
     own, other = shape_of(inputs), shape_of(inputs, of_other(PERSON, 0))
     assert result["pictures"] == 2
-    assert np.abs(np.array(result["shape"]) - 0.5 * (own + other)).max() < 0.3
+    # The same picture twice: it is searched again, with what outlines say counted for more.
+    assert np.linalg.norm(np.array(result["shape"]) - 0.5 * (own + other)) < 0.6 * np.sqrt(len(own))
     assert result["agreement"] > 0.5
     assert not result["warnings"]
     waist = next(each for each in result["measurements"] if each["name"] == "waist_girth_navel")

@@ -7,11 +7,12 @@ import pytest
 from PIL import Image
 
 from api_schemas.bodies import BodyRequest
-from api_schemas.checks import CheckRequest, SeenFrom, Severity, View
+from api_schemas.checks import CheckRequest, SeenFrom, Severity
 from api_schemas.known import UncertainMeasurement
 from api_schemas.points import Point, PointSource
 from api_schemas.proposals import PointsRequest
 from api_schemas.requests import Facing, Gender, Limb
+from api_schemas.views import ViewKind
 from service.demo_data.sample import load_sample
 from service.estimates.answers import body, check, initial_pose, points
 from service.estimates.messages import BodyTask, CheckTask, InitialPoseTask, PointsTask
@@ -126,7 +127,7 @@ def checked_sample(*, detector: Path | None = None, **said: object):
 
 
 def test_nothing_is_wrong_with_the_sample_and_it_was_taken_from_3_metres():
-    found = checked_sample(view=View.FRONT, height_m=1.804)
+    found = checked_sample(view=ViewKind.FRONT, height_m=1.804)
     assert (found.usable, found.findings, found.not_checked) == (True, (), ())
     assert (found.seen_from, found.assumptions) == (SeenFrom.FRONT, ())
     assert found.distance_m == pytest.approx(3.0, rel=0.05)
@@ -135,7 +136,7 @@ def test_nothing_is_wrong_with_the_sample_and_it_was_taken_from_3_metres():
 
 
 def test_the_sample_is_not_seen_from_the_side_nor_far_enough_through_half_the_lens():
-    found = checked_sample(view=View.SIDE, gender=Gender.MALE, focal_length_35mm=25.0)
+    found = checked_sample(view=ViewKind.SIDE, gender=Gender.MALE, focal_length_35mm=25.0)
     assert [(each.code, each.severity) for each in found.findings] == [
         ("other-view", Severity.BLOCKS),
         ("camera-too-near", Severity.HARMS),
@@ -148,7 +149,7 @@ def test_without_a_detector_points_are_checked_and_a_picture_alone_is_not(tmp_pa
     points = check_submission(
         request=load_sample().request, image=load_sample().image, mask=None, max_pixels=1_000_000
     ).options.points
-    found = checked_sample(detector=tmp_path, points=points, view=View.FRONT)
+    found = checked_sample(detector=tmp_path, points=points, view=ViewKind.FRONT)
     assert (found.findings, found.box, found.seen_from) == ((), None, SeenFrom.FRONT)
     assert {each.code for each in found.not_checked} == {
         "nobody-found",

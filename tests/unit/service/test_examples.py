@@ -18,12 +18,30 @@ from api_schemas.health import Live, Ready
 from api_schemas.images import UploadedImage
 from api_schemas.initial_poses import InitialPose, InitialPoseRequest
 from api_schemas.jobs import Job, JobPage
-from api_schemas.problems import ProblemType
+from api_schemas.problems import Problem, ProblemType
 from api_schemas.proposals import PointsOfImage, PointsProposal
 from api_schemas.requests import FitOfImage, FitOptions
 from api_schemas.results import FitResult
+from api_schemas.scans import (
+    Scan,
+    ScanDerivation,
+    ScanDerivationEvent,
+    ScanDerivationPage,
+    ScanEvent,
+    ScanOfImages,
+    ScanOptions,
+    ScanPage,
+    ScanResult,
+)
 from api_schemas.webhooks import WebhookEvent
-from service.api.operation_examples import ANSWERS, DERIVATION_NOTICE, NOTICE, REQUESTS
+from service.api.operation_examples import (
+    ANSWERS,
+    DERIVATION_NOTICE,
+    NOTICE,
+    REQUESTS,
+    SCAN_DERIVATION_NOTICE,
+    SCAN_NOTICE,
+)
 
 KINDS = {
     "submit": Job,
@@ -42,6 +60,22 @@ KINDS = {
     "derivation_request": DerivationRequest,
     "derivation_result": DerivationResult,
     "derivation_artifact": DerivationResult,
+    "submit_scan": Scan,
+    "retry_scan": Scan,
+    "list_scans": ScanPage,
+    "get_scan": Scan,
+    "cancel_scan": Scan,
+    "scan_request": ScanOptions,
+    "scan_result": ScanResult,
+    "scan_artifact": ScanResult,
+    "derive_of_scan": ScanDerivation,
+    "retry_derivation_of_scan": ScanDerivation,
+    "list_derivations_of_scan": ScanDerivationPage,
+    "get_derivation_of_scan": ScanDerivation,
+    "cancel_derivation_of_scan": ScanDerivation,
+    "derivation_request_of_scan": DerivationRequest,
+    "derivation_result_of_scan": DerivationResult,
+    "derivation_artifact_of_scan": DerivationResult,
     "upload_image": UploadedImage,
     "get_image": UploadedImage,
     "initial_pose": InitialPose,
@@ -53,14 +87,23 @@ KINDS = {
     "ready": Ready,
     "problem_type": ProblemType,
 }
-TEXTS = {"follow", "follow_derivation", "metrics"}
+TEXTS = {
+    "follow",
+    "follow_derivation",
+    "follow_scan",
+    "follow_derivation_of_scan",
+    "metrics",
+}
+REFUSED = 400
+"""Answers from this status on are problems, whatever the operation."""
 
 
 @pytest.mark.parametrize("operation", sorted(ANSWERS))
 def test_examples_of_answers_are_of_their_types(operation):
-    for examples in ANSWERS[operation].values() if operation not in TEXTS else ():
+    for status, examples in ANSWERS[operation].items() if operation not in TEXTS else ():
+        kind = KINDS[operation] if status < REFUSED else Problem
         for value in examples.values():
-            KINDS[operation].model_validate_json(json.dumps(value))
+            kind.model_validate_json(json.dumps(value))
     assert operation in KINDS.keys() | TEXTS
 
 
@@ -69,6 +112,8 @@ def test_examples_of_answers_are_of_their_types(operation):
     [
         ("submit", FitOfImage),
         ("derive", DerivationRequest),
+        ("submit_scan", ScanOfImages),
+        ("derive_of_scan", DerivationRequest),
         ("initial_pose", InitialPoseRequest),
         ("estimate_body", BodyRequest),
         ("propose_points", PointsOfImage),
@@ -83,3 +128,5 @@ def test_examples_of_requests_are_of_their_types(operation, kind):
 def test_the_example_of_a_notice_is_one():
     WebhookEvent.model_validate_json(json.dumps(NOTICE))
     DerivationEvent.model_validate_json(json.dumps(DERIVATION_NOTICE))
+    ScanEvent.model_validate_json(json.dumps(SCAN_NOTICE))
+    ScanDerivationEvent.model_validate_json(json.dumps(SCAN_DERIVATION_NOTICE))

@@ -185,4 +185,4 @@ def test_a_mask_of_another_size_is_refused():
 
 
 def test_a_mask_of_the_same_size_is_accepted():
-    assert check(mask=scripted_image()).mask_media_type == "image/png"
+    assert check(mask=scripted_image()).media_types["mask"] == "image/png"

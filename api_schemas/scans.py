@@ -1,0 +1,305 @@
+"""Scans: one person measured from several pictures taken for it, as one job."""
+
+from collections.abc import Mapping, Sequence
+from datetime import datetime
+from enum import StrEnum
+from typing import Annotated, Any, Final
+from uuid import UUID
+
+from pydantic import AfterValidator, Field
+
+from api_schemas.base import WireModel, refusal
+from api_schemas.checks import Finding
+from api_schemas.derivation_kinds import DerivationKind
+from api_schemas.derivations import DerivationEventType
+from api_schemas.images import ImageId
+from api_schemas.jobs import JobStanding
+from api_schemas.points import AUTO, Point, PointName, Points
+from api_schemas.requests import (
+    AskedPicture,
+    AskedPoints,
+    Cues,
+    FitOptions,
+    Force,
+    Gender,
+    Person,
+    PictureChoices,
+    PictureFacts,
+)
+from api_schemas.results import (
+    Artifact,
+    Assumption,
+    FittedCameraResult,
+    FitWarning,
+    FocalLengthSource,
+    Measurement,
+    PictureResult,
+    StanceResult,
+    Verdict,
+)
+from api_schemas.views import ViewKind
+from api_schemas.webhooks import WebhookTarget
+
+LEAST_VIEWS: Final = 2
+MOST_VIEWS: Final = 6
+
+
+SEEN_ONCE: Final = (ViewKind.FRONT, ViewKind.BACK)
+"""Views of which a scan has one at most: people have two sides, but one front."""
+
+
+class ScanChoices(Person):
+    """The person, of whom all pictures are, and what to do."""
+
+    cues: Cues = Cues.SES
+    force: Force = False
+
+
+class View(WireModel):
+    """A picture's view of the person."""
+
+    view: ViewKind
+
+
+class ScanViewOptions(PictureChoices, PictureFacts, View):
+    """One picture, as it was understood: points are named, and none where all are proposed."""
+
+    points: Points
+
+
+class ScanViewRequest(AskedPicture, View):
+    """One of the pictures: from where it shows the person, its points, its lens."""
+
+    points: AskedPoints = AUTO
+
+    def options(self, points: Mapping[PointName, Point]) -> ScanViewOptions:
+        """The view, of these named points."""
+        values = {name: getattr(self, name) for name in ScanViewOptions.model_fields}
+        return ScanViewOptions.model_construct(**values | self.named(points))
+
+
+class ScanViewOfImage(ScanViewRequest):
+    """One of the pictures, uploaded before."""
+
+    image_id: ImageId
+    mask_id: ImageId | None = Field(
+        default=None,
+        description="A grey picture of the same size; the person is brighter than half.",
+    )
+
+
+class ScanOptions(ScanChoices):
+    """One scan, as it was understood."""
+
+    views: tuple[ScanViewOptions, ...]
+
+    def of_view(self, number: int) -> FitOptions:
+        """What is asked of one of the pictures, as of a fit."""
+        view = self.views[number]
+        values: dict[str, Any] = {name: getattr(self, name) for name in ScanChoices.model_fields}
+        values |= {name: getattr(view, name) for name in ScanViewOptions.model_fields}
+        del values["view"]
+        return FitOptions(**values)
+
+
+def _usable_together(views: tuple[ScanViewRequest, ...]) -> tuple[ScanViewRequest, ...]:
+    if not LEAST_VIEWS <= len(views) <= MOST_VIEWS:
+        raise refusal(
+            code="views-count",
+            field="views",
+            reason=f"A scan has {LEAST_VIEWS} to {MOST_VIEWS} pictures, not {len(views)}.",
+            remedy="Send the person from the front and from the side, and more if there are.",
+        )
+    for number, each in enumerate(views):
+        if each.view in SEEN_ONCE and any(each.view is other.view for other in views[:number]):
+            raise refusal(
+                code="repeated-view",
+                field=f"views.{number}.view",
+                reason=f"Two pictures are said to show the {each.view}.",
+                remedy="Send one of them, or say what the other shows: "
+                f"{', '.join(kind for kind in ViewKind if kind is not each.view)}.",
+            )
+    return views
+
+
+_VIEWS: Final[dict[str, Any]] = {
+    "description": (
+        f"{LEAST_VIEWS} to {MOST_VIEWS} pictures of the person, `front` and `side` to begin with. "
+        "At most one each is `front` or `back`; sizes, lenses and orientations may differ. Faults "
+        "of a view have fields that begin with its place, `views.1.points`."
+    ),
+    "json_schema_extra": {"minItems": LEAST_VIEWS, "maxItems": MOST_VIEWS},
+}
+
+
+class ScanRequest(ScanChoices):
+    """The JSON part ``request`` of a submission; `image_0` is the picture of its first view."""
+
+    views: Annotated[tuple[ScanViewRequest, ...], AfterValidator(_usable_together), Field(**_VIEWS)]
+    webhook: WebhookTarget | None = None
+
+    def options(self, views: Sequence[ScanViewOptions]) -> ScanOptions:
+        """The scan alone, without what concerns only the submission."""
+        values = {name: getattr(self, name) for name in ScanChoices.model_fields}
+        return ScanOptions.model_construct(**values, views=tuple(views))
+
+
+class ScanOfImages(ScanRequest):
+    """A submission whose pictures were uploaded before."""
+
+    views: Annotated[  # pyright: ignore[reportIncompatibleVariableOverride]
+        tuple[ScanViewOfImage, ...], AfterValidator(_usable_together), Field(**_VIEWS)
+    ]
+
+
+class ScanViewLinks(WireModel):
+    """Paths of what was sent for one view."""
+
+    image: str = Field(description="The picture.")
+    mask: str | None = Field(default=None, description="The mask, if one was sent.")
+
+
+class ScanLinks(WireModel):
+    """Paths of a scan's resources below this service's root; absent ones do not exist (yet)."""
+
+    self: str
+    events: str
+    views: tuple[ScanViewLinks, ...]
+    request: str = Field(description="What was asked for.")
+    derivations: str | None = Field(
+        default=None, description="What was derived from the scan; once it has succeeded."
+    )
+    cancel: str | None = Field(default=None, description="While the job has not ended.")
+    retry: str | None = Field(default=None, description="Once the job has ended.")
+    result: str | None = None
+    artifacts: dict[str, str] = Field(default_factory=dict[str, str])
+
+
+class Scan(JobStanding):
+    """One accepted scan."""
+
+    view: int | None = Field(
+        description=(
+            "The picture that is searched by itself, from 0 on; null while all are searched "
+            "together, and before and after."
+        )
+    )
+    links: ScanLinks
+
+
+class ScanPage(WireModel):
+    """Scans, newest first; ``next`` is the path of the following page."""
+
+    scans: tuple[Scan, ...]
+    next: str | None
+
+
+class ScannedView(PictureResult):
+    """The person in one of the pictures.
+
+    ``camera`` belongs to the working picture, ``image_camera`` to the upright original. The
+    picture's files are ``body_posed_N.glb``, ``overlay_N.png`` and ``segmentation_N.png`` with
+    ``number`` for N.
+    """
+
+    number: int = Field(ge=0, description="Its place in the request, from 0 on.")
+    view: ViewKind
+    outcome_explanation: str
+    verdict: Verdict
+    camera: FittedCameraResult
+    focal_length_source: FocalLengthSource
+    stance: StanceResult | None
+    findings: tuple[Finding, ...] = Field(
+        description="What `POST /v1/checks` says of the picture; it was measured all the same."
+    )
+    assumptions: tuple[Assumption, ...]
+    warnings: tuple[FitWarning, ...]
+
+
+class ScanResult(WireModel):
+    """``result.json`` of a scan: one body, and how it stands in each picture.
+
+    ``assumptions`` and ``warnings`` are of the person and of the scan as a whole; those of a
+    picture are with it in ``views``.
+    """
+
+    gender: Gender
+    height_m: float
+    cues: Cues
+    verdict: Verdict = Field(description="The worst of the views'.")
+    shape: tuple[float, ...]
+    views: tuple[ScannedView, ...]
+    measurements: tuple[Measurement, ...] = Field(
+        description=(
+            "Empty where the verdict is `implausible` or `no_person` and the request did not "
+            "`force` them."
+        )
+    )
+    agreement: float = Field(
+        ge=0.0,
+        le=1.0,
+        description=(
+            "How often pictures of one person, each by itself, give bodies that differ as much as "
+            "these do; below 0.01 a warning names the view that differs most."
+        ),
+    )
+    assumptions: tuple[Assumption, ...]
+    warnings: tuple[FitWarning, ...]
+    artifacts: tuple[Artifact, ...]
+
+
+class ScanEventType(StrEnum):
+    """How the job ended."""
+
+    SUCCEEDED = "scan.succeeded"
+    FAILED = "scan.failed"
+    CANCELED = "scan.canceled"
+    TIMED_OUT = "scan.timed_out"
+
+
+class ScanEvent(WireModel):
+    """The body of a notice.
+
+    ``data`` is the scan as its own path answers it, but for ``webhook``, which is null.
+    ``timestamp`` is when the job ended.
+    """
+
+    type: ScanEventType
+    timestamp: datetime
+    data: Scan
+
+
+class ScanDerivationLinks(WireModel):
+    """Paths of a derivation's resources below this service's root; absent ones are not (yet)."""
+
+    self: str
+    scan: str = Field(description="The scan it is derived from.")
+    events: str
+    request: str = Field(description="What was asked for.")
+    cancel: str | None = Field(default=None, description="While the job has not ended.")
+    retry: str | None = Field(default=None, description="Once it has ended.")
+    result: str | None = None
+    artifacts: dict[str, str] = Field(default_factory=dict[str, str])
+
+
+class ScanDerivation(JobStanding):
+    """One accepted derivation of a scan; it is erased with its scan, and expires when it does."""
+
+    kind: DerivationKind
+    scan_id: UUID
+    links: ScanDerivationLinks
+
+
+class ScanDerivationPage(WireModel):
+    """Derivations of a scan, newest first; ``next`` is the path of the following page."""
+
+    derivations: tuple[ScanDerivation, ...]
+    next: str | None
+
+
+class ScanDerivationEvent(WireModel):
+    """The body of a notice of the end of a derivation of a scan."""
+
+    type: DerivationEventType
+    timestamp: datetime
+    data: ScanDerivation

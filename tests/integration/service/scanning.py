@@ -1,0 +1,58 @@
+"""Scans as callers submit them, of scripted pictures."""
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import httpx
+
+from tests.integration.service.fake_pipeline import scripted_image
+from tests.integration.service.harness import POINTS, Service
+
+FRONT: dict[str, Any] = {"view": "front", "points": POINTS}
+SIDE: dict[str, Any] = {"view": "side", "points": POINTS}
+SCAN: dict[str, Any] = {"gender": "male", "height_m": 1.8, "views": [FRONT, SIDE]}
+
+Script = dict[str, object]
+
+
+def files_of(
+    images: Sequence[bytes], masks: Mapping[int, bytes] | None = None
+) -> dict[str, tuple[str, bytes, str]]:
+    """The parts of a form that are pictures and masks."""
+    parts = {f"image_{number}": image for number, image in enumerate(images)}
+    parts |= {f"mask_{number}": mask for number, mask in (masks or {}).items()}
+    return {name: (name, content, "image/png") for name, content in parts.items()}
+
+
+def post_scan(
+    service: Service,
+    *scripts: Script,
+    request: Mapping[str, Any] = SCAN,
+    images: Sequence[bytes] | None = None,
+    masks: Mapping[int, bytes] | None = None,
+    **headers: str,
+) -> httpx.Response:
+    """Post pictures that do what these scripts say, or two that say nothing."""
+    if images is None:
+        images = [scripted_image(script) for script in scripts or ({}, {"n": 1})]
+    return service.client.post(
+        "/v1/scans",
+        files=files_of(images, masks),
+        data={"request": json.dumps(request)},
+        headers=headers,
+    )
+
+
+def submit_scan(service: Service, *scripts: Script, **options: Any) -> str:
+    """Post and return the job's path."""
+    answer = post_scan(service, *scripts, **options)
+    assert answer.status_code == 202, answer.text
+    return answer.headers["Location"]
+
+
+def scanned(service: Service, *scripts: Script, **options: Any) -> str:
+    """Have a scan made, and return its path."""
+    path = submit_scan(service, *scripts, **options)
+    assert service.ended(path)["state"] == "succeeded"
+    return path
