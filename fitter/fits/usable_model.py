@@ -11,7 +11,8 @@ from fitter.body.joint_limits import JOINT_RANGES
 from fitter.body.model import BodyModel
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.errors import ModelFileError
-from fitter.measurement.definitions import JOINT_PREFIX, load_definitions, points_of
+from fitter.measurement.definition_file import load_definitions
+from fitter.measurement.definitions import JOINT_PREFIX, needed_points
 from fitter.observation.clicks import POINT_NAMES
 from fitter.request import Gender
 
@@ -53,7 +54,7 @@ def needed_landmarks() -> tuple[str, ...]:
     measured = (
         point
         for definition in load_definitions()
-        for point in points_of(definition)
+        for point in needed_points(definition)
         if not point.startswith(JOINT_PREFIX)
     )
     return tuple(dict.fromkeys((*POINT_NAMES, *measured)))

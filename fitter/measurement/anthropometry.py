@@ -5,42 +5,36 @@ the model again, and derivatives by shape cost only tape measurements.
 """
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
 
-from fitter.arrays import PerVertex, Points3D, Shape, Triangles, Vector3, Vertices
+from fitter.arrays import PerVertex, Shape, Triangles, Vertices
 from fitter.body.model import BodyModel, SparseRows
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.skeleton import regress
 from fitter.errors import NumericalError
 from fitter.measurement.affine_body import AffineBody, affine_body
+from fitter.measurement.definition_file import load_definitions
 from fitter.measurement.definitions import (
     JOINT_PREFIX,
-    BackContour,
-    Girth,
-    Height,
-    Length,
     Mass,
     MeasurementDefinition,
-    PointNames,
     check_against_model,
-    load_definitions,
+    parts_of,
+    points_of,
 )
 from fitter.measurement.plane_cut import Region, restricted, whole_mesh
 from fitter.measurement.quantity import Measurement
-from fitter.measurement.tape import (
-    back_contour,
-    back_contour_m,
-    girth_at_m,
-    girth_loop,
-    girth_placement,
-    path_length_m,
+from fitter.measurement.skin_points import load_skin_points, skin_rows
+from fitter.measurement.taking import (
+    TakenBody,
+    girth_placements,
+    girths_of,
+    taken_line,
+    taken_values,
 )
-from fitter.numerics.meshes import enclosed_volume
-
-CENTIMETRES_PER_METRE = 100.0
 
 DIFFERENCE_STEP = 1e-3
 """Standard deviations. Girths are smooth but for corners joining or leaving the hull, whose effect
@@ -66,7 +60,8 @@ class MeasuringBody:
     canonical
         The body in the canonical pose.
     points
-        Rows of landmarks, then of joints, which have a prefix to their names.
+        Rows of landmarks, then of joints and of places of the skin, which have prefixes to their
+        names.
     canonical_points, standing_points
         Those points in the canonical and in the standing pose.
     unexplained
@@ -82,15 +77,6 @@ class MeasuringBody:
     canonical_points: AffineBody
     standing_points: AffineBody
     unexplained: Float[np.ndarray, " k"]
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class _Taken:
-    """One shape's vertices and points, ready for the tape."""
-
-    vertices: Vertices
-    canonical: Mapping[str, Vector3]
-    standing: Mapping[str, Vector3]
 
 
 def measuring_body(
@@ -109,12 +95,13 @@ def measuring_body(
     check_against_model(definitions, model)
     canonical = affine_body(evaluator, model.canonical_pose)
     everything = whole_mesh(model.triangles)
+    with_girths = {d.about.name: d for d in definitions} | dict(girths_of(definitions))
     regions = {
-        definition.about.name: restricted(everything, _part_shares(model, definition.parts))
-        for definition in definitions
-        if isinstance(definition, Girth | BackContour)
+        name: restricted(everything, _part_shares(model, parts))
+        for name, definition in with_girths.items()
+        if (parts := parts_of(definition))
     }
-    points = _point_rows(model)
+    points = _point_rows(model, definitions, canonical.mean)
     return MeasuringBody(
         definitions=definitions,
         triangles=model.triangles,
@@ -167,8 +154,8 @@ def measure(
         If a measurement is not finite.
     """
     taken = _take(body, shape)
-    placements = _placements(body, taken)
-    values = _values(body, taken, placements)
+    placements = girth_placements(body.definitions, taken)
+    values = taken_values(body.definitions, taken, placements)
     if not np.isfinite(values).all():
         names = [d.about.name for d, v in zip(body.definitions, values, strict=True) if v != v]
         message = f"Not finite: {', '.join(names)} at shape {shape}."
@@ -197,7 +184,7 @@ def measure(
 def measurement_values(body: MeasuringBody, shape: Shape) -> Float[np.ndarray, " k"]:
     """The measurements' values alone, in the order of ``body.definitions`` and in their units."""
     taken = _take(body, shape)
-    return _values(body, taken, _placements(body, taken))
+    return taken_values(body.definitions, taken, girth_placements(body.definitions, taken))
 
 
 def tape_lines(body: MeasuringBody, shape: Shape) -> Mapping[str, Float[np.ndarray, "_ 3"]]:
@@ -209,9 +196,9 @@ def tape_lines(body: MeasuringBody, shape: Shape) -> Mapping[str, Float[np.ndarr
     millimetres shorter than what is measured.
     """
     taken = _take(body, shape)
-    placements = _placements(body, taken)
+    placements = girth_placements(body.definitions, taken)
     lines = {
-        definition.about.name: _line(body, definition, taken, placements)
+        definition.about.name: taken_line(definition, taken, placements)
         for definition in body.definitions
         if not isinstance(definition, Mass)
     }
@@ -224,7 +211,7 @@ def measurement_jacobian(body: MeasuringBody, shape: Shape) -> Float[np.ndarray,
     Central differences with each tape held at its place along the body: where a girth is the
     largest or smallest of many, moving the tape changes it only in second order.
     """
-    placements = _placements(body, _take(body, shape))
+    placements = girth_placements(body.definitions, _take(body, shape))
     ahead = _values_after(body, shape, placements, DIFFERENCE_STEP)
     behind = _values_after(body, shape, placements, -DIFFERENCE_STEP)
     return (ahead - behind) / (2.0 * DIFFERENCE_STEP)
@@ -251,7 +238,7 @@ def _values_after(
         moved = shape.copy()
         moved[index] += step
         taken = _take(body, moved, vertices=at_shape + step * displacement)
-        columns.append(_values(body, taken, placements))
+        columns.append(taken_values(body.definitions, taken, placements))
     return np.stack(columns, axis=1)
 
 
@@ -262,16 +249,28 @@ def _part_shares(model: BodyModel, parts: Sequence[str]) -> PerVertex:
     return np.where(chosen, weights, 0.0).sum(axis=1) / weights.sum(axis=1)
 
 
-def _point_rows(model: BodyModel) -> SparseRows:
-    """Landmarks and joints as rows of one matrix."""
-    landmarks, joints = model.landmarks, model.joint_regressor
+def _point_rows(
+    model: BodyModel, definitions: Sequence[MeasurementDefinition], canonical: Vertices
+) -> SparseRows:
+    """Landmarks, joints and the places of the skin that definitions name, as rows of one matrix."""
+    joints = replace(
+        model.joint_regressor, names=tuple(JOINT_PREFIX + part for part in model.part_names)
+    )
+    known = _stacked(model.landmarks, joints)
+    named = {name for definition in definitions for name in points_of(definition)}
+    places = [place for name, place in load_skin_points().items() if name in named]
+    if not places:
+        return known
+    at = dict(zip(known.names, regress(known, canonical), strict=True))
+    return _stacked(known, skin_rows(places, at, canonical, model.triangles))
+
+
+def _stacked(first: SparseRows, second: SparseRows) -> SparseRows:
     return SparseRows(
-        names=(*landmarks.names, *(JOINT_PREFIX + part for part in model.part_names)),
-        pointers=np.concatenate(
-            [landmarks.pointers[:-1], joints.pointers + landmarks.pointers[-1]]
-        ),
-        indices=np.concatenate([landmarks.indices, joints.indices]),
-        weights=np.concatenate([landmarks.weights, joints.weights]),
+        names=(*first.names, *second.names),
+        pointers=np.concatenate([first.pointers[:-1], second.pointers + first.pointers[-1]]),
+        indices=np.concatenate([first.indices, second.indices]),
+        weights=np.concatenate([first.weights, second.weights]),
     )
 
 
@@ -282,111 +281,12 @@ def _points(rows: SparseRows, posed: AffineBody) -> AffineBody:
     )
 
 
-def _take(body: MeasuringBody, shape: Shape, vertices: Vertices | None = None) -> _Taken:
+def _take(body: MeasuringBody, shape: Shape, vertices: Vertices | None = None) -> TakenBody:
     names = body.points.names
-    return _Taken(
+    return TakenBody(
         vertices=body.canonical.at(shape) if vertices is None else vertices,
+        triangles=body.triangles,
+        regions=body.regions,
         canonical=dict(zip(names, body.canonical_points.at(shape), strict=True)),
         standing=dict(zip(names, body.standing_points.at(shape), strict=True)),
     )
-
-
-def _placements(body: MeasuringBody, taken: _Taken) -> Mapping[str, float]:
-    """The fraction along its axis at which each girth is taken, by name."""
-    return {
-        definition.about.name: girth_placement(
-            definition,
-            body.regions[definition.about.name],
-            taken.vertices,
-            *_axis(definition, taken.canonical),
-        )
-        for definition in body.definitions
-        if isinstance(definition, Girth)
-    }
-
-
-def _values(
-    body: MeasuringBody, taken: _Taken, placements: Mapping[str, float]
-) -> Float[np.ndarray, " k"]:
-    return np.array([_value(body, d, taken, placements) for d in body.definitions])
-
-
-def _value(
-    body: MeasuringBody,
-    definition: MeasurementDefinition,
-    taken: _Taken,
-    placements: Mapping[str, float],
-) -> float:
-    points = taken.canonical
-    name = definition.about.name
-    match definition:
-        case Mass():
-            volume = enclosed_volume(taken.vertices, body.triangles)
-            return volume * definition.density_kg_per_m3
-        case Girth():
-            metres = girth_at_m(
-                definition,
-                body.regions[name],
-                taken.vertices,
-                *_axis(definition, points),
-                placements[name],
-            )
-        case Length():
-            metres = path_length_m([_point(names, points) for names in definition.path])
-        case Height():
-            soles = _point(("sole_left", "sole_right"), taken.standing)
-            metres = float(_point(definition.point, taken.standing)[1] - soles[1])
-        case BackContour():
-            metres = back_contour_m(
-                body.regions[name],
-                taken.vertices,
-                _point(definition.top, points),
-                _point(definition.bottom, points),
-            )
-    return metres * CENTIMETRES_PER_METRE
-
-
-def _line(
-    body: MeasuringBody,
-    definition: Girth | Length | Height | BackContour,
-    taken: _Taken,
-    placements: Mapping[str, float],
-) -> Points3D:
-    points = taken.canonical
-    name = definition.about.name
-    match definition:
-        case Girth():
-            return girth_loop(
-                definition,
-                body.regions[name],
-                taken.vertices,
-                *_axis(definition, points),
-                placements[name],
-            )
-        case Length():
-            return np.stack([_point(names, points) for names in definition.path])
-        case Height():
-            top = _point(definition.point, points)
-            soles = _point(("sole_left", "sole_right"), points)
-            return np.stack([top, [top[0], soles[1], top[2]]])
-        case BackContour():
-            return back_contour(
-                body.regions[name],
-                taken.vertices,
-                _point(definition.top, points),
-                _point(definition.bottom, points),
-            )
-
-
-def _axis(girth: Girth, points: Mapping[str, Vector3]) -> tuple[Vector3, Vector3]:
-    """Where the girth's fractions 0 and 1 lie."""
-    start, end = _point(girth.start, points), _point(girth.end, points)
-    if girth.origin is None:
-        return start, end
-    axis = end - start
-    shift = axis * float((_point(girth.origin, points) - start) @ axis / (axis @ axis))
-    return start + shift, end + shift
-
-
-def _point(names: PointNames, points: Mapping[str, Vector3]) -> Vector3:
-    return sum((points[name] for name in names[1:]), start=points[names[0]]) / len(names)

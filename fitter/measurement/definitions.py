@@ -1,28 +1,25 @@
 """Measurement definitions: which landmarks, planes and parts, as data with their source.
 
 ``definitions.json`` beside this file holds them. Points are named by the body model's landmarks,
-or ``joint:PART`` for the centre about which a part turns; several names mean their mean. This
-module reads and checks the file; :mod:`fitter.measurement.anthropometry` measures by it.
+by ``joint:PART`` for the centre about which a part turns, or by ``skin:NAME`` for a place of
+``skin_points.json``; several names mean their mean.
+:mod:`fitter.measurement.definition_file` reads the file and checks it;
+:mod:`fitter.measurement.anthropometry` measures by it.
 """
 
-import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from pathlib import Path
-from typing import NoReturn, TypeVar, cast
 
 from fitter.body.model import BodyModel
 from fitter.errors import DefinitionError
+from fitter.measurement.skin_points import SKIN_PREFIX, load_skin_points
 
-FORMAT_VERSION = 1
-DEFINITIONS_PATH = Path(__file__).with_name("definitions.json")
 JOINT_PREFIX = "joint:"
 
 PointNames = tuple[str, ...]
 
-T = TypeVar("T")
-C = TypeVar("C", bound=StrEnum)
+SOLES: PointNames = ("sole_left", "sole_right")
 
 
 class Unit(StrEnum):
@@ -40,10 +37,22 @@ class Selection(StrEnum):
 
 
 class Orientation(StrEnum):
-    """How the cutting plane lies: level with the floor, or square to the axis."""
+    """How the cutting plane lies: level with the floor, square to the axis, or along it.
+
+    Along the axis it holds the body's left-right or its fore-aft direction as well.
+    """
 
     LEVEL = "level"
     ACROSS_AXIS = "across_axis"
+    ALONG_AXIS_AND_SIDEWAYS = "along_axis_and_sideways"
+    ALONG_AXIS_AND_FORWARD = "along_axis_and_forward"
+
+
+class Direction(StrEnum):
+    """Of a caliper."""
+
+    SIDEWAYS = "sideways"
+    FORWARD = "forward"
 
 
 class Agreement(StrEnum):
@@ -83,14 +92,37 @@ class SurveyDefinition:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class IsoDefinition:
+    """How ISO 8559-1:2017, the tailors' standard, takes the same of people; in our words.
+
+    Attributes
+    ----------
+    term
+        Its name there.
+    clause
+        Its number there; None where no public source tells it.
+    agreement
+        ``same`` or ``differs``.
+    difference
+        What is not the same.
+    """
+
+    term: str
+    clause: str | None
+    agreement: Agreement
+    difference: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class About:
-    """What is said of a measurement to its reader."""
+    """What is said of a measurement to its reader; ``iso`` is None where the standard lacks it."""
 
     name: str
     unit: Unit
     definition: str
     source: str
     survey: SurveyDefinition
+    iso: IsoDefinition | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -125,10 +157,35 @@ class Length:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Height:
-    """Height of a point above the soles, standing pose."""
+    """Height of a point above another one, standing pose; above the soles if no other is named."""
 
     about: About
     point: PointNames
+    above: PointNames = SOLES
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Extent:
+    """Breadth or depth of the tape of a level girth, by caliper, canonical pose."""
+
+    about: About
+    girth: Girth
+    direction: Direction
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Contour:
+    """A tape laid taut over the skin along a path of points, canonical pose.
+
+    Each step of the path has a side, a direction in the body frame (x to the person's left, y up,
+    z forward): the tape lies in the plane that holds both ends and this direction, on that side of
+    the convex hull of ``parts`` between them. A step without a side is straight.
+    """
+
+    about: About
+    path: tuple[PointNames, ...]
+    sides: tuple[tuple[float, float, float] | None, ...]
+    parts: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -152,34 +209,7 @@ class Mass:
     density_kg_per_m3: float
 
 
-MeasurementDefinition = Girth | Length | Height | BackContour | Mass
-
-
-def load_definitions(path: Path = DEFINITIONS_PATH) -> tuple[MeasurementDefinition, ...]:
-    """Read and check a definitions file.
-
-    Raises
-    ------
-    DefinitionError
-        If the file cannot be read or an entry is incomplete or contradictory; the message names
-        the measurement and the field.
-    """
-    try:
-        document = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        message = f"{path.name} cannot be read as JSON ({error})."
-        raise DefinitionError(message) from error
-    root = _Entry("the file", document)
-    if root.value("format_version", int) != FORMAT_VERSION:
-        message = f"{path.name}: format_version is not {FORMAT_VERSION}, the one this code reads."
-        raise DefinitionError(message)
-    definitions = tuple(_read(entry) for entry in root.value("measurements", list))
-    names = [definition.about.name for definition in definitions]
-    for name in names:
-        if names.count(name) > 1:
-            message = f"{path.name}: {name} is defined {names.count(name)} times."
-            raise DefinitionError(message)
-    return definitions
+MeasurementDefinition = Girth | Extent | Length | Height | Contour | BackContour | Mass
 
 
 def check_against_model(definitions: Sequence[MeasurementDefinition], model: BodyModel) -> None:
@@ -192,14 +222,13 @@ def check_against_model(definitions: Sequence[MeasurementDefinition], model: Bod
     """
     known = set(model.landmarks.names) | {JOINT_PREFIX + part for part in model.part_names}
     for definition in definitions:
-        for point in points_of(definition):
+        for point in needed_points(definition):
             if point not in known:
                 message = (
                     f"{definition.about.name}: the {model.gender} body model has no point {point}."
                 )
                 raise DefinitionError(message)
-        parts = definition.parts if isinstance(definition, Girth | BackContour) else ()
-        for part in parts:
+        for part in parts_of(definition):
             if part not in model.part_names:
                 message = (
                     f"{definition.about.name}: the {model.gender} body model has no part {part}."
@@ -212,116 +241,44 @@ def points_of(definition: MeasurementDefinition) -> tuple[str, ...]:
     match definition:
         case Girth():
             return definition.start + definition.end + (definition.origin or ())
-        case Length():
+        case Extent():
+            return points_of(definition.girth)
+        case Length() | Contour():
             return tuple(name for names in definition.path for name in names)
         case Height():
-            return (*definition.point, "sole_left", "sole_right")
+            return definition.point + definition.above
         case BackContour():
             return definition.top + definition.bottom
         case Mass():
             return ()
 
 
-class _Entry:
-    """One JSON object, read field by field with errors that name it."""
+def needed_points(definition: MeasurementDefinition) -> tuple[str, ...]:
+    """The landmarks and joints a definition stands on: those its places of the skin are found by.
 
-    def __init__(self, name: str, fields: object) -> None:
-        if not isinstance(fields, dict):
-            message = f"{name}: expected an object, found {type(fields).__name__}."
+    Raises
+    ------
+    DefinitionError
+        If it names a place of the skin that there is not.
+    """
+    needed: list[str] = []
+    for name in points_of(definition):
+        if not name.startswith(SKIN_PREFIX):
+            needed.append(name)
+            continue
+        if name not in load_skin_points():
+            message = f"{definition.about.name}: there is no place {name}."
             raise DefinitionError(message)
-        self.name = name
-        self.fields = cast("Mapping[str, object]", fields)
-
-    def value(self, field: str, kind: type[T]) -> T:
-        if field not in self.fields:
-            self.fail(field, "is missing")
-        found = self.fields[field]
-        if kind is float and isinstance(found, int) and not isinstance(found, bool):
-            found = float(found)
-        if not isinstance(found, kind) or (isinstance(found, bool) and kind is not bool):
-            self.fail(field, f"is {found!r}, not of type {kind.__name__}")
-        return cast("T", found)
-
-    def names(self, field: str, *, may_be_empty: bool = False) -> tuple[str, ...]:
-        values = self.value(field, list)
-        if not (values or may_be_empty) or not all(isinstance(value, str) for value in values):
-            self.fail(field, f"is {values!r}, not a list of names")
-        return tuple(cast("list[str]", values))
-
-    def choice(self, field: str, kind: type[C]) -> C:
-        text = self.value(field, str)
-        if text not in list(kind):
-            self.fail(field, f"is {text!r}, not one of {', '.join(kind)}")
-        return kind(text)
-
-    def fail(self, field: str, fault: str) -> NoReturn:
-        message = f"{self.name}: {field} {fault}."
-        raise DefinitionError(message)
+        needed.extend(load_skin_points()[name].needs)
+    return tuple(needed)
 
 
-def _read(fields: object) -> MeasurementDefinition:
-    entry = _Entry("a measurement", fields)
-    entry = _Entry(entry.value("name", str), fields)
-    about = About(
-        name=entry.name,
-        unit=entry.choice("unit", Unit),
-        definition=entry.value("definition", str),
-        source=entry.value("source", str),
-        survey=_read_survey(_Entry(f"{entry.name}: survey", entry.value("survey", dict))),
-    )
-    match entry.value("kind", str):
-        case "girth":
-            return _read_girth(entry, about)
-        case "length":
-            path = entry.value("path", list)
-            steps = tuple(_Entry(about.name, {"path": step}).names("path") for step in path)
-            if len(steps) < 2:
-                entry.fail("path", "has fewer than two points")
-            return Length(about=about, path=steps)
-        case "height":
-            return Height(about=about, point=entry.names("point"))
-        case "back_contour":
-            return BackContour(
-                about=about,
-                top=entry.names("top"),
-                bottom=entry.names("bottom"),
-                parts=entry.names("parts"),
-            )
-        case "mass":
-            return Mass(about=about, density_kg_per_m3=entry.value("density_kg_per_m3", float))
-        case kind:
-            message = f"{about.name}: kind {kind!r} is not known."
-            raise DefinitionError(message)
-
-
-def _read_survey(entry: _Entry) -> SurveyDefinition:
-    survey = SurveyDefinition(
-        fields=entry.names("fields", may_be_empty=True),
-        share=entry.value("share", float) if "share" in entry.fields else 1.0,
-        agreement=entry.choice("agreement", Agreement),
-        definition=entry.value("definition", str),
-        difference=entry.value("difference", str),
-    )
-    if bool(survey.fields) == (survey.agreement is Agreement.ABSENT):
-        entry.fail("fields", f"is {list(survey.fields)} where the agreement is {survey.agreement}")
-    return survey
-
-
-def _read_girth(entry: _Entry, about: About) -> Girth:
-    values = entry.value("fractions", list)
-    if len(values) != 2 or not all(isinstance(value, int | float) for value in values):
-        entry.fail("fractions", f"is {values!r}, not two numbers")
-    low, high = float(values[0]), float(values[1])
-    if low > high:
-        entry.fail("fractions", f"runs from {low} down to {high}")
-    return Girth(
-        about=about,
-        start=entry.names("start"),
-        end=entry.names("end"),
-        origin=entry.names("origin") if "origin" in entry.fields else None,
-        fractions=(low, high),
-        selection=entry.choice("selection", Selection),
-        orientation=entry.choice("orientation", Orientation),
-        parts=entry.names("parts"),
-        around_axis=entry.value("around_axis", bool),
-    )
+def parts_of(definition: MeasurementDefinition) -> tuple[str, ...]:
+    """The body parts a definition's tape may run over; none where it has no tape on the skin."""
+    match definition:
+        case Girth() | Contour() | BackContour():
+            return definition.parts
+        case Extent():
+            return definition.girth.parts
+        case Length() | Height() | Mass():
+            return ()

@@ -6,11 +6,9 @@
 import sys
 from collections.abc import Sequence
 
-from fitter.measurement.definitions import (
-    Agreement,
-    MeasurementDefinition,
-    load_definitions,
-)
+from fitter.measurement.definition_file import load_definitions
+from fitter.measurement.definitions import Agreement, MeasurementDefinition
+from fitter.measurement.groups import Group
 
 _HEADING = """# Measurements
 
@@ -32,6 +30,14 @@ _AGREEMENT = {
     Agreement.DIFFERS: "differs",
     Agreement.ABSENT: "not in the survey",
 }
+
+ATLAS_FOLDER = "atlas"
+"""Beside the page: a picture of each group's tapes on the body."""
+
+
+def sheet_name(group: Group) -> str:
+    """The file of a group's picture."""
+    return f"{group.name.lower()}.webp"
 
 
 def measurements_page(definitions: Sequence[MeasurementDefinition]) -> str:

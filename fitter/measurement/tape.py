@@ -18,7 +18,8 @@ from fitter.measurement.plane_cut import (
     surrounds,
 )
 
-UP = np.array([0.0, 1.0, 0.0])
+SIDEWAYS, UP, FORWARD = np.eye(3)
+"""Axes of the body frame."""
 
 SCRAP_SHARE = 0.2
 """An open line shorter than this share of the longest is not part of what is measured: front and
@@ -32,17 +33,14 @@ def girth_at_m(
     girth: Girth, region: Region, vertices: Vertices, start: Vector3, end: Vector3, fraction: float
 ) -> float:
     """Hull length of the cut at a fraction of the axis; NaN where the plane misses the region."""
-    plane = _girth_plane(girth, start, end, fraction)
-    points = _under_tape(girth, region, vertices, plane)
-    if points is None:
-        return float("nan")
-    return closed_length(hull_of(in_plane(points, plane)))
+    corners = girth_corners(girth, region, vertices, start, end, fraction)
+    return closed_length(corners) if len(corners) else float("nan")
 
 
-def girth_loop(
+def girth_corners(
     girth: Girth, region: Region, vertices: Vertices, start: Vector3, end: Vector3, fraction: float
 ) -> Points3D:
-    """The tape whose length :func:`girth_at_m` tells, closed by repeating its first point.
+    """Corners of the tape whose length :func:`girth_at_m` tells, in order.
 
     (k, 3) in the frame of the vertices; empty where the plane misses the region.
     """
@@ -50,14 +48,26 @@ def girth_loop(
     points = _under_tape(girth, region, vertices, plane)
     if points is None:
         return np.zeros((0, 3))
-    corners = hull_indices(in_plane(points, plane))
-    return points[np.append(corners, corners[0])]
+    return points[hull_indices(in_plane(points, plane))]
 
 
 def _girth_plane(girth: Girth, start: Vector3, end: Vector3, fraction: float) -> Plane:
     axis = end - start
-    normal = UP if girth.orientation is Orientation.LEVEL else axis / np.linalg.norm(axis)
+    match girth.orientation:
+        case Orientation.LEVEL:
+            normal = UP
+        case Orientation.ACROSS_AXIS:
+            normal = axis / np.linalg.norm(axis)
+        case Orientation.ALONG_AXIS_AND_SIDEWAYS:
+            normal = _square_to(axis, SIDEWAYS)
+        case Orientation.ALONG_AXIS_AND_FORWARD:
+            normal = _square_to(axis, FORWARD)
     return Plane(point=start + fraction * axis, normal=normal)
+
+
+def _square_to(first: Vector3, second: Vector3) -> Vector3:
+    normal = np.cross(first, second)
+    return normal / np.linalg.norm(normal)
 
 
 def _under_tape(girth: Girth, region: Region, vertices: Vertices, plane: Plane) -> Points3D | None:

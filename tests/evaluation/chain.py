@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 
 from fitter.body.skeleton import regress
 from fitter.fits.prepared_model import prepared_model
-from fitter.measurement.anthropometry import CENTIMETRES_PER_METRE, measure
+from fitter.measurement.anthropometry import measure
+from fitter.measurement.taking import CENTIMETRES_PER_METRE
 from fitter.request import STATURE, Cues
 from fitter.result import before_shading
 from tests.evaluation.foreign import foreign_mesh, foreign_picture

@@ -13,7 +13,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from fitter.body.model import BodyModel
-from fitter.measurement.definitions import load_definitions
+from fitter.measurement.definition_file import load_definitions
 from fitter.request import Gender
 from fitter.training.articulation.rigged_bodies import rigged_bodies
 from fitter.training.build import PACKAGED_SEED, read_materials, solved_population

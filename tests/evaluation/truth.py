@@ -10,7 +10,8 @@ from fitter.arrays import Triangles, Vertices
 from fitter.body.skeleton import regress
 from fitter.fits.prepared_model import prepared_model
 from fitter.measurement.affine_body import AffineBody
-from fitter.measurement.anthropometry import CENTIMETRES_PER_METRE, measure
+from fitter.measurement.anthropometry import measure
+from fitter.measurement.taking import CENTIMETRES_PER_METRE
 from fitter.parameters import Light, LightKind
 from fitter.request import STATURE
 from tests.evaluation.landmark_points import packaged_model
@@ -49,8 +50,8 @@ def true_body(person: Person) -> TrueBody:
     fixed = replace(
         measuring,
         canonical=_fixed(canonical),
-        canonical_points=_fixed(_points(person, canonical)),
-        standing_points=_fixed(_points(person, standing)),
+        canonical_points=_fixed(regress(measuring.points, canonical)),
+        standing_points=_fixed(regress(measuring.points, standing)),
     )
     found = measure(fixed, np.zeros(0))
     measurements = {each.name: each.value for each in found}
@@ -86,11 +87,6 @@ def light_toward(toward: Float[np.ndarray, "3"], kind: LightKind) -> Light:
         elevation=float(np.arcsin(-y)),
         distance=distance,
     )
-
-
-def _points(person: Person, body: Vertices) -> Float[np.ndarray, "q 3"]:
-    model = packaged_model(person.gender)
-    return np.concatenate([regress(model.landmarks, body), regress(model.joint_regressor, body)])
 
 
 def _fixed(points: Vertices) -> AffineBody:

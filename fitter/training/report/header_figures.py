@@ -5,7 +5,7 @@ from jaxtyping import Float
 
 from fitter.body.model import BodyModel
 from fitter.measurement.anthropometry import UNEXPLAINED_KEY
-from fitter.measurement.definitions import load_definitions
+from fitter.measurement.definition_file import load_definitions
 from fitter.training.articulation.registered_bodies import RegisteredBodies
 from fitter.training.assemble import TrainedModel
 from fitter.training.report.body_regions import vertex_regions

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from fitter.measurement.definitions import MeasurementDefinition, load_definitions
+from fitter.measurement.definition_file import load_definitions
+from fitter.measurement.definitions import MeasurementDefinition
 from fitter.training.report.measured_people import PEOPLE, drawn_people, held_out_people
 from fitter.training.report.reported import Reported
 from fitter.training.report.text_tables import note_lines, table_lines

@@ -5,7 +5,8 @@ import numpy as np
 from fitter.body.model import BodyModel
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.shape_space import height_of_shape, standing_vertices
-from fitter.measurement.definitions import Mass, load_definitions
+from fitter.measurement.definition_file import load_definitions
+from fitter.measurement.definitions import Mass
 from fitter.numerics.meshes import enclosed_volume
 from fitter.training.report.evaluation import mean_areas
 from fitter.training.shapes.height_rotation import SOLVED_AT_DEVIATIONS, attribute_changes

@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.body.model import BodyModel
-from fitter.measurement.definitions import load_definitions
+from fitter.measurement.definition_file import load_definitions
 from fitter.training.report.body_regions import vertex_regions
 from fitter.training.report.evaluation import mean_areas, shape_residuals
 from fitter.training.report.measured_people import held_out_people, measured_bodies

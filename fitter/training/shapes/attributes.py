@@ -9,7 +9,7 @@ from fitter.body.shape_space import rest_vertices
 from fitter.body.skeleton import regress
 from fitter.errors import DefinitionError
 from fitter.measurement.anthropometry import measurement_values, measuring_body
-from fitter.measurement.definitions import load_definitions
+from fitter.measurement.definition_file import load_definitions
 from fitter.training.shapes.height_rotation import Attribute
 from fitter.training.shapes.surface_paths import SurfacePath, shortest_path
 

@@ -7,4 +7,4 @@ def about(name, unit=Unit.CENTIMETRES):
     survey = SurveyDefinition(
         fields=(), share=1.0, agreement=Agreement.ABSENT, definition="None.", difference="All."
     )
-    return About(name=name, unit=unit, definition="A.", source="B.", survey=survey)
+    return About(name=name, unit=unit, definition="A.", source="B.", survey=survey, iso=None)

@@ -3,13 +3,8 @@ import json
 import pytest
 
 from fitter.errors import DefinitionError
-from fitter.measurement.definitions import (
-    DEFINITIONS_PATH,
-    Agreement,
-    Girth,
-    check_against_model,
-    load_definitions,
-)
+from fitter.measurement.definition_file import DEFINITIONS_PATH, load_definitions
+from fitter.measurement.definitions import Agreement, Girth, check_against_model
 from tests.unit.body.synthetic_model import bar_model
 
 REQUIRED = {
@@ -117,7 +112,7 @@ def test_a_file_that_is_no_json_is_refused(tmp_path):
 
 def test_a_model_without_the_landmark_is_refused_by_name():
     with pytest.raises(
-        DefinitionError, match="chest_girth: the female body model has no point left_nipple"
+        DefinitionError, match="head_girth: the female body model has no point left_eye"
     ):
         check_against_model(load_definitions(), bar_model())
 

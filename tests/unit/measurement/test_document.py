@@ -1,6 +1,6 @@
 from pathlib import Path
 
-from fitter.measurement.definitions import load_definitions
+from fitter.measurement.definition_file import load_definitions
 from fitter.measurement.document import measurements_page
 
 PAGE = Path(__file__).parents[3] / "MEASUREMENTS.md"

