@@ -18,7 +18,7 @@ tape that reached up to each of them until it is past would jump by 3 mm."""
 def taut_chain(
     vertices, shares, triangles, members, member_vertices, start, along, outward, normal, length
 ):
-    """Corners (u, v) of the tape from (0, 0) to (``length``, 0), in that order.
+    """Corners (u, v) of the tape from (0, 0) to (``length``, 0), in that order, and their edges.
 
     Skin counts where the plane through ``start`` cuts it, between both ends along the tape; no
     order of it is needed, for the tape is the outer side of its convex hull.
@@ -31,6 +31,7 @@ def taut_chain(
             + (vertices[v, 2] - start[2]) * normal[2]
         )
     flat = np.empty((2 * members.size + 2, 2))
+    edges = np.full((2 * members.size + 2, 2), -1, dtype=np.int64)
     flat[0] = 0.0
     flat[1, 0] = length
     flat[1, 1] = 0.0
@@ -57,6 +58,8 @@ def taut_chain(
             if v > 0.0 and 0.0 < u < length:
                 flat[count, 0] = u
                 flat[count, 1] = min(v, STEEPEST * u, STEEPEST * (length - u))
+                edges[count, 0] = low
+                edges[count, 1] = high
                 count += 1
     hull = convex_hull(flat[:count])
     # Counter-clockwise, with both ends below all else: from the first end on, the chain runs
@@ -66,6 +69,8 @@ def taut_chain(
         if hull[k] == 0:
             first = k
     chain = np.empty((hull.size, 2))
+    chain_edges = np.empty((hull.size, 2), dtype=np.int64)
     for k in range(hull.size):
         chain[k] = flat[hull[(first - k) % hull.size]]
-    return chain
+        chain_edges[k] = edges[hull[(first - k) % hull.size]]
+    return chain, chain_edges

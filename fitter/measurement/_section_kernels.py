@@ -15,15 +15,17 @@ def _is_crossed(heights, triangle, corner):
 
 @no_type_check
 @njit(cache=True)
-def _crossing(vertices, shares, heights, triangle, corner, out):
-    # Coordinates and share. From the lower vertex id to the higher, so that both triangles of an
-    # edge find one point.
+def _crossing(vertices, shares, heights, triangle, corner, out, edge):
+    # Coordinates and share, and the edge. From the lower vertex id to the higher, so that both
+    # triangles of an edge find one point.
     low = min(triangle[corner], triangle[(corner + 1) % 3])
     high = max(triangle[corner], triangle[(corner + 1) % 3])
     along = heights[low] / (heights[low] - heights[high])
     for axis in range(3):
         out[axis] = vertices[low, axis] + along * (vertices[high, axis] - vertices[low, axis])
     out[3] = shares[low] + along * (shares[high] - shares[low])
+    edge[0] = low
+    edge[1] = high
 
 
 @no_type_check
@@ -39,14 +41,15 @@ def _other_crossed_edge(heights, triangle, entry):
 @no_type_check
 @njit(cache=True)
 def _walk(
-    vertices, shares, heights, triangles, neighbours, allowed, visited, start, entry, out, count
-):
+    vertices, shares, heights, triangles, neighbours, allowed, visited, start, entry,
+    out, edges, count,
+):  # fmt: skip
     """Follow the cut from triangle ``start``, in through edge ``entry``; True if it closes."""
     current = start
     while True:
         visited[current] = True
         leave = _other_crossed_edge(heights, triangles[current], entry)
-        _crossing(vertices, shares, heights, triangles[current], leave, out[count])
+        _crossing(vertices, shares, heights, triangles[current], leave, out[count], edges[count])
         count += 1
         following = neighbours[current, leave]
         if following == start:
@@ -70,11 +73,13 @@ def trace_section(
 ):
     """Polylines of a plane cut, one after the other.
 
-    Returns the points with their shares in a fourth column, where each polyline starts, and
-    whether it closes.
+    Returns the points with their shares in a fourth column, the edges they lie on, where each
+    polyline starts, and whether it closes.
     """
     points = np.empty((2 * candidates.size + 2, 4))
     behind = np.empty((candidates.size + 1, 4))
+    edges = np.empty((2 * candidates.size + 2, 2), dtype=np.int64)
+    edges_behind = np.empty((candidates.size + 1, 2), dtype=np.int64)
     starts = np.empty(candidates.size + 1, dtype=np.int64)
     closed = np.empty(candidates.size + 1, dtype=np.bool_)
     visited = np.zeros(triangles.shape[0], dtype=np.bool_)
@@ -101,25 +106,32 @@ def trace_section(
         starts[lines] = total
         closes, count = _walk(
             vertices, shares, heights, triangles, neighbours, allowed, visited, t, entry,
-            points[total:], 0,
+            points[total:], edges[total:], 0,
         )  # fmt: skip
         if not closes:
             back = 0
             leave = _other_crossed_edge(heights, triangles[t], entry)
             _, back = _walk(
                 vertices, shares, heights, triangles, neighbours, allowed, visited, t, leave,
-                behind, 0,
+                behind, edges_behind, 0,
             )  # fmt: skip
             for k in range(count - 1, -1, -1):
                 points[total + back + k] = points[total + k]
+                edges[total + back + k] = edges[total + k]
             for k in range(back):
                 points[total + k] = behind[back - 1 - k]
+                edges[total + k] = edges_behind[back - 1 - k]
             count += back
         closed[lines] = closes
         total += count
         lines += 1
     starts[lines] = total
-    return points[:total].copy(), starts[: lines + 1].copy(), closed[:lines].copy()
+    return (
+        points[:total].copy(),
+        edges[:total].copy(),
+        starts[: lines + 1].copy(),
+        closed[:lines].copy(),
+    )
 
 
 @no_type_check

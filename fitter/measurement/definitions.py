@@ -37,15 +37,10 @@ class Selection(StrEnum):
 
 
 class Orientation(StrEnum):
-    """How the cutting plane lies: level with the floor, square to the axis, or along it.
-
-    Along the axis it holds the body's left-right or its fore-aft direction as well.
-    """
+    """How the cutting plane lies: level with the floor, or square to the axis."""
 
     LEVEL = "level"
     ACROSS_AXIS = "across_axis"
-    ALONG_AXIS_AND_SIDEWAYS = "along_axis_and_sideways"
-    ALONG_AXIS_AND_FORWARD = "along_axis_and_forward"
 
 
 class Direction(StrEnum):

@@ -58,9 +58,14 @@ class Region:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Polyline:
-    """Where a plane cuts a region: a closed loop, or an open line ending at the region's border."""
+    """Where a plane cuts a region: a closed loop, or an open line ending at the region's border.
+
+    ``edges`` are the vertices of the mesh edges on which the points lie. Each lies on two: a point
+    of the border between its crossings with both, every other on one that is named twice.
+    """
 
     points: Points3D
+    edges: Integer[np.ndarray, "k 2 2"]
     closed: bool
 
 
@@ -105,7 +110,7 @@ def _region(
 
 def plane_section(vertices: Vertices, region: Region, plane: Plane) -> tuple[Polyline, ...]:
     """Every polyline in which ``plane`` cuts ``region``, in the frame of ``vertices``."""
-    points, starts, closed = trace_section(
+    points, edges, starts, closed = trace_section(
         np.ascontiguousarray(vertices),
         region.shares,
         region.triangles,
@@ -120,29 +125,46 @@ def plane_section(vertices: Vertices, region: Region, plane: Plane) -> tuple[Pol
     for start, stop, is_closed in zip(starts[:-1], starts[1:], closed, strict=True):
         line, shares = points[start:stop, :3], points[start:stop, 3]
         if (shares >= BORDER_SHARE).all():
-            lines.append(Polyline(points=np.ascontiguousarray(line), closed=bool(is_closed)))
+            lines.append(
+                Polyline(
+                    points=np.ascontiguousarray(line),
+                    edges=np.stack([edges[start:stop]] * 2, axis=1),
+                    closed=bool(is_closed),
+                )
+            )
         else:
-            lines.extend(_within(line, shares, closed=bool(is_closed)))
+            lines.extend(_within(line, edges[start:stop], shares, closed=bool(is_closed)))
     return tuple(lines)
 
 
-def _within(points: Points3D, shares: Float[np.ndarray, " k"], *, closed: bool) -> list[Polyline]:
+def _within(
+    points: Points3D,
+    edges: Integer[np.ndarray, "k 2"],
+    shares: Float[np.ndarray, " k"],
+    *,
+    closed: bool,
+) -> list[Polyline]:
     """The stretches of a line that lie in the region, ending where the share is the border's."""
     if closed:
         first = int(np.argmin(shares))
         turn = (np.arange(len(points) + 1) + first) % len(points)
-        points, shares = points[turn], shares[turn]
+        points, edges, shares = points[turn], edges[turn], shares[turn]
     inside = shares >= BORDER_SHARE
     stretches: list[Polyline] = []
     # Runs of points inside, as pairs of (first, one past the last).
     steps = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]])))
     for start, stop in steps.reshape(-1, 2).tolist():
         run = [points[start:stop]]
+        on = [np.stack([edges[start:stop]] * 2, axis=1)]
         if start > 0:
             run.insert(0, _border_point(points, shares, start - 1)[None])
+            on.insert(0, edges[None, start - 1 : start + 1])
         if stop < len(points):
             run.append(_border_point(points, shares, stop - 1)[None])
-        stretches.append(Polyline(points=np.concatenate(run), closed=False))
+            on.append(edges[None, stop - 1 : stop + 1])
+        stretches.append(
+            Polyline(points=np.concatenate(run), edges=np.concatenate(on), closed=False)
+        )
     return stretches
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Points3D, Triangles, Vector3, Vertices
-from fitter.measurement.contour import contour
+from fitter.measurement.contour import Leg, contour_legs, joined
 from fitter.measurement.definitions import (
     BackContour,
     Contour,
@@ -20,19 +20,23 @@ from fitter.measurement.definitions import (
     MeasurementDefinition,
     PointNames,
 )
-from fitter.measurement.plane_cut import Region, closed_length
+from fitter.measurement.plane_cut import Polyline, Region, closed_length
 from fitter.measurement.tape import (
     back_contour,
     back_contour_m,
-    girth_corners,
     girth_placement,
+    girth_tape,
     path_length_m,
 )
 from fitter.numerics.meshes import enclosed_volume
 
 CENTIMETRES_PER_METRE = 100.0
 
-_AXES = {Direction.SIDEWAYS: 0, Direction.FORWARD: 2}
+AXIS_OF = {Direction.SIDEWAYS: 0, Direction.FORWARD: 2}
+
+
+Place = Float[np.ndarray, "*b 3"]
+"""A point of one body, or of many."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -72,7 +76,7 @@ def girth_placements(
     """The fraction along its axis at which each girth is taken, by name."""
     return {
         name: girth_placement(
-            girth, taken.regions[name], taken.vertices, *_axis(girth, taken.canonical)
+            girth, taken.regions[name], taken.vertices, *girth_axis(girth, taken.canonical)
         )
         for name, girth in girths_of(definitions).items()
     }
@@ -82,10 +86,10 @@ def taken_values(
     definitions: Sequence[MeasurementDefinition], taken: TakenBody, placements: Mapping[str, float]
 ) -> Float[np.ndarray, " k"]:
     """Each measurement in its unit; NaN where a tape misses the body."""
-    corners = {
-        name: _corners(girth, taken, placements) for name, girth in girths_of(definitions).items()
+    laid = {
+        name: laid_girth(girth, taken, placements) for name, girth in girths_of(definitions).items()
     }
-    return np.array([_value(definition, taken, corners) for definition in definitions])
+    return np.array([_value(definition, taken, laid) for definition in definitions])
 
 
 def taken_line(
@@ -101,28 +105,31 @@ def taken_line(
         case Mass():
             return np.zeros((0, 3))
         case Girth():
-            corners = _corners(definition, taken, placements)
-            return np.concatenate([corners, corners[:1]])
+            tape = laid_girth(definition, taken, placements)
+            return np.zeros((0, 3)) if tape is None else tape.points[np.r_[: len(tape.points), 0]]
         case Extent():
-            return _caliper(_corners(definition.girth, taken, placements), definition.direction)
+            tape = laid_girth(definition.girth, taken, placements)
+            return np.zeros((0, 3)) if tape is None else _caliper(tape.points, definition.direction)
         case Length():
-            return np.stack([_point(names, points) for names in definition.path])
+            return np.stack([mean_point(names, points) for names in definition.path])
         case Height():
-            top, bottom = (_point(names, points) for names in (definition.point, definition.above))
+            top, bottom = (
+                mean_point(names, points) for names in (definition.point, definition.above)
+            )
             return np.stack([top, [top[0], bottom[1], top[2]]])
         case Contour():
-            return _contour(definition, taken)
+            return joined(contour_of(definition, taken))
         case BackContour():
             return back_contour(
                 taken.regions[definition.about.name],
                 taken.vertices,
-                _point(definition.top, points),
-                _point(definition.bottom, points),
+                mean_point(definition.top, points),
+                mean_point(definition.bottom, points),
             )
 
 
 def _value(
-    definition: MeasurementDefinition, taken: TakenBody, corners: Mapping[str, Points3D]
+    definition: MeasurementDefinition, taken: TakenBody, laid: Mapping[str, Polyline | None]
 ) -> float:
     points = taken.canonical
     match definition:
@@ -130,62 +137,65 @@ def _value(
             volume = enclosed_volume(taken.vertices, taken.triangles)
             return volume * definition.density_kg_per_m3
         case Girth():
-            laid = corners[definition.about.name]
-            metres = closed_length(laid) if len(laid) else float("nan")
+            tape = laid[definition.about.name]
+            metres = float("nan") if tape is None else closed_length(tape.points)
         case Extent():
-            laid = corners[definition.girth.about.name][:, _AXES[definition.direction]]
-            metres = float(laid.max() - laid.min()) if len(laid) else float("nan")
+            tape = laid[definition.girth.about.name]
+            axis = AXIS_OF[definition.direction]
+            metres = float("nan") if tape is None else float(np.ptp(tape.points[:, axis]))
         case Length():
-            metres = path_length_m([_point(names, points) for names in definition.path])
+            metres = path_length_m([mean_point(names, points) for names in definition.path])
         case Height():
             top, bottom = (
-                _point(names, taken.standing) for names in (definition.point, definition.above)
+                mean_point(names, taken.standing) for names in (definition.point, definition.above)
             )
             metres = float(top[1] - bottom[1])
         case Contour():
-            metres = path_length_m(_contour(definition, taken))
+            metres = sum(path_length_m(leg.points) for leg in contour_of(definition, taken))
         case BackContour():
             metres = back_contour_m(
                 taken.regions[definition.about.name],
                 taken.vertices,
-                _point(definition.top, points),
-                _point(definition.bottom, points),
+                mean_point(definition.top, points),
+                mean_point(definition.bottom, points),
             )
     return metres * CENTIMETRES_PER_METRE
 
 
-def _corners(girth: Girth, taken: TakenBody, placements: Mapping[str, float]) -> Points3D:
+def laid_girth(girth: Girth, taken: TakenBody, placements: Mapping[str, float]) -> Polyline | None:
+    """The tape of a girth; None where its plane misses the body."""
     name = girth.about.name
-    return girth_corners(
-        girth, taken.regions[name], taken.vertices, *_axis(girth, taken.canonical), placements[name]
-    )
+    axis = girth_axis(girth, taken.canonical)
+    return girth_tape(girth, taken.regions[name], taken.vertices, *axis, placements[name])
 
 
-def _contour(definition: Contour, taken: TakenBody) -> Points3D:
-    places = [_point(names, taken.canonical) for names in definition.path]
-    return contour(definition, taken.regions[definition.about.name], taken.vertices, places)
+def contour_of(definition: Contour, taken: TakenBody) -> tuple[Leg, ...]:
+    """The steps of a taut tape."""
+    places = [mean_point(names, taken.canonical) for names in definition.path]
+    return contour_legs(definition, taken.regions[definition.about.name], taken.vertices, places)
 
 
 def _caliper(corners: Points3D, direction: Direction) -> Float[np.ndarray, "ends 3"]:
     """From one jaw to the other, along the middle of the corners."""
-    if not len(corners):
-        return corners
     low, high = corners.min(axis=0), corners.max(axis=0)
     ends = np.stack([0.5 * (low + high)] * 2)
-    axis = _AXES[direction]
+    axis = AXIS_OF[direction]
     ends[:, axis] = low[axis], high[axis]
     return ends
 
 
-def _axis(girth: Girth, points: Mapping[str, Vector3]) -> tuple[Vector3, Vector3]:
-    """Where the girth's fractions 0 and 1 lie."""
-    start, end = _point(girth.start, points), _point(girth.end, points)
+def girth_axis(girth: Girth, points: Mapping[str, Place]) -> tuple[Place, Place]:
+    """Where the girth's fractions 0 and 1 lie, of one body or of many at once."""
+    start, end = mean_point(girth.start, points), mean_point(girth.end, points)
     if girth.origin is None:
         return start, end
     axis = end - start
-    shift = axis * float((_point(girth.origin, points) - start) @ axis / (axis @ axis))
+    offset = mean_point(girth.origin, points) - start
+    share = (offset * axis).sum(axis=-1) / (axis * axis).sum(axis=-1)
+    shift = axis * share[..., None]
     return start + shift, end + shift
 
 
-def _point(names: PointNames, points: Mapping[str, Vector3]) -> Vector3:
+def mean_point(names: PointNames, points: Mapping[str, Place]) -> Place:
+    """The mean of points, of one body or of many at once."""
     return sum((points[name] for name in names[1:]), start=points[names[0]]) / len(names)

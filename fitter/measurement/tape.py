@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 import numpy as np
+from jaxtyping import Float
 
 from fitter.arrays import Points3D, Vector3, Vertices
 from fitter.measurement.definitions import Girth, Orientation, Selection
@@ -18,8 +19,7 @@ from fitter.measurement.plane_cut import (
     surrounds,
 )
 
-SIDEWAYS, UP, FORWARD = np.eye(3)
-"""Axes of the body frame."""
+UP = np.array([0.0, 1.0, 0.0])
 
 SCRAP_SHARE = 0.2
 """An open line shorter than this share of the longest is not part of what is measured: front and
@@ -33,52 +33,45 @@ def girth_at_m(
     girth: Girth, region: Region, vertices: Vertices, start: Vector3, end: Vector3, fraction: float
 ) -> float:
     """Hull length of the cut at a fraction of the axis; NaN where the plane misses the region."""
-    corners = girth_corners(girth, region, vertices, start, end, fraction)
-    return closed_length(corners) if len(corners) else float("nan")
+    tape = girth_tape(girth, region, vertices, start, end, fraction)
+    return float("nan") if tape is None else closed_length(tape.points)
 
 
-def girth_corners(
+def girth_tape(
     girth: Girth, region: Region, vertices: Vertices, start: Vector3, end: Vector3, fraction: float
-) -> Points3D:
-    """Corners of the tape whose length :func:`girth_at_m` tells, in order.
-
-    (k, 3) in the frame of the vertices; empty where the plane misses the region.
-    """
-    plane = _girth_plane(girth, start, end, fraction)
-    points = _under_tape(girth, region, vertices, plane)
-    if points is None:
-        return np.zeros((0, 3))
-    return points[hull_indices(in_plane(points, plane))]
-
-
-def _girth_plane(girth: Girth, start: Vector3, end: Vector3, fraction: float) -> Plane:
+) -> Polyline | None:
+    """The tape whose length :func:`girth_at_m` tells, a closed line through its corners."""
     axis = end - start
-    match girth.orientation:
-        case Orientation.LEVEL:
-            normal = UP
-        case Orientation.ACROSS_AXIS:
-            normal = axis / np.linalg.norm(axis)
-        case Orientation.ALONG_AXIS_AND_SIDEWAYS:
-            normal = _square_to(axis, SIDEWAYS)
-        case Orientation.ALONG_AXIS_AND_FORWARD:
-            normal = _square_to(axis, FORWARD)
-    return Plane(point=start + fraction * axis, normal=normal)
+    plane = Plane(point=start + fraction * axis, normal=girth_normal(girth, axis))
+    cut = _under_tape(girth, region, vertices, plane)
+    if cut is None:
+        return None
+    corners = hull_indices(in_plane(cut.points, plane))
+    return Polyline(points=cut.points[corners], edges=cut.edges[corners], closed=True)
 
 
-def _square_to(first: Vector3, second: Vector3) -> Vector3:
-    normal = np.cross(first, second)
-    return normal / np.linalg.norm(normal)
+def girth_normal(girth: Girth, axis: Float[np.ndarray, "*b 3"]) -> Float[np.ndarray, "*b 3"]:
+    """Unit normal of the plane of a girth whose axis points there; of many bodies at once."""
+    if girth.orientation is Orientation.LEVEL:
+        return np.broadcast_to(UP, axis.shape).copy()
+    return axis / np.linalg.norm(axis, axis=-1, keepdims=True)
 
 
-def _under_tape(girth: Girth, region: Region, vertices: Vertices, plane: Plane) -> Points3D | None:
-    """The points of the cut that a tape goes round; None where the plane misses the region."""
+def _under_tape(girth: Girth, region: Region, vertices: Vertices, plane: Plane) -> Polyline | None:
+    """The cut that a tape goes round, as one line; None where the plane misses the region."""
     lines = plane_section(vertices, region, plane)
     if not lines:
         return None
     lines = _without_scraps(lines)
     if girth.around_axis and len(lines) > 1:
         lines = (_line_around(lines, plane),)
-    return lines[0].points if len(lines) == 1 else np.concatenate([e.points for e in lines])
+    if len(lines) == 1:
+        return lines[0]
+    return Polyline(
+        points=np.concatenate([line.points for line in lines]),
+        edges=np.concatenate([line.edges for line in lines]),
+        closed=False,
+    )
 
 
 def girth_placement(

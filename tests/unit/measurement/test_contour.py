@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from fitter.measurement.contour import contour
+from fitter.measurement.contour import contour_legs, joined
 from fitter.measurement.definitions import Contour
 from fitter.measurement.plane_cut import restricted, whole_mesh
 from fitter.measurement.tape import path_length_m
@@ -14,6 +14,10 @@ FRONT, BACK, RIGHT = (0.0, 0.0, 1.0), (0.0, 0.0, -1.0), (-1.0, 0.0, 0.0)
 def tape(*sides):
     path = tuple((f"point {k}",) for k in range(len(sides) + 1))
     return Contour(about=about("tape"), path=path, sides=sides, parts=("all",))
+
+
+def contour(definition, region, vertices, points):
+    return joined(contour_legs(definition, region, vertices, points))
 
 
 def length(definition, triangles, vertices, *points):

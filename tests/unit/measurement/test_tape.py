@@ -7,8 +7,8 @@ from fitter.measurement.tape import (
     back_contour,
     back_contour_m,
     girth_at_m,
-    girth_corners,
     girth_placement,
+    girth_tape,
     path_length_m,
 )
 from tests.unit.measurement.made_up import about
@@ -114,7 +114,7 @@ def test_the_back_tape_follows_a_round_back():
 def test_a_tapes_corners_lie_in_its_plane_and_are_as_far_around_as_is_measured():
     vertices, triangles = vase()
     region, definition = whole_mesh(triangles), girth()
-    corners = girth_corners(definition, region, vertices, BOTTOM, TOP, 0.25)
+    corners = girth_tape(definition, region, vertices, BOTTOM, TOP, 0.25).points
     assert corners[:, 1] == pytest.approx(0.25)
     measured = girth_at_m(definition, region, vertices, BOTTOM, TOP, 0.25)
     assert path_length_m(np.concatenate([corners, corners[:1]])) == pytest.approx(
@@ -125,7 +125,7 @@ def test_a_tapes_corners_lie_in_its_plane_and_are_as_far_around_as_is_measured()
 def test_a_tape_that_meets_nothing_has_no_line():
     vertices, triangles = vase()
     region = whole_mesh(triangles)
-    assert len(girth_corners(girth(), region, vertices, BOTTOM, TOP, 3.0)) == 0
+    assert girth_tape(girth(), region, vertices, BOTTOM, TOP, 3.0) is None
     aside = np.array([5.0, 0.9, 0.0])
     assert len(back_contour(region, vertices, aside, aside - [0.0, 0.5, 0.0])) == 0
     assert np.isnan(back_contour_m(region, vertices, aside, aside - [0.0, 0.5, 0.0]))
