@@ -3,6 +3,9 @@
 As a body changes a little, a girth's corners stay on their edges and move with them and with the
 plane; that others join or leave the hull is of second order. So all derivatives by shape come from
 a few dozen points of each tape, of all changed bodies at once, instead of cutting each of them.
+
+Where an edge lies nearly in the plane its corner may leave it, however small the change. Such tapes
+are laid anew on every body: what the corner would do beyond its edge is nothing that skin does.
 """
 
 from collections.abc import Mapping, Sequence
@@ -39,7 +42,20 @@ from fitter.measurement.taking import (
 )
 from fitter.measurement.tape import girth_normal
 
+LEAVING_M = 1e-6
+"""A corner this far beyond its edge has left it: a fiftieth of what a step of the derivatives moves
+skin by. The vertex of a landmark that lies in its own plane is nearer."""
+
 Points = Float[np.ndarray, "b c 3"]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class _Crossings:
+    """Where planes cross edges, and whether any has left its edge."""
+
+    along: Float[np.ndarray, "b ..."]
+    points: Float[np.ndarray, "b ... 3"]
+    have_left: bool
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -109,14 +125,9 @@ def held_values(held: HeldTapes, moved: MovedBodies) -> Float[np.ndarray, "k b"]
         for name, girth in girths_of(held.definitions).items()
     }
     rows = [_values(definition, held, moved, corners) for definition in held.definitions]
-    again = [d for d in held.definitions if isinstance(d, Mass | BackContour)]
-    if again:
-        fresh = dict(zip((d.about.name for d in again), _measured(again, held, moved), strict=True))
-        rows = [
-            fresh.get(definition.about.name, row)
-            for definition, row in zip(held.definitions, rows, strict=True)
-        ]
-    return np.stack(rows)
+    again = [d for d, row in zip(held.definitions, rows, strict=True) if row is None]
+    anew = iter(_measured(again, held, moved)) if again else iter(())
+    return np.stack([next(anew) if row is None else row for row in rows])
 
 
 def _measured(
@@ -141,16 +152,16 @@ def _values(
     held: HeldTapes,
     moved: MovedBodies,
     corners: Mapping[str, Points | None],
-) -> Float[np.ndarray, " b"]:
-    nowhere = np.full(len(moved.displacements), np.nan)
+) -> Float[np.ndarray, " b"] | None:
+    """One measurement of every body; None if it must be taken of one after the other."""
     name = definition.about.name
     match definition:
         case Girth():
             laid = corners[name]
-            metres = nowhere if laid is None else _steps(np.roll(laid, -1, axis=1) - laid)
+            metres = None if laid is None else _steps(np.roll(laid, -1, axis=1) - laid)
         case Extent():
             laid = corners[definition.girth.about.name]
-            metres = nowhere if laid is None else _extent(laid, definition.direction)
+            metres = None if laid is None else _extent(laid, definition.direction)
         case Length():
             path = np.stack([mean_point(names, moved.canonical) for names in definition.path], 1)
             metres = _steps(np.diff(path, axis=1))
@@ -162,12 +173,15 @@ def _values(
         case Contour():
             metres = _contour_lengths(definition, held.legs[name], moved)
         case Mass() | BackContour():
-            metres = nowhere
-    return metres * CENTIMETRES_PER_METRE
+            metres = None
+    return None if metres is None else metres * CENTIMETRES_PER_METRE
 
 
 def _girth_corners(girth: Girth, held: HeldTapes, moved: MovedBodies) -> Points | None:
-    """Where the plane meets the edges; at a border, where the region's share falls to a half."""
+    """Where the plane meets the edges; at a border, where the region's share falls to a half.
+
+    None where it no longer meets them.
+    """
     name = girth.about.name
     edges = held.corners[name]
     if edges is None:
@@ -175,9 +189,10 @@ def _girth_corners(girth: Girth, held: HeldTapes, moved: MovedBodies) -> Points 
     start, end = girth_axis(girth, moved.canonical)
     axis = end - start
     point = start + held.placements[name] * axis
-    low, high = moved.at(edges[..., 0]), moved.at(edges[..., 1])
-    along = _crossing(low, high, point, girth_normal(girth, axis))
-    crossings = low + along[..., None] * (high - low)
+    crossed = _crossings(moved, edges, point, girth_normal(girth, axis))
+    if crossed.have_left:
+        return None
+    crossings, along = crossed.points, crossed.along
     shares = held.taken.regions[name].shares
     share = shares[edges[..., 0]] + along * (shares[edges[..., 1]] - shares[edges[..., 0]])
     at_border = (edges[:, 0] != edges[:, 1]).any(axis=-1)
@@ -189,12 +204,16 @@ def _girth_corners(girth: Girth, held: HeldTapes, moved: MovedBodies) -> Points 
 
 def _contour_lengths(
     definition: Contour, legs: Sequence[Leg], moved: MovedBodies
-) -> Float[np.ndarray, " b"]:
+) -> Float[np.ndarray, " b"] | None:
     places = [mean_point(names, moved.canonical) for names in definition.path]
-    total = np.zeros(len(moved.displacements))
-    for leg, side, start, end in zip(legs, definition.sides, places[:-1], places[1:], strict=True):
-        total += _leg_lengths(leg, side, moved, start, end)
-    return total
+    lengths = [
+        _leg_lengths(leg, side, moved, start, end)
+        for leg, side, start, end in zip(
+            legs, definition.sides, places[:-1], places[1:], strict=True
+        )
+    ]
+    found = [length for length in lengths if length is not None]
+    return np.sum(found, axis=0) if len(found) == len(lengths) else None
 
 
 def _leg_lengths(
@@ -203,13 +222,14 @@ def _leg_lengths(
     moved: MovedBodies,
     start: Float[np.ndarray, "b 3"],
     end: Float[np.ndarray, "b 3"],
-) -> Float[np.ndarray, " b"]:
+) -> Float[np.ndarray, " b"] | None:
     if side is None or not len(leg.edges):
         return np.linalg.norm(end - start, axis=1)
     frame = leg_frame(start, end, side)
-    low, high = moved.at(leg.edges[:, 0]), moved.at(leg.edges[:, 1])
-    along = _crossing(low, high, start, frame.normal)
-    offset = low + along[..., None] * (high - low) - start[:, None]
+    crossed = _crossings(moved, leg.edges, start, frame.normal)
+    if crossed.have_left:
+        return None
+    offset = crossed.points - start[:, None]
     u = np.einsum("bci,bi->bc", offset, frame.along)
     v = np.einsum("bci,bi->bc", offset, frame.outward)
     # A bend that has left the tape, beyond an end or under the straight line, lies on that line.
@@ -222,16 +242,24 @@ def _leg_lengths(
     return _steps(np.diff(chain, axis=1))
 
 
-def _crossing(
-    low: Float[np.ndarray, "b ... 3"],
-    high: Float[np.ndarray, "b ... 3"],
+def _crossings(
+    moved: MovedBodies,
+    edges: Integer[np.ndarray, "... 2"],
     point: Float[np.ndarray, "b 3"],
     normal: Float[np.ndarray, "b 3"],
-) -> Float[np.ndarray, "b ..."]:
-    """How far along each edge the plane crosses it."""
+) -> _Crossings:
+    low, high = moved.at(edges[..., 0]), moved.at(edges[..., 1])
     at = np.einsum("bi,bi->b", point, normal).reshape(-1, *[1] * (low.ndim - 2))
     below, above = (np.einsum("b...i,bi->b...", ends, normal) - at for ends in (low, high))
-    return below / (below - above)
+    along = below / (below - above)
+    step = high - low
+    beyond = np.maximum(-along, along - 1.0)
+    lengths = np.sqrt(np.einsum("b...i,b...i->b...", step, step))
+    return _Crossings(
+        along=along,
+        points=low + along[..., None] * step,
+        have_left=bool((beyond * lengths > LEAVING_M).any()),
+    )
 
 
 def _extent(corners: Points, direction: Direction) -> Float[np.ndarray, " b"]:
