@@ -1,38 +1,50 @@
-"""MEASUREMENTS.md: what is measured, and how that stands to the survey, from the definitions.
+"""MEASUREMENTS.md: what is measured, and how that stands to standard and survey.
 
-``python -m fitter.measurement.document`` prints the page.
+``python -m fitter.measurement.document`` prints the page, from the definitions. Its pictures are
+drawn by ``python -m fitter.training.report.measurement_atlas``.
 """
 
 import sys
 from collections.abc import Sequence
 
 from fitter.measurement.definition_file import load_definitions
-from fitter.measurement.definitions import Agreement, MeasurementDefinition
-from fitter.measurement.groups import Group
+from fitter.measurement.definitions import (
+    Agreement,
+    IsoDefinition,
+    MeasurementDefinition,
+    SurveyDefinition,
+)
+from fitter.measurement.groups import Group, group_of
 
 _HEADING = """# Measurements
 
-Every measurement of the service, its definition, and where it agrees with ANSUR II, the US Army's
+Every measurement of the service, where its tape runs, its definition, and where it agrees with two
+others. ISO 8559-1:2017 is the tailors' standard of body measurements; its terms stand here, its
+clauses where public sources tell them, and its definitions in our words. ANSUR II is the US Army's
 anthropometric survey of 2012, as its measurer's handbook has it (Hotzman et al. 2011,
 NATICK/TR-11/017; fields as in the public release, Gordon et al. 2014, NATICK/TR-15/007). Made from
-`fitter/measurement/definitions.json` by `python -m fitter.measurement.document`.
+`fitter/measurement/definitions.json` by `python -m fitter.measurement.document`, the pictures by
+`python -m fitter.training.report.measurement_atlas`.
 
 What holds for all: bodies are measured in the canonical pose (upright, arms 40 and legs 7 degrees
 from straight down, elbows and knees straight), heights in the standing pose; the right limbs are
 taken, as in the survey. A girth is the convex hull of a plane cut, because a tape spans hollows; it
-does not press. Nobody breathes, wears or tenses anything.
+does not press. A taut tape runs from point to point in the same way, on one side of the body. Where
+no landmark is, a point is a place of the skin (`skin_points.json`): where a ray from inside the
+average body leaves it. Nobody breathes, wears or tenses anything.
 
-How far values, spreads and correlations are from the survey's: `python -m fitter.training report`.
+The pictures show the average woman; what she hides of a tape is pale. How far values, spreads and
+correlations are from the survey's: `python -m fitter.training report`.
 """
-
-_AGREEMENT = {
-    Agreement.SAME: "as the survey",
-    Agreement.DIFFERS: "differs",
-    Agreement.ABSENT: "not in the survey",
-}
 
 ATLAS_FOLDER = "atlas"
 """Beside the page: a picture of each group's tapes on the body."""
+
+_AGREEMENT = {
+    Agreement.SAME: "as there",
+    Agreement.DIFFERS: "differs",
+    Agreement.ABSENT: "not there",
+}
 
 
 def sheet_name(group: Group) -> str:
@@ -42,16 +54,41 @@ def sheet_name(group: Group) -> str:
 
 def measurements_page(definitions: Sequence[MeasurementDefinition]) -> str:
     """The page, in Markdown."""
-    lines = [_HEADING, "| measurement | here | ANSUR II | |", "|---|---|---|---|"]
-    for definition in definitions:
-        about, survey = definition.about, definition.about.survey
-        fields = " + ".join(f"`{field}`" for field in survey.fields)
-        lines.append(
-            f"| `{about.name}` ({about.unit.value}) | {about.definition} | "
-            f"{fields}{': ' if fields else ''}{survey.definition} | "
-            f"{_AGREEMENT[survey.agreement]}: {survey.difference} |"
-        )
-    return "\n".join(lines) + "\n"
+    lines = [_HEADING]
+    for group in Group:
+        members = [each for each in definitions if group_of(each.about.name) is group]
+        lines += [
+            f"## {group.value}\n",
+            f"![Each tape on the body, under its name]({ATLAS_FOLDER}/{sheet_name(group)})\n",
+            "| measurement | here | ISO 8559-1 | ANSUR II |",
+            "|---|---|---|---|",
+            *(_row(each) for each in members),
+            "",
+        ]
+    return "\n".join(lines).rstrip("\n") + "\n"
+
+
+def _row(definition: MeasurementDefinition) -> str:
+    about = definition.about
+    return (
+        f"| `{about.name}` ({about.unit.value}) | {about.definition} | {_iso(about.iso)} | "
+        f"{_survey(about.survey)} |"
+    )
+
+
+def _iso(iso: IsoDefinition | None) -> str:
+    if iso is None:
+        return "-"
+    clause = "" if iso.clause is None else f" ({iso.clause})"
+    return f"{iso.term}{clause}. *{_AGREEMENT[iso.agreement].capitalize()}:* {iso.difference}"
+
+
+def _survey(survey: SurveyDefinition) -> str:
+    fields = " + ".join(f"`{field}`" for field in survey.fields)
+    return (
+        f"{fields}{': ' if fields else ''}{survey.definition} "
+        f"*{_AGREEMENT[survey.agreement].capitalize()}:* {survey.difference}"
+    )
 
 
 if __name__ == "__main__":

@@ -1,4 +1,7 @@
-"""Measurements in groups, as people look for them: told by the name alone."""
+"""Measurements in groups, as people look for them: told by the name alone.
+
+The page groups them in the same way (``service/page/src/result/reading.ts``).
+"""
 
 from enum import StrEnum
 
@@ -12,6 +15,34 @@ class Group(StrEnum):
     HEIGHTS = "Heights"
     BREADTHS = "Breadths and depths"
 
+
+CHIEF = (
+    "stature",
+    "weight",
+    "head_girth",
+    "neck_girth",
+    "chest_girth",
+    "under_bust_girth",
+    "waist_girth_smallest",
+    "waist_girth_navel",
+    "hip_girth",
+    "upper_arm_girth",
+    "forearm_girth",
+    "wrist_girth",
+    "thigh_girth",
+    "knee_girth",
+    "calf_girth",
+    "ankle_girth",
+    "shoulder_breadth",
+    "back_shoulder_width",
+    "arm_length",
+    "sleeve_length",
+    "back_waist_length",
+    "crotch_length",
+    "inseam",
+    "outseam",
+)
+"""What most people ask for: shown first, where all are too many."""
 
 _OVERALL = ("stature", "weight")
 

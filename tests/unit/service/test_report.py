@@ -7,6 +7,8 @@ from html.parser import HTMLParser
 import pytest
 from PIL import Image
 
+from fitter.measurement.definition_file import load_definitions
+from fitter.measurement.groups import CHIEF
 from service.worker.derived.report.content import report_content
 from service.worker.derived.report.page_html import report_html
 from service.worker.derived.report.page_pdf import report_pdf
@@ -153,6 +155,34 @@ def test_the_pdf_is_one_a4_page_however_much_there_is_to_say():
     for pdf in (plain, crowded):
         assert pages(pdf) == 1
         assert b"/MediaBox [ 0 0 595.2756 841.8898 ]" in pdf
+
+
+def everything_measured():
+    """A result with all that is measured today."""
+    names = [definition.about.name for definition in load_definitions()]
+    return report_content(fit_result(measurements=[measurement(name) for name in names]))
+
+
+def test_what_few_ask_for_follows_in_groups_and_nothing_twice():
+    content = everything_measured()
+    first = [row.name for row in content.measurements]
+    later = [row.name for group in content.further for row in group.rows]
+    assert first[:2] == ["stature", "weight"]
+    assert len(first) == len(CHIEF)
+    assert len({*first, *later}) == len(first) + len(later) == len(load_definitions())
+    headings = {group.heading: [row.name for row in group.rows] for group in content.further}
+    assert "armscye girth" in headings["Girths"]
+    assert "cross back" in headings["Lengths"]
+    assert "waist height" in headings["Heights"]
+    assert "chest depth" in headings["Breadths and depths"]
+
+
+def test_what_few_ask_for_has_a_second_page():
+    content = everything_measured()
+    assert pages(report_pdf(content, PICTURES)) == 2
+    page = Elements(report_html(content, PICTURES))
+    assert len([tag for tag, _ in page.found if tag == "table"]) == 1 + len(content.further)
+    assert "armscye girth" in page.text
 
 
 def test_signs_the_pdf_s_fonts_lack_do_not_end_it():

@@ -1,10 +1,10 @@
 // The measurements with their intervals, and what shading changed in them.
 import { useState } from "preact/hooks";
-import type { FitResult } from "../api/types";
+import type { FitResult, Measurement } from "../api/types";
 import { person } from "../draft/draft";
 import { inUnits } from "../draft/person";
 import { Choice } from "../ui/Choice";
-import { difference, measureLabel, shown, withoutShading } from "./reading";
+import { difference, furtherMeasures, isChief, measureLabel, shown, withoutShading } from "./reading";
 
 interface Props {
   readonly result: FitResult;
@@ -18,6 +18,40 @@ export function Measures({ result, pointedAt, onPoint, onShow }: Props) {
   const [compared, setCompared] = useState(false);
   const { units } = person.value;
   const before = withoutShading(result);
+  const further = furtherMeasures(result.measurements);
+  const row = (measurement: Measurement) => {
+    const { value, unit, interval } = shown(measurement, units);
+    const other = compared ? before?.find((each) => each.name === measurement.name) : undefined;
+    return (
+      <tr
+        key={measurement.name}
+        class={pointedAt === measurement.name ? "is-pointed" : ""}
+        onPointerEnter={() => onPoint(measurement.name)}
+        onPointerLeave={() => onPoint(null)}
+      >
+        <th scope="row">
+          <button
+            type="button"
+            class="measure-name"
+            title={measurement.definition}
+            onClick={() => onShow(measurement.name)}
+            onFocus={() => onPoint(measurement.name)}
+            onBlur={() => onPoint(null)}
+          >
+            {measureLabel(measurement.name)}
+          </button>
+        </th>
+        <td class="number">
+          {value} <small>{unit}</small>
+        </td>
+        <td class="number interval">
+          {other
+            ? `${shown(other, units).value} (${difference(measurement, other, units)})`
+            : (interval ?? (measurement.given ? "given" : "–"))}
+        </td>
+      </tr>
+    );
+  };
   return (
     <section class="section" aria-labelledby="measures-title">
       <header class="section-head">
@@ -35,53 +69,27 @@ export function Measures({ result, pointedAt, onPoint, onShow }: Props) {
         />
       </header>
       <table class="measures">
-        <thead>
-          <tr>
-            <th scope="col">Measure</th>
-            <th scope="col" class="number">
-              Value
-            </th>
-            <th scope="col" class="number">
-              {compared ? "By outline alone" : "95 % interval"}
-            </th>
-          </tr>
-        </thead>
-        <tbody>
-          {result.measurements.map((measurement) => {
-            const { value, unit, interval } = shown(measurement, units);
-            const other = compared ? before?.find((each) => each.name === measurement.name) : undefined;
-            return (
-              <tr
-                key={measurement.name}
-                class={pointedAt === measurement.name ? "is-pointed" : ""}
-                onPointerEnter={() => onPoint(measurement.name)}
-                onPointerLeave={() => onPoint(null)}
-              >
-                <th scope="row">
-                  <button
-                    type="button"
-                    class="measure-name"
-                    title={measurement.definition}
-                    onClick={() => onShow(measurement.name)}
-                    onFocus={() => onPoint(measurement.name)}
-                    onBlur={() => onPoint(null)}
-                  >
-                    {measureLabel(measurement.name)}
-                  </button>
-                </th>
-                <td class="number">
-                  {value} <small>{unit}</small>
-                </td>
-                <td class="number interval">
-                  {other
-                    ? `${shown(other, units).value} (${difference(measurement, other, units)})`
-                    : (interval ?? (measurement.given ? "given" : "–"))}
-                </td>
-              </tr>
-            );
-          })}
-        </tbody>
+        <MeasuresHead compared={compared} />
+        <tbody>{result.measurements.filter((each) => isChief(each.name)).map(row)}</tbody>
       </table>
+      {further.length > 0 && (
+        <details class="more-measures">
+          <summary>{further.reduce((count, group) => count + group.members.length, 0)} more measurements</summary>
+          <table class="measures">
+            <MeasuresHead compared={compared} />
+            {further.map((group) => (
+              <tbody key={group.heading}>
+                <tr class="measures-group">
+                  <th scope="rowgroup" colSpan={3}>
+                    {group.heading}
+                  </th>
+                </tr>
+                {group.members.map(row)}
+              </tbody>
+            ))}
+          </table>
+        </details>
+      )}
       {before && (
         <label class="check">
           <input type="checkbox" checked={compared} onChange={(event) => setCompared(event.currentTarget.checked)} />
@@ -93,5 +101,21 @@ export function Measures({ result, pointedAt, onPoint, onShow }: Props) {
         truth. This is no medical device.
       </p>
     </section>
+  );
+}
+
+function MeasuresHead({ compared }: { readonly compared: boolean }) {
+  return (
+    <thead>
+      <tr>
+        <th scope="col">Measure</th>
+        <th scope="col" class="number">
+          Value
+        </th>
+        <th scope="col" class="number">
+          {compared ? "By outline alone" : "95 % interval"}
+        </th>
+      </tr>
+    </thead>
   );
 }

@@ -11,11 +11,78 @@ const LABELS: Readonly<Record<string, string>> = {
   waist_girth_navel: "Waist, at the navel",
   waist_girth_smallest: "Waist, smallest",
   back_waist_length: "Back length",
+  front_waist_length: "Front length",
+  trunk_girth: "Trunk, from shoulder through crotch",
+  armscye_girth: "Armhole",
+  back_shoulder_width: "Shoulder to shoulder, over the back",
+  cross_back: "Across the back",
+  cross_front: "Across the chest",
+  bust_point_width: "Bust points",
+  neck_to_bust_point: "Neck to bust point",
+  body_rise: "Rise, straight down",
+  front_rise: "Rise in front",
+  back_rise: "Rise behind",
+  waist_to_hip: "Waist down to hip",
+  cervicale_height: "Nape",
+  neck_height: "Pit of the neck",
+  head_height: "Head, crown to chin",
 };
 
 export function measureLabel(name: string): string {
-  const text = LABELS[name] ?? name.replace(/_girth$/, "").replaceAll("_", " ");
+  const text = LABELS[name] ?? name.replace(/_(girth|height)$/, "").replaceAll("_", " ");
   return text.charAt(0).toUpperCase() + text.slice(1);
+}
+
+/** What most people ask for: shown first, and drawn on the body before one is chosen. */
+const CHIEF: ReadonlySet<string> = new Set([
+  "stature",
+  "weight",
+  "head_girth",
+  "neck_girth",
+  "chest_girth",
+  "under_bust_girth",
+  "waist_girth_smallest",
+  "waist_girth_navel",
+  "hip_girth",
+  "upper_arm_girth",
+  "forearm_girth",
+  "wrist_girth",
+  "thigh_girth",
+  "knee_girth",
+  "calf_girth",
+  "ankle_girth",
+  "shoulder_breadth",
+  "back_shoulder_width",
+  "arm_length",
+  "sleeve_length",
+  "back_waist_length",
+  "crotch_length",
+  "inseam",
+  "outseam",
+]);
+
+export function isChief(name: string): boolean {
+  return CHIEF.has(name);
+}
+
+export interface MeasureGroup<M> {
+  readonly heading: string;
+  readonly members: readonly M[];
+}
+
+/** All that is not chief, under headings; the names tell what they are. */
+export function furtherMeasures<M extends { readonly name: string }>(measurements: readonly M[]): readonly MeasureGroup<M>[] {
+  const further = measurements.filter((each) => !isChief(each.name));
+  return ["Girths", "Lengths", "Above the floor", "Breadths and depths"]
+    .map((heading) => ({ heading, members: further.filter((each) => groupOf(each.name) === heading) }))
+    .filter((group) => group.members.length > 0);
+}
+
+function groupOf(name: string): string {
+  if (name.split("_").includes("girth")) return "Girths";
+  // Of the heights one is the head's own.
+  if (name.endsWith("_height") && name !== "head_height") return "Above the floor";
+  return /_(breadth|depth)$/.test(name) ? "Breadths and depths" : "Lengths";
 }
 
 export interface Shown {

@@ -1,5 +1,6 @@
 // Where measurements are taken, as tapes about the upright body; the one pointed at stands out.
 import { CatmullRomCurve3, Group, Mesh, MeshBasicMaterial, TubeGeometry, Vector3 } from "three";
+import { isChief } from "../result/reading";
 
 /** By the measurements' names, points in the frame of the upright body, metres. */
 export type TapeLines = Readonly<Record<string, readonly (readonly [number, number, number])[]>>;
@@ -28,6 +29,8 @@ export class Tapes {
     const some = marked !== null && this.tapes.has(marked);
     for (const [name, tape] of this.tapes) {
       const isMarked = name === marked;
+      // All of them at once would hide the body.
+      tape.visible = isMarked || isChief(name);
       const look = isMarked ? MARKED : PLAIN;
       tape.material.color.setHex(look.colour);
       tape.material.opacity = some && !isMarked ? BESIDE_MARKED_OPACITY : look.opacity;

@@ -17,6 +17,7 @@ from api_schemas.results import (
     SurroundingsResult,
     Verdict,
 )
+from fitter.measurement.groups import CHIEF, Group, group_of
 
 WITHIN_95: Final = 1.96
 """Standard errors on either side of a value that make a 95 % interval."""
@@ -59,6 +60,14 @@ class MeasurementRow:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class MeasurementGroup:
+    """Measurements of one kind under their heading."""
+
+    heading: str
+    rows: tuple[MeasurementRow, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Section:
     """A heading with facts, each a label and a text, and remarks."""
 
@@ -71,11 +80,13 @@ class Section:
 class ReportContent:
     """The page without its pictures; plain text throughout.
 
-    Without measurements :data:`WITHHELD` stands in their place.
+    Without measurements :data:`WITHHELD` stands in their place. ``measurements`` are the chief
+    ones, ``further`` all others.
     """
 
     subtitle: str
     measurements: tuple[MeasurementRow, ...]
+    further: tuple[MeasurementGroup, ...]
     sections: tuple[Section, ...]
 
 
@@ -83,7 +94,8 @@ def report_content(result: FitResult) -> ReportContent:
     """Put a result into words."""
     return ReportContent(
         subtitle=f"{result.gender.capitalize()}, {result.height_m:.3f} m, by {_CUES[result.cues]}",
-        measurements=tuple(_row(each) for each in result.measurements),
+        measurements=tuple(_row(each) for each in result.measurements if each.name in CHIEF),
+        further=_further([each for each in result.measurements if each.name not in CHIEF]),
         sections=(
             _light_and_skin(result.light, result.reflectance),
             _fit(result),
@@ -93,6 +105,16 @@ def report_content(result: FitResult) -> ReportContent:
                 remarks=tuple(each.message for each in result.warnings) or ("None.",),
             ),
         ),
+    )
+
+
+def _further(measurements: Sequence[Measurement]) -> tuple[MeasurementGroup, ...]:
+    groups = {
+        group: tuple(_row(each) for each in measurements if group_of(each.name) is group)
+        for group in Group
+    }
+    return tuple(
+        MeasurementGroup(heading=group.value, rows=rows) for group, rows in groups.items() if rows
     )
 
 

@@ -1,4 +1,7 @@
-"""The report as one HTML file: styles and pictures embedded, no scripts, one A4 page in print."""
+"""The report as one HTML file: styles and pictures embedded, no scripts.
+
+In print one A4 page, and another one with what else was measured.
+"""
 
 import base64
 from html import escape
@@ -8,6 +11,7 @@ from service.worker.derived.report.content import (
     FOOTNOTE,
     TITLE,
     WITHHELD,
+    MeasurementGroup,
     MeasurementRow,
     ReportContent,
     Section,
@@ -30,6 +34,7 @@ figure img { display: block; width: 100%; height: auto; max-height: 420px; objec
   object-position: left top; }
 figcaption, footer { color: #555; font-size: 11px; }
 .sides { display: grid; gap: 6px; grid-template-columns: repeat(4, 1fr); margin-top: 12px; }
+.further { columns: 2; column-gap: 24px; margin-top: 12px; }
 .skin { display: flex; gap: 8px; margin: 6px 0; }
 .skin figure { width: 42%; }
 .skin img { max-height: 150px; object-position: left top; }
@@ -45,7 +50,7 @@ section { break-inside: avoid; }
 section { margin-bottom: 8px; }
 section p { margin: 0 0 3px; }
 footer { border-top: 1px solid #ddd; margin-top: 12px; padding-top: 5px; }
-@media (max-width: 640px) { .top, .notes { grid-template-columns: 1fr; } }
+@media (max-width: 640px) { .top, .notes { grid-template-columns: 1fr; } .further { columns: 1; } }
 @media print {
   body { font-size: 8.5pt; line-height: 1.3; max-width: none; padding: 0; }
   h1 { font-size: 15pt; } h2 { font-size: 9pt; }
@@ -55,6 +60,7 @@ footer { border-top: 1px solid #ddd; margin-top: 12px; padding-top: 5px; }
   figure img { max-height: 92mm; } .skin img { max-height: 32mm; }
   .sides img { max-height: 66mm; } th, td { padding: 0.35mm 0 0.35mm 2mm; }
   dt { max-width: 32mm; }
+  .further { break-before: page; }
 }
 """
 
@@ -75,6 +81,7 @@ def report_html(content: ReportContent, pictures: ReportPictures) -> bytes:
 {"".join(_section(each) for each in others)}
 </div>
 </div>
+{_further(content.further)}
 </main>
 <footer>{escape(FOOTNOTE)}</footer>"""
     page = f"""<!doctype html>
@@ -106,17 +113,31 @@ def _figure(picture: Picture) -> str:
 def _measurements(rows: tuple[MeasurementRow, ...]) -> str:
     if not rows:
         return f"<section><p>{escape(WITHHELD)}</p></section>"
+    return f"<section>{_table(rows)}</section>"
+
+
+def _further(groups: tuple[MeasurementGroup, ...]) -> str:
+    if not groups:
+        return ""
+    tables = "".join(
+        f"<section><h2>{escape(group.heading)}</h2>{_table(group.rows)}</section>"
+        for group in groups
+    )
+    return f'<div class="further">{tables}</div>'
+
+
+def _table(rows: tuple[MeasurementRow, ...]) -> str:
     lines = "\n".join(
         f'<tr><th scope="row">{escape(row.name)}</th><td>{escape(row.value)}</td>'
         f'<td>{escape(row.unit)}</td><td class="interval">{escape(row.interval)}</td></tr>'
         for row in rows
     )
-    return f"""<section><table>
+    return f"""<table>
 <thead><tr><th scope="col">Measurement</th><th scope="col">Value</th><th scope="col">Unit</th>\
 <th scope="col">95 % interval</th></tr></thead>
 <tbody>
 {lines}
-</tbody></table></section>"""
+</tbody></table>"""
 
 
 def _section(section: Section, figures: str = "") -> str:

@@ -1,4 +1,7 @@
-"""The report as one A4 page of PDF, drawn with the fonts that every PDF reader has."""
+"""The report as A4 pages of PDF, drawn with the fonts that every PDF reader has.
+
+One page, and another one with what was measured besides the chief measurements.
+"""
 
 import io
 from html import escape
@@ -16,6 +19,7 @@ from service.worker.derived.report.content import (
     FOOTNOTE,
     TITLE,
     WITHHELD,
+    MeasurementGroup,
     MeasurementRow,
     ReportContent,
     Section,
@@ -87,8 +91,36 @@ def report_pdf(content: ReportContent, pictures: ReportPictures) -> bytes:
     )
     _fill(canvas, [Paragraph(_text(FOOTNOTE), SMALL)], (MARGIN, MARGIN, WIDTH, FOOTER_HEIGHT))
     canvas.showPage()
+    if content.further:
+        _further_page(canvas, content)
     canvas.save()
     return stream.getvalue()
+
+
+def _further_page(canvas: Canvas, content: ReportContent) -> None:
+    """What else was measured, in two columns: groups as they come, the fuller column first."""
+    _header(canvas, content.subtitle)
+    half = (WIDTH - GUTTER) / 2
+    columns: tuple[list[MeasurementGroup], list[MeasurementGroup]] = ([], [])
+    rows = sum(len(group.rows) for group in content.further)
+    placed = 0
+    for group in content.further:
+        columns[0 if 2 * placed < rows else 1].append(group)
+        placed += len(group.rows)
+    bottom = MARGIN + FOOTER_HEIGHT
+    for number, groups in enumerate(columns):
+        flowables = [
+            part
+            for group in groups
+            for part in (
+                Paragraph(_text(group.heading), HEADING),
+                _measurements(group.rows, half),
+            )
+        ]
+        left = MARGIN + number * (half + GUTTER)
+        _fill(canvas, flowables, (left, bottom, half, TOP - bottom))
+    _fill(canvas, [Paragraph(_text(FOOTNOTE), SMALL)], (MARGIN, MARGIN, WIDTH, FOOTER_HEIGHT))
+    canvas.showPage()
 
 
 def _header(canvas: Canvas, subtitle: str) -> None:

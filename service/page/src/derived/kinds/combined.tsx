@@ -1,7 +1,7 @@
 // One body from several pictures.
 import type { CombinedResult } from "../../api/types";
 import { person } from "../../draft/draft";
-import { measureLabel, shown } from "../../result/reading";
+import { furtherMeasures, isChief, measureLabel, shown } from "../../result/reading";
 import { OtherFits } from "../OtherFits";
 import { percent } from "../percent";
 import type { Kind } from "./kind";
@@ -39,6 +39,20 @@ export const combined: Kind<CombinedWishes> = {
 
 function Measurements({ of: measurements }: { of: CombinedResult["measurements"] }) {
   const { units } = person.value;
+  const row = (measurement: CombinedResult["measurements"][number]) => {
+    const { value, unit, interval } = shown(measurement, units);
+    return (
+      <tr key={measurement.name}>
+        <th scope="row" title={measurement.definition}>
+          {measureLabel(measurement.name)}
+        </th>
+        <td class="number">
+          {value} <small>{unit}</small>
+        </td>
+        <td class="number interval">{interval ?? (measurement.given ? "given" : "–")}</td>
+      </tr>
+    );
+  };
   return (
     <table class="measures">
       <caption class="unseen">Measurements of the combined body</caption>
@@ -53,22 +67,17 @@ function Measurements({ of: measurements }: { of: CombinedResult["measurements"]
           </th>
         </tr>
       </thead>
-      <tbody>
-        {measurements.map((measurement) => {
-          const { value, unit, interval } = shown(measurement, units);
-          return (
-            <tr key={measurement.name}>
-              <th scope="row" title={measurement.definition}>
-                {measureLabel(measurement.name)}
-              </th>
-              <td class="number">
-                {value} <small>{unit}</small>
-              </td>
-              <td class="number interval">{interval ?? (measurement.given ? "given" : "–")}</td>
-            </tr>
-          );
-        })}
-      </tbody>
+      <tbody>{measurements.filter((each) => isChief(each.name)).map(row)}</tbody>
+      {furtherMeasures(measurements).map((group) => (
+        <tbody key={group.heading}>
+          <tr class="measures-group">
+            <th scope="rowgroup" colSpan={3}>
+              {group.heading}
+            </th>
+          </tr>
+          {group.members.map(row)}
+        </tbody>
+      ))}
     </table>
   );
 }
