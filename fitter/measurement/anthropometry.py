@@ -36,14 +36,11 @@ from fitter.measurement.taking import (
     taken_line,
     taken_values,
 )
+from fitter.measurement.unexplained import unexplained
 
 DIFFERENCE_STEP = 1e-3
 """Standard deviations. Girths are smooth but for corners joining or leaving the hull, whose effect
 is of second order; a change of 1e-3 moves a girth by about 0.05 mm, far above rounding."""
-
-
-UNEXPLAINED_KEY = "unexplained_measurements"
-"""Field of a model's header: by name, how much people differ from the model's nearest body."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -111,17 +108,8 @@ def measuring_body(
         points=points,
         canonical_points=_points(points, canonical),
         standing_points=_points(points, affine_body(evaluator, model.standing_pose)),
-        unexplained=_unexplained(model, definitions),
+        unexplained=unexplained(model, [definition.about.name for definition in definitions]),
     )
-
-
-def _unexplained(
-    model: BodyModel, definitions: Sequence[MeasurementDefinition]
-) -> Float[np.ndarray, " k"]:
-    """Zero where the header says nothing, as for models without people to test on."""
-    said = model.header.get(UNEXPLAINED_KEY)
-    by_name = said if isinstance(said, Mapping) else {}
-    return np.array([float(by_name.get(each.about.name, 0.0)) for each in definitions])
 
 
 def measure(

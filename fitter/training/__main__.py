@@ -1,6 +1,7 @@
 """``python -m fitter.training``: rebuild the body models, or report on them."""
 
 import argparse
+import json
 import os
 import sys
 import time
@@ -27,6 +28,7 @@ from fitter.training.own_bodies.command import (
 )
 from fitter.training.people.population import residual_table
 from fitter.training.plan import Plan
+from fitter.training.report.header_figures import unexplained_measurements
 from fitter.training.report.held_out_errors import held_out_errors
 from fitter.training.report.model_pictures import write_pictures
 from fitter.training.report.reported import Reported
@@ -91,6 +93,15 @@ def _packaged_lines(genders: Sequence[str], options: argparse.Namespace) -> Iter
         else:
             reported = _read(materials, path, options)
         yield from report_lines(reported)
+        if options.unexplained is not None:
+            _write_unexplained(reported, options.unexplained)
+
+
+def _write_unexplained(reported: Reported, path: Path) -> None:
+    """Add a model's figures to a file of them, by checksums."""
+    known = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
+    known[reported.model.checksum] = unexplained_measurements(reported.model, reported.bodies.rest)
+    path.write_text(json.dumps(known, indent=2, sort_keys=True) + "\n", encoding="utf-8")
 
 
 def _build(materials: Materials, gender: str, path: Path, options: argparse.Namespace) -> Reported:
@@ -188,6 +199,12 @@ def _parser() -> argparse.ArgumentParser:
     )
     packaged.add_argument(
         "--cache", type=Path, default=None, help="folder that keeps solved subjects between runs"
+    )
+    packaged.add_argument(
+        "--unexplained",
+        type=Path,
+        default=None,
+        help="file to add to how much held-out bodies differ from their nearest, by measurement",
     )
     packaged.add_argument(
         "--makehuman",

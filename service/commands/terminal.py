@@ -10,6 +10,7 @@ from rich.table import Table
 
 from api_schemas.problems import Problem
 from api_schemas.results import FitResult
+from fitter.measurement.groups import group_of
 
 SHADED: Final = "SES"
 UNSHADED: Final = "SE"
@@ -106,7 +107,11 @@ def _measurements(result: FitResult, truth: Mapping[str, float]) -> Table:
     if truth:
         table.add_column("truth", justify="right")
         table.add_column("error", justify="right")
+    group = None
     for final in result.measurements:
+        if group not in (None, group_of(final.name)):
+            table.add_section()
+        group = group_of(final.name)
         earlier = unshaded.get(final.name, final.value)
         row = [final.name.replace("_", " "), final.unit, f"{earlier:.1f}"]
         if shaded:

@@ -4,8 +4,8 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.body.model import BodyModel
-from fitter.measurement.anthropometry import UNEXPLAINED_KEY
 from fitter.measurement.definition_file import load_definitions
+from fitter.measurement.unexplained import UNEXPLAINED_KEY
 from fitter.training.articulation.registered_bodies import RegisteredBodies
 from fitter.training.assemble import TrainedModel
 from fitter.training.report.body_regions import vertex_regions
