@@ -136,7 +136,7 @@ def _seen(points: Points3D, degrees: float) -> Points3D:
     return turned + [0.0, 0.0, DISTANCE_M]
 
 
-def _dense(line: Points3D) -> Points3D:
+def _dense(line: Points3D) -> Float[np.ndarray, "dense 3"]:
     """Points every few millimetres along a line."""
     pieces = [
         np.linspace(start, end, max(2, int(np.linalg.norm(end - start) / STEP_M)))
@@ -201,7 +201,7 @@ def _draw(
     cv2.line(cell, (x0, y0), (x1, y1), colour, thickness, cv2.LINE_AA, 4)
 
 
-def _sheet(cells: Sequence[Levels]) -> Levels:
+def _sheet(cells: Sequence[Levels]) -> UInt8[np.ndarray, "sheet_h sheet_w 3"]:
     blank = np.full_like(cells[0], 255)
     padded = [*cells, *[blank] * (-len(cells) % COLUMNS)]
     rows = [

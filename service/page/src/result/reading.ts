@@ -23,13 +23,13 @@ const LABELS: Readonly<Record<string, string>> = {
   front_rise: "Rise in front",
   back_rise: "Rise behind",
   waist_to_hip: "Waist down to hip",
-  cervicale_height: "Nape",
-  neck_height: "Pit of the neck",
+  cervicale_height: "Nape height",
+  neck_height: "Height of the pit of the neck",
   head_height: "Head, crown to chin",
 };
 
 export function measureLabel(name: string): string {
-  const text = LABELS[name] ?? name.replace(/_(girth|height)$/, "").replaceAll("_", " ");
+  const text = LABELS[name] ?? name.replace(/_girth$/, "").replaceAll("_", " ");
   return text.charAt(0).toUpperCase() + text.slice(1);
 }
 

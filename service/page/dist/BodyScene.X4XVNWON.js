@@ -1,4 +1,4 @@
-import{b as g}from"/page/chunk.YTCNTMRU.js";import{a as b,b as x,c as S,e as P,f as w,g as s,h as E,i as L,j as T,k as u,l as v,m as M,n as d,o as A,p as C,q as G,u as B,v as R,w as z}from"/page/chunk.2AMI6IUB.js";var F=["lit","clay","albedo","specularity","shading","residual","change"],D=`
+import{b as g}from"/page/chunk.VLFINDIR.js";import{a as b,b as x,c as S,e as P,f as w,g as s,h as E,i as L,j as T,k as u,l as v,m as M,n as d,o as A,p as C,q as G,u as B,v as R,w as z}from"/page/chunk.2AMI6IUB.js";var F=["lit","clay","albedo","specularity","shading","residual","change"],D=`
   in vec3 tint;
   in float albedo;
   in float specularity;
