@@ -1,4 +1,4 @@
-"""``maquette serve | worker | prepare | keys | health | fit | check | demo | warm-up | openapi``.
+"""``maquette serve``, ``fit``, ``scan``, ``check`` and the other commands.
 
 Every command imports what it needs itself: ``maquette --help`` and the processes forked by a worker
 load this module and nothing heavy with it.
@@ -86,30 +86,10 @@ def _parser() -> argparse.ArgumentParser:
     fit.add_argument("--cues", choices=("SE", "SES"))
     fit.add_argument("--optimizer", choices=("gauss_newton", "simplex"))
     fit.add_argument("--mask", type=Path, metavar="IMAGE", help="replaces the segmentation")
-    fit.add_argument(
-        "--force", action="store_true", help="give measurements even if nothing shows a person"
-    )
-    fit.add_argument(
-        "--models",
-        type=Path,
-        metavar="DIR",
-        help="folder of female.npz or male.npz (default: the packaged body models)",
-    )
-    fit.add_argument(
-        "--formats",
-        type=_formats,
-        default=(),
-        metavar="FORMAT,...",
-        help="write every mesh as obj, ply, stl or usdz too",
-    )
-    fit.add_argument(
-        "--output",
-        type=Path,
-        default=Path("maquette-fit"),
-        metavar="DIR",
-        help="default: %(default)s",
-    )
+    _add_common(fit, output="maquette-fit")
     fit.set_defaults(command=_fit)
+
+    _add_scan(commands)
 
     check = commands.add_parser(
         "check", help="say what is wrong with a picture before it is fitted"
@@ -146,6 +126,69 @@ def _parser() -> argparse.ArgumentParser:
     openapi.add_argument("--output", type=Path, metavar="FILE", help="write it there instead")
     openapi.set_defaults(command=_openapi)
     return parser
+
+
+def _add_scan(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    scan = commands.add_parser("scan", help="measure one person from several pictures here and now")
+    scan.add_argument(
+        "images",
+        type=Path,
+        nargs="+",
+        metavar="IMAGE",
+        help="2 to 6: from the front, from the side, and others",
+    )
+    scan.add_argument(
+        "--views",
+        nargs="+",
+        default=(),
+        metavar="VIEW",
+        help="what the pictures show, in their order: front, side, back or other",
+    )
+    scan.add_argument(
+        "--points",
+        type=_points_file,
+        nargs="+",
+        default=(),
+        metavar="FILE",
+        help="a JSON file as for a fit, or auto, for every picture (default: auto); what "
+        "the first says of the person holds",
+    )
+    scan.add_argument("--gender", choices=("female", "male"))
+    scan.add_argument("--height-m", type=float, metavar="METRES")
+    scan.add_argument("--weight-kg", type=float, metavar="KILOGRAMS")
+    scan.add_argument("--focal-length-35mm", type=float, metavar="MM", help="of all pictures")
+    scan.add_argument("--cues", choices=("SE", "SES"))
+    _add_common(scan, output="maquette-scan")
+    scan.set_defaults(command=_scan)
+
+
+def _add_common(command: argparse.ArgumentParser, *, output: str) -> None:
+    """Add what may be said of any work on pictures here and now."""
+    command.add_argument(
+        "--force", action="store_true", help="give measurements even if nothing shows a person"
+    )
+    command.add_argument(
+        "--models",
+        type=Path,
+        metavar="DIR",
+        help="folder of female.npz or male.npz (default: the packaged body models)",
+    )
+    command.add_argument(
+        "--formats",
+        type=_formats,
+        default=(),
+        metavar="FORMAT,...",
+        help="write every mesh as obj, ply, stl or usdz too",
+    )
+    command.add_argument(
+        "--output", type=Path, default=Path(output), metavar="DIR", help="default: %(default)s"
+    )
+
+
+def _points_file(text: str) -> Path | None:
+    from api_schemas.points import AUTO
+
+    return None if text == AUTO else Path(text)
 
 
 class _Version(argparse.Action):
@@ -272,20 +315,37 @@ def _fit(parsed: argparse.Namespace) -> int:
             models=parsed.models,
             output=parsed.output,
             formats=parsed.formats,
-            overrides={
-                name: value
-                for name in (
-                    "gender",
-                    "height_m",
-                    "weight_kg",
-                    "focal_length_px",
-                    "focal_length_35mm",
-                    "cues",
-                    "optimizer",
-                )
-                if (value := getattr(parsed, name)) is not None
-            }
+            overrides=_given(
+                parsed,
+                "gender",
+                "height_m",
+                "weight_kg",
+                "focal_length_px",
+                "focal_length_35mm",
+                "cues",
+                "optimizer",
+            )
             | {name: True for name in ("complete_points", "force") if getattr(parsed, name)},
+        )
+    )
+
+
+def _scan(parsed: argparse.Namespace) -> int:
+    from service.commands.scan import ScanArguments, scan_locally
+    from service.startup.begin import read_settings
+
+    read_settings("scan")
+    return scan_locally(
+        ScanArguments(
+            images=parsed.images,
+            views=parsed.views,
+            points=parsed.points,
+            models=parsed.models,
+            output=parsed.output,
+            formats=parsed.formats,
+            overrides=_given(parsed, "gender", "height_m", "weight_kg", "cues")
+            | ({"force": True} if parsed.force else {}),
+            of_all_views=_given(parsed, "focal_length_35mm"),
         )
     )
 
@@ -295,14 +355,20 @@ def _check(parsed: argparse.Namespace) -> int:
     from service.startup.begin import read_settings
 
     read_settings("check")
-    names = ("view", "gender", "height_m", "focal_length_px", "focal_length_35mm")
     return check_locally(
         CheckArguments(
             image=parsed.image,
             points=parsed.points,
-            said={name: value for name in names if (value := getattr(parsed, name)) is not None},
+            said=_given(
+                parsed, "view", "gender", "height_m", "focal_length_px", "focal_length_35mm"
+            ),
         )
     )
+
+
+def _given(parsed: argparse.Namespace, *names: str) -> dict[str, object]:
+    """Those of these arguments that were given."""
+    return {name: value for name in names if (value := getattr(parsed, name)) is not None}
 
 
 def _demo(parsed: argparse.Namespace) -> int:

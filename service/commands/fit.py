@@ -1,25 +1,23 @@
 """``maquette fit``: fit one picture locally, with the service's checks and pipeline."""
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Any, Final, cast
 
 from pydantic import BaseModel
 from rich.console import Console
 
 from api_schemas.derivation_kinds.caricature import CaricatureOptions
 from api_schemas.points import AUTO
-from api_schemas.problems import Problem, field_problem, problem
+from api_schemas.problems import Problem, problem
 from api_schemas.requests import FitOptions
-from fitter.errors import ModelFileError
-from service.commands.terminal import print_problem, print_result, stage_bars
+from service.commands.local_work import UNUSABLE_INPUT, told, write_files
+from service.commands.terminal import print_result, stage_bars
 from service.demo_data.sample import load_sample
 from service.jobs.inputs import PERSON
 from service.process.kernels import keep_kernels
-from service.representation.formats import GLB_ENDING
-from service.representation.measurement_table import TABLE, measurements_csv
 from service.settings import Settings
 from service.submissions.refusal import RefusedError
 from service.submissions.submission import check_submission
@@ -28,7 +26,6 @@ from service.worker.pipeline_port import (
     DerivationInput,
     PipelineInput,
     PipelineOutput,
-    UnusableInputError,
     load_pipeline,
 )
 
@@ -36,8 +33,6 @@ PIPELINE: Final = "service.worker.pipeline"
 COMPILING: Final = (
     "Compiling kernels: one to three minutes, once per installation; where that is done, seconds."
 )
-UNUSABLE_INPUT: Final = 2
-"""Exit status if the input is at fault, as for wrong arguments."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -68,52 +63,54 @@ def request_from_file(
     RefusedError
         If the text is not a JSON object.
     """
+    values = values_from_file(text)
+    known = {name: value for name, value in values.items() if name in kind.model_fields}
+    return json.dumps(known | dict(overrides)).encode()
+
+
+def values_from_file(text: str) -> dict[str, Any]:
+    """Read a points file.
+
+    Raises
+    ------
+    RefusedError
+        If the text is not a JSON object.
+    """
     try:
         values = json.loads(text)
     except json.JSONDecodeError as error:
         raise RefusedError(_unreadable(str(error))) from error
     if not isinstance(values, dict):
         raise RefusedError(_unreadable("it is no object"))
-    known = {name: value for name, value in values.items() if name in kind.model_fields}
-    return json.dumps(known | dict(overrides)).encode()
+    return cast("dict[str, Any]", values)
 
 
 def fit_locally(arguments: FitArguments, *, pipeline: str = PIPELINE) -> int:
     """Fit, write all files to the output folder, print the measurements; return the exit status."""
     console = Console()
-    try:
-        request = _request(arguments)
-        image = arguments.image.read_bytes()
-        mask = None if arguments.mask is None else arguments.mask.read_bytes()
-        output = _fit(
-            console,
-            request=request,
-            image=image,
-            mask=mask,
-            models=arguments.models,
-            pipeline=pipeline,
-        )
-    except ModelFileError as error:
-        console.print(f"[bold red]The body model cannot be used.[/] {error}", highlight=False)
+    output = told(console, lambda: _fit_arguments(console, arguments, pipeline=pipeline))
+    if output is None:
         return UNUSABLE_INPUT
-    except OSError as error:
-        console.print(f"[bold red]{error.strerror}:[/] {error.filename}")
-        return UNUSABLE_INPUT
-    except RefusedError as error:
-        print_problem(console, error.problem)
-        return UNUSABLE_INPUT
-    except UnusableInputError as error:
-        print_problem(console, field_problem("unusable-input", error.error))
-        return UNUSABLE_INPUT
-    arguments.output.mkdir(parents=True, exist_ok=True)
-    files = with_result_document(output.result, output.artifacts)
-    files |= _in_formats(output.artifacts, arguments.formats)
-    files[TABLE] = measurements_csv(output.result.measurements)
-    for name, content in files.items():
-        (arguments.output / name).write_bytes(content)
+    count = write_files(
+        arguments.output,
+        with_result_document(output.result, output.artifacts),
+        output.result.measurements,
+        formats=arguments.formats,
+    )
     print_result(console, output.result)
-    console.print(f"{len(files)} files lie in {arguments.output}.", highlight=False)
+    console.print(f"{count} files lie in {arguments.output}.", highlight=False)
     return 0
+
+
+def _fit_arguments(console: Console, arguments: FitArguments, *, pipeline: str) -> PipelineOutput:
+    return _fit(
+        console,
+        request=_request(arguments),
+        image=arguments.image.read_bytes(),
+        mask=None if arguments.mask is None else arguments.mask.read_bytes(),
+        models=arguments.models,
+        pipeline=pipeline,
+    )
 
 
 def _request(arguments: FitArguments) -> bytes:
@@ -179,21 +176,6 @@ def _fit(
         )
         bars.finish()
     return output
-
-
-def _in_formats(artifacts: Mapping[str, bytes], formats: Sequence[str]) -> dict[str, bytes]:
-    """Every mesh in every one of the formats, by file name."""
-    if not formats:
-        return {}
-    # Imported here: its libraries take a moment to load, and most fits do not need them.
-    from fitter.export.formats import converted
-
-    return {
-        f"{name.removesuffix(GLB_ENDING)}.{ending}": converted(content, ending)
-        for name, content in artifacts.items()
-        if name.endswith(GLB_ENDING)
-        for ending in formats
-    }
 
 
 def _unreadable(why: str) -> Problem:

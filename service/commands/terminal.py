@@ -1,6 +1,6 @@
 """What the command line shows: progress bars while a fit runs, tables afterwards."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import Final
 
@@ -9,19 +9,21 @@ from rich.progress import BarColumn, Progress, SpinnerColumn, TaskID, TextColumn
 from rich.table import Table
 
 from api_schemas.problems import Problem
-from api_schemas.results import FitResult
+from api_schemas.results import Assumption, FitResult, FitWarning, Measurement
+from api_schemas.scans import ScanResult
 from fitter.measurement.groups import group_of
 
 SHADED: Final = "SES"
 UNSHADED: Final = "SE"
+WITHHELD: Final = "[bold]Measurements are withheld;[/] with --force they are given."
 
 
 class StageBars:
     """One bar per stage, running from its first report to the next stage's, and one for all."""
 
-    def __init__(self, progress: Progress) -> None:
+    def __init__(self, progress: Progress, whole: str) -> None:
         self._progress = progress
-        self._whole = progress.add_task("whole fit", total=1.0)
+        self._whole = progress.add_task(whole, total=1.0)
         self._stage: str | None = None
         self._bar: TaskID | None = None
 
@@ -45,8 +47,8 @@ class StageBars:
 
 
 @contextmanager
-def stage_bars(console: Console) -> Iterator[StageBars]:
-    """Show the bars of one fit while the context lasts."""
+def stage_bars(console: Console, *, whole: str = "whole fit") -> Iterator[StageBars]:
+    """Show the bars of one fit or scan while the context lasts."""
     with Progress(
         SpinnerColumn(),
         TextColumn("{task.description}"),
@@ -54,7 +56,7 @@ def stage_bars(console: Console) -> Iterator[StageBars]:
         TimeElapsedColumn(),
         console=console,
     ) as progress:
-        yield StageBars(progress)
+        yield StageBars(progress, whole)
 
 
 def print_problem(console: Console, problem: Problem) -> None:
@@ -73,19 +75,59 @@ def print_result(
     if result.measurements:
         console.print(_measurements(result, truth or {}))
     else:
-        console.print("[bold]Measurements are withheld;[/] with --force they are given.")
+        console.print(WITHHELD)
     console.print(
         f"Outcome: {result.outcome}, {result.verdict} ({result.outcome_explanation}) "
         f"Silhouette overlap {result.silhouette_overlap:.3f}, {result.evaluations} evaluations, "
         f"{sum(result.stage_seconds.values()):.1f} s.",
         highlight=False,
     )
-    for assumption in result.assumptions:
+    _print_remarks(console, result.assumptions, result.warnings)
+
+
+def print_scan(console: Console, result: ScanResult) -> None:
+    """Print the measurements of a scan, how it ended in every view, and remarks."""
+    if result.measurements:
+        table = Table(title=f"Measurements, {result.gender}, {result.height_m:.3f} m")
+        table.add_column("measurement")
+        table.add_column("unit")
+        for column in ("value", "± (1 sd)"):
+            table.add_column(column, justify="right")
+        for each in result.measurements:
+            table.add_row(
+                each.name.replace("_", " "), each.unit, f"{each.value:.1f}", _spread(each)
+            )
+        console.print(table)
+    else:
+        console.print(WITHHELD)
+    for view in result.views:
+        console.print(
+            f"View {view.number}, {view.view}: {view.outcome}, {view.verdict} "
+            f"({view.outcome_explanation}) Silhouette overlap {view.silhouette_overlap:.3f}.",
+            highlight=False,
+        )
+        _print_remarks(console, view.assumptions, view.warnings)
+    console.print(f"Agreement of the views {result.agreement:.2f}.", highlight=False)
+    _print_remarks(console, result.assumptions, result.warnings)
+
+
+def _print_remarks(
+    console: Console, assumptions: Iterable[Assumption], warnings: Iterable[FitWarning]
+) -> None:
+    for assumption in assumptions:
         value = assumption.value
         shown = f"{value:.4g}" if isinstance(value, float) else value
         console.print(f"Assumed {assumption.quantity} = {shown}: {assumption.reason}", markup=False)
-    for warning in result.warnings:
+    for warning in warnings:
         console.print(f"Warning ({warning.code}): {warning.message}", markup=False)
+
+
+def _spread(measurement: Measurement) -> str:
+    error = measurement.standard_error
+    if error is None:
+        return ""
+    shown = f"{error:.1f}"
+    return "given" if measurement.given and shown == "0.0" else shown
 
 
 def _measurements(result: FitResult, truth: Mapping[str, float]) -> Table:
@@ -116,8 +158,7 @@ def _measurements(result: FitResult, truth: Mapping[str, float]) -> Table:
         row = [final.name.replace("_", " "), final.unit, f"{earlier:.1f}"]
         if shaded:
             row.append(f"{final.value:.1f}")
-        error = "" if final.standard_error is None else f"{final.standard_error:.1f}"
-        row.append("given" if final.given and error == "0.0" else error)
+        row.append(_spread(final))
         if truth:
             true = truth.get(final.name)
             row += ["", ""] if true is None else [f"{true:.1f}", f"{final.value - true:+.1f}"]

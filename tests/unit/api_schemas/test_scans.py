@@ -1,0 +1,78 @@
+"""What makes a scan on the wire, and what is asked of each of its views."""
+
+import json
+from typing import Any
+
+import pytest
+from pydantic import ValidationError
+
+from api_schemas.points import AUTO
+from api_schemas.requests import FitOptions
+from api_schemas.scans import ScanOptions, ScanRequest, ViewKind
+from service.submissions.validation import field_problems
+
+POINTS = {"nose": [1.0, 2.0]}
+FRONT: dict[str, Any] = {"view": "front", "points": POINTS}
+SIDE: dict[str, Any] = {"view": "side", "points": POINTS}
+
+
+def request(*views: dict[str, Any], **changes: object) -> ScanRequest:
+    values = {"gender": "female", "height_m": 1.7, "views": views} | changes
+    return ScanRequest.model_validate_json(json.dumps(values))
+
+
+def problem(*views: dict[str, Any]) -> tuple[str, str]:
+    with pytest.raises(ValidationError) as refused:
+        request(*views)
+    (error,) = field_problems(refused.value.errors())
+    return error.field, error.code
+
+
+def test_a_scan_has_two_to_six_views():
+    other = {"view": "other"}
+    for count in (0, 1, 7):
+        assert problem(*[other] * count) == ("views", "views-count")
+    for count in range(2, 7):
+        assert len(request(*[other] * count).views) == count
+
+
+@pytest.mark.parametrize("kind", list(ViewKind))
+def test_people_have_one_front_and_one_back_but_two_sides(kind):
+    views = ({"view": "other"}, {"view": kind}, {"view": kind})
+    if kind in (ViewKind.FRONT, ViewKind.BACK):
+        assert problem(*views) == ("views.2.view", "repeated-view")
+    else:
+        request(*views)
+
+
+def test_a_fault_within_a_view_is_told_by_its_place():
+    lenses = {"focal_length_px": 900.0, "focal_length_35mm": 26.0}
+    assert problem(FRONT, SIDE | lenses) == ("views.1.focal_length_35mm", "two-focal-lengths")
+    assert problem(FRONT, SIDE | {"clothing": "none"}) == ("views.1.clothing", "unknown-value")
+
+
+def test_points_that_are_left_out_are_proposed():
+    view = request(FRONT, {"view": "side"}).views[1]
+    assert view.points == AUTO
+    options = view.options({})
+    assert (options.points, options.complete_points) == ({}, True)
+
+
+def test_of_every_view_the_same_person_is_asked():
+    asked = request(
+        FRONT,
+        SIDE | {"clothing": "loose", "focal_length_35mm": 26.0},
+        weight_kg=64.5,
+        measurements={"hip_girth": {"value": 98.0, "standard_error": 1.5}},
+        cues="SE",
+        force=True,
+    )
+    options = asked.options([view.options({}) for view in asked.views])
+    kept = ScanOptions.model_validate_json(options.model_dump_json())
+    assert kept == options
+    first, second = (kept.of_view(number) for number in range(2))
+    of_a_view = {"clothing", "focal_length_35mm"}
+    assert first.model_dump(exclude=of_a_view) == second.model_dump(exclude=of_a_view)
+    assert (second.clothing, second.focal_length_35mm) == ("loose", 26.0)
+    assert (first.weight_kg, first.cues, first.force) == (64.5, "SE", True)
+    assert FitOptions.model_validate_json(first.model_dump_json()) == first
