@@ -1,4 +1,4 @@
-"""The sample picture shipped with the package, its clicks, and the truth it was rendered from."""
+"""The samples shipped with the package: pictures, their clicks, the truth one was rendered from."""
 
 import json
 from collections.abc import Mapping
@@ -25,4 +25,20 @@ def load_sample(folder: Path = FOLDER) -> Sample:
         image=(folder / "sample.jpg").read_bytes(),
         request=(folder / "request.json").read_bytes(),
         truth={name: float(value) for name, value in truth["measurements"].items()},
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ScanSample:
+    """Pictures of one person, and the request of their scan as JSON text."""
+
+    images: tuple[bytes, ...]
+    request: bytes
+
+
+def load_scan_sample(folder: Path = FOLDER) -> ScanSample:
+    """Read ``scan_front.jpg``, ``scan_side.jpg`` and ``scan.json``."""
+    return ScanSample(
+        images=tuple((folder / f"scan_{view}.jpg").read_bytes() for view in ("front", "side")),
+        request=(folder / "scan.json").read_bytes(),
     )
