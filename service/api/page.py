@@ -17,6 +17,7 @@ ROUTER: Final = APIRouter(include_in_schema=False)
 
 LINKS: Final = {
     "fits": "/v1/fits",
+    "scans": "/v1/scans",
     "images": "/v1/images",
     "initial_poses": "/v1/initial-poses",
     "points": "/v1/points",

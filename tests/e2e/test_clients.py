@@ -1,4 +1,4 @@
-"""Clients generated from the contract fit the sample: type-checked, then run for real."""
+"""Clients generated from the contract fit and scan the samples: type-checked, then run for real."""
 
 import json
 import os
@@ -15,9 +15,9 @@ from tests.e2e.service import REPOSITORY, fits
 from tests.npm_packages import installed
 
 CLIENTS = REPOSITORY / "tests" / "clients"
-SAMPLE = [
-    str(REPOSITORY / "service" / "demo_data" / name) for name in ("sample.jpg", "request.json")
-]
+DEMO = REPOSITORY / "service" / "demo_data"
+SAMPLE = [str(DEMO / name) for name in ("sample.jpg", "request.json")]
+PAIR = [str(DEMO / name) for name in ("scan_front.jpg", "scan_side.jpg", "scan.json")]
 TOOLS = Path(sys.executable).parent
 
 
@@ -46,7 +46,20 @@ def check(output: str, service: httpx.Client, before: set[str]) -> None:
     assert fits(service) == before
 
 
-def test_a_generated_python_client_fits_the_sample(service: httpx.Client, tmp_path: Path):
+def check_scan(output: str) -> None:
+    """Check what a client found of the sample pair both ways, and that it erased what it sent."""
+    found = json.loads(output.splitlines()[-1])
+    request = json.loads(Path(PAIR[-1]).read_text())
+    as_form, as_json = found["measurements"]
+    assert as_form["stature"] == pytest.approx(100 * request["height_m"], abs=0.01)
+    assert as_json == pytest.approx(as_form, rel=1e-6)
+    assert (found["views"], found["glb"], found["ends"]) == (["front", "side"], "glTF", 1)
+    assert found["erased"] == [204] * 4
+
+
+def test_a_generated_python_client_fits_the_sample_and_measures_the_pair(
+    service: httpx.Client, tmp_path: Path
+):
     written = run(
         *(TOOLS / "openapi-python-client", "generate", "--meta", "none"),
         *("--path", EXPORTED, "--output-path", tmp_path / "maquette_client"),
@@ -54,11 +67,13 @@ def test_a_generated_python_client_fits_the_sample(service: httpx.Client, tmp_pa
         cwd=tmp_path,
     )
     assert "Warning" not in written, written
-    shutil.copy(CLIENTS / "python" / "fit.py", tmp_path)
+    for name in ("fit.py", "scan.py"):
+        shutil.copy(CLIENTS / "python" / name, tmp_path)
     # The use of what was generated; the generator's own code would not pass.
-    run(TOOLS / "pyright", "--pythonpath", sys.executable, "fit.py", cwd=tmp_path)
+    run(TOOLS / "pyright", "--pythonpath", sys.executable, "fit.py", "scan.py", cwd=tmp_path)
     before = fits(service)
     check(run(sys.executable, "fit.py", service.base_url, *SAMPLE, cwd=tmp_path), service, before)
+    check_scan(run(sys.executable, "scan.py", service.base_url, *PAIR, cwd=tmp_path))
 
 
 @pytest.fixture(scope="module")
@@ -66,10 +81,10 @@ def node_modules() -> Path:
     return installed(CLIENTS / "typescript") / "node_modules"
 
 
-def test_a_generated_typescript_client_fits_the_sample(
+def test_a_generated_typescript_client_fits_the_sample_and_measures_the_pair(
     service: httpx.Client, node_modules: Path, tmp_path: Path
 ):
-    for name in ("fit.ts", "tsconfig.json", "package.json"):
+    for name in ("fit.ts", "scan.ts", "tsconfig.json", "package.json"):
         shutil.copy(CLIENTS / "typescript" / name, tmp_path)
     (tmp_path / "node_modules").symlink_to(node_modules)
     tools = node_modules / ".bin"
@@ -81,6 +96,7 @@ def test_a_generated_typescript_client_fits_the_sample(
     run(tools / "tsc", cwd=tmp_path)
     before = fits(service)
     check(run("node", "built/fit.js", service.base_url, *SAMPLE, cwd=tmp_path), service, before)
+    check_scan(run("node", "built/scan.js", service.base_url, *PAIR, cwd=tmp_path))
 
 
 def test_a_client_of_a_generator_that_knows_one_content_type_sends_a_form(
