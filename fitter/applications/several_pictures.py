@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
-from scipy.stats import chi2
+from scipy.special import chdtr, chdtrc
 
 from fitter.arrays import Shape
 from fitter.energies.priors import population_prior
@@ -172,8 +172,8 @@ def _as_extreme(squares: Float[np.ndarray, " d"]) -> float:
     would lose them. The smaller probability counts twice, because there are two.
     """
     count = len(squares)
-    largest = -np.expm1(count * chi2.logcdf(squares.max(), 1))
-    together = chi2.sf(squares.sum(), count)
+    largest = 1.0 - chdtr(1, squares.max()) ** count
+    together = chdtrc(count, squares.sum())
     return float(min(1.0, 2.0 * min(largest, together)))
 
 
