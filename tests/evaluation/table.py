@@ -24,7 +24,7 @@ Figure = Callable[[Scored], float | None]
 
 def case_lines(scored: Sequence[Scored]) -> list[str]:
     """One line a fit: signed errors."""
-    heading = f"{'case':36s}{'cues':5s}" + "".join(
+    heading = f"{'case':45s}{'cues':5s}" + "".join(
         f"{f'{name} {unit}':>10s}" for name, _, unit in MEASUREMENTS
     )
     heading += (
@@ -180,7 +180,7 @@ def _share(yes: Sequence[bool]) -> str:
 
 
 def _case_line(scored: Scored) -> str:
-    line = f"{scored.name:36s}{scored.cues.value:5s}"
+    line = f"{scored.name:45s}{scored.cues.value:5s}"
     line += "".join(f"{scored.errors[key]:+10.1f}" for _, key, _ in MEASUREMENTS)
     vertex = "-" if scored.vertex_mm is None else f"{scored.vertex_mm:.1f}"
     line += f"{vertex:>11s}{scored.joint_mm:10.1f}"
