@@ -227,6 +227,7 @@ class ScanResult(WireModel):
     height_m: float
     cues: Cues
     verdict: Verdict = Field(description="The worst of the views'.")
+    outcome_explanation: str = Field(description="Of the view whose verdict is the worst.")
     shape: tuple[float, ...]
     views: tuple[ScannedView, ...]
     measurements: tuple[Measurement, ...] = Field(

@@ -6,12 +6,11 @@ from uuid import UUID
 from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.jobs import JobState
 from api_schemas.problems import FieldProblem
-from service.api.context import ApiContext
 from service.api.derivation_kinds import KINDS, needs_of
 from service.api.job_inputs import Copy, File, Inputs
 from service.api.problems import ProblemError
 from service.api.results import no_result
-from service.engine.port import SCAN, JobExpiredError, JobRecord, StoredBlob
+from service.engine.port import SCAN, JobExpiredError, JobRecord, StoredBlob, TenantJobs
 from service.jobs.inputs import (
     IMAGE,
     OF_FIRST_VIEW,
@@ -23,15 +22,17 @@ from service.submissions.refusal import RefusedError, refused
 
 
 def derivation_inputs(
-    context: ApiContext, parent: JobRecord, options: AnyDerivationOptions, sent: Mapping[str, File]
+    jobs: TenantJobs, parent: JobRecord, options: AnyDerivationOptions, sent: Mapping[str, File]
 ) -> Inputs:
     """What a derivation needs from its fit or scan and from others it names, besides what was sent.
+
+    ``jobs`` are the caller's fits if it is one, or scans.
 
     Raises
     ------
     ProblemError, RefusedError
-        If that has no result, the kind is not made of scans, or another fit is not the caller's or
-        has not succeeded.
+        If that has no result, the kind is not made of scans, or another one that is named is not
+        the caller's or has not succeeded.
     """
     if parent.state is not JobState.SUCCEEDED:
         raise ProblemError(no_result(parent))
@@ -39,11 +40,10 @@ def derivation_inputs(
         _require_of_scan(options)
     needs = needs_of(options)
     copies = _copies_of(parent, needs.of_fit)
-    fit_id = UUID(parent.id)
     if needs.other_fits:
-        _require(_always_kept(needs.of_others), copies, fit_id, field="kind")
+        _require(_always_kept(needs.of_others), copies, parent, field="kind")
     for index, (field, other) in enumerate(needs.other_fits.items()):
-        of_another = _of_another(context, other, needs.of_others, field=field, than=fit_id)
+        of_another = _of_another(jobs, other, needs.of_others, field=field, than=parent)
         copies |= {of_other(name, index): copy for name, copy in of_another.items()}
     return Inputs(
         kind=options.kind,
@@ -81,19 +81,20 @@ def _copies_of(parent: JobRecord, needed: Collection[str]) -> dict[str, Copy]:
 
 
 def _of_another(
-    context: ApiContext, other: UUID, needed: Collection[str], *, field: str, than: UUID
+    jobs: TenantJobs, other: UUID, needed: Collection[str], *, field: str, than: JobRecord
 ) -> Mapping[str, Copy]:
-    """The inputs and files of another fit, which a field of the request names."""
-    if other == than:
-        raise _unusable(field, f"The fit {other} is the one it is derived from.")
+    """The inputs and files of another fit or scan, which a field of the request names."""
+    named = f"The {than.root} {other}"
+    if str(other) == than.id:
+        raise _unusable(field, f"{named} is the one it is derived from.", than.root)
     try:
-        record = context.jobs.job(str(other))
+        record = jobs.job(str(other))
     except JobExpiredError as error:
-        raise _unusable(field, f"The fit {other} has expired.") from error
+        raise _unusable(field, f"{named} has expired.", than.root) from error
     if record is None or record.state is not JobState.SUCCEEDED:
-        raise _unusable(field, f"The fit {other} has not succeeded here.")
+        raise _unusable(field, f"{named} has not succeeded here.", than.root)
     copies = _copies_of(record, needed)
-    _require(_always_kept(needed), copies, other, field=field)
+    _require(_always_kept(needed), copies, record, field=field)
     return copies
 
 
@@ -103,7 +104,7 @@ def _always_kept(needed: Collection[str]) -> tuple[str, ...]:
 
 
 def _require(
-    names: Collection[str], copies: Mapping[str, Copy], fit_id: UUID, *, field: str
+    names: Collection[str], copies: Mapping[str, Copy], of: JobRecord, *, field: str
 ) -> None:
     """Refuse a fit made by an earlier version, which kept less."""
     missing = [name for name in names if name not in copies]
@@ -112,18 +113,18 @@ def _require(
             FieldProblem(
                 field=field,
                 code="fits-unusable",
-                reason=f"The fit {fit_id} has no {' and no '.join(missing)}.",
+                reason=f"The {of.root} {of.id} has no {' and no '.join(missing)}.",
                 remedy="Fit its picture again.",
             )
         )
 
 
-def _unusable(field: str, reason: str) -> RefusedError:
+def _unusable(field: str, reason: str, root: str) -> RefusedError:
     return refused(
         FieldProblem(
             field=field,
             code="fits-unusable",
             reason=reason,
-            remedy="Name other fits of yours that have succeeded.",
+            remedy=f"Name other {root}s of yours that have succeeded.",
         )
     )

@@ -205,8 +205,9 @@ them together, with what is known of their errors. A size of a brand's chart, sa
     ) -> JobStanding:
         asked, sent = await read_derivation(request, max_pixels=context.settings.max_pixels)
         check_webhook(asked.webhook, context.settings)
-        made_of = await run_in_threadpool(find, parents.jobs(context), parent_id)
-        inputs = await run_in_threadpool(derivation_inputs, context, made_of, asked, sent.files)
+        roots = parents.jobs(context)
+        made_of = await run_in_threadpool(find, roots, parent_id)
+        inputs = await run_in_threadpool(derivation_inputs, roots, made_of, asked, sent.files)
         jobs = parents.below(context, parent_id)
         # At most one file comes with a request, and the kind and its options say which.
         brought = b"".join(file.content for file in sent.files.values())

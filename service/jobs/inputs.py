@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from typing import Final, TypeVar
 
+from api_schemas.scans import MOST_VIEWS
+
 Content = TypeVar("Content")
 
 IMAGE: Final = "image"
@@ -44,6 +46,9 @@ def file_of(name: str, number: int) -> str:
     stem, point, ending = name.partition(".")
     return f"{stem}_{number}{point}{ending}"
 
+
+OTHER_OVERLAYS: Final = tuple(file_of(OVERLAY, number) for number in range(1, MOST_VIEWS))
+"""Those of a scan's views besides the first; no fit has any."""
 
 OF_FIRST_VIEW: Final[Mapping[str, str]] = {
     IMAGE: image_of(0),

@@ -101,11 +101,13 @@ def _undetected(job: ScanInput, error: DetectorUnavailableError) -> FieldProblem
 
 def _result(job: ScanInput, found: ScanResult, model: BodyModel) -> wire_scan.ScanResult:
     first = found.views[0].found
+    worst = max((view.found for view in found.views), key=lambda each: _WORSE.index(each.verdict))
     return wire_scan.ScanResult(
         gender=job.options.gender,
         height_m=first.height_m,
         cues=wire_request.Cues(first.cues.value),
-        verdict=wire.Verdict(max((view.found.verdict for view in found.views), key=_WORSE.index)),
+        verdict=wire.Verdict(worst.verdict.value),
+        outcome_explanation=worst.outcome_explanation,
         shape=tuple(found.shape.tolist()),
         views=tuple(_view(number, view, model) for number, view in enumerate(found.views)),
         measurements=translate.measurement_results(found.measurements, found.given),

@@ -70,6 +70,13 @@ def test_a_person_is_measured_from_the_front_and_from_the_side(service: httpx.Cl
     assert texture["state"] == "succeeded", texture
     document = client.get(texture["links"]["result"]).content
     assert TextureResult.model_validate_json(document).seen_share > 0.2
+    report = ended_job(client, client.post(job["links"]["derivations"], json={"kind": "report"}))
+    assert report["state"] == "succeeded", report
+    page = client.get(report["links"]["artifacts"]["report.html"]).text
+    assert "from several pictures" in page
+    composition = {"kind": "body_composition", "age_years": 70}
+    share = ended_job(client, client.post(job["links"]["derivations"], json=composition))
+    assert share["state"] == "succeeded", share
     assert client.delete(job["links"]["self"]).status_code == 204
     assert client.get(texture["links"]["self"]).status_code == 404
 

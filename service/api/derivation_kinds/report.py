@@ -6,13 +6,16 @@ from api_schemas.derivation_kinds import DerivationKind
 from api_schemas.derivation_kinds.report import ReportOptions, ReportResult
 from service.api.derivation_kinds.definition import DerivationKindDefinition, Needs
 from service.api.examples.files import files
-from service.jobs.inputs import OVERLAY, PERSON, RESULT
+from service.jobs.inputs import OTHER_OVERLAYS, OVERLAY, PERSON, RESULT
 
 KIND: Final = DerivationKindDefinition(
     kind=DerivationKind.REPORT,
     options=ReportOptions,
     result=ReportResult,
-    needs=lambda _: Needs(of_fit=(RESULT, PERSON, OVERLAY, "albedo.png", "shading.png")),
+    needs=lambda _: Needs(
+        of_fit=(RESULT, PERSON, OVERLAY, "albedo.png", "shading.png", *OTHER_OVERLAYS)
+    ),
+    of_scans=True,
     requests={"report": {"kind": "report"}},
     answer={
         "artifacts": files(report__html=653350, report__pdf=786326),

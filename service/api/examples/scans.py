@@ -172,7 +172,10 @@ def _view(number: int, view: str) -> dict[str, Any]:
 
 RESULT: Final[dict[str, Any]] = {
     name: RESULT_OF_A_FIT[name]
-    for name in ("gender", "height_m", "cues", "verdict", "measurements")
+    for name in (
+        *("gender", "height_m", "cues", "verdict", "outcome_explanation"),
+        "measurements",
+    )
 } | {
     "shape": [0.8131, -1.3443, 0.2107],
     "views": [_view(0, "front"), _view(1, "side")],

@@ -13,6 +13,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from pydantic import TypeAdapter
+
 from api_schemas.body_models import BodyModelInfo, BodyModels
 from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivation_kinds.animation import AnimationOptions, AnimationResult
@@ -58,6 +60,9 @@ from service.worker.pipeline_port import (
     ScanOutput,
     UnusableInputError,
 )
+
+RESULTS: TypeAdapter[FitResult | ScanResult] = TypeAdapter(FitResult | ScanResult)
+"""What derivations may be made of."""
 
 STAGES = ("observation", "initial_pose", "segmentation", "silhouette_and_edges", "measurement")
 SCRIPT_MARK = b"#script:"
@@ -160,6 +165,7 @@ def scan(job: ScanInput, observe: Callable[[Report], None]) -> ScanOutput:
         height_m=first.height_m,
         cues=first.cues,
         verdict=first.verdict,
+        outcome_explanation=first.outcome_explanation,
         shape=first.body.shape,
         views=tuple(
             ScannedView(
@@ -282,7 +288,7 @@ def _derived(job: DerivationInput[AnyDerivationOptions]) -> DerivationOutput[Der
     else:
         # Of any other kind what the OpenAPI document shows of it.
         if RESULT in job.inputs:
-            FitResult.model_validate_json(job.inputs[RESULT])
+            RESULTS.validate_json(job.inputs[RESULT])
         shown = json.dumps(KINDS[options.kind].answer)
         result = DerivationResult.model_validate_json(shown).root
         files = {each.name: FILES[Path(each.name).suffix] for each in result.artifacts}

@@ -205,6 +205,9 @@ def test_erasing_a_scan_erases_every_view_and_what_was_derived(tmp_path: Path):
         {"kind": "figure", "pose": "arms_raised"},
         {"kind": "texture"},
         {"kind": "animation"},
+        {"kind": "report"},
+        {"kind": "body_composition", "age_years": 40},
+        {"kind": "size", "chart_csv": "size,chest_girth\nM,94-98\nL,98-102\n"},
     ],
     ids=lambda asked: asked["kind"],
 )
@@ -230,3 +233,19 @@ def test_what_is_made_of_fits_alone_is_not_made_of_a_scan(service: Service):
     answer = service.client.post(f"{path}/derivations", json=asked)
     assert (answer.status_code, answer.json()["code"]) == (422, "not-of-scans")
     assert answer.json()["field"] == "kind"
+
+
+def test_two_scans_are_compared_and_the_comparison_goes_with_either(service: Service):
+    earlier, later = scanned(service), scanned(service)
+    fit = service.submit()
+    service.ended(fit)
+    refused = service.client.post(
+        f"{later}/derivations", json={"kind": "change", "since": fit.rpartition("/")[2]}
+    )
+    assert (refused.status_code, refused.json()["field"]) == (422, "since")
+    asked = {"kind": "change", "since": earlier.rpartition("/")[2]}
+    answer = service.client.post(f"{later}/derivations", json=asked)
+    assert answer.status_code == 202, answer.text
+    assert service.ended(answer.headers["Location"])["state"] == "succeeded"
+    assert service.client.delete(earlier).status_code == 204
+    assert service.client.get(answer.headers["Location"]).status_code == 404

@@ -9,9 +9,8 @@ import pytest
 from api_schemas.derivation_kinds.combined import CombinedOptions
 from api_schemas.jobs import JobState
 from api_schemas.results import Artifact
-from service.api.context import ApiContext
 from service.api.derivation_inputs import derivation_inputs
-from service.engine.port import FIT, JobExpiredError, StoredBlob
+from service.engine.port import FIT, JobExpiredError, StoredBlob, TenantJobs
 from service.jobs.inputs import IMAGE, PERSON
 from service.submissions.refusal import RefusedError
 
@@ -38,10 +37,13 @@ class Jobs:
 
 
 def test_another_fit_that_has_expired_is_a_fault_of_the_request():
-    context = cast("ApiContext", SimpleNamespace(jobs=Jobs()))
+    jobs = Jobs()
     with pytest.raises(RefusedError) as caught:
         derivation_inputs(
-            context, Jobs().job(str(OWN)), CombinedOptions(kind="combined", fits=(EXPIRED,)), {}
+            cast("TenantJobs", jobs),
+            jobs.job(str(OWN)),
+            CombinedOptions(kind="combined", fits=(EXPIRED,)),
+            {},
         )
     (error,) = caught.value.problem.errors
     assert (caught.value.problem.status, error.field, error.code) == (

@@ -1,18 +1,22 @@
 """The report says what the result says, on one page that stands alone."""
 
 import io
+import json
 import re
 from html.parser import HTMLParser
 
 import pytest
 from PIL import Image
 
+from api_schemas.scans import ScanResult
 from fitter.measurement.definition_file import load_definitions
 from fitter.measurement.groups import CHIEF
+from service.api.examples.scans import RESULT as SCAN
 from service.worker.derived.report.content import report_content
 from service.worker.derived.report.page_html import report_html
 from service.worker.derived.report.page_pdf import report_pdf
 from service.worker.derived.report.pictures import Picture, ReportPictures
+from service.worker.derived.report.scan_content import scan_content
 from tests.unit.service.fit_results import fit_result, measurement
 
 
@@ -31,7 +35,7 @@ def picture(caption: str, *, width: int = 60, height: int = 80) -> Picture:
 PICTURES = ReportPictures(
     overlay=picture("The body over the picture"),
     sides=tuple(picture(f"Side {number}") for number in range(4)),
-    skin=(picture("Albedo"), picture("Shading")),
+    small=(picture("Albedo"), picture("Shading")),
 )
 
 
@@ -192,8 +196,32 @@ def test_signs_the_pdf_s_fonts_lack_do_not_end_it():
 
 
 def test_a_report_of_a_fit_without_shading_has_no_pictures_of_skin():
-    without = ReportPictures(overlay=PICTURES.overlay, sides=PICTURES.sides, skin=())
+    without = ReportPictures(overlay=PICTURES.overlay, sides=PICTURES.sides, small=())
     content = report_content(fit_result(light=None, reflectance=None))
     images = [tag for tag, _ in Elements(report_html(content, without)).found if tag == "img"]
     assert len(images) == 5
     assert pages(report_pdf(content, without)) == 1
+
+
+def scan_result(**changes: object) -> ScanResult:
+    return ScanResult.model_validate_json(json.dumps(SCAN | changes))
+
+
+def test_a_report_of_a_scan_says_what_was_found_in_every_view():
+    warning = {"code": "different-people", "message": "The pictures seem to show two people."}
+    content = scan_content(scan_result(warnings=[warning]))
+    assert content.title.endswith("from several pictures")
+    assert "from 2 pictures" in content.subtitle
+    pictures, _, _, warnings = content.sections
+    assert [label for label, _ in pictures.facts] == ["Front", "Side"]
+    assert warnings.remarks[0] == warning["message"]
+    # Both views of the example have the same one: it is said once.
+    assert len(warnings.remarks) == 2
+    page = Elements(report_html(content, PICTURES))
+    assert content.title in page.text
+    assert "Agreement" in page.text
+
+
+def test_measurements_of_a_scan_are_withheld_as_those_of_a_fit():
+    page = Elements(report_html(scan_content(scan_result(measurements=[])), PICTURES))
+    assert "withheld" in page.text

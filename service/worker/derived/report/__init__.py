@@ -1,22 +1,30 @@
-"""The report of a fit: one page for people to read, as HTML and as PDF."""
+"""The report of a fit or scan: one page for people to read, as HTML and as PDF."""
 
 from collections.abc import Callable
+from typing import Final
+
+from pydantic import TypeAdapter
 
 from api_schemas.derivation_kinds.report import ReportOptions, ReportResult
 from api_schemas.results import FitResult
+from api_schemas.scans import ScanResult
 from service.jobs.inputs import RESULT
 from service.worker.derived.report.content import report_content
 from service.worker.derived.report.page_html import report_html
 from service.worker.derived.report.page_pdf import report_pdf
 from service.worker.derived.report.pictures import report_pictures
+from service.worker.derived.report.scan_content import scan_content
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
+
+RESULTS: Final[TypeAdapter[FitResult | ScanResult]] = TypeAdapter(FitResult | ScanResult)
 
 
 def derive(
     job: DerivationInput[ReportOptions], observe: Callable[[float], None]
 ) -> DerivationOutput[ReportResult]:
     """Write the report; see :class:`service.worker.derivers.Deriver`."""
-    content = report_content(FitResult.model_validate_json(job.inputs[RESULT]))
+    result = RESULTS.validate_json(job.inputs[RESULT])
+    content = scan_content(result) if isinstance(result, ScanResult) else report_content(result)
     pictures = report_pictures(job.inputs, models=job.models)
     observe(0.5)
     return DerivationOutput(

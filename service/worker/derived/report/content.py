@@ -1,7 +1,7 @@
 """What the report says, in words: the numbers, units and names of ``result.json``."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -10,6 +10,7 @@ from api_schemas.results import (
     Assumption,
     CameraResult,
     FitResult,
+    FitWarning,
     FocalLengthSource,
     LightResult,
     Measurement,
@@ -28,7 +29,7 @@ DIAGONAL_35MM: Final = 43.27
 TITLE: Final = "Body, pose and light from one picture"
 
 FOOTNOTE: Final = (
-    "Measured in the canonical pose, right limbs; every definition and its source is in the fit's "
+    "Measured in the canonical pose, right limbs; every definition and its source is in "
     "result.json. Intervals are 1.96 standard errors of the fit on either side. This is no medical "
     "device."
 )
@@ -37,7 +38,7 @@ WITHHELD: Final = (
     "Measurements are withheld, because the picture contradicts a person: see the outcome."
 )
 
-_CUES: Final = {
+CUES: Final = {
     Cues.SE: "silhouette and edges (SE)",
     Cues.SES: "silhouette, edges and shading (SES)",
 }
@@ -84,6 +85,7 @@ class ReportContent:
     ones, ``further`` all others.
     """
 
+    title: str
     subtitle: str
     measurements: tuple[MeasurementRow, ...]
     further: tuple[MeasurementGroup, ...]
@@ -93,24 +95,29 @@ class ReportContent:
 def report_content(result: FitResult) -> ReportContent:
     """Put a result into words."""
     return ReportContent(
-        subtitle=f"{result.gender.capitalize()}, {result.height_m:.3f} m, by {_CUES[result.cues]}",
-        measurements=tuple(_row(each) for each in result.measurements if each.name in CHIEF),
-        further=_further([each for each in result.measurements if each.name not in CHIEF]),
+        title=TITLE,
+        subtitle=f"{result.gender.capitalize()}, {result.height_m:.3f} m, by {CUES[result.cues]}",
+        measurements=chief_rows(result.measurements),
+        further=further_groups(result.measurements),
         sections=(
             _light_and_skin(result.light, result.reflectance),
             _fit(result),
-            _assumed(result.assumptions),
-            Section(
-                heading="Warnings",
-                remarks=tuple(each.message for each in result.warnings) or ("None.",),
-            ),
+            assumed(result.assumptions),
+            warned(result.warnings),
         ),
     )
 
 
-def _further(measurements: Sequence[Measurement]) -> tuple[MeasurementGroup, ...]:
+def chief_rows(measurements: Sequence[Measurement]) -> tuple[MeasurementRow, ...]:
+    """The chief ones, in words."""
+    return tuple(measurement_row(each) for each in measurements if each.name in CHIEF)
+
+
+def further_groups(measurements: Sequence[Measurement]) -> tuple[MeasurementGroup, ...]:
+    """All others, by groups."""
+    others = [each for each in measurements if each.name not in CHIEF]
     groups = {
-        group: tuple(_row(each) for each in measurements if group_of(each.name) is group)
+        group: tuple(measurement_row(each) for each in others if group_of(each.name) is group)
         for group in Group
     }
     return tuple(
@@ -118,7 +125,8 @@ def _further(measurements: Sequence[Measurement]) -> tuple[MeasurementGroup, ...
     )
 
 
-def _row(measurement: Measurement) -> MeasurementRow:
+def measurement_row(measurement: Measurement) -> MeasurementRow:
+    """Put a measurement into words."""
     value, error = measurement.value, measurement.standard_error
     if error is None:
         interval = "not known"
@@ -128,7 +136,7 @@ def _row(measurement: Measurement) -> MeasurementRow:
         low, high = value - WITHIN_95 * error, value + WITHIN_95 * error
         interval = f"{low:.1f} – {high:.1f}"
     return MeasurementRow(
-        name=_words(measurement.name),
+        name=words(measurement.name),
         value=f"{value:.1f}",
         unit=measurement.unit,
         interval=interval,
@@ -152,7 +160,7 @@ def _light_and_skin(light: LightResult | None, reflectance: ReflectanceResult | 
     return Section(
         heading=heading,
         facts=(
-            (f"{_words(light.kind).capitalize()} light", f"{across}, {along}, {away}"),
+            (f"{words(light.kind).capitalize()} light", f"{across}, {along}, {away}"),
             ("Mean albedo", f"{reflectance.mean_albedo:.3f}"),
             ("Mean specularity", f"{reflectance.mean_specularity:.3f}"),
             ("Specular exponent", f"{reflectance.specular_exponent:.0f}"),
@@ -175,32 +183,40 @@ def _fit(result: FitResult) -> Section:
         facts=(
             ("Outcome", f"{_ended(result)}. {result.outcome_explanation}"),
             ("Overlap with the silhouette", f"{100.0 * result.silhouette_overlap:.1f} %"),
-            ("Focal length", _lens(result.image_camera, result.focal_length_source)),
+            ("Focal length", lens(result.image_camera, result.focal_length_source)),
             ("Picture", f"{result.image_camera.width} × {result.image_camera.height} pixels"),
         ),
     )
 
 
 def _ended(result: FitResult) -> str:
-    return _words(result.outcome if result.verdict is Verdict.PLAUSIBLE else result.verdict)
+    return words(result.outcome if result.verdict is Verdict.PLAUSIBLE else result.verdict)
 
 
-def _lens(camera: CameraResult, source: FocalLengthSource) -> str:
+def lens(camera: CameraResult, source: FocalLengthSource) -> str:
+    """The focal length, and who says so."""
     equivalent_mm = camera.focal_length_px * DIAGONAL_35MM / math.hypot(camera.width, camera.height)
     return f"{camera.focal_length_px:.0f} px ({equivalent_mm:.0f} mm equivalent), {_LENS[source]}"
 
 
-def _assumed(assumptions: Sequence[Assumption]) -> Section:
+def assumed(assumptions: Collection[Assumption]) -> Section:
+    """What was assumed, and why."""
     heading = "What was assumed"
     if not assumptions:
         return Section(heading=heading, remarks=("Nothing.",))
     return Section(
         heading=heading,
         facts=tuple(
-            (_words(each.quantity).capitalize(), f"{_assumed_value(each)}. {each.reason}")
+            (words(each.quantity).capitalize(), f"{_assumed_value(each)}. {each.reason}")
             for each in assumptions
         ),
     )
+
+
+def warned(warnings: Iterable[FitWarning]) -> Section:
+    """What to look at."""
+    remarks = tuple(each.message for each in warnings)
+    return Section(heading="Warnings", remarks=remarks or ("None.",))
 
 
 def _assumed_value(assumption: Assumption) -> str:
@@ -208,5 +224,6 @@ def _assumed_value(assumption: Assumption) -> str:
     return value if isinstance(value, str) else f"{value:.4g}"
 
 
-def _words(name: str) -> str:
+def words(name: str) -> str:
+    """A name as people read it."""
     return name.replace("_", " ")

@@ -9,7 +9,6 @@ from typing import Final
 
 from service.worker.derived.report.content import (
     FOOTNOTE,
-    TITLE,
     WITHHELD,
     MeasurementGroup,
     MeasurementRow,
@@ -68,7 +67,7 @@ footer { border-top: 1px solid #ddd; margin-top: 12px; padding-top: 5px; }
 def report_html(content: ReportContent, pictures: ReportPictures) -> bytes:
     """Write the page; the same report gives the same bytes."""
     light, *others = content.sections
-    body = f"""<header><h1>{escape(TITLE)}</h1><p>{escape(content.subtitle)}</p></header>
+    body = f"""<header><h1>{escape(content.title)}</h1><p>{escape(content.subtitle)}</p></header>
 <main>
 <div class="top">
 {_figure(pictures.overlay)}
@@ -76,7 +75,7 @@ def report_html(content: ReportContent, pictures: ReportPictures) -> bytes:
 </div>
 <div class="sides">{"".join(_figure(each) for each in pictures.sides)}</div>
 <div class="notes">
-{_section(light, "".join(_figure(each) for each in pictures.skin))}
+{_section(light, "".join(_figure(each) for each in pictures.small))}
 <div>
 {"".join(_section(each) for each in others)}
 </div>
@@ -89,7 +88,7 @@ def report_html(content: ReportContent, pictures: ReportPictures) -> bytes:
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{escape(TITLE)}</title>
+<title>{escape(content.title)}</title>
 <style>{STYLE}</style>
 </head>
 <body>

@@ -17,7 +17,6 @@ from reportlab.platypus import Flowable, Frame, KeepInFrame, Paragraph, Spacer, 
 
 from service.worker.derived.report.content import (
     FOOTNOTE,
-    TITLE,
     WITHHELD,
     MeasurementGroup,
     MeasurementRow,
@@ -60,9 +59,9 @@ def report_pdf(content: ReportContent, pictures: ReportPictures) -> bytes:
     """Draw the page; the same report gives the same bytes."""
     stream = io.BytesIO()
     canvas = Canvas(stream, pagesize=A4, invariant=True, pageCompression=True)
-    canvas.setTitle(TITLE)
+    canvas.setTitle(content.title)
     canvas.setAuthor("Maquette")
-    _header(canvas, content.subtitle)
+    _header(canvas, content)
 
     left = 0.41 * (WIDTH - GUTTER)
     _picture(canvas, pictures.overlay, MARGIN, TOP, left, TOP_HEIGHT)
@@ -80,9 +79,9 @@ def report_pdf(content: ReportContent, pictures: ReportPictures) -> bytes:
     notes_bottom = MARGIN + FOOTER_HEIGHT
     half = (WIDTH - GUTTER) / 2
     light, *others = content.sections
-    skin_height = SKIN_HEIGHT if pictures.skin else 0.0
+    skin_height = SKIN_HEIGHT if pictures.small else 0.0
     skin_top = notes_bottom + skin_height
-    _row(canvas, pictures.skin, MARGIN, skin_top, half, skin_height)
+    _row(canvas, pictures.small, MARGIN, skin_top, half, skin_height)
     _fill(canvas, _section(light, half), (MARGIN, skin_top, half, notes_top - skin_top))
     _fill(
         canvas,
@@ -99,7 +98,7 @@ def report_pdf(content: ReportContent, pictures: ReportPictures) -> bytes:
 
 def _further_page(canvas: Canvas, content: ReportContent) -> None:
     """What else was measured, in two columns: groups as they come, the fuller column first."""
-    _header(canvas, content.subtitle)
+    _header(canvas, content)
     half = (WIDTH - GUTTER) / 2
     columns: tuple[list[MeasurementGroup], list[MeasurementGroup]] = ([], [])
     rows = sum(len(group.rows) for group in content.further)
@@ -123,13 +122,13 @@ def _further_page(canvas: Canvas, content: ReportContent) -> None:
     canvas.showPage()
 
 
-def _header(canvas: Canvas, subtitle: str) -> None:
+def _header(canvas: Canvas, content: ReportContent) -> None:
     canvas.setFillColor(INK)
     canvas.setFont("Helvetica-Bold", 15)
-    canvas.drawString(MARGIN, HEADER_BASELINE, TITLE)
+    canvas.drawString(MARGIN, HEADER_BASELINE, content.title)
     canvas.setFillColor(GREY)
     canvas.setFont("Helvetica", 9)
-    canvas.drawString(MARGIN, HEADER_BASELINE - 5 * mm, _shown(subtitle))
+    canvas.drawString(MARGIN, HEADER_BASELINE - 5 * mm, _shown(content.subtitle))
     canvas.setStrokeColor(INK)
     canvas.setLineWidth(1)
     canvas.line(MARGIN, HEADER_BASELINE - 7 * mm, MARGIN + WIDTH, HEADER_BASELINE - 7 * mm)

@@ -10,7 +10,7 @@ from PIL import Image
 
 from fitter.export.display import png
 from fitter.export.views import sides_pictures
-from service.jobs.inputs import OVERLAY, PERSON
+from service.jobs.inputs import OTHER_OVERLAYS, OVERLAY, PERSON
 from service.worker.derived.person import person_and_operators
 
 SKIN: Final[Mapping[str, str]] = {"albedo.png": "Albedo", "shading.png": "Shading"}
@@ -35,11 +35,14 @@ class Picture:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReportPictures:
-    """All pictures of the page; ``skin`` is empty after SE."""
+    """All pictures of the page.
+
+    ``small`` are albedo and shading, none after SE; of a scan they are its other views.
+    """
 
     overlay: Picture
     sides: tuple[Picture, ...]
-    skin: tuple[Picture, ...]
+    small: tuple[Picture, ...]
 
 
 def report_pictures(inputs: Mapping[str, bytes], *, models: Path | None) -> ReportPictures:
@@ -60,8 +63,13 @@ def report_pictures(inputs: Mapping[str, bytes], *, models: Path | None) -> Repo
     return ReportPictures(
         overlay=_photograph(inputs[OVERLAY], "The body over the picture"),
         sides=_sides(inputs[PERSON], models),
-        skin=tuple(
-            _drawing(inputs[name], caption) for name, caption in SKIN.items() if name in inputs
+        small=(
+            *(_drawing(inputs[name], caption) for name, caption in SKIN.items() if name in inputs),
+            *(
+                _photograph(inputs[name], "The body over another picture")
+                for name in OTHER_OVERLAYS
+                if name in inputs
+            ),
         ),
     )
 
