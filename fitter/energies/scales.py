@@ -102,7 +102,7 @@ _EASE_COMMON_M = 0.02
 
 
 # Where several views show breadths and depths, shading is no longer what tells the depth.
-_SCAN_LINES, _SCAN_SHADING = 2.0, 0.25
+_SCAN_LINES, _SCAN_SHADING = 1.5, 0.5
 
 
 def scan_scales(scales: EnergyScales) -> EnergyScales:

@@ -31,7 +31,7 @@ from fitter.population.known_person import KnownPerson
 from fitter.request import OptimizerKind
 from fitter.result import PictureFit
 
-SHARED_ERROR = 0.0
+SHARED_ERROR = 0.2
 """Correlation of the errors of two pictures of one person, by which k pictures count as
 k / (1 + (k - 1) r)."""
 
