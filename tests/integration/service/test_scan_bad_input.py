@@ -1,6 +1,7 @@
 """What is wrong with a picture of a scan is told by the place of its view, and nothing is kept."""
 
 import json
+import os
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -20,6 +21,7 @@ from tests.integration.service.scanning import (
 from tests.integration.service.test_bad_input import checked
 from tests.integration.service.test_images import blobs_below, uploaded
 
+WITHOUT_DETECTOR = Path(__file__).parent / "without_detector"
 OTHER = {"view": "other", "points": POINTS}
 PICTURE = scripted_image()
 UNKNOWN_IMAGE = "0" * 64
@@ -177,4 +179,17 @@ def test_pictures_that_together_are_larger_than_an_upload_are_refused(tmp_path: 
     with running_service(machine, api_only=True) as service:
         large = scripted_image({"n": "x" * 2_600_000})
         checked(post_scan(service, images=[large, large]), 413)
+        assert blobs_below(tmp_path) == []
+
+
+def test_a_view_without_points_is_refused_where_none_can_be_proposed(tmp_path: Path, monkeypatch):
+    monkeypatch.setenv("PYTHONPATH", str(WITHOUT_DETECTOR), prepend=os.pathsep)
+    with running_service(Machine(tmp_path), api_only=True) as service:
+        for change, field in (
+            ({"view": "side"}, "views.1.points"),
+            ({"view": "side", "points": "auto"}, "views.1.points"),
+            (SIDE | {"complete_points": True}, "views.1.complete_points"),
+        ):
+            refused = checked(post_scan(service, request=SCAN | {"views": [FRONT, change]}), 422)
+            assert (refused.field, refused.code) == (field, "detector-not-installed")
         assert blobs_below(tmp_path) == []

@@ -3,6 +3,7 @@
 import hashlib
 import os
 import signal
+import time
 from pathlib import Path
 from uuid import uuid4
 
@@ -249,3 +250,21 @@ def test_two_scans_are_compared_and_the_comparison_goes_with_either(service: Ser
     assert service.ended(answer.headers["Location"])["state"] == "succeeded"
     assert service.client.delete(earlier).status_code == 204
     assert service.client.get(answer.headers["Location"]).status_code == 404
+
+
+def test_a_scan_whose_time_is_over_is_gone_as_a_scan_alone(tmp_path: Path):
+    machine = Machine(tmp_path, settings={"sweep_interval_s": 0.3})
+    with running_service(machine) as service:
+        path = scanned(service)
+        scan_id = path.rpartition("/")[2]
+        machine.rewrite(path, expires_at=time.time())
+        eventually(lambda: service.client.get(path).status_code == 410, what="expired")
+        eventually(lambda: not blobs_below(tmp_path), what="nothing is left")
+        assert service.client.get(path).status_code == 410
+        assert service.client.get(f"/v1/fits/{scan_id}").status_code == 404
+
+
+def test_how_long_scans_ran_is_counted_by_itself(service: Service):
+    scanned(service)
+    figures = service.client.get("/metrics").text
+    assert 'phase="running.scan"' in figures

@@ -225,3 +225,9 @@ def test_a_report_of_a_scan_says_what_was_found_in_every_view():
 def test_measurements_of_a_scan_are_withheld_as_those_of_a_fit():
     page = Elements(report_html(scan_content(scan_result(measurements=[])), PICTURES))
     assert "withheld" in page.text
+
+
+@pytest.mark.parametrize(("share", "shown"), [(1.0, "100 %"), (0.084, "8 %"), (0.0002, "0.02 %")])
+def test_how_pictures_agree_is_told_in_percent(share: float, shown: str):
+    _, scan, *_ = scan_content(scan_result(agreement=share)).sections
+    assert f"in {shown} of cases" in dict(scan.facts)["Agreement"]

@@ -34,9 +34,9 @@ figure img { display: block; width: 100%; height: auto; max-height: 420px; objec
 figcaption, footer { color: #555; font-size: 11px; }
 .sides { display: grid; gap: 6px; grid-template-columns: repeat(4, 1fr); margin-top: 12px; }
 .further { columns: 2; column-gap: 24px; margin-top: 12px; }
-.skin { display: flex; gap: 8px; margin: 6px 0; }
-.skin figure { width: 42%; }
-.skin img { max-height: 150px; object-position: left top; }
+.small { display: flex; gap: 8px; margin: 6px 0; }
+.small figure { width: 42%; }
+.small img { max-height: 150px; object-position: left top; }
 table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
 th, td { border-bottom: 1px solid #ddd; padding: 2px 0 2px 8px; text-align: right; }
 th:first-child { padding-left: 0; text-align: left; font-weight: 400; }
@@ -56,7 +56,7 @@ footer { border-top: 1px solid #ddd; margin-top: 12px; padding-top: 5px; }
   figcaption, footer, thead th { font-size: 7pt; }
   .top, .notes { gap: 4mm; } .top { grid-template-columns: 41fr 59fr; }
   .notes { grid-template-columns: 1fr 1fr; }
-  figure img { max-height: 92mm; } .skin img { max-height: 32mm; }
+  figure img { max-height: 92mm; } .small img { max-height: 32mm; }
   .sides img { max-height: 66mm; } th, td { padding: 0.35mm 0 0.35mm 2mm; }
   dt { max-width: 32mm; }
   .further { break-before: page; }
@@ -146,7 +146,7 @@ def _section(section: Section, figures: str = "") -> str:
     remarks = "".join(f"<p>{escape(remark)}</p>" for remark in section.remarks)
     return (
         f"<section><h2>{escape(section.heading)}</h2>"
-        + (f'<div class="skin">{figures}</div>' if figures else "")
+        + (f'<div class="small">{figures}</div>' if figures else "")
         + (f"<dl>{facts}</dl>" if facts else "")
         + f"{remarks}</section>\n"
     )

@@ -54,4 +54,6 @@ def _view(view: ScannedView) -> tuple[str, str]:
 
 
 def _agreement(share: float) -> str:
-    return f"Pictures of one person differ as much as these in {100.0 * share:.2g} % of cases."
+    percent = 100.0 * share
+    shown = f"{percent:.0f}" if percent >= 1.0 else f"{percent:.1g}"
+    return f"Pictures of one person differ as much as these in {shown} % of cases."
