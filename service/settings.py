@@ -126,7 +126,10 @@ class Settings(BaseSettings):
         default=1_000,
         ge=1,
         le=1_000_000,
-        description="Jobs that may wait before new ones are refused (503).",
+        description=(
+            "Jobs that may wait before new ones are refused (503); a scan counts once for every "
+            "picture."
+        ),
     )
     max_queued_per_tenant: int = Field(
         default=200,

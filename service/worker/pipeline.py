@@ -20,6 +20,7 @@ from service.worker.pipeline_port import (
     ScanOutput,
     UnusableInputError,
 )
+from service.worker.scanning import scanned
 
 
 def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput:
@@ -49,12 +50,7 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
 
 
 def scan(job: ScanInput, observe: Callable[[Report], None]) -> ScanOutput:
-    """Measure one person from several pictures; see :class:`service.worker.pipeline_port.Pipeline`.
-
-    What it needs is imported when it is asked for: no fit carries it along.
-    """
-    from service.worker.scanning import scanned
-
+    """Measure one person; see :class:`service.worker.pipeline_port.Pipeline`."""
     return scanned(job, observe)
 
 
