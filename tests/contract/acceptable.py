@@ -51,9 +51,25 @@ FIT = "CONTRACT_FIT"
 DERIVATION = "CONTRACT_DERIVATION"
 """Variables with the ids of a fit that has succeeded and of a pose derived from it."""
 
-DERIVATIONS = "/v1/fits/{fit_id}/derivations"
+SCAN = "CONTRACT_SCAN"
+SCAN_DERIVATION = "CONTRACT_SCAN_DERIVATION"
+"""The same of a scan."""
+
+DERIVATIONS = {
+    "/v1/fits/{fit_id}/derivations": ("fit_id", FIT, DERIVATION),
+    "/v1/scans/{scan_id}/derivations": ("scan_id", SCAN, SCAN_DERIVATION),
+}
+"""Paths of derivations, with the parameter that names their parent and variables with the ids."""
 
 BY_ID = {"image_id": hashlib.sha256(UPLOADED).hexdigest(), "mask_id": None}
+
+SCANNED: dict[str, Any] = {
+    "weight_kg": None,
+    "measurements": {},
+    "webhook": None,
+    "views": [{"view": view, "points": POINTS, **BY_ID} for view in ("front", "side")],
+}
+"""A scan in order, whatever else is asked of it."""
 
 
 @schemathesis.hook
@@ -64,23 +80,32 @@ def before_call(context: HookContext, case: Case, kwargs: dict[str, Any]) -> Non
         return
     # The same key with another request is refused, and rightly so.
     case.headers.pop("idempotency-key", None)
-    operation = (case.method, case.operation.path)
-    if operation == ("POST", DERIVATIONS):
-        case.path_parameters["fit_id"] = os.environ[FIT]
-    elif (
-        case.method == "GET"
-        and case.operation.path.startswith(DERIVATIONS)
-        and _phase(case) is not TestPhase.STATEFUL
-    ):
-        known = {"fit_id": os.environ[FIT], "derivation_id": os.environ[DERIVATION]}
-        case.path_parameters |= {name: known.get(name, "pose.png") for name in _named(case)}
-    if case.media_type != "application/json" or not isinstance(case.body, dict):
-        return
-    if operation in (("POST", "/v1/fits"), ("POST", DERIVATIONS)):
-        changes = ACCEPTED | BY_ID if case.operation.path == "/v1/fits" else {"webhook": None}
-        if case.body.get("kind") == "size":
-            changes |= SIZE
-        case.body = case.body | changes
+    path = case.operation.path
+    for below, (name, parent, derivation) in DERIVATIONS.items():
+        if (case.method, path) == ("POST", below):
+            case.path_parameters[name] = os.environ[parent]
+        elif (
+            case.method == "GET"
+            and path.startswith(below)
+            and _phase(case) is not TestPhase.STATEFUL
+        ):
+            known = {name: os.environ[parent], "derivation_id": os.environ[derivation]}
+            case.path_parameters |= {each: known.get(each, "pose.png") for each in _named(case)}
+    if case.media_type == "application/json" and isinstance(case.body, dict):
+        case.body = case.body | _acceptable(case.method, path, case.body)
+
+
+def _acceptable(method: str, path: str, body: dict[str, Any]) -> dict[str, Any]:
+    """What is to be otherwise in a body for it to be accepted."""
+    if method != "POST":
+        return {}
+    if path == "/v1/fits":
+        return ACCEPTED | BY_ID
+    if path == "/v1/scans":
+        return SCANNED
+    if path in DERIVATIONS:
+        return {"webhook": None} | (SIZE if body.get("kind") == "size" else {})
+    return {}
 
 
 def _named(case: Case) -> list[str]:

@@ -21,7 +21,16 @@ from service.api.events import ITEMS
 from service.engine.database import open_database, prepare_database
 from service.engine.keys import KeyRing
 from service.settings import Settings
-from tests.contract.acceptable import ACCEPTED, BY_ID, DERIVATION, FIT, UPLOADED
+from tests.contract.acceptable import (
+    ACCEPTED,
+    BY_ID,
+    DERIVATION,
+    FIT,
+    SCAN,
+    SCAN_DERIVATION,
+    SCANNED,
+    UPLOADED,
+)
 from tests.contract.document import METHODS, Document, media_types, operations
 from tests.integration.service.harness import (
     REPOSITORY,
@@ -112,7 +121,17 @@ def _prepare(service: Service) -> dict[str, str]:
     asked = service.client.post(fit["links"]["derivations"], json={"kind": "pose"})
     derived = service.ended(asked.raise_for_status().headers["Location"])
     assert (fit["state"], derived["state"]) == ("succeeded", "succeeded")
-    return {FIT: fit["id"], DERIVATION: derived["id"]}
+    accepted = service.client.post("/v1/scans", json={"gender": "male", **SCANNED})
+    scan = service.ended(accepted.raise_for_status().headers["Location"])
+    asked = service.client.post(scan["links"]["derivations"], json={"kind": "pose"})
+    posed = service.ended(asked.raise_for_status().headers["Location"])
+    assert (scan["state"], posed["state"]) == ("succeeded", "succeeded")
+    return {
+        FIT: fit["id"],
+        DERIVATION: derived["id"],
+        SCAN: scan["id"],
+        SCAN_DERIVATION: posed["id"],
+    }
 
 
 def _passed(
