@@ -11,7 +11,7 @@ from fastapi import APIRouter, Header, Request, Response
 
 from api_schemas.index import ServiceIndex
 from service.api.problems import not_found
-from service.api.security_headers import OWN_FILES
+from service.api.security_headers import OWN_CAMERA, OWN_FILES
 
 ROUTER: Final = APIRouter(include_in_schema=False)
 
@@ -43,6 +43,7 @@ _SAMPLES: Final = {
     "sample.jpg": "sample.jpg",
     "sample.json": "request.json",
     **{name: name for name in ("woman.jpg", "woman.json", "arm_across.jpg", "arm_across.json")},
+    **{name: name for name in ("scan_front.jpg", "scan_side.jpg")},
 }
 """Sample pictures for users without one of their own, and their clicks: the file for each name."""
 
@@ -73,6 +74,7 @@ def page(
         index = ServiceIndex(name=request.app.title, version=request.app.version, links=LINKS)
         return Response(index.model_dump_json(), media_type="application/json", headers=headers)
     headers["Content-Security-Policy"] = OWN_FILES
+    headers["Permissions-Policy"] = OWN_CAMERA
     return _answer(_page_files()["index.html"], accept_encoding, headers)
 
 

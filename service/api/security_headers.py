@@ -22,17 +22,20 @@ OWN_FILES: Final = (
 )
 """For our own pages: only files of this service, nothing inline, no framing."""
 
+OWN_CAMERA: Final = "camera=(self), geolocation=(), microphone=()"
+"""For the page that takes pictures to be measured."""
+
 ALWAYS: Final[Mapping[str, str]] = {
     "X-Content-Type-Options": "nosniff",
     "X-Frame-Options": "DENY",
     "Referrer-Policy": "no-referrer",
     "Cross-Origin-Opener-Policy": "same-origin",
     "Cross-Origin-Resource-Policy": "same-origin",
-    "Permissions-Policy": "camera=(), geolocation=(), microphone=()",
 }
 
 UNLESS_SAID: Final[Mapping[str, str]] = {
     "Content-Security-Policy": NOTHING,
+    "Permissions-Policy": "camera=(), geolocation=(), microphone=()",
     # Responses belong to their caller; none may stay in a shared cache.
     "Cache-Control": "no-store",
 }

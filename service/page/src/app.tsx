@@ -5,7 +5,10 @@ import { HistoryPanel } from "./history/HistoryPanel";
 import { FitView } from "./fit/FitView";
 import { isActive } from "./fit/watch";
 import { Workbench } from "./panel/Workbench";
-import { openFit } from "./route";
+import { MeasureView } from "./measure/MeasureView";
+import { ScanView } from "./measure/ScanView";
+import { scans } from "./measure/watch";
+import { MEASURE_ADDRESS, isMeasuring, openFit, openScan } from "./route";
 import { announcement } from "./ui/announce";
 import { Icon } from "./ui/Icon";
 import { IconButton } from "./ui/IconButton";
@@ -15,7 +18,8 @@ import { theme, toggleTheme } from "./ui/theme";
 export function App() {
   const showsHistory = useSignal(false);
   const id = openFit.value;
-  const active = Object.values(jobs.value).filter(isActive).length;
+  const scan = openScan.value;
+  const active = [...Object.values(jobs.value), ...Object.values(scans.value)].filter(isActive).length;
   return (
     <>
       <header class="head">
@@ -33,6 +37,10 @@ export function App() {
               New
             </a>
           )}
+          <a class="head-link" href={MEASURE_ADDRESS} aria-current={isMeasuring.value ? "page" : undefined}>
+            <Icon name="body" />
+            Measure
+          </a>
           <button class="head-link" type="button" onClick={() => (showsHistory.value = true)}>
             <Icon name="list" />
             Fits
@@ -44,7 +52,7 @@ export function App() {
           <IconButton icon="theme" label={theme.value === "dark" ? "Light page" : "Dark page"} onClick={toggleTheme} />
         </nav>
       </header>
-      {id ? <FitView key={id} id={id} /> : <Workbench />}
+      <Screen fit={id} scan={scan} />
       {showsHistory.value && <HistoryPanel onClose={() => (showsHistory.value = false)} />}
       <KeyDialog />
       <p class="unseen" role="status" aria-live="polite">
@@ -52,4 +60,10 @@ export function App() {
       </p>
     </>
   );
+}
+
+function Screen({ fit, scan }: { fit: string | null; scan: string | null }) {
+  if (fit) return <FitView key={fit} id={fit} />;
+  if (scan) return <ScanView key={scan} id={scan} />;
+  return isMeasuring.value ? <MeasureView /> : <Workbench />;
 }

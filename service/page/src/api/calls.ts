@@ -1,6 +1,6 @@
 // The calls this page makes, one function each.
 import { jsonBody, request, requestJson } from "./client";
-import type { Derivation, DerivationPage, DerivationRequest, DerivationResult, FitOfImage, FitOptions, FitResult, InitialPose, InitialPoseRequest, Job, PointsOfImage, PointsProposal, UploadedImage } from "./types";
+import type { CaptureCheck, CheckOfImage, Derivation, DerivationPage, DerivationRequest, DerivationResult, FitOfImage, FitOptions, FitResult, InitialPose, InitialPoseRequest, Job, PointsOfImage, PointsProposal, Scan, ScanOfImages, ScanOptions, ScanResult, UploadedImage } from "./types";
 
 export function uploadImage(file: Blob, signal: AbortSignal): Promise<UploadedImage> {
   const form = new FormData();
@@ -14,6 +14,34 @@ export function initialPose(asked: InitialPoseRequest, signal: AbortSignal): Pro
 
 export function proposePoints(asked: PointsOfImage, signal: AbortSignal): Promise<PointsProposal> {
   return requestJson("/v1/points", { ...jsonBody(asked), signal });
+}
+
+export function checkCapture(asked: CheckOfImage, signal: AbortSignal): Promise<CaptureCheck> {
+  return requestJson("/v1/checks", { ...jsonBody(asked), signal });
+}
+
+export function submitScan(asked: ScanOfImages): Promise<Scan> {
+  return requestJson("/v1/scans", jsonBody(asked));
+}
+
+export function getScan(id: string): Promise<Scan> {
+  return requestJson(`/v1/scans/${id}`);
+}
+
+export function getScanResult({ links }: Scan): Promise<ScanResult> {
+  return requestJson(links.result ?? `${links.self}/result`);
+}
+
+export function getScanRequest({ links }: Scan): Promise<ScanOptions> {
+  return requestJson(links.request);
+}
+
+export function cancelScan(id: string): Promise<Scan> {
+  return requestJson(`/v1/scans/${id}/cancel`, { method: "POST" });
+}
+
+export async function eraseScan(id: string): Promise<void> {
+  await request(`/v1/scans/${id}`, { method: "DELETE" });
 }
 
 export function submitFit(asked: FitOfImage): Promise<Job> {

@@ -58,7 +58,7 @@ function useOtherFits(fit: Job): { found: readonly Entry[]; searching: boolean }
       const own = await getRequest(fit);
       for (const entry of entries.value) {
         if (gone) return;
-        if (entry.id === fit.id) continue;
+        if (entry.scan || entry.id === fit.id) continue;
         const told = await toldOf(entry.id);
         if (!gone && told && toldAlike(own, told)) setFound((old) => [...old, entry]);
       }

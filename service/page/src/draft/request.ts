@@ -17,13 +17,8 @@ type Subject = Pick<
 /** The diagonal of 35 mm film, to which equivalent focal lengths refer. */
 const FILM_DIAGONAL_MM = 43.27;
 
-export function subjectOf(
-  gender: Gender,
-  known: Person,
-  clicked: Points,
-  lens: number | null,
-  facings: FitOptions["limb_facing"],
-): Subject {
+/** Who is in the picture, as far as it is known. */
+export function describedPerson(gender: Gender, known: Person): Pick<Subject, "gender" | "height_m" | "weight_kg" | "measurements"> {
   const height = heightM(known);
   const weight = weightKg(known);
   return {
@@ -31,6 +26,18 @@ export function subjectOf(
     ...(height === null ? {} : { height_m: height }),
     ...(weight === null ? {} : { weight_kg: weight }),
     measurements: tapeMeasurements(known),
+  };
+}
+
+export function subjectOf(
+  gender: Gender,
+  known: Person,
+  clicked: Points,
+  lens: number | null,
+  facings: FitOptions["limb_facing"],
+): Subject {
+  return {
+    ...describedPerson(gender, known),
     ...(lens === null ? {} : { focal_length_35mm: lens }),
     points: Object.fromEntries(
       Object.entries(clicked.placed).map(([name, { x, y, hidden, proposed }]) => [
@@ -63,9 +70,9 @@ export function draftedInitialPose(subject: Subject, width: number, height: numb
   return { ...subject, ...where };
 }
 
-/** Take up what an earlier fit was asked for. */
-export function loadDraft(asked: FitOptions): void {
-  const units = person.value.units;
+/** Take up the person of an earlier request. */
+export function loadPerson(asked: Pick<FitOptions, "gender" | "height_m" | "weight_kg" | "measurements">): void {
+  const { units } = person.value;
   person.value = {
     ...NOBODY,
     gender: asked.gender,
@@ -74,6 +81,11 @@ export function loadDraft(asked: FitOptions): void {
     weight: weightText(asked.weight_kg ?? null, units),
     tape: tapeTexts(asked.measurements ?? {}, units),
   };
+}
+
+/** Take up what an earlier fit was asked for. */
+export function loadDraft(asked: FitOptions): void {
+  loadPerson(asked);
   const placed = Array.isArray(asked.points) ? {} : namedPoints(asked.points);
   const loaded: Points = { ...NO_POINTS, placed };
   timeline.value = begin(hasProposed(loaded) ? skipRest(loaded) : loaded);

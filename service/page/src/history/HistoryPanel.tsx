@@ -1,12 +1,15 @@
-// This browser's fits, newest first, each where it stands.
+// This browser's fits and scans, newest first, each where it stands.
 import { useEffect, useRef } from "preact/hooks";
-import { getFit } from "../api/calls";
+import { getFit, getScan } from "../api/calls";
 import { ProblemError } from "../api/client";
+import type { Job, Scan } from "../api/types";
 import { stageLabel } from "../fit/stages";
 import { isActive } from "../fit/watch";
-import { fitAddress, go, openFit } from "../route";
+import { scans, seenScan } from "../measure/watch";
+import { fitAddress, go, openFit, openScan, scanAddress } from "../route";
 import { IconButton } from "../ui/IconButton";
 import { entries, forget, jobs, seen } from "./store";
+import type { Entry } from "./store";
 
 const LOOK_EVERY_MS = 2000;
 
@@ -16,13 +19,14 @@ export function HistoryPanel({ onClose }: { onClose: () => void }) {
   useEffect(() => {
     let gone = false;
     const look = async () => {
-      for (const { id } of entries.value) {
-        const known = jobs.value[id];
+      for (const entry of entries.value) {
+        const known = jobOf(entry);
         if (gone || (known && !isActive(known))) continue;
         try {
-          seen(await getFit(id));
+          if (entry.scan) seenScan(await getScan(entry.id));
+          else seen(await getFit(entry.id));
         } catch (error) {
-          if (error instanceof ProblemError && [404, 410].includes(error.problem.status)) forget(id);
+          if (error instanceof ProblemError && [404, 410].includes(error.problem.status)) forget(entry.id);
         }
       }
     };
@@ -43,18 +47,18 @@ export function HistoryPanel({ onClose }: { onClose: () => void }) {
     >
       <div class="drawer-inside">
         <header class="section-head">
-          <h2 id="history-title">Fits of this browser</h2>
+          <h2 id="history-title">Fits and scans of this browser</h2>
           <IconButton icon="close" label="Close" onClick={() => dialog.current!.close()} />
         </header>
         {entries.value.length === 0 && <p class="fine">None yet.</p>}
         <ul class="history">
           {entries.value.map((entry) => (
-            <li key={entry.id} class={openFit.value === entry.id ? "is-open" : ""}>
+            <li key={entry.id} class={(openFit.value ?? openScan.value) === entry.id ? "is-open" : ""}>
               <a
-                href={fitAddress(entry.id)}
+                href={addressOf(entry)}
                 onClick={(event) => {
                   event.preventDefault();
-                  go(fitAddress(entry.id));
+                  go(addressOf(entry));
                   dialog.current!.close();
                 }}
               >
@@ -62,14 +66,14 @@ export function HistoryPanel({ onClose }: { onClose: () => void }) {
                 <span>
                   <b>{entry.name}</b>
                   <small>{new Date(entry.startedAt).toLocaleString(undefined, { dateStyle: "medium", timeStyle: "short" })}</small>
-                  <small>{standing(entry.id)}</small>
+                  <small>{standing(entry)}</small>
                 </span>
               </a>
               <IconButton icon="close" label={`Take ${entry.name} off this list`} onClick={() => forget(entry.id)} />
             </li>
           ))}
         </ul>
-        <p class="fine">Only this browser knows the list. The service erases fits after a while; deleting one erases it at once.</p>
+        <p class="fine">Only this browser knows the list. The service erases them after a while; deleting one erases it at once.</p>
       </div>
     </dialog>
   );
@@ -83,8 +87,16 @@ const STATES: Readonly<Record<string, string>> = {
   timed_out: "Took too long",
 };
 
-function standing(id: string): string {
-  const job = jobs.value[id];
+function jobOf({ id, scan }: Entry): Job | Scan | undefined {
+  return scan ? scans.value[id] : jobs.value[id];
+}
+
+function addressOf({ id, scan }: Entry): string {
+  return scan ? scanAddress(id) : fitAddress(id);
+}
+
+function standing(entry: Entry): string {
+  const job = jobOf(entry);
   if (!job) return "…";
   if (job.state === "running") return `${stageLabel(job.stage ?? "observation")}, ${Math.round(100 * job.progress)} %`;
   return STATES[job.state] ?? job.state;

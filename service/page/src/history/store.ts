@@ -1,4 +1,4 @@
-// The fits this browser has started or opened: ids and a thumbnail, nothing else.
+// The fits and scans this browser has started or opened: ids and a thumbnail, nothing else.
 import { signal } from "@preact/signals";
 import type { Job } from "../api/types";
 import type { Assumptions } from "../ui/AssumptionNotes";
@@ -9,6 +9,8 @@ export interface Entry {
   readonly startedAt: string;
   /** A small JPEG as a data address. */
   readonly thumbnail: string;
+  /** Whether it is a scan, not a fit. */
+  readonly scan?: true;
 }
 
 const PLACE = "maquette.fits";

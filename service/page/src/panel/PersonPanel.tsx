@@ -5,7 +5,14 @@ import { TAPE_NAMES, heightFault, heightM, inUnits, tapeFault, weightFault } fro
 import { measureLabel } from "../result/reading";
 import { Choice } from "../ui/Choice";
 
-export function PersonPanel() {
+interface Words {
+  /** What follows where no height is given. */
+  readonly noHeight: string;
+  readonly weight: string;
+}
+
+/** Without other `words`, those for one picture. */
+export function PersonPanel({ words }: { words?: Words }) {
   const known = person.value;
   const metric = known.units === "metric";
   const faults = { height: heightFault(known), weight: weightFault(known) };
@@ -85,10 +92,10 @@ export function PersonPanel() {
         </div>
       </div>
       <p id="height-note" class={`fine ${faults.height ? "is-fault" : ""}`}>
-        {faults.height ?? (heightM(known) === null ? assumedHeight() : "Height is held exactly as given.")}
+        {faults.height ?? (heightM(known) === null ? (words?.noHeight ?? assumedHeight()) : "Height is held exactly as given.")}
       </p>
       <p id="weight-note" class={`fine ${faults.weight ? "is-fault" : ""}`}>
-        {faults.weight ?? "If you know it, the weight helps most: one view does not show how deep a body is."}
+        {faults.weight ?? words?.weight ?? "If you know it, the weight helps most: one view does not show how deep a body is."}
       </p>
       <Tape />
     </section>

@@ -1,6 +1,7 @@
 // Before there is a picture: drop, paste, choose or take one, or try the sample.
 import { useSignal } from "@preact/signals";
 import { canPropose } from "../draft/proposing";
+import { MEASURE_ADDRESS } from "../route";
 import { Choice } from "../ui/Choice";
 import { Icon } from "../ui/Icon";
 import { openFile, openProblem, trySample } from "./open";
@@ -52,6 +53,11 @@ export function Start() {
               />
             </label>
           </div>
+          <p class="start-other">
+            <a class="button" href={MEASURE_ADDRESS}>
+              Measure a person from front and side
+            </a>
+          </p>
           <p class="fine">You can also drop a picture here, or paste one. On a phone the camera is offered.</p>
           {openProblem.value && (
             <p class="note is-problem" role="alert">

@@ -8,7 +8,7 @@ import type { Picture } from "../draft/picture";
 import { forgetProposal, proposeFirst } from "../draft/proposing";
 import { loadDraft } from "../draft/request";
 import { skipRest } from "../points/placed";
-import { go } from "../route";
+import { go, isMeasuring } from "../route";
 
 export const openProblem = signal<string | null>(null);
 
@@ -58,6 +58,7 @@ export async function openAgain(picture: Picture, job: Job): Promise<void> {
 
 export function listenForPaste(): void {
   addEventListener("paste", (event) => {
+    if (isMeasuring.value) return;
     const file = [...(event.clipboardData?.files ?? [])].find((each) => each.type.startsWith("image/"));
     if (file) void openFile(file, "pasted picture");
   });

@@ -1,9 +1,9 @@
 // The files of a result.
-import type { FitResult, Job } from "../api/types";
+import type { FitResult, Job, Scan } from "../api/types";
 import { FILE_LABELS, FileButton } from "./FileButton";
 import { tableOf } from "./files";
 
-export function Downloads({ job, result }: { job: Job; result: FitResult }) {
+export function Downloads({ job, result }: { job: Job | Scan; result: Pick<FitResult, "artifacts" | "measurements"> }) {
   const sizes = new Map((result.artifacts ?? []).map((artifact) => [artifact.name, artifact.size]));
   const table = result.measurements.length > 0 ? [tableOf(job)] : [];
   const links = [...Object.entries(job.links.artifacts ?? {}), ...table];

@@ -39,8 +39,10 @@ export const FILE_LABELS: Readonly<Record<string, string>> = {
   "coverage.png": "What of it was seen, mirrored, continued",
   "figure.png": "As in the paper’s Fig. 10",
   "body_combined.glb": "The body the pictures agree on, upright",
-  "body_posed_N.glb": "The combined body as posed in that picture, with its light",
-  "overlay_N.png": "The combined body over that picture",
+  "body_posed_N.glb": "The common body as posed in that picture, with its light",
+  "overlay_N.png": "The common body over that picture",
+  "segmentation_N.png": "What was taken for the person in that picture",
+  "scan.png": "The body beside its pictures",
   "combined.png": "Beside the body by this fit alone",
 };
 

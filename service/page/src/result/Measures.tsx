@@ -1,24 +1,25 @@
 // The measurements with their intervals, and what shading changed in them.
 import { useState } from "preact/hooks";
-import type { FitResult, Measurement } from "../api/types";
+import type { Measurement } from "../api/types";
 import { person } from "../draft/draft";
 import { inUnits } from "../draft/person";
 import { Choice } from "../ui/Choice";
-import { difference, furtherMeasures, isChief, measureLabel, shown, withoutShading } from "./reading";
+import { difference, furtherMeasures, isChief, measureLabel, shown } from "./reading";
 
 interface Props {
-  readonly result: FitResult;
+  readonly measurements: readonly Measurement[];
+  /** The same by silhouette and edges alone, where they can be compared. */
+  readonly before: readonly Measurement[] | null;
   readonly pointedAt: string | null;
   readonly onPoint: (name: string | null) => void;
   /** Show where a measurement is taken. */
   readonly onShow: (name: string) => void;
 }
 
-export function Measures({ result, pointedAt, onPoint, onShow }: Props) {
+export function Measures({ measurements, before, pointedAt, onPoint, onShow }: Props) {
   const [compared, setCompared] = useState(false);
   const { units } = person.value;
-  const before = withoutShading(result);
-  const further = furtherMeasures(result.measurements);
+  const further = furtherMeasures(measurements);
   const row = (measurement: Measurement) => {
     const { value, unit, interval } = shown(measurement, units);
     const other = compared ? before?.find((each) => each.name === measurement.name) : undefined;
@@ -70,7 +71,7 @@ export function Measures({ result, pointedAt, onPoint, onShow }: Props) {
       </header>
       <table class="measures">
         <MeasuresHead compared={compared} />
-        <tbody>{result.measurements.filter((each) => isChief(each.name)).map(row)}</tbody>
+        <tbody>{measurements.filter((each) => isChief(each.name)).map(row)}</tbody>
       </table>
       {further.length > 0 && (
         <details class="more-measures">

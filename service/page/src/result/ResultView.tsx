@@ -12,7 +12,9 @@ import { useResultFiles } from "./files";
 import { Look } from "./Look";
 import { Measures } from "./Measures";
 import { Withheld } from "./Withheld";
+import { measureAnyway } from "./anyway";
 import { headingOf } from "./outcome";
+import { withoutShading } from "./reading";
 import type { Placement } from "../viewer/BodyScene";
 
 export function ResultView({ job, picture }: { job: Job; picture: Picture | null }) {
@@ -51,10 +53,11 @@ export function ResultView({ job, picture }: { job: Job; picture: Picture | null
               />
             )}
           </section>
-          {files && files.result.measurements.length === 0 && <Withheld job={job} picture={picture} />}
+          {files && files.result.measurements.length === 0 && <Withheld onAnyway={picture && (() => measureAnyway(picture, job))} />}
           {files && files.result.measurements.length > 0 && (
             <Measures
-              result={files.result}
+              measurements={files.result.measurements}
+              before={withoutShading(files.result)}
               pointedAt={pointedAt ?? shown}
               onPoint={pointAt}
               onShow={(name) => {

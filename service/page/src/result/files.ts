@@ -2,22 +2,35 @@
 import { useEffect, useState } from "preact/hooks";
 import { getFile, getResult } from "../api/calls";
 import { problemFrom } from "../api/client";
-import type { FitResult, Job, Problem } from "../api/types";
+import type { FitResult, Job, Problem, Scan } from "../api/types";
 import { readGlb } from "../viewer/glb";
 import type { PosedAndUpright } from "../viewer/BodyScene";
 import type { GlbBody } from "../viewer/glb";
 import type { TapeLines } from "../viewer/Tapes";
 
-export interface ResultFiles {
-  readonly result: FitResult;
+export interface FilesOf<Result> {
+  readonly result: Result;
   readonly posed: GlbBody;
   readonly canonical: GlbBody | null;
   /** Where measurements are taken on the canonical body. */
   readonly tapes: TapeLines;
 }
 
-export function useResultFiles(job: Job): { files: ResultFiles | null; problem: Problem | null } {
-  const [files, setFiles] = useState<ResultFiles | null>(null);
+export type ResultFiles = FilesOf<FitResult>;
+
+export interface Fetched<Result> {
+  /** Null until they are there. */
+  readonly files: FilesOf<Result> | null;
+  readonly problem: Problem | null;
+}
+
+export function useResultFiles(job: Job): Fetched<FitResult> {
+  return useFilesOf(job, () => getResult(job), "body_posed.glb");
+}
+
+/** The result and the files of a job; `posed` is the body as it stands in the picture that is shown. */
+export function useFilesOf<Result>(job: Job | Scan, result: () => Promise<Result>, posedName: string): Fetched<Result> {
+  const [files, setFiles] = useState<FilesOf<Result> | null>(null);
   const [problem, setProblem] = useState<Problem | null>(null);
   useEffect(() => {
     let gone = false;
@@ -26,8 +39,8 @@ export function useResultFiles(job: Job): { files: ResultFiles | null; problem: 
       const path = job.links.artifacts?.["tapes.json"];
       return path ? (JSON.parse(await (await getFile(path)).text()) as { lines: TapeLines }).lines : {};
     };
-    Promise.all([getResult(job), bodyOf(job, "body_posed.glb"), bodyOf(job, "body_canonical.glb"), tapesOf()]).then(
-      ([result, posed, canonical, tapes]) => gone || setFiles({ result, posed: posed!, canonical, tapes }),
+    Promise.all([result(), bodyOf(job, posedName), bodyOf(job, "body_canonical.glb"), tapesOf()]).then(
+      ([found, posed, canonical, tapes]) => gone || setFiles({ result: found, posed: posed!, canonical, tapes }),
       (error) => gone || setProblem(problemFrom(error)),
     );
     return () => {
@@ -59,7 +72,7 @@ export function tableOf(job: { links: { self: string } }): [string, string] {
   return ["measurements.csv", `${job.links.self}/artifacts/measurements.csv`];
 }
 
-async function bodyOf(job: Job, name: string): Promise<GlbBody | null> {
+async function bodyOf(job: Job | Scan, name: string): Promise<GlbBody | null> {
   const path = job.links.artifacts?.[name];
   return path ? readGlb(await (await getFile(path)).arrayBuffer()) : null;
 }
