@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
-from scipy.special import chdtr, chdtrc
+from scipy.special import chdtrc
 
 from fitter.arrays import Shape
 from fitter.energies.priors import population_prior
@@ -28,6 +28,8 @@ MOST_PICTURES = 12
 
 SAME_PERSON_PROBABILITY = 0.01
 """Shapes that differ so much that pictures of one person would do so more rarely than this."""
+
+_CERTAIN = 1.0 - 1e-12
 
 _SAME_HEIGHT, _HELD_WITHIN = 0.01, 0.3
 """Standard deviations by which what was given may seem to differ: what is held is a curved surface,
@@ -172,7 +174,8 @@ def _as_extreme(squares: Float[np.ndarray, " d"]) -> float:
     would lose them. The smaller probability counts twice, because there are two.
     """
     count = len(squares)
-    largest = 1.0 - chdtr(1, squares.max()) ** count
+    rarest = min(float(chdtrc(1, squares.max())), _CERTAIN)
+    largest = -np.expm1(count * np.log1p(-rarest))
     together = chdtrc(count, squares.sum())
     return float(min(1.0, 2.0 * min(largest, together)))
 

@@ -18,7 +18,7 @@ from scipy.spatial.transform import Rotation
 from fitter.arrays import Pose
 from fitter.body.pose_prior import PosePrior, joint_angles
 from fitter.energies.attributes import Attributes
-from fitter.fits import pipeline
+from fitter.fits import outlined
 from fitter.fits.prepared_model import PreparedModel
 from fitter.optimizer import gauss_newton, uncertainty
 from fitter.optimizer.free_space import FreeSpace, free_space
@@ -65,7 +65,7 @@ def held_body_of(case: Case) -> HeldBody:
 def held_at(held: HeldBody) -> Iterator[None]:
     """Within it, :func:`fitter.fits.pipeline.fit` holds this pose."""
     pose, place = held.pose, held.place
-    find_body, find_pose = pipeline.prepared_model, pipeline.initialize_pose
+    find_body, find_pose = outlined.prepared_model, outlined.initialize_pose
 
     def body(*arguments: Any, **options: Any) -> PreparedModel:
         found = find_body(*arguments, **options)
@@ -81,8 +81,8 @@ def held_at(held: HeldBody) -> Iterator[None]:
         )
 
     with ExitStack() as patched:
-        patched.enter_context(patch.object(pipeline, "prepared_model", body))
-        patched.enter_context(patch.object(pipeline, "initialize_pose", initial))
+        patched.enter_context(patch.object(outlined, "prepared_model", body))
+        patched.enter_context(patch.object(outlined, "initialize_pose", initial))
         if held.place_held:
             for module in (gauss_newton, uncertainty):
                 patched.enter_context(patch.object(module, "free_space", _without_moves))

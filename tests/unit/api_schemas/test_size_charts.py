@@ -8,7 +8,7 @@ from api_schemas.derivations import DerivationRequest
 from api_schemas.measurement_names import MEASUREMENT_UNITS, suggested_names
 from api_schemas.size_chart_csv import ChartTableError, read_chart
 from api_schemas.size_charts import MAX_SIZES, BodyRange
-from fitter.measurement.definitions import load_definitions
+from fitter.measurement.definition_file import load_definitions
 from service.submissions.refusal import RefusedError
 from service.submissions.validation import parsed
 

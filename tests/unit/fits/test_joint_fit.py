@@ -54,8 +54,8 @@ def test_every_picture_has_the_one_shape_in_its_own_pose(joint, people):
 
 def test_the_shape_is_near_what_the_fits_agree_on_and_more_certain(joint, people):
     found, _ = joint
-    apart = np.linalg.norm(people[0].body.shape - people[1].body.shape)
-    assert np.linalg.norm(found.shape - found.fused.shape) < apart
+    # In standard deviations, over twenty axes: the pictures are searched again.
+    assert np.linalg.norm(found.shape - found.fused.shape) < 0.5 * np.sqrt(len(found.shape))
     for person in people:
         assert np.trace(found.covariance) < np.trace(person.shape_covariance)
     assert found.shape[0] == people[0].body.shape[0]
