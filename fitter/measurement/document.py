@@ -37,8 +37,8 @@ The pictures show the average woman; what she hides of a tape is pale. How far v
 correlations are from the survey's: `python -m fitter.training report`.
 """
 
-ATLAS_FOLDER = "atlas"
-"""Beside the page: a picture of each group's tapes on the body."""
+ATLAS_FOLDER = "fitter/measurement/atlas"
+"""From the page, at the root of the repository: a picture of each group's tapes on the body."""
 
 _AGREEMENT = {
     Agreement.SAME: "as there",

@@ -29,6 +29,7 @@ MAX_WHEEL_BYTES = 20_000_000
 NOT_INSTALLED = (
     r"service/page/(?!dist/).*",
     r"service/demo_data/(result|page_clicking|page_result)\.jpg",
+    r"fitter/measurement/atlas/.*",
     r"api_schemas/released/.*",
 )
 """Sources of the page, pictures of the README, documents of earlier versions."""

@@ -1,7 +1,8 @@
 """The pictures of MEASUREMENTS.md: the tape of each measurement on the mean woman.
 
-``python -m fitter.training.report.measurement_atlas`` draws them into the folder ``atlas``, one
-sheet a group. Each tape is seen from where most of it is; what the body hides of it is thin.
+``python -m fitter.training.report.measurement_atlas`` draws them into
+``fitter/measurement/atlas``, one sheet a group. Each tape is seen from where most of it is; what
+the body hides of it is thin.
 """
 
 import sys

@@ -1,170 +1,48 @@
 """What derives a kind makes do with what the kind needs, and says what the fitter knows."""
 
-import csv
 import io
 import json
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import cache
-from uuid import UUID
 
 import numpy as np
 import pytest
 from PIL import Image
 
-from api_schemas.derivation_kinds import AnyDerivationOptions, DerivationKind
-from api_schemas.derivation_kinds.base import DerivedFiles
+from api_schemas.derivation_kinds import DerivationKind
 from api_schemas.derivation_kinds.texture import LEAST_OWN_TEXTURE, TEXTURE_SIZES
-from api_schemas.derivations import DerivationRequest, DerivationResult
+from api_schemas.derivations import DerivationResult
 from api_schemas.named_poses import NamedPose
 from fitter.applications.own_texture import LEAST_SIDE
 from fitter.applications.poses import NAMED_POSES, REST
 from fitter.applications.texture import SIZES
 from fitter.body.storage import load_body_model, packaged_model_path
-from fitter.fits.prepared_model import prepared_model
-from fitter.measurement.anthropometry import measure
-from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
+from fitter.parameters import Light, LightKind, Reflectance
 from fitter.person.fitted_person import FittedPerson
-from fitter.render.camera import Camera
-from fitter.request import FitRequest, Gender, OptimizerKind
-from service.api.derivation_kinds import needs_of
-from service.demo_data.sample import load_sample
+from fitter.request import FitRequest, OptimizerKind
 from service.jobs.inputs import (
-    CHART,
     CLIP,
-    IMAGE,
-    OVERLAY,
     PERSON,
     REQUEST,
     RESULT,
-    SEGMENTATION,
     TEXTURE,
     of_other,
-    own_and_others,
 )
-from service.submissions.submission import check_submission
 from service.worker.artifacts import MEDIA_TYPES, with_result_document
 from service.worker.derived import combined
-from service.worker.pipeline import derive, run
 from service.worker.pipeline_port import (
-    DerivationInput,
-    DerivationOutput,
-    PipelineInput,
     UnusableInputError,
 )
 from tests.unit.export.glb_reader import read_glb
-from tests.unit.service.fit_results import fit_result
-
-
-def png(width: int = 80, height: int = 120, *, level: int = 90) -> bytes:
-    stream = io.BytesIO()
-    Image.new("RGB", (width, height), (level, level, level)).save(stream, "PNG")
-    return stream.getvalue()
-
-
-def person() -> FittedPerson:
-    model = load_body_model(packaged_model_path("female"))
-    shape = np.zeros(len(model.shape_basis))
-    shape[2] = 1.0
-    return FittedPerson(
-        gender=Gender.FEMALE,
-        model_checksum=str(model.header["checksum"]),
-        body=BodyParameters(
-            pose=np.zeros((len(model.part_names), 3)),
-            translation=np.array([0.0, 0.0, 3.0]),
-            shape=shape,
-        ),
-        camera=Camera(focal_length_px=150.0, centre_x=40.0, centre_y=60.0, width=80, height=120),
-        light=None,
-        reflectance=None,
-        albedo_rgb=None,
-        shape_covariance=0.1 * np.eye(len(shape)),
-    )
-
-
-INPUTS = {
-    PERSON: person().to_bytes(),
-    RESULT: fit_result(light=None, reflectance=None).model_dump_json().encode(),
-    IMAGE: png(),
-    SEGMENTATION: png(66, 99, level=255),
-    OVERLAY: png(),
-}
-
-
-OTHERS = {of_other(name, 0): INPUTS[name] for name in (PERSON, RESULT)}
-
-FITS = ("0d3c1b6e-52a4-4f0e-9e37-0a4f6c2f7d10", "a2d6a7b0-3a0b-4a7c-8f9e-5f4f0d9f5b11")
-OWN = UUID("7c9e6679-7425-40de-944b-e07fc1f90ae7")
-
-CHART_CSV = "size,chest_girth,waist_girth_navel\nS,80-90,70-80\nM,90-100,80-90\nL,100-110,90-100\n"
-
-NEEDED = {
-    "combined": {"fits": FITS[:1]},
-    "size": {"chart_csv": CHART_CSV},
-    "change": {"since": FITS[0]},
-}
-"""What kinds cannot do without."""
-
-
-@cache
-def sample_inputs() -> dict[str, bytes]:
-    """A finished fit of the sample, by silhouette and edges, and others of the same picture.
-
-    The first other one tells two coefficients a little otherwise, the second is of somebody else.
-    """
-    sample = load_sample()
-    asked = json.dumps(json.loads(sample.request) | {"cues": "SE"}).encode()
-    options = check_submission(
-        request=asked, image=sample.image, mask=None, max_pixels=1_000_000
-    ).options
-    output = run(
-        PipelineInput(options=options, image=sample.image, mask=None, max_pixels=1_000_000),
-        lambda _: None,
-    )
-    own = {
-        PERSON: output.artifacts[PERSON],
-        IMAGE: sample.image,
-        REQUEST: options.model_dump_json().encode(),
-    }
-    fitted = FittedPerson.from_bytes(own[PERSON])
-    inputs = own | {RESULT: output.result.model_dump_json().encode()}
-    for index, offset in enumerate(([0.0, 0.0, 0.1, 0.1], [0.0, 6.0, -6.0, 6.0])):
-        shape = fitted.body.shape.copy()
-        shape[: len(offset)] += offset
-        body = replace(fitted.body, shape=shape)
-        other = own | {PERSON: replace(fitted, body=body).to_bytes()}
-        inputs |= {of_other(name, index): content for name, content in other.items()}
-    return inputs
-
-
-def inputs_of(options: AnyDerivationOptions) -> dict[str, bytes]:
-    """What a derivation needs of a finished fit, and no more."""
-    there = sample_inputs() if options.kind == "combined" else INPUTS | OTHERS
-    needs = needs_of(options)
-    named = [*needs.of_fit]
-    for index in range(len(needs.other_fits)):
-        named += [of_other(name, index) for name in needs.of_others]
-    return {name: there[name] for name in named if name in there}
-
-
-def derived(
-    *, files: dict[str, bytes] | None = None, **request: object
-) -> DerivationOutput[DerivedFiles]:
-    options = DerivationRequest.model_validate_json(json.dumps(request)).root
-    stages: list[str] = []
-    inputs, others = own_and_others(inputs_of(options) | (files or {}))
-    output = derive(
-        DerivationInput(
-            options=options,
-            inputs=inputs,
-            others=others,
-            max_pixels=1_000_000,
-            fit_id=OWN,
-        ),
-        lambda report: stages.append(report.stage),
-    )
-    assert stages
-    return output
+from tests.unit.service.derivation_samples import (
+    FITS,
+    NEEDED,
+    OWN,
+    derived,
+    person,
+    png,
+    sample_inputs,
+)
 
 
 def test_the_named_poses_of_the_wire_are_the_fitter_s():
@@ -356,130 +234,3 @@ def test_what_cannot_be_made_is_refused_with_the_field_and_what_to_do(request_, 
         derived(**request_)
     assert caught.value.error.field == field
     assert caught.value.error.remedy
-
-
-def test_a_size_follows_from_a_chart_in_the_request_or_beside_it():
-    inline = derived(kind="size", chart_csv=CHART_CSV).result
-    beside = derived(kind="size", files={CHART: CHART_CSV.encode()}).result
-    sizes = [
-        {
-            "label": label,
-            "measurements": {
-                "chest_girth": {"low": chest, "high": chest + 10},
-                "waist_girth_navel": {"low": waist, "high": waist + 10},
-            },
-        }
-        for label, chest, waist in (("S", 80, 70), ("M", 90, 80), ("L", 100, 90))
-    ]
-    spelled_out = derived(kind="size", chart={"sizes": sizes}).result
-    assert inline == beside == spelled_out
-    result = inline.model_dump()
-    chances = [each["probability"] for each in result["sizes"]]
-    assert sum(chances) + result["none_fits"] == pytest.approx(1.0)
-    assert [each["name"] for each in result["arguments"]] == ["chest_girth", "waist_girth_navel"]
-    assert result["recommended"] == result["sizes"][int(np.argmax(chances))]["label"]
-
-
-def test_the_table_of_sizes_says_what_the_result_does():
-    output = derived(kind="size", chart_csv=CHART_CSV)
-    table = list(csv.DictReader(io.StringIO(output.artifacts["sizes.csv"].decode())))
-    sizes = output.result.model_dump()["sizes"]
-    assert [each["label"] for each in table] == ["S", "M", "L"]
-    assert [float(each["probability"]) for each in table] == [each["probability"] for each in sizes]
-
-
-def test_ease_and_gaps_of_a_chart_reach_the_answer():
-    gaps = CHART_CSV.replace("80-90,70-80", "80-89,70-79")
-    result = derived(kind="size", chart_csv=gaps, ease={"chest_girth": 12}).result.model_dump()
-    assert {each["code"] for each in result["warnings"]} == {"chart-gap"}
-    assert result["arguments"][0]["ease"] == pytest.approx(12.0)
-    plain = derived(kind="size", chart_csv=gaps).result.model_dump()
-    assert result["sizes"] != plain["sizes"]
-
-
-def test_standard_errors_of_what_follows_are_those_of_the_measurements():
-    result = derived(kind="size", chart_csv=CHART_CSV).result.model_dump()
-    prepared = prepared_model(Gender.FEMALE)
-    someone = person()
-    measured = measure(
-        prepared.measuring, someone.body.shape, shape_covariance=someone.shape_covariance
-    )
-    found = {each.name: each for each in measured}
-    for each in result["arguments"]:
-        assert each["value"] == pytest.approx(found[each["name"]].value)
-        assert each["standard_error"] == pytest.approx(found[each["name"]].standard_error, rel=1e-3)
-
-
-def test_body_fat_says_why_it_is_withheld_for_the_young():
-    adult, child = (
-        derived(kind="body_composition", age_years=age).result.model_dump() for age in (30, 12)
-    )
-    assert [each["name"] for each in adult["estimates"]] == ["us_navy", "cun_bae"]
-    for each in adult["estimates"]:
-        assert 5.0 < each["percent"] < 60.0
-        assert each["standard_error"] > each["regression_error"]
-    assert [each["percent"] for each in child["estimates"]] == [None, None]
-    assert all("years, not of 12" in each["withheld"][0] for each in child["estimates"])
-
-
-def changed_person(**shifts: float) -> dict[str, bytes]:
-    """The other fit of a comparison, with some coefficients shifted."""
-    someone = person()
-    shape = someone.body.shape.copy()
-    for index, shift in shifts.items():
-        shape[int(index.removeprefix("b"))] += shift
-    other = replace(someone, body=replace(someone.body, shape=shape))
-    return {of_other(PERSON, 0): other.to_bytes()}
-
-
-def test_the_same_fit_twice_has_changed_in_nothing():
-    result = derived(kind="change", since=FITS[0]).result.model_dump()
-    assert {each["difference"] for each in result["changes"]} == {0.0}
-    assert not any(each["is_change"] for each in result["changes"])
-    assert result["warnings"] == ()
-
-
-def test_a_large_difference_is_a_change_and_a_small_one_is_none():
-    small, large = (
-        derived(kind="change", since=FITS[0], files=changed_person(b1=shift)).result.model_dump()
-        for shift in (-0.05, -5.0)
-    )
-    assert not any(each["is_change"] for each in small["changes"])
-    called = {each["name"] for each in large["changes"] if each["is_change"]}
-    assert "weight" in called
-    for each in large["changes"]:
-        assert each["difference"] == pytest.approx(each["after"] - each["before"])
-
-
-def test_fewer_measurements_are_compared_by_a_smaller_least_difference():
-    names = ["waist_girth_navel", "weight"]
-    everything = derived(kind="change", since=FITS[0]).result.model_dump()["changes"]
-    chosen = derived(kind="change", since=FITS[0], measurements=names).result.model_dump()
-    assert [each["name"] for each in chosen["changes"]] == names
-    least = {each["name"]: each["least"] for each in everything}
-    for each in chosen["changes"]:
-        assert each["least"] < least[each["name"]]
-
-
-def test_a_change_of_height_is_remarked_on():
-    (warning,) = derived(
-        kind="change", since=FITS[0], files=changed_person(b0=1.0)
-    ).result.model_dump()["warnings"]
-    assert warning["code"] == "heights-differ"
-
-
-@pytest.mark.parametrize("kind", ["size", "body_composition", "change"])
-def test_nothing_follows_from_measurements_that_are_withheld(kind):
-    withheld = fit_result(light=None, reflectance=None, measurements=())
-    files = {RESULT: withheld.model_dump_json().encode()}
-    with pytest.raises(UnusableInputError) as caught:
-        derived(kind=kind, files=files, **NEEDED.get(kind, {}))
-    assert (caught.value.error.code, caught.value.error.field) == ("fits-unusable", "kind")
-
-
-def test_a_fit_of_another_gender_is_nobody_s_earlier_one():
-    model = load_body_model(packaged_model_path("male"))
-    man = replace(person(), gender=Gender.MALE, model_checksum=str(model.header["checksum"]))
-    with pytest.raises(UnusableInputError) as caught:
-        derived(kind="change", since=FITS[0], files={of_other(PERSON, 0): man.to_bytes()})
-    assert (caught.value.error.code, caught.value.error.field) == ("fits-unusable", "since")

@@ -1,0 +1,139 @@
+"""What the simulated pipeline derives: documents and files of each kind, without numbers."""
+
+import json
+from pathlib import Path
+
+from pydantic import TypeAdapter
+
+from api_schemas.derivation_kinds import AnyDerivationOptions
+from api_schemas.derivation_kinds.animation import AnimationOptions, AnimationResult
+from api_schemas.derivation_kinds.base import DerivedFiles
+from api_schemas.derivation_kinds.caricature import CaricatureOptions, CaricatureResult
+from api_schemas.derivation_kinds.combined import CombinedOptions, CombinedPicture, CombinedResult
+from api_schemas.derivation_kinds.texture import TextureColours, TextureOptions, TextureResult
+from api_schemas.derivations import DerivationResult
+from api_schemas.problems import FieldProblem
+from api_schemas.requests import FitOptions
+from api_schemas.results import (
+    FitResult,
+)
+from api_schemas.scans import ScanResult
+from service.api.derivation_kinds import KINDS
+from service.jobs.inputs import (
+    CLIP,
+    IMAGE,
+    PERSON,
+    REQUEST,
+    RESULT,
+    TEXTURE,
+)
+from service.worker.pipeline_port import (
+    DerivationInput,
+    DerivationOutput,
+    UnusableInputError,
+)
+
+RESULTS: TypeAdapter[FitResult | ScanResult] = TypeAdapter(FitResult | ScanResult)
+"""What derivations may be made of."""
+
+LARGEST_FACTOR = 6.0
+"""Of a caricature."""
+
+FILES = {
+    ".csv": b"label,probability\r\n",
+    ".glb": b"glTF",
+    ".html": b"<!doctype html><p>A report.",
+    ".pdf": b"%PDF-1.4",
+    ".png": b"PNG",
+}
+
+
+def derived_output(job: DerivationInput[AnyDerivationOptions]) -> DerivationOutput[DerivedFiles]:
+    options = job.options
+    if isinstance(options, CaricatureOptions):
+        if options.factor > LARGEST_FACTOR:
+            raise UnusableInputError(
+                FieldProblem(
+                    field="factor",
+                    code="factor-unusable",
+                    reason="The surface turns inside out.",
+                    remedy=f"Send a factor from 0 to {LARGEST_FACTOR}.",
+                )
+            )
+        result = CaricatureResult(
+            factor=options.factor,
+            coefficient=1,
+            before=1.5,
+            after=1.5 * options.factor,
+            height_m=1.8,
+            shape=(0.0, 1.5 * options.factor),
+            artifacts=(),
+        )
+        files = {"body_caricature.glb": b"glTF", "caricature.png": b"PNG"}
+    elif isinstance(options, CombinedOptions):
+        fit = FitResult.model_validate_json(job.inputs[RESULT])
+        assert job.fit_id is not None
+        FitOptions.model_validate_json(job.inputs[REQUEST])
+        assert len(job.others) == len(options.fits)
+        for other in job.others:
+            assert other[IMAGE] == other[PERSON]
+            FitOptions.model_validate_json(other[REQUEST])
+        result = CombinedResult(
+            pictures=1 + len(options.fits),
+            shape=(0.0, 0.5),
+            bodies=tuple(
+                CombinedPicture(
+                    number=number,
+                    fit_id=fit_id,
+                    outcome=fit.outcome,
+                    image_camera=fit.image_camera,
+                    body=fit.body,
+                    light=None,
+                    reflectance=None,
+                    silhouette_overlap=0.9,
+                )
+                for number, fit_id in enumerate((job.fit_id, *options.fits), start=1)
+            ),
+            measurements=fit.measurements,
+            agreement=0.5,
+            warnings=(),
+            artifacts=(),
+        )
+        files = {"body_combined.glb": b"glTF", "combined.png": b"PNG"}
+    elif isinstance(options, TextureOptions):
+        # Who brings the colours has no copy of the picture.
+        own = options.colours is TextureColours.OWN
+        assert own is (TEXTURE in job.inputs) is (IMAGE not in job.inputs)
+        result = TextureResult(
+            colours=options.colours,
+            size=len(job.inputs[TEXTURE]) if own else options.size,
+            seen_share=0.4,
+            mirrored_share=0.1,
+            scale=1.0,
+            artifacts=(),
+        )
+        files = {"body_textured.glb": b"glTF", "texture.png": b"PNG", "coverage.png": b"PNG"}
+    elif isinstance(options, AnimationOptions):
+        result = AnimationResult(
+            source=job.inputs.get(CLIP, b"a walk").decode()[:40],
+            frames=2,
+            frame_time_s=0.04,
+            morph_targets=1,
+            morph_mean_error_mm=0.0,
+            morph_largest_error_mm=0.0,
+            skin_mean_error_mm=0.0,
+            skin_largest_error_mm=0.0,
+            sliding_mm=0.0,
+            travelled_m=0.0,
+            warnings=(),
+            artifacts=(),
+        )
+        files = {"body_animated.glb": b"glTF", "animation.webp": b"RIFF"}
+    else:
+        # Of any other kind what the OpenAPI document shows of it.
+        if RESULT in job.inputs:
+            RESULTS.validate_json(job.inputs[RESULT])
+        shown = json.dumps(KINDS[options.kind].answer)
+        result = DerivationResult.model_validate_json(shown).root
+        files = {each.name: FILES[Path(each.name).suffix] for each in result.artifacts}
+    return DerivationOutput(result=result, artifacts=files)
