@@ -10,6 +10,12 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Final
 
+from service.commands.local_arguments import (
+    add_check_arguments,
+    add_fit_arguments,
+    add_scan_arguments,
+)
+
 UNUSABLE: Final = 2
 """Exit status where arguments, or what they name, cannot be used; that of settings is another."""
 
@@ -68,45 +74,17 @@ def _parser() -> argparse.ArgumentParser:
     health.set_defaults(command=_health)
 
     fit = commands.add_parser("fit", help="fit one picture here and now, without a service")
-    fit.add_argument("image", type=Path, metavar="IMAGE", help="JPEG, PNG or WebP")
-    fit.add_argument(
-        "--points",
-        type=Path,
-        metavar="FILE",
-        help='JSON: a whole request, or {"points": {...}} (default: all points are proposed)',
-    )
-    fit.add_argument(
-        "--complete-points", action="store_true", help="propose the points that FILE has not"
-    )
-    fit.add_argument("--gender", choices=("female", "male"))
-    fit.add_argument("--height-m", type=float, metavar="METRES")
-    fit.add_argument("--weight-kg", type=float, metavar="KILOGRAMS")
-    fit.add_argument("--focal-length-px", type=float, metavar="PIXELS")
-    fit.add_argument("--focal-length-35mm", type=float, metavar="MM")
-    fit.add_argument("--cues", choices=("SE", "SES"))
-    fit.add_argument("--optimizer", choices=("gauss_newton", "simplex"))
-    fit.add_argument("--mask", type=Path, metavar="IMAGE", help="replaces the segmentation")
-    _add_common(fit, output="maquette-fit")
+    add_fit_arguments(fit)
     fit.set_defaults(command=_fit)
 
-    _add_scan(commands)
+    scan = commands.add_parser("scan", help="measure one person from several pictures here and now")
+    add_scan_arguments(scan)
+    scan.set_defaults(command=_scan)
 
     check = commands.add_parser(
         "check", help="say what is wrong with a picture before it is fitted"
     )
-    check.add_argument("image", type=Path, metavar="IMAGE", help="JPEG, PNG or WebP")
-    check.add_argument(
-        "--view",
-        choices=("front", "side", "back", "other"),
-        help="from where the person is to be seen",
-    )
-    check.add_argument(
-        "--points", type=Path, metavar="FILE", help="JSON of a request: points of who is meant"
-    )
-    check.add_argument("--gender", choices=("female", "male"))
-    check.add_argument("--height-m", type=float, metavar="METRES")
-    check.add_argument("--focal-length-px", type=float, metavar="PIXELS")
-    check.add_argument("--focal-length-35mm", type=float, metavar="MM")
+    add_check_arguments(check)
     check.set_defaults(command=_check)
 
     demo = commands.add_parser("demo", help="start a service, fit the sample picture, show it all")
@@ -128,69 +106,6 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _add_scan(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    scan = commands.add_parser("scan", help="measure one person from several pictures here and now")
-    scan.add_argument(
-        "images",
-        type=Path,
-        nargs="+",
-        metavar="IMAGE",
-        help="2 to 6: from the front, from the side, and others",
-    )
-    scan.add_argument(
-        "--views",
-        nargs="+",
-        default=(),
-        metavar="VIEW",
-        help="what the pictures show, in their order: front, side, back or other",
-    )
-    scan.add_argument(
-        "--points",
-        type=_points_file,
-        nargs="+",
-        default=(),
-        metavar="FILE",
-        help="a JSON file as for a fit, or auto, for every picture (default: auto); what "
-        "the first says of the person holds",
-    )
-    scan.add_argument("--gender", choices=("female", "male"))
-    scan.add_argument("--height-m", type=float, metavar="METRES")
-    scan.add_argument("--weight-kg", type=float, metavar="KILOGRAMS")
-    scan.add_argument("--focal-length-35mm", type=float, metavar="MM", help="of all pictures")
-    scan.add_argument("--cues", choices=("SE", "SES"))
-    _add_common(scan, output="maquette-scan")
-    scan.set_defaults(command=_scan)
-
-
-def _add_common(command: argparse.ArgumentParser, *, output: str) -> None:
-    """Add what may be said of any work on pictures here and now."""
-    command.add_argument(
-        "--force", action="store_true", help="give measurements even if nothing shows a person"
-    )
-    command.add_argument(
-        "--models",
-        type=Path,
-        metavar="DIR",
-        help="folder of female.npz or male.npz (default: the packaged body models)",
-    )
-    command.add_argument(
-        "--formats",
-        type=_formats,
-        default=(),
-        metavar="FORMAT,...",
-        help="write every mesh as obj, ply, stl or usdz too",
-    )
-    command.add_argument(
-        "--output", type=Path, default=Path(output), metavar="DIR", help="default: %(default)s"
-    )
-
-
-def _points_file(text: str) -> Path | None:
-    from api_schemas.points import AUTO
-
-    return None if text == AUTO else Path(text)
-
-
 class _Version(argparse.Action):
     """Looks the version up when it is asked for, and not whenever a command is run."""
 
@@ -202,26 +117,6 @@ class _Version(argparse.Action):
         except PackageNotFoundError:
             parser.exit(UNUSABLE, "maquette is not installed here: its version is not known.\n")
         parser.exit()
-
-
-def _formats(text: str) -> tuple[str, ...]:
-    from service.representation.formats import (
-        MESH_FORMATS,
-        USD_MISSING,
-        USD_REMEDY,
-        USDZ,
-        written_here,
-    )
-
-    endings = tuple(dict.fromkeys(each.strip().lstrip(".").lower() for each in text.split(",")))
-    for ending in endings:
-        if ending not in MESH_FORMATS:
-            message = f"'{ending}' is none of {', '.join(MESH_FORMATS)}; GLB is always written"
-            raise argparse.ArgumentTypeError(message)
-    if USDZ.ending in endings and USDZ not in written_here():
-        message = f"{USD_MISSING} {USD_REMEDY}."
-        raise argparse.ArgumentTypeError(message)
-    return endings
 
 
 def _serve(parsed: argparse.Namespace) -> int:
