@@ -119,9 +119,9 @@ def combined_shape(people: Sequence[FittedPerson]) -> CombinedShape:
     )
 
 
-def counted_as(pictures: int) -> float:
+def counted_as(pictures: int, *, shared: float = SHARED_ERROR) -> float:
     """How many pictures that err each by itself say as much as so many of one person."""
-    return pictures / (1.0 + (pictures - 1) * SHARED_ERROR)
+    return pictures / (1.0 + (pictures - 1) * shared)
 
 
 def known_covariance(person: FittedPerson) -> Float[np.ndarray, "n n"]:

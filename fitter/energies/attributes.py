@@ -8,7 +8,7 @@ are affine in the shape.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
@@ -60,14 +60,6 @@ _NOTHING = Attributes(
 
 NOTHING_KNOWN = KnownAttributes(held=_NOTHING, uncertain=_NOTHING, standard_errors=np.zeros(0))
 """Nothing is known but the stature, given or assumed."""
-
-
-def whole_shape(shape: Shape) -> KnownAttributes:
-    """Hold every shape coefficient: a search keeps this shape and moves the rest."""
-    every = Attributes(
-        measure=lambda shape: shape, jacobian=lambda shape: np.eye(len(shape)), values=shape
-    )
-    return replace(NOTHING_KNOWN, held=every)
 
 
 def attribute_energy(known: KnownAttributes, shape: Shape) -> float:

@@ -12,6 +12,7 @@ from fitter.observation.colour import bytes_of_display
 from fitter.observation.completion import scaled_clicks
 from fitter.observation.decoding import DecodedPicture, decode_picture
 from fitter.observation.focal_length import focal_length
+from fitter.observation.observation import Observation
 from fitter.observation.resampling import (
     display_working_picture,
     linear_working_picture,
@@ -20,7 +21,7 @@ from fitter.observation.resampling import (
 from fitter.observation.subject import MEAN_HEIGHT_M, check_height
 from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import FocalLengthSource
-from fitter.request import Click, Gender
+from fitter.request import Click, FitRequest, Gender
 
 ASSUMED_HEIGHT_M = 1.7
 """Of people whose gender is not known either."""
@@ -127,6 +128,25 @@ def capture_of(
     )
 
 
+def capture_of_view(observation: Observation, request: FitRequest, view: ViewKind) -> Capture:
+    """What there is to check of a picture that was read to be fitted."""
+    known = observation.focal_length_source is not FocalLengthSource.ASSUMED
+    points = scaled_clicks(request.clicks, observation.scale)
+    return Capture(
+        picture=bytes_of_display(observation.display),
+        width=observation.image_camera.width,
+        height=observation.image_camera.height,
+        scale=observation.scale,
+        bodies=observation.bodies,
+        body=_meant(observation.bodies or (), None, points),
+        points=points,
+        is_chosen=bool(points),
+        view=view,
+        focal_length_px=observation.camera.focal_length_px if known else None,
+        height_m=_height_m(request),
+    )
+
+
 def _meant(
     bodies: Sequence[DetectedBody], person: int | None, points: Mapping[str, Click]
 ) -> DetectedBody | None:
@@ -136,7 +156,7 @@ def _meant(
     return None if chosen is None else bodies[chosen]
 
 
-def _height_m(question: CaptureQuestion) -> float:
+def _height_m(question: CaptureQuestion | FitRequest) -> float:
     if question.height_m is not None:
         return question.height_m
     return ASSUMED_HEIGHT_M if question.gender is None else MEAN_HEIGHT_M[question.gender]

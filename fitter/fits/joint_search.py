@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
+from fitter.applications.several_pictures import counted_as
 from fitter.arrays import Shape
 from fitter.energies.joint_objective import JointObjective
 from fitter.energies.objective import Candidate, Objective
@@ -32,8 +33,9 @@ from fitter.request import OptimizerKind
 from fitter.result import PictureFit
 
 SHARED_ERROR = 0.2
-"""Correlation of the errors of two pictures of one person, by which k pictures count as
-k / (1 + (k - 1) r)."""
+"""Correlation of the errors of two pictures that are searched together. It is less than that of
+whole fits of one picture (:data:`fitter.applications.several_pictures.SHARED_ERROR`), because what
+a prior about depth makes them err in alike, another view tells."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -66,7 +68,7 @@ def search_jointly(
     bodies: Sequence[BodyParameters] = [replace(view.body, shape=start) for view in views]
     objective = JointObjective(
         views=tuple(view.objective for view in views),
-        weight=1.0 / (1.0 + (len(views) - 1) * SHARED_ERROR),
+        weight=counted_as(len(views), shared=SHARED_ERROR) / len(views),
         shape_prior=population_prior(len(start)),
         attributes=known.attributes,
     )

@@ -10,10 +10,10 @@ from jaxtyping import Float
 from fitter.applications.several_pictures import CombinedShape, combined_shape
 from fitter.arrays import Shape, Vertices
 from fitter.capture.capture import ViewKind
+from fitter.capture.checking import check_capture
 from fitter.capture.finding import Finding
-from fitter.detection.detector import installed_detector
-from fitter.errors import DetectorUnavailableError, InvalidInputError
-from fitter.fits.capture_check import CaptureQuestion, check_picture
+from fitter.errors import InvalidInputError
+from fitter.fits.capture_check import capture_of_view
 from fitter.fits.joint_search import JointlyFound, search_jointly
 from fitter.fits.joint_view import view_of
 from fitter.fits.outlined import Outlined, outlined
@@ -35,6 +35,9 @@ LEAST_VIEWS, MOST_VIEWS = 2, 6
 
 ALONE_SHARE = 0.45
 """Share of the work that is done once every picture has been searched by itself."""
+
+# Each report of a search takes this share of what is left: their number is not known in advance.
+_STEP_SHARE = 0.03
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -127,12 +130,10 @@ def scan(
         As :func:`fitter.fits.pipeline.fit` does.
     """
     _check(views)
-    findings: list[tuple[Finding, ...]] = []
     pictures: list[Outlined] = []
     for number, view in enumerate(views):
         clock = StageClock(_of_view(number, len(views), observe))
         try:
-            findings.append(_findings(view, detector_weights))
             pictures.append(
                 outlined(_posed(view), clock, models=models, detector_weights=detector_weights)
             )
@@ -159,7 +160,7 @@ def scan(
         shape=found.shape,
         covariance=found.covariance,
         canonical_vertices=prepared.measuring.canonical.at(found.shape),
-        views=_scanned(views, findings, pictures, found),
+        views=_scanned(views, pictures, found),
         measurements=measure(
             prepared.measuring,
             found.shape,
@@ -182,10 +183,6 @@ def scan(
     )
 
 
-# Each report of a search takes this share of what is left: their number is not known in advance.
-_STEP_SHARE = 0.03
-
-
 def of_view(number: int, error: InvalidInputError) -> InvalidInputError:
     """The same error with the number of the picture at fault before its field."""
     return InvalidInputError(
@@ -196,25 +193,10 @@ def of_view(number: int, error: InvalidInputError) -> InvalidInputError:
     )
 
 
-def _findings(view: ScanView, weights: Path | None) -> tuple[Finding, ...]:
+def _findings(view: ScanView, picture: Outlined) -> tuple[Finding, ...]:
     """What the checks of a capture say of a view's picture, which is measured all the same."""
-    request = view.request
-    question = CaptureQuestion(
-        view=view.kind,
-        points=request.clicks,
-        gender=request.gender,
-        height_m=request.height_m,
-        focal_length_px=request.focal_length_px,
-        focal_length_35mm=request.focal_length_35mm,
-    )
-    try:
-        detector = installed_detector(weights)
-    except DetectorUnavailableError:
-        detector = None
-    checked = check_picture(
-        request.image, question, detector=detector, max_pixels=request.max_pixels
-    )
-    return checked.checked.findings
+    capture = capture_of_view(picture.observation, view.request, view.kind)
+    return check_capture(capture).findings
 
 
 def _posed(view: ScanView) -> FitRequest:
@@ -284,14 +266,13 @@ def _alone(picture: Outlined) -> FittedPerson:
 
 def _scanned(
     views: Sequence[ScanView],
-    findings: Sequence[tuple[Finding, ...]],
     pictures: Sequence[Outlined],
     found: JointlyFound,
 ) -> tuple[ScannedView, ...]:
     return tuple(
         ScannedView(
             kind=view.kind,
-            findings=seen,
+            findings=_findings(view, picture),
             found=body,
             camera=picture.observation.camera,
             focal_length_source=picture.observation.focal_length_source,
@@ -306,5 +287,5 @@ def _scanned(
                 segmentation=picture.segmentation.mask,
             ),
         )
-        for view, seen, picture, body in zip(views, findings, pictures, found.pictures, strict=True)
+        for view, picture, body in zip(views, pictures, found.pictures, strict=True)
     )

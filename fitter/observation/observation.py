@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from fitter.arrays import GreyImage, Image, Mask
 from fitter.detection.detector import (
+    DetectedBody,
     DetectedSlants,
     Detector,
     body_of_clicks,
@@ -63,6 +64,8 @@ class Observation:
         How limbs slant, by the detector; None if nothing is known about it.
     detected
         Whether the detector finds a person where the points are; None if it was not asked.
+    bodies
+        Everybody the detector finds; None if it was not asked.
     """
 
     display: Image
@@ -79,6 +82,7 @@ class Observation:
     seed: GreyImage | None
     slants: DetectedSlants | None
     detected: bool | None
+    bodies: tuple[DetectedBody, ...] | None
     assumptions: tuple[Assumption, ...]
     warnings: tuple[FitWarning, ...]
 
@@ -138,6 +142,7 @@ def observe(request: FitRequest, detector: Detector | None = None) -> Observatio
         seed=detected.mask if detected is not None and _is_seeded(request) else None,
         slants=detected.slants if detected is not None and request.slant_hints else None,
         detected=None if detector is None else is_somebody_at(bodies, given),
+        bodies=None if detector is None else tuple(bodies),
         assumptions=focal.assumptions + proposal_assumptions(given, clicks),
         warnings=picture.warnings
         + side_warnings(clicks)

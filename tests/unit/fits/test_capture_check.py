@@ -8,13 +8,23 @@ import pytest
 from PIL import Image as PillowImage
 
 from fitter.capture.capture import ViewKind
-from fitter.capture.finding import Severity
+from fitter.capture.checking import check_capture
+from fitter.capture.finding import Code, Severity
 from fitter.capture.turning import Seen
 from fitter.detection.detector import installed_detector
 from fitter.errors import InvalidInputError
-from fitter.fits.capture_check import CaptureCheck, CaptureQuestion, check_picture
-from fitter.request import Click, Gender
+from fitter.fits.capture_check import (
+    CaptureCheck,
+    CaptureQuestion,
+    capture_of_view,
+    check_picture,
+)
+from fitter.observation.observation import observe
+from fitter.request import Click, Cues, Gender
 from service.demo_data.sample import load_sample
+from tests.evaluation.cases import CASES
+from tests.evaluation.files import read_case
+from tests.evaluation.suite import fit_request
 from tests.unit.observation.pictures import encode, noise
 
 ROLLED_DEG = 15.0
@@ -160,3 +170,21 @@ def test_what_cannot_be_is_refused(said, code):
     with pytest.raises(InvalidInputError) as caught:
         checked(sample(), **said)
     assert caught.value.code == code
+
+
+def test_a_picture_that_was_read_for_a_fit_is_checked_alike():
+    files = read_case(CASES["phone_woman_old_middling_side"])
+    request = fit_request(files, Cues.SE)
+    detector = installed_detector()
+    view = check_capture(capture_of_view(observe(request, detector), request, ViewKind.FRONT))
+    question = CaptureQuestion(
+        view=ViewKind.FRONT,
+        points=request.clicks,
+        gender=request.gender,
+        height_m=request.height_m,
+        focal_length_px=request.focal_length_px,
+        focal_length_35mm=request.focal_length_35mm,
+    )
+    alone = check_picture(files.image, question, detector=detector, max_pixels=1_000_000)
+    assert view == alone.checked
+    assert Code.OTHER_VIEW in {each.code for each in view.findings}
