@@ -1,0 +1,55 @@
+"""A prior on the shape in matrix, gradient and searches."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fitter.energies.priors import ShapePrior, population_prior
+from fitter.optimizer.gauss_newton import minimize_gauss_newton
+from fitter.optimizer.normal_equations import normal_equations
+from fitter.optimizer.simplex import minimize_simplex
+from tests.unit.optimizer.rendered_scene import RenderedScene, rendered_scene
+
+
+def ignore(_):
+    return None
+
+
+@pytest.fixture(scope="module")
+def scene() -> RenderedScene:
+    return rendered_scene(0)
+
+
+def told(scene: RenderedScene) -> ShapePrior:
+    """Somebody a standard deviation off along every axis, with a correlation."""
+    n = len(scene.start.shape)
+    precision = 20.0 * population_prior(n).precision
+    precision[1, 2] = precision[2, 1] = 5.0
+    return ShapePrior(mean=np.append(0.0, np.ones(n - 1)), precision=precision)
+
+
+def test_gradient_and_matrix_hold_the_prior_s_own(scene):
+    other = replace(scene.objective, shape_prior=told(scene))
+    shape = scene.start.shape
+    (matrix, gradient), (plain, plainer) = (
+        normal_equations(each, each.evaluate(scene.start)) for each in (other, scene.objective)
+    )
+    more, fewer = other.shape_prior, scene.objective.shape_prior
+    n = len(shape)
+    np.testing.assert_allclose(
+        (matrix - plain)[-n:, -n:], more.precision - fewer.precision, atol=1e-9
+    )
+    np.testing.assert_allclose(
+        (gradient - plainer)[-n:], more.slope(shape) - fewer.slope(shape), atol=1e-9
+    )
+
+
+def test_both_optimisers_lower_the_energy_of_the_prior(scene):
+    other = replace(scene.objective, shape_prior=told(scene))
+    begin = other.evaluate(scene.start).energies["shape_prior"]
+    newton = minimize_gauss_newton(other, scene.start, max_evaluations=60, on_energies=ignore)
+    assert newton.candidate.energies["shape_prior"] < 0.2 * begin
+    assert np.abs(newton.candidate.parameters.shape[1:] - 1.0).mean() < 0.4
+    simplex = minimize_simplex(other, scene.start, max_evaluations=300, on_energies=ignore)
+    assert simplex.candidate.energies["shape_prior"] < begin
