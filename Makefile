@@ -17,12 +17,14 @@ PYTEST := $(SINGLE_THREADED) $(VENV)/bin/python -m pytest $(SIDE_BY_SIDE)
 # would compile them anew.
 unexport PYTHONDONTWRITEBYTECODE
 
+VERSION = $(shell sed -n 's/^VERSION = "\(.*\)"$$/\1/p' service/version.py)
+
 # What fitter announces of its arguments and results, checked at every call of its quick unit tests.
 CHECKED := --jaxtyping-packages=fitter,beartype.beartype(conf=beartype.BeartypeConf(is_pep484_tower=True))
 FITTER_TESTS := $(filter $(wildcard tests/unit/*/__init__.py),\
 	$(patsubst fitter/%,tests/unit/%,$(wildcard fitter/*/__init__.py)))
 
-.PHONY: demo test test-rest test-shapes blender lint serve train report openapi page wheel lock clean
+.PHONY: demo test test-rest test-shapes blender lint serve train report openapi docs page wheel image sbom release lock clean
 
 demo: $(STAMP)
 	$(VENV)/bin/maquette demo
@@ -62,6 +64,17 @@ report: $(STAMP)
 openapi: $(STAMP)
 	$(VENV)/bin/maquette openapi --output api_schemas/openapi.json
 
+# The documentation site, into service/docs_site, from where the service shows it. Its gallery and
+# tutorials run; a warning, a failing script or a dead link ends it.
+docs: $(VENV)/.documented
+	rm -rf service/docs_site
+	$(SINGLE_THREADED) $(VENV)/bin/sphinx-build -q -W -b html -d $(VENV)/.doctrees service/docs service/docs_site
+	find service/docs_site -name '.buildinfo' -delete
+
+$(VENV)/.documented: $(STAMP) requirements-docs.txt
+	$(VENV)/bin/python -m pip install -q --disable-pip-version-check -r requirements-docs.txt
+	touch $@
+
 # The page's sources are TypeScript: this needs Node.js and npm. Its bundle is committed.
 page:
 	cd service/page && npm ci && npm run check && npm test && npm run build
@@ -70,12 +83,30 @@ page:
 wheel: $(STAMP)
 	$(VENV)/bin/python -m hatchling build
 
+# What a container is made of, as CycloneDX. The image has the same at /opt/maquette/sbom.cdx.json.
+sbom: $(STAMP)
+	$(VENV)/bin/python docker/sbom.py --python $(VENV)/bin/python --detector $(VENV)/lib \
+		--output dist/sbom.cdx.json
+
+# The image of a release. Its base is named with its digest in docker/images.env.
+image:
+	. docker/images.env && docker build -f docker/Dockerfile -t maquette:$(VERSION) \
+		--build-arg BASE_IMAGE="$$BASE_IMAGE" --build-arg VERSION=$(VERSION) \
+		--build-arg REVISION="$$(git rev-parse HEAD)" --build-arg CREATED="$$(date -u +%Y-%m-%dT%H:%M:%SZ)" .
+
+# Everything of a release, into dist/, built and tested; .ci/release says what, and how to go on after
+# a step that failed.
+release: $(STAMP)
+	.ci/release $(STEPS)
+
 lock:
 	$(VENV)/bin/pip install -q pip-tools
+	$(VENV)/bin/pip-compile -q --generate-hashes --no-emit-index-url --no-emit-trusted-host --no-emit-find-links \
+		--strip-extras --extra dev --extra s3 --extra tracing --extra usdz --extra detector --extra heic -o requirements.lock pyproject.toml
 	$(VENV)/bin/pip-compile -q --no-emit-index-url --no-emit-trusted-host --no-emit-find-links \
-		--strip-extras --extra dev --extra s3 --extra tracing --extra usdz --extra detector -o requirements.lock pyproject.toml
+		--strip-extras --extra docs -c requirements.lock -o requirements-docs.txt pyproject.toml
 
-$(STAMP): pyproject.toml requirements.lock requirements-detector.txt
+$(STAMP): pyproject.toml service/version.py requirements.lock requirements-detector.txt
 	$(PYTHON) -c "import sys; sys.exit(sys.version_info < (3, 11) and 'Maquette needs Python 3.11 or newer; set PYTHON=...')"
 	test -x $(VENV)/bin/python || $(PYTHON) -m venv $(VENV)
 	$(VENV)/bin/python -m pip install -q --disable-pip-version-check -r requirements.lock
@@ -88,4 +119,4 @@ $(STAMP): pyproject.toml requirements.lock requirements-detector.txt
 	touch $(STAMP)
 
 clean:
-	rm -rf $(VENV) .venv-blender maquette-data demo-output dist
+	rm -rf $(VENV) .venv-blender maquette-data demo-output dist service/docs_site

@@ -1,11 +1,14 @@
 """Pictures uploaded before they are fitted."""
 
 from datetime import datetime
-from typing import Annotated
+from typing import Annotated, Final
 
 from pydantic import Field
 
 from api_schemas.base import WireModel
+
+LEAST_SIDE_PX: Final = 64
+LARGEST_ASPECT_RATIO: Final = 20.0
 
 ImageId = Annotated[
     str,

@@ -83,6 +83,7 @@ class JobStanding(WireModel):
 class Job(JobStanding):
     """One accepted fit."""
 
+    label: str | None = Field(default=None, description="What the request called the person.")
     links: JobLinks
 
 

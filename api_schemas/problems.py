@@ -17,6 +17,12 @@ class FieldProblem(WireModel):
     code: str
     reason: str
     remedy: str
+    # Absent where there is none, so that other problems stay as they were.
+    largest: float | None = Field(
+        default=None,
+        exclude_if=lambda value: value is None,
+        description="The largest value that can be used, where a smaller one can be.",
+    )
 
 
 class Problem(WireModel):
@@ -119,7 +125,7 @@ _TYPES: Final = (
         slug="unsupported-media-type",
         title="This kind of content is not accepted",
         status=415,
-        description="The body is of another kind, or a picture is not JPEG, PNG or WebP.",
+        description="The body is of another kind, or a picture is not JPEG, PNG, WebP or HEIC.",
     ),
     ProblemType(
         slug="range-not-satisfiable",

@@ -9,6 +9,7 @@ from pydantic import Field
 from api_schemas.base import WireModel
 from api_schemas.images import ImageId
 from api_schemas.known import KnownMeasurements
+from api_schemas.labels import LABEL_OF_JOB, Label
 from api_schemas.lens import Lens
 from api_schemas.points import AUTO, Point, PointName, Points, PointsFormat, PointsOrAuto
 from api_schemas.webhooks import WebhookTarget
@@ -238,6 +239,7 @@ class AskedPicture(PictureChoices, PictureFacts):
 class FitRequest(AskedPicture, FitChoices):
     """The JSON part ``request`` of a submission: the fit, and whom to tell of its end."""
 
+    label: Label | None = Field(default=None, description=LABEL_OF_JOB, examples=["customer-4711"])
     webhook: WebhookTarget | None = None
 
     def options(self, points: Mapping[PointName, Point]) -> FitOptions:

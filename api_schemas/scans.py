@@ -14,6 +14,7 @@ from api_schemas.derivation_kinds import DerivationKind
 from api_schemas.derivations import DerivationEventType
 from api_schemas.images import ImageId
 from api_schemas.jobs import JobStanding
+from api_schemas.labels import LABEL_OF_JOB, Label
 from api_schemas.points import AUTO, Point, PointName, Points
 from api_schemas.requests import (
     AskedPicture,
@@ -136,6 +137,7 @@ class ScanRequest(ScanChoices):
     """The JSON part ``request`` of a submission; `image_0` is the picture of its first view."""
 
     views: Annotated[tuple[ScanViewRequest, ...], AfterValidator(_usable_together), Field(**_VIEWS)]
+    label: Label | None = Field(default=None, description=LABEL_OF_JOB, examples=["customer-4711"])
     webhook: WebhookTarget | None = None
 
     def options(self, views: Sequence[ScanViewOptions]) -> ScanOptions:
@@ -184,6 +186,7 @@ class Scan(JobStanding):
             "together, and before and after."
         )
     )
+    label: str | None = Field(default=None, description="What the request called the person.")
     links: ScanLinks
 
 

@@ -31,14 +31,19 @@ class InvalidInputError(FitterError):
         What is wrong, in a sentence.
     remedy
         What the caller can do about it, in a sentence.
+    largest
+        The largest value that can be used, where a smaller one can be.
     """
 
-    def __init__(self, *, code: str, field: str, reason: str, remedy: str) -> None:
+    def __init__(
+        self, *, code: str, field: str, reason: str, remedy: str, largest: float | None = None
+    ) -> None:
         super().__init__(code, field, reason, remedy)
         self.code = code
         self.field = field
         self.reason = reason
         self.remedy = remedy
+        self.largest = largest
 
     def __str__(self) -> str:
         return f"{self.field}: {self.reason} {self.remedy}"

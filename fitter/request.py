@@ -156,7 +156,7 @@ class FitRequest:
     Attributes
     ----------
     image
-        The encoded picture (JPEG, PNG or WebP).
+        The encoded picture (JPEG, PNG, WebP or HEIC).
     clicks
         By canonical name: COCO-17 (``left_shoulder`` ...), ``neck``, ``head_top``, ``chin``,
         ``left_toe``, ``left_heel`` ...; left and right are the person's own.

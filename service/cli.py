@@ -15,6 +15,7 @@ from service.commands.local_arguments import (
     add_fit_arguments,
     add_scan_arguments,
 )
+from service.version import VERSION
 
 UNUSABLE: Final = 2
 """Exit status where arguments, or what they name, cannot be used; that of settings is another."""
@@ -31,10 +32,11 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="maquette",
         description="A measured 3D body from a single picture. "
-        "The service is configured by environment variables named MAQUETTE_...; see the README.",
+        "The service is configured by environment variables named MAQUETTE_...; the documentation "
+        "lists them (service/docs/operate/settings.md).",
     )
     parser.add_argument(
-        "--version", action=_Version, nargs=0, help="print the version of what is installed"
+        "--version", action="version", version=f"maquette {VERSION}", help="print the version"
     )
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
 
@@ -104,19 +106,6 @@ def _parser() -> argparse.ArgumentParser:
     openapi.add_argument("--output", type=Path, metavar="FILE", help="write it there instead")
     openapi.set_defaults(command=_openapi)
     return parser
-
-
-class _Version(argparse.Action):
-    """Looks the version up when it is asked for, and not whenever a command is run."""
-
-    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
-        from importlib.metadata import PackageNotFoundError, version
-
-        try:
-            print(f"maquette {version('maquette')}")
-        except PackageNotFoundError:
-            parser.exit(UNUSABLE, "maquette is not installed here: its version is not known.\n")
-        parser.exit()
 
 
 def _serve(parsed: argparse.Namespace) -> int:

@@ -16,6 +16,7 @@ from service.setting_types import (
     BucketUrl,
     DatabaseUrl,
     DetectorFolder,
+    FramingOrigins,
     HostNames,
     ModelFolder,
     NamedFolder,
@@ -72,9 +73,23 @@ class Settings(BaseSettings):
             "tenant, and the service listens on loopback addresses only."
         ),
     )
+    sandbox: bool = Field(
+        default=False,
+        description=(
+            "`true`: jobs end at once with results of the packaged sample, whatever was sent, for "
+            "those who develop clients. A database is a sandbox's or not for ever."
+        ),
+    )
     cors_origins: Origins = Field(
         default="",
         description="Origins whose pages may call the API from a browser, separated by commas.",
+    )
+    embed_origins: FramingOrigins = Field(
+        default="",
+        description=(
+            "Origins of sites that may show the page in a frame, separated by commas; none may if "
+            "unset."
+        ),
     )
     data_dir: NamedFolder = Field(
         default=Path("maquette-data"),
@@ -383,6 +398,11 @@ class Settings(BaseSettings):
     def allowed_origins(self) -> tuple[str, ...]:
         """Origins of other sites whose pages may call the API."""
         return split_list(self.cors_origins)
+
+    @property
+    def embedding_origins(self) -> tuple[str, ...]:
+        """Origins of sites that may show the page in a frame."""
+        return split_list(self.embed_origins)
 
     @property
     def allowed_webhook_hosts(self) -> tuple[str, ...]:

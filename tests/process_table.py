@@ -17,11 +17,12 @@ KIB_PER_MIB = 1024.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Process:
-    """A process that is no zombie."""
+    """A process that is no zombie; forked ones have a name and the command of another."""
 
     pid: int
     parent: int
     command: str
+    name: str
 
 
 def processes_with(variable: str, value: object) -> list[Process]:
@@ -60,7 +61,8 @@ def _process(pid: int) -> Process | None:
     if not fields or fields[0] in ("Z", "X"):
         return None
     command = _bytes(pid, "cmdline").replace(b"\0", b" ").decode(errors="replace")
-    return Process(pid=pid, parent=int(fields[PARENT_FIELD]), command=command)
+    name = _bytes(pid, "comm").decode(errors="replace").strip()
+    return Process(pid=pid, parent=int(fields[PARENT_FIELD]), command=command, name=name)
 
 
 def _stat(pid: int) -> list[str]:

@@ -1,13 +1,15 @@
-"""The README's code, so that it can be run as it stands there."""
+"""The documents' code, so that it can be run as it stands there."""
 
 import re
 from pathlib import Path
 
-README = (Path(__file__).parents[1] / "README.md").read_text()
+ROOT = Path(__file__).parents[1]
+README = (ROOT / "README.md").read_text()
+PAGES = "\n".join(path.read_text() for path in sorted((ROOT / "service" / "docs").rglob("*.md")))
 
 
-def block(name: str) -> str:
-    """The code block the README marks as tested under this name."""
-    found = re.search(rf"<!-- tested: {name} -->\n```\w+\n(.*?)```", README, re.DOTALL)
-    assert found, f"README.md has no tested block {name!r}"
-    return found[1]
+def block(name: str, text: str = README + PAGES) -> str:
+    """The one code block that README and pages, or another text, mark as tested under this name."""
+    found = re.findall(rf"<!-- tested: {name} -->\n```\w+\n(.*?)```", text, re.DOTALL)
+    assert len(found) == 1, f"{len(found)} tested blocks are called {name!r}"
+    return found[0]

@@ -1,5 +1,6 @@
 """A caricature: what is asked for, and what comes of it."""
 
+from enum import StrEnum
 from typing import Literal
 
 from pydantic import Field
@@ -7,8 +8,15 @@ from pydantic import Field
 from api_schemas.derivation_kinds.base import DerivationOptions, DerivedFiles
 
 
+class Exaggerated(StrEnum):
+    """What a caricature multiplies."""
+
+    COEFFICIENT = "coefficient"
+    LOOKS = "looks"
+
+
 class CaricatureOptions(DerivationOptions):
-    """The body with what is most unusual of it exaggerated, as tall as it is."""
+    """The body with what is unusual of it exaggerated, as tall as it is."""
 
     kind: Literal["caricature"]
     factor: float = Field(
@@ -16,9 +24,17 @@ class CaricatureOptions(DerivationOptions):
         ge=0.0,
         le=100.0,
         description=(
-            "By which the shape coefficient that deviates most from the mean is multiplied; 1 is "
-            "the body as it was fitted. Where the surface would turn inside out or run through "
-            "itself, the job fails and names the largest factor that can be used."
+            "By which it is multiplied; 1 is the body as it was fitted. Where the surface would "
+            "turn inside out or run through itself, the job fails and names the largest factor "
+            "that can be used."
+        ),
+    )
+    exaggerated: Exaggerated = Field(
+        default=Exaggerated.COEFFICIENT,
+        description=(
+            "`coefficient`: the shape coefficient that deviates most from the mean, as in the "
+            "paper; often little is seen of it. `looks`: all coefficients but the height's, so "
+            "how the body differs from the average one of its height."
         ),
     )
 
@@ -26,7 +42,8 @@ class CaricatureOptions(DerivationOptions):
 class CaricatureResult(DerivedFiles):
     """``body_caricature.glb``, in the fitted pose, and ``caricature.png``, beside the fitted body.
 
-    ``coefficient`` is the index, in ``shape`` of the fit's result, of what was multiplied.
+    ``coefficient`` is the index, in ``shape`` of the fit's result, of what deviates most; with
+    ``looks`` the others are multiplied by the same factor.
     """
 
     kind: Literal["caricature"] = "caricature"

@@ -5,8 +5,9 @@ from functools import cached_property
 
 import cv2
 import numpy as np
-from jaxtyping import Float, Integer
+from jaxtyping import Bool, Float, Integer, UInt8
 
+from fitter.applications.loose_hair import loose_hair
 from fitter.arrays import GreyImage, Image, Mask, Points2D, Triangles, Vertices
 from fitter.evidence.sampling import sample
 from fitter.numerics.vectors import unit_vectors
@@ -20,9 +21,16 @@ second on it is believed wholly. In between a pixel spans more and more of the s
 CONTOUR_M = 0.008
 """A fitted contour lies so far off the person's: nearer to one, a pixel may show what is behind."""
 
+LIMB_M = 0.02
+"""A limb before the trunk may lie so far off its own place: beside it, the trunk may show it."""
+
 DEPTH_JUMP_M = 0.05
 """A jump of depth within that distance is a contour, on the outline or before the body itself. A
 surface turned 75 degrees away sinks 3 cm there."""
+
+
+Colours = Float[np.ndarray, "k 3"]
+Beliefs = Float[np.ndarray, " k"]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -44,6 +52,10 @@ class SurfacePoints:
         """Values of vertices, interpolated."""
         weights = self.weights.reshape(*self.weights.shape, *(1,) * (values.ndim - 1))
         return (values[self.corners] * weights).sum(axis=1)
+
+    def some(self, chosen: slice) -> "SurfacePoints":
+        """A run of them."""
+        return SurfacePoints(corners=self.corners[chosen], weights=self.weights[chosen])
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -72,6 +84,9 @@ class SeenSurface:
         camera: Camera,
         linear_rgb: Image,
         mask: Mask | None,
+        *,
+        scalp: Bool[np.ndarray, " f"],
+        face: Bool[np.ndarray, " f"],
     ) -> "SeenSurface":
         """Put a body before its picture.
 
@@ -83,9 +98,19 @@ class SeenSurface:
             Of this picture, whose size it has.
         mask
             (h, w) the person, where that is known better than by the body's own outline.
+        scalp, face
+            Which triangles hair grows on, from where it may hang over others, and which are the
+            rest of head and neck.
         """
         rendering = render(vertices, triangles, camera)
-        return cls(rendering=rendering, linear_rgb=linear_rgb, clear=_off_contours(rendering, mask))
+        shown = rendering.silhouette if mask is None else rendering.silhouette & mask
+        person = shown if mask is None else mask
+        hair = loose_hair(rendering, linear_rgb, person, scalp=scalp, face=face)
+        return cls(
+            rendering=rendering,
+            linear_rgb=linear_rgb,
+            clear=_off_contours(rendering, shown) * _off(hair, _width_px(rendering, CONTOUR_M)),
+        )
 
     @cached_property
     def _channels(self) -> tuple[GreyImage, ...]:
@@ -124,17 +149,35 @@ def smooth_step(
     return share * share * (3.0 - 2.0 * share)
 
 
-def _off_contours(rendering: Rendering, mask: Mask | None) -> GreyImage:
-    """Blurred by the same width, so that what is believed fades out before a contour."""
+def _off_contours(rendering: Rendering, shown: Mask) -> GreyImage:
+    """1 for what is shown off every contour.
+
+    Blurred by the same width, so that what is believed fades out before a contour.
+    """
     depth = rendering.depth.astype(np.float32)
-    shown = np.isfinite(depth) if mask is None else np.isfinite(depth) & mask
     if not shown.any():
         return np.zeros(depth.shape, dtype=np.float32)
     far = np.float32(depth[shown].max() + 1.0)
     depth = np.where(shown, depth, far)
-    metre_px = rendering.camera.focal_length_px / float(np.median(depth[shown]))
-    width = 2 * max(round(CONTOUR_M * metre_px), 1) + 1
-    window = np.ones((width, width), dtype=np.uint8)
-    jump = cv2.dilate(depth, window) - cv2.erode(depth, window)
-    clear = (shown & (jump < DEPTH_JUMP_M)).astype(np.float32)
+    near = cv2.erode(depth, _window(_width_px(rendering, CONTOUR_M)))
+    jump = cv2.dilate(depth, _window(_width_px(rendering, CONTOUR_M))) - near
+    before = depth - cv2.erode(depth, _window(_width_px(rendering, LIMB_M)))
+    blurred = shown & (jump < DEPTH_JUMP_M) & (before < DEPTH_JUMP_M)
+    return _off(~blurred, _width_px(rendering, CONTOUR_M))
+
+
+def _off(hidden: Mask, width: int) -> GreyImage:
+    """0 for what is hidden, and fading toward it."""
+    clear = (~hidden).astype(np.float32)
     return cv2.GaussianBlur(clear, (width, width), 0.0) * clear
+
+
+def _window(width: int) -> UInt8[np.ndarray, "w w"]:
+    return np.ones((width, width), dtype=np.uint8)
+
+
+def _width_px(rendering: Rendering, radius_m: float) -> int:
+    """The odd width of a window of a radius on the body."""
+    depth = rendering.depth[rendering.silhouette]
+    metre_px = rendering.camera.focal_length_px / float(np.median(depth)) if len(depth) else 0.0
+    return 2 * max(round(radius_m * metre_px), 1) + 1

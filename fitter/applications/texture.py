@@ -1,33 +1,35 @@
 """Texture mapping (section 6): the picture, or the albedo found in it, laid on the body.
 
 What the picture shows is taken from it. What it hides is taken from the other side of the body
-where that is seen, and else continued from its surroundings over the mesh; a coverage picture says
-which is which, so that nothing invented passes for observed.
+where that is seen, and else from what is seen of the same ring round the body
+(:mod:`fitter.applications.hidden_colours`); a coverage picture says which is which, so that nothing
+invented passes for observed.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import IntEnum
 
 import numpy as np
-from jaxtyping import Bool, Float, Integer, UInt8
+from jaxtyping import Integer, UInt8
 
 from fitter.applications.atlas import Atlas, atlas_of, drawn_on
-from fitter.applications.seen_surface import SeenSurface, SurfacePoints, smooth_step
-from fitter.arrays import Image, Mask, Vector3
+from fitter.applications.hidden_colours import (
+    LEAST_WEIGHT,
+    ColourProfiles,
+    following,
+    on_rings,
+)
+from fitter.applications.lit_surface import LitSurface
+from fitter.applications.rings import Region, RingCoordinates
+from fitter.applications.seen_surface import Beliefs, Colours, SeenSurface, SurfacePoints
+from fitter.arrays import Image, Mask
+from fitter.body.model import BodyModel
 from fitter.body.scape import ScapeEvaluator
 from fitter.errors import InvalidInputError
-from fitter.numerics.mesh_topology import mesh_topology
-from fitter.numerics.vectors import unit_vectors
-from fitter.observation.colour import display_from_linear, luminance_of
+from fitter.observation.colour import display_from_linear
 from fitter.observation.resampling import linear_working_picture, working_size
-from fitter.optimizer.hidden_reflectance import HiddenVertices
-from fitter.parameters import Light, Reflectance
 from fitter.person.fitted_person import FittedPerson, require_model
-from fitter.render.rasterizer import Rendering
-from fitter.render.reflectance import shading_terms
-from fitter.render.shadow import cast_shadow, penumbra
-from fitter.render.surroundings import irradiance
 
 SIZES = (512, 1024, 2048)
 """Sides an atlas may have, texels."""
@@ -35,19 +37,12 @@ SIZES = (512, 1024, 2048)
 BELIEVED = 0.5
 """From this belief on a texel counts as seen."""
 
-DIM, LIT = 0.1, 0.35
-"""Shares of the lamp's light: below the first an albedo is noise divided by little, and the rest of
-the light is only roughly known; from the second on it is believed wholly."""
-
 PICTURE_PIXELS = 2_000_000
 """Of the picture that is laid on the body: then a pixel of a standing person is a millimetre, as a
 texel of the largest atlas is."""
 
-_LEAST_LUMINANCE = 1e-3
 _CHUNK = 1 << 17
 
-Colours = Float[np.ndarray, "k 3"]
-Beliefs = Float[np.ndarray, " k"]
 Look = Callable[[SurfacePoints], tuple[Colours, Beliefs]]
 """Linear colours of points, and how far each is believed."""
 
@@ -161,88 +156,12 @@ def albedo_texture(
             remedy="Fit with cues SES, or ask for the texture with the picture's own light.",
         )
     surface = _surface(person, evaluator, linear_rgb, mask)
-    lit = _LitSurface.of(surface, person, light, reflectance)
+    lit = LitSurface.of(surface, person, light, reflectance)
 
     def look(points: SurfacePoints) -> tuple[Colours, Beliefs]:
         return lit.albedo(points, surface.colours(points), surface.belief(points))
 
     return _texture(look, evaluator, size)
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class _LitSurface:
-    """Eq. 1 over the surface of a person in their light."""
-
-    surface: SeenSurface
-    light: Light
-    reflectance: Reflectance
-    body_centre: Float[np.ndarray, "3"]
-    lit: Float[np.ndarray, " m"]
-    sharp: Float[np.ndarray, " m"]
-    typical: float
-
-    @classmethod
-    def of(
-        cls,
-        surface: SeenSurface,
-        person: FittedPerson,
-        light: Light,
-        reflectance: Reflectance,
-    ) -> "_LitSurface":
-        rendering, centre = surface.rendering, person.body.translation
-        shadowed = cast_shadow(
-            rendering.vertices, rendering.triangles, light=light, body_centre=centre
-        )
-        typical = float(np.median(reflectance.albedo[rendering.vertex_visible]))
-        return cls(
-            surface=surface,
-            light=light,
-            reflectance=reflectance,
-            body_centre=centre,
-            lit=1.0 - shadowed,
-            sharp=1.0 - _penumbra(rendering, shadowed, light, centre),
-            typical=max(typical, _LEAST_LUMINANCE),
-        )
-
-    def albedo(
-        self, points: SurfacePoints, colours: Colours, belief: Beliefs
-    ) -> tuple[Colours, Beliefs]:
-        rendering, lit = self.surface.rendering, points.of(self.lit)
-        normals = unit_vectors(points.of(rendering.vertex_normals))
-        terms = shading_terms(
-            points.of(rendering.vertices),
-            normals,
-            light=replace(self.light, surroundings=None),
-            body_centre=self.body_centre,
-            specular_exponent=self.reflectance.specular_exponent,
-        )
-        luminance = np.maximum(luminance_of(colours[None])[0], _LEAST_LUMINANCE)
-        highlight = points.of(self.reflectance.specularity) * terms.specular * lit
-        direct = terms.diffuse * lit
-        without = np.maximum(1.0 - highlight / luminance, 0.0)
-        if self.light.surroundings is None:
-            around = self.reflectance.ambient / self.typical
-            known = direct
-        else:
-            around = irradiance(self.light.surroundings, normals)
-            known = direct + around
-            belief = belief * points.of(self.sharp)
-        share = without / np.maximum(direct + around, DIM)
-        return colours * share[:, None], belief * smooth_step(known, DIM, LIT)
-
-
-def _penumbra(
-    rendering: Rendering, shadowed: Bool[np.ndarray, " m"], light: Light, body_centre: Vector3
-) -> Bool[np.ndarray, " m"]:
-    lamp = shading_terms(
-        rendering.vertices,
-        rendering.vertex_normals,
-        light=replace(light, surroundings=None),
-        body_centre=body_centre,
-        specular_exponent=1.0,
-    )
-    edges = mesh_topology(rendering.triangles, vertex_count=len(shadowed)).edges
-    return penumbra(shadowed, lamp.diffuse > 0.0, edges)
 
 
 def _surface(
@@ -252,7 +171,16 @@ def _surface(
     height, width = linear_rgb.shape[:2]
     camera = person.camera.scaled(width / person.camera.width, width=width, height=height)
     vertices = evaluator.vertices(person.body)
-    return SeenSurface.of(vertices, evaluator.model.triangles, camera, linear_rgb, mask)
+    region = RingCoordinates.of(evaluator.model).region
+    return SeenSurface.of(
+        vertices,
+        evaluator.model.triangles,
+        camera,
+        linear_rgb,
+        mask,
+        scalp=region == Region.SCALP,
+        face=region == Region.FACE,
+    )
 
 
 def _texture(look: Look, evaluator: ScapeEvaluator, size: int) -> Texture:
@@ -264,19 +192,14 @@ def _texture(look: Look, evaluator: ScapeEvaluator, size: int) -> Texture:
             remedy=f"Ask for one of {', '.join(map(str, SIZES))}.",
         )
     model = evaluator.model
-    continued = _continued(look, evaluator)
     atlas = atlas_of(model, size)
-    colours, origins = np.empty((len(atlas.triangles), 3)), []
-    for first in range(0, len(atlas.triangles), _CHUNK):
-        chunk = slice(first, first + _CHUNK)
-        corners, weights = model.triangles[atlas.triangles[chunk]], atlas.weights[chunk]
-        found, seen, mirrored = _own_or_other_side(look, model.mirror, corners, weights)
-        belief = (seen + mirrored)[:, None]
-        around = SurfacePoints(corners=corners, weights=weights).of(continued)
-        colours[chunk] = belief * found + (1.0 - belief) * around
-        origins.append(_origin(seen, mirrored))
+    points = SurfacePoints(corners=model.triangles[atlas.triangles], weights=atlas.weights)
+    found, seen, mirrored = _own_or_other_side(look, model.mirror, points)
+    belief = seen + mirrored
+    hidden = _hidden_colours(look, model, atlas, points, found, belief)
+    colours = belief[:, None] * found + (1.0 - belief[:, None]) * hidden
     scale = max(1.0, float(np.percentile(colours, 99.5)))
-    origin = np.concatenate(origins)
+    origin = _origin(seen, mirrored)
     levels = np.rint(255.0 * display_from_linear(np.clip(colours / scale, 0.0, 1.0)))
     return Texture(
         levels=drawn_on(atlas.inside, levels.astype(np.uint8)),
@@ -288,42 +211,79 @@ def _texture(look: Look, evaluator: ScapeEvaluator, size: int) -> Texture:
 
 
 def _own_or_other_side(
-    look: Look,
-    mirror: Integer[np.ndarray, " m"],
-    corners: Integer[np.ndarray, "k 3"],
-    weights: Float[np.ndarray, "k 3"],
+    look: Look, mirror: Integer[np.ndarray, " m"], points: SurfacePoints
 ) -> tuple[Colours, Beliefs, Beliefs]:
     """Colours of points, how far they are seen, and how far their mirror image is instead.
 
     The colour is the mean of both, each by its weight; the point itself comes first.
     """
-    colours, seen = look(SurfacePoints(corners=corners, weights=weights))
-    other, belief = look(SurfacePoints(corners=mirror[corners], weights=weights))
+    parts = [
+        _own_or_other_side_of_few(look, mirror, points.some(slice(first, first + _CHUNK)))
+        for first in range(0, len(points.corners), _CHUNK)
+    ]
+    colours, seen, mirrored = (np.concatenate(part) for part in zip(*parts, strict=True))
+    return colours, seen, mirrored
+
+
+def _own_or_other_side_of_few(
+    look: Look, mirror: Integer[np.ndarray, " m"], points: SurfacePoints
+) -> tuple[Colours, Beliefs, Beliefs]:
+    colours, seen = look(points)
+    other, belief = look(SurfacePoints(corners=mirror[points.corners], weights=points.weights))
     mirrored = (1.0 - seen) * belief
     total = np.maximum(seen + mirrored, 1e-12)[:, None]
     return (seen[:, None] * colours + mirrored[:, None] * other) / total, seen, mirrored
 
 
-def _continued(look: Look, evaluator: ScapeEvaluator) -> Float[np.ndarray, "m 3"]:
-    """Colours of all vertices, carried on from those that are seen."""
-    model = evaluator.model
-    count = len(model.mean_vertices)
-    corners = np.repeat(np.arange(count)[:, None], 3, axis=1)
-    weights = np.tile([1.0, 0.0, 0.0], (count, 1))
-    colours, seen, mirrored = _own_or_other_side(look, model.mirror, corners, weights)
-    known: Bool[np.ndarray, " m"] = seen + mirrored >= BELIEVED
-    if not known.any():
+def _hidden_colours(
+    look: Look,
+    model: BodyModel,
+    atlas: Atlas,
+    points: SurfacePoints,
+    found: Colours,
+    belief: Beliefs,
+) -> Colours:
+    """Colours for all texels, as far as they are hidden, from what is found of the others."""
+    rings = RingCoordinates.of(model)
+    region, along_m = rings.of_points(atlas.triangles, points)
+    profiles = ColourProfiles.of(
+        region,
+        along_m,
+        found,
+        np.where(belief >= BELIEVED, belief, 0.0),
+        least_weight=LEAST_WEIGHT * (atlas.size / 1024) ** 2,
+    )
+    vertices, at_vertices, believed = _at_vertices(look, model)
+    known = believed >= BELIEVED
+    if profiles.empty or not known.any():
         raise InvalidInputError(
             code="body-not-seen",
             field="fit_id",
             reason="The picture shows nothing of the fitted body clearly enough for a texture.",
             remedy="Look at the fit's overlay; mend the clicks and fit again.",
         )
-    edges = mesh_topology(model.triangles, vertex_count=count).edges
-    first, second = model.mean_vertices[edges.T]
-    lengths = np.linalg.norm(first - second, axis=1)
-    hidden = HiddenVertices.of(known, edges, np.maximum(lengths / lengths.mean(), 0.05))
-    return np.stack([hidden.filled(colours[:, k]) for k in range(3)], axis=1)
+    of_vertices = on_rings(rings, profiles, _a_triangle_of_each(model), vertices)
+    carried_on = following(model, known, at_vertices - of_vertices)
+    of_texels = on_rings(rings, profiles, atlas.triangles, points)
+    return np.maximum(of_texels + points.of(carried_on), 0.0)
+
+
+def _at_vertices(look: Look, model: BodyModel) -> tuple[SurfacePoints, Colours, Beliefs]:
+    """The vertices as points of the surface, their colours, and how far these are believed."""
+    count = len(model.mean_vertices)
+    vertices = SurfacePoints(
+        corners=np.repeat(np.arange(count)[:, None], 3, axis=1),
+        weights=np.tile([1.0, 0.0, 0.0], (count, 1)),
+    )
+    colours, seen, mirrored = _own_or_other_side(look, model.mirror, vertices)
+    return vertices, colours, seen + mirrored
+
+
+def _a_triangle_of_each(model: BodyModel) -> Integer[np.ndarray, " m"]:
+    """One of the triangles around each vertex."""
+    triangle = np.empty(len(model.mean_vertices), dtype=np.intp)
+    triangle[model.triangles] = np.arange(len(model.triangles))[:, None]
+    return triangle
 
 
 def _origin(seen: Beliefs, mirrored: Beliefs) -> UInt8[np.ndarray, " k"]:

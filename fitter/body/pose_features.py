@@ -9,6 +9,7 @@ import numpy as np
 from jaxtyping import Float, Integer
 
 from fitter.arrays import Pose, Rotations
+from fitter.body import _pose_feature_kernels as kernels
 from fitter.numerics.rotations import rotation_matrices
 
 FeatureJoints = Integer[np.ndarray, "p q"]
@@ -16,17 +17,16 @@ FeatureJoints = Integer[np.ndarray, "p q"]
 
 def half_turns(pose: Pose) -> Pose:
     """Rotation vectors of half the turns, each taken the short way around."""
-    angles = np.linalg.norm(pose, axis=1, keepdims=True)
-    whole_turns = 2.0 * np.pi * np.round(angles / (2.0 * np.pi))
-    return 0.5 * pose * (1.0 - whole_turns / np.where(angles > 0.0, angles, 1.0))
+    halves = np.empty_like(pose)
+    kernels.half_vectors(pose, halves)
+    return halves
 
 
 def pose_features(pose: Pose, joints: FeatureJoints) -> Float[np.ndarray, "p nine_q"]:
     """(R - I) of each part's joints, joint by joint and row by row, zero where unused (-1)."""
-    difference = _turns(pose) - np.eye(3)
-    return np.where((joints >= 0)[:, :, None, None], difference[joints], 0.0).reshape(
-        len(joints), -1
-    )
+    features = np.empty((len(joints), 9 * joints.shape[1]))
+    kernels.turns_less_identity(_turns(pose), joints, features)
+    return features
 
 
 def pose_derivative(
@@ -45,15 +45,10 @@ def pose_derivative(
     """
     count = len(pose)
     turns = _turns(pose)
-    by_turn = np.zeros_like(turns)
-    blocks = feature_derivative.reshape(*joints.shape, 3, 3)
-    used = joints >= 0
-    np.add.at(by_turn, joints[used], blocks[used])
-    torques = axial_vectors(np.matmul(by_turn, turns.transpose(0, 2, 1)))
+    torques = np.empty((len(turns), 3))
+    kernels.turn_torques(turns, joints, np.ascontiguousarray(feature_derivative), torques)
     result = torques[:count].copy()
-    halved = np.unique(joints[joints >= count])
-    spread = (np.eye(3) + turns[halved]).transpose(0, 2, 1)
-    result[halved - count] += np.linalg.solve(spread, torques[halved, :, None])[..., 0]
+    kernels.add_half_turn_torques(turns, torques, result)
     return result
 
 

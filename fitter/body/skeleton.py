@@ -4,15 +4,16 @@ import numpy as np
 from jaxtyping import Float, Integer
 
 from fitter.arrays import Pose, Rotations, Vertices
+from fitter.body._skeleton_kernels import chain_joints, chain_rotations, weighted_sums
 from fitter.body.model import SparseRows
 from fitter.numerics.rotations import rotation_matrices
 
 
 def regress(rows: SparseRows, vertices: Vertices) -> Float[np.ndarray, "r 3"]:
     """Weighted sums of vertices, one point per row, in the frame of the vertices."""
-    return np.add.reduceat(
-        rows.weights[:, None] * vertices[rows.indices], rows.pointers[:-1], axis=0
-    )
+    result = np.empty((len(rows.pointers) - 1, 3))
+    weighted_sums(rows.pointers, rows.indices, rows.weights, np.ascontiguousarray(vertices), result)
+    return result
 
 
 def dense_rows(rows: SparseRows, vertex_count: int) -> Float[np.ndarray, "r m"]:
@@ -27,8 +28,7 @@ def global_rotations(pose: Pose, part_parent: Integer[np.ndarray, " p"]) -> Rota
     """Rotation of every part from rest to pose, in the body frame: R_parent exp(pose)."""
     local = rotation_matrices(pose)
     result = np.empty_like(local)
-    for part, parent in enumerate(part_parent):
-        result[part] = local[part] if parent < 0 else result[parent] @ local[part]
+    chain_rotations(local, part_parent, result)
     return result
 
 
@@ -38,12 +38,10 @@ def posed_joints(
     part_parent: Integer[np.ndarray, " p"],
 ) -> Float[np.ndarray, "... p 3"]:
     """Joint positions of the rigid chain, body frame, metres, root joint at the origin."""
-    result = np.zeros_like(rest_joints)
-    for part, parent in enumerate(part_parent):
-        if parent >= 0:
-            bone = rest_joints[..., part, :] - rest_joints[..., parent, :]
-            result[..., part, :] = result[..., parent, :] + bone @ rotations[parent].T
-    return result
+    chains = np.ascontiguousarray(rest_joints).reshape(-1, len(part_parent), 3)
+    result = np.empty_like(chains)
+    chain_joints(chains, rotations, part_parent, result)
+    return result.reshape(rest_joints.shape)
 
 
 def descendants(part_parent: Integer[np.ndarray, " p"]) -> np.ndarray:

@@ -13,7 +13,7 @@ def somebody(capture: Capture) -> Remark | None:
     if capture.body is not None:
         return None
     if not capture.bodies:
-        reason = "Of 0 people found in the picture none can be measured."
+        reason = "Nobody was found in the picture who can be measured."
     else:
         reason = f"{len(capture.bodies)} people were found, but nobody where the points lie."
     return Finding(

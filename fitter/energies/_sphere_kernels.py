@@ -30,6 +30,25 @@ def ring_spheres(vertices, pointers, indices, weights, fillings, centres, radii)
 
 @no_type_check
 @njit(cache=True, fastmath=True)
+def squared_overlaps(centres, radii, pairs):
+    """Sum of squared overlaps; most pairs are apart, which their squared distance tells."""
+    total = 0.0
+    for q in range(len(pairs)):
+        a = pairs[q, 0]
+        b = pairs[q, 1]
+        dx = centres[a, 0] - centres[b, 0]
+        dy = centres[a, 1] - centres[b, 1]
+        dz = centres[a, 2] - centres[b, 2]
+        reach = radii[a] + radii[b]
+        squared = dx * dx + dy * dy + dz * dz
+        if squared < reach * reach:
+            overlap = reach - sqrt(squared)
+            total += overlap * overlap
+    return total
+
+
+@no_type_check
+@njit(cache=True, fastmath=True)
 def pair_overlaps(centres, radii, pairs, result):
     """Sum of radii minus distance for each pair."""
     for q in range(len(pairs)):

@@ -1,10 +1,12 @@
 """Everything about a body model that all fits with it share; built once per gender."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
 
+from fitter.arrays import Vertices
+from fitter.body.lighter_model import LighterModel, lighter_model
 from fitter.body.model import BodyModel
 from fitter.body.pose_prior import PosePrior, pose_prior
 from fitter.body.scape import ScapeEvaluator
@@ -36,6 +38,8 @@ class FittingOperators:
         to the body.
     stance_vectors
         What the camera's tilt is found from (:mod:`fitter.energies.stance`).
+    whole
+        The body that these are the lighter operators of; None where they are its own.
     """
 
     model: BodyModel
@@ -50,6 +54,36 @@ class FittingOperators:
     joint_attachments: Attachments
     stance_vectors: Float[np.ndarray, "9 p"]
     shaded: SurfaceSample
+    whole: "WholeBody | None" = None
+
+    def whole_vertices(self, parameters: BodyParameters) -> Vertices:
+        """Posed vertices of the whole body, camera frame, metres."""
+        whole = self if self.whole is None else self.whole.operators
+        return whole.evaluator.vertices(parameters)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class WholeBody:
+    """What is drawn and reported of a body that is searched for on fewer vertices.
+
+    Attributes
+    ----------
+    operators
+        Of the whole body; ``shaded`` is the lighter one's sample.
+    lighter
+        The lighter model's place on the whole one.
+    """
+
+    operators: FittingOperators
+    lighter: LighterModel
+
+
+def searched_operators(model: BodyModel) -> FittingOperators:
+    """Prepare a model for searching on fewer vertices; ``whole`` leads back to all of them."""
+    lighter = lighter_model(model)
+    searched = fitting_operators(lighter.model)
+    whole = replace(fitting_operators(model), shaded=lighter.whole_sample(searched.shaded))
+    return replace(searched, whole=WholeBody(operators=whole, lighter=lighter))
 
 
 def fitting_operators(model: BodyModel) -> FittingOperators:

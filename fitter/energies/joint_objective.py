@@ -16,7 +16,7 @@ import numpy as np
 
 from fitter.arrays import Shape
 from fitter.energies.attributes import NOTHING_KNOWN, KnownAttributes, attribute_energy
-from fitter.energies.objective import Candidate, Objective
+from fitter.energies.objective import Body, Candidate, Objective
 from fitter.energies.priors import ShapePrior
 from fitter.parameters import BodyParameters
 
@@ -67,7 +67,7 @@ class JointObjective:
     shape_prior: ShapePrior
     attributes: KnownAttributes
 
-    def evaluate(self, bodies: Sequence[BodyParameters]) -> JointCandidate:
+    def evaluate(self, bodies: Sequence[Body]) -> JointCandidate:
         """The true energy of bodies of one shape.
 
         Raises
@@ -76,7 +76,7 @@ class JointObjective:
             If a term is not finite.
         """
         found = [view.evaluate(body) for view, body in zip(self.views, bodies, strict=True)]
-        shape = bodies[0].shape
+        shape = found[0].parameters.shape
         energies: dict[str, float] = {}
         for each in found:
             for name, energy in each.energies.items():

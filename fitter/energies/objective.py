@@ -6,7 +6,7 @@ needs to know what is plausible.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 from jaxtyping import Float
@@ -75,8 +75,8 @@ class PictureEvidence:
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class Candidate:
-    """One body with everything its energies were computed from.
+class SeenBody:
+    """One body as a camera sees it: everything that energies are computed from.
 
     ``joints`` (p, 3) lie in the camera frame, metres; ``tilt`` is the camera's, as they tell it.
     """
@@ -90,12 +90,22 @@ class Candidate:
     tilt: Tilt
     spheres: Float[np.ndarray, "s 3"]
     radii: Float[np.ndarray, " s"]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Candidate(SeenBody):
+    """A body with its energies under one objective."""
+
     energies: Mapping[str, float]
 
     @property
     def total(self) -> float:
         """The sum of all terms, nats."""
         return sum(self.energies.values())
+
+
+Body = BodyParameters | SeenBody
+"""A body, or one that was seen already and need not be rendered again."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -113,7 +123,32 @@ class Objective:
     attributes: KnownAttributes = NOTHING_KNOWN
     posture: Posture = Posture.ANY
 
-    def evaluate(self, parameters: BodyParameters) -> Candidate:
+    def see(self, body: Body) -> SeenBody:
+        """A body posed and rendered; one that was seen before is returned as it is.
+
+        Evidence and scales have no part in it: what was seen under one objective can be judged
+        under others of the same picture.
+        """
+        if isinstance(body, SeenBody):
+            return body
+        operators, evidence = self.operators, self.evidence
+        vertices = operators.evaluator.vertices(body)
+        rendering = render(vertices, operators.model.triangles, evidence.camera)
+        joints = regress(operators.model.joint_regressor, vertices)
+        spheres, radii = sphere_positions(operators.penetration, vertices)
+        return SeenBody(
+            parameters=body,
+            vertices=vertices,
+            rendering=rendering,
+            edges=model_edges(rendering, operators.topology),
+            landmarks=regress(evidence.clicks.landmarks, vertices),
+            joints=joints,
+            tilt=most_probable_tilt(joints, operators.stance_vectors, self.posture),
+            spheres=spheres,
+            radii=radii,
+        )
+
+    def evaluate(self, body: Body) -> Candidate:
         """The true energy of a body.
 
         Raises
@@ -121,30 +156,27 @@ class Objective:
         NumericalError
             If a term is not finite.
         """
+        seen = self.see(body)
         operators, evidence, scales = self.operators, self.evidence, self.scales
-        vertices = operators.evaluator.vertices(parameters)
-        rendering = render(vertices, operators.model.triangles, evidence.camera)
-        edges = model_edges(rendering, operators.topology)
-        landmarks = regress(evidence.clicks.landmarks, vertices)
-        joints = regress(operators.model.joint_regressor, vertices)
-        tilt = most_probable_tilt(joints, operators.stance_vectors, self.posture)
-        spheres, radii = sphere_positions(operators.penetration, vertices)
+        parameters, rendering = seen.parameters, seen.rendering
         energies = {
             "silhouette": silhouette_energy(rendering, evidence.silhouette, scales)
             if evidence.lines is None
             else line_energy(rendering, evidence.lines, scales),
-            "edges": edge_energy(edges, evidence.edges, scales, evidence.bare),
-            "penetration": penetration_energy(spheres, radii, operators.penetration, scales),
-            "clicks": click_energy(landmarks, evidence.clicks, evidence.camera, scales),
+            "edges": edge_energy(seen.edges, evidence.edges, scales, evidence.bare),
+            "penetration": penetration_energy(
+                seen.spheres, seen.radii, operators.penetration, scales
+            ),
+            "clicks": click_energy(seen.landmarks, evidence.clicks, evidence.camera, scales),
             "shape_prior": self.shape_prior.energy(parameters.shape),
             "pose_prior": 0.5
             * float((prior_residuals(operators.pose_prior, parameters.pose) ** 2).sum()),
-            "stance": tilt.energy,
+            "stance": seen.tilt.energy,
         }
         if len(self.attributes.standard_errors):
             energies["attributes"] = attribute_energy(self.attributes, parameters.shape)
         if evidence.slants is not None:
-            energies["limb_slants"] = slant_energy(landmarks, evidence.slants)
+            energies["limb_slants"] = slant_energy(seen.landmarks, evidence.slants)
         if evidence.shading is not None:
             shading = evidence.shading.about(parameters.translation)
             energies["shading"] = shading_energy(rendering, shading, scales)
@@ -153,15 +185,7 @@ class Objective:
                 message = f"The {name} energy is {value}."
                 raise NumericalError(message)
         return Candidate(
-            parameters=parameters,
-            vertices=vertices,
-            rendering=rendering,
-            edges=edges,
-            landmarks=landmarks,
-            joints=joints,
-            tilt=tilt,
-            spheres=spheres,
-            radii=radii,
+            **{each.name: getattr(seen, each.name) for each in fields(SeenBody)},
             energies=energies,
         )
 

@@ -13,7 +13,7 @@ from scipy.spatial import KDTree
 
 from fitter.arrays import Vertices
 from fitter.body.model import BodyModel, SparseRows
-from fitter.energies._sphere_kernels import pair_overlaps, ring_spheres
+from fitter.energies._sphere_kernels import pair_overlaps, ring_spheres, squared_overlaps
 from fitter.energies.rows import PositionRows
 from fitter.energies.scales import EnergyScales
 from fitter.numerics.meshes import vertex_areas
@@ -110,8 +110,8 @@ def penetration_energy(
     scales: EnergyScales,
 ) -> float:
     """Half the sum of squared overlaps over σ²."""
-    overlap = np.maximum(sphere_overlaps(spheres, radii, proxy.pairs), 0.0)
-    return 0.5 * float((overlap**2).sum()) / scales.penetration_sigma_m**2
+    total = squared_overlaps(spheres, radii, proxy.pairs)
+    return 0.5 * float(total) / scales.penetration_sigma_m**2
 
 
 def penetration_rows(

@@ -5,7 +5,7 @@ samples of each line that can be used, inclusive. A side is a row of nine number
 colours and the upper triangle of their covariance.
 """
 
-from math import exp, log, pi, sqrt
+from math import exp, factorial, log, pi, sqrt
 from typing import no_type_check
 
 import numpy as np
@@ -25,6 +25,13 @@ NEGLIGIBLE = 12.0
 """Negative logarithm of a density that is negligible against that of odd pixels."""
 
 NEVER = 1e300
+
+UNRELATED = 30.0
+"""Negative logarithm of a neighbour's weight that is not worth counting."""
+
+
+SERIES = tuple(1.0 / factorial(n) for n in range(12, -1, -1))
+"""Of the exponential function, the highest power first."""
 
 
 @no_type_check
@@ -99,6 +106,46 @@ def side_sums(samples, first, last, boundaries, least, most, inside, outside):
 
 @no_type_check
 @njit(cache=True, nogil=True, error_model="numpy")
+def neighbours(centres, normals, spread):
+    """Weights with which lines learn from one another: near ones that face the same way.
+
+    Returns the pairs' weights one line after the other, the other line of each, and where each
+    line's begin. Weights below a ten-billionth are left out: nearly all.
+    """
+    count = centres.shape[0]
+    scale = 0.5 / spread**2
+    starts = np.zeros(count + 1, dtype=np.int64)
+    others = np.empty(count * count, dtype=np.int32)
+    weights = np.empty(count * count)
+    total = 0
+    for i in range(count):
+        for j in range(count):
+            x, y = centres[i, 0] - centres[j, 0], centres[i, 1] - centres[j, 1]
+            exponent = scale * (x * x + y * y)
+            alike = normals[i, 0] * normals[j, 0] + normals[i, 1] * normals[j, 1]
+            if exponent < UNRELATED and alike > 0.0:
+                others[total] = j
+                weights[total] = exp(-exponent) * alike * alike
+                total += 1
+        starts[i + 1] = total
+    return weights[:total].copy(), others[:total].copy(), starts
+
+
+@no_type_check
+@njit(cache=True, nogil=True, error_model="numpy")
+def gathered(weights, others, starts, sums):
+    """The lines' ``sums`` (k, c) weighted over each line's neighbours."""
+    result = np.zeros(sums.shape)
+    for i in range(sums.shape[0]):
+        for pair in range(starts[i], starts[i + 1]):
+            weight, other = weights[pair], others[pair]
+            for c in range(sums.shape[1]):
+                result[i, c] += weight * sums[other, c]
+    return result
+
+
+@no_type_check
+@njit(cache=True, nogil=True, error_model="numpy")
 def boundary_posteriors(
     samples, first, last, lowest, highest, inside, outside, coverage, independence, means, variances
 ):
@@ -109,19 +156,40 @@ def boundary_posteriors(
     uniform between ``lowest`` and ``highest``.
     """
     reach = (samples.shape[1] - 1) // 2
-    mixtures = coverage.shape[0]
-    costs = np.empty((samples.shape[1], mixtures))
+    blurred = 2 * BLUR * PLACES + 1
+    densities = np.empty((blurred, samples.shape[1]))
+    planes = np.empty((3, samples.shape[1]))
+    # Costs of all samples before one, if they show the person, and if they show the background.
+    person = np.zeros(samples.shape[1] + 1)
+    background = np.zeros(samples.shape[1] + 1)
     places = np.empty((2 * reach * PLACES + 1, 2))
     for k in range(samples.shape[0]):
-        _pixel_costs(samples[k], first[k], last[k], inside[k], outside[k], coverage, costs)
+        start = int(np.ceil(lowest[k] * PLACES))
+        stop = int(np.floor(highest[k] * PLACES)) + 1
+        near = max(first[k], reach + start // PLACES - BLUR)
+        far = min(last[k], reach + stop // PLACES + BLUR)
+        for j in range(first[k], last[k] + 1):
+            for c in range(3):
+                planes[c, j] = samples[k, j, c]
+        _pixel_densities(
+            planes, first[k], last[k], near, far, inside[k], outside[k], coverage, densities
+        )
+        for j in range(first[k], last[k] + 1):
+            person[j + 1] = person[j] - log(densities[blurred - 1, j])
+            background[j + 1] = background[j] - log(densities[0, j])
         count = 0
         least = NEVER
-        start = int(np.ceil(lowest[k] * PLACES))
-        for step in range(start, int(np.floor(highest[k] * PLACES)) + 1):
-            total = 0.0
-            for j in range(first[k], last[k] + 1):
-                depth = step - (j - reach) * PLACES + BLUR * PLACES
-                total += costs[j, min(max(depth, 0), mixtures - 1)]
+        for step in range(start, stop):
+            # Samples up to ``inner`` show the person alone, those from ``outer`` on the background.
+            inner = min(max((step - BLUR * PLACES) // PLACES + reach, first[k] - 1), last[k])
+            outer = max(-((-step - BLUR * PLACES) // PLACES) + reach, inner + 1)
+            outer = min(outer, last[k] + 1)
+            total = person[inner + 1] - person[first[k]] + background[last[k] + 1]
+            total -= background[outer]
+            mixed = 1.0
+            for j in range(inner + 1, outer):
+                mixed *= densities[step - (j - reach) * PLACES + BLUR * PLACES, j]
+            total -= log(mixed)
             places[count, 0] = step / PLACES
             places[count, 1] = independence * total
             least = min(least, places[count, 1])
@@ -138,11 +206,13 @@ def boundary_posteriors(
 
 @no_type_check
 @njit(cache=True, nogil=True, error_model="numpy")
-def _pixel_costs(samples, first, last, inside, outside, coverage, costs):
-    """Negative log density of each sample for each share of the person it may show."""
+def _pixel_densities(planes, first, last, near, far, inside, outside, coverage, densities):
+    """Density of each sample for each share of the person it may show.
+
+    Only samples from ``near`` to ``far`` may show both sides.
+    """
     factor = np.empty(6)
     covariance = np.empty(6)
-    odd = -log(ODD_SHARE)
     for m in range(coverage.shape[0]):
         share = coverage[m]
         rest = 1.0 - share
@@ -152,16 +222,33 @@ def _pixel_costs(samples, first, last, inside, outside, coverage, costs):
         red = share * inside[0] + rest * outside[0]
         green = share * inside[1] + rest * outside[1]
         blue = share * inside[2] + rest * outside[2]
-        for j in range(first, last + 1):
-            x, y, z = samples[j, 0] - red, samples[j, 1] - green, samples[j, 2] - blue
+        one_side = m in (0, coverage.shape[0] - 1)
+        start, stop = (first, last + 1) if one_side else (near, far + 1)
+        row, reds = densities[m, start:stop], planes[0, start:stop]
+        greens, blues = planes[1, start:stop], planes[2, start:stop]
+        for i in range(row.size):
+            x, y, z = reds[i] - red, greens[i] - green, blues[i] - blue
             u = factor[0] * x
             v = factor[1] * x + factor[2] * y
             w = factor[3] * x + factor[4] * y + factor[5] * z
             nats = 0.5 * (u * u + v * v + w * w) + norm
-            # Anything this unlikely is odd: that spares the logarithm for most samples and shares.
-            costs[j, m] = odd
-            if nats < NEGLIGIBLE:
-                costs[j, m] = -log((1.0 - ODD_SHARE) * exp(-nats) + ODD_SHARE)
+            # Anything this unlikely is odd.
+            likely = (1.0 - ODD_SHARE) * _exponential(-min(nats, NEGLIGIBLE))
+            row[i] = ODD_SHARE + (likely if nats < NEGLIGIBLE else 0.0)
+
+
+@no_type_check
+@njit(cache=True, nogil=True, error_model="numpy")
+def _exponential(x):
+    """e^x for |x| up to 12, to 1e-9 of itself: a series, which is vectorised."""
+    y = 0.0625 * x
+    power = SERIES[0]
+    for n in range(1, len(SERIES)):
+        power = SERIES[n] + power * y
+    power *= power
+    power *= power
+    power *= power
+    return power * power
 
 
 @no_type_check

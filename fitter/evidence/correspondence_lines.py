@@ -59,6 +59,10 @@ LEAST_SAMPLES = 3
 """Samples needed on either side. With fewer, the gap is too narrow or the limb too thin to tell."""
 
 
+Neighbours = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""What :func:`fitter.evidence._line_kernels.neighbours` returns."""
+
+
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class CorrespondenceLines:
     """Lines across the outer contour of one body, and the boundary each has found.
@@ -134,7 +138,7 @@ def correspondence_lines(
     offsets, variances = _boundaries(
         samples,
         (first, last),
-        _neighbourhood(outline, normals, NEIGHBOURHOOD_M * pixels_per_metre),
+        kernels.neighbours(outline, normals, NEIGHBOURHOOD_M * pixels_per_metre),
         window=window,
         depth=depth,
     )
@@ -174,18 +178,10 @@ def _spread_along(
     return picked, total / max(len(picked), 1)
 
 
-def _neighbourhood(centres: Points2D, normals: Points2D, spread: float) -> Float[np.ndarray, "k k"]:
-    """Weights with which lines learn from one another: near ones that face the same way."""
-    squares = (centres**2).sum(axis=1)
-    apart = squares[:, None] + squares - 2.0 * centres @ centres.T
-    alike = np.maximum(normals @ normals.T, 0.0)
-    return np.exp(-0.5 * np.maximum(apart, 0.0) / spread**2) * alike**2
-
-
 def _boundaries(
     samples: Float[np.ndarray, "k s 3"],
     usable: tuple[Integer[np.ndarray, " k"], Integer[np.ndarray, " k"]],
-    neighbourhood: Float[np.ndarray, "k k"],
+    neighbours: Neighbours,
     *,
     window: int,
     depth: int,
@@ -213,8 +209,8 @@ def _boundaries(
             last,
             lowest,
             highest,
-            _means_and_covariances(neighbourhood @ inside),
-            _means_and_covariances(neighbourhood @ outside),
+            _means_and_covariances(kernels.gathered(*neighbours, inside)),
+            _means_and_covariances(kernels.gathered(*neighbours, outside)),
             coverage,
             INDEPENDENCE,
             offsets,

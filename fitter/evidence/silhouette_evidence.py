@@ -10,6 +10,7 @@ from scipy.special import ndtri
 from fitter.arrays import GreyImage, Mask, Points2D
 from fitter.evidence.sampling import sample
 from fitter.numerics.distance_map import exact_distances
+from fitter.numerics.windows import window_about
 
 # Outline points are taken this far apart: denser ones repeat each other.
 _SPACING_PX = 3.0
@@ -99,8 +100,13 @@ def signed_distance(mask: Mask) -> GreyImage:
     nearer.
     """
     region = np.ascontiguousarray(mask).view(np.uint8)
-    outside, inside = exact_distances(1 - region), exact_distances(region)
-    return np.where(mask, 0.5 - inside, outside - 0.5).astype(np.float32)
+    signed = exact_distances(1 - region) - np.float32(0.5)
+    if mask.any():
+        # The nearest pixel outside lies within a pixel of the mask's rectangle.
+        window = window_about(mask, margin=1)
+        inside = exact_distances(region[window])
+        signed[window] = np.where(mask[window], np.float32(0.5) - inside, signed[window])
+    return signed
 
 
 def _outline(mask: Mask) -> tuple[Points2D, Points2D]:

@@ -1,22 +1,24 @@
 """Every file a fit gives back but the result itself."""
 
+from functools import lru_cache
+
+from fitter.arrays import PerVertex
 from fitter.body.model import BodyModel
-from fitter.export.display import finer, png
-from fitter.export.gltf import body_canonical_glb, body_posed_glb
+from fitter.export.antialiasing import render_finely, vertex_pictures
+from fitter.export.display import png
+from fitter.export.gltf import body_canonical_glb, body_posed_glb, lit_vertices
 from fitter.export.pictures import (
-    SUPERSAMPLING,
     drawing_camera,
     drawing_picture,
+    drawing_pixels,
     mask_levels,
     overlay_picture,
     trimap_levels,
-    vertex_value_picture,
 )
 from fitter.export.views import views_picture
+from fitter.numerics.mesh_topology import MeshTopology, mesh_topology
 from fitter.observation.decoding import decode_picture
-from fitter.render.rasterizer import render
 from fitter.render.reflectance import shading_terms
-from fitter.render.shadow import lamp_seen
 from fitter.result import FitResult, PictureFit, before_shading
 
 
@@ -39,8 +41,9 @@ def artifacts(result: FitResult, *, model: BodyModel, image: bytes) -> dict[str,
     """
     triangles = model.triangles
     camera = drawing_camera(result.person.camera)
+    lit = lit_vertices(result.found, model)
     files = {
-        "body_posed.glb": body_posed_glb(result.found, model),
+        "body_posed.glb": body_posed_glb(result.found, model, lit=lit),
         "body_canonical.glb": body_canonical_glb(result, model),
         "segmentation.png": png(mask_levels(result.pictures.segmentation, result.camera, camera)),
         "overlay.png": overlay_png(result.found, model=model, image=image),
@@ -56,7 +59,7 @@ def artifacts(result: FitResult, *, model: BodyModel, image: bytes) -> dict[str,
     }
     if result.pictures.trimap is not None:
         files["trimap.png"] = png(trimap_levels(result.pictures.trimap, result.camera, camera))
-    files |= _reflectance_pictures(result.found, model)
+    files |= _reflectance_pictures(result.found, model, lit)
     outlined = before_shading(result)
     if outlined is not None:
         files["body_posed_se.glb"] = body_posed_glb(outlined.found, model)
@@ -69,13 +72,25 @@ def overlay_png(found: PictureFit, *, model: BodyModel, image: bytes) -> bytes:
     image_camera = found.person.camera
     camera = drawing_camera(image_camera)
     picture = decode_picture(
-        image, field="image", max_pixels=image_camera.width * image_camera.height
+        image,
+        field="image",
+        max_pixels=image_camera.width * image_camera.height,
+        enough_pixels=drawing_pixels(image_camera),
     )
-    drawn = drawing_picture(picture.pixels, image_camera, camera)
-    return png(overlay_picture(drawn, found.posed_vertices, model.triangles, camera))
+    drawn = drawing_picture(picture.pixels, image_camera, camera, reduction=picture.reduction)
+    return png(
+        overlay_picture(drawn, found.posed_vertices, model.triangles, _topology(model), camera)
+    )
 
 
-def _reflectance_pictures(found: PictureFit, model: BodyModel) -> dict[str, bytes]:
+@lru_cache(maxsize=2)
+def _topology(model: BodyModel) -> MeshTopology:
+    return mesh_topology(model.triangles, vertex_count=len(model.mean_vertices))
+
+
+def _reflectance_pictures(
+    found: PictureFit, model: BodyModel, lit: PerVertex | None
+) -> dict[str, bytes]:
     """Fig. 7: albedo, the Lambertian part of Eq. 1, and all of it, as the camera sees them.
 
     With surroundings where the light has them, and then with cast shadows.
@@ -83,27 +98,21 @@ def _reflectance_pictures(found: PictureFit, model: BodyModel) -> dict[str, byte
     light, reflectance = found.person.light, found.person.reflectance
     if light is None or reflectance is None:
         return {}
-    camera = finer(drawing_camera(found.person.camera), SUPERSAMPLING)
-    rendering = render(found.posed_vertices, model.triangles, camera)
+    fine = render_finely(found.posed_vertices, model.triangles, drawing_camera(found.person.camera))
     terms = shading_terms(
         found.posed_vertices,
-        rendering.vertex_normals,
+        fine.rendering.vertex_normals,
         light=light,
         body_centre=found.person.body.translation,
         specular_exponent=reflectance.specular_exponent,
-        lit=lamp_seen(
-            found.posed_vertices,
-            model.triangles,
-            light=light,
-            body_centre=found.person.body.translation,
-        ),
+        lit=lit,
     )
     lambertian = reflectance.ambient + reflectance.albedo * terms.diffuse
     colour = found.person.albedo_rgb
-    albedo = reflectance.albedo if colour is None else colour
     values = {
-        "albedo.png": albedo,
+        "albedo.png": reflectance.albedo if colour is None else colour,
         "shading_lambertian.png": lambertian,
         "shading.png": lambertian + reflectance.specularity * terms.specular,
     }
-    return {name: png(vertex_value_picture(value, rendering)) for name, value in values.items()}
+    pictures = vertex_pictures(list(values.values()), fine)
+    return {name: png(picture) for name, picture in zip(values, pictures, strict=True)}

@@ -52,8 +52,9 @@ class BinaryChunk:
         }
         if bounds:
             # Widening float32 to JSON's double keeps the bounds equal to the stored numbers.
-            accessor["min"] = columns.min(axis=0).tolist()
-            accessor["max"] = columns.max(axis=0).tolist()
+            by_column = np.ascontiguousarray(columns.T)
+            accessor["min"] = by_column.min(axis=1).tolist()
+            accessor["max"] = by_column.max(axis=1).tolist()
         view: dict[str, object] = {
             "buffer": 0,
             "byteOffset": len(self._bytes),

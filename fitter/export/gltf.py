@@ -24,12 +24,14 @@ from fitter.render.shadow import lamp_seen
 from fitter.result import FitResult, PictureFit
 
 
-def body_posed_glb(found: PictureFit, model: BodyModel) -> bytes:
-    """The posed body with its camera, light and reflectance."""
+def body_posed_glb(found: PictureFit, model: BodyModel, *, lit: PerVertex | None = None) -> bytes:
+    """The posed body with its camera, light and reflectance.
+
+    ``lit`` is what :func:`lit_vertices` gives, for a caller that has it already.
+    """
     person = found.person
     nodes: list[Node] = [BODY_NODE, CAMERA_NODE]
     shining: dict[str, object] = {}
-    lit: PerVertex | None = None
     if person.light is not None and person.reflectance is not None:
         light, placement = light_and_node(
             person.light,
@@ -39,12 +41,7 @@ def body_posed_glb(found: PictureFit, model: BodyModel) -> bytes:
         )
         nodes.append(placement)
         shining = {PUNCTUAL: {"lights": [light]}}
-        lit = lamp_seen(
-            found.posed_vertices,
-            model.triangles,
-            light=person.light,
-            body_centre=person.body.translation,
-        )
+        lit = lit_vertices(found, model) if lit is None else lit
     nodes, frame = set_upright(nodes, person, found.posed_vertices)
     document = gltf_document(
         nodes, model, name="body_posed", frame=frame, extras=_provenance(found)
@@ -63,6 +60,22 @@ def body_posed_glb(found: PictureFit, model: BodyModel) -> bytes:
         lit=lit,
     )
     return pack_glb(document, binary)
+
+
+def lit_vertices(found: PictureFit, model: BodyModel) -> PerVertex | None:
+    """Per vertex, the share of the lamp that cast shadows leave; None where there is no light.
+
+    None, too, for a light without surroundings: under Eq. 1 nothing is in shadow.
+    """
+    person = found.person
+    if person.light is None or person.reflectance is None:
+        return None
+    return lamp_seen(
+        found.posed_vertices,
+        model.triangles,
+        light=person.light,
+        body_centre=person.body.translation,
+    )
 
 
 def body_canonical_glb(result: FitResult, model: BodyModel) -> bytes:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from enum import StrEnum
+from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
@@ -79,8 +80,12 @@ def gltf_document(
     }
 
 
+@cache
 def generator_name() -> str:
-    """The program and its version as glTF's ``asset.generator`` wants them."""
+    """The program and its version as glTF's ``asset.generator`` wants them.
+
+    Once a process: finding the version reads and parses the package's metadata.
+    """
     try:
         return f"Maquette {version('maquette')}"
     except PackageNotFoundError:

@@ -9,18 +9,15 @@ from jaxtyping import UInt8
 
 from fitter.arrays import Triangles, Vector3, Vertices
 from fitter.body.scape import CAMERA_AXES
-from fitter.export.display import block_means, finer, to_levels
-from fitter.observation.colour import display_from_linear
+from fitter.export.antialiasing import render_finely, vertex_pictures
+from fitter.export.display import slope_bounds
 from fitter.parameters import CameraTilt
 from fitter.person.upright import upright_rotation
 from fitter.render.camera import Camera
-from fitter.render.interpolation import shade_image
-from fitter.render.rasterizer import render
 
 PANEL_HEIGHT_PX = 720
 PANEL_WIDTH_PX = 520
 MARGIN_SHARE = 0.06
-SUPERSAMPLING = 2
 
 CANONICAL_DISTANCE_M = 6.0
 """From where the canonical body is seen: far enough that near parts do not swell."""
@@ -40,7 +37,6 @@ CLAY = np.array([0.62, 0.53, 0.47])
 """Linear albedo."""
 
 FILL_LIGHT = 0.18
-PAPER = 1.0
 
 LABEL_COLOUR = (70, 70, 70)
 
@@ -137,8 +133,7 @@ def framing_camera(vertices: Vertices, *, width: int, height: int) -> Camera:
 
     Changing only focal length and principal point crops and magnifies; the perspective stays.
     """
-    flat = vertices[:, :2] / vertices[:, 2:]
-    low, high = flat.min(axis=0), flat.max(axis=0)
+    low, high = slope_bounds(vertices)
     inner = (1.0 - 2.0 * MARGIN_SHARE) * np.array([width, height])
     focal = float((inner / (high - low)).min())
     centre = 0.5 * np.array([width, height]) - focal * 0.5 * (low + high)
@@ -180,10 +175,8 @@ def clay_picture(
     vertices: Vertices, triangles: Triangles, camera: Camera
 ) -> UInt8[np.ndarray, "h w 3"]:
     """A body of clay before white paper; the vertices in the camera's frame, metres."""
-    rendering = render(vertices, triangles, finer(camera, SUPERSAMPLING))
-    lit = np.clip(rendering.vertex_normals @ TO_LIGHT, 0.0, 1.0)
-    # Nothing lies outside the body, so both means are weighted by the pixel's coverage.
-    grey = block_means(shade_image(rendering, FILL_LIGHT + (1.0 - FILL_LIGHT) * lit), SUPERSAMPLING)
-    coverage = block_means(rendering.silhouette.astype(np.float32), SUPERSAMPLING)
-    linear = grey[..., None] * CLAY + PAPER * (1.0 - coverage[..., None])
-    return to_levels(display_from_linear(linear))
+    fine = render_finely(vertices, triangles, camera)
+    lit = np.clip(fine.rendering.vertex_normals @ TO_LIGHT, 0.0, 1.0)
+    shading = FILL_LIGHT + (1.0 - FILL_LIGHT) * lit
+    (levels,) = vertex_pictures([shading[:, None] * CLAY], fine)
+    return levels

@@ -45,13 +45,13 @@ def dressed(
     """
     if observation.clothing is Clothing.TIGHT:
         return objective
-    vertices = prepared.operators.evaluator.vertices(near)
-    rendering = render(vertices, prepared.operators.model.triangles, observation.camera)
+    vertices = prepared.searched.evaluator.vertices(near)
+    rendering = render(vertices, prepared.searched.model.triangles, observation.camera)
     silhouette = objective.evidence.silhouette
     regions = PersonRegions(
         person=silhouette.mask,
         parts=_parts(rendering, prepared),
-        part_names=prepared.operators.model.part_names,
+        part_names=prepared.searched.model.part_names,
         face=face_point(_clicked_face(observation), _nose(rendering, prepared)),
         pixels_per_metre=observation.camera.focal_length_px / float(near.translation[2]),
     )
@@ -150,7 +150,7 @@ _NOT_LOOSE = FitWarning(
 def _parts(rendering: Rendering, prepared: PreparedModel) -> np.ndarray:
     """(h, w) index of the part each pixel shows, -1 off the body."""
     faces = rendering.face_ids
-    return np.where(faces >= 0, prepared.operators.model.part_of_triangle[faces], -1)
+    return np.where(faces >= 0, prepared.searched.model.part_of_triangle[faces], -1)
 
 
 def _clicked_face(observation: Observation) -> np.ndarray:
@@ -162,7 +162,7 @@ def _clicked_face(observation: Observation) -> np.ndarray:
 
 def _nose(rendering: Rendering, prepared: PreparedModel) -> np.ndarray | None:
     """Where the nose of a rendered body is seen; None where it is hidden."""
-    landmarks = prepared.operators.model.landmarks
+    landmarks = prepared.searched.model.landmarks
     point = regress(landmarks, rendering.vertices)[landmarks.names.index("nose")]
     place = rendering.camera.project(point[None])[0]
     column, row = int(place[0]), int(place[1])

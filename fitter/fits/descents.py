@@ -4,15 +4,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from fitter.arrays import Image
-from fitter.energies.objective import Candidate, Objective
+from fitter.energies.objective import Body, Candidate, Objective
 from fitter.evidence.intensity import IntensityMap
 from fitter.observation.observation import Observation
-from fitter.optimizer.alternation import BodySearch, ShadedFit, fit_shading
-from fitter.optimizer.damped_descent import EnergyObserver
+from fitter.optimizer.alternation import ROUND_TOLERANCES, BodySearch, ShadedFit, fit_shading
+from fitter.optimizer.damped_descent import SETTLED_NATS, EnergyObserver
 from fitter.optimizer.gauss_newton import Minimum
 from fitter.optimizer.renewed_lines import renewing_lines, with_lines_about
 from fitter.optimizer.search import SearchLimits, body_search, limits_of
-from fitter.parameters import BodyParameters, Light
+from fitter.parameters import Light
 from fitter.request import FitRequest, OptimizerKind, OutlineKind, SurroundingsKind
 
 
@@ -38,12 +38,14 @@ class Descents:
     meets_lines: bool
     surroundings: SurroundingsKind
 
-    def search(self, max_evaluations: int, report: EnergyObserver) -> BodySearch:
+    def search(
+        self, max_evaluations: int, report: EnergyObserver, settled_nats: float = SETTLED_NATS
+    ) -> BodySearch:
         """One search, against the outline its objective already has."""
-        return body_search(self.optimizer, max_evaluations, report)
+        return body_search(self.optimizer, max_evaluations, report, settled_nats)
 
     def silhouette_and_edges(
-        self, objective: Objective, start: BodyParameters, report: EnergyObserver
+        self, objective: Objective, start: Body, report: EnergyObserver
     ) -> Minimum:
         """From a body near the person to the minimum of E1."""
         settle = self.search(self.limits.contest, report)
@@ -60,12 +62,15 @@ class Descents:
         report: EnergyObserver,
     ) -> ShadedFit | None:
         """From the minimum of E1 to that of E2; None where shading tells nothing."""
-        search = self._renewing([self.search(self.limits.shading_round, report)])
+        searches = [
+            self._renewing([self.search(self.limits.shading_round, report, settled_nats)])
+            for settled_nats in ROUND_TOLERANCES
+        ]
         return fit_shading(
-            objective, start, intensity, lights, search=search, surroundings=self.surroundings
+            objective, start, intensity, lights, searches=searches, surroundings=self.surroundings
         )
 
-    def about(self, objective: Objective, body: BodyParameters) -> Objective:
+    def about(self, objective: Objective, body: Body) -> Objective:
         """The objective with the outline that a search from this body would be fitted to."""
         if not self.meets_lines:
             return objective

@@ -14,20 +14,19 @@ from jaxtyping import Float
 from fitter.applications.several_pictures import counted_as
 from fitter.arrays import Shape
 from fitter.energies.joint_objective import JointObjective
-from fitter.energies.objective import Candidate, Objective
+from fitter.energies.objective import Body, Candidate, Objective
 from fitter.energies.priors import population_prior
 from fitter.fits.foretold import Foretold, foretold
 from fitter.fits.joint_view import JointView
 from fitter.fits.lit_view import LitView, first_lit
 from fitter.fits.settling import compared_with, settle
-from fitter.optimizer.alternation import ROUNDS
-from fitter.optimizer.damped_descent import EnergyObserver
+from fitter.optimizer.alternation import ROUND_TOLERANCES
+from fitter.optimizer.damped_descent import SETTLED_NATS, EnergyObserver
 from fitter.optimizer.gauss_newton import Minimum
 from fitter.optimizer.joint_gauss_newton import JointMinimum, minimize_jointly
 from fitter.optimizer.joint_uncertainty import joint_certainty
 from fitter.optimizer.search import limits_of
 from fitter.optimizer.uncertainty import shape_covariance
-from fitter.parameters import BodyParameters
 from fitter.population.known_person import KnownPerson
 from fitter.request import OptimizerKind
 from fitter.result import PictureFit
@@ -65,7 +64,7 @@ def search_jointly(
 
     ``start`` has what is held. Pictures whose request has no shading take part with E1.
     """
-    bodies: Sequence[BodyParameters] = [replace(view.body, shape=start) for view in views]
+    bodies: Sequence[Body] = [replace(view.body, shape=start) for view in views]
     objective = JointObjective(
         views=tuple(view.objective for view in views),
         weight=counted_as(len(views), shared=SHARED_ERROR) / len(views),
@@ -73,30 +72,36 @@ def search_jointly(
         attributes=known.attributes,
     )
 
-    def minimum(energies: Sequence[Objective], most: int) -> JointMinimum:
+    def minimum(
+        energies: Sequence[Objective], most: int, settled_nats: float = SETTLED_NATS
+    ) -> JointMinimum:
         """Search against outlines that are found anew along the present bodies."""
         about = _about(views, energies, bodies)
         return minimize_jointly(
-            objective.with_views(about), bodies, max_evaluations=most, on_energies=report
+            objective.with_views(about),
+            bodies,
+            max_evaluations=most,
+            on_energies=report,
+            settled_nats=settled_nats,
         )
 
     limits = limits_of(OptimizerKind.GAUSS_NEWTON)
     found = minimum([view.objective for view in views], limits.contest)
-    bodies = found.candidate.bodies
+    bodies = found.candidate.views
     found = minimum([view.objective for view in views], limits.silhouette_and_edges)
-    bodies = found.candidate.bodies
+    bodies = found.candidate.views
     lit = [first_lit(view, seen) for view, seen in zip(views, found.candidate.views, strict=True)]
     if any(each.shading is not None for each in lit):
-        for number in range(ROUNDS):
+        for number, settled_nats in enumerate(ROUND_TOLERANCES):
             seen = found.candidate.views
             lit = [each.next(body, number) for each, body in zip(lit, seen, strict=True)]
-            found = minimum([each.energy for each in lit], limits.shading_round)
-            bodies = found.candidate.bodies
+            found = minimum([each.energy for each in lit], limits.shading_round, settled_nats)
+            bodies = found.candidate.views
     return _settled(views, known, objective, lit, found)
 
 
 def _about(
-    views: Sequence[JointView], energies: Sequence[Objective], bodies: Sequence[BodyParameters]
+    views: Sequence[JointView], energies: Sequence[Objective], bodies: Sequence[Body]
 ) -> list[Objective]:
     return [
         view.searches.about(energy, body)

@@ -83,7 +83,7 @@ def outlined(
         known = known_person(request, prepared.population, prepared.operators.evaluator)
     with clock.stage(Stage.INITIAL_POSE):
         initial = initialize_pose(
-            prepared.operators.evaluator,
+            prepared.searched.evaluator,
             camera=observation.camera,
             clicks=clicked_points(observation.clicks),
             shape=known.shape,
@@ -120,14 +120,14 @@ def outlined(
         tried = try_hypotheses(
             far,
             objective,
-            [hypothesis.parameters for hypothesis in hypotheses],
+            # The first reading goes on from where the first search ended.
+            [nearer.candidate, *(each.parameters for each in hypotheses[1:])],
             trial=searches.search(limits.trial, report),
             contenders=limits.contenders,
+            hopeless_nats=limits.hopeless_nats,
             contest=searches.search(limits.contest, report),
         )
-        minimum = searches.silhouette_and_edges(
-            objective, tried.ends[tried.best].parameters, report
-        )
+        minimum = searches.silhouette_and_edges(objective, tried.winner, report)
     return Outlined(
         request=request,
         observation=observation,

@@ -50,9 +50,9 @@ def segmented(
     """
     if observation.mask is not None:
         return None, Segmentation(mask=observation.mask, warnings=border_warnings(observation.mask))
-    vertices = prepared.operators.evaluator.vertices(parameters)
-    silhouette = render(vertices, prepared.operators.model.triangles, observation.camera).silhouette
-    landmarks = prepared.operators.model.landmarks
+    vertices = prepared.searched.evaluator.vertices(parameters)
+    silhouette = render(vertices, prepared.searched.model.triangles, observation.camera).silhouette
+    landmarks = prepared.searched.model.landmarks
     points = observation.camera.project(regress(landmarks, vertices))
     seen = dict(zip(landmarks.names, points, strict=True))
     bones = np.concatenate(
@@ -88,10 +88,10 @@ def silhouette_and_edges(
     pixels_per_metre = observation.camera.focal_length_px / depth
     confidence = _outline_confidence(observation, prepared, near, pixels_per_metre)
     objective = Objective(
-        operators=prepared.operators,
+        operators=prepared.searched,
         evidence=PictureEvidence(
             camera=observation.camera,
-            clicks=click_evidence(prepared.operators.model.landmarks, observation.clicks),
+            clicks=click_evidence(prepared.searched.model.landmarks, observation.clicks),
             slants=limb_slants(observation, prepared, near.shape),
             silhouette=silhouette_evidence(segmentation.mask, confidence),
             edges=edge_cost_map(
@@ -128,8 +128,8 @@ def _outline_confidence(
     pixels_per_metre: float,
 ) -> GreyImage:
     """A map of weights, low where a body near the person has its head and hands."""
-    model = prepared.operators.model
-    projected = observation.camera.project(prepared.operators.evaluator.vertices(near))
+    model = prepared.searched.model
+    projected = observation.camera.project(prepared.searched.evaluator.vertices(near))
     corners = [
         model.triangles[model.part_of_triangle == model.part_names.index(part)]
         for part in DOUBTFUL_PARTS

@@ -86,6 +86,7 @@ def fit(
             _stage(
                 name,
                 candidate,
+                prepared.operators.evaluator.vertices(candidate.parameters),
                 prepared.measuring.canonical.at(candidate.parameters.shape),
                 silhouette_overlap=objective.overlap(candidate),
                 measurements=measure(prepared.measuring, candidate.parameters.shape),
@@ -96,6 +97,7 @@ def fit(
             _stage(
                 "SE" if shaded.shading is None else "SES",
                 final,
+                found.posed_vertices,
                 canonical,
                 silhouette_overlap=found.silhouette_overlap,
                 measurements=tuple(replace(each, standard_error=None) for each in measurements),
@@ -138,6 +140,7 @@ def fit(
 def _stage(
     name: str,
     candidate: Candidate,
+    posed_vertices: Vertices,
     canonical_vertices: Vertices,
     *,
     silhouette_overlap: float,
@@ -146,7 +149,7 @@ def _stage(
     return StageBody(
         name=name,
         body=candidate.parameters,
-        posed_vertices=candidate.vertices,
+        posed_vertices=posed_vertices,
         canonical_vertices=canonical_vertices,
         energies=candidate.energies,
         silhouette_overlap=silhouette_overlap,

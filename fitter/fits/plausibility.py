@@ -75,7 +75,7 @@ def _clear_boundary(observation: Observation, objective: Objective, candidate: C
     pixels_per_metre = objective.scales.pixels_per_metre
     window = max(round(WINDOW_M * pixels_per_metre), LEAST_WINDOW_PX)
     if objective.evidence.lines is None:
-        objective = with_lines_about(objective, candidate.parameters, observation.display)
+        objective = with_lines_about(objective, candidate, observation.display)
     lines = objective.evidence.lines
     if lines is None or not len(lines.variances):
         return 0.0

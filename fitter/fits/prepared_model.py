@@ -5,18 +5,31 @@ from functools import cache
 from pathlib import Path
 
 from fitter.body.model import BodyModel
-from fitter.energies.fitting_operators import FittingOperators, fitting_operators
+from fitter.energies.fitting_operators import FittingOperators, searched_operators
 from fitter.fits.usable_model import usable_model
 from fitter.measurement.anthropometry import MeasuringBody, measuring_body
+from fitter.optimizer.alternation import elimination_ranks
 from fitter.population.measured_population import MeasuredPopulation, measured_population
+from fitter.pose_init.landmark_rig import rig_space
 from fitter.request import Gender
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class PreparedModel:
-    """What a fit needs of a gender."""
+    """What a fit needs of a gender.
+
+    Attributes
+    ----------
+    operators
+        Of the whole body: what is drawn and reported.
+    searched
+        Of the lighter body that searches use.
+    measuring, population
+        Tapes on the whole body, and what they measure on the people it was learned from.
+    """
 
     operators: FittingOperators
+    searched: FittingOperators
     measuring: MeasuringBody
     population: MeasuredPopulation
 
@@ -34,8 +47,17 @@ def prepared_model(gender: Gender, *, models: Path | None = None) -> PreparedMod
 
 @cache
 def _prepared(model: BodyModel) -> PreparedModel:
-    operators = fitting_operators(model)
+    searched = searched_operators(model)
+    assert searched.whole is not None
+    operators = searched.whole.operators
+    # Kept beside the model: found here, every process forked later has them.
+    rig_space(searched.model)
+    elimination_ranks(searched.shaded)
+    elimination_ranks(operators.shaded)
     measuring = measuring_body(model, operators.evaluator)
     return PreparedModel(
-        operators=operators, measuring=measuring, population=measured_population(measuring)
+        operators=operators,
+        searched=searched,
+        measuring=measuring,
+        population=measured_population(measuring),
     )

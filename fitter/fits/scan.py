@@ -248,7 +248,7 @@ def _of_view(
 def _alone(picture: Outlined) -> FittedPerson:
     """The person as the outline of one picture tells them."""
     body = picture.minimum.candidate
-    about = picture.searches.about(picture.objective, body.parameters)
+    about = picture.searches.about(picture.objective, body)
     covariance = shape_covariance(
         certainty(about, body), height_variance=picture.known.height_variance
     )

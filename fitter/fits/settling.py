@@ -75,7 +75,7 @@ def shade(
 
 def compared_with(searches: Descents, shaded: Shaded) -> Objective:
     """E1 with the outline found from the final body: other bodies can be compared with it."""
-    return searches.about(shaded.objective, shaded.minimum.candidate.parameters)
+    return searches.about(shaded.objective, shaded.minimum.candidate)
 
 
 def settle(
@@ -109,7 +109,7 @@ def settle(
     )
     if shading is not None:
         colours = albedo_rgb(
-            candidate,
+            shading.body,
             shading.reflectance.albedo,
             observation.linear_rgb,
             shaded.intensity,
@@ -127,7 +127,7 @@ def settle(
         outcome=outcome_of(
             converged=shaded.minimum.converged, overlap=overlap, verdict=contradicted.verdict
         ),
-        posed_vertices=candidate.vertices,
+        posed_vertices=objective.operators.whole_vertices(candidate.parameters),
         silhouette_overlap=overlap,
         verdict=contradicted.verdict,
         contradictions=contradicted.sentences,

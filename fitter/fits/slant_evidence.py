@@ -20,7 +20,7 @@ def limb_slants(
     if observation.slants is None:
         return None
     names = list(observation.clicks)
-    rig = landmark_rig(prepared.operators.model, shape)
+    rig = landmark_rig(prepared.searched.model, shape)
     reaches = limb_reaches(observation.slants, rig, observation.camera, points=names)
     if not reaches.limbs:
         return None

@@ -5,6 +5,9 @@ from typing import no_type_check
 import numpy as np
 from numba import njit
 
+BORDER_SHARE = 0.5
+"""A region ends where vertices belong to it by half."""
+
 
 @no_type_check
 @njit(cache=True)
@@ -68,13 +71,11 @@ def _walk(
 
 @no_type_check
 @njit(cache=True)
-def trace_section(
-    vertices, shares, triangles, neighbours, allowed, candidates, candidate_vertices, point, normal
-):
-    """Polylines of a plane cut, one after the other.
+def trace_lines(vertices, shares, triangles, neighbours, allowed, candidates, heights, visited):
+    """What :func:`trace_section` returns, of heights above the plane that are known.
 
-    Returns the points with their shares in a fourth column, the edges they lie on, where each
-    polyline starts, and whether it closes.
+    ``candidates`` may be all triangles or those that the plane crosses; ``visited`` is false for
+    each of them before, and true for those on the lines after.
     """
     points = np.empty((2 * candidates.size + 2, 4))
     behind = np.empty((candidates.size + 1, 4))
@@ -82,14 +83,6 @@ def trace_section(
     edges_behind = np.empty((candidates.size + 1, 2), dtype=np.int64)
     starts = np.empty(candidates.size + 1, dtype=np.int64)
     closed = np.empty(candidates.size + 1, dtype=np.bool_)
-    visited = np.zeros(triangles.shape[0], dtype=np.bool_)
-    heights = np.empty(vertices.shape[0])
-    for v in candidate_vertices:
-        heights[v] = (
-            (vertices[v, 0] - point[0]) * normal[0]
-            + (vertices[v, 1] - point[1]) * normal[1]
-            + (vertices[v, 2] - point[2]) * normal[2]
-        )
     total = 0
     lines = 0
     for index in range(candidates.size):
@@ -136,6 +129,29 @@ def trace_section(
 
 @no_type_check
 @njit(cache=True)
+def trace_section(
+    vertices, shares, triangles, neighbours, allowed, candidates, candidate_vertices, point, normal
+):
+    """Polylines of a plane cut, one after the other.
+
+    Returns the points with their shares in a fourth column, the edges they lie on, where each
+    polyline starts, and whether it closes.
+    """
+    visited = np.zeros(triangles.shape[0], dtype=np.bool_)
+    heights = np.empty(vertices.shape[0])
+    for v in candidate_vertices:
+        heights[v] = (
+            (vertices[v, 0] - point[0]) * normal[0]
+            + (vertices[v, 1] - point[1]) * normal[1]
+            + (vertices[v, 2] - point[2]) * normal[2]
+        )
+    return trace_lines(
+        vertices, shares, triangles, neighbours, allowed, candidates, heights, visited
+    )
+
+
+@no_type_check
+@njit(cache=True)
 def _turns_left(points, a, b, c):
     return (points[b, 0] - points[a, 0]) * (points[c, 1] - points[a, 1]) - (
         points[b, 1] - points[a, 1]
@@ -147,8 +163,18 @@ def _turns_left(points, a, b, c):
 def convex_hull(points):
     """Indices of the convex hull, counter-clockwise (Andrew's monotone chain)."""
     count = points.shape[0]
-    by_y = np.argsort(points[:, 1], kind="mergesort")
-    order = by_y[np.argsort(points[by_y, 0], kind="mergesort")]
+    order = np.argsort(points[:, 0])
+    for k in range(1, count):
+        # Of points with one first coordinate the one with the lower second comes first.
+        place, at = order[k], k
+        while (
+            at > 0
+            and points[order[at - 1], 0] == points[place, 0]
+            and points[order[at - 1], 1] > points[place, 1]
+        ):
+            order[at] = order[at - 1]
+            at -= 1
+        order[at] = place
     hull = np.empty(2 * count + 1, dtype=np.int64)
     size = 0
     for k in range(count):
@@ -177,9 +203,14 @@ def flatten(points, origin, normal):
     second = np.cross(normal, first)
     flat = np.empty((points.shape[0], 2))
     for k in range(points.shape[0]):
-        offset = points[k] - origin
-        flat[k, 0] = offset @ first
-        flat[k, 1] = offset @ second
+        u = 0.0
+        v = 0.0
+        for axis in range(3):
+            offset = points[k, axis] - origin[axis]
+            u += offset * first[axis]
+            v += offset * second[axis]
+        flat[k, 0] = u
+        flat[k, 1] = v
     return flat
 
 

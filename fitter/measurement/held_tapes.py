@@ -16,6 +16,7 @@ from jaxtyping import Float, Integer
 
 from fitter.arrays import Vertices
 from fitter.measurement._contour_kernels import STEEPEST
+from fitter.measurement._held_kernels import crossings
 from fitter.measurement.contour import Leg, Side, leg_frame
 from fitter.measurement.definitions import (
     BackContour,
@@ -28,19 +29,20 @@ from fitter.measurement.definitions import (
     Mass,
     MeasurementDefinition,
 )
-from fitter.measurement.plane_cut import BORDER_SHARE
+from fitter.measurement.plane_cut import BORDER_SHARE, Polyline
 from fitter.measurement.taking import (
     AXIS_OF,
     CENTIMETRES_PER_METRE,
+    LaidTapes,
     TakenBody,
-    contour_of,
     girth_axis,
     girths_of,
-    laid_girth,
+    lay_tapes,
     mean_point,
     taken_values,
 )
-from fitter.measurement.tape import girth_normal
+from fitter.measurement.tape import SIDEWAYS, UNKNOWN, girth_normal
+from fitter.numerics.meshes import enclosed_volume, volume_gradient
 
 LEAVING_M = 1e-6
 """A corner this far beyond its edge has left it: a fiftieth of what a step of the derivatives moves
@@ -78,43 +80,29 @@ class MovedBodies:
     canonical: Mapping[str, Float[np.ndarray, "b 3"]]
     standing: Mapping[str, Float[np.ndarray, "b 3"]]
 
-    def at(self, ids: Integer[np.ndarray, "..."]) -> Float[np.ndarray, "b ..."]:
-        """Some vertices of all bodies."""
-        return self.vertices[ids] + self.step * self.displacements[:, ids]
-
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class HeldTapes:
     """The tapes of one body.
 
-    ``corners`` are the edges that a girth's corners lie on (:class:`Polyline`), None where its
-    plane misses the body; ``legs`` a taut tape's steps. Both by name.
+    ``laid`` tells the edges that corners lie on (:class:`Polyline`).
     """
 
     definitions: tuple[MeasurementDefinition, ...]
     taken: TakenBody
     placements: Mapping[str, float]
-    corners: Mapping[str, Integer[np.ndarray, "_ 2 2"] | None]
-    legs: Mapping[str, tuple[Leg, ...]]
+    laid: LaidTapes
 
 
 def hold_tapes(
     definitions: Sequence[MeasurementDefinition], taken: TakenBody, placements: Mapping[str, float]
 ) -> HeldTapes:
-    """Lay every tape on a body, and note the edges it bends on."""
-    laid = {
-        name: laid_girth(girth, taken, placements) for name, girth in girths_of(definitions).items()
-    }
+    """Lay every tape on a body, and hold it to the edges it bends on."""
     return HeldTapes(
         definitions=tuple(definitions),
         taken=taken,
         placements=placements,
-        corners={name: None if tape is None else tape.edges for name, tape in laid.items()},
-        legs={
-            definition.about.name: contour_of(definition, taken)
-            for definition in definitions
-            if isinstance(definition, Contour)
-        },
+        laid=lay_tapes(definitions, taken, placements),
     )
 
 
@@ -143,7 +131,9 @@ def _measured(
             canonical={name: points[index] for name, points in moved.canonical.items()},
             standing={},
         )
-        columns.append(taken_values(definitions, body, held.placements))
+        columns.append(
+            taken_values(definitions, body, lay_tapes(definitions, body, held.placements))
+        )
     return np.stack(columns, axis=1)
 
 
@@ -171,9 +161,11 @@ def _values(
             )
             metres = top[:, 1] - bottom[:, 1]
         case Contour():
-            metres = _contour_lengths(definition, held.legs[name], moved)
-        case Mass() | BackContour():
-            metres = None
+            metres = _contour_lengths(definition, held.laid.legs[name], moved)
+        case BackContour():
+            metres = _back_lengths(definition, held.laid.backs[name], moved)
+        case Mass():
+            return definition.density_kg_per_m3 * _volumes(held, moved)
     return None if metres is None else metres * CENTIMETRES_PER_METRE
 
 
@@ -183,9 +175,10 @@ def _girth_corners(girth: Girth, held: HeldTapes, moved: MovedBodies) -> Points 
     None where it no longer meets them.
     """
     name = girth.about.name
-    edges = held.corners[name]
-    if edges is None:
+    tape = held.laid.girths[name]
+    if tape is None:
         return None
+    edges = tape.edges
     start, end = girth_axis(girth, moved.canonical)
     axis = end - start
     point = start + held.placements[name] * axis
@@ -242,23 +235,54 @@ def _leg_lengths(
     return _steps(np.diff(chain, axis=1))
 
 
+def _back_lengths(
+    definition: BackContour, back: Polyline, moved: MovedBodies
+) -> Float[np.ndarray, " b"] | None:
+    """Along the bends of a taut back; its ends lie between two edges, at both points' heights."""
+    bends = back.edges[1:-1]
+    if (back.edges == UNKNOWN).any() or (bends[:, 0] != bends[:, 1]).any():
+        return None
+    top, bottom = (
+        mean_point(names, moved.canonical) for names in (definition.top, definition.bottom)
+    )
+    normal = np.broadcast_to(SIDEWAYS, top.shape)
+    crossed = _crossings(moved, back.edges, top, normal)
+    if crossed.have_left:
+        return None
+    chain = crossed.points[:, :, 0]
+    for end, height in ((0, top[:, 1]), (-1, bottom[:, 1])):
+        first, second = crossed.points[:, end, 0], crossed.points[:, end, 1]
+        along = (height - first[:, 1]) / (second[:, 1] - first[:, 1])
+        chain[:, end] = first + along[:, None] * (second - first)
+    return _steps(np.diff(chain, axis=1))
+
+
+def _volumes(held: HeldTapes, moved: MovedBodies) -> Float[np.ndarray, " b"]:
+    """To first order, cubic metres: a step of the derivatives adds a ten-millionth beyond it."""
+    vertices, triangles = held.taken.vertices, held.taken.triangles
+    slopes = volume_gradient(vertices, triangles)
+    changes = moved.displacements.reshape(len(moved.displacements), -1) @ slopes.reshape(-1)
+    return enclosed_volume(vertices, triangles) + moved.step * changes
+
+
 def _crossings(
     moved: MovedBodies,
     edges: Integer[np.ndarray, "... 2"],
     point: Float[np.ndarray, "b 3"],
     normal: Float[np.ndarray, "b 3"],
 ) -> _Crossings:
-    low, high = moved.at(edges[..., 0]), moved.at(edges[..., 1])
-    at = np.einsum("bi,bi->b", point, normal).reshape(-1, *[1] * (low.ndim - 2))
-    below, above = (np.einsum("b...i,bi->b...", ends, normal) - at for ends in (low, high))
-    along = below / (below - above)
-    step = high - low
-    beyond = np.maximum(-along, along - 1.0)
-    lengths = np.sqrt(np.einsum("b...i,b...i->b...", step, step))
+    along, points, beyond = crossings(
+        moved.vertices,
+        moved.displacements,
+        moved.step,
+        edges.reshape(-1, 2),
+        point,
+        normal,
+    )
     return _Crossings(
-        along=along,
-        points=low + along[..., None] * step,
-        have_left=bool((beyond * lengths > LEAVING_M).any()),
+        along=along.reshape(-1, *edges.shape[:-1]),
+        points=points.reshape(-1, *edges.shape[:-1], 3),
+        have_left=beyond > LEAVING_M,
     )
 
 

@@ -11,15 +11,13 @@ from jaxtyping import Bool, Float, Integer
 
 from fitter.arrays import PerVertex, Points2D, Points3D, Triangles, Vector3, Vertices
 from fitter.measurement._section_kernels import (
+    BORDER_SHARE,
     convex_hull,
     flatten,
     polygon_length,
     trace_section,
 )
 from fitter.numerics.meshes import triangle_neighbours
-
-BORDER_SHARE = 0.5
-"""A region ends where vertices belong to it by half."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -60,6 +60,19 @@ class TakenBody:
     standing: Mapping[str, Vector3]
 
 
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class LaidTapes:
+    """The tapes of one body, by the names of what they measure.
+
+    ``girths`` are None where their plane misses the body; ``legs`` are the steps of taut tapes,
+    and ``backs`` tapes down the back, which may be empty.
+    """
+
+    girths: Mapping[str, Polyline | None]
+    legs: Mapping[str, tuple[Leg, ...]]
+    backs: Mapping[str, Polyline]
+
+
 def girths_of(definitions: Sequence[MeasurementDefinition]) -> Mapping[str, Girth]:
     """The girths that must be laid for the definitions, by name: their own and extents'."""
     found: dict[str, Girth] = {}
@@ -82,13 +95,32 @@ def girth_placements(
     }
 
 
-def taken_values(
+def lay_tapes(
     definitions: Sequence[MeasurementDefinition], taken: TakenBody, placements: Mapping[str, float]
+) -> LaidTapes:
+    """Lay every tape that the definitions need."""
+    return LaidTapes(
+        girths={
+            name: laid_girth(girth, taken, placements)
+            for name, girth in girths_of(definitions).items()
+        },
+        legs={
+            definition.about.name: contour_of(definition, taken)
+            for definition in definitions
+            if isinstance(definition, Contour)
+        },
+        backs={
+            definition.about.name: _back_of(definition, taken)
+            for definition in definitions
+            if isinstance(definition, BackContour)
+        },
+    )
+
+
+def taken_values(
+    definitions: Sequence[MeasurementDefinition], taken: TakenBody, laid: LaidTapes
 ) -> Float[np.ndarray, " k"]:
     """Each measurement in its unit; NaN where a tape misses the body."""
-    laid = {
-        name: laid_girth(girth, taken, placements) for name, girth in girths_of(definitions).items()
-    }
     return np.array([_value(definition, taken, laid) for definition in definitions])
 
 
@@ -120,27 +152,20 @@ def taken_line(
         case Contour():
             return joined(contour_of(definition, taken))
         case BackContour():
-            return back_contour(
-                taken.regions[definition.about.name],
-                taken.vertices,
-                mean_point(definition.top, points),
-                mean_point(definition.bottom, points),
-            )
+            return _back_of(definition, taken).points
 
 
-def _value(
-    definition: MeasurementDefinition, taken: TakenBody, laid: Mapping[str, Polyline | None]
-) -> float:
+def _value(definition: MeasurementDefinition, taken: TakenBody, laid: LaidTapes) -> float:
     points = taken.canonical
     match definition:
         case Mass():
             volume = enclosed_volume(taken.vertices, taken.triangles)
             return volume * definition.density_kg_per_m3
         case Girth():
-            tape = laid[definition.about.name]
+            tape = laid.girths[definition.about.name]
             metres = float("nan") if tape is None else closed_length(tape.points)
         case Extent():
-            tape = laid[definition.girth.about.name]
+            tape = laid.girths[definition.girth.about.name]
             axis = AXIS_OF[definition.direction]
             metres = float("nan") if tape is None else float(np.ptp(tape.points[:, axis]))
         case Length():
@@ -151,14 +176,9 @@ def _value(
             )
             metres = float(top[1] - bottom[1])
         case Contour():
-            metres = sum(path_length_m(leg.points) for leg in contour_of(definition, taken))
+            metres = sum(path_length_m(leg.points) for leg in laid.legs[definition.about.name])
         case BackContour():
-            metres = back_contour_m(
-                taken.regions[definition.about.name],
-                taken.vertices,
-                mean_point(definition.top, points),
-                mean_point(definition.bottom, points),
-            )
+            metres = back_contour_m(laid.backs[definition.about.name])
     return metres * CENTIMETRES_PER_METRE
 
 
@@ -173,6 +193,16 @@ def contour_of(definition: Contour, taken: TakenBody) -> tuple[Leg, ...]:
     """The steps of a taut tape."""
     places = [mean_point(names, taken.canonical) for names in definition.path]
     return contour_legs(definition, taken.regions[definition.about.name], taken.vertices, places)
+
+
+def _back_of(definition: BackContour, taken: TakenBody) -> Polyline:
+    """The tape down the back; empty where its plane misses the body."""
+    return back_contour(
+        taken.regions[definition.about.name],
+        taken.vertices,
+        mean_point(definition.top, taken.canonical),
+        mean_point(definition.bottom, taken.canonical),
+    )
 
 
 def _caliper(corners: Points3D, direction: Direction) -> Float[np.ndarray, "ends 3"]:

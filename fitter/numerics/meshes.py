@@ -4,7 +4,7 @@ import numpy as np
 from jaxtyping import Integer
 
 from fitter.arrays import PerTriangle, PerVertex, Triangles, Vertices
-from fitter.numerics._mesh_kernels import sum_of_tetrahedra
+from fitter.numerics._mesh_kernels import sum_of_tetrahedra, tetrahedra_gradient
 
 
 def triangle_neighbours(triangles: Triangles) -> Integer[np.ndarray, "f 3"]:
@@ -27,6 +27,11 @@ def enclosed_volume(vertices: Vertices, triangles: Triangles) -> float:
     Positive where triangles run counter-clockwise seen from outside.
     """
     return float(sum_of_tetrahedra(np.ascontiguousarray(vertices, dtype=np.float64), triangles))
+
+
+def volume_gradient(vertices: Vertices, triangles: Triangles) -> Vertices:
+    """Derivative (m, 3) of :func:`enclosed_volume` by the vertices of a closed mesh."""
+    return tetrahedra_gradient(np.ascontiguousarray(vertices, dtype=np.float64), triangles)
 
 
 def triangle_areas(vertices: Vertices, triangles: Triangles) -> PerTriangle:

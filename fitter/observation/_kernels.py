@@ -3,7 +3,7 @@
 from typing import no_type_check
 
 import numpy as np
-from numba import njit
+from numba import njit, uint32
 
 
 @no_type_check
@@ -17,21 +17,44 @@ def area_average(picture, table, pixels_per_pixel, width, height):
     """
     channels = picture.shape[2]
     result = np.zeros((height, width, channels), dtype=np.float32)
-    line = np.zeros((width, channels))
+    line = np.empty((width, channels))
     area = pixels_per_pixel * pixels_per_pixel
+    # The source columns of square j are firsts[j] and those after it, with the shares from
+    # starts[j] to starts[j + 1].
+    firsts = np.empty(width, dtype=np.int64)
+    starts = np.empty(width + 1, dtype=np.int64)
+    shares = np.empty(width + picture.shape[1])
+    count = 0
+    for j in range(width):
+        left = j * pixels_per_pixel
+        right = left + pixels_per_pixel
+        firsts[j] = int(left)
+        starts[j] = count
+        for column in range(firsts[j], min(picture.shape[1], int(np.ceil(right)))):
+            shares[count] = min(right, column + 1.0) - max(left, float(column))
+            count += 1
+    starts[width] = count
     row_end = min(picture.shape[0], int(np.ceil(height * pixels_per_pixel)))
     for row in range(row_end):
         for j in range(width):
-            left = j * pixels_per_pixel
-            right = left + pixels_per_pixel
-            first = int(left)
-            end = min(picture.shape[1], int(np.ceil(right)))
+            ahead = firsts[j] - starts[j]
+            if channels == 3:
+                # Three sums side by side do not wait for each other: half the time.
+                red, green, blue = 0.0, 0.0, 0.0
+                for k in range(starts[j], starts[j + 1]):
+                    share = shares[uint32(k)]
+                    column = uint32(ahead + k)
+                    red += share * table[uint32(picture[uint32(row), column, uint32(0)])]
+                    green += share * table[uint32(picture[uint32(row), column, uint32(1)])]
+                    blue += share * table[uint32(picture[uint32(row), column, uint32(2)])]
+                line[j, 0], line[j, 1], line[j, 2] = red, green, blue
+                continue
             for channel in range(channels):
-                line[j, channel] = 0.0
-            for column in range(first, end):
-                share = min(right, column + 1.0) - max(left, float(column))
-                for channel in range(channels):
-                    line[j, channel] += share * table[picture[row, column, channel]]
+                total = 0.0
+                for k in range(starts[j], starts[j + 1]):
+                    level = picture[uint32(row), uint32(ahead + k), uint32(channel)]
+                    total += shares[uint32(k)] * table[uint32(level)]
+                line[j, channel] = total
         first_out = int(row / pixels_per_pixel)
         for i in range(first_out, min(first_out + 2, height)):
             top = i * pixels_per_pixel

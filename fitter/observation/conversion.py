@@ -25,9 +25,9 @@ def as_srgb(picture: PillowImage.Image) -> PillowImage.Image:
         white = PillowImage.new("RGBA", layered.size, "white")
         picture = PillowImage.alpha_composite(white, layered).convert("RGB")
     elif picture.mode != "CMYK":
-        picture = picture.convert("RGB")
+        picture = _as_rgb(picture)
     converted = _converted_by_profile(picture, profile) if profile else None
-    return converted or picture.convert("RGB")
+    return converted or _as_rgb(picture)
 
 
 def as_grey(picture: PillowImage.Image) -> PillowImage.Image:
@@ -39,6 +39,11 @@ def as_grey(picture: PillowImage.Image) -> PillowImage.Image:
         black = PillowImage.new("RGBA", layered.size, "black")
         picture = PillowImage.alpha_composite(black, layered)
     return picture.convert("L")
+
+
+def _as_rgb(picture: PillowImage.Image) -> PillowImage.Image:
+    # Pillow would copy what is red, green and blue already.
+    return picture if picture.mode == "RGB" else picture.convert("RGB")
 
 
 def _converted_by_profile(

@@ -1,9 +1,10 @@
 """From the caller's bytes to an upright 8-bit sRGB picture: limits first, then one decoding.
 
-Accepted: JPEG, PNG and WebP; grey, palette, RGB and CMYK; 8 bits, and 16 reduced to 8, because
-the noise of a photograph is above half a step of 8 bits. Embedded colour profiles are honoured.
-Transparency is composited over white, as a browser shows it, with a warning: we do not guess that
-the opaque part is the person; the caller can send it as the mask.
+Accepted: JPEG, PNG, WebP and, where its decoder is installed, HEIC; grey, palette, RGB and CMYK; 8
+bits, and 10 or 16 reduced to 8, because the noise of a photograph is above half a step of 8 bits.
+Embedded colour profiles are honoured. Transparency is composited over white, as a browser shows it,
+with a warning: we do not guess that the opaque part is the person; the caller can send it as the
+mask.
 """
 
 import io
@@ -19,6 +20,7 @@ from PIL import Image as PillowImage
 from fitter.errors import InvalidInputError
 from fitter.observation.conversion import as_grey, as_srgb, is_translucent
 from fitter.observation.exif import ExifTags, read_exif
+from fitter.observation.heif import FORMAT, ORIENTATION, is_heif, ready_decoder
 from fitter.remarks import FitWarning
 
 LEAST_SIDE_PX = 64
@@ -31,9 +33,13 @@ _SIGNATURES = {
     "JPEG": lambda data: data.startswith(b"\xff\xd8\xff"),
     "PNG": lambda data: data.startswith(b"\x89PNG\r\n\x1a\n"),
     "WEBP": lambda data: data[:4] == b"RIFF" and data[8:12] == b"WEBP",
+    FORMAT: is_heif,
 }
 
-_ACCEPTED = "Send a JPEG, PNG or WebP picture."
+_REDUCIBLE = ("JPEG", "MPO")
+"""Pillow's names of what can be decoded at a part of its size."""
+
+_ACCEPTED = "Send a JPEG, PNG, WebP or HEIC picture."
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -50,15 +56,20 @@ class DecodedPicture:
         The useful part of what the camera wrote.
     warnings
         What the caller should know about the conversion.
+    reduction
+        Pixels of the original to one of ``pixels``, in each direction; the last may be a part.
     """
 
     pixels: UInt8[np.ndarray, "h w 3"]
     stored_width: int
     exif: ExifTags
     warnings: tuple[FitWarning, ...]
+    reduction: int = 1
 
 
-def decode_picture(data: bytes, *, field: str, max_pixels: int) -> DecodedPicture:
+def decode_picture(
+    data: bytes, *, field: str, max_pixels: int, enough_pixels: float | None = None
+) -> DecodedPicture:
     """Decode a picture.
 
     Parameters
@@ -69,16 +80,26 @@ def decode_picture(data: bytes, *, field: str, max_pixels: int) -> DecodedPictur
         Name of the request field, for error messages.
     max_pixels
         Largest picture accepted, read from its header before anything is decoded.
+    enough_pixels
+        A JPEG that keeps as many is decoded at a half, a quarter or an eighth of its size, from
+        the low frequencies of its blocks: for pictures to look at, as their light is averaged less
+        exactly. None decodes everything.
 
     Raises
     ------
     InvalidInputError
         ``image-empty``, ``image-unsupported``, ``image-damaged``, ``image-too-large``,
         ``image-too-small``, ``image-too-narrow`` or ``image-animated`` (``mask-...`` in place of
-        ``image-...`` where the field is the mask).
+        ``image-...`` where the field is the mask), or ``heic-not-installed``.
     """
     with _damage_named(field):
-        picture, exif = _load(data, field=field, max_pixels=max_pixels)
+        picture = _opened(data, field=field, max_pixels=max_pixels)
+        stored_width, stored_height = picture.size
+        reduction = 1 if enough_pixels is None else _reduction(picture, enough_pixels)
+        if reduction > 1:
+            picture.draft(None, (stored_width // reduction, stored_height // reduction))
+        picture.load()
+        exif = read_exif(picture)
         translucent = is_translucent(picture)
         pixels = np.asarray(as_srgb(_upright(picture, exif)))
     remarks: list[FitWarning] = []
@@ -93,7 +114,12 @@ def decode_picture(data: bytes, *, field: str, max_pixels: int) -> DecodedPictur
             )
         )
     return DecodedPicture(
-        pixels=pixels, stored_width=picture.width, exif=exif, warnings=tuple(remarks)
+        pixels=pixels,
+        # A HEIC comes turned; cameras repeat in EXIF how the container has it turned.
+        stored_width=stored_height if picture.info.get(ORIENTATION) in _SWAPPED else stored_width,
+        exif=exif,
+        warnings=tuple(remarks),
+        reduction=reduction,
     )
 
 
@@ -106,8 +132,9 @@ def decode_coverage(data: bytes, *, field: str, max_pixels: int) -> UInt8[np.nda
         As :func:`decode_picture`.
     """
     with _damage_named(field):
-        picture, exif = _load(data, field=field, max_pixels=max_pixels)
-        return np.asarray(as_grey(_upright(picture, exif)))
+        picture = _opened(data, field=field, max_pixels=max_pixels)
+        picture.load()
+        return np.asarray(as_grey(_upright(picture, read_exif(picture))))
 
 
 @contextmanager
@@ -135,13 +162,24 @@ def _damage_named(field: str) -> Iterator[None]:
             ) from error
 
 
-def _load(data: bytes, *, field: str, max_pixels: int) -> tuple[PillowImage.Image, ExifTags]:
-    picture = PillowImage.open(io.BytesIO(data), formats=(_kind(data, field=field),))
+def _opened(data: bytes, *, field: str, max_pixels: int) -> PillowImage.Image:
+    """A picture that may be decoded, known by its header."""
+    kind = _kind(data, field=field)
+    if kind == FORMAT:
+        ready_decoder(field)
+    picture = PillowImage.open(io.BytesIO(data), formats=(kind,))
     if picture.width * picture.height > max_pixels:
         raise _too_large(field, f"more than {max_pixels / 1e6:g} million pixels")
     _check_form(picture, field=field)
-    picture.load()
-    return picture, read_exif(picture)
+    return picture
+
+
+def _reduction(picture: PillowImage.Image, enough_pixels: float) -> int:
+    """How much smaller a decoder may make the picture on its way, in each direction."""
+    if picture.format not in _REDUCIBLE:
+        return 1
+    pixels = picture.width * picture.height
+    return next((by for by in (8, 4, 2) if pixels >= by**2 * enough_pixels), 1)
 
 
 _TURNS = {
@@ -153,6 +191,10 @@ _TURNS = {
     7: PillowImage.Transpose.TRANSVERSE,
     8: PillowImage.Transpose.ROTATE_90,
 }
+
+
+_SWAPPED = range(5, 9)
+"""Orientations that swap width and height."""
 
 
 def _upright(picture: PillowImage.Image, exif: ExifTags) -> PillowImage.Image:
@@ -180,15 +222,15 @@ def _kind(data: bytes, *, field: str) -> str:
     raise InvalidInputError(
         code=f"{field}-unsupported",
         field=field,
-        reason="The file is no JPEG, PNG or WebP picture.",
+        reason="The file is no JPEG, PNG, WebP or HEIC picture.",
         remedy=_ACCEPTED,
     )
 
 
 def _check_form(picture: PillowImage.Image, *, field: str) -> None:
     # Phones store a gain map or a second view as a further "frame" of a JPEG (MPO); its first
-    # frame is the photograph, and any browser shows just that.
-    if picture.format != "MPO" and getattr(picture, "is_animated", False):
+    # frame is the photograph, and any browser shows just that. A HEIC may hold a burst.
+    if picture.format not in ("MPO", FORMAT) and getattr(picture, "is_animated", False):
         raise InvalidInputError(
             code=f"{field}-animated",
             field=field,

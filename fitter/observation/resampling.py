@@ -1,6 +1,6 @@
 """The working picture: the original averaged down to a size at which fits are fast and precise."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float, UInt8
@@ -29,6 +29,10 @@ class WorkingSize:
     width: int
     height: int
     scale: float
+
+    def from_reduced(self, reduction: int) -> "WorkingSize":
+        """The same size, made from an original of which one pixel is ``reduction`` on a side."""
+        return replace(self, scale=self.scale * reduction)
 
 
 def working_size(*, width: int, height: int, pixels: int = WORKING_PIXELS) -> WorkingSize:

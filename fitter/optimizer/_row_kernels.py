@@ -6,6 +6,9 @@ a point x, with g = diag(1, -1, -1) d and y the point relative to the root in bo
 joint j about an axis e of its parent changes the residual by
 
     e . ((y - c_j) × g), times how far the point follows joint j.
+
+What these loops call is inlined by force: of a function that stays one, the process that compiles
+it and one that loads it may run different machine code, which rounds otherwise.
 """
 
 from math import sqrt
@@ -16,7 +19,7 @@ from numba import njit
 
 
 @no_type_check
-@njit(cache=True, fastmath=True)
+@njit(cache=True, fastmath=True, forceinline=True)
 def add_point(
     derivative,
     point,
@@ -72,7 +75,7 @@ def add_point(
 
 
 @no_type_check
-@njit(cache=True, fastmath=True)
+@njit(cache=True, fastmath=True, forceinline=True)
 def add_direction(
     derivative,
     direction,
@@ -154,7 +157,7 @@ def add_direction(
 
 
 @no_type_check
-@njit(cache=True, fastmath=True)
+@njit(cache=True, fastmath=True, forceinline=True)
 def turn_columns(moments, parent_rotations, row):
     """Convert moments about joints to the columns of turns about their parents' axes."""
     for j in range(moments.shape[0]):

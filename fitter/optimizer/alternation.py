@@ -4,17 +4,20 @@ The smoothness of albedo and specularity starts high and is lowered round by rou
 it is the shape that has to change to make the predicted brightness match.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from jaxtyping import Float, Integer
 
 from fitter.arrays import Vertices
-from fitter.energies.objective import Candidate, Objective
+from fitter.energies.objective import Body, Candidate, Objective
 from fitter.energies.shading import ShadingEvidence, explained_vertices, seen_vertices
 from fitter.evidence.intensity import IntensityMap
 from fitter.numerics.mesh_parts import grown, mesh_part
+from fitter.numerics.surface_sample import SurfaceSample
+from fitter.optimizer.damped_descent import NEARLY_SETTLED_NATS, SETTLED_NATS
 from fitter.optimizer.gauss_newton import Minimum
 from fitter.optimizer.hidden_reflectance import HiddenVertices
 from fitter.optimizer.light_step import (
@@ -25,12 +28,14 @@ from fitter.optimizer.light_step import (
     with_new_light,
     with_new_shadows,
 )
+from fitter.optimizer.pair_factor import elimination_order
 from fitter.optimizer.reflectance_solve import (
     ReflectanceFields,
     ReflectanceProblem,
     ReflectanceSolver,
 )
-from fitter.parameters import BodyParameters, Light, Reflectance
+from fitter.optimizer.whole_body import on_whole_body
+from fitter.parameters import Light, Reflectance
 from fitter.render.reflectance import shading_terms
 from fitter.request import SurroundingsKind
 
@@ -41,6 +46,9 @@ last value (0.3) the albedo absorbs what the shape should explain; chosen on the
 half."""
 
 ROUNDS = len(SMOOTHNESS_SCHEDULE)
+
+ROUND_TOLERANCES = (*(NEARLY_SETTLED_NATS,) * (ROUNDS - 1), SETTLED_NATS)
+"""Gain, nats, below which each round's search for the body ends."""
 
 SHADOW_ROUNDS = 1
 """Times that light and reflectance are found with the shadows, for a light with surroundings."""
@@ -62,11 +70,14 @@ _RELATIVE_ALBEDO_ETA = 0.1
 _RELATIVE_SPECULARITY_ETA = 0.1
 _MARGIN_RINGS = 3
 """Rings of vertices around those seen that get an albedo too: a search may bring them into view."""
+_SAMPLES = 4
+"""Models whose order of elimination is kept."""
+
 _LEAST_USABLE = 200
 _LEAST_FOR_SURROUNDINGS = 150
 # Sampled vertices: 70 are seen of a face alone, 300 or more of a body in loose clothes.
 
-BodySearch = Callable[[Objective, BodyParameters], Minimum]
+BodySearch = Callable[[Objective, Body], Minimum]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -77,6 +88,8 @@ class ShadedFit:
     ----------
     minimum
         The body and the energies that were minimised, those of ``evidence``.
+    body
+        The same body on all of its vertices: what light and reflectance are reported on.
     light, reflectance
         In coordinates about the final body's centre, where the light's intensity is 1.
     hidden
@@ -88,6 +101,7 @@ class ShadedFit:
     """
 
     minimum: Minimum
+    body: Candidate
     light: Light
     reflectance: Reflectance
     hidden: HiddenVertices
@@ -101,7 +115,7 @@ def fit_shading(
     intensity: IntensityMap,
     lights: tuple[Light, ...],
     *,
-    search: BodySearch,
+    searches: Sequence[BodySearch],
     surroundings: SurroundingsKind = SurroundingsKind.UNIFORM,
 ) -> ShadedFit | None:
     """Minimise E2 from the minimum of E1.
@@ -116,8 +130,8 @@ def fit_shading(
         The person's luminance.
     lights
         First guesses: one from the caller, or several.
-    search
-        Minimises an objective over the body from given parameters: the third step.
+    searches
+        Of each round: minimises an objective over the body from given parameters, the third step.
     surroundings
         See :func:`first_shading`.
 
@@ -131,9 +145,9 @@ def fit_shading(
     minimum: Minimum | None = None
     evaluations = 0
     now = start
-    for round_index in range(ROUNDS):
+    for round_index, search in enumerate(searches):
         state = next_shading(objective, now, state, round_index)
-        minimum = search(objective.with_shading(state), now.parameters)
+        minimum = search(objective.with_shading(state), now)
         evaluations += minimum.evaluations
         now = minimum.candidate
     assert minimum is not None
@@ -183,11 +197,10 @@ def shaded_fit(
 
     The reflectance is found again for the final body, so that what is drawn is what was found.
     """
-    now = minimum.candidate
-    state = state.about(now.parameters.translation)
-    reported = state
+    state = state.about(minimum.candidate.parameters.translation)
+    objective, now, reported = on_whole_body(objective, minimum.candidate, state)
     if state.light.surroundings is not None:
-        reported = _with_shadows_explained(objective, now, state)
+        reported = _with_shadows_explained(objective, now, reported)
     reported = _with_new_reflectance(objective, now, reported, REPORTED_SMOOTHNESS, GRADUATION)
     hidden = _hidden(objective, now, reported)
     reflectance = replace(
@@ -197,6 +210,7 @@ def shaded_fit(
     )
     return ShadedFit(
         minimum=minimum,
+        body=now,
         light=reported.light,
         reflectance=reflectance,
         hidden=hidden,
@@ -266,7 +280,7 @@ def _with_new_reflectance(
         specularity=state.reflectance.specularity[chosen],
         ambient=state.reflectance.ambient,
     )
-    solver = ReflectanceSolver(part.edges, len(chosen))
+    solver = ReflectanceSolver(part.edges, _order_within(sample, part.vertices))
     for widening, iterations in graduation:
         # The weights keep their curvature at zero: only what is far off comes to count more.
         wide = replace(
@@ -290,6 +304,19 @@ def _with_new_reflectance(
             ambient=found.ambient,
         ),
     )
+
+
+def _order_within(
+    sample: SurfaceSample, vertices: Integer[np.ndarray, " v"]
+) -> Integer[np.ndarray, " v"]:
+    """Some vertices of a sample in the sample's order of elimination, numbered among themselves."""
+    return np.argsort(elimination_ranks(sample)[vertices])
+
+
+@lru_cache(maxsize=_SAMPLES)
+def elimination_ranks(sample: SurfaceSample) -> Integer[np.ndarray, " s"]:
+    """When each vertex of a model's sample is eliminated; found once a process."""
+    return np.argsort(elimination_order(sample.edges, len(sample.vertices)))
 
 
 def _hidden(objective: Objective, candidate: Candidate, state: ShadingEvidence) -> HiddenVertices:

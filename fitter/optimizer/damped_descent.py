@@ -17,10 +17,14 @@ _SMALLEST_DAMPING, _LARGEST_DAMPING = 1e-6, 1e4
 # A fixed rise and fall had half of its evaluations rejected and ended 2 to 12 % higher.
 _FASTEST_FALL, _FASTEST_RISE = 1.0 / 3.0, 5.0
 _FIRST_RISE = 2.0
-# Nats: a step that promises less is not tried, and two in a row that gain less end the search. A
-# tenth of a nat changes a likelihood by a tenth; the pixel grid at the outline makes the energy
-# about as rough.
-_SETTLED_NATS = 0.05
+
+SETTLED_NATS = 0.05
+"""A step that promises less is not tried, and two in a row that gain less end the search. A tenth
+of a nat changes a likelihood by a tenth; the pixel grid at the outline makes the energy about as
+rough."""
+
+NEARLY_SETTLED_NATS = 0.2
+"""The same of a search that another follows, about other evidence."""
 
 EnergyObserver = Callable[[Mapping[str, float]], None]
 
@@ -77,6 +81,7 @@ def descend(
     *,
     max_evaluations: int,
     on_energies: EnergyObserver,
+    settled_nats: float = SETTLED_NATS,
 ) -> Descent[Point]:
     """Step until steps gain less than the tolerance or no damping helps.
 
@@ -90,6 +95,8 @@ def descend(
         Of the true energy.
     on_energies
         Receives the energies of every accepted point.
+    settled_nats
+        The tolerance.
     """
     now = start
     damping, rise, evaluations, settled = _FIRST_DAMPING, _FIRST_RISE, 1, 0
@@ -99,7 +106,7 @@ def descend(
         accepted: Point | None = None
         while evaluations < max_evaluations and damping < _LARGEST_DAMPING:
             offer = offered(damping)
-            if offer.promised < _SETTLED_NATS:
+            if offer.promised < settled_nats:
                 return Descent(point=now, converged=True, evaluations=evaluations)
             reached = offer.taken()
             evaluations += 1
@@ -116,7 +123,7 @@ def descend(
             return Descent(
                 point=now, converged=damping >= _LARGEST_DAMPING, evaluations=evaluations
             )
-        small = now.total - accepted.total < _SETTLED_NATS
+        small = now.total - accepted.total < settled_nats
         settled = settled + 1 if small else 0
         now = accepted
         on_energies(now.energies)

@@ -10,12 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fitter.energies.objective import Candidate, Objective
-from fitter.optimizer.damped_descent import EnergyObserver, Offer, descend
+from fitter.energies.objective import Body, Candidate, Objective
+from fitter.optimizer.damped_descent import SETTLED_NATS, EnergyObserver, Offer, descend
 from fitter.optimizer.free_space import free_space
 from fitter.optimizer.normal_equations import normal_equations
 from fitter.optimizer.parameter_vector import limited
-from fitter.parameters import BodyParameters
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -32,12 +31,13 @@ class Minimum:
 
 def minimize_gauss_newton(
     objective: Objective,
-    start: BodyParameters,
+    start: Body,
     *,
     max_evaluations: int,
     on_energies: EnergyObserver,
+    settled_nats: float = SETTLED_NATS,
 ) -> Minimum:
-    """Minimise from ``start`` until steps gain less than the tolerance or no damping helps.
+    """Minimise from ``start`` until steps gain less than ``settled_nats`` or no damping helps.
 
     ``start`` has the attributes the objective holds.
     """
@@ -67,5 +67,6 @@ def minimize_gauss_newton(
         paraboloid,
         max_evaluations=max_evaluations,
         on_energies=on_energies,
+        settled_nats=settled_nats,
     )
     return Minimum(candidate=found.point, converged=found.converged, evaluations=found.evaluations)

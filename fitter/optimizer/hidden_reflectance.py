@@ -27,6 +27,8 @@ class HiddenVertices:
         (m,) which vertices keep their values, and (u,) the ids of the others.
     border
         (u, m) stiffness of the edges from unknown vertices to known ones.
+    ridges
+        (u,) how strongly each is drawn toward a value that does not depend on its neighbours.
     solver
         Solves with the unknown vertices' own matrix; None if there are none.
     """
@@ -34,6 +36,7 @@ class HiddenVertices:
     known: Bool[np.ndarray, " m"]
     unknown: Integer[np.ndarray, " u"]
     border: sparse.csr_array
+    ridges: Float[np.ndarray, " u"]
     solver: qdldl.Solver | None
 
     @classmethod
@@ -42,15 +45,20 @@ class HiddenVertices:
         known: Bool[np.ndarray, " m"],
         edges: Integer[np.ndarray, "e 2"],
         edge_lengths: Float[np.ndarray, " e"],
+        *,
+        ridge: float | PerVertex = _RIDGE,
     ) -> "HiddenVertices":
-        """Factorise Σ (v_i - v_j)² / d_ij over the edges and their lengths d.
+        """Factorise Σ (v_i - v_j)² / d_ij over the edges and their lengths d, plus Σ ridge_i v_i².
 
         Parameters
         ----------
         known
             Which vertices keep their values; at least one.
+        ridge
+            How strongly every unknown vertex is drawn toward a value of its own.
         """
         unknown = np.flatnonzero(~known)
+        ridges = np.broadcast_to(ridge, known.shape)[unknown]
         count = len(unknown)
         place = np.full(len(known), -1)
         place[unknown] = np.arange(count)
@@ -64,7 +72,7 @@ class HiddenVertices:
             (stiffness[given], (here[given], there[given])), shape=(count, len(known))
         )
         upper = here < place[there]
-        diagonal = _RIDGE + np.bincount(here, stiffness, count)
+        diagonal = ridges + np.bincount(here, stiffness, count)
         matrix = sparse.coo_array(
             (
                 np.concatenate([diagonal, -stiffness[upper]]),
@@ -79,14 +87,19 @@ class HiddenVertices:
             known=known,
             unknown=unknown,
             border=border.tocsr(),
+            ridges=ridges,
             solver=qdldl.Solver(sparse.csc_matrix(matrix), upper=True) if count else None,
         )
 
-    def filled(self, values: PerVertex) -> PerVertex:
-        """The values (m,) with the unknown ones filled in."""
+    def filled(self, values: PerVertex, *, toward: float | None = None) -> PerVertex:
+        """The values (m,) with the unknown ones filled in.
+
+        They are drawn toward the known ones' mean, or toward a value that is given.
+        """
         if self.solver is None:
             return values.copy()
         kept = np.where(self.known, values, 0.0)
-        pull = self.border @ kept + _RIDGE * values[self.known].mean()
+        rest = values[self.known].mean() if toward is None else toward
+        pull = self.border @ kept + self.ridges * rest
         kept[self.unknown] = self.solver.solve(pull)
         return kept

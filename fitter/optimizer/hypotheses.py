@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from fitter.energies.objective import Objective
+from fitter.energies.objective import Body, Candidate, Objective
 from fitter.optimizer.alternation import BodySearch
 from fitter.parameters import BodyParameters
 
@@ -23,22 +23,24 @@ class JudgedEnd:
 class TriedHypotheses:
     """Where the searches ended, in the order of the hypotheses, compared under one objective.
 
-    ``best`` is the index of the best among those searched further; ``evaluations`` counts true
-    energies.
+    ``best`` is the index of the best among those searched further, and ``winner`` where its search
+    ended; ``evaluations`` counts true energies.
     """
 
     ends: tuple[JudgedEnd, ...]
     best: int
+    winner: Candidate
     evaluations: int
 
 
 def try_hypotheses(
     wide: Objective,
     sharp: Objective,
-    starts: Sequence[BodyParameters],
+    starts: Sequence[Body],
     *,
     trial: BodySearch,
     contenders: int,
+    hopeless_nats: float,
     contest: BodySearch,
 ) -> TriedHypotheses:
     """Search from each start, search further from the best results, and compare.
@@ -51,22 +53,32 @@ def try_hypotheses(
         Objective with one that rejects what is far: what the results are compared by.
     starts
         Bodies to begin with.
-    trial, contenders, contest
-        The search from each start; how many of the best results go on; the search from those.
+    trial
+        The search from each start.
+    contenders, hopeless_nats
+        How many of the best results go on at most; only those less than so far above the best do.
+    contest
+        The search from those.
     """
     found = [trial(wide, start) for start in starts]
     evaluations = sum(minimum.evaluations for minimum in found)
     by_energy = sorted(range(len(found)), key=lambda index: found[index].candidate.total)
-    for index in by_energy[:contenders]:
-        found[index] = contest(wide, found[index].candidate.parameters)
+    bound = found[by_energy[0]].candidate.total + hopeless_nats
+    contending = [index for index in by_energy[:contenders] if found[index].candidate.total < bound]
+    for index in contending:
+        found[index] = contest(wide, found[index].candidate)
         evaluations += found[index].evaluations
-    reached = [minimum.candidate.parameters for minimum in found]
     ends = tuple(
-        JudgedEnd(parameters=parameters, total=sharp.evaluate(parameters).total)
-        for parameters in reached
+        JudgedEnd(
+            parameters=minimum.candidate.parameters,
+            total=sharp.evaluate(minimum.candidate).total,
+        )
+        for minimum in found
     )
+    best = min(contending, key=lambda index: ends[index].total)
     return TriedHypotheses(
         ends=ends,
-        best=min(by_energy[:contenders], key=lambda index: ends[index].total),
+        best=best,
+        winner=found[best].candidate,
         evaluations=evaluations + len(ends),
     )

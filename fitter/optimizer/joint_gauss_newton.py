@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitter.energies.joint_objective import JointCandidate, JointObjective
-from fitter.optimizer.damped_descent import EnergyObserver, Offer, descend
+from fitter.energies.objective import Body
+from fitter.optimizer.damped_descent import SETTLED_NATS, EnergyObserver, Offer, descend
 from fitter.optimizer.free_space import free_space
 from fitter.optimizer.joint_equations import joint_equations
 from fitter.optimizer.parameter_vector import excess, moved
-from fitter.parameters import BodyParameters
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -27,10 +27,11 @@ class JointMinimum:
 
 def minimize_jointly(
     objective: JointObjective,
-    start: Sequence[BodyParameters],
+    start: Sequence[Body],
     *,
     max_evaluations: int,
     on_energies: EnergyObserver,
+    settled_nats: float = SETTLED_NATS,
 ) -> JointMinimum:
     """Minimise over one shape and the pose and place in each picture.
 
@@ -69,6 +70,7 @@ def minimize_jointly(
         paraboloid,
         max_evaluations=max_evaluations,
         on_energies=on_energies,
+        settled_nats=settled_nats,
     )
     return JointMinimum(
         candidate=found.point, converged=found.converged, evaluations=found.evaluations

@@ -8,15 +8,16 @@ in their products with the albedo's scale, so these products are solved for. The
 (:func:`surroundings_prior`) keeps band 1 from being mistaken for the lamp.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from jaxtyping import Float
 
-from fitter.arrays import Vector3
-from fitter.numerics.robust import geman_mcclure, geman_mcclure_weights
-from fitter.parameters import Light, LightKind, Reflectance, Surroundings
-from fitter.render.reflectance import ShadingDerivatives, shade, shade_with_derivatives
+from fitter.numerics.robust import geman_mcclure_weights
+from fitter.optimizer.light_sums import LightSums
+from fitter.optimizer.lit_surface import LightEstimate, LitSurface
+from fitter.parameters import Light, LightKind, Surroundings
+from fitter.render.reflectance import ShadingDerivatives, shading_terms
 from fitter.render.surroundings import (
     BAND_OF,
     BAND_TRANSFER,
@@ -56,48 +57,13 @@ _GUESSED_ELEVATIONS = (0.0, 0.7)
 _TRIAL_ITERATIONS, _CONTENDERS, _ITERATIONS = 4, 2, 12
 
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class LitSurface:
-    """Surface points with what was observed there; camera frame, metres.
-
-    ``weights`` sum to one; ``albedo`` and ``specularity`` are held except for a common scale each;
-    ``ambient_limit`` is as in :class:`fitter.optimizer.reflectance_solve.ReflectanceProblem`;
-    ``lit`` is the share of the lamp that each sees, None where no cast shadow is known.
-    """
-
-    positions: Float[np.ndarray, "k 3"]
-    normals: Float[np.ndarray, "k 3"]
-    observed: Float[np.ndarray, " k"]
-    weights: Float[np.ndarray, " k"]
-    albedo: Float[np.ndarray, " k"]
-    specularity: Float[np.ndarray, " k"]
-    ambient_limit: float
-    body_centre: Vector3
-    specular_exponent: float
-    eta: float
-    lit: Float[np.ndarray, " k"] | None = None
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class LightEstimate:
-    """A light and the scales of reflectance that go with it; ``energy`` is robust, in [0, 1]."""
-
-    light: Light
-    ambient: float
-    albedo_scale: float
-    specularity_scale: float
-    energy: float
-
-
 def estimate_light(surface: LitSurface, start: LightEstimate, *, iterations: int) -> LightEstimate:
     """Descend from one light by damped, reweighted Gauss-Newton; the energy never rises."""
-    now = replace(start, energy=_energy(surface, start))
+    sums = LightSums(surface, surrounded=start.light.surroundings is not None)
+    now = replace(start, energy=sums.energy(start) + _prior(start))
     damping = 1e-2
     for _ in range(iterations):
-        jacobian, residuals = _linearise(surface, now)
-        weights = surface.weights * geman_mcclure_weights(residuals, surface.eta)
-        matrix = jacobian.T @ (weights[:, None] * jacobian)
-        gradient = jacobian.T @ (weights * residuals)
+        matrix, gradient = sums.normal_equations(now)
         if now.light.kind is LightKind.POINT:
             away = np.log(now.light.distance / _USUAL_DISTANCE_M) / DISTANCE_SPREAD**2
             matrix[2, 2] += 2.0 * _DISTANCE_PRIOR_WEIGHT / DISTANCE_SPREAD**2
@@ -115,7 +81,7 @@ def estimate_light(surface: LitSurface, start: LightEstimate, *, iterations: int
         while damping < _LARGEST_DAMPING:
             step = np.linalg.solve(matrix + damping * np.diag(matrix.diagonal() + 1e-12), -gradient)
             candidate = _stepped(now, step, surface.ambient_limit)
-            candidate = replace(candidate, energy=_energy(surface, candidate))
+            candidate = replace(candidate, energy=sums.energy(candidate) + _prior(candidate))
             if candidate.energy < now.energy:
                 now, damping = candidate, max(damping * _DAMPING_DOWN, 1e-8)
                 break
@@ -158,8 +124,22 @@ def _with_linear_scales(surface: LitSurface, light: Light) -> LightEstimate:
     estimate = LightEstimate(
         light=light, ambient=0.0, albedo_scale=1.0, specularity_scale=1.0, energy=1.0
     )
-    jacobian, _ = _linearise(surface, estimate)
-    columns = jacobian[:, 3:]
+    terms = shading_terms(
+        surface.positions,
+        surface.normals,
+        light=light,
+        body_centre=surface.body_centre,
+        specular_exponent=surface.specular_exponent,
+        lit=surface.lit,
+    )
+    columns = np.stack(
+        [
+            np.ones(len(surface.albedo)),
+            surface.albedo * terms.diffuse,
+            surface.specularity * terms.specular,
+        ],
+        axis=1,
+    )
     weights = surface.weights.copy()
     solution = np.zeros(3)
     for _ in range(8):
@@ -177,32 +157,16 @@ def _with_linear_scales(surface: LitSurface, light: Light) -> LightEstimate:
     )
 
 
-def _reflectance(surface: LitSurface, estimate: LightEstimate) -> Reflectance:
-    return Reflectance(
-        albedo=estimate.albedo_scale * surface.albedo,
-        specularity=estimate.specularity_scale * surface.specularity,
-        ambient=estimate.ambient,
-        specular_exponent=surface.specular_exponent,
-    )
-
-
-def _energy(surface: LitSurface, estimate: LightEstimate) -> float:
-    predicted = shade(
-        surface.positions,
-        surface.normals,
-        light=estimate.light,
-        body_centre=surface.body_centre,
-        reflectance=_reflectance(surface, estimate),
-        lit=surface.lit,
-    )
-    data = float(surface.weights @ geman_mcclure(predicted - surface.observed, surface.eta))
+def _prior(estimate: LightEstimate) -> float:
+    """What is known of a light without seeing what it lights."""
+    cost = 0.0
     if estimate.light.surroundings is not None:
         uneven, _ = surroundings_prior(estimate.light.surroundings)
-        data += _SURROUNDINGS_PRIOR_WEIGHT * float(uneven @ uneven)
+        cost += _SURROUNDINGS_PRIOR_WEIGHT * float(uneven @ uneven)
     if estimate.light.kind is LightKind.DIRECTIONAL:
-        return data
+        return cost
     away = np.log(estimate.light.distance / _USUAL_DISTANCE_M) / DISTANCE_SPREAD
-    return data + _DISTANCE_PRIOR_WEIGHT * float(away * away)
+    return cost + _DISTANCE_PRIOR_WEIGHT * float(away * away)
 
 
 def light_columns(
@@ -251,27 +215,6 @@ def surroundings_prior(
     slopes[:, 0] = -away / level
     slopes[:, 1:] = np.diag(1.0 / (spread * level))
     return away, slopes
-
-
-def _linearise(
-    surface: LitSurface, estimate: LightEstimate
-) -> tuple[Float[np.ndarray, "k columns"], Float[np.ndarray, " k"]]:
-    derivatives = shade_with_derivatives(
-        surface.positions,
-        surface.normals,
-        light=estimate.light,
-        body_centre=surface.body_centre,
-        reflectance=_reflectance(surface, estimate),
-        lit=surface.lit,
-    )
-    jacobian = light_columns(
-        derivatives,
-        estimate.light,
-        normals=surface.normals,
-        albedo=surface.albedo,
-        specularity=surface.specularity,
-    )
-    return jacobian, derivatives.shading - surface.observed
 
 
 def _stepped(

@@ -10,11 +10,10 @@ from fitter.energies.shading import ShadingEvidence, explained_vertices, seen_ve
 from fitter.evidence.intensity import IntensityMap
 from fitter.numerics.mesh_parts import grown
 from fitter.optimizer.light_solve import (
-    LightEstimate,
-    LitSurface,
     estimate_light,
     first_light,
 )
+from fitter.optimizer.lit_surface import LightEstimate, LitSurface
 from fitter.parameters import Light, Reflectance
 from fitter.render.reflectance import shading_terms
 from fitter.render.shadow import PENUMBRA_RINGS, cast_shadow, penumbra
@@ -29,6 +28,8 @@ _LIGHT_WIDENING = 3.0
 but half of what there is to see. At 1 the first light of two rendered people was 17 and 96 degrees
 off; at 8 it was 4 and 6, and nearly the same from every guess."""
 _LIGHT_ITERATIONS = 8
+_TRIAL_POINTS = 500
+"""Points of the surface on which guesses and exponents are compared: a light has seven unknowns."""
 # Share of the lamp's light to begin with where Eq. 1 found no ambient light.
 _LEAST_FIRST_SURROUNDINGS = 0.02
 _LEAST_LIT = 30
@@ -59,14 +60,20 @@ def first_state(
         shadowed=np.zeros(m, dtype=np.bool_),
         eta=eta,
     )
+    wide = replace(state, eta=_FIRST_LIGHT_WIDENING * eta)
+    surface = _lit_surface(candidate, wide, SPECULAR_EXPONENTS[0])
+    few = surface.thinned(_TRIAL_POINTS)
     best: tuple[LightEstimate, float] | None = None
     for exponent in SPECULAR_EXPONENTS:
-        surface = _lit_surface(candidate, replace(state, eta=_FIRST_LIGHT_WIDENING * eta), exponent)
-        found = first_light(surface, lights if best is None else (best[0].light,))
+        glossy = replace(few, specular_exponent=exponent)
+        found = first_light(glossy, lights if best is None else (best[0].light,))
         if best is None or found.energy < best[0].energy:
             best = found, exponent
     assert best is not None
-    estimate, exponent = best
+    trial, exponent = best
+    estimate = estimate_light(
+        replace(surface, specular_exponent=exponent), trial, iterations=_LIGHT_ITERATIONS
+    )
     return replace(
         state,
         light=estimate.light,

@@ -13,12 +13,11 @@ in a hundredth of the time, because only the values of one fixed pattern change.
 from dataclasses import dataclass
 
 import numpy as np
-import qdldl
 from jaxtyping import Float, Integer
-from scipy import sparse
 
 from fitter.arrays import PerVertex
 from fitter.numerics.robust import geman_mcclure, geman_mcclure_weights
+from fitter.optimizer.pair_factor import PairFactor
 
 # Ties unseen vertices without neighbours to the starting value; too weak to matter elsewhere.
 _RIDGE = 1e-4
@@ -93,23 +92,19 @@ def reflectance_energy(problem: ReflectanceProblem, fields: ReflectanceFields) -
 
 
 class ReflectanceSolver:
-    """Solves reflectance problems on one mesh; keeps the symbolic factorisation between solves."""
+    """Solves reflectance problems on one mesh.
 
-    def __init__(self, edges: Integer[np.ndarray, "e 2"], vertex_count: int) -> None:
-        self._m = vertex_count
-        m = vertex_count
-        every = np.arange(m)
-        first, second = edges.T
-        rows = np.concatenate([every, first, every, first + m, every + m])
-        columns = np.concatenate([every, second, every + m, second + m, every + m])
-        # Upper triangle in the order: albedo diagonal, albedo edges, coupling, specularity.
-        low, high = np.minimum(rows, columns), np.maximum(rows, columns)
-        pattern = sparse.coo_matrix(
-            (np.arange(1, len(low) + 1, dtype=float), (low, high)), shape=(2 * m, 2 * m)
-        ).tocsc()
-        self._order = pattern.data.astype(np.int64) - 1
-        self._indices, self._pointers = pattern.indices, pattern.indptr
-        self._solver: qdldl.Solver | None = None
+    Parameters
+    ----------
+    edges
+        (e, 2) of the mesh.
+    order
+        (m,) its vertices in their order of elimination (:func:`elimination_order`).
+    """
+
+    def __init__(self, edges: Integer[np.ndarray, "e 2"], order: Integer[np.ndarray, " m"]) -> None:
+        self._m = len(order)
+        self._factor = PairFactor(edges, order)
 
     def solve(
         self, problem: ReflectanceProblem, start: ReflectanceFields, *, iterations: int
@@ -154,44 +149,31 @@ class ReflectanceSolver:
             return np.bincount(first, values, m) + np.bincount(second, values, m)
 
         d, s = problem.diffuse, problem.specular
-        entries = np.concatenate(
-            [
-                weight * d * d + degrees(albedo_edges) + _RIDGE,
-                -albedo_edges,
-                weight * d * s,
-                -specular_edges,
-                weight * s * s + degrees(specular_edges) + _RIDGE,
-            ]
+        self._factor.factorise(
+            -np.stack([albedo_edges, specular_edges], axis=1),
+            np.stack(
+                [
+                    weight * d * d + degrees(albedo_edges) + _RIDGE,
+                    weight * d * s,
+                    weight * s * s + degrees(specular_edges) + _RIDGE,
+                ],
+                axis=1,
+            ),
         )
-        matrix = sparse.csc_matrix(
-            (entries[self._order], self._indices, self._pointers), shape=(2 * m, 2 * m)
-        )
-        solver = self._refactored(matrix)
-        pull = np.concatenate(
-            [
-                weight * d * problem.intensity + _RIDGE * start.albedo,
-                weight * s * problem.intensity + _RIDGE * start.specularity,
-            ]
-        )
-        coupling = np.concatenate([weight * d, weight * s])
+        factors = np.stack([d, s], axis=1)
+        coupling = weight[:, None] * factors
+        pull = coupling * problem.intensity[:, None]
+        pull += _RIDGE * np.stack([start.albedo, start.specularity], axis=1)
         # Ambient light couples to everything, so it is eliminated by the Schur complement.
-        free = solver.solve(pull)
-        by_ambient = solver.solve(coupling)
-        ambient = (float(weight @ problem.intensity) - float(coupling @ free)) / max(
-            float(weight.sum()) - float(coupling @ by_ambient), 1e-12
+        solved = self._factor.solve(np.stack([pull, coupling], axis=2))
+        free, by_ambient = solved[..., 0], solved[..., 1]
+        ambient = (float(weight @ problem.intensity) - float((coupling * free).sum())) / max(
+            float(weight.sum()) - float((coupling * by_ambient).sum()), 1e-12
         )
         ambient = min(max(ambient, 0.0), problem.ambient_limit)
         fields = free - ambient * by_ambient
         return ReflectanceFields(
-            albedo=np.maximum(fields[:m], 0.0),
-            specularity=np.maximum(fields[m:], 0.0),
+            albedo=np.maximum(fields[:, 0], 0.0),
+            specularity=np.maximum(fields[:, 1], 0.0),
             ambient=ambient,
         )
-
-    def _refactored(self, matrix: sparse.csc_matrix) -> qdldl.Solver:
-        """Factorise a matrix of the fixed pattern; only the first call computes the ordering."""
-        if self._solver is None:
-            self._solver = qdldl.Solver(matrix, upper=True)
-        else:
-            self._solver.update(matrix, upper=True)
-        return self._solver

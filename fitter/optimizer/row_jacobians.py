@@ -35,8 +35,9 @@ def position_row_jacobian(
     """
     result = _empty(len(rows.residuals), frame)
     kernels.position_row_jacobian(
-        rows.derivatives,
-        rows.points,
+        # Strided ones would be compiled for anew, in the middle of a fit.
+        np.ascontiguousarray(rows.derivatives),
+        np.ascontiguousarray(rows.points),
         np.sqrt(rows.weights),
         positions,
         frame.translation,

@@ -1,14 +1,13 @@
 """Which optimiser is used, and for how long."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 
-from fitter.energies.objective import Objective
 from fitter.optimizer.alternation import BodySearch
-from fitter.optimizer.damped_descent import EnergyObserver
-from fitter.optimizer.gauss_newton import Minimum, minimize_gauss_newton
+from fitter.optimizer.damped_descent import SETTLED_NATS, EnergyObserver
+from fitter.optimizer.gauss_newton import minimize_gauss_newton
 from fitter.optimizer.simplex import minimize_simplex
-from fitter.parameters import BodyParameters
 from fitter.request import OptimizerKind
 
 
@@ -24,6 +23,8 @@ class SearchLimits:
         How many readings of the clicks are tried on the picture, and for how long.
     contenders, contest
         How many of the best are searched further, and for how long.
+    hopeless_nats
+        A reading whose trial ends this far above the best is not searched further.
     silhouette_and_edges
         From the best of these to the minimum of E1.
     shading_round
@@ -35,17 +36,19 @@ class SearchLimits:
     trial: int
     contenders: int
     contest: int
+    hopeless_nats: float
     silhouette_and_edges: int
     shading_round: int
 
 
 _LIMITS: Mapping[OptimizerKind, SearchLimits] = {
     OptimizerKind.GAUSS_NEWTON: SearchLimits(
-        first=6,
+        first=5,
         hypotheses=4,
-        trial=4,
+        trial=2,
         contenders=2,
-        contest=6,
+        contest=4,
+        hopeless_nats=12.0,
         silhouette_and_edges=100,
         shading_round=40,
     ),
@@ -57,14 +60,10 @@ _LIMITS: Mapping[OptimizerKind, SearchLimits] = {
         trial=150,
         contenders=1,
         contest=150,
+        hopeless_nats=float("inf"),
         silhouette_and_edges=6000,
         shading_round=2500,
     ),
-}
-
-_MINIMIZERS: Mapping[OptimizerKind, Callable[..., Minimum]] = {
-    OptimizerKind.GAUSS_NEWTON: minimize_gauss_newton,
-    OptimizerKind.SIMPLEX: minimize_simplex,
 }
 
 
@@ -74,12 +73,20 @@ def limits_of(kind: OptimizerKind) -> SearchLimits:
 
 
 def body_search(
-    kind: OptimizerKind, max_evaluations: int, on_energies: EnergyObserver
+    kind: OptimizerKind,
+    max_evaluations: int,
+    on_energies: EnergyObserver,
+    settled_nats: float = SETTLED_NATS,
 ) -> BodySearch:
-    """A search over the body with everything fixed but the objective and the start."""
-    minimize = _MINIMIZERS[kind]
+    """A search over the body with everything fixed but the objective and the start.
 
-    def search(objective: Objective, start: BodyParameters) -> Minimum:
-        return minimize(objective, start, max_evaluations=max_evaluations, on_energies=on_energies)
-
-    return search
+    ``settled_nats`` is the gain below which steps end a search that follows the gradient.
+    """
+    if kind is OptimizerKind.SIMPLEX:
+        return partial(minimize_simplex, max_evaluations=max_evaluations, on_energies=on_energies)
+    return partial(
+        minimize_gauss_newton,
+        max_evaluations=max_evaluations,
+        on_energies=on_energies,
+        settled_nats=settled_nats,
+    )

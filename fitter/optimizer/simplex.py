@@ -3,11 +3,10 @@
 import numpy as np
 from scipy.optimize import minimize
 
-from fitter.energies.objective import Candidate, Objective
+from fitter.energies.objective import Body, Candidate, Objective
 from fitter.optimizer.damped_descent import EnergyObserver
 from fitter.optimizer.free_space import free_space
 from fitter.optimizer.gauss_newton import Minimum
-from fitter.parameters import BodyParameters
 
 # First simplex: a few degrees, centimetres and half a standard deviation along each axis.
 _FIRST_TURN = 0.05
@@ -18,21 +17,22 @@ _REPORT_EVERY = 50
 
 def minimize_simplex(
     objective: Objective,
-    start: BodyParameters,
+    start: Body,
     *,
     max_evaluations: int,
     on_energies: EnergyObserver,
 ) -> Minimum:
     """Nelder and Mead's search with coefficients adapted to the dimension (Gao and Han 2012)."""
-    space = free_space(objective.attributes.held, start)
+    best = objective.evaluate(start)
+    first = best.parameters
+    space = free_space(objective.attributes.held, first)
     spread = np.concatenate(
         [
-            np.full(start.pose.size, _FIRST_TURN),
+            np.full(first.pose.size, _FIRST_TURN),
             np.full(3, _FIRST_MOVE_M),
-            np.full(len(start.shape), _FIRST_SHAPE),
+            np.full(len(first.shape), _FIRST_SHAPE),
         ]
     )
-    best = objective.evaluate(start)
     evaluations = 1
     on_energies(best.energies)
 
@@ -40,7 +40,7 @@ def minimize_simplex(
         nonlocal best, evaluations
         # The spread is the same for all shape coefficients, since the directions mix them.
         whole = spread * (space.directions @ step)
-        reached = space.moved(start, whole)
+        reached = space.moved(first, whole)
         evaluations += 1
         if reached is None:
             return np.inf

@@ -6,15 +6,19 @@ of rigid terms over parts: linear blend skinning of some twenty points instead o
 All functions take a batch of poses in the leading axes, as pose hypotheses are refined together.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from jaxtyping import Float, Integer
 
-from fitter.arrays import Shape
+from fitter.arrays import Shape, Vertices
 from fitter.body.model import BodyModel, SparseRows
 from fitter.body.scape import CAMERA_AXES
 from fitter.numerics.rotations import rotation_matrices
+
+_MODELS = 4
+"""How many models' rigs are kept."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -88,20 +92,61 @@ class PosedLandmarks:
     joints: Float[np.ndarray, "... p 3"]
 
 
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class RigSpace:
+    """The rig of every shape: the mean's, and the change of what depends on the shape.
+
+    Joints, landmarks and arms are linear in vertices, and these in the shape. ``changes`` (n, r) by
+    coefficient are those of a :class:`LandmarkRig`'s ``rest_joints``, ``rest_landmarks`` and
+    ``arms`` as one row.
+    """
+
+    mean: LandmarkRig
+    changes: Float[np.ndarray, "n r"]
+
+
 def landmark_rig(model: BodyModel, shape: Shape) -> LandmarkRig:
     """The rig of a model's person with this shape."""
+    space = rig_space(model)
+    mean = space.mean
+    whole = [mean.rest_joints, mean.rest_landmarks, mean.arms]
+    row = np.concatenate([each.reshape(-1) for each in whole]) + shape @ space.changes
+    ends = np.cumsum([each.size for each in whole])
+    joints, landmarks, arms = (
+        part.reshape(each.shape) for part, each in zip(np.split(row, ends[:-1]), whole, strict=True)
+    )
+    return replace(mean, rest_joints=joints, rest_landmarks=landmarks, arms=arms)
+
+
+@lru_cache(maxsize=_MODELS)
+def rig_space(model: BodyModel) -> RigSpace:
+    """A model's rigs: some twenty of them, once a process."""
+    mean = rig_of_vertices(model, model.mean_vertices)
+    changes = [rig_of_vertices(model, change) for change in model.shape_basis]
+    return RigSpace(
+        mean=mean,
+        changes=np.stack(
+            [
+                np.concatenate(
+                    [each.rest_joints.ravel(), each.rest_landmarks.ravel(), each.arms.ravel()]
+                )
+                for each in changes
+            ]
+        ),
+    )
+
+
+def rig_of_vertices(model: BodyModel, vertices: Vertices) -> LandmarkRig:
+    """The rig of a body at rest with a model's mesh."""
     rows = model.landmarks
-    used = np.concatenate([model.joint_regressor.indices, rows.indices])
-    places = model.mean_vertices[used] + np.tensordot(shape, model.shape_basis[:, used], axes=1)
-    split = len(model.joint_regressor.indices)
-    rest_joints = _weighted_sums(model.joint_regressor, places[:split])
+    rest_joints = _weighted_sums(model.joint_regressor, vertices)
     landmark = np.repeat(np.arange(len(rows.names)), np.diff(rows.pointers))
     parts = model.skinning_parts[rows.indices]
     shares = rows.weights[:, None] * model.skinning_weights[rows.indices]
     shares /= model.skinning_weights[rows.indices].sum(axis=1, keepdims=True)
     weights = np.zeros((len(rows.names), len(model.part_names)))
     arms = np.zeros((*weights.shape, 3))
-    offsets = places[split:, None] - rest_joints[parts]
+    offsets = vertices[rows.indices][:, None] - rest_joints[parts]
     np.add.at(weights, (landmark[:, None], parts), shares)
     np.add.at(arms, (landmark[:, None], parts), shares[..., None] * offsets)
     return LandmarkRig(
@@ -109,15 +154,16 @@ def landmark_rig(model: BodyModel, shape: Shape) -> LandmarkRig:
         part_parent=model.part_parent,
         rest_joints=rest_joints,
         landmark_names=rows.names,
-        rest_landmarks=_weighted_sums(rows, places[split:]),
+        rest_landmarks=_weighted_sums(rows, vertices),
         weights=weights,
         arms=arms,
     )
 
 
-def _weighted_sums(rows: SparseRows, places: Float[np.ndarray, "z 3"]) -> Float[np.ndarray, "r 3"]:
-    """The rows' weighted sums, from the positions of the vertices the rows name."""
-    return np.add.reduceat(rows.weights[:, None] * places, rows.pointers[:-1], axis=0)
+def _weighted_sums(rows: SparseRows, vertices: Vertices) -> Float[np.ndarray, "r 3"]:
+    """The rows' weighted sums of vertices."""
+    terms = rows.weights[:, None] * vertices[rows.indices]
+    return np.add.reduceat(terms, rows.pointers[:-1], axis=0)
 
 
 def pose_landmarks(

@@ -5,15 +5,23 @@ its precision (6), such that minus the logarithm of weight times density is
 ``offset + |factor (z - mean)|² / 2``, up to a constant that all components share.
 """
 
-from math import exp, log
+from math import factorial, log, sqrt
 from typing import no_type_check
 
 import numpy as np
 from numba import njit
 
 NEGLIGIBLE = np.float32(12.0)
-"""Terms of a sum smaller than its largest by more than this many nats are left out: at most 3e-5
-nats, for half the exponentials."""
+"""Terms of a sum smaller than its largest by more than this many nats count as if they were not
+smaller than that: at most 3e-5 nats."""
+
+SERIES = tuple(np.float32(1.0 / factorial(n)) for n in range(8, -1, -1))
+"""Of the exponential function, the highest power first."""
+
+MIDDLE = np.float32(sqrt(5.0))
+LOGARITHM_OF_MIDDLE = np.float32(0.5 * log(5.0))
+LOGARITHM = tuple(np.float32(2.0 / n) for n in range(11, 0, -2))
+"""Of log(x / middle) in (x - middle) / (x + middle), the highest power first."""
 
 BLOCK = 128
 """Colours per block, so that the loop over them is vectorised: 117,000 take 1.8 ms, not 4.4."""
@@ -32,10 +40,10 @@ def likeliest_components(colours, components):
         filled = min(BLOCK, count - start)
         _block_costs(colours, start, filled, components, planes, costs, least)
         for i in range(filled):
-            for k in range(components.shape[0]):
-                if costs[k, i] == least[i]:
-                    chosen[start + i] = k
-                    break
+            likeliest = 0
+            for k in range(components.shape[0] - 1, -1, -1):
+                likeliest = k if costs[k, i] == least[i] else likeliest
+            chosen[start + i] = likeliest
     return chosen
 
 
@@ -48,20 +56,46 @@ def mixture_costs(colours, components):
     planes = np.zeros((3, BLOCK), dtype=np.float32)
     costs = np.empty((components.shape[0], BLOCK), dtype=np.float32)
     least = np.empty(BLOCK, dtype=np.float32)
-    one = np.float32(1.0)
+    totals = np.empty(BLOCK, dtype=np.float32)
     for start in range(0, count, BLOCK):
         filled = min(BLOCK, count - start)
         _block_costs(colours, start, filled, components, planes, costs, least)
-        for i in range(filled):
-            total = np.float32(0.0)
-            for k in range(components.shape[0]):
-                beyond = costs[k, i] - least[i]
-                if beyond == 0.0:
-                    total += one
-                elif beyond < NEGLIGIBLE:
-                    total += np.float32(exp(-beyond))
-            result[start + i] = least[i] - (np.float32(log(total)) if total > one else 0.0)
+        totals[:] = 0.0
+        for k in range(components.shape[0]):
+            row = costs[k]
+            for i in range(BLOCK):
+                beyond = min(row[i] - least[i], NEGLIGIBLE)
+                totals[i] += _falling(beyond)
+        for i in range(BLOCK):
+            totals[i] = least[i] - _logarithm(totals[i])
+        result[start : start + filled] = totals[:filled]
     return result
+
+
+@no_type_check
+@njit(cache=True, nogil=True, error_model="numpy")
+def _falling(x):
+    """exp(-x) for x from 0 to :data:`NEGLIGIBLE`, to 3e-6 of itself: a series, vectorised."""
+    y = x * np.float32(-1.0 / 16.0)
+    power = SERIES[0]
+    for n in range(1, len(SERIES)):
+        power = SERIES[n] + power * y
+    power *= power
+    power *= power
+    power *= power
+    return power * power
+
+
+@no_type_check
+@njit(cache=True, nogil=True, error_model="numpy")
+def _logarithm(x):
+    """log(x) for x from 1 to 5, to 1e-5: a series, vectorised."""
+    y = (x - MIDDLE) / (x + MIDDLE)
+    square = y * y
+    power = LOGARITHM[0]
+    for n in range(1, len(LOGARITHM)):
+        power = LOGARITHM[n] + power * square
+    return LOGARITHM_OF_MIDDLE + y * power
 
 
 @no_type_check
@@ -88,7 +122,7 @@ def component_sums(colours, chosen, count):
 
 
 @no_type_check
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
 def _block_costs(colours, start, filled, components, planes, costs, least):
     """Costs (k, BLOCK) of the colours from ``start`` on, and the lowest of each (BLOCK,)."""
     red, green, blue = planes[0], planes[1], planes[2]

@@ -8,6 +8,7 @@ from jaxtyping import Float, UInt8
 
 from fitter.arrays import GreyImage, Image, Mask
 from fitter.numerics.distance_map import exact_distances
+from fitter.numerics.windows import window_about
 
 BAND_SHARE_OF_WIDTH = 0.05
 """The paper's: erode and dilate by 5 % of the picture's width."""
@@ -77,11 +78,18 @@ def trimap(silhouette: Mask, bones: Float[np.ndarray, "b 2 2"], *, band: float) 
     for start, end in np.rint(bones - 0.5).astype(int):  # OpenCV counts from pixel centres.
         cv2.line(skeleton, start.tolist(), end.tolist(), 1, thickness=thickness)
     region = silhouette.astype(np.uint8)
+    labels = np.full(silhouette.shape, TrimapLabel.BACKGROUND, dtype=np.uint8)
+    if not (silhouette.any() or skeleton.any()):
+        return labels
+    # Beyond this window all is background, and no pixel inside is nearest to one beyond.
+    window = window_about(region | skeleton, margin=int(np.ceil(band)) + 1)
+    region, skeleton = region[window], skeleton[window]
     depth = _distance_to(1 - region)
-    labels = np.full(silhouette.shape, TrimapLabel.LIKELY_BACKGROUND, dtype=np.uint8)
-    labels[_distance_to(region | skeleton) > band] = TrimapLabel.BACKGROUND
-    labels[depth > LEANING_SHARE * band] = TrimapLabel.LIKELY_FOREGROUND
-    labels[(depth > band) | (skeleton > 0)] = TrimapLabel.FOREGROUND
+    inner = np.full(region.shape, TrimapLabel.LIKELY_BACKGROUND, dtype=np.uint8)
+    inner[_distance_to(region | skeleton) > band] = TrimapLabel.BACKGROUND
+    inner[depth > LEANING_SHARE * band] = TrimapLabel.LIKELY_FOREGROUND
+    inner[(depth > band) | (skeleton > 0)] = TrimapLabel.FOREGROUND
+    labels[window] = inner
     return labels
 
 

@@ -26,17 +26,21 @@ from service.api import (
     initial_poses,
     metrics,
     page,
+    people,
     points,
     problem_types,
     results,
     retries,
     scan_submissions,
     scans,
+    site,
     submissions,
 )
+from service.api import browser_tokens as token_routes
 from service.api.authentication import Authentication, KeySource, KnownKeys
 from service.api.body_limit import BodyLimit
 from service.api.body_time import BodyTimeLimit
+from service.api.browser_tokens import KnownTokens
 from service.api.context import Parts
 from service.api.estimates import Estimates
 from service.api.event_feed import EventFeed
@@ -49,13 +53,13 @@ from service.api.rate_limit import RateLimit
 from service.api.security_headers import SecurityHeaders
 from service.api.service_metrics import ServiceMetrics
 from service.blobs import BlobStore
+from service.engine.browser_token_port import BrowserTokens
 from service.engine.port import JobEngine
 from service.engine.token_port import SharedTokens
 from service.estimates.port import Estimator
 from service.process.disk import Disk
 from service.settings import Settings
-
-API_VERSION: Final = "1.0.0"
+from service.version import VERSION
 
 MULTIPART_OVERHEAD_BYTES: Final = 2_000_000
 """Allowance, besides the pictures, for the JSON part and the multipart's own lines."""
@@ -93,9 +97,10 @@ def create_app(
     estimator: Estimator,
     keys: KeySource,
     tokens: SharedTokens,
+    browser_tokens: BrowserTokens,
     draining: threading.Event,
 ) -> FastAPI:
-    """Build the application from what outlives it: engine, blobs, disk, estimators, keys, tokens.
+    """Build the application from what outlives it: engine, blobs, disk, estimators, keys and so on.
 
     ``draining`` is set once the process is told to stop: it is then no longer ready, and event
     streams end.
@@ -128,8 +133,16 @@ def create_app(
         metrics=metrics,
         draining=draining,
         copying=CapacityLimiter(COPIED_AT_ONCE),
+        browser_tokens=browser_tokens,
     )
-    _surround(app, settings=settings, keys=keys, rate_limit=rate_limit, metrics=metrics)
+    _surround(
+        app,
+        settings=settings,
+        keys=keys,
+        browser_tokens=browser_tokens,
+        rate_limit=rate_limit,
+        metrics=metrics,
+    )
     return app
 
 
@@ -138,6 +151,7 @@ def _surround(
     *,
     settings: Settings,
     keys: KeySource,
+    browser_tokens: BrowserTokens,
     rate_limit: RateLimit | None,
     metrics: ServiceMetrics,
 ) -> None:
@@ -147,6 +161,7 @@ def _surround(
     app.add_middleware(
         Authentication,
         keys=KnownKeys(keys) if needs_keys else None,
+        tokens=KnownTokens(browser_tokens),
         rate_limit=rate_limit,
     )
     if settings.allowed_origins:
@@ -178,7 +193,7 @@ def openapi_text() -> str:
 def _resources(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]] | None) -> FastAPI:
     app = FastAPI(
         title="Maquette",
-        version=API_VERSION,
+        version=VERSION,
         summary=about.SUMMARY,
         description=about.DESCRIPTION,
         license_info=dict(about.LICENCE),
@@ -202,6 +217,8 @@ def _resources(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]] 
         scan_submissions,
         scans,
         derivations,
+        people,
+        token_routes,
         images,
         points,
         checks,
@@ -215,6 +232,7 @@ def _resources(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]] 
         page,
     ):
         app.include_router(resource.ROUTER)
+    site.mount(app)
     generate = app.openapi
 
     def openapi() -> dict[str, Any]:

@@ -1,4 +1,7 @@
-"""Authentication: an API key names a tenant. Checked before the body is looked at."""
+"""Authentication: an API key names a tenant, a browser's token a key.
+
+Both are checked before the body is looked at.
+"""
 
 import time
 from collections.abc import Callable, Sequence
@@ -10,13 +13,15 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 
 from api_schemas.problems import problem
 from service.api.body_limit import refuse
-from service.api.context import SOLE_TENANT
+from service.api.browser_tokens import KnownTokens, is_allowed
+from service.api.context import SOLE_TENANT, Caller
 from service.api.problems import ProblemError, problem_response
 from service.api.rate_limit import RateLimit
+from service.engine.browser_tokens import MARK
 from service.engine.keys import ApiKey, Role, hash_key
 from service.engine.port import EngineUnavailableError
 
-OPEN: Final = ("/healthz/", "/problems/", "/docs", "/openapi.json", "/page/")
+OPEN: Final = ("/healthz/", "/problems/", "/docs", "/documentation", "/openapi.json", "/page/")
 """Prefixes of public paths: they show nothing that belongs to a tenant."""
 
 ROOT: Final = "/"
@@ -32,6 +37,12 @@ RETRY_UNKNOWN_S: Final = 0.5
 
 NO_KEY: Final = "There is no API key."
 UNKNOWN_KEY: Final = "The API key is unknown or revoked."
+KEY_REMEDY: Final = (
+    "Send the header 'Authorization: Bearer' with a key; whoever runs the service makes one with: "
+    "maquette keys create TENANT"
+)
+UNKNOWN_TOKEN: Final = "The token is unknown or has expired, or its key is revoked."
+NEW_TOKEN: Final = "Have the site that shows this page make a new one: POST /v1/tokens."
 
 
 class KeySource(Protocol):
@@ -82,17 +93,23 @@ class KnownKeys:
 
 
 class Authentication:
-    """ASGI middleware: sets ``request.state.tenant``, or answers 401, 403 or 429.
+    """ASGI middleware: sets ``request.state.caller``, or answers 401, 403 or 429.
 
     Without ``keys`` everybody is the sole tenant; the settings ensure that the service can then be
     reached only from its own machine. Without a ``rate_limit`` requests are not limited.
     """
 
     def __init__(
-        self, app: ASGIApp, *, keys: KnownKeys | None, rate_limit: RateLimit | None
+        self,
+        app: ASGIApp,
+        *,
+        keys: KnownKeys | None,
+        tokens: KnownTokens,
+        rate_limit: RateLimit | None,
     ) -> None:
         self._app = app
         self._keys = keys
+        self._tokens = tokens
         self._rate_limit = rate_limit
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -102,7 +119,7 @@ class Authentication:
             return
         request = Request(scope)
         try:
-            request.state.tenant = await self._tenant(request)
+            request.state.caller = await self._caller(request)
         except ProblemError as error:
             await refuse(
                 problem_response(request, error.problem, error.headers), scope, receive, send
@@ -110,36 +127,50 @@ class Authentication:
             return
         await self._app(scope, receive, send)
 
-    async def _tenant(self, request: Request) -> str:
+    async def _caller(self, request: Request) -> Caller:
         path = request.url.path
         if self._keys is None or path == ROOT or path.startswith(OPEN):
-            return SOLE_TENANT
+            return Caller(tenant=SOLE_TENANT)
         scheme, _, presented = request.headers.get("authorization", "").partition(" ")
         if scheme.lower() != "bearer" or not presented.strip():
             raise _unauthorized(NO_KEY)
         try:
-            key = await run_in_threadpool(self._keys.find, presented.strip())
+            if presented.strip().startswith(MARK):
+                caller = await self._browser(presented.strip(), path)
+            else:
+                caller = await self._holder(self._keys, presented.strip(), path)
         except EngineUnavailableError as error:
             raise _not_ready() from error
+        if self._rate_limit is not None and caller.key_id is not None:
+            retry_after_s = await self._rate_limit.take(caller.key_id)
+            if retry_after_s:
+                raise _too_many(retry_after_s)
+        return caller
+
+    async def _holder(self, keys: KnownKeys, presented: str, path: str) -> Caller:
+        key = await run_in_threadpool(keys.find, presented)
         if key is None:
             raise _unauthorized(UNKNOWN_KEY)
         for_metrics = path == METRICS_PATH
         if (key.role is Role.METRICS) != for_metrics:
             raise _forbidden(key)
-        if self._rate_limit is not None:
-            retry_after_s = await self._rate_limit.take(key.id)
-            if retry_after_s:
-                raise _too_many(retry_after_s)
-        return key.tenant
+        return Caller(tenant=key.tenant, key_id=key.id)
+
+    async def _browser(self, presented: str, path: str) -> Caller:
+        token = await self._tokens.find(presented)
+        if token is None:
+            raise _unauthorized(UNKNOWN_TOKEN, remedy=NEW_TOKEN)
+        if not is_allowed(path):
+            raise _beyond_token()
+        return Caller(tenant=token.tenant, key_id=token.key_id, token=token)
 
 
-def _unauthorized(detail: str) -> ProblemError:
+def _unauthorized(detail: str, *, remedy: str = KEY_REMEDY) -> ProblemError:
     return ProblemError(
         problem(
             "unauthorized",
             detail=detail,
-            remedy="Send the header 'Authorization: Bearer' with a key; whoever runs the service "
-            "makes one with: maquette keys create TENANT",
+            remedy=remedy,
             field="Authorization",
         ),
         headers={"WWW-Authenticate": 'Bearer realm="maquette"'},
@@ -153,6 +184,18 @@ def _forbidden(key: ApiKey) -> ProblemError:
             code="wrong-role",
             detail=f"This key is for {key.role} only.",
             remedy="Use a key made for this purpose.",
+            field="Authorization",
+        )
+    )
+
+
+def _beyond_token() -> ProblemError:
+    return ProblemError(
+        problem(
+            "forbidden",
+            code="not-for-tokens",
+            detail="A browser's token is for fits, scans and pictures of its own.",
+            remedy="Ask with the key, from a server.",
             field="Authorization",
         )
     )

@@ -11,13 +11,24 @@ from service.api.estimates import Estimates
 from service.api.event_feed import EventFeed
 from service.api.service_metrics import ServiceMetrics
 from service.blobs import BlobStore
+from service.engine.browser_token_port import BrowserToken, BrowserTokens
 from service.engine.image_port import TenantImages
+from service.engine.people_port import TenantPeople
 from service.engine.port import FIT, SCAN, JobEngine, TenantJobs
 from service.process.disk import Disk
 from service.settings import Settings
 
 SOLE_TENANT: Final = "default"
 """The tenant of all jobs if no keys are required."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Caller:
+    """Who sends a request: for a tenant, with a key, or with a browser's token for that key."""
+
+    tenant: str
+    key_id: str | None = None
+    token: BrowserToken | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,11 +47,16 @@ class Parts:
     metrics: ServiceMetrics
     draining: threading.Event
     copying: CapacityLimiter
+    browser_tokens: BrowserTokens
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ApiContext:
-    """The parts for one request: ``jobs``, its tenant's fits, ``scans`` and ``images``."""
+    """The parts for one request: ``jobs``, its tenant's fits, ``scans``, ``images``, ``people``.
+
+    ``key_id`` is the key it came with, None where none are asked for; ``token`` the browser's token
+    that stands for it, if it does: then jobs and images are that token's alone.
+    """
 
     settings: Settings
     engine: JobEngine
@@ -51,16 +67,22 @@ class ApiContext:
     metrics: ServiceMetrics
     draining: threading.Event
     copying: CapacityLimiter
+    browser_tokens: BrowserTokens
     tenant: str
+    key_id: str | None
+    token: BrowserToken | None
     jobs: TenantJobs
     scans: TenantJobs
     images: TenantImages
+    people: TenantPeople
     request_id: str | None
 
 
 def _context(request: Request) -> ApiContext:
     parts: Parts = request.app.state.parts
-    tenant: str = request.state.tenant
+    caller: Caller = request.state.caller
+    tenant = caller.tenant
+    token_id = None if caller.token is None else caller.token.id
     return ApiContext(
         settings=parts.settings,
         engine=parts.engine,
@@ -71,10 +93,14 @@ def _context(request: Request) -> ApiContext:
         metrics=parts.metrics,
         draining=parts.draining,
         copying=parts.copying,
+        browser_tokens=parts.browser_tokens,
         tenant=tenant,
-        jobs=parts.engine.of(tenant, FIT),
-        scans=parts.engine.of(tenant, SCAN),
-        images=parts.engine.images_of(tenant),
+        key_id=caller.key_id,
+        token=caller.token,
+        jobs=parts.engine.of(tenant, FIT, token=token_id),
+        scans=parts.engine.of(tenant, SCAN, token=token_id),
+        images=parts.engine.images_of(tenant, token=token_id),
+        people=parts.engine.people_of(tenant),
         request_id=getattr(request.state, "request_id", None),
     )
 

@@ -31,6 +31,7 @@ from service.api.json_bodies import (
 )
 from service.api.problems import documented
 from service.api.retries import RETRY_PROBLEMS, accept_again
+from service.api.sandbox import asked_of_derivation
 from service.api.uploads import MULTIPART
 from service.webhooks.targets import check_webhook
 
@@ -113,7 +114,8 @@ them together, with what is known of their errors. A size of a brand's chart, sa
         check_webhook(asked.webhook, context.settings)
         roots = parents.jobs(context)
         made_of = await run_in_threadpool(find, roots, parent_id)
-        inputs = await run_in_threadpool(derivation_inputs, roots, made_of, asked, sent.files)
+        sent_along = {**sent.files, **asked_of_derivation(context, made_of)}
+        inputs = await run_in_threadpool(derivation_inputs, roots, made_of, asked, sent_along)
         jobs = parents.below(context, parent_id)
         # At most one file comes with a request, and the kind and its options say which.
         brought = b"".join(file.content for file in sent.files.values())

@@ -110,6 +110,10 @@ class Estimates:
         task = ConversionTask(ending=kind.ending)
         return await self._answer("conversion", partial(self._estimator.convert, task, glb))
 
+    async def jpeg(self, image: bytes) -> bytes:
+        """Write an encoded picture as a JPEG, upright; raises as :meth:`body` does."""
+        return await self._answer("jpeg", partial(self._estimator.jpeg, image))
+
     async def refuse_nobody(self, task: BodyTask) -> None:
         """Raise :class:`service.submissions.refusal.RefusedError` if no body has what is known.
 

@@ -8,7 +8,7 @@ from typing import Final
 
 from starlette.concurrency import run_in_threadpool
 
-from service.engine.port import JobEngine
+from service.engine.port import EngineUnavailableError, JobEngine
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -63,9 +63,12 @@ class EventFeed:
                 continue
             try:
                 numbers = await run_in_threadpool(self._engine.last_events, waiting)
-            except Exception:
+            except Exception as error:
                 # Waiting requests run into their timeouts and query the database themselves.
-                LOG.exception("The event feed could not reach the database.")
+                if isinstance(error, EngineUnavailableError):
+                    LOG.warning("The database is not available; events are told later.")
+                else:
+                    LOG.exception("Looking for events failed.")
                 await asyncio.sleep(PAUSE_AFTER_FAILURE_S)
                 continue
             latest = {job_id: numbers.get(job_id, GONE) for job_id in waiting}

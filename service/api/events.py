@@ -1,5 +1,6 @@
 """A job's events as they happen: server-sent events, resumable."""
 
+import asyncio
 import time
 from collections.abc import AsyncIterator
 from typing import Annotated, Any, Final
@@ -14,12 +15,13 @@ from api_schemas.jobs import EventData, EventKind
 from service.api.context import ApiContext, Context
 from service.api.job_routes import JOB_PROBLEMS, find
 from service.api.problems import documented
-from service.engine.port import JobEvent, TenantJobs
+from service.engine.port import EngineUnavailableError, JobEvent, TenantJobs
 from service.jobs.states import TERMINAL
 
 ROUTER: Final = APIRouter(prefix="/v1/fits", tags=["fits"])
 
 PING_S: Final = 15.0
+AWAY_PAUSE_S: Final = 1.0
 RECONNECT_MS: Final = 1_000
 
 LastEventId = Annotated[int | None, Header(ge=0, description="Resume after this event.")]
@@ -96,23 +98,30 @@ async def _stream(
     yield format_sse_event(retry=RECONNECT_MS)
     last_sign = time.monotonic()
     while True:
-        for event in await run_in_threadpool(jobs.events, job_id, after=seen):
+        is_silent = time.monotonic() >= last_sign + PING_S
+        try:
+            events = await run_in_threadpool(jobs.events, job_id, after=seen)
+            if is_silent and not events and await run_in_threadpool(jobs.job, job_id) is None:
+                return
+        except EngineUnavailableError:
+            # An `EventSource` whose stream ended now would reconnect, get 503 and give up for good.
+            events = ()
+            await asyncio.sleep(AWAY_PAUSE_S)
+        for event in events:
             yield _format(event)
             seen = event.number
-            last_sign = time.monotonic()
             if event.kind is EventKind.END:
                 return
+        if is_silent and not events:
+            yield KEEPALIVE_COMMENT
+        if is_silent or events:
+            last_sign = time.monotonic()
         if context.feed.is_ending:
             # The client reconnects on its own, to a process that stays, and misses nothing.
             return
         await context.feed.wait_beyond(
             job_id, seen, timeout_s=max(0.0, last_sign + PING_S - time.monotonic())
         )
-        if time.monotonic() >= last_sign + PING_S:
-            if await run_in_threadpool(jobs.job, job_id) is None:
-                return
-            yield KEEPALIVE_COMMENT
-            last_sign = time.monotonic()
 
 
 def _format(event: JobEvent) -> bytes:

@@ -13,6 +13,7 @@ from service.api.job_routes import (
     Cursor,
     IfNoneMatch,
     Limit,
+    OfLabel,
     State,
     cancel_job,
     erase_job,
@@ -38,10 +39,17 @@ def list_fits(
     limit: Limit = 50,
     cursor: Cursor = None,
     state: State = None,
+    label: OfLabel = None,
 ) -> JobPage:
     """List jobs; `next` and the Link header lead to the following page."""
     page, following = page_of(
-        context.jobs, response, path="/v1/fits", limit=limit, cursor=cursor, state=state
+        context.jobs,
+        response,
+        path="/v1/fits",
+        limit=limit,
+        cursor=cursor,
+        state=state,
+        label=label,
     )
     return JobPage(jobs=tuple(represent(record) for record in page), next=following)
 

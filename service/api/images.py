@@ -3,6 +3,7 @@
 import contextlib
 import hashlib
 from datetime import UTC, datetime
+from functools import partial
 from typing import Annotated, Any, Final
 from uuid import uuid4
 
@@ -11,7 +12,11 @@ from starlette.concurrency import run_in_threadpool
 
 from api_schemas.images import ImageId, UploadedImage
 from api_schemas.problems import FieldProblem, problem
+from service.api.artifacts import AcceptHeader
 from service.api.context import ApiContext, Context
+from service.api.erasure import erase_blobs
+from service.api.fit_inputs import AS_JPEG, PICTURE_ANSWERS, serve_stored_picture
+from service.api.job_routes import IfNoneMatch
 from service.api.json_bodies import JSON, json_content
 from service.api.picture_forms import picture_form
 from service.api.problems import ProblemError, documented, not_found
@@ -19,6 +24,7 @@ from service.api.room import no_room, storing
 from service.api.uploads import read_image
 from service.blobs import BlobMissingError, BlobsUnavailableError
 from service.engine.image_port import ImageQuotaError, ImageRecord, KeptImage, NewImage
+from service.engine.port import StoredBlob
 from service.submissions.refusal import RefusedError, refused
 from service.submissions.submission import check_picture
 
@@ -88,6 +94,28 @@ def get_image(
     return _represent(record)
 
 
+@ROUTER.get(
+    "/{image_id}/picture",
+    summary="An uploaded picture itself",
+    description=f"Return the picture as it was sent.{AS_JPEG}",
+    response_class=Response,
+    responses=PICTURE_ANSWERS,
+)
+async def get_picture(
+    image_id: Annotated[ImageId, Path()],
+    context: Context,
+    if_none_match: IfNoneMatch = None,
+    accept: AcceptHeader = None,
+) -> Response:
+    """Return the picture as it was sent, or as a JPEG."""
+    record = await run_in_threadpool(context.images.find, image_id)
+    if record is None:
+        raise not_found(what="such picture")
+    blob = StoredBlob(digest=record.id, media_type=record.media_type)
+    read = partial(_read, context, record)
+    return await serve_stored_picture(context, blob, read, if_none_match, accept)
+
+
 @ROUTER.delete(
     "/{image_id}",
     status_code=204,
@@ -99,7 +127,7 @@ def erase_image(image_id: Annotated[ImageId, Path()], context: Context) -> Respo
     scope = context.images.erase(image_id)
     if scope is None:
         raise not_found(what="such picture")
-    context.blobs.erase(scope)
+    erase_blobs(context.blobs, [scope])
     return Response(status_code=204)
 
 
@@ -124,6 +152,13 @@ def image_content(context: ApiContext, image_id: str, *, field: str) -> bytes:
         return context.blobs.get(record.scope, record.id)
     except BlobMissingError as error:
         raise _unknown(field) from error
+
+
+def _read(context: ApiContext, record: ImageRecord) -> bytes:
+    try:
+        return context.blobs.get(record.scope, record.id)
+    except BlobMissingError as error:
+        raise not_found(what="such picture any more") from error
 
 
 def _unknown(field: str) -> RefusedError:

@@ -38,13 +38,15 @@ class Inputs:
     """The inputs of a job; ``options`` is the request as JSON.
 
     ``pictures`` is how many pictures of a person are sent for it, where it waits as so many jobs.
-    ``sources`` are the fits, besides its own, that it has copies of.
+    ``sources`` are the fits, besides its own, that it has copies of. ``label`` is what the caller
+    calls the person.
     """
 
     kind: str = FIT
     options: bytes
     files: Mapping[str, File | Copy]
     pictures: int = 1
+    label: str | None = None
     sources: tuple[str, ...] = ()
     webhook: WebhookTarget | None
 

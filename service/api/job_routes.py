@@ -3,13 +3,16 @@
 import re
 from collections.abc import Sequence
 from typing import Annotated, Any, Final
+from urllib.parse import quote
 from uuid import UUID
 
 from fastapi import Header, Query, Response
 
 from api_schemas.jobs import JobState
+from api_schemas.labels import Label
 from api_schemas.problems import FieldProblem, field_problem
 from service.api.context import ApiContext
+from service.api.erasure import erase_blobs
 from service.api.problems import ProblemError, not_found
 from service.engine.port import JobRecord, TenantJobs
 from service.jobs.states import ACTIVE, TERMINAL
@@ -44,6 +47,9 @@ Cursor = Annotated[
     ),
 ]
 State = Annotated[JobState | None, Query()]
+OfLabel = Annotated[
+    Label | None, Query(alias="label", description="Only those with exactly this label.")
+]
 IfNoneMatch = Annotated[str | None, Header()]
 
 
@@ -77,15 +83,17 @@ def page_of(
     limit: int,
     cursor: str | None,
     state: JobState | None,
+    label: str | None = None,
 ) -> tuple[Sequence[JobRecord], str | None]:
     """Return a page of jobs, newest first, and the path of the next page, below ``path``."""
     before = None if cursor is None else _read_cursor(cursor)
-    records = jobs.jobs(limit=limit + 1, before=before, state=state)
+    records = jobs.jobs(limit=limit + 1, before=before, state=state, label=label)
     page = records[:limit]
     if len(records) <= limit:
         return page, None
     following = f"{path}?limit={limit}&cursor={_cursor(page[-1])}"
     following += f"&state={state}" if state else ""
+    following += f"&label={quote(label, safe='')}" if label else ""
     response.headers["Link"] = f'<{following}>; rel="next"'
     return page, following
 
@@ -105,8 +113,7 @@ def erase_job(context: ApiContext, jobs: TenantJobs, job_id: UUID) -> Response:
     scopes = jobs.erase(str(job_id))
     if not scopes:
         raise not_found(what="such job")
-    for scope in scopes:
-        context.blobs.erase(scope)
+    erase_blobs(context.blobs, scopes)
     return Response(status_code=204)
 
 

@@ -11,7 +11,7 @@ from api_schemas.checks import CaptureCheck, CheckOfImage, CheckRequest
 from api_schemas.derivation_kinds.combined import MOST_OTHER_FITS
 from api_schemas.derivation_kinds.texture import TEXTURE_SIZES
 from api_schemas.derivations import DerivationEvent, DerivationRequest, DerivationResult
-from api_schemas.images import UploadedImage
+from api_schemas.images import LARGEST_ASPECT_RATIO, LEAST_SIDE_PX, UploadedImage
 from api_schemas.initial_poses import InitialPose, InitialPoseRequest
 from api_schemas.jobs import EventData
 from api_schemas.known import MAX_HEIGHT_M, MIN_HEIGHT_M
@@ -35,6 +35,7 @@ from api_schemas.scans import (
     ScanOptions,
     ScanRequest,
 )
+from api_schemas.tokens import TokenRequest
 from api_schemas.webhooks import WebhookEvent
 from service.api.json_bodies import JSON, json_content
 from service.api.operation_examples import (
@@ -68,7 +69,7 @@ _SECURITY: dict[str, Any] = {
             "type": "http",
             "scheme": "bearer",
             "description": "An API key, where the service asks for one "
-            "(`MAQUETTE_AUTHENTICATION=keys`).",
+            "(`MAQUETTE_AUTHENTICATION=keys`), or a token that `/v1/tokens` made with it.",
         }
     }
 }
@@ -147,6 +148,7 @@ _LIMITS: dict[str, Any] = {
     "height_m": {"least": MIN_HEIGHT_M, "most": MAX_HEIGHT_M},
     "texture_sizes": TEXTURE_SIZES,
     "most_other_fits": MOST_OTHER_FITS,
+    "picture": {"least_side": LEAST_SIDE_PX, "largest_aspect_ratio": LARGEST_ASPECT_RATIO},
     "views": {"least": LEAST_VIEWS, "most": MOST_VIEWS},
 }
 
@@ -214,6 +216,7 @@ def _models(mode: str) -> tuple[type[BaseModel], ...]:
             FitRequest,
             FitOfImage,
             BodyRequest,
+            TokenRequest,
             InitialPoseRequest,
             PointsRequest,
             PointsOfImage,

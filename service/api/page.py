@@ -10,14 +10,17 @@ from typing import Annotated, Final
 from fastapi import APIRouter, Header, Request, Response
 
 from api_schemas.index import ServiceIndex
+from service.api.context import Parts
 from service.api.problems import not_found
-from service.api.security_headers import OWN_CAMERA, OWN_FILES
+from service.api.security_headers import OWN_CAMERA, framed_by
 
 ROUTER: Final = APIRouter(include_in_schema=False)
 
 LINKS: Final = {
     "fits": "/v1/fits",
     "scans": "/v1/scans",
+    "people": "/v1/people",
+    "tokens": "/v1/tokens",
     "images": "/v1/images",
     "initial_poses": "/v1/initial-poses",
     "points": "/v1/points",
@@ -34,18 +37,23 @@ _TEXT_TYPES: Final = {
     "html": "text/html",
     "js": "text/javascript",
     "json": "application/json",
+    "ts": "text/plain",
     "txt": "text/plain",
 }
-_PACKED_TYPES: Final = {"jpg": "image/jpeg", "woff2": "font/woff2"}
+_PACKED_TYPES: Final = {"jpg": "image/jpeg", "webp": "image/webp", "woff2": "font/woff2"}
 """Compressed already."""
 
 _SAMPLES: Final = {
     "sample.jpg": "sample.jpg",
     "sample.json": "request.json",
     **{name: name for name in ("woman.jpg", "woman.json", "arm_across.jpg", "arm_across.json")},
-    **{name: name for name in ("scan_front.jpg", "scan_side.jpg")},
+    **{name: name for name in ("scan_front.jpg", "scan_side.jpg", "measuring_tiles.jpg")},
 }
-"""Sample pictures for users without one of their own, and their clicks: the file for each name."""
+"""Sample pictures for users without one of their own, their clicks, and good and bad pictures to
+learn from: the file for each name."""
+
+_FOR_OTHER_SITES: Final = frozenset({"embed.js", "embed.d.ts"})
+"""What sites that embed the page load into their own, under a name that stays."""
 
 _UNCHANGING: Final = "public, max-age=31536000, immutable"
 """Cache header of files whose names contain a hash of their content."""
@@ -71,24 +79,36 @@ def page(
     """Return the page to browsers, and the ways in to programs that ask for JSON."""
     headers = {"Cache-Control": "no-cache", "Vary": "Accept, Accept-Encoding"}
     if "text/html" not in accept:
-        index = ServiceIndex(name=request.app.title, version=request.app.version, links=LINKS)
+        parts: Parts = request.app.state.parts
+        index = ServiceIndex(
+            name=request.app.title,
+            version=request.app.version,
+            links=LINKS,
+            retention_hours=parts.settings.retention_hours,
+            max_pixels=parts.settings.max_pixels,
+            max_upload_bytes=parts.settings.max_upload_bytes,
+            sandbox=parts.settings.sandbox,
+        )
         return Response(index.model_dump_json(), media_type="application/json", headers=headers)
-    headers["Content-Security-Policy"] = OWN_FILES
+    parts: Parts = request.app.state.parts
+    headers["Content-Security-Policy"] = framed_by(parts.settings.embedding_origins)
     headers["Permissions-Policy"] = OWN_CAMERA
     return _answer(_page_files()["index.html"], accept_encoding, headers)
 
 
 @ROUTER.get("/page/{name}")
 def page_file(name: str, accept_encoding: Annotated[str, Header()] = "") -> Response:
-    """Return a script, a style, a font or a sample of the page."""
+    """Return a script, a style, a font or a picture of the page."""
     found = _page_files().get(name)
     if found is None or name == "index.html":
         raise not_found(what="such file")
-    hashed = name.count(".") >= 2
+    hashed = name.count(".") >= 2 and name not in _FOR_OTHER_SITES
     headers = {
         "Cache-Control": _UNCHANGING if hashed else _FOR_A_DAY,
         "Vary": "Accept-Encoding",
     }
+    if name in _FOR_OTHER_SITES:
+        headers["Cross-Origin-Resource-Policy"] = "cross-origin"
     return _answer(found, accept_encoding, headers)
 
 

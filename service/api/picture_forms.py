@@ -7,8 +7,8 @@ from pydantic import BaseModel
 from service.api.json_bodies import JSON, json_content
 from service.api.uploads import MULTIPART
 
-_PICTURE: Final = {"type": "string", "format": "binary", "description": "JPEG, PNG or WebP."}
-_PICTURE_TYPES: Final = {"contentType": "image/jpeg, image/png, image/webp"}
+_PICTURE: Final = {"type": "string", "format": "binary", "description": "JPEG, PNG, WebP or HEIC."}
+_PICTURE_TYPES: Final = {"contentType": "image/jpeg, image/png, image/webp, image/heic"}
 
 
 def picture_form(asked: type[BaseModel] | None = None) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from fastapi.responses import Response
 from starlette.exceptions import HTTPException
 
 from api_schemas.problems import PROBLEM_MEDIA_TYPE, PROBLEM_TYPES, Problem, field_problem, problem
+from service.api.examples.problems import PROBLEM_SAMPLES
 from service.blobs import BlobsUnavailableError, StorageFullError
 from service.engine.port import EngineFullError, EngineUnavailableError, JobExpiredError
 from service.submissions.refusal import RefusedError
@@ -47,9 +48,7 @@ def documented(*slugs: str) -> dict[int | str, dict[str, Any]]:
     by_status: dict[int | str, dict[str, Any]] = {}
     for slug in slugs:
         kind = PROBLEM_TYPES[slug]
-        example = problem(
-            slug, detail=kind.description, remedy="What to do about it.", code=slug
-        ).model_dump(mode="json")
+        example = PROBLEM_SAMPLES[slug].model_dump(mode="json")
         entry = by_status.setdefault(
             kind.status,
             {
@@ -134,12 +133,13 @@ def _on_http(request: Request, error: Exception) -> Response:
 
 def _on_unavailable(request: Request, error: Exception) -> Response:
     full = isinstance(error, EngineFullError)
+    # A line, not a trace: in an outage every request comes through here.
     LOG.error(
-        "%s %s: the database is %s.",
+        "%s %s: the database is %s (%s).",
         request.method,
         request.url.path,
         "full" if full else "away",
-        exc_info=None if full else error,
+        _drivers_words(error),
     )
     reason = problem(
         "not-ready",
@@ -150,6 +150,12 @@ def _on_unavailable(request: Request, error: Exception) -> Response:
         remedy="Try again after the time in Retry-After; nothing was changed.",
     )
     return problem_response(request, reason)
+
+
+def _drivers_words(error: Exception) -> str:
+    """What the database's driver says, in one line and without the statement."""
+    cause = error.__cause__ or error
+    return " ".join(str(getattr(cause, "orig", cause)).split())
 
 
 def _on_no_storage(request: Request, error: Exception) -> Response:

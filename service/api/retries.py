@@ -25,6 +25,7 @@ from service.api.job_routes import find
 from service.api.problems import ProblemError, documented, not_found
 from service.blobs import BlobMissingError
 from service.engine.port import JobRecord, TenantJobs
+from service.jobs.inputs import SANDBOX
 from service.jobs.states import ACTIVE
 from service.representation.jobs import represent
 from service.webhooks.targets import read_target
@@ -100,8 +101,14 @@ def _inputs(context: ApiContext, jobs: TenantJobs, job_id: UUID) -> Inputs:
     return Inputs(
         kind=record.kind,
         options=options,
-        files={name: Copy(scope=record.id, blob=blob) for name, blob in record.inputs.items()},
+        files={
+            name: Copy(scope=record.id, blob=blob)
+            for name, blob in record.inputs.items()
+            # What a sandbox was asked for was done: the retry ends as usual.
+            if name != SANDBOX
+        },
         pictures=record.pictures,
+        label=record.label,
         sources=() if record.parent is None else _sources(options),
         webhook=webhook,
     )

@@ -27,6 +27,7 @@ from service.api.images import image_content
 from service.api.job_inputs import File, Inputs
 from service.api.json_bodies import JSON, json_content, media_type, read_json_text, unsupported
 from service.api.problems import documented
+from service.api.sandbox import asked_of_job
 from service.api.submissions import refuse_nobody
 from service.api.uploads import MULTIPART, check_names, read_request_and_some
 from service.engine.port import SCAN
@@ -39,7 +40,7 @@ from service.webhooks.targets import check_webhook
 
 ROUTER: Final = APIRouter(prefix="/v1/scans", tags=["scans"])
 
-_PICTURES: Final = "image/jpeg, image/png, image/webp"
+_PICTURES: Final = "image/jpeg, image/png, image/webp, image/heic"
 _IMAGES: Final = tuple(image_of(number) for number in range(MOST_VIEWS))
 _MASKS: Final = tuple(mask_of(number) for number in range(MOST_VIEWS))
 
@@ -59,7 +60,7 @@ _SUBMISSION: Final[dict[str, Any]] = {
                     "required": ["request", *_IMAGES[:2]],
                     "properties": {"request": {"$ref": "#/components/schemas/ScanRequest"}}
                     | {
-                        name: _file(f"The picture of view {number}: JPEG, PNG or WebP.")
+                        name: _file(f"The picture of view {number}: JPEG, PNG, WebP or HEIC.")
                         for number, name in enumerate(_IMAGES)
                     }
                     | {
@@ -140,8 +141,10 @@ async def submit_scan(
         files={
             name: File(content=file.content, media_type=file.media_type)
             for name, file in checked.files.items()
-        },
+        }
+        | asked_of_job(context, asked.label),
         pictures=len(sent),
+        label=asked.label,
         webhook=asked.webhook,
     )
     contents = (content for each in sent for content in (each.image, each.mask or b""))

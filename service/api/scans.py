@@ -5,6 +5,7 @@ from uuid import UUID
 
 from fastapi import APIRouter, Path, Response
 from fastapi.responses import StreamingResponse
+from starlette.concurrency import run_in_threadpool
 
 from api_schemas.scans import MOST_VIEWS, Scan, ScanPage, ScanResult
 from service.api.acceptance import IdempotencyKey, Prefer, accepted
@@ -19,13 +20,21 @@ from service.api.artifacts import (
 )
 from service.api.context import Context
 from service.api.events import EVENT_ANSWERS, LastEventId, event_stream
-from service.api.fit_inputs import AS_SENT, UNDERSTOOD, serve_blob
+from service.api.fit_inputs import (
+    AS_JPEG,
+    AS_SENT,
+    PICTURE_ANSWERS,
+    UNDERSTOOD,
+    serve_blob,
+    serve_picture,
+)
 from service.api.job_routes import (
     JOB_PROBLEMS,
     NOT_MODIFIED,
     Cursor,
     IfNoneMatch,
     Limit,
+    OfLabel,
     State,
     cancel_job,
     erase_job,
@@ -60,6 +69,7 @@ def list_scans(
     limit: Limit = 50,
     cursor: Cursor = None,
     state: State = None,
+    label: OfLabel = None,
 ) -> ScanPage:
     """List jobs; `next` and the Link header lead to the following page."""
     page, following = page_of(
@@ -69,6 +79,7 @@ def list_scans(
         limit=limit,
         cursor=cursor,
         state=state,
+        label=label,
     )
     return ScanPage(scans=tuple(represent_scan(record) for record in page), next=following)
 
@@ -175,17 +186,23 @@ def scan_request(scan_id: UUID, context: Context, if_none_match: IfNoneMatch = N
 @ROUTER.get(
     "/{scan_id}/views/{number}/image",
     summary="The picture of a view",
+    description=f"Return the picture as it was sent; it is erased with the scan.{AS_JPEG}",
     response_class=Response,
-    responses=AS_SENT | NOT_MODIFIED | documented(*JOB_PROBLEMS),
+    responses=PICTURE_ANSWERS,
 )
-def scan_image(
-    scan_id: UUID, number: ViewNumber, context: Context, if_none_match: IfNoneMatch = None
+async def scan_image(
+    scan_id: UUID,
+    number: ViewNumber,
+    context: Context,
+    if_none_match: IfNoneMatch = None,
+    accept: AcceptHeader = None,
 ) -> Response:
-    """Return the picture as it was sent; it is erased with the scan."""
-    record = find(context.scans, scan_id)
+    """Return the picture as it was sent, or as a JPEG."""
+    record = await run_in_threadpool(find, context.scans, scan_id)
     if image_of(number) not in record.inputs:
         raise not_found(what=f"view: this scan has {record.pictures}")
-    return serve_blob(context, record, record.inputs[image_of(number)], if_none_match)
+    image = record.inputs[image_of(number)]
+    return await serve_picture(context, record, image, if_none_match, accept)
 
 
 @ROUTER.get(

@@ -1,6 +1,6 @@
 """Headers that keep browsers from doing anything with a response that it is not meant for."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Final
 
 from starlette.datastructures import MutableHeaders
@@ -22,22 +22,41 @@ OWN_FILES: Final = (
 )
 """For our own pages: only files of this service, nothing inline, no framing."""
 
-OWN_CAMERA: Final = "camera=(self), geolocation=(), microphone=()"
-"""For the page that takes pictures to be measured."""
+STATIC_SITE: Final = f"{OWN_FILES}; style-src-attr 'unsafe-inline'"
+"""For pages of a generator that writes widths into their elements."""
+
+UNFRAMED: Final = "frame-ancestors 'none'"
+
+
+def framed_by(origins: Sequence[str]) -> str:
+    """The policy of our own page where sites of these origins may show it in a frame."""
+    return (
+        OWN_FILES.replace(UNFRAMED, f"frame-ancestors {' '.join(origins)}")
+        if origins
+        else OWN_FILES
+    )
+
+
+OWN_CAMERA: Final = (
+    "accelerometer=(self), camera=(self), gyroscope=(self), geolocation=(), microphone=()"
+)
+"""For the page that takes pictures to be measured; its level needs the two sensors."""
 
 ALWAYS: Final[Mapping[str, str]] = {
     "X-Content-Type-Options": "nosniff",
     "X-Frame-Options": "DENY",
     "Referrer-Policy": "no-referrer",
     "Cross-Origin-Opener-Policy": "same-origin",
-    "Cross-Origin-Resource-Policy": "same-origin",
 }
 
 UNLESS_SAID: Final[Mapping[str, str]] = {
     "Content-Security-Policy": NOTHING,
-    "Permissions-Policy": "camera=(), geolocation=(), microphone=()",
+    "Permissions-Policy": (
+        "accelerometer=(), camera=(), gyroscope=(), geolocation=(), microphone=()"
+    ),
     # Responses belong to their caller; none may stay in a shared cache.
     "Cache-Control": "no-store",
+    "Cross-Origin-Resource-Policy": "same-origin",
 }
 
 
@@ -46,10 +65,10 @@ class SecurityHeaders:
 
     def __init__(self, app: ASGIApp, *, cross_origin: bool) -> None:
         self._app = app
-        self._always = dict(ALWAYS)
+        self._unless_said = dict(UNLESS_SAID)
         if cross_origin:
             # CORS decides which origins those are.
-            self._always["Cross-Origin-Resource-Policy"] = "cross-origin"
+            self._unless_said["Cross-Origin-Resource-Policy"] = "cross-origin"
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass the request on and complete the response."""
@@ -60,10 +79,13 @@ class SecurityHeaders:
         async def completed(message: Message) -> None:
             if message["type"] == "http.response.start":
                 headers = MutableHeaders(scope=message)
-                for name, value in self._always.items():
+                for name, value in ALWAYS.items():
                     headers[name] = value
-                for name, value in UNLESS_SAID.items():
+                for name, value in self._unless_said.items():
                     headers.setdefault(name, value)
+                if UNFRAMED not in headers["Content-Security-Policy"]:
+                    # It knows no list of origins, and where both are sent browsers differ.
+                    del headers["X-Frame-Options"]
             await send(message)
 
         await self._app(scope, receive, completed)

@@ -18,11 +18,12 @@ from prometheus_client.exposition import generate_latest
 from prometheus_client.registry import Collector
 
 from api_schemas.jobs import JobState, WebhookState
-from service.engine.port import JobEngine
+from service.engine.port import EngineUnavailableError, JobEngine
 from service.engine.statistics import BOUNDS_S
 from service.jobs.states import TERMINAL
 from service.process.disk import Disk
 
+AVAILABLE: Final = ("maquette_database_available", "Whether this process reaches the database.")
 REQUEST_BOUNDS_S: Final = (0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 5.0, 30.0, 60.0)
 
 
@@ -95,7 +96,13 @@ class _EngineCollector(Collector):
         return iter(())
 
     def collect(self) -> Iterator[Metric]:
-        statistics = self._engine.statistics()
+        try:
+            statistics, workers = self._engine.statistics(), self._engine.workers()
+        except EngineUnavailableError:
+            # What this process counts itself is told all the same.
+            yield _gauge(*AVAILABLE, 0.0)
+            return
+        yield _gauge(*AVAILABLE, 1.0)
         yield _gauge("maquette_queue_jobs", "Jobs that wait.", statistics.queued)
         yield _gauge("maquette_running_jobs", "Jobs that run.", statistics.running)
         yield _gauge(
@@ -103,7 +110,6 @@ class _EngineCollector(Collector):
             "How long the oldest of the waiting jobs has waited.",
             statistics.oldest_queued_s,
         )
-        workers = self._engine.workers()
         yield _gauge(
             "maquette_workers",
             "Workers that are alive.",
@@ -129,6 +135,11 @@ class _EngineCollector(Collector):
         for state in WebhookState:
             webhooks.add_metric([state.value], statistics.webhooks.get(state, 0))
         yield webhooks
+        yield _gauge(
+            "maquette_job_crashes",
+            "How often processes of the jobs that are kept have died.",
+            statistics.crashes,
+        )
         durations = HistogramMetricFamily(
             "maquette_job_seconds",
             "How long jobs waited, ran, and spent in each stage of the fit.",

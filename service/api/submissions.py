@@ -23,6 +23,7 @@ from service.api.images import image_content
 from service.api.job_inputs import File, Inputs
 from service.api.json_bodies import JSON, json_content, media_type, read_json_text
 from service.api.problems import documented
+from service.api.sandbox import asked_of_job
 from service.api.uploads import Upload, read_upload
 from service.estimates.messages import BodyTask
 from service.jobs.inputs import IMAGE, MASK
@@ -47,7 +48,7 @@ _SUBMISSION: Final[dict[str, Any]] = {
                         "image": {
                             "type": "string",
                             "format": "binary",
-                            "description": "JPEG, PNG or WebP.",
+                            "description": "JPEG, PNG, WebP or HEIC.",
                         },
                         "request": {"$ref": "#/components/schemas/FitRequest"},
                         "mask": {
@@ -61,9 +62,9 @@ _SUBMISSION: Final[dict[str, Any]] = {
                     },
                 },
                 "encoding": {
-                    "image": {"contentType": "image/jpeg, image/png, image/webp"},
+                    "image": {"contentType": "image/jpeg, image/png, image/webp, image/heic"},
                     "request": {"contentType": "application/json"},
-                    "mask": {"contentType": "image/jpeg, image/png, image/webp"},
+                    "mask": {"contentType": "image/jpeg, image/png, image/webp, image/heic"},
                 },
             },
             JSON: json_content(FitOfImage),
@@ -114,7 +115,9 @@ async def submit(
         files={
             name: File(content=content, media_type=checked.media_types[name])
             for name, content in contents.items()
-        },
+        }
+        | asked_of_job(context, checked.label),
+        label=checked.label,
         webhook=checked.webhook,
     )
     job = await accept(

@@ -45,7 +45,7 @@ def run_demo(
     with (
         tempfile.TemporaryDirectory(prefix="maquette-demo-") as data_dir,
         (output / "service.log").open("w") as log,
-        _running_service(serve_command, Path(data_dir), log) as client,
+        running_service(serve_command, Path(data_dir), log) as client,
     ):
         console.print(
             f"The service listens on {client.base_url} ({time.monotonic() - started:.1f} s).",
@@ -68,9 +68,8 @@ def run_demo(
 
 
 @contextmanager
-def _running_service(
-    command: Sequence[str], data_dir: Path, log: IO[str]
-) -> Iterator[httpx.Client]:
+def running_service(command: Sequence[str], data_dir: Path, log: IO[str]) -> Iterator[httpx.Client]:
+    """A service of one's own with its data in a folder, and a client of it once it is ready."""
     with subprocess.Popen(
         [*command, "--data-dir", str(data_dir)], stdout=subprocess.PIPE, stderr=log, text=True
     ) as process:

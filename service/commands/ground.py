@@ -19,4 +19,4 @@ def check_ground(settings: Settings) -> None:
     prepare_data_folder(settings)
     check_models(settings)
     check_detector(settings)
-    check_database(settings.system_database_url)
+    check_database(settings.system_database_url, sandbox=settings.sandbox)

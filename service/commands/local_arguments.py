@@ -9,7 +9,7 @@ from pathlib import Path
 
 def add_fit_arguments(fit: argparse.ArgumentParser) -> None:
     """Add those of ``maquette fit``."""
-    fit.add_argument("image", type=Path, metavar="IMAGE", help="JPEG, PNG or WebP")
+    fit.add_argument("image", type=Path, metavar="IMAGE", help="JPEG, PNG, WebP or HEIC")
     fit.add_argument(
         "--points",
         type=Path,
@@ -65,7 +65,7 @@ def add_scan_arguments(scan: argparse.ArgumentParser) -> None:
 
 def add_check_arguments(check: argparse.ArgumentParser) -> None:
     """Add those of ``maquette check``."""
-    check.add_argument("image", type=Path, metavar="IMAGE", help="JPEG, PNG or WebP")
+    check.add_argument("image", type=Path, metavar="IMAGE", help="JPEG, PNG, WebP or HEIC")
     check.add_argument(
         "--view",
         choices=("front", "side", "back", "other"),

@@ -62,11 +62,12 @@ def serve(
     listener: socket.socket,
     *,
     worker_command: Sequence[str] | None = WORKER_COMMAND,
-    estimator_command: Sequence[str] = ESTIMATOR_COMMAND,
+    estimator_command: Sequence[str] | None = None,
     announce: Callable[[str], None] = LOG.info,
 ) -> int:
     """Serve until interrupted; without a ``worker_command`` the workers run elsewhere.
 
+    The worker forks the estimators, unless there is none or an ``estimator_command`` is given.
     Uvicorn is told to stop by SIGINT or SIGTERM and lets open requests end first. Returns the exit
     status: that of unusable settings if the worker found them to be so.
     """
@@ -97,6 +98,7 @@ def serve(
     from service.api.app import create_app
     from service.api.connection_limits import ConnectionLimits
     from service.api.server import ApiServer
+    from service.engine.browser_tokens import StoredBrowserTokens
     from service.engine.database import open_database, prepare_database
     from service.engine.dbos_jobs import DbosJobEngine
     from service.engine.image_port import ImageQuota
@@ -104,10 +106,11 @@ def serve(
     from service.engine.rate_tokens import RateTokens
     from service.engine.webhooks import WebhookLedger
     from service.estimates.pool import EstimatorPool
+    from service.estimates.starting import by_command, by_passing_on, can_watch_processes
     from service.webhooks.delivery import Deliverer
     from service.webhooks.sending import Sender
 
-    prepare_database(settings.system_database_url)
+    prepare_database(settings.system_database_url, sandbox=settings.sandbox)
     ballast.fill()
     database = open_database(settings.system_database_url)
     engine = DbosJobEngine(
@@ -135,12 +138,12 @@ def serve(
         secret=settings.webhook_secret,
         pauses_s=settings.webhook_schedule_s,
     )
-    # Started last: it takes two seconds of processor that service and worker can use before.
-    estimators = EstimatorPool(
-        estimator_command,
-        environment=environment,
-        processes=settings.estimator_processes,
-    )
+    if worker is not None and estimator_command is None and can_watch_processes():
+        start = by_passing_on(worker.pass_on)
+    else:
+        start = by_command(estimator_command or ESTIMATOR_COMMAND, environment=environment)
+    # Started last: what it does before it is ready would keep service and worker waiting.
+    estimators = EstimatorPool(start, processes=settings.estimator_processes)
     draining = threading.Event()
     app = create_app(
         settings=settings,
@@ -150,6 +153,7 @@ def serve(
         estimator=estimators,
         keys=KeyRing(database),
         tokens=RateTokens(database, per_minute=settings.requests_per_minute),
+        browser_tokens=StoredBrowserTokens(database),
         draining=draining,
     )
     server = ApiServer(
@@ -169,6 +173,8 @@ def serve(
         signal.signal(number, lambda *_: setattr(server, "should_exit", True))
     host, port = listener.getsockname()[:2]
     announce(f"Maquette listens on http://{host}:{port}, documented at /docs.")
+    if settings.sandbox:
+        LOG.warning("This is a sandbox: its results are canned, whatever is sent.")
     engine.start()
     webhooks.start()
     try:

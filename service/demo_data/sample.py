@@ -29,6 +29,21 @@ def load_sample(folder: Path = FOLDER) -> Sample:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class PictureSample:
+    """A picture, and its request as JSON text."""
+
+    image: bytes
+    request: bytes
+
+
+def load_woman(folder: Path = FOLDER) -> PictureSample:
+    """Read ``woman.jpg`` and ``woman.json``."""
+    return PictureSample(
+        image=(folder / "woman.jpg").read_bytes(), request=(folder / "woman.json").read_bytes()
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class ScanSample:
     """Pictures of one person, and the request of their scan as JSON text."""
 

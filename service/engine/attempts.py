@@ -32,6 +32,29 @@ FINAL_STATES: Final = {
 }
 
 
+_CURRENT: Final = (
+    JOBS.c.id == sa.bindparam("job"),
+    JOBS.c.state == JobState.RUNNING.value,
+    JOBS.c.attempt == sa.bindparam("of_attempt"),
+)
+# Written out once: putting a statement together takes longer than executing it, and these are
+# executed all the time a fit runs.
+_CANCEL_REQUESTED: Final = sa.select(JOBS.c.cancel_requested).where(*_CURRENT)
+_SHARE: Final = sa.bindparam("share", type_=JOBS.c.progress.type)
+_REPORT: Final = (
+    sa.update(JOBS)
+    .where(*_CURRENT)
+    .values(
+        stage=sa.bindparam("its_stage", type_=JOBS.c.stage.type),
+        view=sa.bindparam("its_view", type_=JOBS.c.view.type),
+        progress=sa.case((JOBS.c.progress > _SHARE, JOBS.c.progress), else_=_SHARE),
+        last_event=JOBS.c.last_event + 1,
+    )
+    .returning(JOBS)
+)
+_COUNT_CRASH: Final = sa.update(JOBS).where(*_CURRENT).values(crashes=JOBS.c.crashes + 1)
+
+
 def given_up(reason: str) -> Problem:
     """Say that a job was given up because it kills the processes that run it."""
     return problem(
@@ -57,44 +80,29 @@ class RecordedAttempt:
     def report(self, report: Report) -> None:
         """Store progress and its event; the share never decreases."""
         with self._database.begin() as connection:
-            row = (
-                connection.execute(
-                    sa.update(JOBS)
-                    .where(*_current(self._job))
-                    .values(
-                        stage=report.stage,
-                        view=report.view,
-                        progress=sa.case(
-                            (JOBS.c.progress > report.progress, JOBS.c.progress),
-                            else_=report.progress,
-                        ),
-                        last_event=JOBS.c.last_event + 1,
-                    )
-                    .returning(JOBS)
-                )
-                .mappings()
-                .one_or_none()
-            )
+            values = {
+                "its_stage": report.stage,
+                "its_view": report.view,
+                "share": report.progress,
+            }
+            row = connection.execute(_REPORT, _current(self._job) | values).mappings().one_or_none()
             if row is not None:
                 append_event(connection, job_record(row), EventKind.PROGRESS, report.energies)
 
     @retry_while_database_is_away
     def directive(self) -> Directive:
         """Ask whether the attempt is still wanted."""
-        query = sa.select(JOBS.c.cancel_requested).where(*_current(self._job))
         with self._database.connect() as connection:
-            cancel_requested = connection.execute(query).scalar_one_or_none()
+            cancel_requested = connection.execute(
+                _CANCEL_REQUESTED, _current(self._job)
+            ).scalar_one_or_none()
         if cancel_requested is None:
             return Directive.SUPERSEDED
         return Directive.CANCELED if cancel_requested else Directive.CONTINUE
 
 
-def _current(job: JobRecord) -> tuple[sa.ColumnElement[bool], ...]:
-    return (
-        JOBS.c.id == job.id,
-        JOBS.c.state == JobState.RUNNING.value,
-        JOBS.c.attempt == job.attempt,
-    )
+def _current(job: JobRecord) -> dict[str, object]:
+    return {"job": job.id, "of_attempt": job.attempt}
 
 
 class AttemptLog:
@@ -153,9 +161,7 @@ class AttemptLog:
     def count_crash(self, attempt: RecordedAttempt) -> None:
         """Note that the process of this attempt died without being killed by us."""
         with self._database.begin() as connection:
-            connection.execute(
-                sa.update(JOBS).where(*_current(attempt.job)).values(crashes=JOBS.c.crashes + 1)
-            )
+            connection.execute(_COUNT_CRASH, _current(attempt.job))
 
     @retry_while_database_is_away
     def end(self, job_id: str, attempt: int, result: AttemptResult) -> JobRecord | None:

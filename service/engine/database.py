@@ -13,6 +13,7 @@ from service.engine.driver_errors import refusal
 from service.engine.facts import read_fact, write_fact
 from service.engine.port import DatabaseUnusableError
 from service.engine.retrying import retry_while_database_is_away
+from service.engine.sandbox import check_apart, keep_apart
 from service.engine.sqlite_file import (
     check_sqlite_version,
     configure_connection,
@@ -26,7 +27,7 @@ from service.setting_addresses import without_secrets
 MIGRATION_LOCK: Final = 0x6D617175
 """Key of the Postgres advisory lock held while tables are created."""
 
-SCHEMA_VERSION: Final = "6"
+SCHEMA_VERSION: Final = "7"
 SCHEMA_FACT: Final = "schema_version"
 
 POSTGRES_CONNECTION: Final = {
@@ -71,10 +72,10 @@ def open_database(url: str, *, connections: int = 20) -> sa.Engine:
 
 
 @retry_while_database_is_away
-def check_database(url: str) -> None:
-    """Check that the database answers and has no tables of another version.
+def check_database(url: str, *, sandbox: bool | None = None) -> None:
+    """Check that the database answers, has no tables of another version and is no other kind.
 
-    Waits for a database that does not answer.
+    Waits for a database that does not answer. Which kind is not asked without ``sandbox``.
 
     Raises
     ------
@@ -83,13 +84,17 @@ def check_database(url: str) -> None:
     """
     with _opened(url) as engine:
         _check_schema(engine)
+        if sandbox is not None and sa.inspect(engine).has_table(JOBS.name):
+            with engine.connect() as connection:
+                check_apart(connection, sandbox=sandbox)
 
 
 @retry_while_database_is_away
-def prepare_database(url: str) -> None:
+def prepare_database(url: str, *, sandbox: bool | None = None) -> None:
     """Create or migrate all tables; safe to run in several processes at once.
 
-    Waits and raises as :func:`check_database` does.
+    Who serves or works says whether it is a ``sandbox``: the first to do so decides what the
+    database is. Waits and raises as :func:`check_database` does, and if it is the other.
     """
     # Imported here because it takes half a second to load.
     from dbos import DBOS
@@ -104,6 +109,8 @@ def prepare_database(url: str) -> None:
                 connection.execute(sa.select(sa.func.pg_advisory_xact_lock(MIGRATION_LOCK)))
             METADATA.create_all(connection)
             write_fact(connection, SCHEMA_FACT, SCHEMA_VERSION)
+            if sandbox is not None:
+                keep_apart(connection, sandbox=sandbox)
 
 
 @contextlib.contextmanager

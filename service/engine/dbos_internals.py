@@ -5,10 +5,18 @@ in ``pyproject.toml``, and ``tests/unit/service/test_dbos_internals.py`` fails o
 changes what is used here. Figures: DECISIONS.md, "What DBOS does not publish is in one module".
 """
 
+import time
 from collections.abc import Callable, Collection
 from typing import Any, Final
 
-from dbos import DBOS, Queue
+from dbos import DBOS, Queue, _sys_db
+from sqlalchemy.exc import OperationalError
+
+LONGEST_PAUSE_S: Final = 2.0
+"""How long DBOS pauses at most before it repeats what failed for want of the database."""
+
+AWAY_PAUSE_S: Final = 1.0
+"""How long to pause before a poll while the database is away."""
 
 LOOK_S: Final = 0.01
 """How long DBOS itself pauses between two polls; ``await_turn`` decides when it polls."""
@@ -27,6 +35,28 @@ def put_back_executions_of(dead: Collection[str]) -> None:
     the second to notice would have it run twice at the same time.
     """
     DBOS._recover_pending_workflows(list(dead))
+
+
+class _ShortPauses:
+    """The module ``time``, but for how long it sleeps at most."""
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(time, name)
+
+    def sleep(self, seconds: float) -> None:
+        """Sleep for no longer than the longest pause."""
+        time.sleep(min(seconds, LONGEST_PAUSE_S))
+
+
+def shorten_pauses() -> None:
+    """Have DBOS repeat its own writes every two seconds while the database is away or full.
+
+    *Private:* the ``time`` by which ``db_retry`` of DBOS's ``_sys_db`` sleeps, which is replaced.
+
+    *The public way* is none: the pauses double up to a minute and a half, so that a worker that was
+    recording something when the database went stands still for as long again after its return.
+    """
+    _sys_db.time = _ShortPauses()  # pyright: ignore
 
 
 def stop_claiming(dbos: DBOS) -> None:
@@ -69,7 +99,12 @@ def pace_queue(
     def get_queue_in_turn(name: str, **options: Any) -> Queue | None:
         if name == queue_name:
             await_turn()
-        queue = get_queue(name, **options)
+        try:
+            queue = get_queue(name, **options)
+        except OperationalError:
+            # DBOS logs each of these, and polls again at once.
+            time.sleep(AWAY_PAUSE_S)
+            raise
         if queue is not None and queue.name == queue_name:
             queue._worker_concurrency = usable_slots()
             queue._polling_interval_sec = LOOK_S

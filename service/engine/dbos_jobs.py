@@ -12,12 +12,14 @@ from dbos import DBOSClient, DBOSPortableJSONSerializer
 from api_schemas.body_models import BodyModels
 from api_schemas.jobs import JobState, WebhookState
 from service.blobs import BlobStore
+from service.engine.admission import Admission
 from service.engine.availability import available
 from service.engine.ballast import Ballast
 from service.engine.facts import read_fact, touch_fact
 from service.engine.image_port import ImageQuota
 from service.engine.images import StoredImages
 from service.engine.liveness import WorkerWatch
+from service.engine.people import StoredPeople
 from service.engine.port import FIT, EngineStatistics, EngineUnavailableError, WorkerStatus
 from service.engine.queue import APPLICATION
 from service.engine.statistics import read_durations, read_outcomes
@@ -28,6 +30,11 @@ from service.engine.tenant_jobs import DbosTenantJobs
 LOG: Final = logging.getLogger(__name__)
 
 BODY_MODELS_FACT: Final = "body_models"
+
+# Written out once: it is executed ten times a second while somebody follows a job.
+_LAST_EVENTS: Final = sa.select(JOBS.c.id, JOBS.c.last_event).where(
+    JOBS.c.id.in_(sa.bindparam("jobs", expanding=True))
+)
 
 
 class DbosJobEngine:
@@ -62,6 +69,8 @@ class DbosJobEngine:
             system_database_engine=database,
             serializer=DBOSPortableJSONSerializer(),
             application_name=APPLICATION,
+            # A request is to be refused while the database is away, not to wait until it is back.
+            retry_connection_errors=False,
         )
         self._watch = WorkerWatch(dead_after_s=dead_after_s)
         self._sweeper = Sweeper(
@@ -84,35 +93,43 @@ class DbosJobEngine:
         self._client.destroy()
         self._database.dispose()
 
-    def of(self, tenant: str, root: str = FIT) -> DbosTenantJobs:
-        """Return the fits of a tenant, or its scans."""
+    def of(self, tenant: str, root: str = FIT, *, token: str | None = None) -> DbosTenantJobs:
+        """Return the fits of a tenant, or its scans; with a token those made with it."""
         return DbosTenantJobs(
-            tenant,
             database=self._database,
             client=self._client,
-            max_queued=self._max_queued,
-            max_queued_per_tenant=self._max_queued_per_tenant,
+            admission=Admission(
+                tenant=tenant,
+                token=token,
+                max_queued=self._max_queued,
+                max_queued_per_tenant=self._max_queued_per_tenant,
+            ),
             retention_s=self._retention_s,
             ballast=self._ballast,
             root=root,
         )
 
-    def images_of(self, tenant: str) -> StoredImages:
-        """Return the uploaded pictures of a tenant."""
+    def images_of(self, tenant: str, *, token: str | None = None) -> StoredImages:
+        """Return the uploaded pictures of a tenant: those of its keys, or those of a token."""
         return StoredImages(
             tenant,
+            token=token,
             database=self._database,
             retention_s=self._retention_s,
             quota=self._image_quota,
             ballast=self._ballast,
         )
 
+    def people_of(self, tenant: str) -> StoredPeople:
+        """Return the people whom a tenant has labelled fits or scans with."""
+        return StoredPeople(tenant, self._database)
+
     @available
     def last_events(self, job_ids: Sequence[str]) -> dict[str, int]:
         """Return the number of the last event of each job that exists."""
-        query = sa.select(JOBS.c.id, JOBS.c.last_event).where(JOBS.c.id.in_(job_ids))
         with self._database.connect() as connection:
-            return {row.id: row.last_event for row in connection.execute(query)}
+            rows = connection.execute(_LAST_EVENTS, {"jobs": list(job_ids)})
+            return {row.id: row.last_event for row in rows}
 
     @available
     def queued(self) -> int:
@@ -154,6 +171,7 @@ class DbosJobEngine:
                     .group_by(JOBS.c.webhook_state)
                 )
             }
+            crashes = connection.execute(sa.select(sa.func.sum(JOBS.c.crashes))).scalar_one()
         queued = active.get(JobState.QUEUED.value)
         running = active.get(JobState.RUNNING.value)
         return EngineStatistics(
@@ -163,6 +181,7 @@ class DbosJobEngine:
             outcomes=outcomes,
             durations=durations,
             webhooks=webhooks,
+            crashes=int(crashes or 0),
         )
 
     @available

@@ -12,17 +12,25 @@ from typing import Final
 import sqlalchemy as sa
 from dbos import DBOS, DBOSClient, DBOSPortableJSONSerializer
 from opentelemetry.trace import SpanKind
+from sqlalchemy.exc import SQLAlchemyError
 
 from api_schemas.body_models import BodyModels
+from api_schemas.jobs import JobState
 from service.blobs import BlobStore, BlobsUnavailableError
 from service.engine.attempts import AttemptLog, result_from_json, result_to_json
-from service.engine.dbos_internals import pace_queue, put_back_executions_of, stop_claiming
+from service.engine.dbos_internals import (
+    pace_queue,
+    put_back_executions_of,
+    shorten_pauses,
+    stop_claiming,
+)
 from service.engine.dbos_jobs import BODY_MODELS_FACT
 from service.engine.executions import Executions
 from service.engine.facts import write_fact
 from service.engine.heartbeat import Heartbeat
 from service.engine.port import AttemptHandler, Ending
 from service.engine.queue import APPLICATION, EXECUTION_VERSION, QUEUE, WORKFLOW
+from service.engine.tables import JOBS
 from service.engine.worker_slots import WorkerSlots
 from service.process.disk import Disk
 from service.process.logs import fields, log_context
@@ -35,8 +43,16 @@ MAX_RECOVERIES: Final = 10
 process, because workers also die for reasons unrelated to the picture: restarts, machines, chaos
 tests."""
 
+LOOK_S: Final = 0.02
+"""How long to wait at least between two looks for a job that waits."""
+
+LOOK_ANYWAY_S: Final = 1.0
+"""How long DBOS's queue is left alone while no job waits."""
+
 OUTCOME_WAIT_S: Final = 2.0
 OUTCOME_POLL_S: Final = 0.02
+
+_ANY_WAITING: Final = sa.select(JOBS.c.id).where(JOBS.c.state == JobState.QUEUED.value).limit(1)
 
 
 class DbosWorkerEngine:
@@ -95,6 +111,7 @@ class DbosWorkerEngine:
 
         Jobs are left waiting, for this worker or another one, until the handler ``can_begin``.
         """
+        shorten_pauses()
         self._dbos = DBOS(
             config={
                 "name": APPLICATION,
@@ -114,7 +131,7 @@ class DbosWorkerEngine:
         pace_queue(
             self._dbos,
             QUEUE,
-            await_turn=self._slots.await_turn,
+            await_turn=self._await_turn,
             usable_slots=lambda: self._usable_slots() if can_begin() else 0,
         )
         self._heartbeat.start()
@@ -219,6 +236,28 @@ class DbosWorkerEngine:
             worker_concurrency=1,
             polling_interval_sec=self._queue_poll_s,
         )
+
+    def _await_turn(self) -> None:
+        """Return when a job waits and may be begun, or after a second without any.
+
+        DBOS asks five things whenever it looks. Its queue also holds executions whose job does not
+        wait: what dead workers ran, which can wait for a second longer.
+        """
+        deadline = time.monotonic() + LOOK_ANYWAY_S
+        while True:
+            self._slots.await_turn()
+            if time.monotonic() >= deadline or self._slots.is_closed or self._is_any_waiting():
+                return
+            # Just after a job's end the slots do not wait.
+            time.sleep(LOOK_S)
+
+    def _is_any_waiting(self) -> bool:
+        try:
+            with self._database.connect() as connection:
+                return connection.execute(_ANY_WAITING).first() is not None
+        except SQLAlchemyError:
+            # DBOS meets the same, and pauses.
+            return True
 
     def _usable_slots(self) -> int:
         # Waiting jobs are safe, and running ones need the remaining space for their results.

@@ -29,10 +29,12 @@ class Executions:
             retry_connection_errors=False,
         )
 
-    def holders(self) -> set[str]:
-        """The executors, dead or alive, that executions are recorded as run by."""
+    def holders(self) -> Mapping[str, str]:
+        """By which executor, dead or alive, each job's execution is recorded as run."""
         pending = self._list(["PENDING"])
-        return {each.executor_id for each in pending if each.executor_id is not None}
+        return {
+            each.workflow_id: each.executor_id for each in pending if each.executor_id is not None
+        }
 
     def held_by(self, executor_id: str) -> set[str]:
         """The jobs whose executions are recorded as run by an executor."""

@@ -88,8 +88,12 @@ class Heartbeat:
         while True:
             try:
                 self._beat()
-                self._take_over()
-                self._pick_up()
+                # In this order: a worker makes itself known before it claims anything.
+                holders = self._executions.holders()
+                self._take_over(set(holders.values()))
+                self._pick_up(
+                    {job for job, holder in holders.items() if holder == self._executor_id}
+                )
                 self._reconcile()
             except OperationalError as error:
                 LOG.warning("The database is not available (%s).", error.orig)
@@ -119,9 +123,7 @@ class Heartbeat:
                     )
                 )
 
-    def _take_over(self) -> None:
-        # In this order: a worker makes itself known before it claims anything.
-        holders = self._executions.holders()
+    def _take_over(self, holders: set[str]) -> None:
         with self._database.connect() as connection:
             workers = connection.execute(sa.select(WORKERS)).all()
         alive = self._watch.alive(workers) | {self._executor_id}
@@ -134,12 +136,11 @@ class Heartbeat:
             with self._database.begin() as connection:
                 connection.execute(sa.delete(WORKERS).where(WORKERS.c.executor_id.in_(gone)))
 
-    def _pick_up(self) -> None:
+    def _pick_up(self, pending: set[str]) -> None:
         """Put back what is recorded as run by this worker but is not: its thread ended in an error.
 
         That happens when DBOS itself cannot write what a fit returned, the disk being full.
         """
-        pending = self._executions.held_by(self._executor_id)
         now = time.monotonic()
         dropped = pending - set(self._holds())
         self._dropped_since = {each: self._dropped_since.get(each, now) for each in dropped}

@@ -25,12 +25,14 @@ class StoredImages:
         self,
         tenant: str,
         *,
+        token: str | None,
         database: sa.Engine,
         retention_s: float,
         quota: ImageQuota,
         ballast: Ballast,
     ) -> None:
         self._tenant = tenant
+        self._token = token or ""
         self._database = database
         self._retention_s = retention_s
         self._quota = quota
@@ -83,7 +85,11 @@ class StoredImages:
             return self._forget(connection, image_id, IMAGES.c.expires_at > time.time())
 
     def _own(self, image_id: str) -> tuple[sa.ColumnElement[bool], ...]:
-        return (IMAGES.c.id == image_id, IMAGES.c.tenant == self._tenant)
+        return (
+            IMAGES.c.id == image_id,
+            IMAGES.c.tenant == self._tenant,
+            IMAGES.c.token_id == self._token,
+        )
 
     def _check_room(self, connection: sa.Connection, size: int) -> None:
         """Raise :class:`ImageQuotaError` unless one more picture of this size is within the quota.
@@ -130,6 +136,7 @@ class StoredImages:
                 sa.insert(IMAGES)
                 .values(
                     tenant=self._tenant,
+                    token_id=self._token,
                     id=image.id,
                     scope=image.scope,
                     media_type=image.media_type,

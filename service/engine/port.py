@@ -10,6 +10,7 @@ from api_schemas.jobs import EventData, EventKind, JobState, WebhookState
 from api_schemas.problems import Problem
 from api_schemas.results import Artifact
 from service.engine.image_port import TenantImages
+from service.engine.people_port import TenantPeople
 
 FIT: Final = "fit"
 SCAN: Final = "scan"
@@ -41,7 +42,8 @@ class NewJob:
     its own, whose pictures are among the inputs: it is erased and expires with the first of them.
     ``request_id`` and ``traceparent`` identify the HTTP request in logs and traces; ``webhook`` is
     a blob too, a
-    :class:`api_schemas.webhooks.WebhookTarget` as JSON: whom to notify of the job's end.
+    :class:`api_schemas.webhooks.WebhookTarget` as JSON: whom to notify of the job's end. ``label``
+    is what the caller calls the person of a fit or a scan.
     """
 
     id: str
@@ -49,6 +51,7 @@ class NewJob:
     options: StoredBlob
     inputs: Mapping[str, StoredBlob]
     pictures: int = 1
+    label: str | None = None
     sources: tuple[str, ...] = ()
     idempotency: Idempotency | None = None
     request_id: str | None = None
@@ -98,6 +101,7 @@ class JobRecord:
     options: StoredBlob
     inputs: Mapping[str, StoredBlob]
     pictures: int
+    label: str | None
     artifacts: tuple[Artifact, ...]
     fingerprint: str | None
     last_event: int
@@ -140,7 +144,7 @@ class SubmitOutcome(StrEnum):
 
     ``TENANT_FULL``: too many jobs of this tenant are waiting. ``LOST``: the blobs of the job were
     considered abandoned and erased before it was submitted. ``PARENT_GONE``: a fit it is derived
-    from was erased meanwhile.
+    from was erased meanwhile. ``TOKEN_SPENT``: the browser's token has no job left.
     """
 
     ACCEPTED = "accepted"
@@ -150,6 +154,7 @@ class SubmitOutcome(StrEnum):
     TENANT_FULL = "tenant_full"
     LOST = "lost"
     PARENT_GONE = "parent_gone"
+    TOKEN_SPENT = "token_spent"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -193,9 +198,17 @@ class TenantJobs(Protocol):
         ...
 
     def jobs(
-        self, *, limit: int, before: tuple[float, str] | None, state: JobState | None
+        self,
+        *,
+        limit: int,
+        before: tuple[float, str] | None,
+        state: JobState | None,
+        label: str | None = None,
     ) -> Sequence[JobRecord]:
-        """Return jobs newest first; ``before`` is the (created_at, id) of the last one seen."""
+        """Return jobs newest first; ``before`` is the (created_at, id) of the last one seen.
+
+        With a ``state`` or a ``label`` only those that have it.
+        """
         ...
 
     def cancel(self, job_id: str) -> JobRecord | None:
@@ -238,7 +251,7 @@ class DurationHistogram:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EngineStatistics:
-    """The current queue, everything that ever ended, and the notices of the jobs that are kept."""
+    """The current queue, all that ever ended, and notices and crashes of the jobs that are kept."""
 
     queued: int
     running: int
@@ -246,20 +259,25 @@ class EngineStatistics:
     outcomes: Mapping[JobState, int]
     durations: tuple[DurationHistogram, ...]
     webhooks: Mapping[WebhookState, int]
+    crashes: int
 
 
 class JobEngine(Protocol):
     """The caller's side: jobs and pictures of tenants, and the state of the whole service.
 
-    Every method but ``of`` and ``images_of`` may raise :class:`EngineUnavailableError`.
+    Every method but those named ``of`` may raise :class:`EngineUnavailableError`.
     """
 
-    def of(self, tenant: str, root: str = FIT) -> TenantJobs:
-        """Return the fits of a tenant, or its scans."""
+    def of(self, tenant: str, root: str = FIT, *, token: str | None = None) -> TenantJobs:
+        """Return the fits of a tenant, or its scans; with a token only those made with it."""
         ...
 
-    def images_of(self, tenant: str) -> TenantImages:
-        """Return the uploaded pictures of a tenant."""
+    def images_of(self, tenant: str, *, token: str | None = None) -> TenantImages:
+        """Return the uploaded pictures of a tenant: those of its keys, or those of a token."""
+        ...
+
+    def people_of(self, tenant: str) -> TenantPeople:
+        """Return the people whom a tenant has labelled fits or scans with."""
         ...
 
     def last_events(self, job_ids: Sequence[str]) -> dict[str, int]:

@@ -21,6 +21,11 @@ ARTIFACTS: Final = TypeAdapter(tuple[Artifact, ...])
 INPUTS: Final = TypeAdapter(dict[str, StoredBlob])
 
 
+# Written out once: putting a statement together takes longer than executing it.
+_FIND: Final = sa.select(JOBS).where(JOBS.c.id == sa.bindparam("job"))
+_APPEND: Final = sa.insert(EVENTS)
+
+
 def job_record(values: sa.RowMapping) -> JobRecord:
     """Read a row of the jobs table."""
     return JobRecord(
@@ -45,6 +50,7 @@ def job_record(values: sa.RowMapping) -> JobRecord:
         options=StoredBlob(digest=values["options_digest"], media_type=JSON),
         inputs=INPUTS.validate_json(values["inputs"]),
         pictures=values["pictures"],
+        label=values["label"],
         artifacts=ARTIFACTS.validate_json(values["artifacts"]),
         fingerprint=values["fingerprint"],
         request_id=values["request_id"],
@@ -65,7 +71,7 @@ def job_record(values: sa.RowMapping) -> JobRecord:
 
 def find_job(connection: sa.Connection, job_id: str) -> JobRecord | None:
     """Return the job, or None if there is none."""
-    row = connection.execute(sa.select(JOBS).where(JOBS.c.id == job_id)).mappings().one_or_none()
+    row = connection.execute(_FIND, {"job": job_id}).mappings().one_or_none()
     return None if row is None else job_record(row)
 
 
@@ -85,9 +91,13 @@ def append_event(
         at=datetime.now(UTC),
     )
     connection.execute(
-        sa.insert(EVENTS).values(
-            job_id=job.id, number=job.last_event, kind=kind.value, data=data.model_dump_json()
-        )
+        _APPEND,
+        {
+            "job_id": job.id,
+            "number": job.last_event,
+            "kind": kind.value,
+            "data": data.model_dump_json(),
+        },
     )
 
 

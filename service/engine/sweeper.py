@@ -10,6 +10,7 @@ from sqlalchemy.exc import OperationalError
 
 from service.blobs import BlobStore, BlobsUnavailableError
 from service.engine.ballast import Ballast
+from service.engine.browser_tokens import drop_expired_tokens
 from service.engine.expiry import (
     ClockGuard,
     drop_old_tombstones,
@@ -84,6 +85,7 @@ class Sweeper:
             expire_images(connection)
             drop_old_tombstones(connection)
             drop_full_buckets(connection)
+            drop_expired_tokens(connection)
 
     def _erase(self, scope: str) -> bool:
         try:

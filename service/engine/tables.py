@@ -4,6 +4,9 @@ import sqlalchemy as sa
 
 METADATA = sa.MetaData()
 
+LABEL = sa.String(80).with_variant(sa.String(80, collation="C"), "postgresql")
+"""Compared and sorted by its characters, in any database and whatever its language."""
+
 JOBS = sa.Table(
     "maquette_jobs",
     METADATA,
@@ -13,6 +16,8 @@ JOBS = sa.Table(
     sa.Column("root", sa.String(32), nullable=False),
     sa.Column("parent_id", sa.String(36)),
     sa.Column("pictures", sa.Integer, nullable=False),
+    sa.Column("label", LABEL),
+    sa.Column("token_id", sa.String(16)),
     sa.Column("state", sa.String(16), nullable=False),
     sa.Column("stage", sa.String(64)),
     sa.Column("view", sa.Integer),
@@ -42,6 +47,7 @@ JOBS = sa.Table(
     sa.Column("webhook_error", sa.Text),
     sa.UniqueConstraint("tenant", "idempotency_key", name="maquette_jobs_key"),
     sa.Index("maquette_jobs_newest", "tenant", "root", "parent_id", "created_at", "id"),
+    sa.Index("maquette_jobs_label", "tenant", "label", "root", "created_at", "id"),
     sa.Index("maquette_jobs_parent", "parent_id"),
     sa.Index("maquette_jobs_state", "state", "created_at"),
     sa.Index("maquette_jobs_expiry", "expires_at"),
@@ -51,7 +57,8 @@ JOBS = sa.Table(
 and ``root`` is the kind of that one, or a job's own. ``inputs`` are blobs in the job's own scope,
 by name, as JSON, ``pictures`` of them pictures of a person; ``webhook_target`` is the digest of
 another, which holds whom to notify and the secret to sign with. It is not in the database, because
-databases keep what was deleted in dead rows, logs and backups."""
+databases keep what was deleted in dead rows, logs and backups. ``token_id`` names the browser's
+token that a job was made with, if it was."""
 
 SOURCES = sa.Table(
     "maquette_sources",
@@ -96,6 +103,7 @@ IMAGES = sa.Table(
     "maquette_images",
     METADATA,
     sa.Column("tenant", sa.String(64), primary_key=True),
+    sa.Column("token_id", sa.String(16), primary_key=True),
     sa.Column("id", sa.String(64), primary_key=True),
     sa.Column("scope", sa.String(64), nullable=False),
     sa.Column("media_type", sa.String(64), nullable=False),
@@ -108,7 +116,7 @@ IMAGES = sa.Table(
     sa.Index("maquette_images_expiry", "expires_at"),
 )
 """Pictures uploaded before any fit; ``id`` is the SHA-256 of the file, the blob's name in its
-scope."""
+scope. ``token_id`` names the browser's token it was uploaded with, and is empty for a key."""
 
 TOMBSTONES = sa.Table(
     "maquette_tombstones",
@@ -132,6 +140,22 @@ API_KEYS = sa.Table(
     sa.Column("created_at", sa.Double, nullable=False),
     sa.Column("revoked_at", sa.Double),
 )
+
+BROWSER_TOKENS = sa.Table(
+    "maquette_browser_tokens",
+    METADATA,
+    sa.Column("id", sa.String(16), primary_key=True),
+    sa.Column("key_id", sa.String(16), nullable=False),
+    sa.Column("tenant", sa.String(64), nullable=False),
+    sa.Column("label", LABEL),
+    sa.Column("secret_hash", sa.String(64), nullable=False, unique=True),
+    sa.Column("created_at", sa.Double, nullable=False),
+    sa.Column("expires_at", sa.Double, nullable=False),
+    sa.Column("jobs", sa.Integer, nullable=False),
+    sa.Column("jobs_left", sa.Integer, nullable=False),
+    sa.Index("maquette_browser_tokens_expiry", "expires_at"),
+)
+"""What browsers use in place of the key ``key_id``, for minutes."""
 
 RATE_TOKENS = sa.Table(
     "maquette_rate_tokens",

@@ -1,5 +1,6 @@
 """The jobs of one tenant: our records, with DBOS's queue behind them."""
 
+import functools
 import logging
 import time
 from collections.abc import Collection, Sequence
@@ -7,12 +8,13 @@ from typing import Final
 
 import sqlalchemy as sa
 from dbos import DBOSClient, EnqueueOptions
-from sqlalchemy.exc import IntegrityError, OperationalError
+from sqlalchemy.exc import IntegrityError
 
 from api_schemas.jobs import EventData, EventKind, JobState, WebhookState
+from service.engine.admission import Admission
 from service.engine.availability import available
 from service.engine.ballast import Ballast
-from service.engine.driver_errors import is_full
+from service.engine.browser_tokens import take_job
 from service.engine.expiry import (
     ABANDONED_AFTER_S,
     enter_erasures,
@@ -31,6 +33,7 @@ from service.engine.port import (
 )
 from service.engine.queue import EXECUTION_VERSION, QUEUE, WORKFLOW
 from service.engine.records import INPUTS, append_event, end_job, job_record
+from service.engine.retrying import ABSENCES
 from service.engine.tables import EVENTS, JOBS, SOURCES, TOMBSTONES
 from service.engine.transactions import read_then_write
 
@@ -42,35 +45,31 @@ class DbosTenantJobs:
 
     def __init__(
         self,
-        tenant: str,
         *,
         database: sa.Engine,
         client: DBOSClient,
-        max_queued: int,
-        max_queued_per_tenant: int,
+        admission: Admission,
         retention_s: float,
         ballast: Ballast,
         root: str,
         parent: str | None = None,
     ) -> None:
-        self._tenant = tenant
+        self._tenant = admission.tenant
+        self._token = admission.token
         self._root = root
         self._parent = parent
         self._database = database
         self._client = client
-        self._max_queued = max_queued
-        self._max_queued_per_tenant = max_queued_per_tenant
+        self._admission = admission
         self._retention_s = retention_s
         self._ballast = ballast
 
     def derivations(self, parent_id: str) -> "DbosTenantJobs":
         """Return the jobs derived from a fit or scan of this tenant."""
         return DbosTenantJobs(
-            self._tenant,
             database=self._database,
             client=self._client,
-            max_queued=self._max_queued,
-            max_queued_per_tenant=self._max_queued_per_tenant,
+            admission=self._admission,
             retention_s=self._retention_s,
             ballast=self._ballast,
             root=self._root,
@@ -81,7 +80,7 @@ class DbosTenantJobs:
     def reserve(self, job_id: str, idempotency: Idempotency | None) -> Submission:
         """List the job's scope for erasure until the job is accepted."""
         with self._database.begin() as connection:
-            answered = self._answered(connection, idempotency)
+            answered = self._admission.answered(connection, idempotency)
             if answered is not None:
                 return answered
             enter_erasures(connection, [job_id], due_at=time.time() + ABANDONED_AFTER_S)
@@ -91,14 +90,14 @@ class DbosTenantJobs:
     def repeated(self, idempotency: Idempotency | None) -> Submission | None:
         """Return the answer to an earlier submission with this key."""
         with self._database.connect() as connection:
-            return self._earlier(connection, idempotency)
+            return self._admission.earlier(connection, idempotency)
 
     @available
     def submit(self, job: NewJob) -> Submission:
         """Write the record and the queue entry in one transaction."""
         try:
             with read_then_write(self._database) as connection:
-                answered = self._answered(connection, job.idempotency)
+                answered = self._admission.answered(connection, job.idempotency)
                 if answered is not None:
                     return answered
                 expires_at = self._parents_end(connection, job.sources)
@@ -106,6 +105,9 @@ class DbosTenantJobs:
                     return Submission(outcome=SubmitOutcome.PARENT_GONE, job=None)
                 if not take_out(connection, job.id):
                     return Submission(outcome=SubmitOutcome.LOST, job=None)
+                if self._token is not None and not take_job(connection, self._token):
+                    # Another request got the last one; the blobs are erased by the caller.
+                    return Submission(outcome=SubmitOutcome.TOKEN_SPENT, job=None)
                 record = self._insert(connection, job, expires_at=expires_at)
                 options: EnqueueOptions = {
                     "workflow_name": WORKFLOW,
@@ -118,7 +120,7 @@ class DbosTenantJobs:
         except IntegrityError:
             # Two requests with the same new key raced; the other one is stored by now.
             with self._database.begin() as connection:
-                repeated = self._earlier(connection, job.idempotency)
+                repeated = self._admission.earlier(connection, job.idempotency)
             if repeated is None:
                 raise
             return repeated
@@ -131,7 +133,12 @@ class DbosTenantJobs:
 
     @available
     def jobs(
-        self, *, limit: int, before: tuple[float, str] | None, state: JobState | None
+        self,
+        *,
+        limit: int,
+        before: tuple[float, str] | None,
+        state: JobState | None,
+        label: str | None = None,
     ) -> Sequence[JobRecord]:
         """Return jobs newest first."""
         query = (
@@ -153,6 +160,8 @@ class DbosTenantJobs:
             )
         if state is not None:
             query = query.where(JOBS.c.state == state.value)
+        if label is not None:
+            query = query.where(JOBS.c.label == label)
         with self._database.connect() as connection:
             return [job_record(row) for row in connection.execute(query).mappings()]
 
@@ -183,8 +192,15 @@ class DbosTenantJobs:
                     .values(cancel_requested=True)
                 )
                 return self._find(connection, job_id)
-        self._client.cancel_workflow(job_id)
+        self._cancel_in_queue(job_id)
         return canceled
+
+    def _cancel_in_queue(self, job_id: str) -> None:
+        try:
+            self._client.cancel_workflow(job_id)
+        except ABSENCES as error:
+            # Whoever takes it finds that the job has ended.
+            LOG.warning("A canceled job stays in the queue (%s).", getattr(error, "orig", error))
 
     @available
     def erase(self, job_id: str) -> Sequence[str]:
@@ -193,10 +209,9 @@ class DbosTenantJobs:
         if forgotten:
             try:
                 self._ballast.spend_on(lambda: self._forget_traces(forgotten))
-            except OperationalError as error:
-                if not is_full(error):
-                    raise
-                LOG.warning("The disk is full; the sweep comes to what is left of a job.")
+            except ABSENCES as error:
+                cause = getattr(error, "orig", error)
+                LOG.warning("The sweep comes to what is left of a job (%s).", cause)
         return forgotten
 
     def _forget(self, job_id: str) -> Sequence[str]:
@@ -215,12 +230,6 @@ class DbosTenantJobs:
     @available
     def events(self, job_id: str, *, after: int) -> Sequence[JobEvent]:
         """Return the events numbered above ``after``."""
-        query = (
-            sa.select(EVENTS)
-            .join(JOBS, JOBS.c.id == EVENTS.c.job_id)
-            .where(*self._own(job_id), EVENTS.c.number > after)
-            .order_by(EVENTS.c.number)
-        )
         with self._database.connect() as connection:
             return [
                 JobEvent(
@@ -228,15 +237,33 @@ class DbosTenantJobs:
                     kind=EventKind(row.kind),
                     data=EventData.model_validate_json(row.data),
                 )
-                for row in connection.execute(query)
+                for row in connection.execute(self._events, {"job": job_id, "after": after})
             ]
+
+    @functools.cached_property
+    def _events(self) -> sa.Select:
+        """Put together once: whoever follows a job executes it ten times a fit."""
+        return (
+            sa.select(EVENTS)
+            .join(JOBS, JOBS.c.id == EVENTS.c.job_id)
+            .where(
+                JOBS.c.id == sa.bindparam("job"),
+                *self._ours(),
+                EVENTS.c.number > sa.bindparam("after"),
+            )
+            .order_by(EVENTS.c.number)
+        )
 
     def _ours(self) -> tuple[sa.ColumnElement[bool], ...]:
         return (
             JOBS.c.tenant == self._tenant,
             JOBS.c.root == self._root,
             JOBS.c.parent_id == self._parent,
+            *self._made_with_token(),
         )
+
+    def _made_with_token(self) -> tuple[sa.ColumnElement[bool], ...]:
+        return () if self._token is None else (JOBS.c.token_id == self._token,)
 
     def _own(self, job_id: str) -> tuple[sa.ColumnElement[bool], ...]:
         return (JOBS.c.id == job_id, *self._ours())
@@ -258,6 +285,7 @@ class DbosTenantJobs:
                 JOBS.c.root == self._root,
                 JOBS.c.parent_id.is_(None),
                 JOBS.c.expires_at > time.time(),
+                *self._made_with_token(),
             )
             # Always in the same order, so that two transactions cannot deadlock.
             .order_by(JOBS.c.id)
@@ -273,6 +301,9 @@ class DbosTenantJobs:
             if record.expires_at is not None and record.expires_at <= time.time():
                 raise JobExpiredError(record.expires_at)
             return record
+        if self._token is not None:
+            # Of a job that is gone nothing says who made it; and tokens do not live that long.
+            return None
         expired_at = connection.execute(
             sa.select(TOMBSTONES.c.expired_at).where(
                 TOMBSTONES.c.id == job_id,
@@ -285,56 +316,10 @@ class DbosTenantJobs:
             raise JobExpiredError(expired_at)
         return None
 
-    def _answered(
-        self, connection: sa.Connection, idempotency: Idempotency | None
-    ) -> Submission | None:
-        """Return the answer to a submission that is not accepted; None if there is room."""
-        repeated = self._earlier(connection, idempotency)
-        if repeated is not None:
-            return repeated
-        refused = self._no_room(connection)
-        return None if refused is None else Submission(outcome=refused, job=None)
-
-    def _no_room(self, connection: sa.Connection) -> SubmitOutcome | None:
-        waiting = JOBS.c.state == JobState.QUEUED.value
-        everyone, ours = connection.execute(
-            sa.select(
-                sa.func.coalesce(sa.func.sum(JOBS.c.pictures), 0),
-                sa.func.coalesce(
-                    sa.func.sum(sa.case((JOBS.c.tenant == self._tenant, JOBS.c.pictures))), 0
-                ),
-            ).where(waiting)
-        ).one()
-        if everyone >= self._max_queued:
-            return SubmitOutcome.QUEUE_FULL
-        if ours >= self._max_queued_per_tenant:
-            return SubmitOutcome.TENANT_FULL
-        return None
-
-    def _earlier(
-        self, connection: sa.Connection, idempotency: Idempotency | None
-    ) -> Submission | None:
-        if idempotency is None:
-            return None
-        row = (
-            connection.execute(
-                sa.select(JOBS).where(
-                    JOBS.c.tenant == self._tenant, JOBS.c.idempotency_key == idempotency.key
-                )
-            )
-            .mappings()
-            .one_or_none()
-        )
-        if row is None:
-            return None
-        earlier = job_record(row)
-        if earlier.fingerprint != idempotency.fingerprint:
-            return Submission(outcome=SubmitOutcome.KEY_REUSED, job=None)
-        return Submission(outcome=SubmitOutcome.REPEATED, job=earlier)
-
     def _insert(
         self, connection: sa.Connection, job: NewJob, *, expires_at: float | None
     ) -> JobRecord:
+        again = job.idempotency
         row = (
             connection.execute(
                 sa.insert(JOBS)
@@ -345,6 +330,8 @@ class DbosTenantJobs:
                     root=self._root,
                     parent_id=self._parent,
                     pictures=job.pictures,
+                    label=job.label,
+                    token_id=self._token,
                     state=JobState.QUEUED.value,
                     progress=0.0,
                     attempt=0,
@@ -355,8 +342,8 @@ class DbosTenantJobs:
                     options_digest=job.options.digest,
                     inputs=INPUTS.dump_json(dict(job.inputs)).decode(),
                     artifacts="[]",
-                    idempotency_key=job.idempotency.key if job.idempotency else None,
-                    fingerprint=job.idempotency.fingerprint if job.idempotency else None,
+                    idempotency_key=None if again is None else self._admission.stored_key(again),
+                    fingerprint=None if again is None else again.fingerprint,
                     request_id=job.request_id,
                     traceparent=job.traceparent,
                     last_event=1,

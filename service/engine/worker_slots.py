@@ -68,6 +68,11 @@ class WorkerSlots:
                     lambda: self._closed or self._ended != before, timeout=self._poll_s
                 )
 
+    @property
+    def is_closed(self) -> bool:
+        """Whether nobody is to wait for a turn any more."""
+        return self._closed
+
     def close(self) -> None:
         """Release everybody who waits for a turn."""
         with self._changed:

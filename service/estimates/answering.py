@@ -17,9 +17,9 @@ from service.estimates.port import EstimatedBody, ProposedPoints
 
 
 class Answers(Protocol):
-    """A module with these six functions.
+    """A module with these seven functions.
 
-    ``body``, ``initial_pose``, ``points`` and ``check`` raise
+    ``body``, ``initial_pose``, ``points``, ``check`` and ``jpeg`` raise
     :class:`service.worker.pipeline_port.UnusableInputError` if the question is at fault.
     ``models`` and ``detector`` are folders, None for what is installed.
     """
@@ -62,6 +62,10 @@ class Answers(Protocol):
 
     def conversion(self, task: ConversionTask, glb: bytes) -> bytes:
         """Write the body of a GLB file in another format."""
+        ...
+
+    def jpeg(self, image: bytes, *, max_pixels: int) -> bytes:
+        """Write an encoded picture as a JPEG, upright."""
         ...
 
 

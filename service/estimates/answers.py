@@ -17,6 +17,7 @@ from fitter.fits.capture_check import check_picture
 from fitter.fits.initial_body import initial_body
 from fitter.fits.prepared_model import prepared_model
 from fitter.fits.proposal import propose
+from fitter.observation.decoding import decode_picture
 from fitter.population.body_estimate import estimate_body
 from fitter.request import STATURE, Gender, KnownMeasurement
 from service.demo_data.sample import load_sample
@@ -165,6 +166,17 @@ def check(task: CheckTask, image: bytes, *, max_pixels: int, detector: Path | No
 def conversion(task: ConversionTask, glb: bytes) -> bytes:
     """Write the body of a GLB file in another format."""
     return converted(glb, task.ending)
+
+
+def jpeg(image: bytes, *, max_pixels: int) -> bytes:
+    """Write an encoded picture as a JPEG, upright."""
+    try:
+        picture = decode_picture(image, field="image", max_pixels=max_pixels)
+        return translate.jpeg(picture.pixels)
+    except MemoryError as error:
+        raise UnusableInputError(_TOO_MUCH_MEMORY) from error
+    except InvalidInputError as error:
+        raise UnusableInputError(field_problem(error)) from error
 
 
 def _detector(folder: Path | None, *, needed: bool) -> Detector | None:

@@ -3,7 +3,7 @@
 import logging
 import os
 import resource
-import sys
+from collections.abc import Callable
 from multiprocessing.connection import Connection
 from typing import Final
 
@@ -21,12 +21,15 @@ from service.estimates.messages import (
     ConversionTask,
     FaultAnswer,
     InitialPoseAnswer,
+    JpegAnswer,
+    JpegTask,
     NoDetectorAnswer,
     PointsAnswer,
     PointsTask,
     RefusalAnswer,
 )
 from service.estimates.port import NoDetectorError
+from service.process.heap import give_back
 from service.process.kernels import keep_kernels
 from service.settings import Settings
 from service.worker.body_models.asking import unusable_models
@@ -36,29 +39,59 @@ from service.worker.pipeline_port import UnusableInputError
 LOG: Final = logging.getLogger(__name__)
 
 ANSWERS_MODULE: Final = "service.estimates.answers"
+SANDBOX_ANSWERS: Final = "service.estimates.sandbox_answers"
 
 
-def run_estimator(settings: Settings, *, answers: str = ANSWERS_MODULE) -> None:
-    """Answer until the socket named by the last argument ends."""
-    connection = Connection(int(sys.argv[-1]))
+Prepare = Callable[[Answers, Settings], None]
+
+
+def prepare_here(module: Answers, settings: Settings) -> None:
+    """Load and compile whatever takes long the first time.
+
+    Raises
+    ------
+    SettingError
+        If the body models cannot be used.
+    """
+    try:
+        module.prepare(settings.models_dir, settings.detector_dir)
+    except ModelFileError as error:
+        raise unusable_models(settings, str(error)) from error
+
+
+def run_estimator(
+    settings: Settings,
+    connection: Connection,
+    *,
+    answers: str | None = None,
+    prepare: Prepare = prepare_here,
+) -> None:
+    """Answer until the connection ends.
+
+    ``answers`` are by default the real ones, or the sandbox's where that is set; ``prepare``
+    makes them ready.
+    """
+    if answers is None:
+        answers = SANDBOX_ANSWERS if settings.sandbox else ANSWERS_MODULE
     for variable in THREAD_LIMITS:
         os.environ.setdefault(variable, "1")
     keep_kernels()
     limit = settings.child_memory_mb * 1024 * 1024
     resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    module = load_answers(answers)
     try:
-        module.prepare(settings.models_dir, settings.detector_dir)
-    except ModelFileError as error:
-        raise unusable_models(settings, str(error)) from error
-    try:
+        connection.send_bytes(str(os.getpid()).encode())
+        module = load_answers(answers)
+        prepare(module, settings)
+        give_back()
         connection.send_bytes(READY)
         while True:
             question, brought = connection.recv_bytes(), connection.recv_bytes()
             answer, file = _answer(module, question, brought, settings)
             connection.send_bytes(answer.model_dump_json().encode())
             connection.send_bytes(file)
+            # A picture takes a hundred times what is needed between questions.
+            give_back()
     except (EOFError, OSError):
         # The API is gone.
         return
@@ -90,6 +123,8 @@ def _answer(
                 detector=settings.detector_dir,
             )
             return CheckAnswer(check=check), b""
+        if isinstance(task, JpegTask):
+            return JpegAnswer(), module.jpeg(brought, max_pixels=settings.max_pixels)
         return InitialPoseAnswer(pose=module.initial_pose(task, settings.models_dir)), b""
     except UnusableInputError as error:
         return RefusalAnswer(error=error.error), b""

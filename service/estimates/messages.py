@@ -16,7 +16,7 @@ from api_schemas.proposals import PointsProposal, PointsRequest
 from api_schemas.requests import SubjectOptions
 
 READY: Final = b"ready"
-"""The estimator's first message: its models are loaded."""
+"""The estimator's second message: its models are loaded. Its first is the number of its process."""
 
 
 class BodyTask(WireModel):
@@ -58,6 +58,12 @@ class CheckTask(WireModel):
     request: CheckRequest
 
 
+class JpegTask(WireModel):
+    """Write the attached picture as a JPEG, upright."""
+
+    kind: Literal["jpeg"] = "jpeg"
+
+
 class BodyAnswer(WireModel):
     """The estimated body."""
 
@@ -92,6 +98,12 @@ class CheckAnswer(WireModel):
     check: CaptureCheck
 
 
+class JpegAnswer(WireModel):
+    """The attached file is the picture."""
+
+    kind: Literal["jpeg"] = "jpeg"
+
+
 class NoDetectorAnswer(WireModel):
     """The estimator has no detector."""
 
@@ -112,7 +124,7 @@ class FaultAnswer(WireModel):
 
 
 Task = Annotated[
-    BodyTask | InitialPoseTask | ConversionTask | PointsTask | CheckTask,
+    BodyTask | InitialPoseTask | ConversionTask | PointsTask | CheckTask | JpegTask,
     Field(discriminator="kind"),
 ]
 Answer = Annotated[
@@ -121,6 +133,7 @@ Answer = Annotated[
     | ConversionAnswer
     | PointsAnswer
     | CheckAnswer
+    | JpegAnswer
     | NoDetectorAnswer
     | RefusalAnswer
     | FaultAnswer,

@@ -2,7 +2,7 @@
 
 import queue
 import threading
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Final
 
@@ -19,6 +19,8 @@ from service.estimates.messages import (
     ConversionTask,
     InitialPoseAnswer,
     InitialPoseTask,
+    JpegAnswer,
+    JpegTask,
     NoDetectorAnswer,
     PointsAnswer,
     PointsTask,
@@ -33,6 +35,7 @@ from service.estimates.port import (
     ProposedPoints,
 )
 from service.estimates.process import EstimatorProcess
+from service.estimates.starting import Start
 from service.submissions.refusal import refused
 
 MOST_WAITING: Final = 20
@@ -48,13 +51,9 @@ LOOK_AFTER_S: Final = 5.0
 class EstimatorPool:
     """See :class:`service.estimates.port.Estimator`."""
 
-    def __init__(
-        self, command: Sequence[str], *, environment: Mapping[str, str], processes: int
-    ) -> None:
+    def __init__(self, start: Start, *, processes: int) -> None:
         self._idle: queue.SimpleQueue[EstimatorProcess] = queue.SimpleQueue()
-        self._processes = [
-            EstimatorProcess(command, environment=environment) for _ in range(processes)
-        ]
+        self._processes = [EstimatorProcess(start) for _ in range(processes)]
         for process in self._processes:
             self._idle.put(process)
         self._capacity = processes * (1 + MOST_WAITING)
@@ -104,6 +103,13 @@ class EstimatorPool:
         """Write the body of a GLB file in another format."""
         answer, file = self._ask(task, brought=glb, patient=True)
         if not isinstance(answer, ConversionAnswer):
+            raise EstimatorFailedError
+        return file
+
+    def jpeg(self, image: bytes) -> bytes:
+        """Write an encoded picture as a JPEG, upright."""
+        answer, file = self._ask(JpegTask(), brought=image, patient=True)
+        if not isinstance(answer, JpegAnswer):
             raise EstimatorFailedError
         return file
 

@@ -98,3 +98,7 @@ class Estimator(Protocol):
     def convert(self, task: ConversionTask, glb: bytes) -> bytes:
         """Write the body of one of the service's GLB files in another format."""
         ...
+
+    def jpeg(self, image: bytes) -> bytes:
+        """Write an encoded picture as a JPEG, upright."""
+        ...

@@ -3,9 +3,7 @@
 import contextlib
 import logging
 import socket
-import subprocess
 import time
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from typing import Final
@@ -16,6 +14,7 @@ from service.estimates.port import (
     EstimatorTimeoutError,
     EstimatorUnavailableError,
 )
+from service.estimates.starting import Start
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -43,9 +42,8 @@ class EstimatorProcess:
     killed, it does not stay behind.
     """
 
-    def __init__(self, command: Sequence[str], *, environment: Mapping[str, str]) -> None:
-        self._command = list(command)
-        self._environment = dict(environment)
+    def __init__(self, start: Start) -> None:
+        self._start_with = start
         self._started_at = float("-inf")
         self._stopped = False
         self._start()
@@ -64,7 +62,7 @@ class EstimatorProcess:
         EstimatorTimeoutError
             If it did not answer in time; the next one is started.
         """
-        if self._process.poll() is not None:
+        if self._process.has_ended():
             self._restart()
         self._await_ready(READY_WITHIN_S if patient else 0.0)
         try:
@@ -84,9 +82,11 @@ class EstimatorProcess:
 
     def revive(self) -> None:
         """Restart the process if it has died, unless it is too early for that."""
-        if self._process.poll() is not None and not self._stopped:
-            LOG.error("An estimator died, exit code %d; starting another.", self._process.wait())
-            with contextlib.suppress(EstimatorUnavailableError):
+        with contextlib.suppress(EstimatorUnavailableError):
+            if not self._process.has_ended():
+                self._await_ready(0.0)
+            elif not self._stopped:
+                LOG.error("An estimator died; starting another.")
                 self._restart()
 
     def stop(self) -> None:
@@ -95,13 +95,17 @@ class EstimatorProcess:
         self._end()
 
     def _await_ready(self, within_s: float) -> None:
-        if self._ready:
-            return
+        deadline = time.monotonic() + within_s
         try:
-            if not self._connection.poll(within_s):
-                raise EstimatorUnavailableError
-            self._ready = self._connection.recv_bytes() == READY
+            while not self._ready:
+                if not self._connection.poll(max(deadline - time.monotonic(), 0.0)):
+                    raise EstimatorUnavailableError
+                said = self._connection.recv_bytes()
+                self._ready = said == READY
+                if not self._ready:
+                    self._process.named(int(said))
         except (EOFError, OSError) as error:
+            self._process.kill()
             raise EstimatorUnavailableError from error
 
     def _start(self) -> None:
@@ -109,14 +113,7 @@ class EstimatorProcess:
             return
         ours, theirs = socket.socketpair()
         with theirs:
-            # A session of its own: an interrupt from the terminal is for the API alone.
-            self._process = subprocess.Popen(
-                [*self._command, str(theirs.fileno())],
-                pass_fds=[theirs.fileno()],
-                stdin=subprocess.DEVNULL,
-                env=self._environment,
-                start_new_session=True,
-            )
+            self._process = self._start_with(theirs)
         self._connection: Connection = Connection(ours.detach())
         self._ready = False
         self._started_at = time.monotonic()
@@ -128,7 +125,9 @@ class EstimatorProcess:
         self._start()
 
     def _end(self) -> int:
+        with contextlib.suppress(EstimatorUnavailableError, OSError):
+            # It may have said its number, without which it cannot be killed.
+            self._await_ready(0.0)
         with contextlib.suppress(OSError):
             self._connection.close()
-        self._process.kill()
-        return self._process.wait()
+        return self._process.kill()

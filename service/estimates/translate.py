@@ -26,6 +26,9 @@ from fitter.request import Facing, FitRequest, Gender
 from service.worker.findings import finding_results, rounded_box
 from service.worker.translate import SEEN, body_result, camera_result, clicks, known_measurements
 
+JPEG_QUALITY = 90
+"""Nothing is measured in these pictures; they are for the eye."""
+
 
 def wire_gender(gender: Gender) -> wire_request.Gender:
     """Translate a gender."""
@@ -140,6 +143,13 @@ def grey_png(values: UInt8[np.ndarray, "h w"]) -> bytes:
     """Encode a grey picture, for speed rather than size."""
     encoded = io.BytesIO()
     Image.fromarray(values).save(encoded, "PNG", compress_level=1)
+    return encoded.getvalue()
+
+
+def jpeg(pixels: UInt8[np.ndarray, "h w 3"]) -> bytes:
+    """Encode a picture to be looked at."""
+    encoded = io.BytesIO()
+    Image.fromarray(pixels).save(encoded, "JPEG", quality=JPEG_QUALITY)
     return encoded.getvalue()
 
 

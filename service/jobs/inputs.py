@@ -18,6 +18,10 @@ PERSON: Final = "person.npz"
 SEGMENTATION: Final = "segmentation.png"
 OVERLAY: Final = "overlay.png"
 BODY_POSED: Final = "body_posed.glb"
+TAPES: Final = "tapes.json"
+SANDBOX: Final = "sandbox"
+"""What a sandbox was asked to make of the job (:mod:`service.jobs.sandbox`)."""
+
 CLIP: Final = "bvh"
 """A motion sent with the request for a derivation."""
 

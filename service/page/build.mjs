@@ -1,6 +1,6 @@
 // Bundles src/ into a folder of files that are served as they are: `node build.mjs [FOLDER]`.
 // The same sources give the same bytes: a test builds anew and compares.
-import { readFile, readdir, rm, writeFile, mkdir } from "node:fs/promises";
+import { copyFile, readFile, readdir, rm, writeFile, mkdir } from "node:fs/promises";
 import { createHash } from "node:crypto";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -27,7 +27,7 @@ const { metafile } = await build({
   jsx: "automatic",
   jsxImportSource: "preact",
   alias: { "plex-sans.woff2": join(here, "node_modules", FONT) },
-  loader: { ".woff2": "file" },
+  loader: { ".woff2": "file", ".webp": "file", ".bin": "binary" },
   entryNames: "[name].[hash]",
   chunkNames: "[name].[hash]",
   assetNames: "[name].[hash]",
@@ -35,6 +35,19 @@ const { metafile } = await build({
   legalComments: "none",
   metafile: true,
 });
+
+// For other sites, whose address of it stays: no hash.
+await build({
+  absWorkingDir: here,
+  entryPoints: ["src/embed/site.ts"],
+  outfile: join(folder, "embed.js"),
+  bundle: true,
+  minify: true,
+  format: "iife",
+  target: ["es2022"],
+  legalComments: "none",
+});
+await copyFile(join(here, "src/embed/embed.d.ts"), join(folder, "embed.d.ts"));
 
 const outputs = Object.entries(metafile.outputs).map(([path, output]) => ({
   name: path.split("/").pop(),
@@ -54,15 +67,38 @@ const index = (await readFile(join(here, "src/index.html"), "utf8"))
 await writeFile(join(folder, "index.html"), index);
 await writeFile(join(folder, "THIRD_PARTY.txt"), await thirdParty());
 
-let total = 0;
+const weights = new Map();
 for (const name of (await readdir(folder)).sort()) {
   const content = await readFile(join(folder, name));
-  const packed = name.endsWith(".woff2") ? content.length : gzipSync(content, { level: 9 }).length;
-  if (!name.endsWith(".txt")) total += packed;
+  const packed = /\.(woff2|webp)$/.test(name) ? content.length : gzipSync(content, { level: 9 }).length;
+  weights.set(name, packed);
   const digest = createHash("sha256").update(content).digest("hex").slice(0, 8);
   console.log(`${String(packed).padStart(8)} bytes gzipped  ${digest}  ${name}`);
 }
-console.log(`${String(total).padStart(8)} bytes gzipped in all`);
+const total = (names) => String([...names].reduce((sum, name) => sum + weights.get(name), 0)).padStart(8);
+const byName = new Map(outputs.map((output) => [output.name, output]));
+/** A module's file with all that is loaded along with it. */
+const loaded = (name) => [
+  name,
+  ...byName
+    .get(name)
+    .imports.filter((each) => each.kind === "import-statement")
+    .flatMap((each) => loaded(each.path.split("/").pop())),
+];
+const heavier = outputs
+  .filter(({ entry: point }) => point?.startsWith("src/messages/"))
+  .sort((a, b) => weights.get(b.name) - weights.get(a.name))[0].entry;
+const assets = [...weights.keys()].filter((name) => /\.(html|css|woff2|webp)$/.test(name));
+const WAYS = {
+  "with one picture": ["src/panel/Workbench.tsx"],
+  "from front and side": ["src/measure/MeasureView.tsx", "src/measure/ScanView.tsx"],
+};
+console.log(`${total(weights.keys())} bytes gzipped in all`);
+for (const [way, screens] of Object.entries(WAYS)) {
+  const points = ["src/main.tsx", "src/viewer/BodyScene.ts", heavier, ...screens];
+  const names = new Set([...assets, ...points.flatMap((point) => loaded(entry(point).name))]);
+  console.log(`${total(names)} bytes gzipped before a first result ${way}`);
+}
 
 async function thirdParty() {
   const texts = [];

@@ -19,7 +19,10 @@ try {
     platform: "node",
     format: "esm",
     target: "node20",
+    loader: { ".bin": "binary" },
     nodePaths: [join(here, "node_modules")],
+    // The page speaks before its modules do.
+    inject: [join(tests, "speaking.ts")],
     // What a browser has and Node has not.
     banner: { js: "globalThis.sessionStorage ??= { getItem: () => null };" },
     logLevel: "warning",

@@ -39,7 +39,10 @@ def configure_logging(
     for ours in OURS:
         logging.getLogger(ours).setLevel(level)
     # DBOS logs every migration and launch at INFO; what matters about jobs we log ourselves.
-    logging.getLogger("dbos").setLevel(max(logging.WARNING, logging.getLogger().level))
+    dbos = logging.getLogger("dbos")
+    dbos.setLevel(max(logging.WARNING, logging.getLogger().level))
+    # Without a handler of its own it would be given one with a format of its own.
+    dbos.handlers, dbos.propagate, dbos.filters = [handler], False, [_shorten_outage]
     # These log what they send and are sent.
     for chatty in ("botocore", "boto3", "urllib3", "s3transfer", "httpx", "httpcore", "PIL"):
         logging.getLogger(chatty).setLevel(logging.WARNING)
@@ -114,6 +117,17 @@ class _JsonFormatter(_Formatter):
         if trace:
             entry["exception"] = trace
         return json.dumps(entry, default=str, ensure_ascii=False)
+
+
+def _shorten_outage(record: logging.LogRecord) -> bool:
+    """Let DBOS tell in one line that the database is away, as it does every second meanwhile."""
+    message = record.getMessage()
+    if "OperationalError" in message and "\n" in message:
+        told = [line for line in message.splitlines() if "OperationalError" in line]
+        first = message.splitlines()[0].removesuffix("Traceback (most recent call last):").strip()
+        record.msg = first if first in told else f"{first} {told[-1]}"
+        record.args = ()
+    return True
 
 
 def _without_messages(error: BaseException) -> Iterator[str]:

@@ -22,7 +22,7 @@ LONGEST_PAUSE_S: Final = 2.0
 
 
 def retry_with_pauses(
-    absence: type[Exception], whose: str
+    absence: type[Exception] | tuple[type[Exception], ...], whose: str
 ) -> Callable[[Callable[P, T]], Callable[P, T]]:
     """Retry an operation while something it needs is unavailable, with pauses, for two minutes.
 

@@ -1,6 +1,8 @@
 """A worker process next to the API, restarted when it dies."""
 
+import contextlib
 import logging
+import socket
 import subprocess
 import threading
 from collections.abc import Callable, Mapping, Sequence
@@ -17,8 +19,9 @@ class SupervisedWorker:
     The exception is the exit status that says that restarting is of no use: then ``on_final_end``
     is called, and no other is started.
 
-    Its standard input is the reading end of a pipe of ours: if this process is killed, the pipe
-    ends and the worker stops.
+    Its standard input is one end of a socket of ours: if this process is killed, the socket ends
+    and the worker stops. What is passed through it, the worker hands to a process that it forks
+    (:mod:`service.worker.lending`).
     """
 
     def __init__(
@@ -38,17 +41,25 @@ class SupervisedWorker:
         self.has_finally_ended = False
         self._stopping = threading.Event()
         self._lock = threading.Lock()
-        self._process = self._spawn()
+        self._process, self._line = self._spawn()
         self._thread = threading.Thread(target=self._watch, name="supervisor", daemon=True)
         self._thread.start()
+
+    def pass_on(self, connection: socket.socket) -> None:
+        """Have the worker fork a process that holds this connection too.
+
+        Where no worker runs, or it ends before it has forked, nobody else holds it: our other end
+        of it has ended once ours is closed.
+        """
+        with self._lock, contextlib.suppress(OSError):
+            socket.send_fds(self._line, [b"+"], [connection.fileno()])
 
     def stop(self) -> None:
         """Ask the worker to drain and wait for it; kill it if it does not end."""
         with self._lock:
             self._stopping.set()
             process = self._process
-        if process.stdin is not None:
-            process.stdin.close()
+            self._line.close()
         try:
             process.wait(self._stop_timeout_s)
         except subprocess.TimeoutExpired:
@@ -56,11 +67,16 @@ class SupervisedWorker:
             process.kill()
         self._thread.join()
 
-    def _spawn(self) -> subprocess.Popen[bytes]:
-        # A session of its own: an interrupt from the terminal is for us, we pass it on in order.
-        return subprocess.Popen(
-            self._command, stdin=subprocess.PIPE, env=self._environment, start_new_session=True
-        )
+    def _spawn(self) -> tuple[subprocess.Popen[bytes], socket.socket]:
+        ours, theirs = socket.socketpair()
+        # A worker that takes nothing from it is not waited for.
+        ours.setblocking(False)
+        with theirs:
+            # A session of its own: an interrupt from the terminal is for us, who pass it on.
+            process = subprocess.Popen(
+                self._command, stdin=theirs.fileno(), env=self._environment, start_new_session=True
+            )
+        return process, ours
 
     def _watch(self) -> None:
         while True:
@@ -77,4 +93,5 @@ class SupervisedWorker:
             with self._lock:
                 if self._stopping.is_set():
                     return
-                self._process = self._spawn()
+                self._line.close()
+                self._process, self._line = self._spawn()

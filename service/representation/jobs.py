@@ -46,6 +46,7 @@ def represent(record: JobRecord) -> Job:
     succeeded = record.state is JobState.SUCCEEDED
     return Job(
         **_standing(record),
+        label=record.label,
         links=JobLinks(
             **_links(record),
             image=f"{path}/image",
@@ -63,6 +64,7 @@ def represent_scan(record: JobRecord) -> Scan:
     return Scan(
         **_standing(record),
         view=record.view,
+        label=record.label,
         links=ScanLinks(
             **_links(record),
             views=tuple(

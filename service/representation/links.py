@@ -108,8 +108,8 @@ LINKS: Final[Mapping[tuple[str, str], dict[str, Any]]] = {
     ("derivation_result_of_scan", "200"): _links(
         _SAME_SCAN_DERIVATION | _FIRST_FILE, *_of_scan("derivation_artifact")
     ),
-    ("upload_image", "200"): _links(_FROM_IMAGE, "get_image", "erase_image"),
-    ("upload_image", "201"): _links(_FROM_IMAGE, "get_image", "erase_image"),
+    ("upload_image", "200"): _links(_FROM_IMAGE, "get_image", "get_picture", "erase_image"),
+    ("upload_image", "201"): _links(_FROM_IMAGE, "get_image", "get_picture", "erase_image"),
     ("get_image", "200"): _links(_SAME_IMAGE, "erase_image"),
 }
 """By operation and status."""

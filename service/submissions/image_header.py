@@ -5,7 +5,7 @@ of a PNG and the first of others.
 
 The API looks only this far: kind by magic bytes, size, EXIF orientation and focal length,
 animation. Decoders meet the caller's bytes in the child process alone, so this reads the three
-containers by itself.
+containers by itself, and ``heif_header`` the fourth.
 
 Sources: ITU-T T.81 annex B (JPEG markers), the PNG specification section 11, the WebP container
 specification.
@@ -15,7 +15,9 @@ import struct
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from fitter.observation.heif import is_heif
 from service.submissions.exif_header import ExifFacts, read_exif_facts
+from service.submissions.heif_header import HeifFaultError, read_heif_facts
 
 TURNED = range(5, 9)
 """Orientations that swap width and height."""
@@ -30,6 +32,7 @@ JPEG_END = 0xD9
 JPEG_APP1 = 0xE1
 EXIF_MARK = b"Exif\0\0"
 PNG_START = 8
+HEIC = "image/heic"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -47,7 +50,7 @@ class ImageHeader:
 
 
 class UnknownImageError(Exception):
-    """The bytes are not a JPEG, PNG or WebP."""
+    """The bytes are not a JPEG, PNG, WebP or HEIC."""
 
 
 class DamagedImageError(Exception):
@@ -55,7 +58,7 @@ class DamagedImageError(Exception):
 
 
 def read_image_header(content: bytes) -> ImageHeader:
-    """Read the header of a JPEG, PNG or WebP.
+    """Read the header of a JPEG, PNG, WebP or HEIC.
 
     Raises
     ------
@@ -71,6 +74,10 @@ def read_image_header(content: bytes) -> ImageHeader:
             return _png(content)
         if content[:4] == b"RIFF" and content[8:12] == b"WEBP":
             return _webp(content)
+        if is_heif(content):
+            return _heif(content)
+    except HeifFaultError as error:
+        raise DamagedImageError(str(error)) from error
     except (struct.error, IndexError) as error:
         message = "the header ends too early"
         raise DamagedImageError(message) from error
@@ -188,3 +195,10 @@ def _riff_chunks(content: bytes) -> Iterator[tuple[bytes, int, int]]:
         (length,) = struct.unpack_from("<I", content, position + 4)
         yield content[position : position + 4], position + 8, length
         position += 8 + length + (length & 1)
+
+
+def _heif(content: bytes) -> ImageHeader:
+    facts = read_heif_facts(content)
+    # The size is that of the turned picture already.
+    exif = ExifFacts(focal_length_35mm=read_exif_facts(facts.exif).focal_length_35mm)
+    return _header(HEIC, facts.width, facts.height, exif=exif, animated=False)

@@ -13,7 +13,9 @@ from api_schemas.problems import FieldProblem
 from api_schemas.requests import AskedPicture, FitOptions, FitRequest
 from api_schemas.webhooks import WebhookTarget
 from service.jobs.inputs import IMAGE, MASK
+from service.submissions.heic import check_heic
 from service.submissions.image_header import (
+    HEIC,
     DamagedImageError,
     ImageHeader,
     UnknownImageError,
@@ -23,7 +25,7 @@ from service.submissions.point_rules import checked_points, placed_points
 from service.submissions.refusal import refused
 from service.submissions.validation import parsed
 
-ACCEPTED_KINDS: Final = "JPEG, PNG or WebP"
+ACCEPTED_KINDS: Final = "JPEG, PNG, WebP or HEIC"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,6 +44,7 @@ class CheckedSubmission:
     """
 
     options: FitOptions
+    label: str | None
     webhook: WebhookTarget | None
     media_types: Mapping[str, str]
 
@@ -86,6 +89,7 @@ def check_parts(
     picture = check_image(asked, image=image, mask=mask, max_pixels=max_pixels)
     return CheckedSubmission(
         options=asked.options(picture.points),
+        label=asked.label,
         webhook=asked.webhook,
         media_types=picture.media_types,
     )
@@ -123,7 +127,8 @@ def check_picture(field: str, content: bytes, *, max_pixels: int) -> ImageHeader
     Raises
     ------
     RefusedError
-        If it is empty, of another kind, damaged, animated or larger than ``max_pixels``.
+        If it is empty, of another kind, damaged, animated or larger than ``max_pixels``, or a HEIC
+        where none are decoded.
     """
     if not content:
         raise refused(
@@ -155,6 +160,8 @@ def check_picture(field: str, content: bytes, *, max_pixels: int) -> ImageHeader
                 remedy="Send the whole file, or save the picture anew.",
             )
         ) from error
+    if header.media_type == HEIC:
+        check_heic(field)
     if header.animated:
         raise refused(
             FieldProblem(

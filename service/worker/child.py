@@ -25,8 +25,9 @@ from api_schemas.problems import Problem, field_problem, problem
 from api_schemas.requests import FitOptions
 from api_schemas.scans import ScanOptions
 from service.engine.port import FIT, SCAN, Report
-from service.jobs.inputs import IMAGE, MASK, image_of, mask_of, own_and_others
+from service.jobs.inputs import IMAGE, MASK, SANDBOX, image_of, mask_of, own_and_others
 from service.process.logs import LogContext, configure_logging, log_context
+from service.process.naming import call_process
 from service.worker.artifacts import with_result_document
 from service.worker.messages import (
     MESSAGES,
@@ -39,6 +40,7 @@ from service.worker.messages import (
 from service.worker.pipeline_port import (
     DerivationInput,
     PipelineInput,
+    ProblemError,
     ScanInput,
     ScanPicture,
     UnusableInputError,
@@ -76,6 +78,7 @@ class ChildTask:
 
 def work(task: ChildTask, connection: Connection) -> None:
     """Run one job and tell the worker how it went."""
+    call_process("job")
     _configure_logging(task)
     _limit(task.memory_mb)
     try:
@@ -122,6 +125,7 @@ def _fit_input(task: ChildTask, options: bytes, inputs: Mapping[str, bytes]) -> 
         max_pixels=task.max_pixels,
         models=task.models,
         detector=task.detector,
+        ending=_ending(inputs),
     )
 
 
@@ -136,6 +140,7 @@ def _scan_input(task: ChildTask, options: bytes, inputs: Mapping[str, bytes]) ->
         max_pixels=task.max_pixels,
         models=task.models,
         detector=task.detector,
+        ending=_ending(inputs),
     )
 
 
@@ -151,12 +156,19 @@ def _derivation_input(
         models=task.models,
         detector=task.detector,
         fit_id=None if task.fit_id is None else UUID(task.fit_id),
+        ending=_ending(inputs),
     )
+
+
+def _ending(inputs: Mapping[str, bytes]) -> str | None:
+    return inputs[SANDBOX].decode() if SANDBOX in inputs else None
 
 
 def _answer(connection: Connection, work: Callable[[], Message]) -> None:
     try:
         message = work()
+    except ProblemError as error:
+        message = ProblemMessage(problem=error.problem)
     except UnusableInputError as error:
         message = ProblemMessage(problem=field_problem("unusable-input", error.error))
     except MemoryError:

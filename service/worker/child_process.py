@@ -19,7 +19,7 @@ from service.process.tracing import StageSpans, span
 from service.settings import Settings
 from service.worker import child
 from service.worker.artifacts import describe_artifact
-from service.worker.endings import input_gone, no_process, no_storage, too_slow
+from service.worker.endings import ending_by, input_gone, no_process, no_storage, too_slow
 from service.worker.forking import ForkedProcesses, NoProcessError, end, killed_in_time
 from service.worker.messages import (
     MESSAGES,
@@ -52,12 +52,17 @@ class ChildRunner:
     """Runs attempts in child processes, forked from a server that has the numerics loaded."""
 
     def __init__(
-        self, settings: Settings, blobs: BlobStore, *, pipeline: str, preload: str
+        self,
+        settings: Settings,
+        blobs: BlobStore,
+        processes: ForkedProcesses,
+        *,
+        pipeline: str,
     ) -> None:
         self._settings = settings
         self._blobs = blobs
         self._pipeline = pipeline
-        self._processes = ForkedProcesses(preload)
+        self._processes = processes
         self._has_loaded = threading.Event()
 
     def begin_preloading(self) -> None:
@@ -154,7 +159,7 @@ class ChildRunner:
             if isinstance(message, FileMessage):
                 files[message.name] = connection.recv_bytes(LARGEST_FILE_BYTES)
             if isinstance(message, ProblemMessage):
-                return AttemptResult(ending=Ending.FAILED, problem=message.problem)
+                return AttemptResult(ending=ending_by(message.problem), problem=message.problem)
             if isinstance(message, ProgressMessage):
                 progress.take(message)
                 spans.enter(message.stage)

@@ -2,6 +2,13 @@
 
 from api_schemas.problems import Problem, problem
 from service.blobs import BlobsUnavailableError, StorageFullError
+from service.engine.port import Ending
+
+
+def ending_by(reason: Problem) -> Ending:
+    """How an attempt ended whose process told of this problem."""
+    is_late = reason.type == too_slow(0.0).type
+    return Ending.TIMED_OUT if is_late else Ending.FAILED
 
 
 def input_gone() -> Problem:

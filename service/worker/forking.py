@@ -1,6 +1,7 @@
 """Processes forked from a server that has the numerics loaded."""
 
 import contextlib
+import sys
 import threading
 from collections.abc import Callable, Iterator
 from multiprocessing import forkserver, get_context
@@ -21,9 +22,10 @@ class ForkedProcesses:
     which is what makes forking safe. A server that dies is started again.
     """
 
-    def __init__(self, preload: str) -> None:
+    def __init__(self, *preload: str) -> None:
         self._context: ForkServerContext = get_context("forkserver")
-        self._context.set_forkserver_preload([preload])
+        _keep_main_to_ourselves()
+        self._context.set_forkserver_preload(list(preload))
 
     def begin_preloading(self) -> None:
         """Start the server, which then loads the numerics in the background."""
@@ -52,16 +54,46 @@ class ForkedProcesses:
             If no process could be started for two minutes.
         """
         ours, theirs = self._context.Pipe()
-        process = self._context.Process(target=target, args=(*arguments, theirs))
+        try:
+            process = self._started(target, (*arguments, theirs))
+        except NoProcessError:
+            ours.close()
+            raise
+        finally:
+            theirs.close()
+        return ours, process
+
+    @retry_with_pauses(NoProcessError, "fork server")
+    def start_with(self, target: Callable[..., None], *arguments: object) -> None:
+        """Run ``target`` in a process that nobody here waits for.
+
+        Raises
+        ------
+        NoProcessError
+            If no process could be started for two minutes.
+        """
+        self._started(target, arguments)
+
+    def _started(
+        self, target: Callable[..., None], arguments: tuple[object, ...]
+    ) -> ForkServerProcess:
+        process = self._context.Process(target=target, args=arguments)
         try:
             process.start()
         except (EOFError, OSError) as error:
             # The server has just died, or the machine has no room for a process.
-            ours.close()
             raise NoProcessError(str(error) or type(error).__name__) from error
-        finally:
-            theirs.close()
-        return ours, process
+        return process
+
+
+def _keep_main_to_ourselves() -> None:
+    """Have children not import the program that was started: what they run is imported by name.
+
+    It takes a child a fiftieth of what a fit takes to import the command line anew.
+    """
+    main = sys.modules["__main__"]
+    main.__spec__ = None
+    main.__dict__.pop("__file__", None)
 
 
 def _nothing(_: Connection) -> None:

@@ -3,14 +3,13 @@
 import logging
 import os
 import signal
-import sys
-import threading
 from collections.abc import Sequence
 from typing import Final
 
 from service.blobs import open_blob_store
 from service.process.data_folder import prepare_data_folder
 from service.process.disk import open_disk
+from service.process.heap import KEPT
 from service.process.interpreter import SAFE_PATH_VARIABLE
 from service.process.kernels import keep_kernels
 from service.process.stop_request import StopRequest
@@ -18,12 +17,16 @@ from service.settings import Settings
 from service.worker.body_models.asking import COMMAND as MODELS_COMMAND
 from service.worker.body_models.asking import ModelsBeingRead
 from service.worker.child_process import ChildRunner
+from service.worker.forking import ForkedProcesses
+from service.worker.lending import follow_starter
 from service.worker.model_files import check_detector
 
 LOG: Final = logging.getLogger(__name__)
 
 PIPELINE: Final = "service.worker.pipeline"
+SANDBOX_PIPELINE: Final = "service.worker.sandbox"
 PRELOAD: Final = "service.worker.preload"
+LENT: Final = "service.estimates.lent"
 
 THREAD_LIMITS: Final = (
     "OMP_NUM_THREADS",
@@ -37,43 +40,48 @@ THREAD_LIMITS: Final = (
 SPARE_CONNECTIONS: Final = 6
 """To the database, beside one a fit: heartbeat, queue, notifications, and DBOS's own writes."""
 
-READ_AT_ONCE: Final = 4_096
-
 
 def run_worker(
     settings: Settings,
     *,
     follow_stdin: bool,
-    pipeline: str = PIPELINE,
+    pipeline: str | None = None,
     preload: str = PRELOAD,
+    lent: str = LENT,
     models_command: Sequence[str] = MODELS_COMMAND,
 ) -> None:
     """Work until SIGTERM or SIGINT, or until standard input ends if that is to be followed.
 
+    ``pipeline`` is by default the real one, or the sandbox's where that is set.
+    ``lent`` is what runs in processes forked for whoever started this one.
     ``models_command`` starts the process that says which body models there are.
     """
+    if pipeline is None:
+        pipeline = SANDBOX_PIPELINE if settings.sandbox else PIPELINE
     stop = StopRequest()
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda _number, _frame: stop.ask())
-    if follow_stdin:
-        # The starter holds the other end of this pipe: when it closes, the starter is gone.
-        threading.Thread(target=_wait_for_end_of_input, args=(stop,), daemon=True).start()
     for variable in THREAD_LIMITS:
         os.environ.setdefault(variable, "1")
+    for variable, value in KEPT.items():
+        os.environ.setdefault(variable, value)
     # The fork server and its resource tracker are started by `python -c`.
     os.environ[SAFE_PATH_VARIABLE] = "1"
     keep_kernels()
     prepare_data_folder(settings)
     check_detector(settings)
     blobs = open_blob_store(settings)
-    runner = ChildRunner(settings, blobs, pipeline=pipeline, preload=preload)
+    processes = ForkedProcesses(*((lent,) if follow_stdin else ()), preload)
+    if follow_stdin:
+        follow_starter(processes, lent=lent, ended=stop.ask)
+    runner = ChildRunner(settings, blobs, processes, pipeline=pipeline)
+    # What takes longest begins first, even if the database then turns out to be of no use.
+    runner.begin_preloading()
     models = ModelsBeingRead(settings, command=models_command)
-    # Imported while others read the models and load the numerics: a good part of a second each.
+    # Imported while others load the numerics and read the models: a good part of a second each.
     from service.engine.database import open_database, prepare_database
 
-    prepare_database(settings.system_database_url)
-    # Not before: a worker whose database cannot be used has nothing to load them for.
-    runner.begin_preloading()
+    prepare_database(settings.system_database_url, sandbox=settings.sandbox)
     from service.engine.dbos_worker import DbosWorkerEngine
     from service.process.tracing import start_tracing
 
@@ -94,6 +102,8 @@ def run_worker(
     )
     engine.start(runner.run, body_models=models.wait(), can_begin=runner.has_loaded)
     LOG.info("Worker %s is ready.", engine.executor_id)
+    if settings.sandbox:
+        LOG.warning("This worker is a sandbox: its results are canned, whatever was sent.")
     if not runner.has_loaded():
         LOG.info("Jobs wait until the numerics are loaded, or compiled if that is not done yet.")
     stop.wait()
@@ -103,10 +113,3 @@ def run_worker(
     logging.shutdown()
     # Not a return: threads of fits that were handed back may still be there.
     os._exit(0)
-
-
-def _wait_for_end_of_input(stop: StopRequest) -> None:
-    # Not through sys.stdin: a reader that holds its lock keeps the interpreter from ending.
-    while os.read(sys.stdin.fileno(), READ_AT_ONCE):
-        pass
-    stop.ask()

@@ -15,7 +15,7 @@ from uuid import UUID
 
 from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivation_kinds.base import DerivedFiles
-from api_schemas.problems import FieldProblem
+from api_schemas.problems import FieldProblem, Problem
 from api_schemas.requests import FitOptions
 from api_schemas.results import FitResult
 from api_schemas.scans import ScanOptions, ScanResult
@@ -30,7 +30,8 @@ class PipelineInput:
     """A request as it reaches the pipeline: options with named points, encoded pictures.
 
     ``models`` is the folder of the body models, None for those shipped with the package;
-    ``detector`` that of the detector's weights, None for those of their package.
+    ``detector`` that of the detector's weights, None for those of their package. ``ending`` is how
+    a sandbox is asked to let it end (:mod:`service.jobs.sandbox`), None everywhere else.
     """
 
     options: FitOptions
@@ -39,6 +40,7 @@ class PipelineInput:
     max_pixels: int
     models: Path | None = None
     detector: Path | None = None
+    ending: str | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,6 +68,7 @@ class ScanInput:
     max_pixels: int
     models: Path | None = None
     detector: Path | None = None
+    ending: str | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -91,6 +94,7 @@ class DerivationInput(Generic[Options_co]):
     models: Path | None = None
     detector: Path | None = None
     fit_id: UUID | None = None
+    ending: str | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -107,6 +111,14 @@ class UnusableInputError(Exception):
     def __init__(self, error: FieldProblem) -> None:
         super().__init__(error.field, error.code)
         self.error = error
+
+
+class ProblemError(Exception):
+    """The job ends with this problem."""
+
+    def __init__(self, problem: Problem) -> None:
+        super().__init__(problem.code)
+        self.problem = problem
 
 
 class Pipeline(Protocol):

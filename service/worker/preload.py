@@ -1,21 +1,34 @@
-"""Imported once by the fork server: what is loaded here is shared by every fit it forks."""
+"""Imported once by the fork server: what is loaded here is shared by every process it forks."""
 
 import gc
 from contextlib import suppress
 
-from fitter.errors import ModelFileError
-from fitter.fits.prepared_model import prepared_model
-from fitter.request import Gender
-from service.settings import Settings
-from service.worker.rehearsal import rehearse
+from service.process.heap import give_back
 
-# The worker has the same models read and reports what is wrong with them.
-with suppress(ModelFileError):
-    settings = Settings()
-    for gender in Gender:
-        prepared_model(gender, models=settings.models_dir)
-    rehearse(settings.models_dir, settings.detector_dir)
+
+def _load() -> None:
+    # Imported here: nothing is looked through for cycles meanwhile.
+    from fitter.errors import ModelFileError
+    from fitter.fits.prepared_model import prepared_model
+    from fitter.request import Gender
+    from service.settings import Settings
+    from service.worker.rehearsal import make_ready, rehearse_sandbox
+
+    # The worker has the same models read and reports what is wrong with them.
+    with suppress(ModelFileError):
+        settings = Settings()
+        for gender in Gender:
+            prepared_model(gender, models=settings.models_dir)
+        prepare = rehearse_sandbox if settings.sandbox else make_ready
+        prepare(settings.models_dir, settings.detector_dir)
+
+
+gc.disable()
+_load()
+gc.enable()
 
 # What is here by now stays: the collector of a fork that looked through it would copy its pages.
+# What has been freed would be copied too, where a fork writes to it.
 gc.collect()
 gc.freeze()
+give_back()

@@ -1,18 +1,21 @@
-"""A fit before the first one: what a process does once is done before it is forked."""
+"""What a process does once is done before it is forked: kernels are read, or a sample is fitted."""
 
 import io
 import json
 import logging
+from contextlib import suppress
 from pathlib import Path
 from typing import Final
 
 from PIL import Image
 
-from fitter.errors import ModelFileError
+from fitter.detection.detector import installed_detector
+from fitter.errors import DetectorUnavailableError, ModelFileError
 from service.demo_data.sample import Sample, load_sample
 from service.submissions.submission import check_submission
 from service.worker import pipeline
 from service.worker.artifacts import with_result_document
+from service.worker.compiled_kernels import load_compiled_kernels
 from service.worker.pipeline_port import PipelineInput
 
 LOG: Final = logging.getLogger(__name__)
@@ -23,12 +26,33 @@ SMALLER: Final = 4
 MAX_PIXELS: Final = 1_000_000
 
 
+COMPILED: Final = 0.9
+"""Share of the kernels that are compiled where a fit, some time, has been made."""
+
+
+def make_ready(models: Path | None, detector: Path | None = None) -> None:
+    """Have everything in memory that fits need; the models are there already.
+
+    A second of processor where the kernels are compiled; else the sample is fitted, which compiles
+    them.
+
+    Raises
+    ------
+    ModelFileError
+        If a model is missing or damaged.
+    """
+    # Without one, whoever needs it is told.
+    with suppress(DetectorUnavailableError):
+        installed_detector(detector)
+    if load_compiled_kernels() < COMPILED:
+        rehearse(models, detector)
+
+
 def rehearse(models: Path | None, detector: Path | None = None) -> None:
     """Fit the sample, and forget the result.
 
-    A process that has fitted has its compiled kernels read from their cache and its libraries set
-    up; a fork without takes 0.15 to 0.25 s of processor longer for its fit. Fits are functions of
-    their requests: nothing of the sample is left for them.
+    A process that has fitted has its kernels compiled. Fits are functions of their requests:
+    nothing of the sample is left for them.
 
     A sample that cannot be fitted, as with models trained on other people, is logged and no more.
 
@@ -56,6 +80,27 @@ def rehearse(models: Path | None, detector: Path | None = None) -> None:
         raise
     except Exception as error:
         LOG.warning("The sample could not be fitted (%s): every fit takes longer.", error)
+
+
+def rehearse_sandbox(models: Path | None, detector: Path | None = None) -> None:
+    """Make the canned results of a sandbox, and once what it derives from them at once.
+
+    A fault is logged and no more: jobs come to the same and fail.
+
+    Raises
+    ------
+    ModelFileError
+        If a model is missing or damaged.
+    """
+    # Imported here: no other worker needs what derives.
+    from service.worker.sandbox_rehearsal import derive_all
+
+    try:
+        derive_all(models, detector)
+    except ModelFileError:
+        raise
+    except Exception:
+        LOG.exception("The results of the sandbox could not be made.")
 
 
 def _smaller(sample: Sample) -> tuple[bytes, bytes]:

@@ -116,7 +116,11 @@ def report(progress: Progress) -> Report:
 def field_problem(error: InvalidInputError) -> FieldProblem:
     """Translate the fitter's error about its input."""
     return FieldProblem(
-        field=error.field, code=error.code, reason=error.reason, remedy=error.remedy
+        field=error.field,
+        code=error.code,
+        reason=error.reason,
+        remedy=error.remedy,
+        largest=error.largest,
     )
 
 

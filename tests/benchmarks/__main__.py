@@ -6,6 +6,7 @@ import os
 import platform
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 
 # Before numpy is loaded: one thread a fit, as in the service.
 for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
@@ -34,6 +35,10 @@ def main(arguments: Sequence[str]) -> int:
     """Run the command line; returns the exit status."""
     options = _parser().parse_args(arguments)
     print(f"{platform.machine()}, {os.cpu_count()} processors, Python {platform.python_version()}")
+    if options.against is not None:
+        for line in importlib.import_module("tests.benchmarks.against").lines(options.against):
+            print(line, flush=True)
+        return 0
     for part in options.part or FITS:
         load = ", ".join(f"{value:.1f}" for value in os.getloadavg())
         print(f"\n{part} (load averages before: {load})")
@@ -49,6 +54,12 @@ def _parser() -> argparse.ArgumentParser:
         "--part", action="append", choices=list(FITS), help="these alone (default: all)"
     )
     counts = ", ".join(f"{count} {part}" for part, count in FITS.items())
+    parser.add_argument(
+        "--against",
+        type=Path,
+        metavar="FOLDER",
+        help="instead, compare fits, uploads and scans with another checkout, in turns",
+    )
     parser.add_argument("--fits", type=int, help=f"fits of each part (default: {counts})")
     return parser
 

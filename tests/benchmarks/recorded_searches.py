@@ -4,13 +4,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-from fitter.energies.objective import Objective
+from fitter.energies.objective import Body, Objective
 from fitter.fits import descents
 from fitter.optimizer.alternation import BodySearch
 from fitter.optimizer.damped_descent import EnergyObserver
 from fitter.optimizer.gauss_newton import Minimum
 from fitter.optimizer.search import body_search
-from fitter.parameters import BodyParameters
 from fitter.request import OptimizerKind
 
 
@@ -19,7 +18,7 @@ class Search:
     """One search of a fit."""
 
     objective: Objective
-    start: BodyParameters
+    start: Body
     end: Minimum
 
 
@@ -29,11 +28,14 @@ def recorded_searches() -> Iterator[list[Search]]:
     found: list[Search] = []
 
     def recording(
-        kind: OptimizerKind, max_evaluations: int, on_energies: EnergyObserver
+        kind: OptimizerKind,
+        max_evaluations: int,
+        on_energies: EnergyObserver,
+        settled_nats: float,
     ) -> BodySearch:
-        search = body_search(kind, max_evaluations, on_energies)
+        search = body_search(kind, max_evaluations, on_energies, settled_nats)
 
-        def recorded(objective: Objective, start: BodyParameters) -> Minimum:
+        def recorded(objective: Objective, start: Body) -> Minimum:
             end = search(objective, start)
             found.append(Search(objective=objective, start=start, end=end))
             return end

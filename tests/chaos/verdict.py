@@ -1,12 +1,9 @@
 """Was anything lost, done twice, done wrongly or left behind?"""
 
-import json
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from datetime import datetime
 from pathlib import Path
-from typing import Any
 
 import sqlalchemy as sa
 
@@ -14,8 +11,9 @@ from service.engine.database import open_database
 from service.engine.executions import Executions
 from service.engine.tables import ERASURES, JOBS
 from tests.chaos.caller import ACTIVE, Caller
-from tests.chaos.reference import Outcome, outcome
-from tests.chaos.run import Accepted, Course
+from tests.chaos.examined import examine
+from tests.chaos.reference import Outcome
+from tests.chaos.run import Course
 from tests.deployment import Deployment, Kind, wait_for
 
 SETTLED_WITHIN_S = 600.0
@@ -81,30 +79,12 @@ class Verdict:
         yield f"folders of no known job          {self.unknown_scopes}"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Examined:
-    ends: int
-    attempts: int
-    pause_s: float
-    state: str
-    outcome: Outcome | None
-    expected: Outcome
-
-    @property
-    def is_wrong(self) -> bool:
-        return self.outcome is not None and not self.outcome.agrees_with(self.expected)
-
-    @property
-    def is_identical(self) -> bool:
-        return self.outcome == self.expected
-
-
 def verdict(deployment: Deployment, course: Course, expected: Sequence[Outcome]) -> Verdict:
     """Ask the service, stop it, and look at what is left."""
     caller = Caller(deployment.address)
     try:
         listed = caller.jobs()
-        examined = [_examined(caller, each, expected) for each in course.accepted]
+        examined = [examine(caller, each.path, expected[each.which]) for each in course.accepted]
     finally:
         caller.close()
     database = open_database(_database_url(deployment), connections=2)
@@ -138,50 +118,6 @@ def verdict(deployment: Deployment, course: Course, expected: Sequence[Outcome])
     )
     database.dispose()
     return result
-
-
-def _examined(caller: Caller, accepted: Accepted, expected: Sequence[Outcome]) -> _Examined | None:
-    answer = caller.get(accepted.path)
-    if answer.status_code != 200:
-        return None
-    job = answer.json()
-    events = _events(caller.get(f"{accepted.path}/events").text) if _has_ended(job) else []
-    is_last = [kind == "end" for kind, _ in events]
-    return _Examined(
-        # An end that is not the last event would be followed by more.
-        ends=sum(is_last) if is_last and is_last[-1] else 0,
-        attempts=job["attempt"],
-        pause_s=_longest_pause_s(events),
-        state=job["state"],
-        outcome=outcome(caller, job) if job["state"] == "succeeded" else None,
-        expected=expected[accepted.which],
-    )
-
-
-def _has_ended(job: Mapping[str, Any]) -> bool:
-    return job["state"] not in ACTIVE
-
-
-def _events(text: str) -> list[tuple[str, dict[str, Any]]]:
-    """Kind and data of each event of a stream."""
-    events: list[tuple[str, dict[str, Any]]] = []
-    for block in text.split("\n\n"):
-        fields = dict(line.split(": ", 1) for line in block.splitlines() if ": " in line)
-        if "data" in fields:
-            events.append((fields["event"], json.loads(fields["data"])))
-    return events
-
-
-def _longest_pause_s(events: Sequence[tuple[str, Mapping[str, Any]]]) -> float:
-    """How long the job stood still before an attempt other than its first began."""
-    begins = [
-        index
-        for index, (kind, data) in enumerate(events)
-        if kind == "state" and data["state"] == "running"
-    ]
-    moments = [datetime.fromisoformat(data["at"]) for _, data in events]
-    pauses = [(moments[index] - moments[index - 1]).total_seconds() for index in begins[1:]]
-    return max(pauses, default=0.0)
 
 
 def _database_url(deployment: Deployment) -> str:

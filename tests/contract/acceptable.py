@@ -26,7 +26,7 @@ UPLOADED = PICTURES[0]
 """Uploaded before the run."""
 
 schemathesis.openapi.media_type(
-    "image/png", st.sampled_from(PICTURES), aliases=["image/jpeg", "image/webp"]
+    "image/png", st.sampled_from(PICTURES), aliases=["image/jpeg", "image/webp", "image/heic"]
 )
 
 ACCEPTED: dict[str, Any] = {

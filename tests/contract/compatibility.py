@@ -16,9 +16,6 @@ Schema = dict[str, Any]
 
 LOWER_BOUNDS: Final = ("minimum", "exclusiveMinimum", "minLength", "minItems", "minProperties")
 UPPER_BOUNDS: Final = ("maximum", "exclusiveMaximum", "maxLength", "maxItems", "maxProperties")
-MISSPELT: Final = {"ge": "minimum", "le": "maximum"}
-"""Bounds of heights as 1.0.0 wrote them: meant and kept, but no keywords of JSON Schema."""
-
 EXACT: Final = ("pattern", "format", "const", "contentEncoding", "contentMediaType")
 
 
@@ -194,8 +191,8 @@ def _alternatives(schema: Schema) -> list[Schema]:
 
 
 def _schema(content: dict[str, Any]) -> Schema:
-    # Of a stream the items are described; 1.0.0 did so by a keyword of OpenAPI 3.2.
-    items = content.get(ITEMS, content.get("itemSchema"))
+    # Of a stream the items are described.
+    items = content.get(ITEMS)
     return content.get("schema", {}) if items is None else {"items": items}
 
 
@@ -210,4 +207,4 @@ def _name(schema: Schema) -> str:
 def _resolved(schema: Schema, document: Document) -> Schema:
     while "$ref" in schema:
         schema = document["components"]["schemas"][schema["$ref"].rpartition("/")[2]]
-    return {MISSPELT.get(name, name): value for name, value in schema.items()}
+    return schema

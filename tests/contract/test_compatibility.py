@@ -26,7 +26,7 @@ def test_released_documents_are_named_by_their_versions():
 
 def test_callers_of_the_newest_release_are_not_broken_unless_the_version_says_so():
     changes = breaking_changes(NEWEST, exported())
-    assert changes == [] or may_break(NEWEST, exported()), "raise API_VERSION, or take them back"
+    assert changes == [] or may_break(NEWEST, exported()), "raise VERSION, or take them back"
 
 
 def test_nothing_breaks_where_nothing_changes():

@@ -9,6 +9,7 @@ import pytest
 from PIL import Image
 
 from tests.e2e.service import ended_job
+from tests.heif_files import SAMPLE_LYING, coded, phone_picture
 
 SIZE = (300, 400)
 POINTS = {
@@ -43,6 +44,11 @@ def halved(content: bytes) -> bytes:
     return content[: len(content) // 2]
 
 
+def halved_heic() -> bytes:
+    """Cut in the middle of the pixels: its size can be read."""
+    return halved(phone_picture(coded(SAMPLE_LYING), orientation=6, quarters=3))
+
+
 NOISE = encoded(noise(), "PNG")
 
 
@@ -57,6 +63,7 @@ def client(service: httpx.Client) -> httpx.Client:
         (halved(encoded(noise(), "JPEG")), None, POINTS, "image", "image-damaged"),
         (halved(encoded(noise(), "PNG")), None, POINTS, "image", "image-damaged"),
         (halved(encoded(noise(), "WEBP")), None, POINTS, "image", "image-damaged"),
+        (halved_heic(), None, POINTS, "image", "image-damaged"),
         (
             encoded(Image.new("RGB", SIZE, "grey"), "PNG"),
             None,
@@ -83,6 +90,7 @@ def client(service: httpx.Client) -> httpx.Client:
         "truncated JPEG",
         "truncated PNG",
         "truncated WebP",
+        "truncated HEIC",
         "nobody there",
         "mask of nothing",
         "mask of everything",

@@ -9,13 +9,13 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from importlib.metadata import version
 from pathlib import Path
 
 import httpx
 import pytest
 
 from api_schemas.results import FitResult
+from service.version import VERSION
 from tests.contract.document import EXPORTED
 from tests.distributions import built
 from tests.e2e.service import (
@@ -128,7 +128,7 @@ def test_other_commands_need_nothing_more(installation: Installation, tmp_path: 
         return done.stdout
 
     maquette = installation.maquette
-    assert said(maquette, "--version") == f"maquette {version('maquette')}\n"
+    assert said(maquette, "--version") == f"maquette {VERSION}\n"
     assert said(maquette, "openapi") == EXPORTED.read_text()
     said(maquette, "prepare")
     assert said(maquette, "keys", "create", "somebody") != ""

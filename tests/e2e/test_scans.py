@@ -5,13 +5,16 @@ import json
 
 import httpx
 import pytest
-from PIL import Image
+from PIL import ExifTags, Image
 
 from api_schemas.derivation_kinds.texture import TextureResult
 from api_schemas.scans import ScanResult
 from fitter.person.fitted_person import FittedPerson
 from service.demo_data.sample import load_scan_sample
 from tests.e2e.service import ended_job
+
+TURN_CLOCKWISE = 6
+"""The orientation of a picture that is to be turned by a quarter to the right."""
 
 SMALLER = 3
 """Times, each side of the sample: a scan of this passes through the same code in less time."""
@@ -91,6 +94,28 @@ def test_a_view_in_which_nobody_is_found_fails_the_scan_by_its_name(service: htt
     job = ended_job(service, answer)
     assert (job["state"], job["problem"]["field"]) == ("failed", "views.1.points")
     assert job["links"]["artifacts"] == {}
+
+
+def test_a_second_picture_that_lies_on_its_side_is_measured_upright(service: httpx.Client):
+    """As a phone stores it: rows run down the person, and EXIF says how to turn them."""
+    parts, request = smaller_sample()
+    stream = io.BytesIO()
+    with Image.open(io.BytesIO(parts["image_1"][1])) as picture:
+        upright, exif = picture.size, picture.getexif()
+        exif[ExifTags.Base.Orientation] = TURN_CLOCKWISE
+        picture.transpose(Image.Transpose.ROTATE_90).save(stream, "JPEG", exif=exif, quality=95)
+    parts["image_1"] = ("lying.jpg", stream.getvalue(), "image/jpeg")
+    answer = service.post("/v1/scans", files=parts, data={"request": json.dumps(request)})
+    job = ended_job(service, answer)
+    assert job["state"] == "succeeded", job
+    result = ScanResult.model_validate_json(service.get(job["links"]["result"]).content)
+    camera = result.views[1].image_camera
+    assert (camera.width, camera.height) == upright
+    assert upright[0] < upright[1]
+    assert result.views[1].verdict == "plausible"
+    assert result.views[1].silhouette_overlap > 0.8
+    overlay = service.get(job["links"]["artifacts"]["overlay_1.png"]).content
+    assert Image.open(io.BytesIO(overlay)).size == upright
 
 
 def test_what_nobody_can_be_is_told_as_in_fits(service: httpx.Client):

@@ -82,10 +82,14 @@ def exposed(source: Source, *, factor: float) -> Picture:
     return np.rint(255.0 * display_from_linear(np.clip(light + noise, 0.0, 1.0))).astype(np.uint8)
 
 
+ROLLED_SCALE = 0.85
+"""A rolled picture is reduced so far that the person stays in it."""
+
+
 def rolled(source: Source, *, degrees: float) -> Picture:
     """As by a camera that was rolled; the border is repeated outward."""
     height, width = source.picture.shape[:2]
-    turn = cv2.getRotationMatrix2D((width / 2, height / 2), degrees, 0.85)
+    turn = cv2.getRotationMatrix2D((width / 2, height / 2), degrees, ROLLED_SCALE)
     return cv2.warpAffine(
         source.picture, turn, (width, height), flags=cv2.INTER_AREA, borderMode=cv2.BORDER_REPLICATE
     )

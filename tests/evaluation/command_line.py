@@ -113,6 +113,10 @@ def _add_modes(to: argparse.ArgumentParser) -> None:
             "--checks",
             "fit nothing: how often the checks of a capture find what is wrong, and what is not",
         ),
+        (
+            "--spoilt-scans",
+            "scan people from both sides, spoilt in one way each: what a fault of pictures costs",
+        ),
         ("--nonsense", "fit people and what is none: how many of each the verdicts contradict"),
         (
             "--scan",

@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from fitter.request import Cues, Gender
+from tests.evaluation.capture_costs import cost_lines, costs_of, people_of
 from tests.evaluation.capture_table import capture_lines, judged_by, judgements
 from tests.evaluation.cases import PEOPLE
 from tests.evaluation.chain import Link, chain_of
@@ -127,6 +128,13 @@ def checks(choice: Choice) -> None:
         _print(lines, f"{half.value} half")
 
 
+def spoilt_scans(choice: Choice) -> None:
+    """What faults of the two photographs cost."""
+    for half in choice.halves:
+        found = of_each(costs_of, people_of(half), choice.jobs)
+        _print(cost_lines([each for several in found for each in several]), f"{half.value} half")
+
+
 def verdicts(choice: Choice) -> None:
     """On people and on what is none."""
     for half in choice.halves:
@@ -175,6 +183,7 @@ MODES: Mapping[str, Mode] = {
     "detector": detector,
     "moved_points": moved_points,
     "checks": checks,
+    "spoilt_scans": spoilt_scans,
     "nonsense": verdicts,
     "repeat": repeat,
     "scan": scan,

@@ -1,4 +1,4 @@
-"""Every mesh file that leaves the service: of a fit of the sample, and of all that derives meshes.
+"""Every mesh file that leaves the service: of a fit, of a scan, and of all that derives meshes.
 
 Made once for all tests of a run, by the pipeline that the workers run, and kept as files, because
 that is what foreign readers open.
@@ -11,13 +11,20 @@ from pathlib import Path
 from uuid import UUID
 
 from api_schemas.derivations import DerivationRequest
+from api_schemas.scans import ScanRequest
 from service.api.derivation_kinds import needs_of
-from service.demo_data.sample import load_sample
-from service.jobs.inputs import IMAGE, OF_EACH_PICTURE, REQUEST
+from service.demo_data.sample import load_sample, load_scan_sample
+from service.jobs.inputs import IMAGE, OF_EACH_PICTURE, OF_FIRST_VIEW, REQUEST, image_of
+from service.submissions.scan_submission import ViewFiles, check_scan
 from service.submissions.submission import check_submission
 from service.worker.artifacts import with_result_document
-from service.worker.pipeline import derive, run
-from service.worker.pipeline_port import DerivationInput, PipelineInput
+from service.worker.pipeline import derive, run, scan
+from service.worker.pipeline_port import (
+    DerivationInput,
+    PipelineInput,
+    ScanInput,
+    ScanPicture,
+)
 
 MAX_PIXELS = 2_000_000
 OTHER_FIT = "a2d6a7b0-3a0b-4a7c-8f9e-5f4f0d9f5b11"
@@ -31,7 +38,13 @@ DERIVED: Mapping[str, dict[str, object]] = {
     "caricature": {"kind": "caricature", "factor": 1.5},
     "combined": {"kind": "combined", "fits": [OTHER_FIT]},
 }
-"""What makes meshes, by the name of the folder its files are put in."""
+"""What makes meshes of the fit, by the name of the folder its files are put in."""
+
+DERIVED_OF_SCAN: Mapping[str, dict[str, object]] = {
+    f"scan_{name}": DERIVED[name]
+    for name in ("texture", "albedo_texture", "pose", "animation", "caricature")
+}
+"""The same of the scan."""
 
 GLB_FILES = (
     "fit/body_canonical.glb",
@@ -47,6 +60,15 @@ GLB_FILES = (
     "combined/body_combined.glb",
     "combined/body_posed_1.glb",
     "combined/body_posed_2.glb",
+    "scan/body_canonical.glb",
+    "scan/body_posed_0.glb",
+    "scan/body_posed_1.glb",
+    "scan_texture/body_textured.glb",
+    "scan_albedo_texture/body_textured.glb",
+    "scan_pose/body_reposed.glb",
+    "scan_animation/body_animated.glb",
+    "scan_animation/body_skinned.glb",
+    "scan_caricature/body_caricature.glb",
 )
 
 
@@ -66,6 +88,19 @@ def made_in(folder: Path) -> Path:
 
 
 def _made() -> Iterator[tuple[str, Mapping[str, bytes]]]:
+    fit = _of_fit()
+    yield "fit", fit
+    yield from _derived(DERIVED, fit)
+    scanned = _of_scan()
+    yield "scan", scanned
+    first = {
+        name: scanned[of_view] for name, of_view in OF_FIRST_VIEW.items() if of_view in scanned
+    }
+    yield from _derived(DERIVED_OF_SCAN, scanned | first)
+
+
+def _of_fit() -> dict[str, bytes]:
+    """A fit's files, its picture and its request."""
     sample = load_sample()
     options = check_submission(
         request=sample.request, image=sample.image, mask=None, max_pixels=MAX_PIXELS
@@ -74,10 +109,33 @@ def _made() -> Iterator[tuple[str, Mapping[str, bytes]]]:
         PipelineInput(options=options, image=sample.image, mask=None, max_pixels=MAX_PIXELS),
         lambda _: None,
     )
-    fit = with_result_document(output.result, output.artifacts)
-    yield "fit", fit
-    there = fit | {IMAGE: sample.image, REQUEST: options.model_dump_json().encode()}
-    for name, asked in DERIVED.items():
+    files = dict(with_result_document(output.result, output.artifacts))
+    return files | {IMAGE: sample.image, REQUEST: options.model_dump_json().encode()}
+
+
+def _of_scan() -> dict[str, bytes]:
+    """A scan's files, its pictures and its request."""
+    sample = load_scan_sample()
+    checked = check_scan(
+        ScanRequest.model_validate_json(sample.request),
+        [ViewFiles(image=image, mask=None) for image in sample.images],
+        max_pixels=MAX_PIXELS,
+        detector=None,
+    )
+    pictures = tuple(ScanPicture(image=image, mask=None) for image in sample.images)
+    output = scan(
+        ScanInput(options=checked.options, pictures=pictures, max_pixels=MAX_PIXELS),
+        lambda _: None,
+    )
+    files = dict(with_result_document(output.result, output.artifacts))
+    images = {image_of(number): image for number, image in enumerate(sample.images)}
+    return files | images | {REQUEST: checked.options.model_dump_json().encode()}
+
+
+def _derived(
+    asked_of: Mapping[str, dict[str, object]], there: Mapping[str, bytes]
+) -> Iterator[tuple[str, Mapping[str, bytes]]]:
+    for name, asked in asked_of.items():
         request = DerivationRequest.model_validate_json(json.dumps(asked))
         needs = needs_of(request.root)
         made = derive(

@@ -54,21 +54,31 @@ class Shown:
 
 def shown_by(name: str, files: Path) -> Shown:
     """What the file of :data:`tests.foreign.artifacts.GLB_FILES` is to show."""
-    return _SHOWN[name](_Results(files))
+    job = "scan" if name.startswith("scan") else "fit"
+    return _SHOWN[name](_Results(files, job))
 
 
 class _Results:
-    """Result documents of the fit and of what was derived from it."""
+    """Result documents of the fit or the scan and of what was derived from it."""
 
-    def __init__(self, files: Path) -> None:
+    def __init__(self, files: Path, job: str) -> None:
         self._files = files
-        gender = Gender(self.of("fit")["gender"])
+        self._job = job
+        gender = Gender(self.of(job)["gender"])
         self.fitted: PreparedModel = _prepared(gender)
         self.model = self.fitted.operators.model
         self.evaluator = self.fitted.operators.evaluator
 
     def of(self, folder: str) -> Mapping[str, Any]:
         return json.loads((self._files / folder / "result.json").read_text())
+
+    def first(self) -> Mapping[str, Any]:
+        """The person in the fit's picture, or in the scan's first one."""
+        result = self.of(self._job)
+        return result["views"][0] if self._job == "scan" else result
+
+    def derived(self, name: str) -> Mapping[str, Any]:
+        return self.of(f"scan_{name}" if self._job == "scan" else name)
 
     def stage(self, name: str) -> Mapping[str, Any]:
         return next(each for each in self.of("fit")["stages"] if each["name"] == name)["body"]
@@ -80,10 +90,10 @@ class _Results:
     def posed(
         self, body: Mapping[str, Any], camera: Mapping[str, Any] | None = None, **more: Any
     ) -> Shown:
-        """A body under its camera, by default that of the fit, upright."""
+        """A body under its camera, by default that of the first picture, upright."""
         parameters = _parameters(body)
         vertices = self.evaluator.vertices(parameters)
-        tilt = _tilt(camera or self.of("fit")["image_camera"])
+        tilt = _tilt(camera or self.first()["image_camera"])
         world = upright_frame(tilt, vertices=vertices, root=parameters.translation)
         return self.shown(world.points(vertices), cameras=1, **more)
 
@@ -91,9 +101,13 @@ class _Results:
         body = self.of("combined")["bodies"][number - 1]
         return self.posed(body["body"], body["image_camera"], lights=1)
 
+    def in_view(self, number: int) -> Shown:
+        view = self.of("scan")["views"][number]
+        return self.posed(view["body"], view["image_camera"], lights=1)
+
     def textured(self, **more: Any) -> Shown:
         corners = len(self.model.uv)
-        return self.posed(self.of("fit")["body"], vertices=corners, texture=True, **more)
+        return self.posed(self.first()["body"], vertices=corners, texture=True, **more)
 
     def canonical(self, shape: Iterable[float]) -> Shown:
         return self.shown(_standing(self.fitted.measuring.canonical.at(np.array(list(shape)))))
@@ -103,16 +117,16 @@ class _Results:
 
     def turned_upright(self, body: BodyParameters) -> Shown:
         """Upright as the picture has it."""
-        turn = upright_turn(_tilt(self.of("fit")["image_camera"]))
+        turn = upright_turn(_tilt(self.first()["image_camera"]))
         return self.shown(_standing(self.evaluator.body_frame_vertices(body) @ turn.T))
 
     def animated(self, *, error: str, **more: Any) -> Shown:
         """The walk that ships with the package, by exact SCAPE."""
-        shape = np.array(self.of("fit")["body"]["shape"])
+        shape = np.array(self.first()["body"]["shape"])
         motion = walk(rig_of(self.model, shape))
         body = grounded(moving_body(self.evaluator, shape, motion), self.model)
         last = len(body.shapes) - 1
-        stated_m = 1e-3 * self.of("animation")[error]
+        stated_m = 1e-3 * self.derived("animation")[error]
         frames = tuple(body.vertices(frame) for frame in (0, last // 2, last))
         return self.shown(*frames, tolerance_m=stated_m + ROUNDING_M, **more)
 
@@ -143,26 +157,35 @@ def _standing(vertices: Vertices) -> Vertices:
     return vertices - np.array([0.0, vertices[:, 1].min(), 0.0])
 
 
-_SHOWN: Mapping[str, Callable[[_Results], Shown]] = {
-    "fit/body_canonical.glb": lambda r: r.canonical(r.of("fit")["body"]["shape"]),
-    "fit/body_canonical_se.glb": lambda r: r.canonical(r.stage("SE")["shape"]),
-    "fit/body_posed.glb": lambda r: r.posed(r.of("fit")["body"], lights=1),
-    "fit/body_posed_se.glb": lambda r: r.posed(r.stage("SE")),
+_OF_EITHER: Mapping[str, Callable[[_Results], Shown]] = {
     "texture/body_textured.glb": lambda r: r.textured(),
     "albedo_texture/body_textured.glb": lambda r: r.textured(lights=1),
     "pose/body_reposed.glb": lambda r: r.upright(
-        _parameters(r.of("pose") | {"shape": r.of("fit")["body"]["shape"]})
+        _parameters(r.derived("pose") | {"shape": r.first()["body"]["shape"]})
     ),
     "animation/body_animated.glb": lambda r: r.animated(
-        error="morph_largest_error_mm", morph_targets=r.of("animation")["morph_targets"]
+        error="morph_largest_error_mm", morph_targets=r.derived("animation")["morph_targets"]
     ),
     "animation/body_skinned.glb": lambda r: r.animated(
         error="skin_largest_error_mm", bones=len(r.model.part_names)
     ),
     "caricature/body_caricature.glb": lambda r: r.turned_upright(
-        _parameters(r.of("fit")["body"] | {"shape": r.of("caricature")["shape"]})
+        _parameters(r.first()["body"] | {"shape": r.derived("caricature")["shape"]})
     ),
+}
+"""What is derived from fits and scans alike."""
+
+_SHOWN: Mapping[str, Callable[[_Results], Shown]] = {
+    "fit/body_canonical.glb": lambda r: r.canonical(r.of("fit")["body"]["shape"]),
+    "fit/body_canonical_se.glb": lambda r: r.canonical(r.stage("SE")["shape"]),
+    "fit/body_posed.glb": lambda r: r.posed(r.of("fit")["body"], lights=1),
+    "fit/body_posed_se.glb": lambda r: r.posed(r.stage("SE")),
+    **_OF_EITHER,
+    **{f"scan_{name}": shown for name, shown in _OF_EITHER.items()},
     "combined/body_combined.glb": lambda r: r.canonical(r.of("combined")["shape"]),
     "combined/body_posed_1.glb": lambda r: r.combined(1),
     "combined/body_posed_2.glb": lambda r: r.combined(2),
+    "scan/body_canonical.glb": lambda r: r.canonical(r.of("scan")["shape"]),
+    "scan/body_posed_0.glb": lambda r: r.in_view(0),
+    "scan/body_posed_1.glb": lambda r: r.in_view(1),
 }

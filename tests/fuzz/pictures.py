@@ -10,6 +10,7 @@ import numpy as np
 from PIL import Image
 
 from tests.fuzz.mutations import damaged
+from tests.heif_files import EIGHT_BITS, coded, phone_picture
 
 SIZE = (72, 96)
 ORIENTATION = 0x0112
@@ -21,6 +22,8 @@ NUMBERS = (0, 1, 35, 50, 65_535, 2**32 - 1)
 
 def picture(chance: random.Random) -> bytes:
     """A sound picture, one in eight; else one damaged somewhere, often in its EXIF block."""
+    if chance.random() < 0.1:
+        return _heic(chance)
     options = chance.choice(_FORMS)
     exif = b"Exif\0\0" + _exif(chance) if chance.random() < 0.7 else b""
     content = _encoded(options, exif[:60_000])
@@ -67,6 +70,16 @@ _FORMS: tuple[dict[str, Any], ...] = (
     {"kind": "WEBP", "mode": "RGB", "lossless": True},
     {"kind": "WEBP", "mode": "RGBA"},
 )
+
+
+def _heic(chance: random.Random) -> bytes:
+    content = phone_picture(
+        coded(EIGHT_BITS),
+        orientation=chance.choice(ORIENTATIONS),
+        quarters=chance.randrange(4),
+        focal_length_35mm=chance.choice((None, 0, 26)),
+    )
+    return content if chance.random() < 0.125 else damaged(content, chance)
 
 
 def _encoded(options: dict[str, Any], exif: bytes) -> bytes:

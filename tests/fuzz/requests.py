@@ -15,6 +15,13 @@ from tests.fuzz.derivations import (
 from tests.fuzz.messages import JSON, MULTIPART, RawRequest, head_and_body, multipart
 from tests.fuzz.mutations import damaged, damaged_document
 from tests.fuzz.pictures import black_mask, picture, sound_picture
+from tests.fuzz.scans import (
+    scan_address,
+    scan_body,
+    scan_derivation,
+    scan_form,
+    scanned_pictures,
+)
 
 DEEP = 5_000
 
@@ -212,8 +219,13 @@ KINDS: Mapping[str, tuple[Callable[[random.Random], RawRequest], float]] = {
     "derivation, JSON": (derivation_body, 0.05),
     "derivation, form": (derivation_form, 0.07),
     "derivation, path": (derivation_address, 0.03),
+    "scan, pictures": (scanned_pictures, 0.05),
+    "scan, form": (scan_form, 0.05),
+    "scan, JSON": (scan_body, 0.03),
+    "scan, path": (scan_address, 0.03),
+    "scan, derived": (scan_derivation, 0.04),
 }
-"""Makers of requests, and their shares of all inputs."""
+"""Makers of requests, and how often each is taken, in proportion."""
 
 
 def _escaped(chance: random.Random) -> str:

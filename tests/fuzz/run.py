@@ -17,6 +17,7 @@ from tests.deployment import Deployment, Kind, wait_for
 from tests.fuzz.derivations import DERIVATION_ID, FIT_ID, OTHER_FIT_ID, with_ids
 from tests.fuzz.messages import RawRequest
 from tests.fuzz.requests import KINDS
+from tests.fuzz.scans import SCAN_DERIVATION_ID, SCAN_ID, sound_scan
 from tests.fuzz.sending import Answer, send
 from tests.process_table import own_memory_mib
 from tests.submissions import small_submissions
@@ -28,6 +29,9 @@ LOOKS = 10
 READY_WITHIN_S = 900.0
 ENDED_WITHIN_S = 1_200.0
 MOST_FAULTS = 20
+
+_KIND = {"jobs": "fit", "scans": "scan", "derivations": "derivation"}
+"""What a list of this name holds, where its entries have no kind."""
 
 FAULTY_ENDS = (": fit-failed", ": fit-crashed", ": out-of-memory", "timed_out")
 """Faults of ours, or of a file that killed its process."""
@@ -83,10 +87,12 @@ def fuzz(
         _send_all(deployment, harvest, ids, inputs, lambda number: made(number, seed, kinds))
         lists = [
             ("/v1/fits", "jobs"),
+            ("/v1/scans", "scans"),
             *(
                 (f"/v1/fits/{ids[fit]}/derivations", "derivations")
                 for fit in (FIT_ID, OTHER_FIT_ID)
             ),
+            (f"/v1/scans/{ids[SCAN_ID]}/derivations", "derivations"),
         ]
         ended = wait_for(
             lambda: all(_none_waits(client, *each) for each in lists), within_s=ENDED_WITHIN_S
@@ -95,7 +101,12 @@ def fuzz(
             harvest.faults.append("not all accepted jobs ended")
         for each in lists:
             _account_for_jobs(client, harvest, *each)
-        _erase_whole_fit(client, harvest, ids)
+        _erase_whole(
+            client, harvest, f"/v1/fits/{ids[FIT_ID]}", f"derivations/{ids[DERIVATION_ID]}"
+        )
+        _erase_whole(
+            client, harvest, f"/v1/scans/{ids[SCAN_ID]}", f"derivations/{ids[SCAN_DERIVATION_ID]}"
+        )
         wait_for(lambda: not deployment.of_kind(Kind.FIT), within_s=READY_WITHIN_S)
         harvest.fits_left = len(deployment.of_kind(Kind.FIT))
         harvest.restarts = len(before - {each.pid for each in deployment.processes()})
@@ -112,14 +123,29 @@ def made(number: int, seed: int, kinds: Sequence[str] = tuple(KINDS)) -> tuple[s
 
 
 def _something_to_derive_from(client: httpx.Client) -> dict[str, str]:
-    """Fit two pictures of a person, and pose one: ids by those that stand for them."""
+    """Fit two pictures of a person and scan two, and pose a fit and the scan.
+
+    Returns their ids by those that stand for them.
+    """
     (picture,) = small_submissions(1)
     # With shading, so that there is an albedo to make a texture of.
     shaded = json.dumps(json.loads(picture.request) | {"cues": "SES"})
     files = replace(picture, request=shaded).files
     fits = [_succeeded(client, client.post("/v1/fits", files=files)) for _ in "12"]
     pose = client.post(f"/v1/fits/{fits[0]}/derivations", json={"kind": "pose"})
-    return {FIT_ID: fits[0], OTHER_FIT_ID: fits[1], DERIVATION_ID: _succeeded(client, pose)}
+    images, asked = sound_scan()
+    parts = {name: (name, content, "image/jpeg") for name, content in images.items()}
+    scan = _succeeded(
+        client, client.post("/v1/scans", files=parts, data={"request": json.dumps(asked)})
+    )
+    posed = client.post(f"/v1/scans/{scan}/derivations", json={"kind": "pose"})
+    return {
+        FIT_ID: fits[0],
+        OTHER_FIT_ID: fits[1],
+        DERIVATION_ID: _succeeded(client, pose),
+        SCAN_ID: scan,
+        SCAN_DERIVATION_ID: _succeeded(client, posed),
+    }
 
 
 def _succeeded(client: httpx.Client, answer: httpx.Response) -> str:
@@ -140,13 +166,12 @@ def _none_waits(client: httpx.Client, path: str, called: str) -> bool:
     )
 
 
-def _erase_whole_fit(client: httpx.Client, harvest: Harvest, ids: Mapping[str, str]) -> None:
-    """What was derived from a fit goes with it."""
-    fit = f"/v1/fits/{ids[FIT_ID]}"
-    client.delete(fit).raise_for_status()
-    left = client.get(f"{fit}/derivations/{ids[DERIVATION_ID]}").status_code
+def _erase_whole(client: httpx.Client, harvest: Harvest, path: str, below: str) -> None:
+    """What was derived from a job goes with it."""
+    client.delete(path).raise_for_status()
+    left = client.get(f"{path}/{below}").status_code
     if left != httpx.codes.NOT_FOUND:
-        harvest.faults.append(f"a derivation of an erased fit is answered by {left}")
+        harvest.faults.append(f"what was derived from {path}, erased, is answered by {left}")
 
 
 def _send_all(
@@ -187,7 +212,7 @@ def _account_for_jobs(client: httpx.Client, harvest: Harvest, path: str, called:
     while following is not None:
         page = client.get(following).raise_for_status().json()
         for job in page[called]:
-            how = f"{job.get('kind', 'fit')} {_how_it_ended(job)}"
+            how = f"{job.get('kind', _KIND[called])} {_how_it_ended(job)}"
             harvest.jobs[how] += 1
             if how.endswith(FAULTY_ENDS):
                 harvest.faults.append(f"{job['links']['self']}: {job['problem']}")

@@ -32,6 +32,14 @@ class Client:
         assert answer.status_code == httpx.codes.ACCEPTED, answer.text
         return answer.headers["Location"]
 
+    def proposed(self) -> int:
+        """How many points of the sample the detector proposes; none before it has started."""
+        picture = ("sample.jpg", (SAMPLE / "sample.jpg").read_bytes(), "image/jpeg")
+        answer = self.http.post("/v1/points", files={"image": picture})
+        if answer.status_code == httpx.codes.SERVICE_UNAVAILABLE:
+            return 0
+        return len(answer.raise_for_status().json()["points"])
+
     def ended(self, path: str) -> dict[str, Any]:
         """Wait for a job's end."""
         deadline = time.monotonic() + FIT_WITHIN_S

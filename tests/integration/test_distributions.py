@@ -13,11 +13,12 @@ from packaging.metadata import RawMetadata, parse_email
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
+from service.version import VERSION
 from tests.distributions import built
 from tests.installation import applies
 
 REPOSITORY = Path(__file__).parents[2]
-EXTRAS = ("s3", "tracing", "usdz", "detector")
+EXTRAS = ("s3", "tracing", "usdz", "detector", "heic")
 """Of users; the others are for those who develop and evaluate."""
 
 COMPANIONS = ("pydantic_core", "botocore")
@@ -28,11 +29,12 @@ MAX_WHEEL_BYTES = 20_000_000
 
 NOT_INSTALLED = (
     r"service/page/(?!dist/).*",
-    r"service/demo_data/(result|page_clicking|page_result)\.jpg",
+    r"service/demo_data/(result|measuring|page_clicking|page_result)\.jpg",
     r"fitter/measurement/atlas/.*",
+    r"service/docs/.*",
     r"api_schemas/released/.*",
 )
-"""Sources of the page, pictures of the README, documents of earlier versions."""
+"""Sources of the page, documents and their pictures, documents of earlier versions."""
 
 
 @pytest.fixture(scope="module")
@@ -115,14 +117,19 @@ def test_a_source_distribution_gives_the_same_wheel(wheel: Path, tmp_path: Path)
     assert built(source, "wheel", tmp_path / "wheel").read_bytes() == wheel.read_bytes()
 
 
+def test_it_has_the_version_of_the_service(metadata: RawMetadata):
+    assert metadata["version"] == VERSION
+
+
 def test_the_description_is_the_readme_without_what_only_the_repository_has(metadata: RawMetadata):
     text = metadata["description"]
     assert metadata["description_content_type"] == "text/markdown"
     assert text.startswith("# Maquette\n")
-    assert "MAQUETTE_DATA_DIR" in text
+    assert "make demo" in text
     assert "![" not in text
+    assert "[Accuracy](" in (REPOSITORY / "README.md").read_text()
+    assert "\nAccuracy says" in text
     targets = re.findall(r"\]\(([^)]*)\)", text)
-    assert targets
     assert all(target.startswith("https://") for target in targets)
 
 

@@ -19,7 +19,7 @@ def packages(*parts: str) -> Iterator[str]:
 
 
 def modules() -> Iterator[str]:
-    for top in ("fitter", "service", "api_schemas"):
+    for top in ("fitter", "service", "api_schemas", "tests"):
         for path in (ROOT / top).rglob("*.py"):
             yield path.relative_to(ROOT).with_suffix("").as_posix()
     for path in (ROOT / "service" / "page" / "src").rglob("*.ts*"):

@@ -14,7 +14,10 @@ KIND: Final = DerivationKindDefinition(
     result=CaricatureResult,
     needs=lambda _: Needs(of_fit=(PERSON,)),
     of_scans=True,
-    requests={"caricature": {"kind": "caricature", "factor": 2.5}},
+    requests={
+        "caricature": {"kind": "caricature", "factor": 2.5},
+        "looks": {"kind": "caricature", "factor": 2.0, "exaggerated": "looks"},
+    },
     answer={
         "artifacts": files(body_caricature__glb=699740, caricature__png=238067),
         "kind": "caricature",

@@ -6,14 +6,14 @@ from api_schemas.derivation_kinds import DerivationKind
 from api_schemas.derivation_kinds.report import ReportOptions, ReportResult
 from service.api.derivation_kinds.definition import DerivationKindDefinition, Needs
 from service.api.examples.files import files
-from service.jobs.inputs import OTHER_OVERLAYS, OVERLAY, PERSON, RESULT
+from service.jobs.inputs import OTHER_OVERLAYS, OVERLAY, PERSON, RESULT, TAPES
 
 KIND: Final = DerivationKindDefinition(
     kind=DerivationKind.REPORT,
     options=ReportOptions,
     result=ReportResult,
     needs=lambda _: Needs(
-        of_fit=(RESULT, PERSON, OVERLAY, "albedo.png", "shading.png", *OTHER_OVERLAYS)
+        of_fit=(RESULT, PERSON, OVERLAY, TAPES, "albedo.png", "shading.png", *OTHER_OVERLAYS)
     ),
     of_scans=True,
     requests={"report": {"kind": "report"}},

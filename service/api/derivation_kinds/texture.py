@@ -47,7 +47,7 @@ ATLAS: Final = FormPart(
         "A painted atlas, square, in the layout of `atlas.png` of any texture of the fit: JPEG, "
         "PNG or WebP, for colours `own`."
     ),
-    media_types="image/jpeg, image/png, image/webp",
+    media_types="image/jpeg, image/png, image/webp, image/heic",
     sent_for="a texture with colours 'own'",
     check=_check,
 )

@@ -33,6 +33,7 @@ SUBMISSIONS: Final[dict[str, Any]] = {
         "points": POINTS,
         "focal_length_35mm": 50,
         "cues": "SE",
+        "label": "customer-4711",
         "webhook": {
             "url": "https://example.org/hooks/maquette",
             "secret": "whsec_C2FVsBQIhrscChlQIMV+b5sSYspob7oD",
@@ -107,7 +108,7 @@ FAILED: Final = _job(
     **_OVER,
     problem=problem(
         "unusable-input",
-        code="image-truncated",
+        code="image-damaged",
         field="image",
         detail="image: The picture ends too early.",
         remedy="Send the whole file.",
@@ -119,6 +120,27 @@ CANCELED: Final = _job("canceled", **_OVER, cancel_requested=True, links=_LINKS_
 ACCEPTED: Final = {"queued": QUEUED}
 RUNNING: Final = {"running": RUNNING_JOB}
 ENDED: Final = {"succeeded": SUCCEEDED, "failed": FAILED}
+
+TOKEN: Final[dict[str, Any]] = {
+    "id": "5f1c9a7be0d24c63",
+    "token": "mqt_5f1c9a7be0d24c63_Zk3Qm0v4cP1sYw8rT6uXh2bNa9eLd7oGjKfVxRiCtEy",
+    "expires_at": "2026-05-04T09:45:00.995Z",
+    "jobs": 2,
+    "label": "customer-4711",
+}
+
+PEOPLE: Final[dict[str, Any]] = {
+    "people": [
+        {
+            "label": "customer-4711",
+            "fits": 2,
+            "scans": 1,
+            "latest": _PATH,
+            "latest_at": _ACCEPTED_AT,
+        }
+    ],
+    "next": "/v1/people?limit=1&cursor=customer-4711",
+}
 
 PAGE: Final[dict[str, Any]] = {
     "jobs": [RUNNING_JOB, SUCCEEDED],

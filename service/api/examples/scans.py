@@ -83,7 +83,7 @@ FAILED: Final = _scan(
     links=_LINKS_WHEN_OVER,
     problem=problem(
         "unusable-input",
-        code="image-truncated",
+        code="image-damaged",
         field="views.1.image",
         detail="views.1.image: The picture ends too early.",
         remedy="Send the whole file.",

@@ -1,57 +1,69 @@
 // The frame of the page: its head, and what the address asks for.
 import { useSignal } from "@preact/signals";
 import { entries, jobs } from "./history/store";
-import { HistoryPanel } from "./history/HistoryPanel";
 import { FitView } from "./fit/FitView";
 import { isActive } from "./fit/watch";
-import { Workbench } from "./panel/Workbench";
-import { MeasureView } from "./measure/MeasureView";
-import { ScanView } from "./measure/ScanView";
+import { Start } from "./panel/Start";
 import { scans } from "./measure/watch";
-import { MEASURE_ADDRESS, isMeasuring, openFit, openScan } from "./route";
+import { MEASURE_ADDRESS, START_ADDRESS, isMeasuring, isOnAccuracy, isPreparing, openFit, openPerson, openScan } from "./route";
+import { messages } from "./messages/language";
+import { isFull } from "./stage/full";
 import { announcement } from "./ui/announce";
 import { Icon } from "./ui/Icon";
 import { IconButton } from "./ui/IconButton";
 import { KeyDialog } from "./ui/KeyDialog";
+import { LanguageSwitch } from "./ui/LanguageSwitch";
+import { later } from "./ui/later";
+import { SandboxNote } from "./ui/SandboxNote";
 import { theme, toggleTheme } from "./ui/theme";
 
+const AccuracyView = later(() => import("./accuracy/AccuracyView").then((loaded) => loaded.AccuracyView));
+const HistoryPanel = later(() => import("./history/HistoryPanel").then((loaded) => loaded.HistoryPanel), null);
+const MeasureView = later(() => import("./measure/MeasureView").then((loaded) => loaded.MeasureView));
+const PersonView = later(() => import("./people/PersonView").then((loaded) => loaded.PersonView));
+const ScanView = later(() => import("./measure/ScanView").then((loaded) => loaded.ScanView));
+const Workbench = later(() => import("./panel/Workbench").then((loaded) => loaded.Workbench));
+
 export function App() {
+  const { frame } = messages.value;
   const showsHistory = useSignal(false);
   const id = openFit.value;
   const scan = openScan.value;
   const active = [...Object.values(jobs.value), ...Object.values(scans.value)].filter(isActive).length;
   return (
     <>
-      <header class="head">
-        <a class="brand" href="#/" aria-label="Maquette: start">
+      <header class="head" inert={isFull.value}>
+        <a class="brand" href={START_ADDRESS} aria-label={frame.start}>
           <svg width="22" height="22" viewBox="0 0 32 32" aria-hidden="true">
             <circle cx="16" cy="7" r="4.2" />
             <path d="M7 13.5h18M16 13.5V22M16 21l-5.5 8M16 21l5.5 8" />
           </svg>
-          Maquette
+          <span class="brand-name">Maquette</span>
         </a>
         <nav>
           {id && (
-            <a class="head-link" href="#/">
+            <a class="head-link" href={START_ADDRESS}>
               <Icon name="plus" />
-              New
+              {frame.fresh}
             </a>
           )}
           <a class="head-link" href={MEASURE_ADDRESS} aria-current={isMeasuring.value ? "page" : undefined}>
             <Icon name="body" />
-            Measure
+            {frame.measure}
           </a>
           <button class="head-link" type="button" onClick={() => (showsHistory.value = true)}>
             <Icon name="list" />
-            Fits
+            {frame.history}
             {entries.value.length > 0 && <span class={`badge ${active > 0 ? "is-active" : ""}`}>{entries.value.length}</span>}
           </button>
           <a class="head-link is-wide-only" href="/docs">
-            API
+            {frame.api}
           </a>
-          <IconButton icon="theme" label={theme.value === "dark" ? "Light page" : "Dark page"} onClick={toggleTheme} />
+          <LanguageSwitch />
+          <IconButton icon="theme" label={theme.value === "dark" ? frame.lightPage : frame.darkPage} onClick={toggleTheme} />
         </nav>
       </header>
+      <SandboxNote />
       <Screen fit={id} scan={scan} />
       {showsHistory.value && <HistoryPanel onClose={() => (showsHistory.value = false)} />}
       <KeyDialog />
@@ -65,5 +77,8 @@ export function App() {
 function Screen({ fit, scan }: { fit: string | null; scan: string | null }) {
   if (fit) return <FitView key={fit} id={fit} />;
   if (scan) return <ScanView key={scan} id={scan} />;
-  return isMeasuring.value ? <MeasureView /> : <Workbench />;
+  if (openPerson.value !== null) return <PersonView key={openPerson.value} label={openPerson.value} />;
+  if (isOnAccuracy.value) return <AccuracyView />;
+  if (isMeasuring.value) return <MeasureView />;
+  return isPreparing.value ? <Workbench /> : <Start />;
 }

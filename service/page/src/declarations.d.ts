@@ -1,1 +1,5 @@
 declare module "*.css";
+declare module "*.bin" {
+  const content: Uint8Array;
+  export default content;
+}

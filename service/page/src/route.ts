@@ -1,5 +1,6 @@
-// Where the page is, by the address's fragment: `#/` prepares a fit, `#/fits/ID` shows one; `#/measure` takes the
-// pictures of a scan, `#/scans/ID` shows one.
+// Where the page is, by the address's fragment: `#/` is its start, `#/prepare` prepares a fit, `#/fits/ID` shows one;
+// `#/measure` takes the pictures of a scan, `#/scans/ID` shows one; `#/people/LABEL` shows all of a person;
+// `#/accuracy` tells how good measurements are. `#/embed` is for frames of other sites.
 import { computed, signal } from "@preact/signals";
 
 const fragment = signal(location.hash);
@@ -9,11 +10,39 @@ export const openFit = computed<string | null>(() => /^#\/fits\/([0-9a-f-]{36})$
 
 export const openScan = computed<string | null>(() => /^#\/scans\/([0-9a-f-]{36})$/.exec(fragment.value)?.[1] ?? null);
 
+export const START_ADDRESS = "#/";
+
+export const PREPARE_ADDRESS = "#/prepare";
+export const isPreparing = computed(() => fragment.value === PREPARE_ADDRESS);
+
+export const openPerson = computed<string | null>(() => {
+  const written = /^#\/people\/(.+)$/.exec(fragment.value)?.[1];
+  return written === undefined ? null : decoded(written);
+});
+
 export const MEASURE_ADDRESS = "#/measure";
 export const isMeasuring = computed(() => fragment.value === MEASURE_ADDRESS);
 
+export const ACCURACY_ADDRESS = "#/accuracy";
+export const isOnAccuracy = computed(() => fragment.value === ACCURACY_ADDRESS);
+/** Whether the page was opened to be a part of another site's. */
+export const isEmbedded = location.hash === "#/embed";
+
 export function scanAddress(id: string): string {
   return `#/scans/${id}`;
+}
+
+export function personAddress(label: string): string {
+  return `#/people/${encodeURIComponent(label)}`;
+}
+
+/** As it stands where somebody typed it with a percent sign of its own. */
+function decoded(written: string): string {
+  try {
+    return decodeURIComponent(written);
+  } catch {
+    return written;
+  }
 }
 
 export function fitAddress(id: string): string {
@@ -21,5 +50,8 @@ export function fitAddress(id: string): string {
 }
 
 export function go(address: string): void {
-  location.hash = address;
+  // In a frame the address stays: the way back that the browser offers is the site's.
+  if (!isEmbedded) location.hash = address;
+  // At once: `hashchange` comes later.
+  fragment.value = address;
 }

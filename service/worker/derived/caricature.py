@@ -3,8 +3,12 @@
 import dataclasses
 from collections.abc import Callable
 
-from api_schemas.derivation_kinds.caricature import CaricatureOptions, CaricatureResult
-from fitter.applications.caricature import caricature
+from api_schemas.derivation_kinds.caricature import (
+    CaricatureOptions,
+    CaricatureResult,
+    Exaggerated,
+)
+from fitter.applications.caricature import caricature_of_looks, caricature_of_most_unusual
 from fitter.applications.previews import View, preview
 from fitter.export.display import png
 from fitter.export.gltf_document import Frame
@@ -22,7 +26,9 @@ def derive(
     options = job.options
     person, operators = person_and_operators(job.inputs[PERSON], job.models)
     model, evaluator = operators.model, operators.evaluator
-    found = caricature(evaluator, person.body.shape, options.factor)
+    of_looks = options.exaggerated is Exaggerated.LOOKS
+    exaggerate = caricature_of_looks if of_looks else caricature_of_most_unusual
+    found = exaggerate(evaluator, person.body.shape, options.factor)
     observe(0.7)
     turn = upright_turn(person.tilt)
     fitted, exaggerated = (
@@ -57,6 +63,7 @@ def derive(
                 frame=Frame.CAMERA_TURNED if person.tilt is None else Frame.ON_THE_GROUND,
                 extras={
                     "factor": found.factor,
+                    "exaggerated": options.exaggerated.value,
                     "coefficient": found.coefficient,
                     "height_m": found.height_m,
                 },

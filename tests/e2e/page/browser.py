@@ -20,14 +20,14 @@ FLAGS = (
 
 
 @contextlib.contextmanager
-def chromium(playwright: Playwright) -> Iterator[Browser]:
-    """Start it with an empty profile; skip where it is not installed."""
+def chromium(playwright: Playwright, *flags: str) -> Iterator[Browser]:
+    """Start it with an empty profile and further flags; skip where it is not installed."""
     path = shutil.which("chromium")
     if path is None:
         if os.environ.get("CI"):
             pytest.fail("chromium is not installed")
         pytest.skip("chromium is not installed")
-    browser = playwright.chromium.launch(executable_path=path, args=list(FLAGS), headless=True)
+    browser = playwright.chromium.launch(executable_path=path, args=[*FLAGS, *flags], headless=True)
     try:
         yield browser
     finally:

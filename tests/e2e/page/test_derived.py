@@ -9,7 +9,7 @@ import httpx
 import numpy as np
 import pytest
 from PIL import Image
-from playwright.sync_api import expect
+from playwright.sync_api import Route, expect
 
 from service.demo_data.sample import load_sample
 from tests.e2e.page.visitor import FIT_WITHIN_MS, VISIBLY, Visitor
@@ -38,7 +38,12 @@ def test_a_report_is_made_kept_and_erased(looking: Visitor):
     page = looking.page
     made = page.locator(".derived > li")
     looking.choose("Report")
-    page.get_by_role("button", name="Make the report").click()
+    page.get_by_label("Name in the heading, if you like").fill("Ada L.")
+    with page.expect_request(lambda request: request.method == "POST") as sent:
+        page.get_by_role("button", name="Make the report").click()
+    asked = sent.value.post_data_json
+    assert (asked["name"], asked["units"], asked["language"]) == ("Ada L.", "metric", "en")
+    assert re.fullmatch(r"\d{4}-\d\d-\d\d", asked["date"])
     file = made.get_by_role("button", name="report.pdf")
     expect(file).to_be_visible(timeout=FIT_WITHIN_MS)
     with page.expect_download() as download:
@@ -60,9 +65,10 @@ def test_another_pose_and_a_caricature_are_shown_and_what_cannot_be_is_told(look
     looking.choose("Other pose")
     page.get_by_label("Pose", exact=True).select_option(label="Sitting")
     page.get_by_role("button", name="Make the other pose").click()
-    expect(page.get_by_role("img", name="Other pose of the body")).to_be_visible(
-        timeout=FIT_WITHIN_MS
-    )
+    turned = page.get_by_role("img", name="The body in this pose; arrow keys turn it")
+    expect(turned).to_have_attribute("data-shows", "clay", timeout=FIT_WITHIN_MS)
+    looking.choose("From the sides")
+    expect(page.get_by_role("img", name="Other pose of the body")).to_be_visible()
     looking.choose("Caricature")
     page.get_by_label("Times").fill("1.5")
     page.get_by_role("button", name="Make the caricature").click()
@@ -120,25 +126,26 @@ def test_a_texture_is_shown_with_where_it_comes_from(looking: Visitor):
     page = looking.page
     looking.choose("Texture")
     looking.choose("Without the light")
-    page.get_by_label("Size").select_option("512")
+    page.get_by_label("Size", exact=True).select_option("512")
     page.get_by_role("button", name="Make the texture").click()
+    body = page.get_by_role("img", name="The textured body; arrow keys turn it")
+    expect(body).to_have_attribute("data-shows", "texture", timeout=FIT_WITHIN_MS)
+    front = looking.pixels(body)
+    assert (np.ptp(front, axis=2) > VISIBLY).mean() > 0.02
+    body.press("ArrowRight")
+    looking.wait_for_change(body, front, share=0.01)
+    looking.choose("The texture")
     texture = page.get_by_role("img", name="Texture of the body")
-    expect(texture).to_be_visible(timeout=FIT_WITHIN_MS)
+    expect(texture).to_be_visible()
     assert texture.evaluate("image => image.decode().then(() => image.naturalWidth)") == 512
+    looking.choose("Where from")
+    expect(page.get_by_role("img", name="Where the texture comes from")).to_be_visible()
+    expect(page.get_by_text("white was seen in the picture, grey is mirrored")).to_be_visible()
     made = page.locator(".derived > li").first
-    expect(made.get_by_role("img", name="Where the texture comes from")).to_be_visible()
-    expect(made).to_contain_text("white was seen in the picture, grey is mirrored")
     expect(made).to_contain_text("% of the body was seen")
     with page.expect_download() as download:
         made.get_by_role("button", name="body_textured.glb").click()
     assert download.value.path().read_bytes()[:4] == b"glTF"
-    made.get_by_role("button", name="Turn it").click()
-    body = made.get_by_role("img", name="The textured body; arrow keys turn it")
-    expect(body).to_have_attribute("data-shows", "texture", timeout=FIT_WITHIN_MS)
-    front = looking.pixels(body)
-    assert (np.ptp(front, axis=2) > VISIBLY).mean() > 0.05
-    body.press("ArrowRight")
-    looking.wait_for_change(body, front, share=0.02)
 
 
 def test_a_texture_of_ones_own_is_laid_on_the_body(looking: Visitor, tmp_path: Path):
@@ -156,12 +163,10 @@ def test_a_texture_of_ones_own_is_laid_on_the_body(looking: Visitor, tmp_path: P
     page.get_by_label("Another texture").set_input_files(square)
     expect(page.get_by_text("square.png is laid on the body.")).to_be_visible()
     make.click()
-    made = page.locator(".derived > li").first
-    made.get_by_role("button", name="Turn it").click(timeout=FIT_WITHIN_MS)
-    body = made.get_by_role("img", name="The textured body; arrow keys turn it")
+    body = page.get_by_role("img", name="The textured body; arrow keys turn it")
     expect(body).to_have_attribute("data-shows", "texture", timeout=FIT_WITHIN_MS)
     red, green, blue = np.moveaxis(looking.pixels(body), 2, 0)
-    assert (green > 1.5 * np.maximum(red, blue)).mean() > 0.05
+    assert (green > 1.5 * np.maximum(red, blue)).mean() > 0.02
 
 
 def test_fits_of_one_person_are_offered_and_combined(looking: Visitor, service: httpx.Client):
@@ -197,6 +202,7 @@ def test_fits_of_one_person_are_offered_and_combined(looking: Visitor, service: 
     expect(table.get_by_role("row", name=re.compile(r"^Hip \d"))).to_contain_text("–")
     expect(page.locator(".derived > li").first).to_contain_text("From 2 pictures.")
     for number in (1, 2):
+        looking.choose(f"Picture {number}")
         over = page.get_by_role("img", name=f"Combined body over picture {number}")
         expect(over).to_be_visible()
 
@@ -210,3 +216,72 @@ def test_a_figure_is_drawn_from_where_one_wants(looking: Visitor):
     expect(page.get_by_role("img", name="Picture, overlay, body and new pose")).to_be_visible(
         timeout=FIT_WITHIN_MS
     )
+
+
+def test_what_was_made_is_shown_large_on_the_stage_with_a_way_back(looking: Visitor):
+    page = looking.page
+    stage = page.locator(".bench-stage")
+    looking.choose("Residual")
+    looking.choose("Figure")
+    page.get_by_role("button", name="Make the figure").click()
+    picture = stage.get_by_role("img", name="Picture, overlay, body and new pose")
+    expect(picture).to_be_visible(timeout=FIT_WITHIN_MS)
+    assert picture.bounding_box()["width"] > 0.9 * stage.bounding_box()["width"]
+    expect(stage.get_by_text("Figure", exact=True)).to_be_visible()
+    expect(looking.body).to_be_hidden()
+    stage.get_by_role("button", name="Back to the body").click()
+    expect(picture).to_have_count(0)
+    expect(looking.body).to_be_visible()
+    # As it was left.
+    expect(page.get_by_role("radio", name="Residual", exact=True)).to_be_checked()
+    page.get_by_role("button", name="Show large: figure").click()
+    expect(picture).to_be_visible()
+    page.get_by_role("button", name="Delete: figure").click()
+    expect(picture).to_have_count(0)
+    expect(looking.body).to_be_visible()
+
+
+def test_a_caricature_that_is_refused_is_offered_as_strong_as_it_can_be(looking: Visitor):
+    page = looking.page
+    looking.choose("Caricature")
+    page.get_by_label("Times").fill("5")
+    page.get_by_role("button", name="Make the caricature").click()
+    smaller = page.get_by_role("button", name=re.compile(r"^Make it [\d.]+ times$"))
+    expect(smaller).to_be_visible(timeout=FIT_WITHIN_MS)
+    expect(page.get_by_role("button", name="Try again")).to_have_count(0)
+    largest = float(re.search(r"[\d.]+", smaller.inner_text())[0])
+    assert 1.0 < largest < 5.0
+    with page.expect_request(lambda request: request.method == "POST") as sent:
+        smaller.click()
+    assert sent.value.post_data_json["factor"] == largest
+    expect(page.get_by_role("img", name="Caricature of the body")).to_be_visible(
+        timeout=FIT_WITHIN_MS
+    )
+
+
+def test_that_pictures_show_different_people_is_said_before_anything_else(
+    looking: Visitor, service: httpx.Client, bare_fit: str
+):
+    """What is made is a pose, answered as if it were a body of several pictures that disagree."""
+    page = looking.page
+    warning = {"code": "different-people", "message": "The pictures seem to show two people."}
+    job = ended_job(
+        service, service.post(f"/v1/fits/{bare_fit}/derivations", json={"kind": "pose"})
+    )
+
+    def warned(route: Route) -> None:
+        answer = route.fetch()
+        route.fulfill(response=answer, json=answer.json() | {"warnings": [warning]})
+
+    page.route(f"**{job['links']['result']}", warned)
+    page.reload()
+    looking.wait_for_result()
+    card = page.locator(".derived > li")
+    expect(card.locator(".note.is-problem")).to_have_text(warning["message"])
+    page.get_by_role("button", name="Show large: other pose").click()
+    note = page.locator(".bench-stage .note.is-problem")
+    canvas = page.get_by_role("img", name="The body in this pose; arrow keys turn it")
+    expect(canvas).to_be_visible()
+    assert note.bounding_box()["y"] < canvas.bounding_box()["y"]
+    in_card = card.locator(".note").bounding_box()["y"]
+    assert in_card < card.get_by_role("button", name="Show large").bounding_box()["y"]

@@ -8,7 +8,7 @@ from pathlib import Path
 import httpx
 import pytest
 from PIL import Image
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Browser, Frame, Page, expect
 
 from tests.e2e.page.visitor import FIT_WITHIN_MS, LIMBS, PHONE, Visitor
 from tests.e2e.service import REPOSITORY, running_service, wait_for_estimator
@@ -23,7 +23,7 @@ def axe() -> str:
     return AXE.read_text()
 
 
-def serious_findings(page: Page, axe: str) -> list[str]:
+def serious_findings(page: Page | Frame, axe: str) -> list[str]:
     page.evaluate(axe)
     found = page.evaluate("axe.run(document)")
     return [
@@ -60,7 +60,7 @@ def test_axe_finds_nothing_serious_from_start_to_result(
             assert serious_findings(page, axe) == [], kind
         visitor.choose("Caricature")
         page.get_by_role("button", name="Make the caricature").click()
-        page.get_by_role("button", name="Turn it").click(timeout=FIT_WITHIN_MS)
+        page.get_by_role("radio", name="Turn it").check(timeout=FIT_WITHIN_MS)
         turned = page.locator(".derived-canvas")
         expect(turned).to_have_attribute("data-shows", "clay", timeout=FIT_WITHIN_MS)
         assert serious_findings(page, axe) == []
@@ -112,10 +112,11 @@ def test_a_finger_aims_with_a_loupe_and_places_where_it_is_lifted(
         # Two fingers zoom and place nothing.
         picture = visitor.page.locator(".stage-picture")
         wide = picture.bounding_box()["width"]
-        touch("touchStart", (150, 300))
-        touch("touchStart", (150, 300), (250, 300))
+        middle = box["y"] + box["height"] / 2
+        touch("touchStart", (150, middle))
+        touch("touchStart", (150, middle), (250, middle))
         for apart in (30, 60, 90):
-            touch("touchMove", (150 - apart, 300), (250 + apart, 300))
+            touch("touchMove", (150 - apart, middle), (250 + apart, middle))
         touch("touchEnd")
         visitor.wait_for_width(picture, 1.5 * wide)
         expect(visitor.points()).to_have_count(1)

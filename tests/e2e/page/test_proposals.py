@@ -46,6 +46,8 @@ NOT_INSTALLED = {
 
 
 def drop(visitor: Visitor, picture: bytes, *, on: str = ".drop") -> None:
+    # The page is there once its language is.
+    expect(visitor.page.locator(on)).to_be_visible()
     visitor.page.evaluate(DROP, [on, base64.b64encode(picture).decode()])
     visitor.wait_for_stage()
 
@@ -95,6 +97,8 @@ def test_a_dropped_picture_becomes_a_body_by_four_taps(
         visitor.wait_for_result()
         visitor.wait_until_drawn(placement="picture")
         expect(page.get_by_role("row", name=re.compile("^Height"))).to_contain_text("168")
+        # Counted, not named.
+        expect(page.locator(".panel .note", has_text="All points were proposed")).to_be_visible()
 
 
 def test_a_point_that_is_dragged_is_a_click_and_undoing_makes_it_a_proposal_again(

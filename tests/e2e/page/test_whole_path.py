@@ -51,10 +51,10 @@ def test_the_sample_becomes_a_body_with_measurements_to_be_kept_and_erased(
 
     # Where a measurement is taken is drawn on the upright body.
     visitor.choose("Over the picture")
-    page.get_by_role("button", name="Waist, at the navel").click()
+    page.get_by_role("button", name="Waist, at the navel", exact=True).click()
     expect(page.get_by_role("radio", name="Upright", exact=True)).to_be_checked()
     marked = visitor.wait_until_drawn(placement="canonical", marked="waist_girth_navel")
-    page.get_by_role("button", name="Waist, at the navel").click()
+    page.get_by_role("button", name="Waist, at the navel", exact=True).click()
     page.get_by_role("heading", name="Measurements").hover()
     visitor.wait_for_change(visitor.body, marked, share=0.0005)
 
@@ -84,7 +84,7 @@ def test_the_sample_becomes_a_body_with_measurements_to_be_kept_and_erased(
         expect(other.page.get_by_label("Height", exact=True)).to_have_value("180.4")
     page.get_by_role("button", name="Delete this fit").click()
     page.get_by_role("button", name="Delete", exact=True).click()
-    visitor.wait_for_stage()
+    expect(page.get_by_role("heading", name="A body in 3D")).to_be_visible()
     page.goto(link)
     expect(page.get_by_role("heading", name="This fit is gone")).to_be_visible()
 
@@ -96,7 +96,7 @@ def test_a_fit_can_be_canceled_and_another_begun_meanwhile(visitor: Visitor):
     visitor.submit()
     expect(page.get_by_role("progressbar", name="Progress of the fit")).to_be_visible()
     page.get_by_role("link", name="New").click()
-    visitor.wait_for_stage()
+    visitor.open_sample(with_points=True)
     visitor.submit()
     page.get_by_role("button", name="Cancel").click()
     expect(page.get_by_role("heading", name="The fit was canceled")).to_be_visible()

@@ -56,6 +56,12 @@ WIDTH_IS = """([element, least, most]) => {
   const { width } = element.getBoundingClientRect();
   return least <= width && width <= most;
 }"""
+PICTURE_IS_WHOLE = """(margin) => {
+  const [stage, picture] = [".stage", ".stage-picture"].map((each) =>
+    document.querySelector(each).getBoundingClientRect());
+  const room = Math.min(stage.width - picture.width, stage.height - picture.height);
+  return Math.abs(room - 2 * margin) < 1;
+}"""
 RESULT_IS_SHOWN = """() => {
   const shown = document.querySelector(".bench[data-fit]:has(.body-canvas)");
   return shown !== null && location.hash === `#/fits/${shown.dataset.fit}`;
@@ -82,10 +88,12 @@ class Visitor:
         someone.listen()
         try:
             someone.page.goto(someone.origin + "/")
+            # The page is shown once its language is there, which the load event does not await.
+            someone.page.locator("main").wait_for()
             yield someone
             violations = someone.page.evaluate("window.violations")
-            assert violations == []
-            assert someone.complaints == []
+            assert violations == [], violations
+            assert someone.complaints == [], someone.complaints
             assert someone.strangers() == []
         finally:
             context.close()
@@ -113,9 +121,13 @@ class Visitor:
         expect(self.stage).to_have_attribute("aria-busy", "false")
         self.page.evaluate("() => document.fonts.ready.then(() => null)")
 
+    def wait_for_whole_picture(self) -> None:
+        """Wait until the picture is as large as the stage allows, whose size has changed."""
+        self.page.wait_for_function(PICTURE_IS_WHOLE, arg=STAGE_MARGIN)
+
     @contextlib.contextmanager
     def without_news(self) -> Iterator[None]:
-        """Let the page hear nothing of fits meanwhile, however fast they end."""
+        """Let the page hear nothing of fits and scans meanwhile, however fast they end."""
         held: list[Route] = []
         holding = True
 
@@ -125,7 +137,7 @@ class Visitor:
             else:
                 route.continue_()
 
-        paths = re.compile(r"/v1/fits/[0-9a-f-]{36}(/events)?$")
+        paths = re.compile(r"/v1/(fits|scans)/[0-9a-f-]{36}(/events)?$")
         self.page.route(paths, hold)
         try:
             yield

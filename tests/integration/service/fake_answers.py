@@ -188,6 +188,20 @@ def conversion(task: ConversionTask, glb: bytes) -> bytes:
     return f"{task.ending} of {len(glb)} bytes".encode()
 
 
+def jpeg(image: bytes, *, max_pixels: int) -> bytes:
+    script = json.loads(image.partition(SCRIPT_MARK)[2])
+    if script.get("damaged"):
+        raise UnusableInputError(
+            FieldProblem(
+                field="image",
+                code="image-damaged",
+                reason="The file is truncated or damaged.",
+                remedy="Send the whole file.",
+            )
+        )
+    return f"JPEG of {len(image)} bytes, at most {max_pixels} pixels".encode()
+
+
 def _obey(name: str, value: object) -> None:
     if name == "sleep":
         time.sleep(float(str(value)))

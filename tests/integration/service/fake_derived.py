@@ -58,6 +58,7 @@ def derived_output(job: DerivationInput[AnyDerivationOptions]) -> DerivationOutp
                     code="factor-unusable",
                     reason="The surface turns inside out.",
                     remedy=f"Send a factor from 0 to {LARGEST_FACTOR}.",
+                    largest=LARGEST_FACTOR,
                 )
             )
         result = CaricatureResult(

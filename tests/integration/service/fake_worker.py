@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 FAKE = "tests.integration.service.fake_pipeline"
+FAKE_LENT = "tests.integration.service.fake_lent"
 FAKE_PRELOAD = "tests.integration.service.fake_preload"
 FAKE_MODELS = (sys.executable, "-m", "tests.integration.service.fake_models")
 
@@ -20,7 +21,12 @@ def main() -> None:
     settings = Settings()
     configure_logging(settings.log_level, settings.log_format)
     run_worker(
-        settings, follow_stdin=True, pipeline=FAKE, preload=FAKE_PRELOAD, models_command=FAKE_MODELS
+        settings,
+        follow_stdin=True,
+        pipeline=FAKE,
+        preload=FAKE_PRELOAD,
+        lent=FAKE_LENT,
+        models_command=FAKE_MODELS,
     )
 
 

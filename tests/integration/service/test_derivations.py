@@ -140,6 +140,7 @@ def test_nothing_is_derived_from_a_fit_that_has_not_succeeded(service: Service):
         ({"kind": "bust"}, 422, "unknown-value", "kind"),
         ([], 422, "unknown-value", "kind"),
         ({"kind": "report", "pages": 2}, 422, "unknown-field", "pages"),
+        ({"kind": "report", "language": "fr"}, 422, "unknown-value", "language"),
         ({"kind": "caricature", "factor": -1}, 422, "out-of-range", "factor"),
         ({"kind": "caricature", "factor": 1e9}, 422, "out-of-range", "factor"),
         ({"kind": "caricature", "factor": "2"}, 422, "wrong-kind", "factor"),
@@ -388,4 +389,5 @@ def test_known_measurements_of_the_fit_stay_with_it(service: Service):
     path = service.post({}, request=REQUEST | {"weight_kg": 77.5}).headers["Location"]
     service.ended(path)
     asked = service.client.get(f"{derived(service, path)}/request").json()
-    assert asked == {"kind": "report"}
+    defaults = {"units": "metric", "language": "en", "name": None, "date": None}
+    assert asked == {"kind": "report"} | defaults

@@ -20,12 +20,16 @@ from service.estimates.port import (
     EstimatorTimeoutError,
     EstimatorUnavailableError,
 )
+from service.estimates.starting import by_command, by_passing_on
+from service.process.supervisor import SupervisedWorker
+from service.startup.begin import UNUSABLE_SETTINGS
 from service.submissions.refusal import RefusedError
 from tests.integration.service.fake_answers import GATE, GLB
 from tests.integration.service.harness import PATIENCE_S, REPOSITORY, eventually, is_running
 from tests.process_table import processes_with
 
 COMMAND = (sys.executable, "-m", "tests.integration.service.fake_estimator")
+FAKE_WORKER = (sys.executable, "-m", "tests.integration.service.fake_worker")
 
 
 def task(*, with_glb: bool = False, **script: float) -> BodyTask:
@@ -50,7 +54,8 @@ def gate(tmp_path):
 @pytest.fixture
 def pool(monkeypatch, gate):
     monkeypatch.chdir(REPOSITORY)
-    running = EstimatorPool(COMMAND, environment=os.environ | {GATE: str(gate)}, processes=2)
+    start = by_command(COMMAND, environment=os.environ | {GATE: str(gate)})
+    running = EstimatorPool(start, processes=2)
     yield running
     running.stop()
 
@@ -188,9 +193,8 @@ def test_a_process_that_died_is_started_anew_before_it_is_asked(watched_pool, ga
 def test_processes_that_cannot_start_say_so_before_the_time_is_up(monkeypatch):
     monkeypatch.chdir(REPOSITORY)
     monkeypatch.setattr(processes, "READY_WITHIN_S", 1e6)
-    broken = EstimatorPool(
-        (sys.executable, "-c", "import sys; sys.exit(1)"), environment={}, processes=1
-    )
+    start = by_command((sys.executable, "-c", "import sys; sys.exit(1)"), environment={})
+    broken = EstimatorPool(start, processes=1)
     told: list[Exception] = []
 
     def ask() -> None:
@@ -210,8 +214,9 @@ def test_estimators_do_not_outlive_their_api(gate):
     program = f"""
 import os, time
 from service.estimates.pool import EstimatorPool
+from service.estimates.starting import by_command
 environment = os.environ | {{{GATE!r}: {str(gate)!r}}}
-pool = EstimatorPool({COMMAND!r}, environment=environment, processes=2)
+pool = EstimatorPool(by_command({COMMAND!r}, environment=environment), processes=2)
 print("started", flush=True)
 time.sleep(3600)
 """
@@ -225,3 +230,84 @@ time.sleep(3600)
     api.wait()
     api.stdout.close()
     eventually(lambda: not any(is_running(pid) for pid in pids), what="the estimators ended")
+
+
+@pytest.fixture
+def lending_worker(monkeypatch, gate, tmp_path):
+    """A worker that forks estimators with the fake answers."""
+    monkeypatch.chdir(REPOSITORY)
+    environment = os.environ | {GATE: str(gate), "MAQUETTE_DATA_DIR": str(tmp_path / "data")}
+    worker = SupervisedWorker(
+        FAKE_WORKER,
+        environment=environment,
+        stop_timeout_s=PATIENCE_S,
+        final_code=UNUSABLE_SETTINGS,
+        on_final_end=lambda: None,
+    )
+    yield worker
+    worker.stop()
+
+
+@pytest.fixture
+def lent_pool(lending_worker):
+    running = EstimatorPool(by_passing_on(lending_worker.pass_on), processes=2)
+    yield running
+    running.stop()
+
+
+def test_a_worker_forks_processes_that_answer_and_are_called_estimators(lent_pool, gate):
+    assert lent_pool.body(task(with_glb=True)).glb == GLB
+    pids = {answering_pid(lent_pool) for _ in range(4)}
+    assert len(pids) == 2
+    forked = {each.pid for each in processes_with(GATE, gate) if each.name == "estimator"}
+    assert forked == pids
+
+
+def test_a_lent_process_that_dies_over_a_question_or_between_is_replaced(lent_pool, monkeypatch):
+    monkeypatch.setattr(processes, "RESTART_PAUSE_S", 0.0)
+    before = {answering_pid(lent_pool) for _ in range(4)}
+    with pytest.raises(EstimatorFailedError):
+        lent_pool.body(task(segfault=1.0))
+    after = {answering_pid(lent_pool) for _ in range(4)}
+    assert len(before & after) == 1
+    for pid in after:
+        os.kill(pid, signal.SIGKILL)
+    eventually(lambda: not any(is_running(pid) for pid in after), what="killed")
+    assert not {answering_pid(lent_pool) for _ in range(4)} & after
+
+
+def test_a_lent_process_that_takes_too_long_is_killed(lent_pool, monkeypatch):
+    before = {answering_pid(lent_pool) for _ in range(4)}
+    with monkeypatch.context() as impatience:
+        impatience.setattr(processes, "ANSWER_WITHIN_S", 0.3)
+        with pytest.raises(EstimatorTimeoutError):
+            lent_pool.body(task(gate=1.0))
+    after = {answering_pid(lent_pool) for _ in range(4)}
+    assert len(before & after) == 1
+    assert not any(is_running(pid) for pid in before - after)
+
+
+def test_lent_processes_answer_while_their_worker_is_dead(lent_pool, lending_worker, gate):
+    before = {answering_pid(lent_pool) for _ in range(4)}
+    (worker,) = (each for each in processes_with(GATE, gate) if "fake_worker" in each.command)
+    os.kill(worker.pid, signal.SIGKILL)
+    eventually(lambda: not is_running(worker.pid), what="killed")
+    assert {answering_pid(lent_pool) for _ in range(4)} == before
+
+
+def test_a_lent_process_ends_with_its_pool(lending_worker):
+    pool = EstimatorPool(by_passing_on(lending_worker.pass_on), processes=1)
+    pid = answering_pid(pool)
+    pool.stop()
+    eventually(lambda: not is_running(pid), what="ended")
+
+
+def test_what_nobody_forks_is_unavailable_until_somebody_does(lending_worker, monkeypatch):
+    monkeypatch.setattr(processes, "RESTART_PAUSE_S", 0.0)
+    forkers = [lambda _: None, lending_worker.pass_on]
+    pool = EstimatorPool(by_passing_on(lambda given: forkers[0](given)), processes=1)
+    with pytest.raises(EstimatorUnavailableError):
+        pool.body(task())
+    del forkers[0]
+    assert pool.body(task()).estimate
+    pool.stop()

@@ -85,14 +85,21 @@ def test_running_out_of_memory_is_told(service: Service):
     assert problem_of(service, {"exhaust_memory": True})["code"] == "out-of-memory"
 
 
+def crashes(service: Service) -> float:
+    figures = service.client.get("/metrics").text
+    return float(figures.partition("\nmaquette_job_crashes ")[2].split()[0])
+
+
 def test_a_picture_that_kills_its_process_is_given_up_after_three_times(
     service: Service, tmp_path: Path
 ):
     note = tmp_path / "pids"
+    before = crashes(service)
     other = service.submit({"seconds": 0.1})
     problem = problem_of(service, {"segfault": True, "note_pid": str(note)})
     assert problem["type"] == "/problems/fit-crashed"
     assert len(pids_noted(note)) == 3
+    assert crashes(service) == before + 3
     assert service.ended(other)["state"] == "succeeded"
 
 

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import httpx
 import pytest
-from psycopg import sql
 
+from tests.integration.service.database_outage import assert_refused_for_now, no_connections
 from tests.integration.service.harness import (
     Machine,
     Service,
@@ -21,7 +21,6 @@ from tests.integration.service.harness import (
     pids_noted,
     running_service,
 )
-from tests.postgres import administration
 from tests.process_table import processes_with
 
 SHIFTED_CLOCK = Path(__file__).parent / "shifted_clock"
@@ -160,23 +159,6 @@ def locked(machine: Machine) -> Iterator[None]:
         connection.close()
 
 
-@contextlib.contextmanager
-def no_connections(machine: Machine) -> Iterator[None]:
-    """Close all connections to the machine's own database, and refuse new ones."""
-    assert machine.database_url is not None
-    name = machine.database_url.rpartition("/")[2]
-    allow = sql.SQL("ALTER DATABASE {} WITH ALLOW_CONNECTIONS {}")
-    with administration() as connection:
-        connection.execute(allow.format(sql.Identifier(name), sql.Literal(False)))
-        connection.execute(
-            "SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE datname = %s", [name]
-        )
-        try:
-            yield
-        finally:
-            connection.execute(allow.format(sql.Identifier(name), sql.Literal(True)))
-
-
 def in_background(post: Callable[[], httpx.Response]) -> Callable[[], httpx.Response]:
     """Call in a thread; the function returned waits for the answer."""
     answers: list[httpx.Response] = []
@@ -188,9 +170,3 @@ def in_background(post: Callable[[], httpx.Response]) -> Callable[[], httpx.Resp
         return answers[0]
 
     return answer
-
-
-def assert_refused_for_now(answer: httpx.Response) -> None:
-    assert answer.status_code == 503, answer.text
-    assert answer.headers["Retry-After"]
-    assert answer.json()["code"] == "database-unavailable"

@@ -7,7 +7,8 @@ import httpx
 import pytest
 
 from api_schemas.index import ServiceIndex
-from tests.integration.service.harness import Service
+from service.settings import Settings
+from tests.integration.service.harness import Machine, Service, running_service
 
 BROWSER = {"Accept": "text/html,application/xhtml+xml,*/*;q=0.8"}
 
@@ -30,6 +31,35 @@ def test_browsers_get_the_page_with_a_policy_that_allows_nothing_inline(service:
     assert not re.search(r"<script(?![^>]*\bsrc=)|<style|\sstyle=|\son\w+=", page.text)
 
 
+def test_no_site_may_frame_the_page_unless_it_is_named(service: Service, embedded: Machine):
+    page = index_of(service)
+    assert "frame-ancestors 'none'" in page.headers["content-security-policy"]
+    assert page.headers["x-frame-options"] == "DENY"
+    origins = ("https://shop.example", "http://localhost:5173")
+    embedded.settings = {"embed_origins": ", ".join(origins)}
+    with running_service(embedded, api_only=True) as embedding:
+        page = index_of(embedding)
+        policy = page.headers["content-security-policy"]
+        assert f"frame-ancestors {' '.join(origins)}" in policy
+        assert "script-src 'self'" in policy
+        assert "x-frame-options" not in page.headers
+        for path in ("/docs", "/v1/fits", "/openapi.json"):
+            answer = embedding.client.get(path)
+            assert "frame-ancestors 'none'" in answer.headers["content-security-policy"]
+            assert answer.headers["x-frame-options"] == "DENY"
+
+
+def test_only_the_page_may_use_the_camera_and_the_sensors_of_its_level(service: Service):
+    def policy_of(path: str) -> set[str]:
+        policy = service.client.get(path, headers=BROWSER).headers["permissions-policy"]
+        return {each.strip() for each in policy.split(",")}
+
+    used = ("camera", "accelerometer", "gyroscope")
+    assert policy_of("/") >= {f"{each}=(self)" for each in used}
+    for path in ("/docs", "/v1/fits", "/page/sample.jpg"):
+        assert policy_of(path) >= {f"{each}=()" for each in used}, path
+
+
 def test_programs_get_the_ways_in(service: Service):
     answer = service.client.get("/")
     index = ServiceIndex.model_validate_json(answer.content)
@@ -38,6 +68,11 @@ def test_programs_get_the_ways_in(service: Service):
     described = {path for path in index.links.values() if path in paths}
     assert described == set(index.links.values()) - {"/openapi.json", "/docs"}
     assert index.version == service.client.get("/openapi.json").json()["info"]["version"]
+
+
+def test_programs_and_the_page_learn_when_pictures_are_erased(service: Service):
+    told = ServiceIndex.model_validate_json(service.client.get("/").content).retention_hours
+    assert told == Settings().retention_hours
 
 
 def test_files_with_a_hash_in_their_name_are_kept_for_ever_and_come_packed(service: Service):
@@ -52,6 +87,18 @@ def test_files_with_a_hash_in_their_name_are_kept_for_ever_and_come_packed(servi
         plain = service.client.get(name, headers={"Accept-Encoding": "identity"})
         assert "content-encoding" not in plain.headers
         assert plain.content == file.content
+
+
+@pytest.mark.parametrize("name", ["embed.js", "embed.d.ts"])
+def test_what_other_sites_load_keeps_its_name_and_may_change(service: Service, name: str):
+    file = service.client.get(f"/page/{name}")
+    assert file.headers["cross-origin-resource-policy"] == "cross-origin"
+    assert file.headers["cache-control"] == "public, max-age=86400"
+    kind = "text/javascript" if name.endswith(".js") else "text/plain"
+    assert file.headers["content-type"].startswith(kind)
+    for path in ("/", named_files(service)[0], "/v1/fits"):
+        answer = service.client.get(path, headers=BROWSER)
+        assert answer.headers["cross-origin-resource-policy"] == "same-origin"
 
 
 def test_the_sample_comes_with_its_points(service: Service):

@@ -10,6 +10,8 @@ from uuid import uuid4
 import pytest
 
 from api_schemas.scans import Scan, ScanEvent, ScanOptions, ScanPage, ScanResult
+from service.engine.database import open_database, prepare_database
+from service.engine.keys import KeyRing
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
     Machine,
@@ -182,6 +184,27 @@ def test_a_scan_waits_as_so_many_jobs_as_it_has_pictures(tmp_path: Path):
         # Two scans are four pictures, more than three jobs.
         for refused in (post_scan(service), service.post()):
             assert (refused.status_code, refused.json()["code"]) == (503, "queue-full")
+
+
+def test_every_view_counts_among_what_a_tenant_may_have_waiting(tmp_path: Path):
+    settings = {"authentication": "keys", "max_queued_per_tenant": 3}
+    machine = Machine(tmp_path, settings=settings)
+    url = f"sqlite:///{tmp_path / 'maquette.sqlite'}"
+    prepare_database(url)
+    database = open_database(url)
+    keys = [KeyRing(database).create(name) for name in ("somebody", "another")]
+    database.dispose()
+    with running_service(machine, api_only=True) as service:
+        service.client.headers["Authorization"] = f"Bearer {keys[0]}"
+        waiting = [submit_scan(service) for _ in range(2)]
+        # Four pictures wait, more than three jobs: neither another scan nor a fit is taken.
+        for refused in (post_scan(service), service.post()):
+            assert (refused.status_code, refused.json()["code"]) == (429, "too-many-waiting")
+        for path in waiting:
+            assert service.client.delete(path).status_code == 204
+        submit_scan(service)
+        service.client.headers["Authorization"] = f"Bearer {keys[1]}"
+        submit_scan(service)
 
 
 def test_erasing_a_scan_erases_every_view_and_what_was_derived(tmp_path: Path):

@@ -1,9 +1,12 @@
-import re
-
 import numpy as np
 import pytest
 
-from fitter.applications.caricature import MOST_DEVIATIONS, caricature, most_unusual
+from fitter.applications.caricature import (
+    MOST_DEVIATIONS,
+    caricature_of_looks,
+    caricature_of_most_unusual,
+    most_unusual,
+)
 from fitter.body.shape_space import height_of_shape
 from fitter.errors import InvalidInputError
 from fitter.numerics.meshes import enclosed_volume
@@ -24,7 +27,8 @@ def refusal(call) -> InvalidInputError:
 
 
 def largest_factor(error: InvalidInputError) -> float:
-    return float(re.fullmatch(r"Send a factor from 0 to (.+)\.", error.remedy)[1])
+    assert error.remedy == f"Send a factor from 0 to {error.largest:.2f}."
+    return error.largest
 
 
 def person(body, **coefficients):
@@ -40,7 +44,7 @@ def test_the_height_is_never_what_is_unusual():
 
 @pytest.mark.parametrize("factor", [0.0, 0.5, 1.0, 1.7])
 def test_one_coefficient_is_multiplied_and_height_is_kept(body, factor):
-    found = caricature(body.evaluator, body.shape, factor)
+    found = caricature_of_most_unusual(body.evaluator, body.shape, factor)
     k = found.coefficient
     assert k == most_unusual(body.shape)
     assert found.shape[k] == pytest.approx(factor * body.shape[k])
@@ -52,7 +56,9 @@ def test_one_coefficient_is_multiplied_and_height_is_kept(body, factor):
 
 
 def test_factor_one_is_the_person(body):
-    np.testing.assert_allclose(caricature(body.evaluator, body.shape, 1.0).shape, body.shape)
+    np.testing.assert_allclose(
+        caricature_of_most_unusual(body.evaluator, body.shape, 1.0).shape, body.shape
+    )
 
 
 def test_a_heavy_person_gets_heavier_and_a_thin_one_thinner(body):
@@ -65,7 +71,7 @@ def test_a_heavy_person_gets_heavier_and_a_thin_one_thinner(body):
 
     for value in (-2.0, 2.0):
         shape = person(body, c1=value)
-        more = volume(caricature(body.evaluator, shape, 1.5).shape) - volume(shape)
+        more = volume(caricature_of_most_unusual(body.evaluator, shape, 1.5).shape) - volume(shape)
         axis = volume(person(body, c1=1.0)) - volume(person(body, c1=-1.0))
         assert np.sign(more) == np.sign(value * axis)
         assert abs(more) > 0.003
@@ -74,17 +80,61 @@ def test_a_heavy_person_gets_heavier_and_a_thin_one_thinner(body):
 @pytest.mark.parametrize("value", [-2.5, 2.5])
 def test_the_largest_factor_named_is_accepted_and_little_more_is_not(body, value):
     shape = person(body, c1=value, c4=0.5)
-    largest = largest_factor(refusal(lambda: caricature(body.evaluator, shape, 50.0)))
+    largest = largest_factor(
+        refusal(lambda: caricature_of_most_unusual(body.evaluator, shape, 50.0))
+    )
     assert 1.2 < largest < MOST_DEVIATIONS / abs(value)
-    assert caricature(body.evaluator, shape, largest).factor == largest
-    refusal(lambda: caricature(body.evaluator, shape, largest + 0.1))
+    assert caricature_of_most_unusual(body.evaluator, shape, largest).factor == largest
+    refusal(lambda: caricature_of_most_unusual(body.evaluator, shape, largest + 0.1))
 
 
 @pytest.mark.parametrize("factor", [-0.1, float("nan"), float("inf")])
 def test_factors_that_are_no_exaggeration_are_refused(body, factor):
-    refusal(lambda: caricature(body.evaluator, body.shape, factor))
+    refusal(lambda: caricature_of_most_unusual(body.evaluator, body.shape, factor))
 
 
 def test_of_the_mean_body_nothing_can_be_exaggerated(body):
-    error = refusal(lambda: caricature(body.evaluator, np.zeros_like(body.shape), 2.0))
+    error = refusal(
+        lambda: caricature_of_most_unusual(body.evaluator, np.zeros_like(body.shape), 2.0)
+    )
     assert "mean body" in error.reason
+
+
+@pytest.mark.parametrize("factor", [0.0, 0.5, 1.0, 1.7])
+def test_looks_are_all_coefficients_but_the_height(body, factor):
+    found = caricature_of_looks(body.evaluator, body.shape, factor)
+    np.testing.assert_allclose(found.shape[1:], factor * body.shape[1:])
+    height = height_of_shape(body.evaluator, body.shape)
+    assert height_of_shape(body.evaluator, found.shape) == pytest.approx(height, abs=2e-6)
+    assert (found.before, found.after) == (
+        body.shape[found.coefficient],
+        factor * body.shape[found.coefficient],
+    )
+
+
+def test_looks_change_more_than_the_most_unusual_coefficient_alone(body):
+    shape = person(body, c1=-1.2, c2=1.0, c4=-0.8, c11=1.4)
+
+    def moved(found):
+        before, after = (
+            body.evaluator.body_frame_vertices(
+                BodyParameters(pose=body.model.canonical_pose, translation=np.zeros(3), shape=each)
+            )
+            for each in (shape, found.shape)
+        )
+        return float(np.linalg.norm(after - before, axis=1).mean())
+
+    looks, one = (
+        moved(made(body.evaluator, shape, 2.0))
+        for made in (caricature_of_looks, caricature_of_most_unusual)
+    )
+    assert looks > 2.0 * one
+    assert looks > 0.02
+
+
+def test_the_largest_factor_of_looks_is_accepted_and_little_more_is_not(body):
+    shape = person(body, c1=2.0, c2=1.0, c3=-1.0)
+    largest = largest_factor(refusal(lambda: caricature_of_looks(body.evaluator, shape, 50.0)))
+    assert largest > 1.2
+    assert caricature_of_looks(body.evaluator, shape, largest).factor == largest
+    refusal(lambda: caricature_of_looks(body.evaluator, shape, largest + 0.1))

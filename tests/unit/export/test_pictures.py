@@ -4,18 +4,27 @@ import cv2
 import numpy as np
 import pytest
 
-from fitter.export.display import block_means, finer, png
+from fitter.export._level_kernels import levels_of
+from fitter.export.display import (
+    block_means,
+    finer,
+    levels_of_linear,
+    png,
+    slope_bounds,
+    to_levels,
+)
 from fitter.export.pictures import (
     INNER_COLOUR,
     OUTER_COLOUR,
-    SUPERSAMPLING,
     drawing_camera,
     drawing_picture,
+    drawing_pixels,
     mask_levels,
     overlay_picture,
     trimap_levels,
-    vertex_value_picture,
 )
+from fitter.numerics.mesh_topology import mesh_topology
+from fitter.observation.colour import display_from_linear
 from fitter.render.rasterizer import render
 from fitter.segmentation.trimap import TrimapLabel
 from tests.unit.body.synthetic_model import bar_model
@@ -31,6 +40,11 @@ def ball():
 
 def decoded(content):
     return cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_UNCHANGED)
+
+
+def outlined(picture, vertices, triangles):
+    topology = mesh_topology(triangles, vertex_count=len(vertices))
+    return overlay_picture(picture, vertices, triangles, topology, CAMERA)
 
 
 def hue_of(levels, colour):
@@ -59,6 +73,17 @@ def test_a_picture_is_made_smaller_in_linear_light():
     assert set(np.unique(drawn)) == {188}
 
 
+def test_a_picture_that_was_decoded_at_a_part_of_its_size_is_drawn_like_the_whole():
+    camera = replace(CAMERA, width=3999, height=41)
+    whole = np.repeat(np.random.default_rng(1).integers(0, 256, (21, 2000, 3)), 2, axis=1)
+    whole = np.repeat(whole, 2, axis=0)[:41, :3999].astype(np.uint8)
+    size = drawing_camera(camera)
+    assert drawing_pixels(camera) <= 3999 * 41 / 2**2
+    drawn = drawing_picture(whole, camera, size)
+    reduced = drawing_picture(whole[::2, ::2].copy(), camera, size, reduction=2)
+    np.testing.assert_allclose(reduced.astype(int), drawn, atol=1)
+
+
 def test_a_mask_lands_on_the_pixels_it_was_taken_from():
     working = CAMERA.scaled(0.37, width=177, height=148)
     y, x = np.mgrid[: working.height, : working.width]
@@ -83,7 +108,7 @@ def test_the_trimap_has_three_levels():
 def test_the_outline_is_drawn_where_the_body_ends(ball):
     vertices, triangles = ball
     grey = np.full((CAMERA.height, CAMERA.width, 3), 90, dtype=np.uint8)
-    drawn = overlay_picture(grey, vertices, triangles, CAMERA)
+    drawn = outlined(grey, vertices, triangles)
     green = np.argwhere(hue_of(drawn, OUTER_COLOUR))[:, ::-1] + 0.5
     silhouette = render(vertices, triangles, CAMERA).silhouette.astype(np.uint8)
     ((outline,), _) = cv2.findContours(silhouette, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
@@ -102,30 +127,10 @@ def test_a_ball_before_a_ball_has_an_inner_edge_of_another_colour(ball):
     both = np.concatenate([vertices, front])
     together = np.concatenate([triangles, triangles + len(vertices)])
     grey = np.full((CAMERA.height, CAMERA.width, 3), 90, dtype=np.uint8)
-    one = hue_of(overlay_picture(grey, vertices, triangles, CAMERA), INNER_COLOUR)
-    two = hue_of(overlay_picture(grey, both, together, CAMERA), INNER_COLOUR)
+    one = hue_of(outlined(grey, vertices, triangles), INNER_COLOUR)
+    two = hue_of(outlined(grey, both, together), INNER_COLOUR)
     assert one.sum() == 0
     assert two.sum() > 100
-
-
-def test_a_value_on_vertices_is_shown_in_display_levels_on_white(ball):
-    vertices, triangles = ball
-    half = np.full(len(vertices), 0.5)
-    rendering = render(vertices, triangles, finer(CAMERA, SUPERSAMPLING))
-    picture = vertex_value_picture(half, rendering)
-    x, y = CAMERA.project(vertices.mean(axis=0)).astype(int)
-    assert picture[y, x].tolist() == [188, 188, 188]
-    assert picture[5, 5].tolist() == [255, 255, 255]
-    colours = np.tile([0.5, 0.0, 2.0], (len(vertices), 1))
-    assert vertex_value_picture(colours, rendering)[y, x].tolist() == [188, 0, 255]
-
-
-def test_rims_are_anti_aliased(ball):
-    vertices, triangles = ball
-    rendering = render(vertices, triangles, finer(CAMERA, SUPERSAMPLING))
-    picture = vertex_value_picture(np.zeros(len(vertices)), rendering)
-    between = (picture[..., 0] > 0) & (picture[..., 0] < 255)
-    assert between.sum() > 200
 
 
 def test_png_keeps_levels_and_colour_order():
@@ -135,6 +140,30 @@ def test_png_keeps_levels_and_colour_order():
     np.testing.assert_array_equal(decoded(png(levels))[:, :, ::-1], levels)
     np.testing.assert_array_equal(decoded(png(levels[..., 0])), levels[..., 0])
     assert png(levels) == png(levels)
+
+
+def test_linear_light_is_coded_by_the_table_as_by_the_formula():
+    linear = np.linspace(-0.1, 1.1, 400_000).reshape(400, 1000)
+    for values in (linear, linear.astype(np.float32), linear[::2, ::-1]):
+        plain = to_levels(display_from_linear(values.astype(np.float64))).astype(int)
+        difference = np.abs(levels_of_linear(values) - plain)
+        # In single precision some few values lie on the other side of a half.
+        assert difference.max() <= 1
+        assert (difference > 0).mean() < 1e-4
+    assert len(levels_of.signatures) == 1, "what is compiled for one serves all"
+
+
+def test_what_is_no_level_has_the_nearest():
+    levels = levels_of_linear(np.array([-np.inf, -1.0, np.nan, 2.0, np.inf]))
+    assert levels.tolist() == [0, 0, 0, 255, 255]
+
+
+def test_slopes_are_bounded_column_by_column():
+    points = np.random.default_rng(4).uniform(0.5, 2.0, (200, 3)) - [1.0, 1.0, 0.0]
+    flat = points[:, :2] / points[:, 2:]
+    low, high = slope_bounds(points)
+    np.testing.assert_array_equal(low, flat.min(axis=0))
+    np.testing.assert_array_equal(high, flat.max(axis=0))
 
 
 def test_block_means_are_means():

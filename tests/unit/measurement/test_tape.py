@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from fitter.measurement.definitions import Girth, Orientation, Selection
-from fitter.measurement.plane_cut import whole_mesh
+from fitter.measurement.plane_cut import closed_length, restricted, whole_mesh
 from fitter.measurement.tape import (
     back_contour,
     back_contour_m,
@@ -12,6 +12,7 @@ from fitter.measurement.tape import (
     path_length_m,
 )
 from tests.unit.measurement.made_up import about
+from tests.unit.measurement.plain_tape import plain_tape
 from tests.unit.measurement.solids import lathe, prism, tube
 
 BOTTOM, TOP = np.zeros(3), np.array([0.0, 1.0, 0.0])
@@ -98,7 +99,7 @@ def test_the_back_tape_spans_a_hollow_back_and_ignores_the_belly():
     across, triangles = prism(side_view, heights=[-0.2, 0.2])
     vertices = np.stack([across[:, 1], across[:, 2], across[:, 0]], axis=1)
     top, bottom = np.array([0.0, 0.9, 0.0]), np.array([0.0, 0.2, 0.5])
-    measured = back_contour_m(whole_mesh(triangles), vertices, top, bottom)
+    measured = back_contour_m(back_contour(whole_mesh(triangles), vertices, top, bottom))
     # On the notch's flanks the back lies at z = -0.06 at the bottom and -0.08 at the top.
     assert measured == pytest.approx(np.hypot(0.7, 0.02), abs=1e-12)
 
@@ -107,7 +108,7 @@ def test_the_back_tape_follows_a_round_back():
     y = np.linspace(-0.299, 0.299, 400)
     vertices, triangles = lathe(np.sqrt(0.3**2 - y**2), y)
     top, bottom = np.array([0.0, 0.15, -0.2]), np.array([0.0, -0.15, 0.2])
-    measured = back_contour_m(whole_mesh(triangles), vertices, top, bottom)
+    measured = back_contour_m(back_contour(whole_mesh(triangles), vertices, top, bottom))
     assert measured == pytest.approx(0.3 * 2 * np.arcsin(0.5), rel=1e-3)
 
 
@@ -127,5 +128,32 @@ def test_a_tape_that_meets_nothing_has_no_line():
     region = whole_mesh(triangles)
     assert girth_tape(girth(), region, vertices, BOTTOM, TOP, 3.0) is None
     aside = np.array([5.0, 0.9, 0.0])
-    assert len(back_contour(region, vertices, aside, aside - [0.0, 0.5, 0.0])) == 0
-    assert np.isnan(back_contour_m(region, vertices, aside, aside - [0.0, 0.5, 0.0]))
+    missed = back_contour(region, vertices, aside, aside - [0.0, 0.5, 0.0])
+    assert len(missed.points) == 0
+    assert np.isnan(back_contour_m(missed))
+
+
+@pytest.mark.parametrize("around_axis", [False, True])
+@pytest.mark.parametrize("across", [False, True])
+def test_a_compiled_tape_is_the_one_of_single_steps(around_axis, across):
+    """On two bodies side by side, cut by a border that leaves scraps: every branch is taken."""
+    vertices, triangles = vase()
+    vertices = np.concatenate([vertices, vertices * [0.4, 1.0, 0.4] + [0.6, 0.0, 0.0]])
+    triangles = np.concatenate([triangles, triangles + len(vertices) // 2])
+    rng = np.random.default_rng(2)
+    for shift in (-5.0, 0.0, 0.1, 0.3):
+        shares = np.clip(0.5 + shift - 2.0 * np.cos(9.0 * vertices[:, 0]), 0.0, 1.0)
+        region = restricted(whole_mesh(triangles), shares if shift > -5.0 else np.ones_like(shares))
+        definition = girth(around_axis=around_axis, across=across)
+        end = TOP + [0.05, 0.0, 0.02]
+        for fraction in rng.uniform(0.05, 0.95, size=12):
+            plain = plain_tape(definition, region, vertices, BOTTOM, end, fraction)
+            tape = girth_tape(definition, region, vertices, BOTTOM, end, fraction)
+            assert (plain is None) == (tape is None)
+            if plain is not None and tape is not None:
+                # Corners in a line may be left out or not, by rounding.
+                assert closed_length(tape.points) == pytest.approx(
+                    closed_length(plain.points), rel=1e-12
+                )
+                length = girth_at_m(definition, region, vertices, BOTTOM, end, fraction)
+                assert length == pytest.approx(closed_length(plain.points), rel=1e-12)

@@ -20,10 +20,13 @@ from fitter.measurement.anthropometry import (
 from fitter.measurement.definitions import BackContour, Contour, Girth, Height
 from fitter.measurement.mesh_measurement import in_body_frame, mesh_measurement_values
 from fitter.measurement.plane_cut import Plane, closed_length, hull_of, in_plane, plane_section
+from fitter.measurement.taking import girth_axis, girths_of
+from fitter.measurement.tape import girth_at_m, girth_tape
 from fitter.population.body_estimate import estimate_body
 from fitter.population.measured_population import measured_population
 from fitter.request import KnownMeasurement
 from fitter.training.surveys.survey_moments import load_moments, packaged_moments_path
+from tests.unit.measurement.plain_tape import plain_tape
 
 GENDERS = ("female", "male")
 
@@ -149,6 +152,21 @@ def test_tapes_touch_the_skin_wherever_they_bend(trained, some_shape):
                 continue
             distances, _ = skin.query(touches)
             assert distances.max() < LONGEST_EDGE_M, definition.about.name
+
+
+def test_compiled_girths_are_those_of_single_steps(trained, some_shape):
+    _, _, body = trained
+    vertices = body.canonical.at(some_shape)
+    points = dict(zip(body.points.names, body.canonical_points.at(some_shape), strict=True))
+    for name, definition in girths_of(body.definitions).items():
+        axis = girth_axis(definition, points)
+        for fraction in np.linspace(*definition.fractions, 5):
+            cut = (definition, body.regions[name], vertices, *axis, fraction)
+            plain, tape = plain_tape(*cut), girth_tape(*cut)
+            assert plain is not None
+            assert tape is not None
+            np.testing.assert_array_equal(tape.edges, plain.edges)
+            assert girth_at_m(*cut) == pytest.approx(closed_length(plain.points), rel=1e-12)
 
 
 def test_a_heavier_body_is_thicker_everywhere_around_the_trunk(trained, mean_shape):

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from fitter.numerics.meshes import enclosed_volume, triangle_neighbours
+from fitter.numerics.meshes import enclosed_volume, triangle_neighbours, volume_gradient
 from tests.unit.measurement.solids import prism, sphere
 
 SQUARE = [(0, 0), (0, 1), (1, 1), (1, 0)]
@@ -25,6 +25,14 @@ def test_volume_does_not_depend_on_where_the_body_stands_or_turns():
     volume = enclosed_volume(vertices, triangles)
     assert volume == pytest.approx(4 / 3 * np.pi * 0.4**3, rel=2e-4)
     assert enclosed_volume(moved, triangles) == pytest.approx(volume, rel=1e-12)
+
+
+def test_the_gradient_of_a_volume_is_that_of_finite_differences():
+    vertices, triangles = prism(SQUARE, heights=[0.0, 0.5, 2.0])
+    change = np.random.default_rng(1).normal(size=vertices.shape)
+    ahead, behind = (enclosed_volume(vertices + step * change, triangles) for step in (1e-4, -1e-4))
+    slope = float((volume_gradient(vertices, triangles) * change).sum())
+    assert slope == pytest.approx((ahead - behind) / 2e-4, rel=1e-7)
 
 
 def test_neighbours_share_the_edge_they_are_listed_for():

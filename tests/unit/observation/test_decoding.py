@@ -13,7 +13,7 @@ from PIL import ImageCms
 
 from fitter.errors import InvalidInputError
 from fitter.observation.colour import display_from_linear
-from fitter.observation.decoding import decode_coverage, decode_picture
+from fitter.observation.decoding import DecodedPicture, decode_coverage, decode_picture
 from tests.unit.observation.pictures import HEIGHT, WIDTH, encode, noise, smooth
 
 RGB = PillowImage.fromarray(noise())
@@ -231,3 +231,54 @@ def test_decoding_leaves_pillows_own_limit_alone():
     decode(encode(RGB))
     assert before == PillowImage.MAX_IMAGE_PIXELS
     PillowImage.open(io.BytesIO(encode(RGB))).verify()
+
+
+LARGE = PillowImage.fromarray(smooth()).resize((1001, 1335), PillowImage.Resampling.BICUBIC)
+
+
+def reduced(data: bytes, share: float) -> DecodedPicture:
+    """Decoded so that a share of the pixels of the large picture is kept."""
+    enough = share * LARGE.width * LARGE.height
+    return decode_picture(data, field="image", max_pixels=10**7, enough_pixels=enough)
+
+
+@pytest.mark.parametrize(
+    ("share", "reduction"),
+    [(1.1, 1), (1.0, 1), (0.26, 1), (0.25, 2), (0.07, 2), (0.0625, 4), (0.015, 8), (0.0, 8)],
+)
+def test_a_jpeg_is_decoded_no_larger_than_needed(share: float, reduction: int):
+    picture = reduced(encode(LARGE, "JPEG"), share)
+    assert picture.reduction == reduction
+    assert picture.pixels.shape == (-(-1335 // reduction), -(-1001 // reduction), 3)
+
+
+@pytest.mark.parametrize("mode", ["RGB", "L", "CMYK"])
+def test_a_reduced_jpeg_shows_the_means_of_its_pixels(mode: str):
+    data = encode(LARGE.convert(mode), "JPEG", quality=95)
+    whole = decode_picture(data, field="image", max_pixels=10**7).pixels
+    picture = reduced(data, 0.2)
+    assert picture.reduction == 2
+    blocks = whole[:1334, :1000].reshape(667, 2, 500, 2, 3).mean(axis=(1, 3))
+    np.testing.assert_allclose(picture.pixels[:667, :500], blocks, atol=3.0)
+
+
+def test_a_reduced_jpeg_is_upright_and_knows_its_width():
+    exif = PillowImage.Exif()
+    exif[0x0112] = 6
+    picture = reduced(encode(LARGE, "JPEG", exif=exif), 0.2)
+    assert picture.pixels.shape == (501, 668, 3)
+    assert picture.stored_width == LARGE.width
+
+
+@pytest.mark.parametrize("kind", ["PNG", "WEBP"])
+def test_other_kinds_are_decoded_whole(kind: str):
+    picture = reduced(encode(LARGE, kind), 0.0)
+    assert picture.reduction == 1
+    assert picture.pixels.shape == (1335, 1001, 3)
+
+
+def test_a_jpeg_that_breaks_off_is_refused_at_any_size():
+    data = encode(LARGE, "JPEG")
+    with pytest.raises(InvalidInputError) as caught:
+        reduced(data[: len(data) // 2], 0.0)
+    assert caught.value.code == "image-damaged"

@@ -73,6 +73,24 @@ def test_whole_factors_average_whole_blocks_of_light(factor: int):
     )
 
 
+def overlaps(pixels: int, size: int, factor: float) -> np.ndarray:
+    """(size, pixels) share of each pixel in each of the spans of ``factor`` pixels."""
+    starts, each = np.arange(size)[:, None] * factor, np.arange(pixels)[None, :]
+    return np.clip(np.minimum(starts + factor, each + 1) - np.maximum(starts, each), 0.0, None)
+
+
+@pytest.mark.parametrize("factor", [1.0, 1.25, 1.618, 2.7386, 7.3])
+def test_averages_are_sums_by_area(factor: float):
+    pixels = noise()
+    size = WorkingSize(width=int(WIDTH / factor), height=int(HEIGHT / factor), scale=1 / factor)
+    across, down = overlaps(WIDTH, size.width, factor), overlaps(HEIGHT, size.height, factor)
+    light = np.einsum("iy,jx,yxc->ijc", down, across, linear_from_display(pixels / 255))
+    np.testing.assert_allclose(linear_working_picture(pixels, size), light / factor**2, atol=1e-6)
+    coverage = pixels[:, :, 0].copy()
+    shares = down @ (coverage / 255) @ across.T
+    np.testing.assert_allclose(working_coverage(coverage, size), shares / factor**2, atol=1e-6)
+
+
 def test_any_factor_keeps_the_mean_light_of_the_area_it_covers():
     ramp = np.repeat(np.arange(200, dtype=np.uint8)[None, :], 150, axis=0)[:, :, None]
     size = WorkingSize(width=123, height=92, scale=0.617)

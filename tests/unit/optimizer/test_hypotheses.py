@@ -16,14 +16,20 @@ def numbers_for_bodies(monkeypatch):
 class Bowl:
     """An energy with its least value at 0; ``evaluate`` gives what a search would end with."""
 
-    def evaluate(self, where: float) -> SimpleNamespace:
+    def evaluate(self, body: float | SimpleNamespace) -> SimpleNamespace:
+        where = place(body)
         return SimpleNamespace(parameters=where, total=where**2)
 
 
+def place(body: float | SimpleNamespace) -> float:
+    """Of a start, or of what a search ended with."""
+    return body if isinstance(body, float) else body.parameters
+
+
 def nearer(factor: float, visited: list[float]):
-    def search(objective: Bowl, start: float) -> SimpleNamespace:
-        visited.append(start)
-        return SimpleNamespace(candidate=objective.evaluate(factor * start), evaluations=3)
+    def search(objective: Bowl, start: float | SimpleNamespace) -> SimpleNamespace:
+        visited.append(place(start))
+        return SimpleNamespace(candidate=objective.evaluate(factor * place(start)), evaluations=3)
 
     return search
 
@@ -37,18 +43,42 @@ def test_only_the_best_ends_are_searched_on_and_the_best_of_those_wins():
         [8.0, 2.0, 4.0, 16.0],
         trial=nearer(0.5, first),
         contenders=2,
+        hopeless_nats=100.0,
         contest=nearer(0.25, second),
     )
     assert first == [8.0, 2.0, 4.0, 16.0]
     assert second == [1.0, 2.0]
     assert [end.parameters for end in tried.ends] == [4.0, 0.25, 0.5, 8.0]
     assert tried.best == 1
+    assert tried.winner.parameters == 0.25
     assert tried.evaluations == 3 * 4 + 3 * 2 + 4
 
 
 def test_one_start_alone_is_the_best():
     tried = try_hypotheses(
-        Bowl(), Bowl(), [3.0], trial=nearer(0.5, []), contenders=2, contest=nearer(0.5, [])
+        Bowl(),
+        Bowl(),
+        [3.0],
+        trial=nearer(0.5, []),
+        contenders=2,
+        hopeless_nats=1.0,
+        contest=nearer(0.5, []),
     )
     assert tried.best == 0
     assert tried.ends[0].parameters == 0.75
+
+
+def test_what_ends_far_above_the_best_is_not_searched_on():
+    second: list[float] = []
+    tried = try_hypotheses(
+        Bowl(),
+        Bowl(),
+        [8.0, 2.0],
+        trial=nearer(0.5, []),
+        contenders=2,
+        hopeless_nats=10.0,
+        contest=nearer(0.5, second),
+    )
+    assert second == [1.0]
+    assert [end.parameters for end in tried.ends] == [4.0, 0.5]
+    assert tried.best == 1

@@ -1,11 +1,13 @@
 """Known bodies rendered, perturbed and fitted back."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
 from fitter.energies.priors import POPULATION_PRECISION
 from fitter.energies.shading import usable_vertices
-from fitter.optimizer.alternation import fit_shading
+from fitter.optimizer.alternation import ROUNDS, fit_shading
 from fitter.optimizer.gauss_newton import Minimum, minimize_gauss_newton
 from fitter.optimizer.light_solve import guessed_lights
 from fitter.optimizer.normal_equations import normal_equations
@@ -111,9 +113,7 @@ def test_shading_finds_the_light_and_betters_the_body(scene, silhouette_fit):
         silhouette_fit.candidate,
         scene.intensity,
         guessed_lights(LightGuess()),
-        search=lambda objective, parameters: minimize_gauss_newton(
-            objective, parameters, max_evaluations=20, on_energies=ignore
-        ),
+        searches=[partial(minimize_gauss_newton, max_evaluations=20, on_energies=ignore)] * ROUNDS,
     )
     assert shaded is not None
     cosine = direction_to_light(shaded.light) @ direction_to_light(LIGHT)

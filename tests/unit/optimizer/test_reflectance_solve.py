@@ -8,6 +8,7 @@ import pytest
 import trimesh
 
 from fitter.numerics.mesh_topology import mesh_topology
+from fitter.optimizer.pair_factor import elimination_order
 from fitter.optimizer.reflectance_solve import (
     ReflectanceFields,
     ReflectanceProblem,
@@ -53,9 +54,14 @@ def scene() -> tuple[ReflectanceProblem, ReflectanceFields, ReflectanceFields]:
     return problem, truth, start
 
 
+def solver_of(problem):
+    order = elimination_order(problem.edges, len(problem.diffuse))
+    return ReflectanceSolver(problem.edges, order)
+
+
 def test_piecewise_constant_albedo_is_recovered_with_its_step(scene):
     problem, truth, start = scene
-    solver = ReflectanceSolver(problem.edges, len(problem.diffuse))
+    solver = solver_of(problem)
     found = solver.solve(problem, start, iterations=40)
     lit = (problem.weights > 0) & (problem.diffuse > 0.3)
     error = np.abs(found.albedo - truth.albedo)[lit]
@@ -65,7 +71,7 @@ def test_piecewise_constant_albedo_is_recovered_with_its_step(scene):
 
 def test_the_energy_never_rises(scene):
     problem, _, start = scene
-    solver = ReflectanceSolver(problem.edges, len(problem.diffuse))
+    solver = solver_of(problem)
     energies = [reflectance_energy(problem, start)]
     energies += [
         reflectance_energy(problem, solver.solve(problem, start, iterations=iterations))
@@ -77,7 +83,7 @@ def test_the_energy_never_rises(scene):
 
 def test_unseen_vertices_take_their_reflectance_from_their_neighbours(scene):
     problem, truth, start = scene
-    solver = ReflectanceSolver(problem.edges, len(problem.diffuse))
+    solver = solver_of(problem)
     uniform = replace(
         problem,
         intensity=truth.ambient + 0.5 * problem.diffuse + 0.1 * problem.specular,
@@ -89,7 +95,7 @@ def test_unseen_vertices_take_their_reflectance_from_their_neighbours(scene):
 
 def test_a_negative_reflectance_is_never_returned(scene):
     problem, _, start = scene
-    solver = ReflectanceSolver(problem.edges, len(problem.diffuse))
+    solver = solver_of(problem)
     found = solver.solve(replace(problem, intensity=0.0 * problem.intensity), start, iterations=10)
     assert found.albedo.min() >= 0.0
     assert found.specularity.min() >= 0.0
@@ -98,6 +104,6 @@ def test_a_negative_reflectance_is_never_returned(scene):
 
 def test_ambient_light_never_exceeds_its_limit(scene):
     problem, _, start = scene
-    solver = ReflectanceSolver(problem.edges, len(problem.diffuse))
+    solver = solver_of(problem)
     found = solver.solve(replace(problem, ambient_limit=0.02), start, iterations=20)
     assert found.ambient <= 0.02

@@ -79,8 +79,8 @@ def test_lines_are_laid_out_about_the_body_each_search_starts_from(misled):
 
     start = misled.minimum.candidate.parameters
     minimum = renewing_lines([looking, looking], misled.display)(objective, start)
-    assert seen[0][1] is start
-    assert seen[1][1] is not start
+    assert seen[0][1].parameters is start
+    assert seen[1][1].parameters is not start
     assert minimum.evaluations > 2
     for lines, body in seen:
         projected = objective.evaluate(body).rendering.projected

@@ -5,20 +5,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitter.energies.objective import Objective
+from fitter.energies.objective import Body, Objective
 from fitter.energies.shading import explained_vertices, seen_vertices, usable_vertices
 from fitter.evidence.intensity import IntensityMap
-from fitter.optimizer.alternation import ShadedFit, fit_shading
+from fitter.optimizer.alternation import ROUNDS, ShadedFit, fit_shading
 from fitter.optimizer.gauss_newton import Minimum, minimize_gauss_newton
 from fitter.optimizer.light_solve import (
-    LightEstimate,
-    LitSurface,
     estimate_light,
     guessed_lights,
     surroundings_prior,
 )
 from fitter.optimizer.light_step import first_state, with_explained_shadows, with_new_shadows
-from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
+from fitter.optimizer.lit_surface import LightEstimate, LitSurface
+from fitter.parameters import Light, LightKind, Reflectance
 from fitter.render.light import direction_to_light
 from fitter.render.reflectance import shade
 from fitter.render.shadow import cast_shadow, lamp_seen
@@ -122,7 +121,7 @@ def shaded(scene) -> ShadedFit:
         scene.objective.evaluate(scene.truth),
         scene.intensity,
         guessed_lights(LightGuess()),
-        search=search,
+        searches=[search] * ROUNDS,
         surroundings=SurroundingsKind.SPHERICAL_HARMONICS,
     )
     assert found is not None
@@ -193,9 +192,12 @@ def test_surroundings_leave_equation_1_as_it_was():
         plain.objective.evaluate(plain.truth),
         plain.intensity,
         guessed_lights(LightGuess()),
-        search=lambda objective, parameters: minimize_gauss_newton(
-            objective, parameters, max_evaluations=2, on_energies=lambda _: None
-        ),
+        searches=[
+            lambda objective, parameters: minimize_gauss_newton(
+                objective, parameters, max_evaluations=2, on_energies=lambda _: None
+            )
+        ]
+        * ROUNDS,
     )
     assert found is not None
     assert found.light.surroundings is None
@@ -206,9 +208,9 @@ def test_surroundings_leave_equation_1_as_it_was():
     )
 
 
-def as_it_is(objective: Objective, parameters: BodyParameters) -> Minimum:
+def as_it_is(objective: Objective, body: Body) -> Minimum:
     """A search that finds nothing better."""
-    return Minimum(candidate=objective.evaluate(parameters), converged=True, evaluations=1)
+    return Minimum(candidate=objective.evaluate(body), converged=True, evaluations=1)
 
 
 def seeing_only(scene: RenderedScene, chosen: np.ndarray) -> IntensityMap:
@@ -238,7 +240,12 @@ def test_a_light_whose_shadows_hide_all_there_is_to_see_is_not_believed():
     assert explained_vertices(candidate.rendering, kept).any()
     for kind in SurroundingsKind:
         found = fit_shading(
-            dark.objective, candidate, intensity, (high,), search=as_it_is, surroundings=kind
+            dark.objective,
+            candidate,
+            intensity,
+            (high,),
+            searches=[as_it_is] * ROUNDS,
+            surroundings=kind,
         )
         assert found is None or np.isfinite(found.reflectance.albedo).all()
 
@@ -256,7 +263,7 @@ def test_half_a_face_does_not_tell_surroundings_from_the_lamp():
         candidate,
         intensity,
         guessed_lights(LightGuess()),
-        search=as_it_is,
+        searches=[as_it_is] * ROUNDS,
         surroundings=SurroundingsKind.SPHERICAL_HARMONICS,
     )
     assert found is not None

@@ -38,3 +38,28 @@ test("a kind this page does not know yet has a name all the same", () => {
   assert.equal(kindOf("hologram"), null);
   assert.equal(kindLabel("hologram"), "Hologram");
 });
+
+test("a typed size chart is sent as a table, without what was left empty", () => {
+  assert.match(KINDS.size.lacks!(FIRST_WISHES)!, /chart/);
+  const { columns } = FIRST_WISHES.chart;
+  const sizes = [
+    { label: "S, petite", cells: ["80-84", "", "88,5 – 92"] },
+    { label: "M", cells: [" ", "", ""] },
+    { label: "L", cells: ["88-92", "", ""] },
+  ];
+  const typed = { ...FIRST_WISHES, chart: { columns, sizes } };
+  assert.equal(KINDS.size.lacks!(typed), null);
+  assert.deepEqual(KINDS.size.request(typed), {
+    kind: "size",
+    chart_csv: 'size,chest_girth,hip_girth\n"S, petite",80-84,88.5 – 92\nL,88-92,\n',
+  });
+  assert.equal(KINDS.size.part!(typed), null);
+});
+
+test("a size chart in a file goes before what was typed", () => {
+  const file = new File(["size,chest_girth\nM,94\n"], "shirts.csv");
+  const chosen = { ...FIRST_WISHES, chartFile: file };
+  assert.equal(KINDS.size.lacks!(chosen), null);
+  assert.deepEqual(KINDS.size.request(chosen), { kind: "size" });
+  assert.deepEqual(KINDS.size.part!(chosen), { name: "chart", file });
+});

@@ -34,13 +34,36 @@ test("nobody's height and words are told apart", () => {
   assert.notEqual(weightFault({ ...NOBODY, weight: "-3" }), null);
 });
 
-test("changing units keeps the person, to a quarter of an inch and a tenth of a kilogram", () => {
+test("changing units keeps the person, to a millimetre and a tenth of a kilogram", () => {
   const metric = { ...NOBODY, height: "183.5", weight: "82.4" };
   const imperial = inUnits(metric, "imperial");
   assert.equal(imperial.height, "6");
-  assert.ok(Math.abs(heightM(imperial)! - 1.835) < 0.0032);
+  assert.ok(Math.abs(heightM(imperial)! - 1.835) < 0.001);
   assert.ok(Math.abs(weightKg(inUnits(imperial, "metric"))! - 82.4) < 0.06);
   assert.deepEqual(inUnits(metric, "metric"), metric);
+});
+
+test("there and back every height is the same tenth of a centimetre", () => {
+  for (let mm = 1200; mm <= 2300; mm++) {
+    const height = String(mm / 10);
+    assert.equal(inUnits(inUnits({ ...NOBODY, height }, "imperial"), "metric").height, height);
+  }
+});
+
+test("whole inches stay whole", () => {
+  const imperial = { ...NOBODY, units: "imperial" as const, height: "5", inches: "11" };
+  assert.deepEqual(inUnits(inUnits(imperial, "metric"), "imperial"), imperial);
+});
+
+test("feet and inches are understood as people write them", () => {
+  const typed = (height: string, inches = "") => heightM({ ...NOBODY, units: "imperial", height, inches });
+  const same: readonly (readonly [string, string?])[] = [
+    ["5", "11.7"], ["5 ft 11.7 in"], ["5'11.7"], ["5’ 11,7”"], ["5'11.7\""], ["71.7"], ["", "71.7"], ["71.7 in"], ["5ft", "11.7"], ["5 Fuß 11,7 Zoll"],
+  ];
+  for (const [height, inches] of same) close(typed(height, inches), 71.7 * 0.0254);
+  close(typed("5'"), 60 * 0.0254);
+  close(typed("5.5"), 66 * 0.0254);
+  for (const [height, inches] of [["5'11", "3"], ["tall"], ["5'x"]] as const) assert.ok(Number.isNaN(typed(height, inches)), height);
 });
 
 test("what a tape says is trusted to a centimetre, in either unit, and survives the wire", () => {

@@ -1,5 +1,7 @@
 import numpy as np
+from scipy.special import logsumexp
 
+from fitter.segmentation._mixture_kernels import likeliest_components
 from fitter.segmentation.colour_mixture import (
     ROUNDING_VARIANCE,
     ColourMixture,
@@ -76,3 +78,19 @@ def test_one_colour_is_one_component():
     assert len(mixture.weights) == 1
     assert np.isfinite(mixture.costs(grey)).all()
     np.testing.assert_allclose(mixture.covariances[0], ROUNDING_VARIANCE * np.eye(3), atol=1e-9)
+
+
+def test_compiled_costs_and_choices_are_those_of_whole_arrays():
+    rng = np.random.default_rng(8)
+    colours = rng.uniform(0.0, 255.0, (700, 3)).astype(np.float32)
+    mixture = first_mixture(colours)
+    factors = np.linalg.cholesky(np.linalg.inv(mixture.covariances)).swapaxes(1, 2)
+    offsets = -np.log(mixture.weights) + 0.5 * np.linalg.slogdet(mixture.covariances)[1]
+    away = np.einsum("kij,skj->ski", factors, colours[:, None] - mixture.means)
+    costs = offsets + 0.5 * (away**2).sum(axis=2)
+    expected = -logsumexp(-costs, axis=1)
+    np.testing.assert_allclose(mixture.costs(colours), expected, atol=2e-4)
+    rows = np.column_stack([offsets, mixture.means, factors[:, *np.triu_indices(3)]])
+    chosen = likeliest_components(colours, rows.astype(np.float32))
+    sure = np.diff(np.sort(costs, axis=1)[:, :2], axis=1)[:, 0] > 1e-2
+    np.testing.assert_array_equal(chosen[sure], costs.argmin(axis=1)[sure])

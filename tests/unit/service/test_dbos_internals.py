@@ -7,6 +7,7 @@ import importlib
 import importlib.metadata
 import inspect
 import re
+import time
 import tomllib
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,6 +15,9 @@ from typing import Any
 
 import pytest
 from packaging.requirements import Requirement
+from sqlalchemy.exc import DBAPIError
+
+from service.engine.dbos_internals import LONGEST_PAUSE_S, shorten_pauses
 
 REPOSITORY = Path(__file__).parents[3]
 ADAPTER = REPOSITORY / "service/engine/dbos_internals.py"
@@ -47,6 +51,8 @@ READS_FIRST = (
 PUTS_BACK = "only what stands as PENDING by one of the dead is put back, with its count"
 STOPS = "`background_thread_stop_events` holds the event that ends the queues' threads"
 
+REPEATS = "it still sleeps by the module's `time` between two attempts"
+
 # Of each function that was read: the digest of its source, and what is relied on.
 READ = [
     ("_queue:queue_worker_thread", "c0b22c3a946ff0c7", READS_FIRST),
@@ -57,6 +63,7 @@ READ = [
     ("_recovery:recover_pending_workflows", "9f2a97ad0756a741", PUTS_BACK),
     ("_recovery:_recover_workflow", "ebfc6ed4df454172", PUTS_BACK),
     ("_sys_db:SystemDatabase.reenqueue_for_recovery", "ac0bc1c45d8c36e4", PUTS_BACK),
+    ("_sys_db:db_retry", "c548d54a31c8ccbd", REPEATS),
     ("_dbos:DBOS._destroy", "09e06f5ebe7bcf77", STOPS),
     ("_dbos:DBOS._launch", "581c866e5a6f1846", STOPS),
 ]
@@ -114,6 +121,29 @@ def test_what_is_replaced_is_where_it_was():
     assert "background_thread_stop_events" in dbos.__init__.__code__.co_names, LOOK_AT.format(
         what="DBOS.__init__", relied_on=STOPS
     )
+
+
+def test_what_fails_for_want_of_the_database_is_repeated_after_short_pauses(
+    monkeypatch: pytest.MonkeyPatch,
+):
+    system_database = importlib.import_module("dbos._sys_db")
+    # To be put back afterwards.
+    monkeypatch.setattr(system_database, "time", time)
+    slept: list[float] = []
+    monkeypatch.setattr(time, "sleep", slept.append)
+    shorten_pauses()
+
+    lost = DBAPIError("UPDATE", {}, Exception(), connection_invalidated=True)
+
+    @system_database.db_retry()
+    def write() -> str:
+        if len(slept) < 8:
+            raise lost
+        return "written"
+
+    assert write() == "written"
+    assert len(slept) == 8
+    assert max(slept) == LONGEST_PAUSE_S
 
 
 @pytest.mark.parametrize("path", ["_gone:DBOS", "_dbos:DBOS._gone"])

@@ -73,6 +73,15 @@ def test_a_caricature_says_what_was_exaggerated():
     assert glb.document["asset"]["extras"]["factor"] == 1.5
 
 
+def test_a_caricature_of_looks_exaggerates_every_coefficient():
+    fitted = derived(kind="caricature", exaggerated="looks", factor=1.0).result.model_dump()
+    looks = derived(kind="caricature", exaggerated="looks", factor=1.5)
+    result = looks.result.model_dump()
+    assert result["shape"][1:] == pytest.approx([1.5 * value for value in fitted["shape"][1:]])
+    extras = read_glb(looks.artifacts["body_caricature.glb"]).document["asset"]["extras"]
+    assert extras["exaggerated"] == "looks"
+
+
 def test_a_named_pose_departs_where_it_is_told_to():
     standing = derived(kind="pose", pose="standing").result.model_dump()["pose"]
     turned = derived(kind="pose", pose="standing", rotations={"head": [0.0, 0.3, 0.0]})

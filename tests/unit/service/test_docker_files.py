@@ -4,11 +4,13 @@ import re
 import subprocess
 import sys
 import tomllib
+from importlib import metadata
 from pathlib import Path
 from typing import Any
 
 import pytest
 import yaml
+from packaging.requirements import Requirement
 
 from service.cli import _parser
 from service.setting_types import DETECTOR_FILES
@@ -18,7 +20,11 @@ REPOSITORY = Path(__file__).parents[3]
 DOCKER = REPOSITORY / "docker"
 OURS = ("api", "worker", "prepare")
 RUNNING = ("api", "worker", "database", "storage")
-SECRETS = {"POSTGRES_PASSWORD": "a-password", "STORAGE_SECRET_KEY": "a-secret-key"}
+SECRETS = {
+    "POSTGRES_PASSWORD": "a-password",
+    "DATABASE_PASSWORD": "another-password",
+    "STORAGE_SECRET_KEY": "a-secret-key",
+}
 
 
 def instructions() -> list[tuple[str, str]]:
@@ -44,7 +50,8 @@ def compose() -> dict[str, Any]:
     text = (DOCKER / "compose.yaml").read_text()
     asked = set(re.findall(r"\$\{(\w+):\?", text))
     assert asked == set(SECRETS)
-    return yaml.safe_load(re.sub(r"\$\{(\w+):\?[^}]*\}", lambda found: SECRETS[found[1]], text))
+    text = re.sub(r"\$\{(\w+):\?[^}]*\}", lambda found: SECRETS[found[1]], text)
+    return yaml.safe_load(re.sub(r"\$\{\w+:-([^}]*)\}", r"\1", text))
 
 
 SERVICES = compose()["services"]
@@ -135,22 +142,35 @@ def test_every_service_that_stays_is_asked_for_its_health_and_what_it_needs_come
 def test_only_the_api_is_published_and_only_on_this_host():
     published = {name: service["ports"] for name, service in SERVICES.items() if "ports" in service}
     assert published == {"api": ["127.0.0.1:8000:8000"]}
-    assert compose()["networks"]["inside"]["internal"] is True
-    assert all(SERVICES[name]["networks"] == ["inside"] for name in ("database", "storage"))
+    assert compose()["networks"] == {"inside": {"internal": True}, "outside": None}
+
+
+def test_only_the_api_which_sends_notices_has_a_way_out():
+    with_a_way_out = {name for name, each in SERVICES.items() if each["networks"] != ["inside"]}
+    assert with_a_way_out == {"api"}
+    assert SERVICES["api"]["networks"] == ["inside", "outside"]
 
 
 def test_secrets_come_from_outside_and_both_ends_are_told_the_same():
     api, database, storage = (SERVICES[name]["environment"] for name in ("api", *RUNNING[2:]))
-    assert api["PGPASSWORD"] == database["POSTGRES_PASSWORD"] == SECRETS["POSTGRES_PASSWORD"]
+    assert api["PGPASSWORD"] == database["ROLE_PASSWORD"] == SECRETS["DATABASE_PASSWORD"]
+    assert database["POSTGRES_PASSWORD"] == SECRETS["POSTGRES_PASSWORD"]
+    assert SECRETS["POSTGRES_PASSWORD"] not in api.values()
     assert api["AWS_ACCESS_KEY_ID"] == storage["ROOT_ACCESS_KEY_ID"]
     assert (
         api["AWS_SECRET_ACCESS_KEY"]
         == storage["ROOT_SECRET_ACCESS_KEY"]
         == SECRETS["STORAGE_SECRET_KEY"]
     )
-    assert api["MAQUETTE_DATABASE_URL"] == (
-        f"postgresql://{database['POSTGRES_USER']}@database/{database['POSTGRES_DB']}"
-    )
+    assert api["MAQUETTE_DATABASE_URL"] == "postgresql://maquette@database/maquette"
+
+
+def test_the_script_that_makes_the_database_s_role_is_put_where_postgres_looks():
+    (mounted,) = SERVICES["database"]["configs"]
+    assert mounted["target"].startswith("/docker-entrypoint-initdb.d/")
+    script = (DOCKER / compose()["configs"][mounted["source"]]["file"]).read_text()
+    told = set(SERVICES["database"]["environment"])
+    assert set(re.findall(r"\$\{?(\w+)", script)) - {"POSTGRES_USER"} <= told
 
 
 def test_a_worker_is_given_longer_than_it_takes_to_stop():
@@ -172,8 +192,10 @@ def test_what_is_copied_exists_and_is_let_through():
         for source in operand.split()[:-1]
         if not source.startswith("--")
     }
-    # Of the page only what is served, not what it is built from.
-    assert copied == let_through - {"service/page/dist"}
+    # Of the page only what is served and which libraries are in it, not what it is built from.
+    of_the_page = {"service/page/dist", "service/page/package-lock.json"}
+    within = {each for each in copied if any(each.startswith(f"{path}/") for path in let_through)}
+    assert copied - within == let_through - of_the_page
     assert all((REPOSITORY / name).exists() for name in let_through)
     packages = tomllib.loads((REPOSITORY / "pyproject.toml").read_text())["tool"]["hatch"]
     assert set(packages["build"]["targets"]["wheel"]["packages"]) <= copied
@@ -183,19 +205,31 @@ def test_the_lock_file_names_versions_and_no_place():
     lock = (REPOSITORY / "requirements.lock").read_text()
     assert "://" not in lock
     lines = [line for line in lock.splitlines() if line and not line.lstrip().startswith("#")]
-    assert all(re.fullmatch(r"[\w.-]+==[\w.]+( ; .+)?", line) for line in lines)
+    packages = [line for line in lines if not line.startswith(" ")]
+    assert all(re.fullmatch(r"[\w.-]+==[\w.]+( ; .+)? \\", line) for line in packages)
 
 
-def runtime_requirements(*extras: str) -> set[str]:
-    """What the image is built with, by name."""
-    project = REPOSITORY / "pyproject.toml"
+@pytest.mark.parametrize("name", ["lock", "detector", "training"])
+def test_every_package_is_pinned_with_the_hashes_of_its_files(name):
+    file = "requirements.lock" if name == "lock" else f"requirements-{name}.txt"
+    text = (REPOSITORY / file).read_text()
+    packages = re.findall(r"^(\S+) \\\n((?:    --hash=sha256:[0-9a-f]{64}(?: \\)?\n)+)", text, re.M)
+    assert [pinned for pinned, _ in packages] == re.findall(r"^[\w.-]+==\S+", text, re.M)
+    assert packages
+
+
+def runtime_requirements(*arguments: str) -> dict[str, str]:
+    """What the image is built with: versions by name."""
     printed = subprocess.run(
-        [sys.executable, DOCKER / "runtime_requirements.py", project, *extras],
+        [
+            *(sys.executable, DOCKER / "runtime_requirements.py"),
+            *(REPOSITORY / "pyproject.toml", REPOSITORY / "requirements.lock", *arguments),
+        ],
         check=True,
         capture_output=True,
         text=True,
-    ).stdout.split()
-    return {re.split(r"[\[<>=]", line)[0] for line in printed}
+    ).stdout
+    return dict(re.findall(r"^([\w.-]+)==(\S+)", printed, re.M))
 
 
 def test_usdz_comes_into_the_image_where_it_is_asked_for():
@@ -204,9 +238,26 @@ def test_usdz_comes_into_the_image_where_it_is_asked_for():
 
 
 def test_the_image_gets_what_the_service_runs_on_and_no_tools():
-    names = runtime_requirements()
-    assert {"dbos", "numba", "boto3", "opentelemetry-sdk"} <= names
+    names = runtime_requirements().keys()
+    assert {"dbos", "numba", "boto3", "opentelemetry-sdk", "pi-heif"} <= names
     assert names.isdisjoint({"pytest", "ruff", "pyright", "moto", "mitsuba"})
+
+
+def test_the_image_gets_all_that_its_packages_say_they_need():
+    printed = runtime_requirements("usdz")
+    for name in printed:
+        for line in metadata.requires(name) or ():
+            requirement = Requirement(line)
+            if requirement.marker is None or requirement.marker.evaluate({"extra": ""}):
+                needed = re.sub(r"[-_.]+", "-", requirement.name).lower()
+                assert needed in printed, f"{name} needs {line}"
+                assert requirement.specifier.contains(printed[needed])
+
+
+def test_a_package_of_the_lock_file_comes_with_what_it_needs():
+    printed = runtime_requirements("--of", "cyclonedx-bom")
+    assert {"cyclonedx-bom", "cyclonedx-python-lib", "jsonschema", "lxml"} <= printed.keys()
+    assert "dbos" not in printed
 
 
 def test_the_entrypoint_links_the_kernels_and_becomes_the_command(tmp_path):

@@ -4,7 +4,7 @@ import io
 from pathlib import Path
 
 import pytest
-from PIL import Image
+from PIL import Image, ImageChops, ImageStat
 
 from api_schemas.bodies import BodyRequest
 from api_schemas.checks import CheckRequest, SeenFrom, Severity
@@ -14,11 +14,12 @@ from api_schemas.proposals import PointsRequest
 from api_schemas.requests import Facing, Gender, Limb
 from api_schemas.views import ViewKind
 from service.demo_data.sample import load_sample
-from service.estimates.answers import body, check, initial_pose, points
+from service.estimates.answers import body, check, initial_pose, jpeg, points
 from service.estimates.messages import BodyTask, CheckTask, InitialPoseTask, PointsTask
 from service.estimates.port import NoDetectorError
 from service.submissions.submission import check_submission
 from service.worker.pipeline_port import UnusableInputError
+from tests.heif_files import SAMPLE_LYING, coded, phone_picture
 
 
 def answer(**known: object):
@@ -114,6 +115,49 @@ def test_points_of_the_sample_are_proposed_with_a_mask_of_its_size():
     for name, point in proposal.points.items():
         assert Point.model_validate_json(point.model_dump_json()).source is PointSource.PROPOSAL
         assert 2.0 < point.expected_error_px < 20.0, name
+
+
+def sample_of_a_phone() -> bytes:
+    """The sample as a phone writes it: lying, with its turn in the container and in EXIF."""
+    return phone_picture(coded(SAMPLE_LYING), orientation=6, quarters=3, focal_length_35mm=50)
+
+
+def test_points_of_a_heic_are_those_of_the_jpeg():
+    found = [
+        points(PointsTask(request=PointsRequest()), image, max_pixels=1_000_000, detector=None)
+        for image in (load_sample().image, sample_of_a_phone())
+    ]
+    jpeg_points, heic_points = (each.proposal.points for each in found)
+    assert len(jpeg_points) >= 16
+    assert jpeg_points.keys() == heic_points.keys()
+    off = [
+        ((jpeg_points[name].x - each.x) ** 2 + (jpeg_points[name].y - each.y) ** 2) ** 0.5
+        for name, each in heic_points.items()
+    ]
+    assert sorted(off)[len(off) // 2] < 4.0
+
+
+def test_a_heic_is_checked_with_the_lens_of_its_exif_block():
+    task = CheckTask(request=CheckRequest(view=ViewKind.FRONT, height_m=1.804))
+    found = check(task, sample_of_a_phone(), max_pixels=1_000_000, detector=None)
+    assert found.distance_m == pytest.approx(
+        checked_sample(view=ViewKind.FRONT, height_m=1.804).distance_m, rel=0.03
+    )
+
+
+def test_a_heic_is_written_as_a_jpeg_that_stands_upright():
+    written = Image.open(io.BytesIO(jpeg(sample_of_a_phone(), max_pixels=1_000_000)))
+    assert (written.format, written.size) == ("JPEG", (720, 960))
+    assert written.getexif().get(0x0112, 1) == 1
+    reference = Image.open(io.BytesIO(load_sample().image)).resize((72, 96)).convert("RGB")
+    small = written.resize((72, 96))
+    assert ImageStat.Stat(ImageChops.difference(small, reference)).mean < [8.0] * 3
+
+
+def test_what_cannot_be_decoded_cannot_be_written_as_a_jpeg():
+    with pytest.raises(UnusableInputError) as caught:
+        jpeg(sample_of_a_phone()[:9_000], max_pixels=1_000_000)
+    assert (caught.value.error.field, caught.value.error.code) == ("image", "image-damaged")
 
 
 def checked_sample(*, detector: Path | None = None, **said: object):

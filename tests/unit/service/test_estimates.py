@@ -67,6 +67,9 @@ class RaisingEstimator:
     def check(self, task: CheckTask, image: bytes) -> CaptureCheck:
         raise self.error
 
+    def jpeg(self, image: bytes) -> bytes:
+        raise AssertionError
+
     def convert(self, task: ConversionTask, glb: bytes) -> bytes:
         raise self.error
 

@@ -18,6 +18,7 @@ from api_schemas.health import Live, Ready
 from api_schemas.images import UploadedImage
 from api_schemas.initial_poses import InitialPose, InitialPoseRequest
 from api_schemas.jobs import Job, JobPage
+from api_schemas.people import PeoplePage
 from api_schemas.problems import Problem, ProblemType
 from api_schemas.proposals import PointsOfImage, PointsProposal
 from api_schemas.requests import FitOfImage, FitOptions
@@ -33,6 +34,7 @@ from api_schemas.scans import (
     ScanPage,
     ScanResult,
 )
+from api_schemas.tokens import NewToken, TokenRequest
 from api_schemas.webhooks import WebhookEvent
 from service.api.operation_examples import (
     ANSWERS,
@@ -63,6 +65,8 @@ KINDS = {
     "submit_scan": Scan,
     "retry_scan": Scan,
     "list_scans": ScanPage,
+    "list_people": PeoplePage,
+    "make_token": NewToken,
     "get_scan": Scan,
     "cancel_scan": Scan,
     "scan_request": ScanOptions,
@@ -118,6 +122,7 @@ def test_examples_of_answers_are_of_their_types(operation):
         ("estimate_body", BodyRequest),
         ("propose_points", PointsOfImage),
         ("check_capture", CheckOfImage),
+        ("make_token", TokenRequest),
     ],
 )
 def test_examples_of_requests_are_of_their_types(operation, kind):

@@ -1,4 +1,4 @@
-"""The fit that a fork server makes before it forks any."""
+"""What a fork server does before it forks: it reads kernels, or makes a fit."""
 
 import json
 import os
@@ -14,7 +14,7 @@ from service.submissions.submission import check_submission
 from service.worker import pipeline, rehearsal
 from service.worker.main import THREAD_LIMITS
 from service.worker.pipeline_port import PipelineInput, PipelineOutput
-from service.worker.rehearsal import rehearse
+from service.worker.rehearsal import make_ready, rehearse
 from tests.submissions import small_submissions
 
 REPOSITORY = Path(__file__).parents[3]
@@ -37,6 +37,20 @@ def fitted() -> PipelineOutput:
     )
 
 
+def told(program: str) -> str:
+    """What a process of its own prints, which warns of nothing."""
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        cwd=REPOSITORY,
+        env=os.environ | dict.fromkeys(THREAD_LIMITS, "1"),
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert "could not be fitted" not in done.stderr
+    return done.stdout
+
+
 def test_later_fits_are_what_they_would_have_been_without_it():
     before = fitted()
     rehearse(None)
@@ -47,20 +61,11 @@ def test_later_fits_are_what_they_would_have_been_without_it():
 
 
 @pytest.mark.slow
-def test_the_fork_server_has_fitted_and_has_no_threads_that_a_fork_would_lose():
+def test_the_fork_server_has_no_threads_that_a_fork_would_lose():
     counted = (
         "import os\nimport service.worker.preload\nprint(len(os.listdir('/proc/self/task')))\n"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", counted],
-        cwd=REPOSITORY,
-        env=os.environ | dict.fromkeys(THREAD_LIMITS, "1"),
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    assert int(done.stdout) == 1
-    assert "could not be fitted" not in done.stderr
+    assert int(told(counted)) == 1
 
 
 def test_a_sample_that_cannot_be_fitted_is_told_and_no_more(monkeypatch, caplog):
@@ -74,3 +79,33 @@ def test_a_sample_that_cannot_be_fitted_is_told_and_no_more(monkeypatch, caplog)
 def test_a_missing_model_is_an_error_of_its_own(tmp_path):
     with pytest.raises(ModelFileError):
         rehearse(tmp_path)
+
+
+def test_a_fit_after_the_kernels_were_read_reads_and_compiles_no_other():
+    program = """
+from fitter.fits.prepared_model import prepared_model
+from fitter.request import Gender
+from numba.core.caching import FunctionCache
+from service.worker.rehearsal import make_ready, rehearse
+for gender in Gender:
+    prepared_model(gender)
+make_ready(None)
+read = []
+load = FunctionCache.load_overload
+FunctionCache.load_overload = lambda cache, *rest: read.append(cache) or load(cache, *rest)
+rehearse(None)
+print(len(read))
+"""
+    rehearse(None)
+    assert int(told(program)) == 0
+
+
+def test_what_is_not_compiled_is_compiled_by_a_fit(monkeypatch):
+    fitted: list[object] = []
+    monkeypatch.setattr(rehearsal, "rehearse", lambda *folders: fitted.append(folders))
+    monkeypatch.setattr(rehearsal, "load_compiled_kernels", lambda: rehearsal.COMPILED)
+    make_ready(None)
+    assert not fitted
+    monkeypatch.setattr(rehearsal, "load_compiled_kernels", lambda: 0.0)
+    make_ready(None)
+    assert fitted == [(None, None)]

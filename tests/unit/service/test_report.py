@@ -8,6 +8,7 @@ from html.parser import HTMLParser
 import pytest
 from PIL import Image
 
+from api_schemas.derivation_kinds.report import Language, ReportOptions
 from api_schemas.scans import ScanResult
 from fitter.measurement.definition_file import load_definitions
 from fitter.measurement.groups import CHIEF
@@ -17,6 +18,8 @@ from service.worker.derived.report.page_html import report_html
 from service.worker.derived.report.page_pdf import report_pdf
 from service.worker.derived.report.pictures import Picture, ReportPictures
 from service.worker.derived.report.scan_content import scan_content
+from service.worker.derived.report.wordings import WORDINGS
+from tests.e2e.service import REPOSITORY
 from tests.unit.service.fit_results import fit_result, measurement
 
 
@@ -64,9 +67,9 @@ def rows(**measurements):
 
 def test_an_interval_is_196_standard_errors_on_either_side_in_the_api_s_unit():
     row = rows(waist_girth_navel={"value": 80.0, "standard_error": 2.0, "unit": "cm"})
-    assert row["waist girth navel"].value == "80.0"
-    assert row["waist girth navel"].unit == "cm"
-    assert row["waist girth navel"].interval == "76.1 – 83.9"
+    assert row["Waist, at the navel"].value == "80.0"
+    assert row["Waist, at the navel"].unit == "cm"
+    assert row["Waist, at the navel"].interval == "76.1 – 83.9"
 
 
 def test_what_was_given_exactly_and_what_is_unknown_have_no_interval():
@@ -75,9 +78,9 @@ def test_what_was_given_exactly_and_what_is_unknown_have_no_interval():
         weight={"standard_error": None},
         hip_girth={"value": 98.0, "standard_error": 1.0, "given": True},
     )
-    assert found["stature"].interval == "given"
-    assert found["weight"].interval == "not known"
-    assert found["hip girth"].interval == "96.0 – 100.0"
+    assert found["Height"].interval == "given"
+    assert found["Weight"].interval == "not known"
+    assert found["Hip"].interval == "96.0 – 100.0"
 
 
 def section(result, heading):
@@ -87,25 +90,23 @@ def section(result, heading):
 
 def test_light_and_reflectance_are_in_words_and_missing_after_silhouettes_alone():
     light = {"kind": "point", "azimuth_deg": -35.7, "elevation_deg": 30.4, "distance_m": 2.91}
-    facts = dict(section(fit_result(light=light), "Light and reflectance").facts)
-    assert facts["Point light"] == "36° from the left, 30° from above, 2.91 m away"
-    assert facts["Mean albedo"] == "0.408"
+    facts = dict(section(fit_result(light=light), "Light and skin").facts)
+    assert facts["Lamp"] == "36° from the left, 30° from above, 2.91 m away"
+    assert facts["Skin"] == "throws back 41 % of the light"
     far = light | {"kind": "directional", "azimuth_deg": 12.0, "elevation_deg": -5.0}
-    facts = dict(
-        section(fit_result(light=far | {"distance_m": None}), "Light and reflectance").facts
-    )
-    assert facts["Directional light"] == "12° from the right, 5° from below, far away"
-    unknown = section(fit_result(light=None, reflectance=None), "Light and reflectance")
+    facts = dict(section(fit_result(light=far | {"distance_m": None}), "Light and skin").facts)
+    assert facts["Lamp"] == "12° from the right, 5° from below, far away"
+    unknown = section(fit_result(light=None, reflectance=None), "Light and skin")
     assert unknown.facts == ()
     assert "Not estimated" in unknown.remarks[0]
 
 
 def test_what_was_assumed_and_what_to_look_at_are_listed_or_said_to_be_nothing():
     assumed = section(fit_result(), "What was assumed")
-    assert assumed.facts[0][0] == "Focal length 35mm"
-    assert assumed.facts[0][1].startswith("50. Neither the request")
+    assert assumed.facts[0][0] == "Lens"
+    assert assumed.facts[0][1].startswith("50 mm. Neither the request")
     assert section(fit_result(assumptions=[]), "What was assumed").remarks == ("Nothing.",)
-    assert section(fit_result(warnings=[]), "Warnings").remarks == ("None.",)
+    assert section(fit_result(warnings=[]), "Worth a look").remarks == ("Nothing.",)
 
 
 def test_where_measurements_are_withheld_the_pages_say_so():
@@ -115,7 +116,7 @@ def test_where_measurements_are_withheld_the_pages_say_so():
     assert "withheld" in text
     assert "95 % interval" not in text
     ((_, ended), *_) = section(nobody, "The fit").facts
-    assert ended.startswith("no person. ")
+    assert ended.startswith("No person. ")
     assert pages(report_pdf(content, PICTURES)) == 1
 
 
@@ -140,6 +141,38 @@ def test_whatever_the_result_says_is_text_on_the_page():
     assert hostile in elements.text
     assert all("onerror" not in attributes for _, attributes in elements.found)
     assert report_pdf(content, PICTURES).startswith(b"%PDF")
+
+
+@pytest.mark.parametrize("language", list(Language))
+def test_names_are_those_of_the_page(language: Language):
+    page = REPOSITORY / "service" / "page" / "src" / "messages" / language / "measures.ts"
+    _, _, labels = page.read_text().partition("labels: {")
+    named = WORDINGS[language].measurements
+    assert dict(re.findall(r'(\w+): "(.*?)"', labels)) == named
+    assert {definition.about.name for definition in load_definitions()} <= named.keys()
+
+
+def test_no_word_is_of_the_paper_or_of_the_api():
+    codes = ("ambiguous-limb-facing", "surroundings-not-found", "low-silhouette-overlap")
+    spoken = "right_upper_arm: by 3 nats under Eq. 1, see limb_facing."
+    warnings = [{"code": code, "message": spoken} for code in codes]
+    text = Elements(report_html(report_content(fit_result(warnings=warnings)), PICTURES)).text
+    body = text.partition("</style>")[2] or text[text.index("Body measurements") :]
+    assert not re.search(r"\b(nats|Eq\.|SES?|EXIF|canonical|albedo)\b|[a-z]_[a-z]", body)
+
+
+def test_the_heading_has_name_and_day_and_values_are_in_the_units_asked_for():
+    text = '{"kind": "report", "name": "Ada L.", "date": "2026-11-03", "units": "imperial"}'
+    options = ReportOptions.model_validate_json(text)
+    waist = measurement("waist_girth_navel", value=76.2, standard_error=2.54, unit="cm")
+    weight = measurement("weight", value=70.0, standard_error=None, unit="kg")
+    content = report_content(fit_result(measurements=[waist, weight], height_m=1.804), options)
+    assert content.subtitle.startswith("Ada L., 3 November 2026, ")
+    assert "71.0 in" in content.subtitle
+    found = {row.name: row for row in content.measurements}
+    row = found["Waist, at the navel"]
+    assert (row.value, row.unit, row.interval) == ("30.0", "in", "28.0 – 32.0")
+    assert (found["Weight"].value, found["Weight"].unit) == ("154.3", "lb")
 
 
 @pytest.mark.parametrize("write", [report_html, report_pdf])
@@ -171,14 +204,14 @@ def test_what_few_ask_for_follows_in_groups_and_nothing_twice():
     content = everything_measured()
     first = [row.name for row in content.measurements]
     later = [row.name for group in content.further for row in group.rows]
-    assert first[:2] == ["stature", "weight"]
+    assert first[:2] == ["Height", "Weight"]
     assert len(first) == len(CHIEF)
     assert len({*first, *later}) == len(first) + len(later) == len(load_definitions())
     headings = {group.heading: [row.name for row in group.rows] for group in content.further}
-    assert "armscye girth" in headings["Girths"]
-    assert "cross back" in headings["Lengths"]
-    assert "waist height" in headings["Heights"]
-    assert "chest depth" in headings["Breadths and depths"]
+    assert "Armhole" in headings["Girths"]
+    assert "Across the back" in headings["Lengths"]
+    assert "Waist height" in headings["Heights"]
+    assert "Chest depth" in headings["Breadths and depths"]
 
 
 def test_what_few_ask_for_has_a_second_page():
@@ -186,7 +219,7 @@ def test_what_few_ask_for_has_a_second_page():
     assert pages(report_pdf(content, PICTURES)) == 2
     page = Elements(report_html(content, PICTURES))
     assert len([tag for tag, _ in page.found if tag == "table"]) == 1 + len(content.further)
-    assert "armscye girth" in page.text
+    assert "Armhole" in page.text
 
 
 def test_signs_the_pdf_s_fonts_lack_do_not_end_it():
@@ -220,6 +253,7 @@ def test_a_report_of_a_scan_says_what_was_found_in_every_view():
     page = Elements(report_html(content, PICTURES))
     assert content.title in page.text
     assert "Agreement" in page.text
+    assert "How it ended" in page.text
 
 
 def test_measurements_of_a_scan_are_withheld_as_those_of_a_fit():

@@ -1,5 +1,6 @@
 import pytest
 from sqlalchemy.exc import OperationalError
+from sqlalchemy.exc import TimeoutError as PoolTimeoutError
 
 from service.blobs import BlobsUnavailableError
 from service.engine.retrying import retry_while_database_is_away
@@ -27,6 +28,17 @@ def _no_pauses(monkeypatch):
 
 def test_an_operation_is_repeated_until_the_database_is_back():
     assert retry_while_database_is_away(Database(5).write)(7) == 7
+
+
+def test_an_operation_that_got_no_connection_is_repeated():
+    failures = [PoolTimeoutError("QueuePool limit of size 8 overflow 0 reached")]
+
+    def write() -> int:
+        if failures:
+            raise failures.pop()
+        return 7
+
+    assert retry_while_database_is_away(write)() == 7
 
 
 def test_repeating_ends(monkeypatch):

@@ -6,7 +6,7 @@ from pydantic import ValidationError
 
 from service.settings import PREFIX, Settings
 
-README = Path(__file__).parents[3] / "README.md"
+LIST = Path(__file__).parents[3] / "service" / "docs" / "operate" / "settings.md"
 
 
 def test_settings_survive_the_way_through_the_environment(monkeypatch):
@@ -35,11 +35,11 @@ def test_the_database_is_embedded_unless_one_is_named(tmp_path):
     assert named.system_database_url == "postgresql://host/name"
 
 
-def test_the_readme_lists_every_setting_with_default_and_meaning_and_no_other():
+def test_the_documents_list_every_setting_with_default_and_meaning_and_no_other():
     listed = {
         name: (default, meaning)
         for name, default, meaning in re.findall(
-            rf"^\| `({PREFIX}\w+)` \| (.*?) \| (.*) \|$", README.read_text(), re.MULTILINE
+            rf"^\| `({PREFIX}\w+)` \| (.*?) \| (.*) \|$", LIST.read_text(), re.MULTILINE
         )
     }
     assert list(listed) == [PREFIX + name.upper() for name in Settings.model_fields]
@@ -67,6 +67,31 @@ def test_origins_are_read_as_a_list_and_a_page_is_no_origin():
         Settings(cors_origins="https://a.example/page")
     with pytest.raises(ValidationError, match="origin"):
         Settings(cors_origins="*")
+
+
+@pytest.mark.parametrize(
+    "origin",
+    [
+        "*",
+        "https:",
+        "'self'",
+        "https://*.example",
+        "https://a.example/",
+        "https://a.example; script-src *",
+        "https://user@a.example",
+        "https://a.example https://b.example",
+    ],
+)
+def test_who_may_frame_the_page_is_a_list_of_single_origins(origin: str):
+    assert Settings().embedding_origins == ()
+    settings = Settings(embed_origins="https://a.example, http://localhost:5173,http://[::1]:80")
+    assert settings.embedding_origins == (
+        "https://a.example",
+        "http://localhost:5173",
+        "http://[::1]:80",
+    )
+    with pytest.raises(ValidationError, match="write"):
+        Settings(embed_origins=origin)
 
 
 @pytest.mark.parametrize("ports", ["", "http", "0", "443,70000", "443;80"])

@@ -1,10 +1,12 @@
 import json
+import sys
 
 import pytest
 
 from api_schemas.points import POINT_NAMES, Point
 from service.submissions.refusal import RefusedError
 from service.submissions.submission import CheckedSubmission, check_submission
+from tests.heif_files import Item, heif, size
 from tests.integration.service.fake_pipeline import scripted_image
 
 POINTS = {
@@ -177,6 +179,22 @@ def test_text_that_is_not_json_is_malformed():
 )
 def test_a_bad_picture_is_refused(field, content, status, code):
     assert refusal(**{field: content}) == (status, field, code)
+
+
+def test_a_heic_is_accepted_by_its_head():
+    checked = check(image=heif(Item(b"hvc1", b"", (size(300, 400),))))
+    assert checked.media_types == {"image": "image/heic"}
+
+
+def test_a_heic_with_too_many_pixels_is_refused():
+    content = heif(Item(b"hvc1", b"", (size(3_000, 4_000),)))
+    assert refusal(image=content) == (422, "image", "image-too-large")
+
+
+def test_a_heic_is_refused_where_none_are_decoded(monkeypatch):
+    monkeypatch.setitem(sys.modules, "pi_heif", None)
+    content = heif(Item(b"hvc1", b"", (size(300, 400),)))
+    assert refusal(image=content) == (415, "image", "heic-not-installed")
 
 
 def test_a_mask_of_another_size_is_refused():

@@ -70,5 +70,5 @@ def test_mirrored_targets_move_mirrored_vertices(base: BaseMesh):
 
 
 def test_who_lacks_the_package_is_told_of_the_version_that_the_tests_have():
-    required = (REPOSITORY / "requirements-training.txt").read_text().splitlines()
+    required = (REPOSITORY / "requirements-training.txt").read_text().split()
     assert DATA_PACKAGE in required

@@ -1,6 +1,11 @@
 // The calls this page makes, one function each.
+import type { ServiceIndex } from "./service_index";
 import { jsonBody, request, requestJson } from "./client";
-import type { CaptureCheck, CheckOfImage, Derivation, DerivationPage, DerivationRequest, DerivationResult, FitOfImage, FitOptions, FitResult, InitialPose, InitialPoseRequest, Job, PointsOfImage, PointsProposal, Scan, ScanOfImages, ScanOptions, ScanResult, UploadedImage } from "./types";
+import type { CaptureCheck, CheckOfImage, Derivation, DerivationPage, DerivationRequest, DerivationResult, FitOfImage, FitOptions, FitResult, InitialPose, InitialPoseRequest, Job, JobPage, LabelledPerson, PeoplePage, PointsOfImage, PointsProposal, Scan, ScanOfImages, ScanOptions, ScanPage, ScanResult, UploadedImage } from "./types";
+
+export function getIndex(): Promise<ServiceIndex> {
+  return requestJson("/", { headers: { Accept: "application/json" } });
+}
 
 export function uploadImage(file: Blob, signal: AbortSignal): Promise<UploadedImage> {
   const form = new FormData();
@@ -56,8 +61,8 @@ export function getResult(job: Job): Promise<FitResult> {
   return requestJson(job.links.result ?? `/v1/fits/${job.id}/result`);
 }
 
-export function getRequest(job: Job): Promise<FitOptions> {
-  return requestJson(job.links.request);
+export function getRequest({ links }: Pick<Job | Scan, "links">): Promise<FitOptions> {
+  return requestJson(links.request);
 }
 
 export function cancelFit(id: string): Promise<Job> {
@@ -68,13 +73,13 @@ export async function eraseFit(id: string): Promise<void> {
   await request(`/v1/fits/${id}`, { method: "DELETE" });
 }
 
-export async function listDerivations(fit: Job): Promise<readonly Derivation[]> {
-  return (await requestJson<DerivationPage>(`/v1/fits/${fit.id}/derivations`)).derivations;
+export async function listDerivations({ links }: Job | Scan): Promise<readonly Derivation[]> {
+  return (await requestJson<DerivationPage>(`${links.self}/derivations`)).derivations;
 }
 
 /** Ask for a derivation; `part` is the file it goes by, under the name of its form part. */
-export function derive(fit: Job, asked: DerivationRequest, part: { name: string; file: File } | null): Promise<Derivation> {
-  const path = `/v1/fits/${fit.id}/derivations`;
+export function derive({ links }: Job | Scan, asked: DerivationRequest, part: { name: string; file: File } | null): Promise<Derivation> {
+  const path = `${links.self}/derivations`;
   if (!part) return requestJson(path, jsonBody(asked));
   const form = new FormData();
   form.append("request", new Blob([JSON.stringify(asked)], { type: "application/json" }), "request.json");
@@ -98,7 +103,46 @@ export async function eraseDerivation({ links }: Derivation): Promise<void> {
   await request(links.self, { method: "DELETE" });
 }
 
-/** A file by its link: by fetch, not by an element's address, since a key may be needed. */
-export async function getFile(path: string): Promise<Blob> {
-  return (await request(path)).blob();
+/** The picture of a fit or a scan as every browser shows it: a HEIC comes as a JPEG. */
+export async function getPicture(path: string): Promise<Blob> {
+  return (await request(path, { headers: { Accept: "image/png, image/webp, image/jpeg" } })).blob();
+}
+
+/** A file by its link: by fetch, not by an element's address, since a key may be needed. `onBytes` hears of each piece. */
+export async function getFile(path: string, onBytes?: (count: number) => void): Promise<Blob> {
+  const response = await request(path);
+  if (!onBytes || !response.body) return response.blob();
+  const pieces: Uint8Array<ArrayBuffer>[] = [];
+  const reader = response.body.getReader();
+  for (let piece = await reader.read(); !piece.done; piece = await reader.read()) {
+    pieces.push(piece.value);
+    onBytes(piece.value.length);
+  }
+  return new Blob(pieces, { type: response.headers.get("Content-Type") ?? "" });
+}
+
+/** All people that have fits or scans, by their labels. */
+export async function listPeople(): Promise<readonly LabelledPerson[]> {
+  const pages = await allPages<PeoplePage>(`/v1/people?limit=${PAGE}`);
+  return pages.flatMap(({ people }) => people);
+}
+
+/** All fits of a person, newest first. */
+export async function listFits(label: string): Promise<readonly Job[]> {
+  const pages = await allPages<JobPage>(`/v1/fits?limit=${PAGE}&label=${encodeURIComponent(label)}`);
+  return pages.flatMap(({ jobs }) => jobs);
+}
+
+/** All scans of a person, newest first. */
+export async function listScans(label: string): Promise<readonly Scan[]> {
+  const pages = await allPages<ScanPage>(`/v1/scans?limit=${PAGE}&label=${encodeURIComponent(label)}`);
+  return pages.flatMap(({ scans }) => scans);
+}
+
+const PAGE = 100;
+
+async function allPages<Page extends { readonly next: string | null }>(first: string): Promise<readonly Page[]> {
+  const pages: Page[] = [];
+  for (let path: string | null = first; path !== null; path = pages.at(-1)!.next) pages.push(await requestJson<Page>(path));
+  return pages;
 }

@@ -1,6 +1,9 @@
 // One way to ask the service: same origin, key if there is one, problems as errors.
-import { apiKey, askForKey } from "./key";
+import { UNREACHABLE, isReached } from "./connection";
+import { accepted, apiKey, askForKey } from "./key";
 import type { Problem } from "./types";
+
+type OwnProblem = "page-error" | "unexpected-answer" | "unreachable";
 
 /** An answer that is no success, as the service explains it (RFC 9457). */
 export class ProblemError extends Error {
@@ -16,6 +19,7 @@ export async function request(path: string, init: RequestInit = {}): Promise<Res
   for (;;) {
     const presented = apiKey.value;
     const response = await send(path, init, presented);
+    if (response.status !== 401) accepted.value = presented;
     if (response.ok) return response;
     const error = await problemOf(response, path);
     if (response.status !== 401) throw error;
@@ -40,23 +44,25 @@ export function jsonBody(value: unknown): RequestInit {
 export function problemFrom(error: unknown): Problem | null {
   if (error instanceof ProblemError) return error.problem;
   if (error instanceof DOMException && error.name === "AbortError") return null;
-  return problem("page-error", "This page failed", String(error), "Reload the page and try again.");
+  return ownProblem("page-error", String(error));
 }
 
-export function problem(code: string, title: string, detail: string, remedy: string): Problem {
-  return { type: `/problems/${code}`, title, status: 500, detail, code, remedy, field: null, instance: null, errors: [] };
+/** A problem that no service told: its words are in the page's catalogue, `detail` is for whoever mends it. */
+function ownProblem(code: OwnProblem, detail = ""): Problem {
+  return { type: `/problems/${code}`, title: "", status: 500, detail, code, remedy: "", field: null, instance: null, errors: [] };
 }
 
 async function send(path: string, init: RequestInit, key: string | null): Promise<Response> {
   const headers = new Headers(init.headers);
   if (key !== null) headers.set("Authorization", `Bearer ${key}`);
   try {
-    return await fetch(path, { ...init, headers });
+    const response = await fetch(path, { ...init, headers });
+    isReached.value = true;
+    return response;
   } catch (error) {
     if (error instanceof DOMException && error.name === "AbortError") throw error;
-    throw new ProblemError(
-      problem("unreachable", "The service does not answer", "No connection could be made.", "See whether it is running, then try again."),
-    );
+    isReached.value = false;
+    throw new ProblemError(ownProblem(UNREACHABLE));
   }
 }
 
@@ -67,8 +73,5 @@ async function problemOf(response: Response, path: string): Promise<ProblemError
     return new ProblemError((await response.json()) as Problem, retryAfterS);
   }
   const detail = `${path} was answered with ${response.status} ${response.statusText}.`;
-  return new ProblemError(
-    problem("unexpected-answer", "An unexpected answer", detail, "Something stands between this page and the service; reload the page."),
-    retryAfterS,
-  );
+  return new ProblemError(ownProblem("unexpected-answer", detail), retryAfterS);
 }

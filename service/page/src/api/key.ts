@@ -1,9 +1,13 @@
 // The API key, where the service wants one: kept for this tab only.
 import { signal } from "@preact/signals";
+import { keep, kept } from "../kept";
 
 const PLACE = "maquette.key";
 
-export const apiKey = signal<string | null>(sessionStorage.getItem(PLACE));
+export const apiKey = signal<string | null>(kept(PLACE, "sessionStorage"));
+
+/** The last key that the service took. */
+export const accepted = signal<string | null>(null);
 
 /** Why a key is asked for at this moment; null while none is. */
 export const keyQuestion = signal<string | null>(null);
@@ -17,7 +21,12 @@ export function askForKey(reason: string): Promise<void> {
 }
 
 export function useKey(key: string): void {
-  sessionStorage.setItem(PLACE, key);
+  keep(PLACE, key, "sessionStorage");
+  present(key);
+}
+
+/** From now on send this key, or a token in its place; it is kept nowhere. */
+export function present(key: string | null): void {
   apiKey.value = key;
   keyQuestion.value = null;
   const resumed = waiting;

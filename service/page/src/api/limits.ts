@@ -8,5 +8,7 @@ export const LIMITS = {
   clearBreadth: stated.points.clear_breadth,
   heightM: [stated.height_m.least, stated.height_m.most],
   textureSizes: stated.texture_sizes as readonly TextureSize[],
+  leastSidePx: stated.picture.least_side,
+  largestAspectRatio: stated.picture.largest_aspect_ratio,
   otherFits: stated.most_other_fits,
 } as const;

@@ -1,44 +1,66 @@
-// One thing made of a fit: where it stands, what came out, its files.
-import { useState } from "preact/hooks";
-import type { Derivation } from "../api/types";
+// One thing made of a fit: where it stands, what there is to know of it, the way to the stage, its files.
+import type { Derivation, DerivationRequest } from "../api/types";
 import { isActive } from "../fit/watch";
+import { messages } from "../messages/language";
 import { FileButton } from "../result/FileButton";
 import { tableOf, usePictureOf } from "../result/files";
-import { DerivedCanvas } from "../viewer/DerivedCanvas";
 import { IconButton } from "../ui/IconButton";
 import { ProblemNote } from "../ui/ProblemNote";
-import { kindLabel, kindOf } from "./kinds";
-import type { Kind, Shows } from "./kinds/kind";
-import { DerivationSummary } from "./DerivationSummary";
+import { DerivationWarnings } from "./DerivationSummary";
+import { useDerivationResult } from "./derivationResult";
+import { kindLabel, kindOf, wordInSentence } from "./kinds";
+import { viewsOf } from "./views";
+
+const REFUSED = 422;
 
 interface Props {
   readonly made: Derivation;
+  readonly isOnStage: boolean;
+  readonly onShow: () => void;
   readonly onRetry: () => void;
+  readonly onMake: (asked: DerivationRequest) => void;
   readonly onErase: () => void;
 }
 
-export function DerivationCard({ made, onRetry, onErase }: Props) {
-  const label = kindLabel(made.kind);
+export function DerivationCard({ made, isOnStage, onShow, onRetry, onMake, onErase }: Props) {
+  const { derived, frame } = messages.value;
+  const inSentence = wordInSentence(made.kind);
   const done = made.state === "succeeded";
   const kind = kindOf(made.kind);
+  const result = useDerivationResult(made);
   const files = Object.entries(made.links.artifacts ?? {}).filter(([name]) => name !== "result.json");
   if (done && kind?.hasTable) files.push(tableOf(made));
+  const largest = made.problem?.errors?.[0]?.largest ?? null;
+  const smaller = largest === null ? null : (kind?.smaller?.(largest) ?? null);
+  // What was refused would be refused again.
+  const isRefused = made.problem?.status === REFUSED;
   return (
-    <li>
+    <li class={isOnStage ? "is-on-stage" : ""}>
       <header class="section-head">
-        <h3>{label}</h3>
-        <IconButton icon="trash" label={`Delete: ${label.toLowerCase()}`} onClick={onErase} />
+        <h3>{kindLabel(made.kind)}</h3>
+        <IconButton icon="trash" label={derived.remove(inSentence)} onClick={onErase} />
       </header>
-      {isActive(made) && <progress class="bar" max={1} value={made.progress} aria-label={`Progress: ${label.toLowerCase()}`} />}
-      {made.problem && <ProblemNote problem={made.problem} />}
-      {made.links.retry && !done && (
+      {isActive(made) && <progress class="bar" max={1} value={made.progress} aria-label={derived.progress(inSentence)} />}
+      {result && <DerivationWarnings of={result} />}
+      {smaller ? (
+        <>
+          <p class="note is-problem" role="alert">
+            {smaller.refusal}
+          </p>
+          <button class="button is-small" type="button" onClick={() => onMake(smaller.request)}>
+            {smaller.make}
+          </button>
+        </>
+      ) : (
+        made.problem && <ProblemNote problem={made.problem} />
+      )}
+      {made.links.retry && !done && !isRefused && (
         <button class="button is-small" type="button" onClick={onRetry}>
-          Try again
+          {frame.tryAgain}
         </button>
       )}
-      {done && kind && picturesOf(kind, files.map(([name]) => name)).map((shows) => <Shown key={shows.file} made={made} shows={shows} />)}
-      {done && <Turned made={made} />}
-      {done && <DerivationSummary made={made} />}
+      {done && viewsOf(made).length > 0 && <ToStage made={made} isOnStage={isOnStage} onShow={onShow} />}
+      {result && kind?.told?.(result)}
       {files.length > 0 && (
         <ul class="downloads">
           {files.map(([name, path]) => (
@@ -52,52 +74,15 @@ export function DerivationCard({ made, onRetry, onErase }: Props) {
   );
 }
 
-function picturesOf({ pictures, pictureOf }: Pick<Kind, "pictures" | "pictureOf">, names: readonly string[]): readonly Shows[] {
-  return [...pictures, ...names.map((name) => pictureOf?.(name) ?? null).filter((shows) => shows !== null)];
-}
-
-/** The body that came out, in 3D for those who ask for it. */
-function Turned({ made }: { made: Derivation }) {
-  const [opened, open] = useState(false);
-  const turns = kindOf(made.kind)?.turns;
-  const path = turns && made.links.artifacts?.[turns.file];
-  if (!turns || !path) return null;
-  if (opened) return <DerivedCanvas path={path} label={turns.label} />;
+/** Its first picture, small, which leads to the stage. */
+function ToStage({ made, isOnStage, onShow }: Pick<Props, "made" | "isOnStage" | "onShow">) {
+  const { derived } = messages.value;
+  const small = viewsOf(made).find(({ picture }) => picture)?.picture;
+  const url = usePictureOf(made, small?.still ?? small?.file ?? "", small !== undefined);
   return (
-    <button class="button is-small" type="button" onClick={() => open(true)}>
-      Turn it
+    <button class="to-stage" type="button" aria-pressed={isOnStage} aria-label={derived.show(wordInSentence(made.kind))} onClick={onShow}>
+      <span class="to-stage-picture">{url && <img src={url} alt="" />}</span>
+      <b>{derived.showLarge}</b>
     </button>
-  );
-}
-
-/** A picture of what came out; one that moves can be held still, and is for those who want calm. */
-function Shown({ made, shows: { file, still, alt, caption } }: { made: Derivation; shows: Shows }) {
-  const [held, hold] = useState(() => matchMedia("(prefers-reduced-motion: reduce)").matches);
-  // The room of the first one shown: nothing below moves when another takes its place.
-  const [ratio, setRatio] = useState<string | null>(null);
-  const wanted = still && held ? still : file;
-  const url = usePictureOf(made, wanted, true);
-  return (
-    <figure>
-      <div class="derived-picture" style={ratio ? { aspectRatio: ratio } : {}}>
-        {url && (
-          <img
-            key={url}
-            src={url}
-            alt={alt}
-            onLoad={({ currentTarget: image }) => {
-              image.dataset.shows = wanted;
-              setRatio((known) => known ?? `${image.naturalWidth} / ${image.naturalHeight}`);
-            }}
-          />
-        )}
-      </div>
-      {caption && <figcaption class="fine">{caption}</figcaption>}
-      {still && (
-        <button class="button is-small" type="button" onClick={() => hold(!held)}>
-          {held ? "Play" : "Hold still"}
-        </button>
-      )}
-    </figure>
   );
 }

@@ -1,40 +1,25 @@
-// What there is to say of what was made: warnings, and what its kind tells.
-import { useEffect, useState } from "preact/hooks";
-import { getDerivationResult } from "../api/calls";
-import type { Derivation, DerivationResult } from "../api/types";
+// What there is to say of what was made: warnings, which come first, and what its kind tells.
+import type { DerivationResult } from "../api/types";
 import { entries } from "../history/store";
-import { kindOf } from "./kinds";
+import { Served } from "../ui/Served";
+import { answered } from "../ui/answered";
 
-export function DerivationSummary({ made }: { made: Derivation }) {
-  const result = useResultOf(made);
-  if (result === null) return null;
-  const warnings = "warnings" in result ? result.warnings : [];
+/** Of what contradicts a result altogether. */
+const CONTRADICTIONS: ReadonlySet<string> = new Set(["different-people"]);
+
+export function DerivationWarnings({ of: result }: { of: DerivationResult }) {
+  const all = "warnings" in result ? result.warnings : [];
+  // What the page says itself it says once, of however many columns of a chart the service tells it.
+  const warnings = all.filter(({ code }, at) => answered("warnings", code) === null || all.findIndex((each) => each.code === code) === at);
   return (
     <>
       {warnings.map(({ code, message }) => (
-        <p class="note" key={code + message}>
-          {withNames(message)}
+        <p class={CONTRADICTIONS.has(code) ? "note is-problem" : "note"} key={code + message}>
+          {answered("warnings", code) ?? <Served text={withNames(message)} />}
         </p>
       ))}
-      {kindOf(result.kind)?.told?.(result)}
     </>
   );
-}
-
-/** The result of a derivation that has succeeded; null until it is there. */
-function useResultOf(made: Derivation): DerivationResult | null {
-  const [result, setResult] = useState<DerivationResult | null>(null);
-  useEffect(() => {
-    let gone = false;
-    getDerivationResult(made).then(
-      (found) => gone || setResult(found),
-      () => undefined,
-    );
-    return () => {
-      gone = true;
-    };
-  }, [made.id]);
-  return result;
 }
 
 /** Fits by the names this browser knows them by. */

@@ -1,19 +1,30 @@
-// What can be made of a finished fit: asked for, followed, looked at and kept.
+// What can be made of a finished fit or scan: asked for, followed, looked at and kept.
 import { useState } from "preact/hooks";
-import type { Job } from "../api/types";
+import type { Derivation, Job, Scan } from "../api/types";
+import { messages } from "../messages/language";
 import { Choice } from "../ui/Choice";
 import { ProblemNote } from "../ui/ProblemNote";
 import { FIRST_WISHES, KINDS, type OfferedKind, kindLabel } from "./kinds";
 import { useDerivations } from "./follow";
 import { DerivationCard } from "./DerivationCard";
+import { viewsOf } from "./views";
 
 interface Props {
-  readonly fit: Job;
+  readonly parent: Job | Scan;
+  /** In the order they are offered; `report` is chosen first. */
+  readonly kinds?: readonly OfferedKind[];
   readonly hasLight: boolean;
+  /** The id of what is shown large; null while it is the body itself. */
+  readonly onStage?: string | null;
+  /** Shows large what can be looked at; a scan offers no such kinds. */
+  readonly onShow?: (made: Derivation | null) => void;
 }
 
-export function DerivedPanel({ fit, hasLight }: Props) {
-  const { list, problem, start, retry, erase } = useDerivations(fit);
+const ALL_KINDS = Object.keys(KINDS) as OfferedKind[];
+
+export function DerivedPanel({ parent, kinds = ALL_KINDS, hasLight, onStage = null, onShow = () => undefined }: Props) {
+  const { derived } = messages.value;
+  const { list, problem, start, retry, erase } = useDerivations(parent, (made) => viewsOf(made).length > 0 && onShow(made));
   const [kind, setKind] = useState<OfferedKind>("report");
   const [wishes, wish] = useState(FIRST_WISHES);
   const [asking, setAsking] = useState(false);
@@ -22,33 +33,44 @@ export function DerivedPanel({ fit, hasLight }: Props) {
   const { Options } = chosen;
   return (
     <section class="section" aria-labelledby="derived-title">
-      <h2 id="derived-title">Make something of it</h2>
+      <h2 id="derived-title">{derived.title}</h2>
       <Choice
         name="derivation"
-        legend="What to make"
+        legend={derived.what}
         quiet
-        options={(Object.keys(KINDS) as OfferedKind[]).map((value) => ({ value, label: kindLabel(value) }))}
+        options={kinds.map((value) => ({ value, label: kindLabel(value) }))}
         value={kind}
         onChange={setKind}
       />
-      <p class="fine">{chosen.help}</p>
-      {Options && <Options fit={fit} hasLight={hasLight} wishes={wishes} onWish={(changed) => wish({ ...wishes, ...changed })} />}
+      <p class="fine">{derived.kinds[kind].help}</p>
+      {Options && <Options parent={parent} hasLight={hasLight} wishes={wishes} onWish={(changed) => wish({ ...wishes, ...changed })} />}
       <button
         class="button"
         type="button"
         disabled={asking || lack !== null}
-        title={lack ?? undefined}
         onClick={() => {
           setAsking(true);
           void start(chosen.request(wishes), chosen.part?.(wishes) ?? null).finally(() => setAsking(false));
         }}
       >
-        Make the {chosen.label.toLowerCase()}
+        {derived.kinds[kind].make}
       </button>
+      {lack && <p class="fine">{lack}</p>}
       {problem && <ProblemNote problem={problem} />}
       <ul class="derived">
         {list.map((each) => (
-          <DerivationCard key={each.id} made={each} onRetry={() => void retry(each)} onErase={() => void erase(each)} />
+          <DerivationCard
+            key={each.id}
+            made={each}
+            isOnStage={onStage === each.id}
+            onShow={() => onShow(each)}
+            onRetry={() => void retry(each)}
+            onMake={(asked) => void start(asked, null)}
+            onErase={() => {
+              if (onStage === each.id) onShow(null);
+              void erase(each);
+            }}
+          />
         ))}
       </ul>
     </section>

@@ -2,24 +2,27 @@
 import { useEffect, useState } from "preact/hooks";
 import { getFit, getRequest } from "../api/calls";
 import { ProblemError } from "../api/client";
-import type { FitOptions, Job } from "../api/types";
+import type { FitOptions, Job, Scan } from "../api/types";
 import { isActive } from "../fit/watch";
 import { entries, jobs, seen } from "../history/store";
 import type { Entry } from "../history/store";
 import { LIMITS } from "../api/limits";
+import { moment } from "../messages/figures";
+import { messages } from "../messages/language";
 import { toldAlike } from "./sameperson";
 
 interface Props {
-  readonly fit: Job;
+  readonly fit: Job | Scan;
   readonly chosen: readonly string[];
   readonly onChoose: (fits: readonly string[]) => void;
 }
 
 export function OtherFits({ fit, chosen, onChoose }: Props) {
+  const { combined } = messages.value.derived;
   const { found, searching } = useOtherFits(fit);
   return (
     <fieldset class="others" aria-busy={searching}>
-      <legend class="unseen">Other pictures of this person</legend>
+      <legend class="unseen">{combined.others}</legend>
       {found.map(({ id, name, startedAt, thumbnail }) => {
         const isChosen = chosen.includes(id);
         return (
@@ -32,24 +35,20 @@ export function OtherFits({ fit, chosen, onChoose }: Props) {
             />
             <img src={thumbnail} alt="" />
             <span>
-              {name} <small>{new Date(startedAt).toLocaleString(undefined, { dateStyle: "medium", timeStyle: "short" })}</small>
+              {name} <small>{moment(startedAt)}</small>
             </span>
           </label>
         );
       })}
       <p class="fine">
-        {found.length > 0
-          ? "Tick those that show the same person."
-          : searching
-            ? "Looking through this browser’s fits …"
-            : "This browser knows no other finished fit with the same gender and height. Fit another picture of the person, then come back."}
+        {found.length > 0 ? combined.tick : searching ? combined.searching : combined.none}
       </p>
     </fieldset>
   );
 }
 
 /** Finished fits that were told the same gender and height, newest first; they come one by one. */
-function useOtherFits(fit: Job): { found: readonly Entry[]; searching: boolean } {
+function useOtherFits(fit: Job | Scan): { found: readonly Entry[]; searching: boolean } {
   const [found, setFound] = useState<readonly Entry[]>([]);
   const [searching, setSearching] = useState(true);
   useEffect(() => {

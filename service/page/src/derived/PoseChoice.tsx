@@ -1,16 +1,8 @@
 // One of the poses that have names.
 import type { NamedPose } from "../api/types";
+import { messages } from "../messages/language";
 
-const POSES: readonly { value: NamedPose; label: string }[] = [
-  { value: "standing", label: "Standing" },
-  { value: "relaxed", label: "Relaxed" },
-  { value: "walking", label: "Walking" },
-  { value: "sitting", label: "Sitting" },
-  { value: "arms_raised", label: "Arms raised" },
-  { value: "a_pose", label: "A pose" },
-  { value: "t_pose", label: "T pose" },
-  { value: "rest", label: "The model’s own" },
-];
+const POSES: readonly NamedPose[] = ["standing", "relaxed", "walking", "sitting", "arms_raised", "a_pose", "t_pose", "rest"];
 
 interface Props {
   readonly pose: NamedPose;
@@ -18,13 +10,14 @@ interface Props {
 }
 
 export function PoseChoice({ pose, onChoose }: Props) {
+  const { poses } = messages.value.derived;
   return (
     <div class="field">
-      <label for="pose">Pose</label>
+      <label for="pose">{poses.label}</label>
       <select id="pose" value={pose} onChange={(event) => onChoose(event.currentTarget.value as NamedPose)}>
-        {POSES.map(({ value, label }) => (
-          <option key={value} value={value}>
-            {label}
+        {POSES.map((each) => (
+          <option key={each} value={each}>
+            {poses.names[each]}
           </option>
         ))}
       </select>

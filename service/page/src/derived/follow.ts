@@ -1,9 +1,9 @@
-// A fit's derivations, each followed to its end.
+// What is made of a fit or a scan, each followed to its end.
 import { useEffect, useState } from "preact/hooks";
 import { derive, eraseDerivation, getDerivation, listDerivations, retryDerivation } from "../api/calls";
 import { problemFrom } from "../api/client";
 import { jobEvents } from "../api/events";
-import type { Derivation, DerivationRequest, Job, Problem } from "../api/types";
+import type { Derivation, DerivationRequest, Job, Problem, Scan } from "../api/types";
 import { isActive } from "../fit/watch";
 import type { Part } from "./kinds/kind";
 
@@ -17,7 +17,8 @@ export interface Derived {
   readonly erase: (each: Derivation) => Promise<void>;
 }
 
-export function useDerivations(fit: Job): Derived {
+/** `onMade` hears of what was asked for here, once it has succeeded. */
+export function useDerivations(parent: Job | Scan, onMade: (made: Derivation) => void): Derived {
   const [list, setList] = useState<readonly Derivation[]>([]);
   const [problem, setProblem] = useState<Problem | null>(null);
   const [leaving] = useState(() => new AbortController());
@@ -29,16 +30,18 @@ export function useDerivations(fit: Job): Derived {
     for await (const { state, stage, progress } of jobEvents(each.links.events, leaving.signal)) {
       if (isActive({ state })) put({ ...each, state, stage, progress });
     }
-    put(await getDerivation(each.links.self));
+    const ended = await getDerivation(each.links.self);
+    put(ended);
+    return ended;
   };
 
   const begin = (begun: Derivation) => {
     put(begun);
-    follow(begun).catch(fail);
+    follow(begun).then((ended) => ended.state === "succeeded" && onMade(ended), fail);
   };
 
   useEffect(() => {
-    listDerivations(fit).then((found) => {
+    listDerivations(parent).then((found) => {
       setList(found);
       for (const each of found) if (isActive(each)) follow(each).catch(fail);
     }, fail);
@@ -52,7 +55,7 @@ export function useDerivations(fit: Job): Derived {
   return {
     list,
     problem,
-    start: (asked, part) => attempt(async () => begin(await derive(fit, asked, part))),
+    start: (asked, part) => attempt(async () => begin(await derive(parent, asked, part))),
     retry: (each) => attempt(async () => begin(await retryDerivation(each))),
     erase: (each) =>
       attempt(async () => {

@@ -1,5 +1,7 @@
 // Shares as a person reads them.
+import { percent as written } from "../messages/figures";
+import { messages } from "../messages/language";
 
 export function percent(share: number): string {
-  return share > 0 && share < 0.005 ? "less than 1 %" : `${Math.round(100 * share)} %`;
+  return share > 0 && share < 0.005 ? messages.value.derived.lessThan(written(0.01)) : written(share);
 }

@@ -1,6 +1,7 @@
 // The fit that is being prepared: a few signals, and what follows from them.
-import { computed, signal } from "@preact/signals";
+import { batch, computed, signal } from "@preact/signals";
 import type { Clothing, Cues, Facing, Limb, LightGuess, Surroundings, UploadedImage } from "../api/types";
+import { messages } from "../messages/language";
 import type { PointName } from "../points/catalogue";
 import { NO_POINTS, isEnough, nextDoubt, nextPoint } from "../points/placed";
 import type { Points } from "../points/placed";
@@ -10,6 +11,8 @@ import type { Person } from "./person";
 import type { Picture } from "./picture";
 
 export const picture = signal<Picture | null>(null);
+/** Of an earlier visit, and nobody has gone on with it yet: nothing of it is sent. */
+export const isAsleep = signal(false);
 export const uploaded = signal<UploadedImage | null>(null);
 
 export const timeline = signal(begin<Points>(NO_POINTS));
@@ -43,20 +46,30 @@ export function adjust(next: Points): void {
   timeline.value = amend(timeline.value, next);
 }
 
-/** Everything about another picture begins anew; what is known of the person stays. */
-export function usePicture(next: Picture): void {
-  if (picture.value) URL.revokeObjectURL(picture.value.url);
-  picture.value = next;
-  uploaded.value = null;
-  timeline.value = begin<Points>(NO_POINTS);
-  selected.value = null;
-  facing.value = {};
-  focalLength.value = null;
-  light.value = null;
-  surroundings.value = "uniform";
-  clothing.value = "tight";
-  seenFromBehind.value = false;
-  useMask(null);
+/** Nothing is known of whoever comes next but the units they are told in. */
+export function forgetPerson(): void {
+  person.value = { ...NOBODY, units: person.value.units };
+}
+
+/** With another picture, or without one, everything begins anew; only the units stay. */
+export function usePicture(next: Picture | null): void {
+  batch(() => {
+    if (picture.value) URL.revokeObjectURL(picture.value.url);
+    picture.value = next;
+    isAsleep.value = false;
+    uploaded.value = null;
+    timeline.value = begin<Points>(NO_POINTS);
+    selected.value = null;
+    forgetPerson();
+    facing.value = {};
+    focalLength.value = null;
+    light.value = null;
+    surroundings.value = "uniform";
+    clothing.value = "tight";
+    cues.value = "SES";
+    seenFromBehind.value = false;
+    useMask(null);
+  });
 }
 
 export function useMask(next: Picture | null): void {
@@ -66,11 +79,12 @@ export function useMask(next: Picture | null): void {
 
 /** Why there can be no fit yet, as a thing to do; null when there can. */
 export const todo = computed<string | null>(() => {
-  if (!picture.value) return "Choose a picture";
-  if (person.value.gender === null) return "Choose female or male";
-  if (heightFault(person.value) !== null) return "Correct the height";
-  if (weightFault(person.value) !== null) return "Correct the weight";
-  if (tapeFault(person.value) !== null) return "Correct a measurement";
-  if (!isEnough(points.value)) return "Click more points";
+  const { todo } = messages.value.person;
+  if (!picture.value) return todo.picture;
+  if (person.value.gender === null) return todo.gender;
+  if (heightFault(person.value) !== null) return todo.height;
+  if (weightFault(person.value) !== null) return todo.weight;
+  if (tapeFault(person.value) !== null) return todo.tape;
+  if (!isEnough(points.value)) return todo.points;
   return null;
 });

@@ -1,16 +1,17 @@
 // What follows the draft by itself: the upload of its picture, and the body its clicks make.
-import { effect, signal } from "@preact/signals";
-import { initialPose, uploadImage } from "../api/calls";
+import { effect, signal, untracked } from "@preact/signals";
+import { initialPose } from "../api/calls";
 import { problemFrom } from "../api/client";
+import { UNREACHABLE, isOffline, pauseMs } from "../api/connection";
 import type { InitialPose, Problem } from "../api/types";
 import { isEnough } from "../points/placed";
-import { picture, points, todo, uploaded } from "./draft";
+import { isAsleep, picture, points, todo, uploaded } from "./draft";
 import { draftedInitialPose, draftedSubject } from "./request";
+import { uploadProblem, uploadUntilKept } from "./uploading";
 
 /** The body of the clicks so far; stays while a newer one is on its way. */
 export const liveBody = signal<InitialPose | null>(null);
 export const liveProblem = signal<Problem | null>(null);
-export const uploadProblem = signal<Problem | null>(null);
 
 const PAUSE_MS = 60;
 
@@ -18,25 +19,29 @@ export function startLive(): void {
   effect(() => {
     const chosen = picture.value;
     uploadProblem.value = null;
-    if (!chosen) return undefined;
+    if (!chosen || isAsleep.value) return undefined;
+    if (chosen.kept) {
+      uploaded.value = chosen.kept;
+      return undefined;
+    }
     const leaving = new AbortController();
-    uploadImage(chosen.file, leaving.signal).then(
-      (kept) => (uploaded.value = kept),
-      (error) => (uploadProblem.value = problemFrom(error)),
-    );
+    // Once a picture, whatever else a request looks at.
+    untracked(() => void uploadUntilKept(chosen.file, leaving.signal));
     return () => leaving.abort();
   });
   effect(() => {
     const chosen = picture.value;
     const subject = draftedSubject();
-    if (!chosen || !subject || !isEnough(points.value) || todo.value !== null) {
+    if (!chosen || isAsleep.value || !subject || !isEnough(points.value) || todo.value !== null) {
       liveBody.value = null;
       liveProblem.value = null;
       return undefined;
     }
+    // Asked for once there is a connection again.
+    if (isOffline.value) return undefined;
     const leaving = new AbortController();
     const asked = draftedInitialPose(subject, chosen.width, chosen.height, uploaded.value?.id ?? null);
-    const timer = setTimeout(() => {
+    const ask = (attempts: number) =>
       initialPose(asked, leaving.signal).then(
         (body) => {
           liveBody.value = body;
@@ -44,12 +49,14 @@ export function startLive(): void {
         },
         (error) => {
           const problem = problemFrom(error);
-          if (!problem) return;
-          liveBody.value = null;
-          liveProblem.value = problem;
+          if (problem?.code === UNREACHABLE) timer = setTimeout(() => void ask(attempts + 1), pauseMs(attempts));
+          else if (problem) {
+            liveBody.value = null;
+            liveProblem.value = problem;
+          }
         },
       );
-    }, PAUSE_MS);
+    let timer = setTimeout(() => void ask(0), PAUSE_MS);
     return () => {
       clearTimeout(timer);
       leaving.abort();

@@ -1,6 +1,9 @@
 // What is known of the person, as typed; nothing typed means unknown.
 import { LIMITS } from "../api/limits";
 import type { FitOptions, Gender, KnownMeasurements } from "../api/types";
+import { decimal, measured, typed } from "../messages/figures";
+import { messages } from "../messages/language";
+import { INCH_M, feetAndInches, feetTexts, read, readInches } from "./feet";
 
 export interface Person {
   readonly gender: Gender | null;
@@ -11,6 +14,8 @@ export interface Person {
   readonly weight: string;
   /** What a tape said, by the measurement's name. */
   readonly tape: Readonly<Partial<Record<TapeName, string>>>;
+  /** What the person is called, to find them again. */
+  readonly label: string;
 }
 
 /** What people know of themselves, in the order it is asked for. */
@@ -26,28 +31,19 @@ export const TAPE_NAMES = [
 ] as const;
 export type TapeName = (typeof TAPE_NAMES)[number];
 
-export const NOBODY: Person = { gender: null, units: "metric", height: "", inches: "", weight: "", tape: {} };
+export const NOBODY: Person = { gender: null, units: "metric", height: "", inches: "", weight: "", tape: {}, label: "" };
 
 /** How far a tape errs: what it says is not held exactly. */
 const TAPE_ERROR_CM = 1;
-const TAPE_RANGE_CM = [10, 200] as const;
+export const TAPE_RANGE_CM = [10, 200] as const;
 
-const INCH_M = 0.0254;
 const INCH_CM = 100 * INCH_M;
 const POUND_KG = 0.45359237;
 
-/** A number, null for nothing, NaN for what is no number. */
-function read(text: string): number | null {
-  const trimmed = text.trim().replace(",", ".");
-  return trimmed === "" ? null : Number(trimmed);
-}
-
 export function heightM(person: Person): number | null {
-  const first = read(person.height);
-  if (person.units === "metric") return first === null ? null : first / 100;
-  const inches = read(person.inches);
-  if (first === null && inches === null) return null;
-  return ((first ?? 0) * 12 + (inches ?? 0)) * INCH_M;
+  const isMetric = person.units === "metric";
+  const said = isMetric ? read(person.height) : readInches(person.height, person.inches);
+  return said === null ? null : said * (isMetric ? 0.01 : INCH_M);
 }
 
 export function weightKg(person: Person): number | null {
@@ -61,16 +57,21 @@ export function heightFault(person: Person): string | null {
   if (height === null) return null;
   const [low, high] = LIMITS.heightM;
   if (height >= low && height <= high) return null;
-  if (Number.isNaN(height)) return "A number is needed here.";
-  return person.units === "metric"
-    ? `Between ${(low * 100).toFixed(0)} and ${(high * 100).toFixed(0)} cm, please.`
-    : "Between 3 ft 11 in and 7 ft 6 in, please.";
+  const { faults } = messages.value.person;
+  if (Number.isNaN(height)) return faults.number;
+  if (person.units === "metric") return faults.height(decimal(low * 100), heightInWords(high, "metric"));
+  const [least, most] = [Math.ceil(low / INCH_M), Math.floor(high / INCH_M)].map((inches) => heightInWords(inches * INCH_M, "imperial"));
+  return faults.height(least!, most!);
 }
 
 export function weightFault(person: Person): string | null {
   const weight = weightKg(person);
   if (weight === null || (weight > 0 && weight <= 1000)) return null;
-  return "A weight above zero is needed here.";
+  return messages.value.person.faults.weight;
+}
+
+export function inches(cm: number): number {
+  return cm / INCH_CM;
 }
 
 function tapeCm(person: Person, name: TapeName): number | null {
@@ -104,9 +105,15 @@ export function tapeTexts(known: KnownMeasurements, units: Person["units"]): Per
     const said = known[name];
     if (said === undefined) continue;
     const cm = typeof said === "number" ? said : said.value;
-    texts[name] = trimmed(units === "metric" ? cm : cm / INCH_CM, 1);
+    texts[name] = typed(units === "metric" ? cm : cm / INCH_CM, 1);
   }
   return texts;
+}
+
+/** The label as the API wants it; nothing where there is none. */
+export function labelOf({ label }: Person): { readonly label?: string } {
+  const said = label.trim();
+  return said === "" ? {} : { label: said };
 }
 
 /** The same person in the other units. */
@@ -125,24 +132,31 @@ export function inUnits(person: Person, units: Person["units"]): Person {
 
 export function heightTexts(height: number | null, units: Person["units"]): { height: string; inches: string } {
   if (height === null || Number.isNaN(height)) return { height: "", inches: "" };
-  if (units === "metric") return { height: trimmed(height * 100, 1), inches: "" };
-  const inches = Math.round((height / INCH_M) * 4) / 4;
-  return { height: String(Math.floor(inches / 12)), inches: trimmed(inches % 12, 2) };
+  if (units === "metric") return { height: typed(height * 100, 1), inches: "" };
+  return feetTexts(height);
+}
+
+/** "165 cm", "5 ft 5 in". */
+export function heightInWords(height: number, units: Person["units"]): string {
+  if (units === "metric") return measured(height * 100, "centimeter");
+  return `${feetAndInches(height, 0)} ${symbols().in}`;
 }
 
 /** The person of a request, to tell fits apart by: "Woman, 165 cm". */
 export function personInWords(asked: Pick<FitOptions, "gender" | "height_m">, units: Person["units"]): string {
-  const who = asked.gender === "female" ? "Woman" : "Man";
-  const { height, inches } = heightTexts(asked.height_m ?? null, units);
-  if (height === "") return who;
-  return `${who}, ${units === "metric" ? `${height} cm` : `${height} ft ${inches} in`}`;
+  const { words } = messages.value.person;
+  const who = words[asked.gender];
+  if (asked.height_m == null) return who;
+  const { height } = heightTexts(asked.height_m, "metric");
+  return words.with(who, units === "metric" ? `${height} ${symbols().cm}` : heightInWords(asked.height_m, units));
+}
+
+function symbols() {
+  return messages.value.person.symbols;
 }
 
 export function weightText(weight: number | null, units: Person["units"]): string {
   if (weight === null || Number.isNaN(weight)) return "";
-  return trimmed(units === "metric" ? weight : weight / POUND_KG, 1);
+  return typed(units === "metric" ? weight : weight / POUND_KG, 1);
 }
 
-function trimmed(value: number, digits: number): string {
-  return String(Number(value.toFixed(digits)));
-}

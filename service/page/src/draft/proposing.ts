@@ -1,14 +1,15 @@
 // Points proposed by the service: asked for as soon as the picture is there, or by a button.
-import { computed, effect, signal } from "@preact/signals";
+import { batch, computed, effect, signal } from "@preact/signals";
 import { proposePoints } from "../api/calls";
 import { problemFrom } from "../api/client";
 import type { PointsProposal, Problem } from "../api/types";
-import { pointOf } from "../points/catalogue";
+import { listed } from "../messages/figures";
+import { messages } from "../messages/language";
 import { NO_POINTS } from "../points/placed";
 import { countProposed, isAllProposed, personAt, proposedPoints } from "../points/proposed";
 import { announce } from "../ui/announce";
 import { change, doubted, points, selected, timeline, uploaded } from "./draft";
-import { uploadProblem } from "./live";
+import { uploadProblem } from "./uploading";
 
 interface Wish {
   /** Place among the persons found; null leaves the choice to the service. */
@@ -34,12 +35,26 @@ export const others = computed(() => {
 
 /** What is to be known at once, while it holds. */
 export const proposalWord = computed(() => {
-  if (isProposing.value) return "Points are being proposed …";
+  const { stage } = messages.value;
+  if (isProposing.value) return stage.proposing;
   const isEmpty = Object.keys(points.value.placed).length === 0;
-  if (proposal.value?.person === null && isEmpty) return "Nobody was found in this picture. Click the points yourself.";
-  if (others.value.length > 0) return `${others.value.length} people were found. Tap the one you mean.`;
+  if (proposal.value?.person === null && isEmpty) return stage.nobody;
+  if (others.value.length > 0) return stage.several(others.value.length);
   return null;
 });
+
+export interface ProposalSoFar {
+  readonly proposal: PointsProposal | null;
+  readonly isAwaited: boolean;
+}
+
+export const proposalSoFar = computed<ProposalSoFar>(() => ({ proposal: proposal.value, isAwaited: wish.value !== null }));
+
+export function restoreProposal({ proposal: found, isAwaited }: ProposalSoFar): void {
+  forgetProposal();
+  proposal.value = found;
+  if (isAwaited) proposeFirst();
+}
 
 /** Nothing is known of the picture that comes next. */
 export function forgetProposal(): void {
@@ -78,17 +93,21 @@ export function startProposing(): void {
     if (!wanted || !kept) return undefined;
     const leaving = new AbortController();
     proposalProblem.value = null;
-    proposePoints({ image_id: kept.id, person: wanted.person, mask: false }, leaving.signal).then(
-      (found) => {
-        wish.value = null;
-        take(found, wanted);
-      },
+    proposePoints({ image_id: kept.id, person: wanted.person, mask: true }, leaving.signal).then(
+      // Nobody sees that the wish is gone before its answer is there.
+      (found) =>
+        batch(() => {
+          wish.value = null;
+          take(found, wanted);
+        }),
       (error) => {
         const problem = problemFrom(error);
         if (!problem) return;
-        wish.value = null;
-        if (problem.code === NOT_INSTALLED) canPropose.value = false;
-        else proposalProblem.value = problem;
+        batch(() => {
+          wish.value = null;
+          if (problem.code === NOT_INSTALLED) canPropose.value = false;
+          else proposalProblem.value = problem;
+        });
       },
     );
     return () => leaving.abort();
@@ -98,7 +117,7 @@ export function startProposing(): void {
 function take(found: PointsProposal, wanted: Wish): void {
   proposal.value = found;
   if (found.person === null) {
-    announce("Nobody was found in this picture. Click the points yourself.");
+    announce(messages.value.stage.nobody);
     return;
   }
   // Who has begun to click goes on.
@@ -110,8 +129,8 @@ function take(found: PointsProposal, wanted: Wish): void {
 }
 
 function inWords(found: PointsProposal): string {
-  const people = found.persons.length > 1 ? `${found.persons.length} people were found. ` : "";
-  const count = `${countProposed(points.value)} points are proposed. `;
-  const first = doubted.value;
-  return people + count + (first ? `Look at these: ${points.value.doubts.map((name) => pointOf(name).label).join(", ")}.` : "");
+  const { stage, points: words } = messages.value;
+  const people = found.persons.length > 1 ? [stage.severalFound(found.persons.length)] : [];
+  const doubts = doubted.value ? [stage.lookAt(listed(points.value.doubts.map((name) => words.labels[name])))] : [];
+  return [...people, stage.proposed(countProposed(points.value)), ...doubts].join(" ");
 }

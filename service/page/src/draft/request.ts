@@ -70,12 +70,12 @@ export function draftedInitialPose(subject: Subject, width: number, height: numb
   return { ...subject, ...where };
 }
 
-/** Take up the person of an earlier request. */
-export function loadPerson(asked: Pick<FitOptions, "gender" | "height_m" | "weight_kg" | "measurements">): void {
+/** Take up a person, as of an earlier request; what is left out is unknown. */
+export function loadPerson(asked: Partial<Pick<FitOptions, "gender" | "height_m" | "weight_kg" | "measurements">>): void {
   const { units } = person.value;
   person.value = {
     ...NOBODY,
-    gender: asked.gender,
+    gender: asked.gender ?? null,
     units,
     ...heightTexts(asked.height_m ?? null, units),
     weight: weightText(asked.weight_kg ?? null, units),

@@ -1,4 +1,6 @@
 // Total energy over a fit's progress, on a logarithmic scale, and its terms now.
+import { decimal } from "../messages/figures";
+import { messages } from "../messages/language";
 import { termLabel } from "./stages";
 import type { Reading } from "./watch";
 
@@ -7,8 +9,9 @@ const HEIGHT = 120;
 const PAD = 6;
 
 export function EnergyChart({ readings }: { readings: readonly Reading[] }) {
+  const { misfit } = messages.value.fit;
   const last = readings.at(-1);
-  if (!last) return <p class="fine chart-empty">Nothing to show yet.</p>;
+  if (!last) return <p class="fine chart-empty">{misfit.empty}</p>;
   const logs = readings.map((reading) => Math.log(Math.max(reading.total, 1e-3)));
   const [low, high] = [Math.min(...logs), Math.max(...logs)];
   const x = (progress: number) => PAD + progress * (WIDTH - 2 * PAD);
@@ -19,15 +22,15 @@ export function EnergyChart({ readings }: { readings: readonly Reading[] }) {
   const largest = Math.max(...Object.values(last.energies));
   return (
     <>
-      <svg class="chart" viewBox={`0 0 ${WIDTH} ${HEIGHT}`} role="img" aria-label={`Energy now ${last.total.toFixed(0)} nats`}>
+      <svg class="chart" viewBox={`0 0 ${WIDTH} ${HEIGHT}`} role="img" aria-label={misfit.now(decimal(last.total))}>
         {pieces.map((piece, i) => (
           <polyline key={i} points={piece.join(" ")} />
         ))}
         <circle cx={x(last.progress)} cy={y(logs.at(-1)!)} r="3.5" />
       </svg>
       <dl class="terms">
-        <dt>Total</dt>
-        <dd>{last.total.toFixed(1)}</dd>
+        <dt>{misfit.total}</dt>
+        <dd>{decimal(last.total, 1)}</dd>
         {Object.entries(last.energies).map(([name, value]) => (
           <>
             <dt>{termLabel(name)}</dt>
@@ -35,7 +38,7 @@ export function EnergyChart({ readings }: { readings: readonly Reading[] }) {
               <i class="term-bar" aria-hidden="true">
                 <i style={{ width: `${(100 * value) / Math.max(largest, 1e-9)}%` }} />
               </i>
-              {value.toFixed(1)}
+              {decimal(value, 1)}
             </dd>
           </>
         ))}

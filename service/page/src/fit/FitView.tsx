@@ -1,17 +1,19 @@
 // One fit: on its way, ended without a result, or its result.
 import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { cancelFit, getFile, getRequest } from "../api/calls";
+import { cancelFit, getPicture, getRequest } from "../api/calls";
 import { problemFrom } from "../api/client";
 import type { Job, Problem } from "../api/types";
 import { entries, forget, jobs, remember, seen, thumbnailOf } from "../history/store";
 import { person } from "../draft/draft";
 import { personInWords } from "../draft/person";
-import { openPicture } from "../draft/picture";
+import { shownPicture } from "../draft/picture";
 import type { Picture } from "../draft/picture";
+import { wordFor } from "../messages/catalogue";
+import { messages } from "../messages/language";
 import { openAgain } from "../panel/open";
 import { ResultView } from "../result/ResultView";
-import { go } from "../route";
+import { START_ADDRESS, go } from "../route";
 import { ProblemNote } from "../ui/ProblemNote";
 import { Progress } from "./Progress";
 import { isActive, watch } from "./watch";
@@ -33,8 +35,8 @@ export function FitView({ id }: { id: string }) {
     if (!image) return undefined;
     let gone = false;
     let opened: Picture | null = null;
-    Promise.all([getFile(image), nameOf(job)])
-      .then(([file, name]) => openPicture(file, name))
+    Promise.all([getPicture(image), nameOf(job)])
+      .then(([file, name]) => shownPicture(file, name))
       .then((shown) => {
         opened = shown;
         if (gone) return URL.revokeObjectURL(shown.url);
@@ -74,14 +76,15 @@ async function cancel(job: Job, fail: (problem: Problem | null) => void): Promis
 }
 
 function Trouble({ id, problem }: { id: string; problem: Problem }) {
+  const { fit, frame } = messages.value;
   const gone = problem.status === 404 || problem.status === 410;
   return (
     <main class="ended">
-      <h1>{gone ? "This fit is gone" : "This fit cannot be shown"}</h1>
+      <h1>{gone ? fit.gone : fit.notShown}</h1>
       <ProblemNote problem={problem} />
       <div class="row">
-        <button class="button is-primary" type="button" onClick={() => go("#/")}>
-          Start another
+        <button class="button is-primary" type="button" onClick={() => go(START_ADDRESS)}>
+          {fit.startAnother}
         </button>
         {gone ? (
           <button
@@ -89,14 +92,14 @@ function Trouble({ id, problem }: { id: string; problem: Problem }) {
             type="button"
             onClick={() => {
               forget(id);
-              go("#/");
+              go(START_ADDRESS);
             }}
           >
-            Forget it here
+            {fit.forget}
           </button>
         ) : (
           <button class="button" type="button" onClick={() => location.reload()}>
-            Try again
+            {frame.tryAgain}
           </button>
         )}
       </div>
@@ -104,17 +107,12 @@ function Trouble({ id, problem }: { id: string; problem: Problem }) {
   );
 }
 
-const ENDINGS: Readonly<Record<string, string>> = {
-  failed: "No body was found",
-  canceled: "The fit was canceled",
-  timed_out: "The fit took too long",
-};
-
 function Ended({ job, picture }: { job: Job; picture: Picture | null }) {
+  const { fit } = messages.value;
   return (
     <main class="ended">
-      {picture && <img class="ended-picture" src={picture.url} alt="The picture of this fit" />}
-      <h1>{ENDINGS[job.state]}</h1>
+      {picture && <img class="ended-picture" src={picture.url} alt={fit.picture} />}
+      <h1>{wordFor(fit.endings, job.state)}</h1>
       {job.problem && <ProblemNote problem={job.problem} />}
       <div class="row">
         {picture && (
@@ -123,11 +121,11 @@ function Ended({ job, picture }: { job: Job; picture: Picture | null }) {
             type="button"
             onClick={() => openAgain(picture, job)}
           >
-            Change the points and try again
+            {fit.changeAndRetry}
           </button>
         )}
-        <button class="button" type="button" onClick={() => go("#/")}>
-          Start another
+        <button class="button" type="button" onClick={() => go(START_ADDRESS)}>
+          {fit.startAnother}
         </button>
       </div>
     </main>

@@ -1,9 +1,13 @@
 // A fit on its way: its stages, and its energies as they go down.
 import { useState } from "preact/hooks";
+import { getRequest } from "../api/calls";
 import type { Job } from "../api/types";
 import type { Picture } from "../draft/picture";
 import { assumed } from "../history/store";
+import { percent } from "../messages/figures";
+import { messages } from "../messages/language";
 import { AssumptionNotes } from "../ui/AssumptionNotes";
+import { useAsked } from "../ui/asked";
 import { EnergyChart } from "./EnergyChart";
 import { STAGES } from "./stages";
 import { readings } from "./watch";
@@ -15,33 +19,34 @@ interface Props {
 }
 
 export function Progress({ job, picture, onCancel }: Props) {
+  const { fit } = messages.value;
   const [stopping, setStopping] = useState(job.cancel_requested);
+  const asked = useAsked(job.id, () => getRequest(job));
   const list = readings.value[job.id] ?? [];
-  const at = STAGES.findIndex((stage) => stage.name === job.stage);
-  const percent = Math.round(100 * job.progress);
+  const at = STAGES.findIndex((stage) => stage === job.stage);
   return (
     <main class="bench">
-      <div class="bench-stage is-quiet">{picture && <img class="whole-picture" src={picture.url} alt="The picture of this fit" />}</div>
+      <div class="bench-stage is-quiet">{picture && <img class="whole-picture" src={picture.url} alt={fit.picture} />}</div>
       <div class="panel">
         <div class="panel-scroll">
           <section class="section">
-            <h1 class="title">{job.state === "queued" ? "Waiting for its turn" : "Fitting the body"}</h1>
-            <progress class="bar" max={100} value={percent} aria-label="Progress of the fit">
-              {percent} %
+            <h1 class="title">{job.state === "queued" ? fit.queued : fit.running}</h1>
+            <progress class="bar" max={1} value={job.progress} aria-label={fit.progress}>
+              {percent(job.progress)}
             </progress>
-            <AssumptionNotes assumptions={assumed.value[job.id] ?? []} />
+            <AssumptionNotes assumptions={assumed.value[job.id] ?? []} asked={asked?.points ?? null} />
             <ol class="stages">
               {STAGES.map((stage, i) => (
-                <li key={stage.name} class={i < at ? "is-done" : i === at ? "is-current" : ""} aria-current={i === at ? "step" : undefined}>
-                  <b>{stage.label}</b>
-                  <span>{stage.help}</span>
+                <li key={stage} class={i < at ? "is-done" : i === at ? "is-current" : ""} aria-current={i === at ? "step" : undefined}>
+                  <b>{fit.stages[stage].label}</b>
+                  <span>{fit.stages[stage].help}</span>
                 </li>
               ))}
             </ol>
           </section>
           <section class="section">
-            <h2>Energy</h2>
-            <p class="fine">How badly the body explains the picture, in nats. Several starts are tried; the best is kept.</p>
+            <h2>{fit.misfit.title}</h2>
+            <p class="fine">{fit.misfit.help}</p>
             <EnergyChart readings={list} />
           </section>
         </div>
@@ -55,7 +60,7 @@ export function Progress({ job, picture, onCancel }: Props) {
               onCancel();
             }}
           >
-            {stopping ? "Stopping …" : "Cancel"}
+            {stopping ? fit.stopping : fit.cancel}
           </button>
         </div>
       </div>

@@ -1,19 +1,25 @@
 // This browser's fits and scans, newest first, each where it stands.
-import { useEffect, useRef } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { getFit, getScan } from "../api/calls";
 import { ProblemError } from "../api/client";
 import type { Job, Scan } from "../api/types";
 import { stageLabel } from "../fit/stages";
 import { isActive } from "../fit/watch";
 import { scans, seenScan } from "../measure/watch";
+import { moment, percent } from "../messages/figures";
+import { messages } from "../messages/language";
 import { fitAddress, go, openFit, openScan, scanAddress } from "../route";
 import { IconButton } from "../ui/IconButton";
+import { PersonFilter } from "./PersonFilter";
 import { entries, forget, jobs, seen } from "./store";
 import type { Entry } from "./store";
 
 const LOOK_EVERY_MS = 2000;
 
 export function HistoryPanel({ onClose }: { onClose: () => void }) {
+  const { frame, people } = messages.value;
+  const [whose, setWhose] = useState<string | null>(null);
+  const shown = entries.value.filter((entry) => whose === null || jobOf(entry)?.label === whose);
   const dialog = useRef<HTMLDialogElement>(null);
   useEffect(() => dialog.current!.showModal(), []);
   useEffect(() => {
@@ -47,12 +53,19 @@ export function HistoryPanel({ onClose }: { onClose: () => void }) {
     >
       <div class="drawer-inside">
         <header class="section-head">
-          <h2 id="history-title">Fits and scans of this browser</h2>
-          <IconButton icon="close" label="Close" onClick={() => dialog.current!.close()} />
+          <h2 id="history-title">{frame.list.title}</h2>
+          <IconButton icon="close" label={frame.close} onClick={() => dialog.current!.close()} />
         </header>
-        {entries.value.length === 0 && <p class="fine">None yet.</p>}
+        {entries.value.length === 0 && <p class="fine">{frame.list.none}</p>}
+        <PersonFilter
+          labels={entries.value.flatMap((entry) => jobOf(entry)?.label ?? [])}
+          chosen={whose}
+          onChoose={setWhose}
+          onLeave={() => dialog.current!.close()}
+        />
+        {whose !== null && shown.length === 0 && <p class="fine">{people.noneHere}</p>}
         <ul class="history">
-          {entries.value.map((entry) => (
+          {shown.map((entry) => (
             <li key={entry.id} class={(openFit.value ?? openScan.value) === entry.id ? "is-open" : ""}>
               <a
                 href={addressOf(entry)}
@@ -65,27 +78,20 @@ export function HistoryPanel({ onClose }: { onClose: () => void }) {
                 <img src={entry.thumbnail} alt="" width="48" height="64" />
                 <span>
                   <b>{entry.name}</b>
-                  <small>{new Date(entry.startedAt).toLocaleString(undefined, { dateStyle: "medium", timeStyle: "short" })}</small>
+                  {jobOf(entry)?.label && <small>{jobOf(entry)!.label}</small>}
+                  <small>{moment(entry.startedAt)}</small>
                   <small>{standing(entry)}</small>
                 </span>
               </a>
-              <IconButton icon="close" label={`Take ${entry.name} off this list`} onClick={() => forget(entry.id)} />
+              <IconButton icon="close" label={frame.list.takeOff(entry.name)} onClick={() => forget(entry.id)} />
             </li>
           ))}
         </ul>
-        <p class="fine">Only this browser knows the list. The service erases them after a while; deleting one erases it at once.</p>
+        <p class="fine">{frame.list.note}</p>
       </div>
     </dialog>
   );
 }
-
-const STATES: Readonly<Record<string, string>> = {
-  queued: "Waiting",
-  succeeded: "Done",
-  failed: "Failed",
-  canceled: "Canceled",
-  timed_out: "Took too long",
-};
 
 function jobOf({ id, scan }: Entry): Job | Scan | undefined {
   return scan ? scans.value[id] : jobs.value[id];
@@ -98,6 +104,7 @@ function addressOf({ id, scan }: Entry): string {
 function standing(entry: Entry): string {
   const job = jobOf(entry);
   if (!job) return "…";
-  if (job.state === "running") return `${stageLabel(job.stage ?? "observation")}, ${Math.round(100 * job.progress)} %`;
-  return STATES[job.state] ?? job.state;
+  const { list } = messages.value.frame;
+  if (job.state === "running") return list.running(stageLabel(job.stage ?? "observation"), percent(job.progress));
+  return list.states[job.state];
 }

@@ -1,6 +1,7 @@
 // The fits and scans this browser has started or opened: ids and a thumbnail, nothing else.
 import { signal } from "@preact/signals";
 import type { Job } from "../api/types";
+import { keep as keepText, kept } from "../kept";
 import type { Assumptions } from "../ui/AssumptionNotes";
 
 export interface Entry {
@@ -24,6 +25,14 @@ export const jobs = signal<Readonly<Record<string, Job>>>({});
 
 /** What was assumed of fits begun on this page, by id, as the initial body already told. */
 export const assumed = signal<Readonly<Record<string, Assumptions>>>({});
+
+let isKept = true;
+
+/** From now on the list is empty and as long-lived as the page: whoever else used this browser is nobody's business. */
+export function keepNothing(): void {
+  isKept = false;
+  entries.value = [];
+}
 
 export function remember(entry: Entry): void {
   if (entries.value.some((each) => each.id === entry.id)) return;
@@ -49,17 +58,13 @@ export function thumbnailOf(element: HTMLImageElement): string {
 
 function keep(list: readonly Entry[]): void {
   entries.value = list;
-  try {
-    localStorage.setItem(PLACE, JSON.stringify(list));
-  } catch {
-    // A full or forbidden storage: the list lives as long as the page.
-  }
+  if (isKept) keepText(PLACE, JSON.stringify(list));
 }
 
 function load(): readonly Entry[] {
   try {
-    const kept: unknown = JSON.parse(localStorage.getItem(PLACE) ?? "[]");
-    return Array.isArray(kept) ? (kept as Entry[]).filter((each) => typeof each?.id === "string") : [];
+    const list: unknown = JSON.parse(kept(PLACE) ?? "[]");
+    return Array.isArray(list) ? (list as Entry[]).filter((each) => typeof each?.id === "string") : [];
   } catch {
     return [];
   }

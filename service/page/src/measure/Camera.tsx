@@ -1,41 +1,55 @@
 // The camera over the whole screen: a silhouette to match, a level, a countdown. It is off as soon as this is gone.
 import { useEffect, useRef, useState } from "preact/hooks";
-import { announce } from "../ui/announce";
+import { seconds as inSeconds } from "../messages/figures";
+import { messages } from "../messages/language";
 import { Choice } from "../ui/Choice";
 import { IconButton } from "../ui/IconButton";
-import { beep } from "./beep";
-import { cameraTrouble, closeCamera, openCamera, takePicture } from "./lens";
-import type { Side } from "./lens";
-import { levelWord, useTilt } from "./level";
-import type { Tilt } from "./level";
+import { allowSound, beep } from "./beep";
+import { cameraTrouble, closeCamera, isFilming, openCamera, takePicture } from "./lens";
+import type { CameraTrouble, Side } from "./lens";
+import { SpiritLevel } from "./SpiritLevel";
+import { PictureFile } from "./PictureFile";
 import { SilhouetteOutline } from "./Silhouette";
 import type { PlaceName } from "./places";
+import { pictureOf } from "./views";
 
 const SECONDS = ["3", "5", "10"] as const;
 type Seconds = (typeof SECONDS)[number];
 
 interface Props {
   readonly view: PlaceName;
-  readonly onTaken: (picture: Blob) => void;
+  readonly onTaken: (picture: Blob, name: string) => void;
   readonly onClose: () => void;
 }
 
 export function Camera({ view, onTaken, onClose }: Props) {
+  const { frame, measure } = messages.value;
+  const { camera: words } = measure;
   const dialog = useRef<HTMLDialogElement>(null);
   const video = useRef<HTMLVideoElement>(null);
   const [side, setSide] = useState<Side>("environment");
   const [seconds, setSeconds] = useState<Seconds>("5");
   const [stream, setStream] = useState<MediaStream | null>(null);
   const [left, setLeft] = useState<number | null>(null);
-  const [trouble, setTrouble] = useState<string | null>(null);
-  const tilt = useTilt();
+  const [trouble, setTrouble] = useState<CameraTrouble | null>(null);
+  /** Width over height of what the camera sees: the drawing lies on it, not on the room around. */
+  const [ratio, setRatio] = useState<number | null>(null);
 
   useEffect(() => {
     dialog.current!.showModal();
+    isFilming.value = true;
+    return () => {
+      isFilming.value = false;
+    };
+  }, []);
+
+  // A camera that nobody sees is switched off. Without one the page stays: a phone hides it behind its file picker.
+  useEffect(() => {
+    if (!stream) return undefined;
     const hide = () => document.hidden && onClose();
     document.addEventListener("visibilitychange", hide);
     return () => document.removeEventListener("visibilitychange", hide);
-  }, []);
+  }, [stream]);
 
   useEffect(() => {
     let gone = false;
@@ -62,15 +76,14 @@ export function Camera({ view, onTaken, onClose }: Props) {
     let gone = false;
     beep(left === 0);
     if (left > 0) {
-      announce(String(left));
       const timer = setTimeout(() => setLeft(left - 1), 1000);
       return () => clearTimeout(timer);
     }
     takePicture(stream, video.current!).then(
-      (picture) => gone || onTaken(picture),
-      (error: Error) => {
+      (picture) => gone || onTaken(picture, view),
+      () => {
         setLeft(null);
-        setTrouble(error.message);
+        setTrouble("noPicture");
       },
     );
     return () => {
@@ -80,59 +93,69 @@ export function Camera({ view, onTaken, onClose }: Props) {
 
   const mirrored = side === "user";
   const counts = left !== null;
+  const countOrStop = () => {
+    allowSound();
+    setTrouble(null);
+    setLeft(counts ? null : Number(seconds));
+  };
   return (
-    <dialog ref={dialog} class="camera" aria-label={`Camera: ${view} picture`} onClose={onClose}>
+    <dialog ref={dialog} class="camera" aria-label={words.label(pictureOf(view))} onClose={onClose}>
       <div class="camera-room">
-        <video ref={video} class={mirrored ? "is-mirrored" : ""} autoplay muted playsInline aria-label="What the camera sees" />
-        <SilhouetteOutline view={view} mirrored={mirrored} />
-        {tilt && <Level tilt={tilt} facesUser={mirrored} />}
+        <div class="camera-view" style={ratio ? { "--ratio": ratio } : {}}>
+          <video
+            ref={video}
+            class={mirrored ? "is-mirrored" : ""}
+            autoplay
+            muted
+            playsInline
+            aria-label={words.sees}
+            onResize={({ currentTarget: { videoWidth, videoHeight } }) => videoHeight && setRatio(videoWidth / videoHeight)}
+          />
+          {stream && ratio && <SilhouetteOutline view={view} mirrored={mirrored} />}
+        </div>
+        {stream && <SpiritLevel facesUser={mirrored} />}
         {counts && (
           <p class="camera-count" aria-hidden="true">
             {left === 0 ? "✓" : left}
           </p>
         )}
+        {/* Of what lies outside a dialog no screen reader tells while it is open. */}
+        <p class="unseen" role="status">
+          {counts ? (left === 0 ? words.taken : left) : ""}
+        </p>
         {trouble && (
-          <p class="note is-problem" role="alert">
-            {trouble}
-          </p>
+          <div class="note is-problem" role="alert">
+            <p>{words.troubles[trouble]}</p>
+            <PictureFile label={measure.place.choose} named={words.chooseInstead(pictureOf(view))} onChoose={onTaken} />
+          </div>
         )}
       </div>
       <div class="camera-bar">
         <div class="camera-choices">
           <Choice
             name="countdown"
-            legend="Countdown"
+            legend={words.countdown}
             quiet
-            options={SECONDS.map((value) => ({ value, label: `${value} s` }))}
+            options={SECONDS.map((value) => ({ value, label: inSeconds(Number(value), 0) }))}
             value={seconds}
             onChange={setSeconds}
           />
           <IconButton
             icon="swap"
-            label={mirrored ? "Use the back camera" : "Use the front camera"}
+            label={mirrored ? words.useBack : words.useFront}
             disabled={counts}
             onClick={() => setSide(mirrored ? "environment" : "user")}
           />
         </div>
         <div class="camera-choices">
           <button class="button" type="button" onClick={() => dialog.current!.close()}>
-            Close
+            {frame.close}
           </button>
-          <button class="button is-primary" type="button" disabled={!stream || left === 0} onClick={() => setLeft(counts ? null : Number(seconds))}>
-            {counts ? "Stop" : `Take it in ${seconds} s`}
+          <button class="button is-primary" type="button" disabled={!stream || left === 0} onClick={countOrStop}>
+            {counts ? words.stop : words.takeIn(inSeconds(Number(seconds), 0))}
           </button>
         </div>
       </div>
     </dialog>
-  );
-}
-
-function Level({ tilt, facesUser }: { tilt: Tilt; facesUser: boolean }) {
-  const word = levelWord(tilt, facesUser);
-  return (
-    <p class={`camera-level ${word ? "" : "is-level"}`}>
-      <i style={{ rotate: `${-tilt.roll}deg` }} aria-hidden="true" />
-      {word ?? "Level"}
-    </p>
   );
 }

@@ -1,15 +1,17 @@
 // What is wrong with a picture, in words: why, and what to do.
 import type { Finding } from "../api/types";
+import { messages } from "../messages/language";
+import { Served } from "../ui/Served";
+import { answered } from "../ui/answered";
 
 export function Findings({ findings }: { findings: readonly Finding[] }) {
+  const { findings: words } = messages.value.measure;
   return (
     <ul class="findings">
       {findings.map(({ code, severity, reason, remedy }) => (
         <li key={code} class={`note ${severity === "blocks" ? "is-problem" : ""}`} data-code={code}>
-          <strong>{severity === "blocks" ? "Take it again" : "Could be better"}</strong>
-          <p>
-            {reason} {remedy}
-          </p>
+          <strong>{words[severity]}</strong>
+          <p>{answered("findings", code) ?? <Served text={`${reason} ${remedy}`} />}</p>
         </li>
       ))}
     </ul>

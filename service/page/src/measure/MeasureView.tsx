@@ -2,60 +2,64 @@
 import { useSignal } from "@preact/signals";
 import { canPropose } from "../draft/proposing";
 import { loadPerson } from "../draft/request";
+import { messages } from "../messages/language";
 import { openFile } from "../panel/open";
 import { PersonPanel } from "../panel/PersonPanel";
+import { START_ADDRESS, isEmbedded } from "../route";
 import { ProblemNote } from "../ui/ProblemNote";
+import { HowTo } from "./HowTo";
 import { measureTodo, PLACES, PLACE_NAMES, putPicture } from "./places";
 import { PlaceCard } from "./PlaceCard";
-import { measure, scanProblem } from "./send";
-
-const WORDS = {
-  noHeight: "The height is needed: pictures alone do not tell how large a body is.",
-  weight: "If you know it, the weight makes measurements better.",
-};
+import { leftOut, measure, scanProblem } from "./send";
+import { pictureOf } from "./views";
 
 export function MeasureView() {
+  const { measure: words } = messages.value;
   const isEmpty = PLACE_NAMES.every((name) => PLACES[name].picture.value === null);
   return (
     <main class="measure">
       <div class="measure-head">
-        <h1>Measure a person</h1>
-        <p class="lead">Two pictures, from the front and from the side, and a height.</p>
+        <h1>{words.title}</h1>
+        <p class="lead">{words.lead}</p>
       </div>
-      <div class="measure-person">
-        <PersonPanel words={WORDS} />
+      <div class="measure-parts">
+        <div class="measure-person">
+          <PersonPanel words={words} />
+        </div>
+        <div class="measure-pictures">
+          {!canPropose.value && <NoDetector />}
+          <Rules />
+          <HowTo />
+          {leftOut.value > 0 && <p class="note">{words.leftOut(leftOut.value)}</p>}
+          <div class="places">
+            {PLACE_NAMES.map((name) => (
+              <PlaceCard key={name} place={PLACES[name]} />
+            ))}
+          </div>
+          {isEmpty && !isEmbedded && (
+            <p class="fine">
+              {words.noPictures}{" "}
+              <button class="link" type="button" onClick={() => void trySamplePair()}>
+                {words.trySample}
+              </button>
+            </p>
+          )}
+        </div>
       </div>
-      {!canPropose.value && <NoDetector />}
-      <div class="places">
-        {PLACE_NAMES.map((name) => (
-          <PlaceCard key={name} place={PLACES[name]} />
-        ))}
-      </div>
-      {isEmpty && (
-        <p class="fine">
-          No pictures at hand?
-          <button class="link" type="button" onClick={() => void trySamplePair()}>
-            Try the sample pair
-          </button>
-        </p>
-      )}
-      <Rules />
       <MeasureBar />
     </main>
   );
 }
 
 function Rules() {
+  const { rules } = messages.value.measure;
   return (
     <details class="measure-rules">
-      <summary>For good measurements</summary>
+      <summary>{rules.title}</summary>
       <ul>
-        <li>Tight clothes or underwear, hair tied up, no shoes.</li>
-        <li>The phone upright at the height of the belly, level, two to three metres away; stood on something or held by somebody.</li>
-        <li>From head to feet in the picture, with some room around.</li>
-        <li>Light from the camera's side, and a wall of another colour than skin and clothes.</li>
-        <li>Breathe out, stand relaxed, do not draw in the belly. Both pictures from the same place: turn yourself, not the camera.</li>
-        <li>Pictures of the phone's own camera, chosen as files, name their lens: then nothing has to be assumed.</li>
+        {rules.list.map((rule) => (
+          <li key={rule}>{rule}</li>
+        ))}
       </ul>
     </details>
   );
@@ -63,34 +67,35 @@ function Rules() {
 
 /** Without proposals somebody has to click points, which is done picture by picture. */
 function NoDetector() {
+  const { noDetector: words } = messages.value.measure;
   const front = PLACES.front.picture.value;
   return (
     <div class="note is-problem" role="alert">
-      <strong>This service cannot find the person by itself</strong>
-      <p>
-        Its detector is not installed, so pictures are neither checked nor measured without clicks. Click the joints in the editor, which
-        measures by one picture.
-      </p>
-      <div class="row">
-        {front ? (
-          <button class="button is-small" type="button" onClick={() => void openFile(front.file, front.name, "open")}>
-            Open the front picture there
-          </button>
-        ) : (
-          <a class="button is-small" href="#/">
-            To the editor
-          </a>
-        )}
-      </div>
+      <strong>{words.title}</strong>
+      <p>{words.why}</p>
+      {!isEmbedded && (
+        <div class="row">
+          {front ? (
+            <button class="button is-small" type="button" onClick={() => void openFile(front.file, front.name, "open")}>
+              {words.openFront}
+            </button>
+          ) : (
+            <a class="button is-small" href={START_ADDRESS}>
+              {words.toEditor}
+            </a>
+          )}
+        </div>
+      )}
     </div>
   );
 }
 
 function MeasureBar() {
+  const { frame, measure: words, result } = messages.value;
   const sending = useSignal(false);
   const asks = useSignal(false);
   const blocked = PLACE_NAMES.filter((name) => PLACES[name].check.value?.usable === false);
-  const todo = measureTodo.value ?? (canPropose.value ? null : "Points cannot be proposed here");
+  const todo = measureTodo.value ?? (canPropose.value ? null : words.todo.noDetector);
   const send = async () => {
     asks.value = false;
     sending.value = true;
@@ -99,14 +104,14 @@ function MeasureBar() {
   };
   if (asks.value && blocked.length > 0) {
     return (
-      <div class="submit" role="group" aria-label="Measure all the same?">
-        <p>{`The ${blocked.join(" and the ")} picture should be taken again. Measure all the same?`}</p>
+      <div class="submit" role="group" aria-label={words.anyway.title}>
+        <p>{words.anyway.ask(blocked.map(pictureOf))}</p>
         <div class="submit-row">
           <button class="button grow" type="button" onClick={() => (asks.value = false)}>
-            Back
+            {words.anyway.back}
           </button>
           <button class="button grow" type="button" onClick={() => void send()}>
-            Measure anyway
+            {result.measureAnyway}
           </button>
         </div>
       </div>
@@ -121,7 +126,7 @@ function MeasureBar() {
         disabled={todo !== null || sending.value}
         onClick={() => (blocked.length > 0 ? (asks.value = true) : void send())}
       >
-        {sending.value ? "Sending …" : (todo ?? "Measure")}
+        {sending.value ? frame.sending : (todo ?? words.submit)}
       </button>
     </div>
   );

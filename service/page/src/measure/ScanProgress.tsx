@@ -3,6 +3,8 @@ import { useState } from "preact/hooks";
 import type { Scan } from "../api/types";
 import type { Picture } from "../draft/picture";
 import { stageLabel } from "../fit/stages";
+import { percent } from "../messages/figures";
+import { messages } from "../messages/language";
 import { Icon } from "../ui/Icon";
 
 interface Props {
@@ -13,12 +15,12 @@ interface Props {
 
 export function ScanProgress({ scan, pictures, onCancel }: Props) {
   const [stopping, setStopping] = useState(scan.cancel_requested);
-  const percent = Math.round(100 * scan.progress);
+  const { fit, measure: { progress: words } } = messages.value;
   return (
     <main class="measure is-waiting">
-      <h1>{scan.state === "queued" ? "Waiting for its turn" : "Measuring"}</h1>
-      <progress class="bar" max={100} value={percent} aria-label="Progress of the scan">
-        {percent} %
+      <h1>{scan.state === "queued" ? words.queued : words.running}</h1>
+      <progress class="bar" max={1} value={scan.progress} aria-label={words.label}>
+        {percent(scan.progress)}
       </progress>
       <p class="fine" role="status">
         {standing(scan)}
@@ -26,7 +28,7 @@ export function ScanProgress({ scan, pictures, onCancel }: Props) {
       <ul class="scan-pictures">
         {pictures.map(({ url }, number) => (
           <li key={url} class={scan.view === number ? "is-current" : ""}>
-            <img src={url} alt={`Picture ${number + 1}`} />
+            <img src={url} alt={words.picture(number + 1)} />
             {isDone(scan, number) && <Icon name="check" />}
           </li>
         ))}
@@ -41,7 +43,7 @@ export function ScanProgress({ scan, pictures, onCancel }: Props) {
             onCancel();
           }}
         >
-          {stopping ? "Stopping …" : "Cancel"}
+          {stopping ? fit.stopping : fit.cancel}
         </button>
       </div>
     </main>
@@ -54,8 +56,10 @@ function isDone({ view, stage, progress }: Scan, number: number): boolean {
 }
 
 function standing({ view, stage, state }: Scan): string {
-  if (state === "queued") return "The pictures are with the service.";
-  const what = stage ? `: ${stageLabel(stage).toLowerCase()}` : "";
-  if (view === null) return stage ? `Both pictures together${what}` : "Beginning …";
-  return `Picture ${view + 1} by itself${what}`;
+  const { progress: words } = messages.value.measure;
+  if (state === "queued") return words.sent;
+  if (view === null && !stage) return words.beginning;
+  const what = view === null ? words.together : words.alone(view + 1);
+  // Reading a picture is a stage called by what it reads.
+  return stage && stage !== "observation" ? words.stage(what, stageLabel(stage)) : what;
 }

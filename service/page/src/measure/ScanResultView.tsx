@@ -1,56 +1,91 @@
 // What came out of a scan: the body over its pictures, its measurements, and how far to trust them.
 import { useSignal } from "@preact/signals";
-import { useState } from "preact/hooks";
-import { eraseScan, getScanResult } from "../api/calls";
+import { useEffect, useRef, useState } from "preact/hooks";
+import { eraseScan, getScanRequest, getScanResult } from "../api/calls";
 import { problemFrom } from "../api/client";
 import type { Problem, Scan, ScanResult } from "../api/types";
 import type { Picture } from "../draft/picture";
 import { forget } from "../history/store";
+import { messages } from "../messages/language";
 import { Downloads } from "../result/Downloads";
 import { useFilesOf } from "../result/files";
-import { Measures } from "../result/Measures";
+import { Measures, rowOf } from "../result/Measures";
 import { Withheld } from "../result/Withheld";
 import { MEASURE_ADDRESS, go } from "../route";
 import { AssumptionNotes } from "../ui/AssumptionNotes";
+import { useEscape } from "../ui/escape";
 import { IconButton } from "../ui/IconButton";
 import { ProblemNote } from "../ui/ProblemNote";
+import { useQuestion } from "../ui/question";
+import { Served } from "../ui/Served";
+import { useAsked } from "../ui/asked";
+import { PROPOSED_POINTS } from "../ui/proposed";
+import { DerivedPanel } from "../derived/DerivedPanelLater";
 import { Findings } from "./Findings";
+import { plainly } from "./plainly";
+import { proposedText } from "./proposed";
 import { qualityOf } from "./quality";
 import { ScanLook } from "./ScanLook";
 import type { Shown } from "./ScanLook";
+import { ScanWarnings } from "./ScanWarnings";
 import { measureByForce, reopen } from "./send";
+import { pictureOf } from "./views";
+
+/** What is offered to be made of a scan. */
+const OF_SCANS = ["report", "size"] as const;
 
 export function ScanResultView({ scan, pictures }: { scan: Scan; pictures: readonly Picture[] }) {
-  const { files, problem } = useFilesOf(scan, () => getScanResult(scan), "body_posed_0.glb");
+  const { result: words } = messages.value;
+  const { result, files, loaded, problem } = useFilesOf(scan, () => getScanResult(scan), "body_posed_0.glb");
   const [pointedAt, pointAt] = useState<string | null>(null);
   const [marked, mark] = useState<string | null>(null);
   const [shown, show] = useState<Shown>("pictures");
-  const [front] = pictures;
+  const stage = useRef<HTMLDivElement>(null);
+  // On a phone the body lies above the table, out of sight of whoever taps a row.
+  useEffect(() => {
+    if (marked !== null) stage.current?.scrollIntoView({ block: "nearest" });
+  }, [marked]);
+  useEscape([[marked !== null, () => mark(null)]]);
   if (problem) {
     return (
       <main class="ended">
-        <h1>The result cannot be shown</h1>
+        <h1>{words.notShown}</h1>
         <ProblemNote problem={problem} />
       </main>
     );
   }
   return (
     <main class="bench is-scan" aria-busy={files === null} data-scan={scan.id}>
-      <div class="bench-stage">
-        {files && front && (
-          <ScanLook scan={scan} files={files} picture={front} shown={shown} onShow={show} measure={pointedAt ?? marked} />
+      <div class="bench-stage" ref={stage}>
+        {result && (
+          <ScanLook
+            scan={scan}
+            result={result}
+            files={files}
+            loaded={loaded}
+            pictures={pictures}
+            shown={shown}
+            onShow={show}
+            measure={pointedAt ?? marked}
+            onPoint={pointAt}
+            onMeasure={(name) => {
+              mark(marked === name ? null : name);
+              document.getElementById(rowOf(name))?.scrollIntoView({ block: "center" });
+            }}
+          />
         )}
       </div>
       <div class="panel">
         <div class="panel-scroll">
           <section class="section">
-            <h1 class="title">The body</h1>
-            {files && <Quality result={files.result} />}
+            <h1 class="title">{words.body}</h1>
+            {result ? <Quality scan={scan} result={result} /> : <p class="fine">{words.loading}</p>}
           </section>
-          {files && files.result.measurements.length === 0 && <Withheld onAnyway={() => measureByForce(scan)} />}
-          {files && files.result.measurements.length > 0 && (
+          {result && <OfPictures result={result} />}
+          {result && result.measurements.length === 0 && <Withheld onAnyway={() => measureByForce(scan)} />}
+          {result && result.measurements.length > 0 && (
             <Measures
-              measurements={files.result.measurements}
+              measurements={result.measurements}
               before={null}
               pointedAt={pointedAt ?? marked}
               onPoint={pointAt}
@@ -60,8 +95,8 @@ export function ScanResultView({ scan, pictures }: { scan: Scan; pictures: reado
               }}
             />
           )}
-          {files && <OfPictures result={files.result} />}
-          {files && <Downloads job={scan} result={files.result} />}
+          {result && <DerivedPanel parent={scan} kinds={OF_SCANS} hasLight={false} />}
+          {result && <Downloads job={scan} result={result} />}
         </div>
         <Actions scan={scan} />
       </div>
@@ -69,17 +104,20 @@ export function ScanResultView({ scan, pictures }: { scan: Scan; pictures: reado
   );
 }
 
-function Quality({ result }: { result: ScanResult }) {
-  const { text, isBad } = qualityOf(result);
+function Quality({ scan, result }: { scan: Scan; result: ScanResult }) {
+  const asked = useAsked(scan.id, () => getScanRequest(scan));
+  const { text, isBad, agreement } = qualityOf(result);
+  // Told with its picture, and what to do about it.
+  const found = new Set(result.views.flatMap(({ findings }) => findings.map(({ code }) => code as string)));
+  const warnings = result.warnings.filter(({ code }) => !found.has(code));
+  const proposed = asked && proposedText(result.views, asked);
   return (
     <>
       <p class={isBad ? "note is-problem" : "quality"}>{text}</p>
-      {result.warnings.map(({ code, message }) => (
-        <p class="note" key={code + message}>
-          {message.replaceAll("_", " ")}
-        </p>
-      ))}
-      <AssumptionNotes assumptions={result.assumptions} />
+      {agreement && <p class="fine">{agreement}</p>}
+      <ScanWarnings warnings={warnings} views={result.views} />
+      {proposed && <p class="fine">{proposed}</p>}
+      <AssumptionNotes assumptions={result.assumptions} asked={null} />
     </>
   );
 }
@@ -88,20 +126,17 @@ function Quality({ result }: { result: ScanResult }) {
 function OfPictures({ result }: { result: ScanResult }) {
   return (
     <>
-      {result.views.map(({ number, view, findings, warnings, assumptions, verdict, outcome_explanation }) => {
+      {result.views.map(({ number, view, findings, warnings, assumptions: all, verdict, outcome_explanation }) => {
+        const assumptions = all.filter(({ quantity }) => quantity !== PROPOSED_POINTS);
         const silent = findings.length + warnings.length + assumptions.length === 0 && verdict === "plausible";
         if (silent) return null;
         return (
           <section class="section" key={number} aria-labelledby={`of-${number}`}>
-            <h2 id={`of-${number}`}>{`The ${view} picture`}</h2>
-            {verdict !== "plausible" && <p class="note is-problem">{outcome_explanation}</p>}
+            <h2 id={`of-${number}`}>{messages.value.measure.ofPicture(pictureOf(view))}</h2>
+            {verdict !== "plausible" && <p class="note is-problem">{plainly("verdicts", verdict) ?? <Served text={outcome_explanation} />}</p>}
             <Findings findings={findings} />
-            {warnings.map(({ code, message }) => (
-              <p class="note" key={code + message}>
-                {message.replaceAll("_", " ")}
-              </p>
-            ))}
-            <AssumptionNotes assumptions={assumptions} />
+            <ScanWarnings warnings={warnings} views={result.views} />
+            <AssumptionNotes assumptions={assumptions} asked={null} />
           </section>
         );
       })}
@@ -110,8 +145,9 @@ function OfPictures({ result }: { result: ScanResult }) {
 }
 
 function Actions({ scan }: { scan: Scan }) {
+  const { measure: { result: words }, result } = messages.value;
   const problem = useSignal<Problem | null>(null);
-  const asks = useSignal(false);
+  const question = useQuestion();
   const attempt = async (what: () => Promise<void>) => {
     try {
       await what();
@@ -128,22 +164,22 @@ function Actions({ scan }: { scan: Scan }) {
   return (
     <div class="submit">
       {problem.value && <ProblemNote problem={problem.value} />}
-      {asks.value ? (
-        <div class="submit-row" role="group" aria-label="Delete this scan?">
-          <span class="grow">Erase this scan with its pictures?</span>
-          <button class="button" type="button" onClick={() => (asks.value = false)}>
-            Keep
+      {question.isAsked ? (
+        <div class="submit-row" role="group" aria-label={words.deleteQuestion}>
+          <span class="grow">{words.erase}</span>
+          <button class="button" type="button" ref={question.refusal} onClick={question.leave}>
+            {result.keep}
           </button>
           <button class="button is-danger" type="button" onClick={() => void attempt(erase)}>
-            Delete
+            {result.delete}
           </button>
         </div>
       ) : (
         <div class="submit-row">
           <button class="button is-primary grow" type="button" onClick={() => void attempt(() => reopen(scan, null))}>
-            Change and measure again
+            {words.change}
           </button>
-          <IconButton icon="trash" label="Delete this scan" onClick={() => (asks.value = true)} />
+          <IconButton icon="trash" label={words.delete} onClick={question.ask} buttonRef={question.asker} />
         </div>
       )}
     </div>

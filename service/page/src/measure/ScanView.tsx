@@ -1,28 +1,32 @@
 // One scan: on its way, ended without a result, or its result.
 import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { cancelScan, getFile } from "../api/calls";
+import { cancelScan, getPicture } from "../api/calls";
 import { problemFrom } from "../api/client";
 import type { Problem, Scan } from "../api/types";
-import { openPicture } from "../draft/picture";
+import { shownPicture } from "../draft/picture";
 import type { Picture } from "../draft/picture";
 import { isActive } from "../fit/watch";
 import { forget } from "../history/store";
+import { wordFor } from "../messages/catalogue";
+import { messages } from "../messages/language";
 import { MEASURE_ADDRESS, go } from "../route";
 import { ProblemNote } from "../ui/ProblemNote";
 import { faultsOf } from "./faults";
+import { PictureProblem } from "./PictureProblem";
 import { ScanProgress } from "./ScanProgress";
 import { ScanResultView } from "./ScanResultView";
-import { reopen } from "./send";
-import { scans, seenScan, watchScan } from "./watch";
+import { rememberScan, reopen } from "./send";
+import { scanTrouble, scans, seenScan, watchScan } from "./watch";
 
 export function ScanView({ id }: { id: string }) {
   const problem = useSignal<Problem | null>(null);
   const pictures = useSignal<readonly Picture[]>([]);
   const scan = scans.value[id];
-  const fail = (error: unknown) => (problem.value = problemFrom(error));
+  const fail = (error: unknown) => (problem.value = scanTrouble.value = problemFrom(error));
 
   useEffect(() => {
+    scanTrouble.value = null;
     const leaving = new AbortController();
     watchScan(id, leaving.signal).catch(fail);
     return () => leaving.abort();
@@ -34,11 +38,12 @@ export function ScanView({ id }: { id: string }) {
     let gone = false;
     let shown: readonly Picture[] = [];
     const drop = () => shown.forEach(({ url }) => URL.revokeObjectURL(url));
-    Promise.all(scan.links.views.map(async ({ image }, number) => openPicture(await getFile(image), `picture ${number + 1}`)))
+    Promise.all(scan.links.views.map(async ({ image }, number) => shownPicture(await getPicture(image), messages.peek().measure.progress.picture(number + 1))))
       .then((opened) => {
         shown = opened;
         if (gone) return drop();
         pictures.value = opened;
+        return rememberScan(scan, opened[0]!.element);
       })
       .catch(fail);
     return () => {
@@ -58,10 +63,11 @@ export function ScanView({ id }: { id: string }) {
 }
 
 function Trouble({ id, problem }: { id: string; problem: Problem }) {
+  const { ended: words } = messages.value.measure;
   const gone = problem.status === 404 || problem.status === 410;
   return (
     <main class="ended">
-      <h1>{gone ? "This scan is gone" : "This scan cannot be shown"}</h1>
+      <h1>{gone ? words.gone : words.notShown}</h1>
       <ProblemNote problem={problem} />
       <div class="row">
         <button
@@ -72,39 +78,34 @@ function Trouble({ id, problem }: { id: string; problem: Problem }) {
             go(MEASURE_ADDRESS);
           }}
         >
-          Measure somebody
+          {words.somebody}
         </button>
       </div>
     </main>
   );
 }
 
-const ENDINGS: Readonly<Record<string, string>> = {
-  failed: "Nobody could be measured",
-  canceled: "The scan was canceled",
-  timed_out: "The scan took too long",
-};
-
 function Ended({ scan, pictures }: { scan: Scan; pictures: readonly Picture[] }) {
+  const { ended: words } = messages.value.measure;
   const trouble = useSignal<Problem | null>(null);
   const { views, rest } = scan.problem ? faultsOf(scan.problem) : { views: new Map<number, Problem>(), rest: null };
   const again = () => reopen(scan, scan.problem ?? null).catch((error) => (trouble.value = problemFrom(error)));
   return (
     <main class="ended">
-      <h1>{ENDINGS[scan.state]}</h1>
+      <h1>{wordFor(words.states, scan.state)}</h1>
       {rest && <ProblemNote problem={rest} />}
       <ul class="ended-pictures">
         {pictures.map(({ url }, number) => (
           <li key={url}>
-            <img class="ended-picture" src={url} alt={`Picture ${number + 1} of this scan`} />
-            {views.has(number) && <ProblemNote problem={views.get(number)!} />}
+            <img class="ended-picture" src={url} alt={words.picture(number + 1)} />
+            {views.has(number) && <PictureProblem problem={views.get(number)!} />}
           </li>
         ))}
       </ul>
       {trouble.value && <ProblemNote problem={trouble.value} />}
       <div class="row">
         <button class="button is-primary" type="button" onClick={() => void again()}>
-          Change the pictures and measure again
+          {words.change}
         </button>
       </div>
     </main>

@@ -1,4 +1,5 @@
 // How to stand, drawn: from the front with arms and legs apart, from the side with the arms stretched forward.
+import { messages } from "../messages/language";
 import type { PlaceName } from "./places";
 
 const BOX = "0 0 120 220";
@@ -24,14 +25,9 @@ const SHAPES: Readonly<Record<PlaceName, readonly (readonly [path: string, width
   ],
 };
 
-const LABELS: Readonly<Record<PlaceName, string>> = {
-  front: "Drawn: a person from the front, arms and legs apart",
-  side: "Drawn: a person from the side, legs together, arms stretched forward",
-};
-
 export function Silhouette({ view }: { view: PlaceName }) {
   return (
-    <svg class="silhouette" viewBox={BOX} role="img" aria-label={LABELS[view]}>
+    <svg class="silhouette" viewBox={BOX} role="img" aria-label={messages.value.measure.place.drawn[view]}>
       <g class="silhouette-body">
         {SHAPES[view].map(([path, width]) => (
           <path key={path} d={path} stroke-width={width} />

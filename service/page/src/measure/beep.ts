@@ -4,6 +4,16 @@ let context: AudioContext | null = null;
 const SHORT_S = 0.12;
 const LONG_S = 0.5;
 
+/** To be called by a tap: some phones stay silent otherwise. */
+export function allowSound(): void {
+  try {
+    context ??= new AudioContext();
+    void context.resume();
+  } catch {
+    // Without sound there are the figures.
+  }
+}
+
 /** A tone for every second, and a longer and higher one at the end. */
 export function beep(last: boolean): void {
   try {

@@ -1,6 +1,11 @@
 // The camera of the browser: its stream, and a picture from it.
+import { signal } from "@preact/signals";
+import type { Messages } from "../messages/catalogue";
 
 export type Side = "environment" | "user";
+
+/** Whether the camera fills the window. */
+export const isFilming = signal(false);
 
 const JPEG_QUALITY = 0.95;
 const PHOTO_WITHIN_MS = 4000;
@@ -21,13 +26,15 @@ export function closeCamera(stream: MediaStream | null): void {
   for (const track of stream?.getTracks() ?? []) track.stop();
 }
 
-/** What stands in the way of the camera, and what to do. */
-export function cameraTrouble(error: unknown): string {
+/** What stands in the way of the camera. */
+export type CameraTrouble = keyof Messages["measure"]["camera"]["troubles"];
+
+export function cameraTrouble(error: unknown): CameraTrouble {
   const name = error instanceof DOMException ? error.name : "";
-  if (name === "NotAllowedError") return "This page may not use the camera. Allow it in the browser's settings, or choose a file.";
-  if (name === "NotFoundError" || name === "OverconstrainedError") return "No camera was found. Choose a file instead.";
-  if (name === "NotReadableError") return "Something else uses the camera. Close that, or choose a file.";
-  return "The camera cannot be used here. Choose a file instead.";
+  if (name === "NotAllowedError") return "forbidden";
+  if (name === "NotFoundError" || name === "OverconstrainedError") return "none";
+  if (name === "NotReadableError") return "used";
+  return "unusable";
 }
 
 /** A full photograph where the browser takes one, which may name its lens; else what the video shows. */
@@ -58,7 +65,7 @@ function frameOf(video: HTMLVideoElement): Promise<Blob> {
   canvas.height = video.videoHeight;
   canvas.getContext("2d")!.drawImage(video, 0, 0);
   return new Promise((resolve, reject) =>
-    canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("The camera gave no picture."))), "image/jpeg", JPEG_QUALITY),
+    canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("no picture"))), "image/jpeg", JPEG_QUALITY),
   );
 }
 

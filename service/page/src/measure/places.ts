@@ -2,15 +2,18 @@
 import { computed, effect, signal } from "@preact/signals";
 import type { Signal } from "@preact/signals";
 import { checkCapture, uploadImage } from "../api/calls";
-import { problemFrom } from "../api/client";
+import { ProblemError, problemFrom } from "../api/client";
 import type { CaptureCheck, Problem, UploadedImage } from "../api/types";
 import { person } from "../draft/draft";
 import { heightFault, heightM, tapeFault, weightFault } from "../draft/person";
-import { openPicture } from "../draft/picture";
+import { openPicture } from "../draft/chosen";
 import type { Picture } from "../draft/picture";
 import { canPropose } from "../draft/proposing";
+import { messages } from "../messages/language";
 import { announce } from "../ui/announce";
-import { NOT_INSTALLED } from "./faults";
+import { answered } from "../ui/answered";
+import { NOT_INSTALLED, isUnusable } from "./faults";
+import { pictureOf, viewLabel } from "./views";
 
 export type PlaceName = "front" | "side";
 
@@ -44,23 +47,42 @@ const PAUSE_MS = 250;
 
 /** Why nothing can be measured yet, as a thing to do; null when it can. */
 export const measureTodo = computed<string | null>(() => {
-  if (person.value.gender === null) return "Choose female or male";
-  if (heightM(person.value) === null) return "Give the height";
-  if (heightFault(person.value) !== null) return "Correct the height";
-  if (weightFault(person.value) !== null) return "Correct the weight";
-  if (tapeFault(person.value) !== null) return "Correct a measurement";
+  const { measure, person: said } = messages.value;
+  if (person.value.gender === null) return said.todo.gender;
+  if (heightM(person.value) === null) return measure.todo.height;
+  if (heightFault(person.value) !== null) return said.todo.height;
+  if (weightFault(person.value) !== null) return said.todo.weight;
+  if (tapeFault(person.value) !== null) return said.todo.tape;
   const missing = PLACE_NAMES.find((name) => PLACES[name].picture.value === null);
-  return missing ? `Add the ${missing} picture` : null;
+  if (missing) return measure.todo.add(pictureOf(missing));
+  const unusable = PLACE_NAMES.find((name) => {
+    const problem = PLACES[name].problem.value;
+    return problem !== null && isUnusable(problem);
+  });
+  return unusable ? measure.todo.again(pictureOf(unusable)) : null;
 });
 
-/** Take this file for a place; raises an Error that says what to do where it is no picture. */
-export async function putPicture({ picture, uploaded, check, problem }: Place, file: Blob, name: string): Promise<void> {
-  const opened = await openPicture(file, name);
+/** Which place each view of a scan belongs to, null for those that have none here: a second side, or the back. */
+export function placesOf(views: readonly { readonly view: string }[]): readonly (PlaceName | null)[] {
+  return views.map(({ view }, number) => {
+    const name = PLACE_NAMES.find((each) => each === view) ?? null;
+    return name !== null && views.findIndex((other) => other.view === view) === number ? name : null;
+  });
+}
+
+export function emptyPlace({ picture, uploaded, check, problem }: Place): void {
   if (picture.value) URL.revokeObjectURL(picture.value.url);
+  picture.value = null;
   uploaded.value = null;
   check.value = null;
   problem.value = null;
-  picture.value = opened;
+}
+
+/** Take this file for a place; raises an Error that says what to do where it is no picture. */
+export async function putPicture(place: Place, file: Blob, name: string): Promise<void> {
+  const opened = await openPicture(file, name);
+  emptyPlace(place);
+  place.picture.value = opened;
 }
 
 /** Upload every picture that comes, and have it checked, anew whenever the height is another. */
@@ -74,6 +96,10 @@ function follow(each: Place): void {
   effect(() => {
     const chosen = each.picture.value;
     if (!chosen) return undefined;
+    if (chosen.kept) {
+      each.uploaded.value = chosen.kept;
+      return undefined;
+    }
     const leaving = new AbortController();
     uploadImage(chosen.file, leaving.signal).then(
       (kept) => (each.uploaded.value = kept),
@@ -90,10 +116,15 @@ function follow(each: Place): void {
     if (!kept || !canPropose.value) return undefined;
     const leaving = new AbortController();
     each.isChecking.value = true;
-    const timer = setTimeout(() => {
+    const ask = () => {
       checkCapture({ image_id: kept.id, view: each.name, points: {}, format: "named", ...known }, leaving.signal).then(
         (found) => take(each, found),
         (error) => {
+          // Those that look at pictures are few: it is asked again when the service says so.
+          if (error instanceof ProblemError && error.problem.status === 503 && error.retryAfterS !== null) {
+            timer = setTimeout(ask, 1000 * error.retryAfterS);
+            return;
+          }
           const problem = problemFrom(error);
           if (!problem) return;
           each.isChecking.value = false;
@@ -101,7 +132,8 @@ function follow(each: Place): void {
           else each.problem.value = problem;
         },
       );
-    }, PAUSE_MS);
+    };
+    let timer = setTimeout(ask, PAUSE_MS);
     return () => {
       clearTimeout(timer);
       leaving.abort();
@@ -113,5 +145,7 @@ function follow(each: Place): void {
 function take(each: Place, found: CaptureCheck): void {
   each.isChecking.value = false;
   each.check.value = found;
-  announce(`${each.name === "front" ? "Front" : "Side"}: ${found.findings[0]?.reason ?? "good to measure."}`);
+  const [first] = found.findings;
+  const { place: words } = messages.value.measure;
+  announce(words.told(viewLabel(each.name), first ? (answered("findings", first.code) ?? first.reason) : words.good));
 }

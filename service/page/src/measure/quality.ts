@@ -1,13 +1,20 @@
-// How far a scan is to be trusted, in a line.
+// How far a scan is to be trusted, in a few sentences.
 import type { Finding, ScanResult } from "../api/types";
+import { percent } from "../messages/figures";
+import { messages } from "../messages/language";
 import { isContradicted } from "../result/outcome";
 
 /** Told by the page itself, with the picture it belongs to. */
 const DIFFERENT_PEOPLE = "different-people";
 
+/** Below it the pictures differ more than those of one person usually do: one in twenty pairs. */
+const USUAL_AGREEMENT = 0.05;
+
 export interface Quality {
   readonly text: string;
   readonly isBad: boolean;
+  /** How well the pictures agree with each other; null where that says nothing. */
+  readonly agreement: string | null;
 }
 
 type Judged = Pick<ScanResult, "verdict" | "agreement"> & {
@@ -16,13 +23,25 @@ type Judged = Pick<ScanResult, "verdict" | "agreement"> & {
 };
 
 export function qualityOf(result: Judged): Quality {
+  const { quality } = messages.value.measure;
   const findings = result.views.flatMap(({ findings }) => findings);
-  const blocked = findings.some(({ severity }) => severity === "blocks");
-  if (isContradicted(result)) return { text: "A picture does not show a person as it should: take it again.", isBad: true };
-  if (result.warnings.some(({ code }) => code === DIFFERENT_PEOPLE)) {
-    return { text: "The pictures contradict each other: do not trust these measurements.", isBad: true };
-  }
-  if (blocked) return { text: "Poor: take the picture again that is told of below.", isBad: true };
-  if (findings.length > 0) return { text: "Fair: the pictures agree, but could be better. See below.", isBad: false };
-  return { text: "Good: nothing is wrong with the pictures, and they agree.", isBad: false };
+  const agreement = agreementText(result.agreement);
+  if (isContradicted(result)) return { text: quality.contradicted, isBad: true, agreement: null };
+  if (result.warnings.some(({ code }) => code === DIFFERENT_PEOPLE)) return { text: quality.differentPeople, isBad: true, agreement };
+  if (findings.some(({ severity }) => severity === "blocks")) return { text: quality.poor, isBad: true, agreement };
+  if (findings.length > 0) return { text: quality.fair, isBad: false, agreement };
+  if (result.agreement < USUAL_AGREEMENT) return { text: quality.unlike, isBad: false, agreement };
+  return { text: quality.good, isBad: false, agreement };
+}
+
+function agreementText(share: number): string {
+  const { quality } = messages.value.measure;
+  if (share < USUAL_AGREEMENT) return quality.rarely(shareText(share));
+  return share >= 0.995 ? quality.nearlyAlways : quality.often(shareText(share));
+}
+
+/** Small shares with a digit: one in a thousand is not none. */
+function shareText(share: number): string {
+  if (share < 0.0005) return messages.value.derived.lessThan(percent(0.001, 1));
+  return percent(share, share < 0.0095 ? 1 : 0);
 }

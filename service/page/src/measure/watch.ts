@@ -2,11 +2,14 @@
 import { signal } from "@preact/signals";
 import { getScan } from "../api/calls";
 import { jobEvents } from "../api/events";
-import type { Scan } from "../api/types";
+import type { Problem, Scan } from "../api/types";
 import { isActive } from "../fit/watch";
 
 /** As last seen, by id. */
 export const scans = signal<Readonly<Record<string, Scan>>>({});
+
+/** Why the scan that is open cannot be followed or shown. */
+export const scanTrouble = signal<Problem | null>(null);
 
 export function seenScan(scan: Scan): void {
   scans.value = { ...scans.value, [scan.id]: scan };

@@ -1,7 +1,8 @@
 // Asks about proposed points one by one; nothing waits for the answers.
 import { useEffect, useRef } from "preact/hooks";
 import { change, picture, points, selected } from "../draft/draft";
-import { pointOf, sideOf } from "../points/catalogue";
+import { messages } from "../messages/language";
+import { sideOf } from "../points/catalogue";
 import type { PointName } from "../points/catalogue";
 import { ask, confirm, nextDoubt, setHidden, skip } from "../points/placed";
 import type { Points } from "../points/placed";
@@ -13,37 +14,37 @@ const CLOSE_UP_PX = 116;
 const SHOWN_SHARE = 0.16;
 
 export function questionOf(name: PointName): string {
-  const label = pointOf(name).label.toLowerCase();
-  return label.endsWith("toes") ? `Are these the ${label}?` : `Is this the ${label}?`;
+  return messages.value.points.question[name];
 }
 
 export function DoubtQuestion({ name }: { name: PointName }) {
-  const left = points.value.doubts.length;
+  const { panel, points: words } = messages.value;
   return (
     <>
-      <p class="next-kicker">{left === 1 ? "Please look" : `Please look: ${left} to go`}</p>
+      <p class="next-kicker">{panel.doubt.look(points.value.doubts.length)}</p>
       <p class={`next-name is-${sideOf(name)}`}>{questionOf(name)}</p>
-      <p class="next-help">{pointOf(name).help}</p>
+      <p class="next-help">{words.helps[name]}</p>
       <DoubtAnswers name={name} />
-      <p class="fine">You need not answer: the fit trusts proposals less than clicks.</p>
+      <p class="fine">{panel.doubt.optional}</p>
     </>
   );
 }
 
 export function DoubtAnswers({ name }: { name: PointName }) {
+  const { doubt } = messages.value.panel;
   return (
     <div class="row" role="group" aria-label={questionOf(name)}>
       <button class="button is-small" type="button" onClick={() => answer(confirm(points.value, name))}>
-        Yes
+        {doubt.yes}
       </button>
       <button class="button is-small" type="button" onClick={() => move(name)}>
-        Move it
+        {doubt.move}
       </button>
       <button class="button is-small" type="button" onClick={() => answer(setHidden(points.value, name, true))}>
-        It is hidden
+        {doubt.hidden}
       </button>
       <button class="button is-small" type="button" onClick={() => answer(skip(points.value, name))}>
-        Leave out
+        {doubt.leaveOut}
       </button>
     </div>
   );
@@ -66,7 +67,7 @@ function answer(next: Points): void {
   change(next);
   selected.value = null;
   const following = nextDoubt(next);
-  announce(following ? questionOf(following) : "No more questions about points.");
+  announce(following ? questionOf(following) : messages.value.panel.doubt.noMore);
   // Its buttons are gone: keys go on at the picture.
   if (!following) document.querySelector<HTMLElement>(".stage")?.focus({ preventScroll: true });
 }
@@ -76,5 +77,5 @@ function move(name: PointName): void {
   change(ask(points.value, name));
   selected.value = name;
   document.querySelector<HTMLElement>(".stage")?.focus({ preventScroll: true });
-  announce(`Click where the ${pointOf(name).label.toLowerCase()} is, or move it by the arrow keys.`);
+  announce(messages.value.panel.doubt.clickWhere(messages.value.points.named[name]));
 }

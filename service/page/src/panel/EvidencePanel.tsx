@@ -1,39 +1,37 @@
 // By what the body is found: by its outline alone, or by its shading as well; and what covers it.
 import { clothing, cues } from "../draft/draft";
+import { messages } from "../messages/language";
 import { Choice } from "../ui/Choice";
 
 export function EvidencePanel() {
+  const { cues: byWhat, clothes } = messages.value.panel;
   return (
     <div class="subsection">
       <Choice
         name="cues"
-        legend="Evidence"
+        legend={byWhat.title}
         options={[
-          { value: "SES", label: "Outline and shading" },
-          { value: "SE", label: "Outline alone" },
+          { value: "SES", label: byWhat.shading },
+          { value: "SE", label: byWhat.outline },
         ]}
         value={cues.value}
         onChange={(value) => (cues.value = value)}
       />
       <p class="fine">
-        {cues.value === "SES"
-          ? "Shading measures better where skin, or what clings to it, is seen in one light. It takes twice as long."
-          : "For paintings and light from everywhere. Nothing is said of light and skin then."}
+        {cues.value === "SES" ? byWhat.shadingHelp : byWhat.outlineHelp}
       </p>
       <Choice
         name="clothing"
-        legend="Clothes"
+        legend={clothes.title}
         options={[
-          { value: "tight", label: "Close-fitting or none" },
-          { value: "loose", label: "Loose" },
+          { value: "tight", label: clothes.tight },
+          { value: "loose", label: clothes.loose },
         ]}
         value={clothing.value}
         onChange={(value) => (clothing.value = value)}
       />
       <p class="fine">
-        {clothing.value === "tight"
-          ? "The outline is the body’s own."
-          : "The body is sought inside the outline, tight only where skin is seen. Intervals are wider."}
+        {clothing.value === "tight" ? clothes.tightHelp : clothes.looseHelp}
       </p>
     </div>
   );

@@ -2,9 +2,14 @@
 import type { Facing, Limb } from "../api/types";
 import { facing, upcoming } from "../draft/draft";
 import { liveBody } from "../draft/live";
+import { plainName, wordFor } from "../messages/catalogue";
+import { capitalised } from "../messages/figures";
+import { messages } from "../messages/language";
 import { Choice } from "../ui/Choice";
 
 export function FacingPanel() {
+  const { panel, points } = messages.value;
+  const words = panel.facing;
   const said = facing.value;
   const limbs = liveBody.value?.limbs ?? [];
   const open = limbs.filter((limb) => limb.ambiguous || (limb.limb as Limb) in said);
@@ -13,18 +18,18 @@ export function FacingPanel() {
   return (
     <details class="section fold-section" open={upcoming.value === null && undecided > 0}>
       <summary>
-        <h2>Toward you or away</h2> <span class="count">{undecided === 0 ? "all said" : `${undecided} undecided`}</span>
+        <h2>{words.title}</h2> <span class="count">{undecided === 0 ? words.allSaid : words.undecided(undecided)}</span>
       </summary>
-      <p class="fine">A picture is flat: the hand’s or foot’s end of these limbs may be nearer to you than the other, or farther away. Say so if you see it; this is what goes wrong most often.</p>
+      <p class="fine">{words.help}</p>
       {open.map((limb) => (
         <Choice<Facing | "open">
           key={limb.limb}
           name={`facing-${limb.limb}`}
-          legend={capitalised(limb.limb.replaceAll("_", " "))}
+          legend={capitalised(wordFor(points.limbs, limb.limb) ?? plainName(limb.limb))}
           options={[
-            { value: "open", label: `Undecided (${limb.facing})` },
-            { value: "toward", label: "Toward" },
-            { value: "away", label: "Away" },
+            { value: "open", label: words.open[limb.facing] },
+            { value: "toward", label: words.toward },
+            { value: "away", label: words.away },
           ]}
           value={said[limb.limb as Limb] ?? "open"}
           onChange={(value) => {
@@ -35,8 +40,4 @@ export function FacingPanel() {
       ))}
     </details>
   );
-}
-
-function capitalised(text: string): string {
-  return text.charAt(0).toUpperCase() + text.slice(1);
 }

@@ -1,4 +1,5 @@
 // A small figure that shows which point is meant. It faces the viewer: its left is on the right.
+import { messages } from "../messages/language";
 import { sideOf } from "../points/catalogue";
 import type { PointName } from "../points/catalogue";
 import type { Points } from "../points/placed";
@@ -38,13 +39,14 @@ const CLOSE_UPS: Readonly<Partial<Record<PointName, string>>> = {
 };
 
 export function Guide({ next, points }: { next: PointName | null; points: Points }) {
+  const { guide } = messages.value.panel;
   const closeUp = next && CLOSE_UPS[next];
   return (
     <div class="guides">
-      <svg class="guide" viewBox="0 0 124 220" role="img" aria-label={next ? "A figure that faces you, with the next point marked" : "A figure that faces you"}>
+      <svg class="guide" viewBox="0 0 124 220" role="img" aria-label={next ? guide.labelNext : guide.label}>
         <Figure />
-        <text class="guide-side is-right" x="12" y="86">R</text>
-        <text class="guide-side is-left" x="112" y="86">L</text>
+        <text class="guide-side is-right" x="12" y="86">{guide.right}</text>
+        <text class="guide-side is-left" x="112" y="86">{guide.left}</text>
         {(Object.entries(GUIDE_PLACES) as [PointName, readonly [number, number]][]).map(([name, [x, y]]) => (
           <circle
             key={name}
@@ -70,7 +72,7 @@ function CloseUp({ next, box }: { next: PointName; box: string }) {
       {isHip && (
         <>
           <path class="guide-wrong" d="M44 96h36" />
-          <text class="guide-word" x="62" y="94">not the waist</text>
+          <text class="guide-word" x="62" y="94">{messages.value.panel.guide.notWaist}</text>
           <path class="guide-bone" d="M53 113 50 158M71 113 74 158M53 113h18" />
         </>
       )}

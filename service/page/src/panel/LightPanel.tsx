@@ -2,40 +2,41 @@
 import { useLayoutEffect, useRef } from "preact/hooks";
 import type { LightGuess } from "../api/types";
 import { cues, light, surroundings } from "../draft/draft";
+import { messages } from "../messages/language";
 import { Choice } from "../ui/Choice";
+import { fromHeight, fromSide } from "../ui/direction";
 import { drawBall, lightAt } from "./ball";
 
 const SIDE_PX = 96;
 const STEP_DEG = 5;
 
 export function LightPanel() {
+  const { light: words } = messages.value.panel;
   const guess = light.value;
   return (
     <div class="subsection">
-      <h3>Light</h3>
+      <h3>{words.title}</h3>
       <div class="light">
         <Ball guess={guess} />
         <div>
           <p class="fine">
-            {guess
-              ? `${wordsFor(guess)}. A first guess; the fit refines it.`
-              : "Found by the fit. If you see where it comes from, drag the ball until it is lit like the person."}
+            {guess ? words.guessed(wordsFor(guess)) : words.found}
           </p>
           {guess && (
             <>
               <Choice
                 name="light-kind"
-                legend="Kind of light"
+                legend={words.kind}
                 quiet
                 options={[
-                  { value: "point", label: "Lamp" },
-                  { value: "directional", label: "Sun" },
+                  { value: "point", label: words.lamp },
+                  { value: "directional", label: words.sun },
                 ]}
                 value={guess.kind ?? "point"}
                 onChange={(kind) => (light.value = { ...guess, kind })}
               />
               <button class="link" type="button" onClick={() => (light.value = null)}>
-                Leave it to the fit
+                {words.leave}
               </button>
             </>
           )}
@@ -45,18 +46,16 @@ export function LightPanel() {
         <>
           <Choice
             name="surroundings"
-            legend="Light of the surroundings"
+            legend={words.surroundings}
             options={[
-              { value: "uniform", label: "Even", title: "Eq. 1 of the paper" },
-              { value: "spherical_harmonics", label: "By direction", title: "Second-order spherical harmonics" },
+              { value: "uniform", label: words.even, title: words.evenTitle },
+              { value: "spherical_harmonics", label: words.byDirection, title: words.byDirectionTitle },
             ]}
             value={surroundings.value}
             onChange={(kind) => (surroundings.value = kind)}
           />
           <p class="fine">
-            {surroundings.value === "uniform"
-              ? "One lamp or the sun, and the same faint light from everywhere."
-              : "For the sky, windows, bright walls: light from around may differ by direction."}
+            {surroundings.value === "uniform" ? words.evenHelp : words.byDirectionHelp}
           </p>
         </>
       )}
@@ -65,6 +64,7 @@ export function LightPanel() {
 }
 
 function Ball({ guess }: { guess: LightGuess | null }) {
+  const { light: words } = messages.value.panel;
   const canvas = useRef<HTMLCanvasElement>(null);
   // Before it is shown: what it says and what is seen are never of two lights.
   useLayoutEffect(() => drawBall(canvas.current!, guess), [guess]);
@@ -89,11 +89,11 @@ function Ball({ guess }: { guess: LightGuess | null }) {
       height={2 * SIDE_PX}
       tabIndex={0}
       role="slider"
-      aria-label="Direction of the light; arrow keys turn it"
+      aria-label={words.ball}
       aria-valuemin={-90}
       aria-valuemax={90}
       aria-valuenow={guess?.azimuth_deg ?? 0}
-      aria-valuetext={guess ? wordsFor(guess) : "left to the fit"}
+      aria-valuetext={guess ? wordsFor(guess) : words.leftToFit}
       onPointerDown={(event) => {
         event.currentTarget.setPointerCapture(event.pointerId);
         drag(event);
@@ -113,7 +113,7 @@ function Ball({ guess }: { guess: LightGuess | null }) {
 
 function wordsFor({ azimuth_deg, elevation_deg }: LightGuess): string {
   const [azimuth, elevation] = [azimuth_deg ?? 0, elevation_deg ?? 0];
-  const across = Math.abs(azimuth) < 3 ? "straight on" : `${Math.abs(azimuth).toFixed(0)}° from the ${azimuth > 0 ? "right" : "left"}`;
-  const along = Math.abs(elevation) < 3 ? "" : `, ${Math.abs(elevation).toFixed(0)}° from ${elevation > 0 ? "above" : "below"}`;
-  return across + along;
+  const across = Math.abs(azimuth) < 3 ? [messages.value.panel.light.straight] : [fromSide(azimuth)];
+  const along = Math.abs(elevation) < 3 ? [] : [fromHeight(elevation)];
+  return [...across, ...along].join(", ");
 }

@@ -1,9 +1,12 @@
 // The person cut out beforehand, for those who have a mask.
 import { useSignal } from "@preact/signals";
 import { mask, picture, useMask } from "../draft/draft";
-import { openPicture } from "../draft/picture";
+import { openPicture } from "../draft/chosen";
+import { messages } from "../messages/language";
+import { sizeOf } from "./size";
 
 export function MaskPanel() {
+  const { mask: words } = messages.value.panel;
   const fault = useSignal<string | null>(null);
   const chosen = mask.value;
   const open = async (file: File) => {
@@ -18,15 +21,13 @@ export function MaskPanel() {
   };
   return (
     <div class="subsection">
-      <h3>Mask</h3>
+      <h3>{words.title}</h3>
       <p class="fine">
-        {chosen
-          ? `${chosen.name} is used; its border is drawn on the picture.`
-          : "The fit cuts the person out of the picture by itself. A mask of your own, white on the person, is used instead."}
+        {chosen ? words.used(chosen.name) : words.help}
       </p>
       <div class="row">
         <label class="button is-small">
-          {chosen ? "Another mask" : "Choose a mask"}
+          {chosen ? words.another : words.choose}
           <input
             class="unseen"
             type="file"
@@ -40,7 +41,7 @@ export function MaskPanel() {
         </label>
         {chosen && (
           <button class="button is-small" type="button" onClick={() => useMask(null)}>
-            Leave it to the fit
+            {words.leave}
           </button>
         )}
       </div>
@@ -56,5 +57,5 @@ export function MaskPanel() {
 function misfit(cut: { width: number; height: number }): string | null {
   const shown = picture.value!;
   if (cut.width === shown.width && cut.height === shown.height) return null;
-  return `The mask has ${cut.width} × ${cut.height} pixels, the picture ${shown.width} × ${shown.height}. Make them the same size.`;
+  return messages.value.panel.mask.misfit(sizeOf(cut), sizeOf(shown));
 }

@@ -1,7 +1,10 @@
-// Who is in the picture: gender, height, weight.
+// Who is in the picture: gender, height, weight, what a tape said.
 import { person } from "../draft/draft";
 import { liveBody } from "../draft/live";
-import { TAPE_NAMES, heightFault, heightM, inUnits, tapeFault, weightFault } from "../draft/person";
+import { TAPE_NAMES, TAPE_RANGE_CM, heightFault, heightInWords, heightM, inUnits, inches, tapeFault, weightFault } from "../draft/person";
+import { decimal, measured } from "../messages/figures";
+import { messages } from "../messages/language";
+import { LabelField } from "../people/LabelField";
 import { measureLabel } from "../result/reading";
 import { Choice } from "../ui/Choice";
 
@@ -13,20 +16,21 @@ interface Words {
 
 /** Without other `words`, those for one picture. */
 export function PersonPanel({ words }: { words?: Words }) {
+  const { frame, person: said } = messages.value;
   const known = person.value;
   const metric = known.units === "metric";
   const faults = { height: heightFault(known), weight: weightFault(known) };
   return (
     <section class="section" aria-labelledby="person-title">
       <header class="section-head">
-        <h2 id="person-title">Person</h2>
+        <h2 id="person-title">{said.title}</h2>
         <Choice
           name="units"
-          legend="Units"
+          legend={frame.units}
           quiet
           options={[
-            { value: "metric", label: "cm, kg" },
-            { value: "imperial", label: "ft, lb" },
+            { value: "metric", label: said.metric },
+            { value: "imperial", label: said.imperial },
           ]}
           value={known.units}
           onChange={(units) => (person.value = inUnits(known, units))}
@@ -34,89 +38,98 @@ export function PersonPanel({ words }: { words?: Words }) {
       </header>
       <Choice
         name="gender"
-        legend="Body"
+        legend={said.body}
         options={[
-          { value: "female", label: "Female" },
-          { value: "male", label: "Male" },
+          { value: "female", label: said.female },
+          { value: "male", label: said.male },
         ]}
         value={known.gender}
         onChange={(gender) => (person.value = { ...known, gender })}
       />
       <div class="fields">
         <div class="field">
-          <label for="height">Height</label>
+          <label for="height">{said.height}</label>
           <span class="inputs">
             <span class="unit-input">
               <input
                 id="height"
                 inputMode="decimal"
                 autocomplete="off"
-                placeholder="unknown"
+                placeholder={frame.unknown}
                 value={known.height}
                 aria-invalid={faults.height !== null}
                 aria-describedby="height-note"
                 onInput={(event) => (person.value = { ...known, height: event.currentTarget.value })}
               />
-              <i>{metric ? "cm" : "ft"}</i>
+              <i>{metric ? said.symbols.cm : said.symbols.ft}</i>
             </span>
             {!metric && (
               <span class="unit-input">
                 <input
-                  aria-label="Height, inches beyond the feet"
+                  aria-label={said.inches}
                   inputMode="decimal"
                   autocomplete="off"
                   value={known.inches}
                   aria-invalid={faults.height !== null}
                   onInput={(event) => (person.value = { ...known, inches: event.currentTarget.value })}
                 />
-                <i>in</i>
+                <i>{said.symbols.in}</i>
               </span>
             )}
           </span>
         </div>
         <div class="field">
-          <label for="weight">Weight</label>
+          <label for="weight">{said.weight}</label>
           <span class="unit-input">
             <input
               id="weight"
               inputMode="decimal"
               autocomplete="off"
-              placeholder="unknown"
+              placeholder={frame.unknown}
               value={known.weight}
               aria-invalid={faults.weight !== null}
               aria-describedby="weight-note"
               onInput={(event) => (person.value = { ...known, weight: event.currentTarget.value })}
             />
-            <i>{metric ? "kg" : "lb"}</i>
+            <i>{metric ? said.symbols.kg : said.symbols.lb}</i>
           </span>
         </div>
       </div>
       <p id="height-note" class={`fine ${faults.height ? "is-fault" : ""}`}>
-        {faults.height ?? (heightM(known) === null ? (words?.noHeight ?? assumedHeight()) : "Height is held exactly as given.")}
+        {faults.height ?? (heightM(known) === null ? (words?.noHeight ?? assumedHeight()) : said.heightHeld)}
       </p>
       <p id="weight-note" class={`fine ${faults.weight ? "is-fault" : ""}`}>
-        {faults.weight ?? words?.weight ?? "If you know it, the weight helps most: one view does not show how deep a body is."}
+        {faults.weight ?? words?.weight ?? said.weightHelps}
       </p>
-      <Tape />
+      <div class="folds">
+        <Tape />
+        <LabelField />
+      </div>
     </section>
   );
 }
 
 function assumedHeight(): string {
   const body = liveBody.value;
-  if (!body) return "Without a height the mean of the gender is assumed.";
-  return `Without a height ${(body.height_m * 100).toFixed(0)} cm are assumed.`;
+  const { person: said } = messages.value;
+  return body ? said.assumedHeight(heightInWords(body.height_m, person.value.units)) : said.meanHeight;
 }
 
 /** What was measured with a tape. */
 function Tape() {
+  const { frame, person: said } = messages.value;
   const known = person.value;
   const fault = tapeFault(known);
+  const metric = known.units === "metric";
+  const unit = said.symbols[metric ? "cm" : "in"];
+  const unitName = metric ? "centimeter" : "inch";
+  const [low, high] = TAPE_RANGE_CM.map((cm) => (metric ? cm : inches(cm))) as [number, number];
   const count = TAPE_NAMES.filter((name) => known.tape[name]?.trim()).length;
-  const unit = known.units === "metric" ? "cm" : "in";
   return (
     <details class="fold">
-      <summary>Known measurements {count > 0 && <span class="count">{count} given</span>}</summary>
+      <summary>
+        {said.known} {count > 0 && <span class="count">{said.given(count)}</span>}
+      </summary>
       <div class="fields">
         {TAPE_NAMES.map((name) => (
           <div class="field" key={name}>
@@ -126,7 +139,7 @@ function Tape() {
                 id={`tape-${name}`}
                 inputMode="decimal"
                 autocomplete="off"
-                placeholder="unknown"
+                placeholder={frame.unknown}
                 value={known.tape[name] ?? ""}
                 aria-invalid={fault === name}
                 aria-describedby="tape-note"
@@ -138,9 +151,7 @@ function Tape() {
         ))}
       </div>
       <p id="tape-note" class={`fine ${fault ? "is-fault" : ""}`}>
-        {fault
-          ? `${measureLabel(fault)}: between ${known.units === "metric" ? "10 and 200 cm" : "4 and 79 in"}, please.`
-          : "On bare skin or close to it. A tape is trusted to 1 cm."}
+        {fault ? said.faults.tape(measureLabel(fault), decimal(low), measured(high, unitName)) : said.tapeTrust}
       </p>
     </details>
   );

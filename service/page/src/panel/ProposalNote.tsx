@@ -2,9 +2,12 @@
 // What changes is announced by whoever changes it: these notes are no status of their own.
 import { points } from "../draft/draft";
 import { canPropose, clickAll, isProposing, others, proposal, proposalProblem, proposalWord, propose } from "../draft/proposing";
+import { messages } from "../messages/language";
 import { hasProposed, isAllProposed } from "../points/proposed";
 import { sideDoubt } from "../points/sides";
 import { ProblemNote } from "../ui/ProblemNote";
+import { Served } from "../ui/Served";
+import { answered } from "../ui/answered";
 
 /** These are told in another way: by the note itself, by boxes, by a question. */
 const TOLD_OTHERWISE: readonly string[] = ["nobody-found", "several-people"];
@@ -32,7 +35,7 @@ export function ProposalWarnings() {
   return (
     <div class="note">
       {warnings.map((warning) => (
-        <p key={warning.code}>{warning.message}</p>
+        <p key={warning.code}>{answered("warnings", warning.code) ?? <Served text={warning.message} />}</p>
       ))}
     </div>
   );
@@ -41,7 +44,7 @@ export function ProposalWarnings() {
 export function ClickAll({ kind }: { kind: "button is-small" | "link" }) {
   return (
     <button class={kind} type="button" onClick={clickAll}>
-      Click them myself
+      {messages.value.panel.proposal.clickAll}
     </button>
   );
 }
@@ -49,11 +52,11 @@ export function ClickAll({ kind }: { kind: "button is-small" | "link" }) {
 function Persons({ count, chosen }: { count: number; chosen: number | null }) {
   return (
     <div class="note">
-      <p>{count} people were found. Tap the one you mean.</p>
+      <p>{messages.value.stage.several(count)}</p>
       <div class="row">
         {Array.from({ length: count }, (_, i) => (
           <button key={i} class="button is-small" type="button" aria-pressed={i === chosen} onClick={() => propose(i)}>
-            Person {i + 1}
+            {messages.value.panel.proposal.person(i + 1)}
           </button>
         ))}
       </div>
@@ -70,7 +73,7 @@ function Ways() {
       {hasProposed(points.value) && <ClickAll kind="button is-small" />}
       {offersProposal && (
         <button class="button is-small" type="button" onClick={() => propose()}>
-          Propose points
+          {messages.value.panel.proposal.propose}
         </button>
       )}
     </div>

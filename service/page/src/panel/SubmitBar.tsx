@@ -2,15 +2,22 @@
 import { useSignal } from "@preact/signals";
 import { submitFit, uploadImage } from "../api/calls";
 import { problemFrom } from "../api/client";
+import { UNREACHABLE, isCutOff } from "../api/connection";
 import type { Problem } from "../api/types";
-import { mask, picture, todo, uploaded } from "../draft/draft";
-import { liveBody, uploadProblem } from "../draft/live";
+import { person, picture, todo, uploaded } from "../draft/draft";
+import { liveBody } from "../draft/live";
+import { labelOf } from "../draft/person";
 import { draftedChoices, draftedSubject } from "../draft/request";
+import { uploadProblem } from "../draft/uploading";
 import { assumed, remember, seen, thumbnailOf } from "../history/store";
+import { maskToSend } from "../mask/edits";
+import { messages } from "../messages/language";
 import { fitAddress, go } from "../route";
 import { ProblemNote } from "../ui/ProblemNote";
+import { discard } from "./open";
 
 export function SubmitBar() {
+  const { frame, panel } = messages.value;
   const problem = useSignal<Problem | null>(null);
   const sending = useSignal(false);
   const send = async () => {
@@ -22,17 +29,21 @@ export function SubmitBar() {
     try {
       const upload = (file: Blob) => uploadImage(file, new AbortController().signal);
       const kept = uploaded.value ?? (await upload(shown.file));
-      const cut = mask.value && (await upload(mask.value.file));
+      const cutOut = await maskToSend();
+      const cut = cutOut && (await upload(cutOut));
       const job = await submitFit({
         ...subject,
         image_id: kept.id,
         ...draftedChoices(),
+        ...labelOf(person.value),
         ...(cut ? { mask_id: cut.id } : {}),
       });
       seen(job);
       assumed.value = { ...assumed.value, [job.id]: liveBody.value?.assumptions ?? [] };
       remember({ id: job.id, name: shown.name, startedAt: job.created_at, thumbnail: thumbnailOf(shown.element) });
+      // From here on the service has it: the next fit is another person's.
       go(fitAddress(job.id));
+      if (picture.value === shown) discard();
     } catch (error) {
       problem.value = problemFrom(error);
       // The picture may have been erased meanwhile: the next attempt sends it anew.
@@ -41,12 +52,18 @@ export function SubmitBar() {
       sending.value = false;
     }
   };
-  const fault = problem.value ?? uploadProblem.value;
+  // That nothing is reached is said for as long as it is so.
+  const fault = [problem.value, uploadProblem.value].find((each) => each && each.code !== UNREACHABLE);
   return (
     <div class="submit">
+      {isCutOff.value && (
+        <p class="note" role="status">
+          {panel.cutOff}
+        </p>
+      )}
       {fault && <ProblemNote problem={fault} />}
       <button class="button is-primary is-wide" type="button" disabled={todo.value !== null || sending.value} onClick={send}>
-        {sending.value ? "Sending …" : (todo.value ?? "Fit the body")}
+        {sending.value ? frame.sending : (todo.value ?? panel.submit)}
       </button>
     </div>
   );

@@ -1,14 +1,16 @@
 // How a picture gets in.
-import { signal } from "@preact/signals";
+import { batch, signal } from "@preact/signals";
 import { getFile, getRequest } from "../api/calls";
 import type { FitOptions, Job } from "../api/types";
-import { change, points, useMask, usePicture } from "../draft/draft";
-import { openPicture } from "../draft/picture";
+import { change, person, points, useMask, usePicture } from "../draft/draft";
+import { openPicture } from "../draft/chosen";
+import { shownPicture } from "../draft/picture";
 import type { Picture } from "../draft/picture";
 import { forgetProposal, proposeFirst } from "../draft/proposing";
 import { loadDraft } from "../draft/request";
+import { messages } from "../messages/language";
 import { skipRest } from "../points/placed";
-import { go, isMeasuring } from "../route";
+import { PREPARE_ADDRESS, go, isMeasuring } from "../route";
 
 export const openProblem = signal<string | null>(null);
 
@@ -17,49 +19,99 @@ export type Beginning = "proposed" | "placed" | "open";
 
 export async function openFile(
   file: Blob,
-  name = file instanceof File ? file.name : "picture",
-  beginning: Beginning = "proposed",
+  name = file instanceof File ? file.name : messages.value.start.picture,
+  beginning: "proposed" | "open" = "proposed",
 ): Promise<void> {
-  openProblem.value = null;
-  try {
+  await open(async () => {
     const opened = await openPicture(file, name);
-    forgetProposal();
-    usePicture(opened);
-    if (beginning === "proposed") proposeFirst();
-    go("#/");
-  } catch (error) {
-    openProblem.value = error instanceof Error ? error.message : String(error);
-  }
+    return () => {
+      use(opened);
+      if (beginning === "proposed") proposeFirst();
+    };
+  });
 }
 
 /** A sample by the name of its files. */
 export async function trySample(name: string, beginning: Beginning): Promise<void> {
-  const file = await (await fetch(`/page/${name}.jpg`)).blob();
-  await openFile(file, `${name}.jpg`, beginning);
-  if (beginning !== "placed") return;
-  const asked = (await (await fetch(`/page/${name}.json`)).json()) as FitOptions;
-  loadDraft(asked);
-  // Its points are all there are: none is asked for.
-  change(skipRest(points.value));
+  await open(async () => {
+    const [opened, asked] = await Promise.all([
+      fetch(`/page/${name}.jpg`)
+        .then((answer) => answer.blob())
+        .then((file) => openPicture(file, `${name}.jpg`)),
+      beginning === "placed" ? fetch(`/page/${name}.json`).then((answer) => answer.json() as Promise<FitOptions>) : null,
+    ]);
+    return () => {
+      use(opened);
+      if (beginning === "proposed") proposeFirst();
+      if (!asked) return;
+      loadDraft(asked);
+      // Its points are all there are: none is asked for.
+      change(skipRest(points.value));
+    };
+  });
 }
 
 /** A fit's picture, mask and request, to be changed and sent again. */
 export async function openAgain(picture: Picture, job: Job): Promise<void> {
-  const [asked, mask] = await Promise.all([
+  const [asked, mask, opened] = await Promise.all([
     getRequest(job),
-    job.links.mask ? getFile(job.links.mask).then((file) => openPicture(file, "the mask of that fit")) : null,
+    job.links.mask ? getFile(job.links.mask).then((file) => shownPicture(file, messages.value.start.maskOfFit)) : null,
+    // Its own: the fit's view lets go of the one it shows.
+    shownPicture(picture.file, picture.name, picture.shown),
   ]);
-  await openFile(picture.file, picture.name, "placed");
-  loadDraft(asked);
-  useMask(mask);
-  // The service proposed all of them.
-  if (Object.keys(points.value.placed).length === 0) proposeFirst();
+  begin(() => {
+    use(opened);
+    loadDraft(asked);
+    person.value = { ...person.value, label: job.label ?? "" };
+    useMask(mask);
+    // The service proposed all of them.
+    if (Object.keys(points.value.placed).length === 0) proposeFirst();
+  });
 }
 
 export function listenForPaste(): void {
   addEventListener("paste", (event) => {
     if (isMeasuring.value) return;
     const file = [...(event.clipboardData?.files ?? [])].find((each) => each.type.startsWith("image/"));
-    if (file) void openFile(file, "pasted picture");
+    if (file) void openFile(file, messages.value.start.pasted);
+  });
+}
+
+/** So many times something was opened: what comes late does not take the place of what was opened after it. */
+let openings = 0;
+
+async function open(prepared: () => Promise<() => void>): Promise<void> {
+  const opening = ++openings;
+  openProblem.value = null;
+  try {
+    const change = await prepared();
+    if (opening === openings) begin(change);
+  } catch (error) {
+    if (opening === openings) openProblem.value = error instanceof Error ? error.message : String(error);
+  }
+}
+
+/** All of a draft at once, so that nothing is typed into it before it is whole. */
+function begin(change: () => void): void {
+  batch(() => {
+    openProblem.value = null;
+    change();
+    go(PREPARE_ADDRESS);
+  });
+  // A sample that was tapped lies far down on a phone, and its picture is at the top.
+  scrollTo(0, 0);
+}
+
+function use(picture: Picture): void {
+  forgetProposal();
+  usePicture(picture);
+}
+
+/** Nothing of the person or the picture is left. */
+export function discard(): void {
+  batch(() => {
+    openProblem.value = null;
+    forgetProposal();
+    usePicture(null);
   });
 }

@@ -1,36 +1,35 @@
-// The points a person clicks, in the order they are asked for, and what each one means.
+// The points a person clicks, in the order they are asked for.
 
-export const POINTS = [
-  { name: "left_shoulder", label: "Left shoulder", help: "Where the arm turns: three fingers below the top of the shoulder." },
-  { name: "right_shoulder", label: "Right shoulder", help: "Where the arm turns: three fingers below the top of the shoulder." },
-  { name: "left_elbow", label: "Left elbow", help: "The middle of the elbow, between its inner and outer side." },
-  { name: "right_elbow", label: "Right elbow", help: "The middle of the elbow, between its inner and outer side." },
-  { name: "left_wrist", label: "Left wrist", help: "Where the hand begins, in the middle of the wrist." },
-  { name: "right_wrist", label: "Right wrist", help: "Where the hand begins, in the middle of the wrist." },
-  { name: "left_hip", label: "Left hip", help: "Where the thigh turns: just above the crotch, halfway from the middle to the outer edge. Not the waist." },
-  { name: "right_hip", label: "Right hip", help: "Where the thigh turns: just above the crotch, halfway from the middle to the outer edge. Not the waist." },
-  { name: "left_knee", label: "Left knee", help: "The middle of the knee cap." },
-  { name: "right_knee", label: "Right knee", help: "The middle of the knee cap." },
-  { name: "left_ankle", label: "Left ankle", help: "Between the two ankle bones." },
-  { name: "right_ankle", label: "Right ankle", help: "Between the two ankle bones." },
-  { name: "head_top", label: "Top of the head", help: "The crown, beneath the hair." },
-  { name: "nose", label: "Nose", help: "The tip of the nose." },
-  { name: "left_eye", label: "Left eye", help: "The middle of the eye." },
-  { name: "right_eye", label: "Right eye", help: "The middle of the eye." },
-  { name: "left_ear", label: "Left ear", help: "Where the ear meets the head." },
-  { name: "right_ear", label: "Right ear", help: "Where the ear meets the head." },
-  { name: "chin", label: "Chin", help: "The tip of the chin." },
-  { name: "neck", label: "Neck", help: "The pit of the throat, between the collar bones." },
-  { name: "left_heel", label: "Left heel", help: "The rear end of the heel." },
-  { name: "right_heel", label: "Right heel", help: "The rear end of the heel." },
-  { name: "left_toe", label: "Left toes", help: "The tip of the big toe." },
-  { name: "right_toe", label: "Right toes", help: "The tip of the big toe." },
+export const POINT_NAMES = [
+  "left_shoulder",
+  "right_shoulder",
+  "left_elbow",
+  "right_elbow",
+  "left_wrist",
+  "right_wrist",
+  "left_hip",
+  "right_hip",
+  "left_knee",
+  "right_knee",
+  "left_ankle",
+  "right_ankle",
+  "head_top",
+  "nose",
+  "left_eye",
+  "right_eye",
+  "left_ear",
+  "right_ear",
+  "chin",
+  "neck",
+  "left_heel",
+  "right_heel",
+  "left_toe",
+  "right_toe",
 ] as const;
 
-export type PointName = (typeof POINTS)[number]["name"];
+export type PointName = (typeof POINT_NAMES)[number];
 export type Side = "left" | "right" | "middle";
 
-export const POINT_NAMES: readonly PointName[] = POINTS.map((point) => point.name);
 export const LIMB_POINTS: readonly PointName[] = POINT_NAMES.slice(0, 12);
 export const TRUNK_POINTS: readonly PointName[] = ["left_shoulder", "right_shoulder", "left_hip", "right_hip"];
 
@@ -60,10 +59,6 @@ export const BONES: readonly (readonly [PointName, PointName])[] = [
 
 export function isPointName(name: string): name is PointName {
   return (POINT_NAMES as readonly string[]).includes(name);
-}
-
-export function pointOf(name: PointName): (typeof POINTS)[number] {
-  return POINTS[POINT_NAMES.indexOf(name)]!;
 }
 
 export function sideOf(name: PointName): Side {

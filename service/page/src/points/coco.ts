@@ -1,4 +1,5 @@
 // Points from files and to files: COCO's annotation JSON, detectors' lists, and our own.
+import { messages } from "../messages/language";
 import { isPointName } from "./catalogue";
 import type { PointName } from "./catalogue";
 import { NO_POINTS } from "./placed";
@@ -12,19 +13,16 @@ export const COCO_NAMES: readonly PointName[] = [
 
 type Placed = Partial<Record<PointName, Place>>;
 
-const EXPECTED =
-  "It has neither COCO annotations with keypoints, nor a list of 17 keypoints, nor points by name.";
-
 /** Read points from JSON text; throws an Error that says what the file lacks. */
 export function readPoints(text: string): Points {
   let content: unknown;
   try {
     content = JSON.parse(text);
   } catch {
-    throw new Error("The file is not JSON.");
+    throw new Error(messages.value.points.files.notJson);
   }
   const placed = placedIn(content);
-  if (Object.keys(placed).length === 0) throw new Error(EXPECTED);
+  if (Object.keys(placed).length === 0) throw new Error(messages.value.points.files.expected);
   return { ...NO_POINTS, placed };
 }
 

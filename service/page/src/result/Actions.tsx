@@ -5,18 +5,21 @@ import { problemFrom } from "../api/client";
 import type { Job, Problem } from "../api/types";
 import type { Picture } from "../draft/picture";
 import { forget } from "../history/store";
+import { messages } from "../messages/language";
 import { openAgain } from "../panel/open";
-import { go } from "../route";
+import { START_ADDRESS, go } from "../route";
 import { announce } from "../ui/announce";
 import { IconButton } from "../ui/IconButton";
 import { ProblemNote } from "../ui/ProblemNote";
+import { useQuestion } from "../ui/question";
 
 const COPIED_MS = 2000;
 
 export function Actions({ job, picture }: { job: Job; picture: Picture | null }) {
+  const { result: words } = messages.value;
   const problem = useSignal<Problem | null>(null);
   const copied = useSignal(false);
-  const asked = useSignal(false);
+  const question = useQuestion();
   const attempt = async (what: () => Promise<void>) => {
     try {
       await what();
@@ -28,7 +31,7 @@ export function Actions({ job, picture }: { job: Job; picture: Picture | null })
   const copy = () =>
     attempt(async () => {
       await navigator.clipboard.writeText(location.href);
-      announce("The link is copied.");
+      announce(words.linkCopied);
       copied.value = true;
       setTimeout(() => (copied.value = false), COPIED_MS);
     });
@@ -36,19 +39,19 @@ export function Actions({ job, picture }: { job: Job; picture: Picture | null })
     attempt(async () => {
       await eraseFit(job.id);
       forget(job.id);
-      go("#/");
+      go(START_ADDRESS);
     });
   return (
     <div class="submit">
       {problem.value && <ProblemNote problem={problem.value} />}
-      {asked.value ? (
-        <div class="submit-row" role="group" aria-label="Delete this fit?">
-          <span class="grow">Erase this fit with its picture?</span>
-          <button class="button" type="button" onClick={() => (asked.value = false)}>
-            Keep
+      {question.isAsked ? (
+        <div class="submit-row" role="group" aria-label={words.eraseQuestion}>
+          <span class="grow">{words.erase}</span>
+          <button class="button" type="button" ref={question.refusal} onClick={question.leave}>
+            {words.keep}
           </button>
           <button class="button is-danger" type="button" onClick={erase}>
-            Delete
+            {words.delete}
           </button>
         </div>
       ) : (
@@ -59,10 +62,10 @@ export function Actions({ job, picture }: { job: Job; picture: Picture | null })
             disabled={!picture}
             onClick={() => attempt(async () => openAgain(picture!, job))}
           >
-            Change and fit again
+            {words.changeAndFit}
           </button>
-          <IconButton icon={copied.value ? "check" : "link"} label={copied.value ? "Copied" : "Copy the link to this fit"} onClick={copy} />
-          <IconButton icon="trash" label="Delete this fit" onClick={() => (asked.value = true)} />
+          <IconButton icon={copied.value ? "check" : "link"} label={copied.value ? words.copied : words.copy} onClick={copy} />
+          <IconButton icon="trash" label={words.deleteFit} onClick={question.ask} buttonRef={question.asker} />
         </div>
       )}
     </div>

@@ -1,17 +1,19 @@
 // The files of a result.
 import type { FitResult, Job, Scan } from "../api/types";
-import { FILE_LABELS, FileButton } from "./FileButton";
+import { messages } from "../messages/language";
+import { FileButton } from "./FileButton";
 import { tableOf } from "./files";
 
 export function Downloads({ job, result }: { job: Job | Scan; result: Pick<FitResult, "artifacts" | "measurements"> }) {
   const sizes = new Map((result.artifacts ?? []).map((artifact) => [artifact.name, artifact.size]));
   const table = result.measurements.length > 0 ? [tableOf(job)] : [];
   const links = [...Object.entries(job.links.artifacts ?? {}), ...table];
-  const rank = (name: string) => Object.keys(FILE_LABELS).indexOf(name) + (name in FILE_LABELS ? 0 : 100);
+  const order = Object.keys(messages.value.files.labels);
+  const rank = (name: string) => (order.includes(name) ? order.indexOf(name) : order.length);
   return (
     <details class="section fold-section">
       <summary>
-        <h2>Files</h2>
+        <h2>{messages.value.files.title}</h2>
       </summary>
       <ul class="downloads">
         {links

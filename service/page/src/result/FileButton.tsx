@@ -3,48 +3,12 @@ import { useSignal } from "@preact/signals";
 import { getFile } from "../api/calls";
 import { problemFrom } from "../api/client";
 import type { Problem } from "../api/types";
+import { wordFor } from "../messages/catalogue";
+import { measured } from "../messages/figures";
+import { messages } from "../messages/language";
 import { Icon } from "../ui/Icon";
 import { ProblemNote } from "../ui/ProblemNote";
 import { saveFile } from "../ui/save";
-
-export const FILE_LABELS: Readonly<Record<string, string>> = {
-  "body_posed.glb": "Posed body with camera, light and skin",
-  "body_canonical.glb": "Upright body",
-  "body_posed_se.glb": "Posed body before shading refined it",
-  "body_canonical_se.glb": "Upright body before shading refined it",
-  "tapes.json": "Where each measurement is taken",
-  "result.json": "Everything found, as numbers",
-  "measurements.csv": "The measurements, for a spreadsheet",
-  "person.npz": "The person as fitted, to make more of",
-  "overlay.png": "Outline over the picture",
-  "views.png": "The body from other sides",
-  "segmentation.png": "What was taken for the person",
-  "trimap.png": "What that began with",
-  "albedo.png": "Albedo",
-  "shading.png": "Shading by Eq. 1",
-  "shading_lambertian.png": "Its diffuse part",
-  "report.html": "One page, to read",
-  "report.pdf": "The same, to print",
-  "body_caricature.glb": "The caricature in the picture’s pose",
-  "caricature.png": "Beside the fitted body",
-  "body_reposed.glb": "The body in this pose",
-  "pose.png": "Seen from other sides",
-  "body_animated.glb": "Moving exactly, as morph targets",
-  "body_skinned.glb": "Moving by bones and skin, for game engines",
-  "animation.webp": "The motion as a moving picture",
-  "animation.png": "Moments of it, from the front and the side",
-  "body_textured.glb": "The body with the texture",
-  "texture.png": "The texture alone",
-  "atlas.png": "Where the texture has which part, to paint on",
-  "coverage.png": "What of it was seen, mirrored, continued",
-  "figure.png": "As in the paper’s Fig. 10",
-  "body_combined.glb": "The body the pictures agree on, upright",
-  "body_posed_N.glb": "The common body as posed in that picture, with its light",
-  "overlay_N.png": "The common body over that picture",
-  "segmentation_N.png": "What was taken for the person in that picture",
-  "scan.png": "The body beside its pictures",
-  "combined.png": "Beside the body by this fit alone",
-};
 
 /** What the service writes of any mesh when it is asked for. */
 const FORMATS = ["obj", "ply", "stl", "usdz"];
@@ -53,6 +17,7 @@ const FORMATS = ["obj", "ply", "stl", "usdz"];
 const TEXTURED = "body_textured.glb";
 
 export function FileButton({ name, path, bytes }: { name: string; path: string; bytes?: number }) {
+  const { labels } = messages.value.files;
   const problem = useSignal<Problem | null>(null);
   const keep = async (kept: string, from: string) => {
     try {
@@ -68,7 +33,7 @@ export function FileButton({ name, path, bytes }: { name: string; path: string; 
         <Icon name="download" />
         <span>
           {name}
-          <small>{FILE_LABELS[name] ?? FILE_LABELS[name.replace(/_\d+\./, "_N.")]}</small>
+          <small>{wordFor(labels, name) ?? wordFor(labels, name.replace(/_\d+\./, "_N."))}</small>
         </span>
         <small>{sizeText(bytes)}</small>
       </button>
@@ -98,5 +63,5 @@ function withEnding(name: string, ending: string): string {
 
 function sizeText(bytes: number | undefined): string {
   if (bytes === undefined) return "";
-  return bytes < 1e6 ? `${Math.max(1, Math.round(bytes / 1e3))} kB` : `${(bytes / 1e6).toFixed(1)} MB`;
+  return bytes < 1e6 ? measured(Math.max(1, bytes / 1e3), "kilobyte") : measured(bytes / 1e6, "megabyte", 1);
 }

@@ -1,85 +1,81 @@
-// The body over its picture, from every side, or upright; its surface as Eq. 1 has it or in parts.
+// The body over its picture, from every side, or upright; its surface lit as Eq. 1 has it or in parts.
+import { useSignal } from "@preact/signals";
 import { useState } from "preact/hooks";
 import type { Job } from "../api/types";
 import type { Picture } from "../draft/picture";
+import { facingsOf, isEmpty } from "../flip/flips";
+import type { TurnedLimb } from "../flip/flips";
+import type { Turning } from "../flip/useFlips";
+import { hoverWords } from "../flip/words";
+import { percent } from "../messages/figures";
+import { messages } from "../messages/language";
 import { Choice } from "../ui/Choice";
 import { BodyCanvas } from "../viewer/BodyCanvas";
 import type { Placement } from "../viewer/BodyScene";
 import type { Cues } from "../api/types";
 import type { Surface } from "../viewer/surface";
 import { MaskOutline } from "../ui/MaskOutline";
+import { SideView } from "../viewer/SideView";
+import type { TapeEnds } from "../viewer/Tapes";
+import type { Side } from "../viewer/Turntable";
+import { FromSides } from "./FromSides";
+import { TapeLabels } from "./TapeLabels";
 import { useBodiesBeforeShading, usePictureOf } from "./files";
 import type { ResultFiles } from "./files";
 
-const PLACEMENTS: readonly { value: Placement; label: string; title: string }[] = [
-  { value: "picture", label: "Over the picture", title: "As the camera saw it" },
-  { value: "turned", label: "Turn", title: "Drag to turn, wheel or pinch to come nearer" },
-  { value: "canonical", label: "Upright", title: "In the pose it is measured in" },
-];
-const CLAY: { value: Surface; label: string; title: string } = { value: "clay", label: "Clay", title: "Shape alone" };
-const SURFACES: readonly { value: Surface; label: string; title: string }[] = [
-  { value: "lit", label: "Lit", title: "Eq. 1: ambient, diffuse and specular light on the skin found" },
-  CLAY,
-  { value: "albedo", label: "Albedo", title: "The share of light the skin throws back in all directions" },
-  { value: "specularity", label: "Gloss", title: "Specularity: the share it mirrors" },
-  { value: "shading", label: "Shading", title: "The light alone, on an even skin" },
-  { value: "residual", label: "Residual", title: "Red: the picture is brighter than Eq. 1; blue: darker" },
-];
-const CHANGE: { value: Surface; label: string; title: string } = {
-  value: "change",
-  label: "Change",
-  title: "What shading changed of the outline's body. Red: outward, blue: inward; full colour at 1 cm",
-};
-const BODIES: readonly { value: Cues; label: string; title: string }[] = [
-  { value: "SES", label: "With shading", title: "SES: silhouette, edges and shading" },
-  { value: "SE", label: "Outline alone", title: "SE: silhouette and edges, before shading refined it" },
-];
+const PLACEMENTS = ["picture", "turned", "canonical"] as const;
+const SURFACES = ["lit", "clay", "albedo", "specularity", "shading", "residual"] as const;
+const BODIES = ["SES", "SE"] as const;
 
 interface Props {
   readonly job: Job;
   readonly files: ResultFiles;
   readonly picture: Picture;
+  /** While something else is on the stage: what was chosen here stays chosen. */
+  readonly hidden: boolean;
   readonly placement: Placement;
   readonly onPlace: (placement: Placement) => void;
+  readonly turning: Turning;
+  readonly onFlip: (limb: TurnedLimb) => void;
   readonly measure: string | null;
+  readonly onPoint: (name: string | null) => void;
+  readonly onMeasure: (name: string) => void;
 }
 
-export function Look({ job, files, picture, placement, onPlace, measure }: Props) {
+export function Look({ job, files, picture, hidden, placement, onPlace, turning, onFlip, measure, onPoint, onMeasure }: Props) {
+  const { limbs, look } = messages.value;
+  const { flips, pointedAt } = turning;
   const hasSkin = files.posed.light !== null;
   const [surface, setSurface] = useState<Surface>("clay");
   const [opacity, setOpacity] = useState(0.85);
   const [lines, setLines] = useState(false);
   const [mask, setMask] = useState(false);
   const [failed, setFailed] = useState(false);
-  const [body, setBody] = useState<Cues>("SES");
+  const [chosen, setBody] = useState<Cues>("SES");
+  // Limbs are turned on the body that was found in the end.
+  const body = isEmpty(flips) ? chosen : "SES";
+  const [from, setFrom] = useState<{ readonly side: Side } | null>(null);
+  const ends = useSignal<readonly TapeEnds[]>([]);
   const comparable = job.links.artifacts?.["body_posed_se.glb"] !== undefined;
   const outlined = useBodiesBeforeShading(job, comparable && (body === "SE" || surface === "change"));
-  const surfaces = !hasSkin || body === "SE" ? [CLAY] : comparable ? [...SURFACES, CHANGE] : SURFACES;
+  const surfaces: readonly Surface[] = !hasSkin || body === "SE" ? ["clay"] : comparable ? [...SURFACES, "change"] : SURFACES;
   const over = placement === "picture";
+  const turns = placement !== "canonical" && body === "SES";
+  const found = pointedAt && facingsOf(files.result)[pointedAt];
   const overlay = usePictureOf(job, "overlay.png", lines && over);
   const segmentation = usePictureOf(job, "segmentation.png", mask && over);
   return (
-    <div class="look">
+    <div class="look" hidden={hidden} style={{ "--ratio": String(picture.width / picture.height) }}>
       <div class="look-bar">
-        <Choice name="placement" legend="View" quiet options={PLACEMENTS} value={placement} onChange={onPlace} />
-        <Choice
-          name="surface"
-          legend="Surface"
-          quiet
-          options={surfaces}
-          value={surface}
-          onChange={setSurface}
-        />
+        <Choice name="placement" legend={look.view} quiet options={PLACEMENTS.map((value) => ({ value, ...look.placements[value] }))} value={placement} onChange={onPlace} />
+        {!over && <FromSides onLook={setFrom} />}
       </div>
       <div class="look-room">
-        <div
-          class={over ? "look-picture" : "look-free"}
-          style={{ "--ratio": String(picture.width / picture.height) }}
-        >
-          {over && <img src={lines && overlay ? overlay : picture.url} alt="The picture" />}
+        <div class={over ? "look-picture" : "look-free"}>
+          {over && <img src={lines && overlay ? overlay : picture.url} alt={look.picture} />}
           {failed ? (
             <p class="note is-problem" role="alert">
-              This browser offers no WebGL 2, which the 3D view needs. The downloads below have pictures of the body.
+              {look.noWebgl}
             </p>
           ) : (
             <BodyCanvas
@@ -93,68 +89,89 @@ export function Look({ job, files, picture, placement, onPlace, measure }: Props
               placement={placement}
               surface={surface}
               opacity={over ? opacity : 1}
+              from={from}
+              onTapes={(found) => (ends.value = found)}
+              flips={flips}
+              limb={pointedAt}
+              onPointLimb={turning.point}
+              onFlip={onFlip}
               onFailure={() => setFailed(true)}
             />
           )}
-          {over && mask && segmentation && <MaskOutline url={segmentation} label="The silhouette found in the picture" />}
+          {placement === "canonical" && !failed && (
+            <TapeLabels ends={ends} measurements={files.result.measurements} marked={measure} onPoint={onPoint} onShow={onMeasure} />
+          )}
+          {over && mask && segmentation && <MaskOutline url={segmentation} label={look.silhouetteLabel} />}
         </div>
-        {!over && <p class="look-hint fine">Drag to turn · wheel or pinch to come nearer</p>}
+        {over && !failed && <SideView posed={files.posed} canonical={files.canonical} flips={flips} />}
+        {turns && !isEmpty(flips) && <p class="look-badge">{limbs.badge}</p>}
+        {turns && pointedAt && found && (
+          <p class="look-limb" aria-hidden="true">
+            {hoverWords(pointedAt, found, flips)}
+          </p>
+        )}
+        {!over && <p class="look-hint fine">{look.hint}</p>}
       </div>
       {surface === "change" && (
         <p class="look-legend fine">
-          What shading changed of the outline’s body: <b class="is-outward">outward</b>, <b class="is-inward">inward</b>; full
-          colour at 1 cm.
+          {look.changed} <b class="is-outward">{look.outward}</b>, <b class="is-inward">{look.inward}</b>; {look.fullColour}
         </p>
       )}
-      {(comparable || over) && (
-        <div class="look-bar">
-          {comparable && (
-            <Choice
-              name="compared"
-              legend="Body found"
-              quiet
-              options={BODIES}
-              value={body}
-              onChange={(value) => {
-                setBody(value);
-                if (value === "SE") setSurface("clay");
-              }}
-            />
-          )}
-          {over && (
-            <>
-              <label class="slider">
-                <span>Body</span>
-                <input
-                  type="range"
-                  min="0"
-                  max="1"
-                  step="0.01"
-                  value={opacity}
-                  aria-label="Opacity of the body"
-                  onInput={(event) => setOpacity(Number(event.currentTarget.value))}
-                />
-                <output>{Math.round(100 * opacity)} %</output>
-              </label>
-              <label class="check">
-                <input type="checkbox" checked={mask} onChange={(event) => setMask(event.currentTarget.checked)} />
-                Silhouette of the picture
-              </label>
-              <label class="check">
-                <input
-                  type="checkbox"
-                  checked={lines}
-                  onChange={(event) => {
-                    setLines(event.currentTarget.checked);
-                    if (event.currentTarget.checked) setOpacity(0);
-                  }}
-                />
-                Outline and edges of the body
-              </label>
-            </>
-          )}
-        </div>
-      )}
+      <div class="look-bar">
+        <Choice
+          name="surface"
+          legend={look.surface}
+          quiet
+          options={surfaces.map((value) => ({ value, ...look.surfaces[value] }))}
+          value={surface}
+          onChange={setSurface}
+        />
+        {comparable && (
+          <Choice
+            name="compared"
+            legend={look.found}
+            quiet
+            options={BODIES.map((value) => ({ value, ...look.bodies[value] }))}
+            value={body}
+            onChange={(value) => {
+              setBody(value);
+              if (value === "SE") setSurface("clay");
+            }}
+          />
+        )}
+        {over && (
+          <>
+            <label class="slider">
+              <span>{look.body}</span>
+              <input
+                type="range"
+                min="0"
+                max="1"
+                step="0.01"
+                value={opacity}
+                aria-label={look.opacity}
+                onInput={(event) => setOpacity(Number(event.currentTarget.value))}
+              />
+              <output>{percent(opacity)}</output>
+            </label>
+            <label class="check">
+              <input type="checkbox" checked={mask} onChange={(event) => setMask(event.currentTarget.checked)} />
+              {look.silhouette}
+            </label>
+            <label class="check">
+              <input
+                type="checkbox"
+                checked={lines}
+                onChange={(event) => {
+                  setLines(event.currentTarget.checked);
+                  if (event.currentTarget.checked) setOpacity(0);
+                }}
+              />
+              {look.outline}
+            </label>
+          </>
+        )}
+      </div>
     </div>
   );
 }

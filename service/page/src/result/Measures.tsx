@@ -3,29 +3,36 @@ import { useState } from "preact/hooks";
 import type { Measurement } from "../api/types";
 import { person } from "../draft/draft";
 import { inUnits } from "../draft/person";
+import { percent } from "../messages/figures";
+import { messages } from "../messages/language";
 import { Choice } from "../ui/Choice";
-import { difference, furtherMeasures, isChief, measureLabel, shown } from "./reading";
+import { INTERVAL_SHARE, definitionOf, difference, furtherMeasures, isChief, measureLabel, shown } from "./reading";
 
 interface Props {
   readonly measurements: readonly Measurement[];
   /** The same by silhouette and edges alone, where they can be compared. */
   readonly before: readonly Measurement[] | null;
+  /** Whether the body they are of fits its picture. */
+  readonly reliable?: boolean;
   readonly pointedAt: string | null;
   readonly onPoint: (name: string | null) => void;
   /** Show where a measurement is taken. */
   readonly onShow: (name: string) => void;
 }
 
-export function Measures({ measurements, before, pointedAt, onPoint, onShow }: Props) {
+export function Measures({ measurements, before, reliable = true, pointedAt, onPoint, onShow }: Props) {
+  const { frame, person: said, result: words } = messages.value;
   const [compared, setCompared] = useState(false);
   const { units } = person.value;
   const further = furtherMeasures(measurements);
+  const look = reliable ? "measures" : "measures is-unreliable";
   const row = (measurement: Measurement) => {
     const { value, unit, interval } = shown(measurement, units);
     const other = compared ? before?.find((each) => each.name === measurement.name) : undefined;
     return (
       <tr
         key={measurement.name}
+        id={rowOf(measurement.name)}
         class={pointedAt === measurement.name ? "is-pointed" : ""}
         onPointerEnter={() => onPoint(measurement.name)}
         onPointerLeave={() => onPoint(null)}
@@ -34,7 +41,7 @@ export function Measures({ measurements, before, pointedAt, onPoint, onShow }: P
           <button
             type="button"
             class="measure-name"
-            title={measurement.definition}
+            title={definitionOf(measurement)}
             onClick={() => onShow(measurement.name)}
             onFocus={() => onPoint(measurement.name)}
             onBlur={() => onPoint(null)}
@@ -48,7 +55,7 @@ export function Measures({ measurements, before, pointedAt, onPoint, onShow }: P
         <td class="number interval">
           {other
             ? `${shown(other, units).value} (${difference(measurement, other, units)})`
-            : (interval ?? (measurement.given ? "given" : "–"))}
+            : (interval ?? (measurement.given ? words.given : "–"))}
         </td>
       </tr>
     );
@@ -56,27 +63,29 @@ export function Measures({ measurements, before, pointedAt, onPoint, onShow }: P
   return (
     <section class="section" aria-labelledby="measures-title">
       <header class="section-head">
-        <h2 id="measures-title">Measurements</h2>
+        <h2 id="measures-title">{words.measurements}</h2>
         <Choice
           name="result-units"
-          legend="Units"
+          legend={frame.units}
           quiet
           options={[
-            { value: "metric", label: "cm, kg" },
-            { value: "imperial", label: "in, lb" },
+            { value: "metric", label: said.metric },
+            { value: "imperial", label: words.imperial },
           ]}
           value={units}
           onChange={(value) => (person.value = inUnits(person.value, value))}
         />
       </header>
-      <table class="measures">
+      {!reliable && <p class="note is-problem">{words.unreliable}</p>}
+      {reliable && !compared && <p class="fine">{words.intervals(percent(INTERVAL_SHARE))}</p>}
+      <table class={look}>
         <MeasuresHead compared={compared} />
         <tbody>{measurements.filter((each) => isChief(each.name)).map(row)}</tbody>
       </table>
       {further.length > 0 && (
         <details class="more-measures">
-          <summary>{further.reduce((count, group) => count + group.members.length, 0)} more measurements</summary>
-          <table class="measures">
+          <summary>{words.more(further.reduce((count, group) => count + group.members.length, 0))}</summary>
+          <table class={look}>
             <MeasuresHead compared={compared} />
             {further.map((group) => (
               <tbody key={group.heading}>
@@ -94,27 +103,30 @@ export function Measures({ measurements, before, pointedAt, onPoint, onShow }: P
       {before && (
         <label class="check">
           <input type="checkbox" checked={compared} onChange={(event) => setCompared(event.currentTarget.checked)} />
-          Compare with the fit by outline alone (SE), and what shading changed (SES)
+          {words.compare}
         </label>
       )}
-      <p class="fine">
-        In the upright pose, right limbs; choose one to see where it is taken. Intervals are the fit's own and somewhat narrow: about nine of ten hold the
-        truth. This is no medical device.
-      </p>
+      <p class="fine">{words.note}</p>
     </section>
   );
 }
 
-function MeasuresHead({ compared }: { readonly compared: boolean }) {
+/** The id of a measurement's row. */
+export function rowOf(name: string): string {
+  return `measure-${name}`;
+}
+
+export function MeasuresHead({ compared = false }: { readonly compared?: boolean }) {
+  const { head } = messages.value.result;
   return (
     <thead>
       <tr>
-        <th scope="col">Measure</th>
+        <th scope="col">{head.measure}</th>
         <th scope="col" class="number">
-          Value
+          {head.value}
         </th>
         <th scope="col" class="number">
-          {compared ? "By outline alone" : "95 % interval"}
+          {compared ? head.outline : head.interval(percent(INTERVAL_SHARE))}
         </th>
       </tr>
     </thead>

@@ -2,10 +2,12 @@
 import { useSignal } from "@preact/signals";
 import { problemFrom } from "../api/client";
 import type { Problem } from "../api/types";
+import { messages } from "../messages/language";
 import { ProblemNote } from "../ui/ProblemNote";
 
 /** `onAnyway` asks once more, by force; null until it can. */
 export function Withheld({ onAnyway }: { onAnyway: (() => Promise<void>) | null }) {
+  const { frame, result: words } = messages.value;
   const problem = useSignal<Problem | null>(null);
   const sending = useSignal(false);
   const send = async () => {
@@ -21,11 +23,11 @@ export function Withheld({ onAnyway }: { onAnyway: (() => Promise<void>) | null 
   };
   return (
     <section class="section" aria-labelledby="measures-title">
-      <h2 id="measures-title">Measurements</h2>
-      <p>They are withheld: they would be those of a body that nobody in the picture has.</p>
+      <h2 id="measures-title">{words.measurements}</h2>
+      <p>{words.withheld}</p>
       {problem.value && <ProblemNote problem={problem.value} />}
       <button class="button" type="button" disabled={!onAnyway || sending.value} onClick={send}>
-        {sending.value ? "Sending …" : "Measure anyway"}
+        {sending.value ? frame.sending : words.measureAnyway}
       </button>
     </section>
   );

@@ -8,6 +8,8 @@ import type { PosedAndUpright } from "../viewer/BodyScene";
 import type { GlbBody } from "../viewer/glb";
 import type { TapeLines } from "../viewer/Tapes";
 
+const UPRIGHT = "body_canonical.glb";
+
 export interface FilesOf<Result> {
   readonly result: Result;
   readonly posed: GlbBody;
@@ -19,35 +21,63 @@ export interface FilesOf<Result> {
 export type ResultFiles = FilesOf<FitResult>;
 
 export interface Fetched<Result> {
-  /** Null until they are there. */
+  /** There before the bodies, which are a hundred times its size. */
+  readonly result: Result | null;
+  /** Null until all of them are there. */
   readonly files: FilesOf<Result> | null;
+  /** How much of the bodies has come, from 0 to 1. */
+  readonly loaded: number;
   readonly problem: Problem | null;
 }
+
+type Listing = Pick<FitResult, "artifacts">;
 
 export function useResultFiles(job: Job): Fetched<FitResult> {
   return useFilesOf(job, () => getResult(job), "body_posed.glb");
 }
 
-/** The result and the files of a job; `posed` is the body as it stands in the picture that is shown. */
-export function useFilesOf<Result>(job: Job | Scan, result: () => Promise<Result>, posedName: string): Fetched<Result> {
+/** The result and then the files of a job; `posed` is the body as it stands in the picture that is shown. */
+export function useFilesOf<Result extends Listing>(job: Job | Scan, fetchResult: () => Promise<Result>, posedName: string): Fetched<Result> {
+  const [result, setResult] = useState<Result | null>(null);
   const [files, setFiles] = useState<FilesOf<Result> | null>(null);
+  const [loaded, setLoaded] = useState(0);
   const [problem, setProblem] = useState<Problem | null>(null);
   useEffect(() => {
     let gone = false;
+    setResult(null);
     setFiles(null);
-    const tapesOf = async () => {
-      const path = job.links.artifacts?.["tapes.json"];
-      return path ? (JSON.parse(await (await getFile(path)).text()) as { lines: TapeLines }).lines : {};
+    setLoaded(0);
+    const fetchAll = async () => {
+      const found = await fetchResult();
+      if (gone) return;
+      setResult(found);
+      const count = progressOf(found, [posedName, UPRIGHT], (share) => gone || setLoaded(share));
+      const tapes = tapesOf(job);
+      const [posed, canonical] = await Promise.all([bodyOf(job, posedName, count), bodyOf(job, UPRIGHT, count)]);
+      const lines = await tapes;
+      if (!gone) setFiles({ result: found, posed: posed!, canonical, tapes: lines });
     };
-    Promise.all([result(), bodyOf(job, posedName), bodyOf(job, "body_canonical.glb"), tapesOf()]).then(
-      ([found, posed, canonical, tapes]) => gone || setFiles({ result: found, posed: posed!, canonical, tapes }),
-      (error) => gone || setProblem(problemFrom(error)),
-    );
+    fetchAll().catch((error) => gone || setProblem(problemFrom(error)));
     return () => {
       gone = true;
     };
   }, [job.id]);
-  return { files, problem };
+  return { result, files, loaded, problem };
+}
+
+/** Counts bytes of some files as they come, and tells which share of all is there. */
+function progressOf({ artifacts }: Listing, names: readonly string[], tell: (share: number) => void): (bytes: number) => void {
+  const total = artifacts.filter(({ name }) => names.includes(name)).reduce((sum, { size }) => sum + size, 0);
+  let there = 0;
+  return (bytes) => {
+    there += bytes;
+    if (total > 0) tell(Math.min(1, there / total));
+  };
+}
+
+async function tapesOf(job: Job | Scan): Promise<TapeLines> {
+  const path = job.links.artifacts?.["tapes.json"];
+  return path ? (JSON.parse(await (await getFile(path)).text()) as { lines: TapeLines }).lines : {};
 }
 
 /** The bodies as silhouette and edges left them, before shading; null until they are there. */
@@ -72,9 +102,9 @@ export function tableOf(job: { links: { self: string } }): [string, string] {
   return ["measurements.csv", `${job.links.self}/artifacts/measurements.csv`];
 }
 
-async function bodyOf(job: Job | Scan, name: string): Promise<GlbBody | null> {
+async function bodyOf(job: Job | Scan, name: string, onBytes?: (count: number) => void): Promise<GlbBody | null> {
   const path = job.links.artifacts?.[name];
-  return path ? readGlb(await (await getFile(path)).arrayBuffer()) : null;
+  return path ? readGlb(await (await getFile(path, onBytes)).arrayBuffer()) : null;
 }
 
 /** A picture of the result as an address for an element; null until it is there. */

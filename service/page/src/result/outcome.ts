@@ -1,10 +1,9 @@
 // How a fit ended, as a person reads it.
 import type { FitResult } from "../api/types";
-
-const CONTRADICTED: Readonly<Record<string, string>> = {
-  implausible: "Not plausible",
-  no_person: "No person found",
-};
+import { wordFor } from "../messages/catalogue";
+import { percent } from "../messages/figures";
+import { messages } from "../messages/language";
+import { answered } from "../ui/answered";
 
 /** Whether the picture contradicts that a person was measured. */
 export function isContradicted({ verdict }: Pick<FitResult, "verdict">): boolean {
@@ -13,5 +12,14 @@ export function isContradicted({ verdict }: Pick<FitResult, "verdict">): boolean
 }
 
 export function headingOf(result: Pick<FitResult, "outcome" | "verdict">): string {
-  return CONTRADICTED[result.verdict ?? ""] ?? (result.outcome === "poor_fit" ? "A poor fit" : "The body");
+  const { result: words } = messages.value;
+  return wordFor(words.verdicts, result.verdict ?? "") ?? (result.outcome === "poor_fit" ? words.poorFit : words.body);
+}
+
+/** What an outcome other than convergence means, and what to do; null where the service says it better. */
+export function explanationOf(result: Pick<FitResult, "outcome" | "verdict" | "silhouette_overlap">): string | null {
+  const { result: words } = messages.value;
+  if (!isContradicted(result)) return wordFor(words.explained, result.outcome);
+  const said = answered("verdicts", result.verdict!);
+  return said && `${said} ${words.overlapIs(percent(result.silhouette_overlap))}`;
 }

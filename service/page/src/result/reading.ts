@@ -1,36 +1,28 @@
 // Measurements as a person reads them.
 import type { FitResult, Measurement } from "../api/types";
+import { feetAndInches } from "../draft/feet";
 import type { Person } from "../draft/person";
+import { plainName, wordFor } from "../messages/catalogue";
+import { capitalised, decimal } from "../messages/figures";
+import { messages } from "../messages/language";
+import { answered } from "../ui/answered";
 
 const CM_PER_INCH = 2.54;
+const CM_PER_M = 100;
+const STATURE = "stature";
 const KG_PER_POUND = 0.45359237;
-const WITHIN_95 = 1.96;
+/** So many standard errors to either side hold 95 of 100. */
+export const WITHIN_95 = 1.96;
 
-const LABELS: Readonly<Record<string, string>> = {
-  stature: "Height",
-  waist_girth_navel: "Waist, at the navel",
-  waist_girth_smallest: "Waist, smallest",
-  back_waist_length: "Back length",
-  front_waist_length: "Front length",
-  trunk_girth: "Trunk, from shoulder through crotch",
-  armscye_girth: "Armhole",
-  back_shoulder_width: "Shoulder to shoulder, over the back",
-  cross_back: "Across the back",
-  cross_front: "Across the chest",
-  bust_point_width: "Bust points",
-  neck_to_bust_point: "Neck to bust point",
-  body_rise: "Rise, straight down",
-  front_rise: "Rise in front",
-  back_rise: "Rise behind",
-  waist_to_hip: "Waist down to hip",
-  cervicale_height: "Nape height",
-  neck_height: "Height of the pit of the neck",
-  head_height: "Head, crown to chin",
-};
+export const INTERVAL_SHARE = 0.95;
 
 export function measureLabel(name: string): string {
-  const text = LABELS[name] ?? name.replace(/_girth$/, "").replaceAll("_", " ");
-  return text.charAt(0).toUpperCase() + text.slice(1);
+  return wordFor(messages.value.measures.labels, name) ?? capitalised(plainName(name));
+}
+
+/** How a measurement is taken. */
+export function definitionOf({ name, definition }: Pick<Measurement, "name" | "definition">): string {
+  return answered("definitions", name) ?? definition;
 }
 
 /** What most people ask for: shown first, and drawn on the body before one is chosen. */
@@ -73,16 +65,21 @@ export interface MeasureGroup<M> {
 /** All that is not chief, under headings; the names tell what they are. */
 export function furtherMeasures<M extends { readonly name: string }>(measurements: readonly M[]): readonly MeasureGroup<M>[] {
   const further = measurements.filter((each) => !isChief(each.name));
-  return ["Girths", "Lengths", "Above the floor", "Breadths and depths"]
-    .map((heading) => ({ heading, members: further.filter((each) => groupOf(each.name) === heading) }))
+  return GROUPS
+    .map((group) => ({
+      heading: messages.value.measures.groups[group],
+      members: further.filter((each) => groupOf(each.name) === group),
+    }))
     .filter((group) => group.members.length > 0);
 }
 
-function groupOf(name: string): string {
-  if (name.split("_").includes("girth")) return "Girths";
+const GROUPS = ["girths", "lengths", "heights", "breadths"] as const;
+
+function groupOf(name: string): (typeof GROUPS)[number] {
+  if (name.split("_").includes("girth")) return "girths";
   // Of the heights one is the head's own.
-  if (name.endsWith("_height") && name !== "head_height") return "Above the floor";
-  return /_(breadth|depth)$/.test(name) ? "Breadths and depths" : "Lengths";
+  if (name.endsWith("_height") && name !== "head_height") return "heights";
+  return /_(breadth|depth)$/.test(name) ? "breadths" : "lengths";
 }
 
 export interface Shown {
@@ -94,7 +91,8 @@ export interface Shown {
 
 export function shown(measurement: Measurement, units: Person["units"]): Shown {
   const { factor, unit } = inUnit(measurement.unit, units);
-  const text = (value: number) => (value * factor).toFixed(1);
+  const isInFeet = units === "imperial" && measurement.name === STATURE;
+  const text = (value: number) => (isInFeet ? feetAndInches(value / CM_PER_M, 1) : decimal(value * factor, 1));
   const error = measurement.standard_error;
   // What was given exactly has an error of zero, up to rounding.
   const isKnown = error === null || error === undefined || error < 1e-3;
@@ -110,7 +108,7 @@ export function shown(measurement: Measurement, units: Person["units"]): Shown {
 export function difference(measurement: Measurement, other: Measurement, units: Person["units"]): string {
   const { factor } = inUnit(measurement.unit, units);
   const by = (measurement.value - other.value) * factor;
-  return Math.abs(by) < 0.05 ? "0.0" : `${by > 0 ? "+" : "−"}${Math.abs(by).toFixed(1)}`;
+  return Math.abs(by) < 0.05 ? decimal(0, 1) : `${by > 0 ? "+" : "−"}${decimal(Math.abs(by), 1)}`;
 }
 
 /** The same measurements by silhouette and edges alone; null where shading was not used. */
@@ -119,7 +117,7 @@ export function withoutShading(result: FitResult): readonly Measurement[] | null
   return result.stages.find((stage) => stage.name === "SE")?.measurements ?? null;
 }
 
-function inUnit(unit: string, units: Person["units"]): { factor: number; unit: string } {
+export function inUnit(unit: string, units: Person["units"]): { factor: number; unit: string } {
   if (units === "metric") return { factor: 1, unit };
   return unit === "kg" ? { factor: 1 / KG_PER_POUND, unit: "lb" } : { factor: 1 / CM_PER_INCH, unit: "in" };
 }

@@ -1,14 +1,15 @@
 // Over the picture: the live body's outline, the skeleton, the points.
 import { doubted, points, selected } from "../draft/draft";
 import { liveBody } from "../draft/live";
-import { BONES, pointOf, sideOf } from "../points/catalogue";
+import { messages } from "../messages/language";
+import { BONES, sideOf } from "../points/catalogue";
 import type { PointName } from "../points/catalogue";
 import { toStage } from "./view";
 import type { Size, Spot, View } from "./view";
 
 const RING_PX = 6;
 /** Room for a label beside its point. */
-const LABEL_PX = 140;
+const LABEL_PX = 165;
 
 interface Props {
   readonly view: View;
@@ -17,6 +18,7 @@ interface Props {
 }
 
 export function ClickLayer({ view, size, dragged }: Props) {
+  const { points: words, stage } = messages.value;
   const { placed } = points.value;
   const at = (name: PointName) => placed[name] && toStage(view, placed[name]);
   return (
@@ -53,8 +55,7 @@ export function ClickLayer({ view, size, dragged }: Props) {
             />
             {isLabelled && (
               <text class={`point-label ${spot.x > size.width - LABEL_PX ? "is-left-of" : ""}`} y={4}>
-                {pointOf(name).label}
-                {isAsked ? "?" : ""}
+                {isAsked ? stage.asked(words.labels[name]) : words.labels[name]}
               </text>
             )}
           </g>

@@ -12,6 +12,8 @@ export interface Gestures<Grip> {
   dragStart(grip: Grip): void;
   drag(grip: Grip, at: Spot): void;
   dragEnd(grip: Grip): void;
+  /** A second finger came, or the browser took the first one's for itself. */
+  dragLost(grip: Grip): void;
   pan(dx: number, dy: number): void;
   pinch(factor: number, at: Spot, dx: number, dy: number): void;
 }
@@ -41,7 +43,7 @@ export function listen<Grip>(element: HTMLElement, gestures: Gestures<Grip>): ()
     pointers.set(event.pointerId, at);
     if (pointers.size > 1) {
       // A second finger: whatever the first began is given up.
-      if (press?.moved && press.grip !== null) gestures.dragEnd(press.grip);
+      if (press?.moved && press.grip !== null) gestures.dragLost(press.grip);
       press = null;
       gestures.hover(null, true);
       return;
@@ -83,7 +85,11 @@ export function listen<Grip>(element: HTMLElement, gestures: Gestures<Grip>): ()
     const ended = press;
     press = null;
     if (event.pointerType === "touch") gestures.hover(null, true);
-    if (!ended || event.type === "pointercancel") return;
+    if (!ended) return;
+    if (event.type === "pointercancel") {
+      if (ended.moved && ended.grip !== null) gestures.dragLost(ended.grip);
+      return;
+    }
     if (ended.moved && ended.grip !== null) gestures.dragEnd(ended.grip);
     else if (!ended.panning && (!ended.moved || ended.touch)) gestures.tap(spot(event));
   };

@@ -3,25 +3,15 @@ import type { Signal } from "@preact/signals";
 import { change, points, selected, timeline, upcoming } from "../draft/draft";
 import { place, remove, skip, toggleHidden } from "../points/placed";
 import { redo, undo } from "../points/timeline";
-import { inside, placeNext } from "./placing";
-import { toPicture, toStage } from "./view";
-import type { Size, Spot, View } from "./view";
-
-const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
-  ArrowLeft: [-1, 0],
-  ArrowRight: [1, 0],
-  ArrowUp: [0, -1],
-  ArrowDown: [0, 1],
-};
-const LARGE_STEP = 10;
-const KEY_ZOOM = 1.25;
+import type { PictureView } from "./pictureView";
+import { placeNext } from "./placing";
+import { inside, nudged, toPicture } from "./view";
+import type { Spot } from "./view";
+import { stepOf, zoomsBy } from "./viewKeys";
 
 interface KeyContext {
-  readonly zoom: (factor: number) => void;
-  readonly whole: () => void;
-  readonly shown: Size;
+  readonly lies: PictureView;
   readonly aim: Signal<{ at: Spot; touch: boolean } | null>;
-  readonly view: Signal<View>;
 }
 
 export function stageKeys(event: KeyboardEvent, context: KeyContext): void {
@@ -29,22 +19,21 @@ export function stageKeys(event: KeyboardEvent, context: KeyContext): void {
   if (act(event, context)) event.preventDefault();
 }
 
-function act(event: KeyboardEvent, { zoom, whole, shown, aim, view }: KeyContext): boolean {
+function act(event: KeyboardEvent, { lies, aim }: KeyContext): boolean {
+  const { picture: shown, view } = lies;
   const name = selected.value;
   const next = upcoming.value;
-  const arrow = ARROWS[event.key];
+  const step = stepOf(event);
   // Undo and redo belong to the whole page.
   if (event.ctrlKey || event.metaKey) return false;
-  if (arrow) {
-    const step = event.shiftKey ? LARGE_STEP : 1;
-    const [dx, dy] = [arrow[0] * step, arrow[1] * step];
+  if (step) {
+    const [dx, dy] = step;
     const where = name && points.value.placed[name];
     if (name && where) {
       const moved = inside({ x: where.x + dx, y: where.y + dy }, shown);
       change(place(points.value, name, moved.x, moved.y));
     } else {
-      const from = aim.value ? toPicture(view.value, aim.value.at) : { x: shown.width / 2, y: shown.height / 2 };
-      aim.value = { at: toStage(view.value, inside({ x: from.x + dx, y: from.y + dy }, shown)), touch: false };
+      aim.value = { at: nudged(view.value, aim.value?.at ?? null, dx, dy, shown), touch: false };
     }
     return true;
   }
@@ -71,18 +60,8 @@ function act(event: KeyboardEvent, { zoom, whole, shown, aim, view }: KeyContext
     case "s":
       if (next) change(skip(points.value, next));
       return true;
-    case "+":
-    case "=":
-      zoom(KEY_ZOOM);
-      return true;
-    case "-":
-      zoom(1 / KEY_ZOOM);
-      return true;
-    case "0":
-      whole();
-      return true;
     default:
-      return false;
+      return zoomsBy(event, lies);
   }
 }
 

@@ -1,7 +1,7 @@
 // What a click, a drag or a key does to the points.
 import { change, points, selected, upcoming } from "../draft/draft";
 import { choosePersonAt } from "../draft/proposing";
-import { pointOf } from "../points/catalogue";
+import { messages } from "../messages/language";
 import type { PointName } from "../points/catalogue";
 import { place } from "../points/placed";
 import { announce } from "../ui/announce";
@@ -27,7 +27,8 @@ export function tap(at: Spot, view: View, picture: Size): void {
 export function placeNext(name: PointName, x: number, y: number): void {
   change(place(points.value, name, x, y));
   const next = upcoming.value;
-  announce(`${pointOf(name).label} placed. ${next ? `Next: ${pointOf(next).label}.` : "All points are placed."}`);
+  const { points: words, stage } = messages.value;
+  announce(stage.placed(words.labels[name], next ? stage.next(words.labels[next]) : stage.allPlaced));
 }
 
 /** The placed point that is drawn nearest to a spot of the stage, within a distance. */
@@ -40,9 +41,4 @@ export function nearest(view: View, at: Spot, withinPx: number): PointName | nul
     if (distance <= least) [best, least] = [name as PointName, distance];
   }
   return best;
-}
-
-/** The spot of the picture that is nearest. */
-export function inside(spot: Spot, picture: Size): Spot {
-  return { x: Math.min(Math.max(spot.x, 0), picture.width), y: Math.min(Math.max(spot.y, 0), picture.height) };
 }

@@ -46,6 +46,21 @@ export function toStage(view: View, spot: Spot): Spot {
   return { x: view.scale * spot.x + view.x, y: view.scale * spot.y + view.y };
 }
 
+export function isWhole(view: View, stage: Size, picture: Size): boolean {
+  return Math.abs(view.scale - fitted(stage, picture).scale) < 1e-6;
+}
+
+/** The spot of the picture that is nearest. */
+export function inside(spot: Spot, picture: Size): Spot {
+  return { x: Math.min(Math.max(spot.x, 0), picture.width), y: Math.min(Math.max(spot.y, 0), picture.height) };
+}
+
+/** A spot of the stage moved by pixels of the picture, whose middle is meant where there is none. */
+export function nudged(view: View, at: Spot | null, dx: number, dy: number, picture: Size): Spot {
+  const from = at ? toPicture(view, at) : { x: picture.width / 2, y: picture.height / 2 };
+  return toStage(view, inside({ x: from.x + dx, y: from.y + dy }, picture));
+}
+
 /** The picture stays in the middle where it is smaller than the stage, and covers it elsewhere. */
 function kept(view: View, stage: Size, picture: Size): View {
   return {

@@ -1,31 +1,45 @@
 // What nobody said and had to be assumed.
 import type { InitialPose } from "../api/types";
+import { person } from "../draft/draft";
+import { heightInWords } from "../draft/person";
+import { measured } from "../messages/figures";
+import { messages } from "../messages/language";
+import { Served } from "./Served";
+import { answered, fieldName } from "./answered";
+import { PROPOSED_POINTS, proposedOf, proposedText } from "./proposed";
 
 export type Assumptions = InitialPose["assumptions"];
 
-const WORDS: Readonly<Record<string, (value: number) => string>> = {
-  focal_length_35mm: (value) => `A lens of ${value.toFixed(0)} mm (as on 35 mm film)`,
-  height_m: (value) => `A height of ${(100 * value).toFixed(0)} cm`,
-};
-
-/** How the outline was taken was the caller's choice: its reason says it all. */
 const TOLD = "outline";
 
-export function AssumptionNotes({ assumptions }: { assumptions: Assumptions }) {
+interface Props {
+  readonly assumptions: Assumptions;
+  /** The points of the request; null while they are not known. */
+  readonly asked: unknown;
+}
+
+export function AssumptionNotes({ assumptions, asked }: Props) {
+  const proposed = proposedOf(assumptions, asked);
   return (
     <>
-      {assumptions.map(({ quantity, value, reason }) => (
-        <p class="note" key={quantity}>
-          {quantity !== TOLD && `${inWords(quantity, value)} is assumed. `}
-          {reason}
+      {assumptions.map((assumption) => (
+        <p class="note" key={assumption.quantity}>
+          {proposed && assumption.quantity === PROPOSED_POINTS ? proposedText(proposed) : <Assumed assumption={assumption} />}
         </p>
       ))}
     </>
   );
 }
 
-function inWords(quantity: string, value: Assumptions[number]["value"]): string {
-  const said = WORDS[quantity];
-  if (said && typeof value === "number") return said(value);
-  return `${quantity.replaceAll("_", " ")} ${value}`;
+function Assumed({ assumption: { quantity, value, reason } }: { assumption: Assumptions[number] }) {
+  const { assumed } = messages.value.frame;
+  if (quantity === "focal_length_35mm" && typeof value === "number") return <>{assumed.lens(measured(value, "millimeter"))}</>;
+  if (quantity === "height_m" && typeof value === "number") return <>{assumed.height(heightInWords(value, person.value.units))}</>;
+  // How the outline was taken was the caller's choice: its reason says it all.
+  if (quantity === TOLD) return <>{answered("assumptions", quantity) ?? <Served text={reason} />}</>;
+  return (
+    <>
+      {assumed.other(fieldName(quantity), String(value))} <Served text={reason} />
+    </>
+  );
 }

@@ -1,3 +1,4 @@
+import type { Ref } from "preact";
 import { Icon } from "./Icon";
 import type { IconName } from "./Icon";
 
@@ -7,11 +8,13 @@ interface Props {
   readonly onClick: () => void;
   readonly pressed?: boolean;
   readonly disabled?: boolean;
+  readonly buttonRef?: Ref<HTMLButtonElement>;
 }
 
-export function IconButton({ icon, label, onClick, pressed, disabled = false }: Props) {
+export function IconButton({ icon, label, onClick, pressed, disabled = false, buttonRef }: Props) {
   return (
     <button
+      ref={buttonRef}
       type="button"
       class="icon-button"
       aria-label={label}

@@ -1,11 +1,15 @@
 // Asks for an API key when the service wants one.
 import { useEffect, useRef } from "preact/hooks";
 import { keyQuestion, useKey } from "../api/key";
+import { messages } from "../messages/language";
+import { Served } from "./Served";
+import { answered } from "./answered";
 
 export function KeyDialog() {
   const dialog = useRef<HTMLDialogElement>(null);
   const field = useRef<HTMLInputElement>(null);
   const reason = keyQuestion.value;
+  const { key } = messages.value.frame;
   useEffect(() => {
     if (reason !== null && !dialog.current!.open) dialog.current!.showModal();
     if (reason === null) dialog.current!.close();
@@ -15,20 +19,22 @@ export function KeyDialog() {
       <form
         onSubmit={(event) => {
           event.preventDefault();
-          const key = field.current!.value.trim();
+          const typed = field.current!.value.trim();
           field.current!.value = "";
-          if (key !== "") useKey(key);
+          if (typed !== "") useKey(typed);
         }}
       >
-        <h2 id="key-title">This service asks for a key</h2>
-        <p>{reason} Whoever runs it makes keys with <code>maquette keys create</code>.</p>
+        <h2 id="key-title">{key.title}</h2>
+        <p>
+          {answered("faults", "unauthorized") ?? <Served text={reason ?? ""} />} {key.origin} <code>maquette keys create</code>.
+        </p>
         <label class="field">
-          <span>API key</span>
+          <span>{key.label}</span>
           <input ref={field} type="password" autocomplete="off" spellcheck={false} required />
         </label>
-        <p class="fine">It is kept in this tab until you close it.</p>
+        <p class="fine">{key.kept}</p>
         <button class="button is-primary" type="submit">
-          Use this key
+          {key.use}
         </button>
       </form>
     </dialog>

@@ -7,15 +7,15 @@ const COLOUR = [255, 196, 0, 255] as const;
 export function MaskOutline({ url, label }: { url: string; label: string }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   useEffect(() => {
-    let gone = false;
     const image = new Image();
+    let isCurrent = true;
     image.src = url;
     image.decode().then(
-      () => gone || draw(canvas.current!, image),
+      () => isCurrent && canvas.current && draw(canvas.current, image),
       () => undefined,
     );
     return () => {
-      gone = true;
+      isCurrent = false;
     };
   }, [url]);
   return <canvas class="mask-outline" ref={canvas} role="img" aria-label={label} />;

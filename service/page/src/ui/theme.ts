@@ -1,27 +1,37 @@
-// Light or dark: as the system has it, unless chosen here.
-import { effect, signal } from "@preact/signals";
+// Light or dark: as the system has it, unless it is chosen.
+import { computed, effect, signal } from "@preact/signals";
+import { keep, kept } from "../kept";
 
-type Theme = "light" | "dark";
+const THEMES = ["light", "dark", "system"] as const;
+export type ThemeChoice = (typeof THEMES)[number];
 
 const PLACE = "maquette.theme";
 const system = matchMedia("(prefers-color-scheme: dark)");
 
-function initial(): Theme {
-  const kept = localStorage.getItem(PLACE);
-  return kept === "light" || kept === "dark" ? kept : system.matches ? "dark" : "light";
+export function isTheme(text: unknown): text is ThemeChoice {
+  return THEMES.some((each) => each === text);
 }
 
-export const theme = signal<Theme>(initial());
+const earlier = kept(PLACE);
+const chosen = signal<ThemeChoice>(isTheme(earlier) ? earlier : "system");
+const isSystemDark = signal(system.matches);
+system.addEventListener("change", () => (isSystemDark.value = system.matches));
 
-system.addEventListener("change", () => {
-  if (localStorage.getItem(PLACE) === null) theme.value = system.matches ? "dark" : "light";
+export const theme = computed(() => {
+  if (chosen.value !== "system") return chosen.value;
+  return isSystemDark.value ? "dark" : "light";
 });
 
 effect(() => {
   document.documentElement.dataset.theme = theme.value;
 });
 
+/** For as long as the page is open. */
+export function useTheme(choice: ThemeChoice): void {
+  chosen.value = choice;
+}
+
 export function toggleTheme(): void {
-  theme.value = theme.value === "dark" ? "light" : "dark";
-  localStorage.setItem(PLACE, theme.value);
+  chosen.value = theme.value === "dark" ? "light" : "dark";
+  keep(PLACE, chosen.value);
 }

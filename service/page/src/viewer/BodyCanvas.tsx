@@ -1,10 +1,14 @@
 // The WebGL canvas as a component; three.js is loaded with it, not with the page.
 import { useEffect, useRef } from "preact/hooks";
 import type { Cues } from "../api/types";
+import { NO_FLIPS } from "../flip/flips";
+import type { Flips, TurnedLimb } from "../flip/flips";
+import { messages } from "../messages/language";
 import type { BodyScene, Placement, PosedAndUpright } from "./BodyScene";
 import type { GlbBody } from "./glb";
 import type { Surface } from "./surface";
-import type { TapeLines } from "./Tapes";
+import type { TapeEnds, TapeLines } from "./Tapes";
+import type { Side } from "./Turntable";
 
 interface Props {
   readonly posed: GlbBody;
@@ -19,15 +23,29 @@ interface Props {
   readonly placement: Placement;
   readonly surface: Surface;
   readonly opacity: number;
+  /** From where it is to be looked at, anew with each object; null leaves the view as it is. */
+  readonly from?: { readonly side: Side } | null;
+  /** Where the tapes lie on the canvas. */
+  readonly onTapes?: (ends: readonly TapeEnds[]) => void;
+  /** Limbs that are seen turned the other way. */
+  readonly flips?: Flips;
+  /** The limb that stands out. */
+  readonly limb?: TurnedLimb | null;
+  readonly onPointLimb?: (limb: TurnedLimb | null) => void;
+  readonly onFlip?: (limb: TurnedLimb) => void;
   readonly onFailure: () => void;
 }
 
+/** Farther than this a pointer was dragged, and has clicked nothing. */
+const CLICK_WITHIN_PX = 5;
+
 export function BodyCanvas(props: Props) {
-  const { posed, canonical, outlined, body, picture, tapes, marked, placement, surface, opacity, onFailure } = props;
+  const { posed, canonical, outlined, body, picture, tapes, marked, placement, surface, opacity, from = null, onTapes, flips = NO_FLIPS, limb = null, onPointLimb, onFlip, onFailure } = props;
   const canvas = useRef<HTMLCanvasElement>(null);
   const scene = useRef<BodyScene | null>(null);
-  const wanted = useRef({ placement, surface, outlined, body });
-  wanted.current = { placement, surface, outlined, body };
+  const wanted = useRef({ placement, surface, outlined, body, marked, flips, limb });
+  wanted.current = { placement, surface, outlined, body, marked, flips, limb };
+  const pressed = useRef({ x: 0, y: 0 });
 
   useEffect(() => {
     const target = canvas.current!;
@@ -46,7 +64,10 @@ export function BodyCanvas(props: Props) {
       scene.current.compareWith(wanted.current.outlined);
       scene.current.show(wanted.current.body);
       scene.current.surface(wanted.current.surface);
+      scene.current.mark(wanted.current.marked);
+      if (onTapes) scene.current.followTapes(onTapes);
       observer.observe(target);
+      if (onFlip) void takeLimbs(scene.current);
     }, onFailure);
     return () => {
       gone = true;
@@ -56,6 +77,14 @@ export function BodyCanvas(props: Props) {
     };
   }, [posed, canonical, picture, tapes]);
 
+  const takeLimbs = async (made: BodyScene) => {
+    const tools = await import("../flip/limbs").catch(() => null);
+    if (!tools || scene.current !== made) return;
+    made.turnLimbs(wanted.current.flips);
+    made.markLimb(wanted.current.limb);
+    made.useLimbs(tools);
+  };
+
   useEffect(() => scene.current?.place(placement), [placement]);
   useEffect(() => {
     scene.current?.compareWith(outlined);
@@ -63,16 +92,33 @@ export function BodyCanvas(props: Props) {
     scene.current?.surface(surface);
   }, [outlined, body, surface]);
   useEffect(() => scene.current?.mark(marked), [marked]);
+  useEffect(() => scene.current?.turnLimbs(flips), [flips]);
+  useEffect(() => scene.current?.markLimb(limb), [limb]);
+  useEffect(() => {
+    if (from) scene.current?.lookFrom(from.side);
+  }, [from]);
 
   const turned = placement !== "picture";
   return (
     <canvas
       ref={canvas}
       class="body-canvas"
-      style={{ opacity }}
+      style={limb ? { opacity, cursor: "pointer" } : { opacity }}
       tabIndex={turned ? 0 : -1}
       role="img"
-      aria-label={turned ? "The body in 3D; arrow keys turn it" : "The body over the picture"}
+      aria-label={turned ? messages.value.look.turned : messages.value.look.over}
+      onPointerDown={({ clientX: x, clientY: y }) => (pressed.current = { x, y })}
+      onPointerMove={({ clientX, clientY, pointerType, buttons }) => {
+        // A finger points at nothing before it taps, and a body that is being turned is not pointed at.
+        if (pointerType !== "touch" && buttons === 0) onPointLimb?.(scene.current?.limbAt(clientX, clientY) ?? null);
+      }}
+      onPointerLeave={() => onPointLimb?.(null)}
+      onClick={({ clientX, clientY }) => {
+        const { x, y } = pressed.current;
+        if (!onFlip || Math.hypot(clientX - x, clientY - y) > CLICK_WITHIN_PX) return;
+        const found = scene.current?.limbAt(clientX, clientY);
+        if (found) onFlip(found);
+      }}
       onKeyDown={(event) => {
         if (scene.current?.turnBy(event.key)) event.preventDefault();
       }}

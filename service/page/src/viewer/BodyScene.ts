@@ -1,26 +1,27 @@
 // The body in WebGL: over its picture by the fitted camera, or turned freely.
-import {
-  BufferAttribute,
-  BufferGeometry,
-  LinearFilter,
-  Mesh,
-  NoColorSpace,
-  Scene,
-  ShaderMaterial,
-  Texture,
-  Vector3,
-  WebGLRenderer,
-} from "three";
+import { BufferAttribute, LinearFilter, NoColorSpace, Scene, Texture, Vector3, WebGLRenderer } from "three";
 import type { Cues } from "../api/types";
+import { NO_FLIPS } from "../flip/flips";
+import type { Flips, TurnedLimb } from "../flip/flips";
+import { facingOf } from "./facing";
+import { Floor } from "./Floor";
 import type { GlbBody } from "./glb";
-import { SURFACES, surfaceMaterial } from "./surface";
+import { bodyPart, shiftAlongNormals } from "./bodyPart";
+import type { Part } from "./bodyPart";
+import { SURFACES } from "./surface";
 import type { Surface } from "./surface";
 import { Tapes } from "./Tapes";
-import type { TapeLines } from "./Tapes";
-import { TURNED_FOV_DEG, Turntable } from "./Turntable";
-import type { Standing } from "./Turntable";
+import type { TapeEnds, TapeLines } from "./Tapes";
+import { SIDES, TURNED_FOV_DEG, Turntable } from "./Turntable";
+import type { Side } from "./Turntable";
 
 export type Placement = "picture" | "turned" | "canonical";
+
+/** Radians: a body measured is seen a little from aside, so that it has depth. */
+const FROM_ASIDE = 0.35;
+
+/** Loaded when the body is there, not with it. */
+export type LimbTools = typeof import("../flip/limbs");
 
 export interface PosedAndUpright {
   readonly posed: GlbBody;
@@ -30,10 +31,6 @@ export interface PosedAndUpright {
 interface Parts {
   readonly posed: Part;
   readonly canonical: Part | null;
-}
-
-interface Part extends Standing {
-  readonly mesh: Mesh<BufferGeometry, ShaderMaterial>;
 }
 
 export class BodyScene {
@@ -48,7 +45,14 @@ export class BodyScene {
   private marked: string | null = null;
   private readonly texture: Texture;
   private readonly tapes: Tapes;
+  private readonly floor = new Floor();
+  /** Where the posed body faces, radians to the right of +z. */
+  private readonly facing: number;
+  private onTapes: ((ends: readonly TapeEnds[]) => void) | null = null;
   private placement: Placement = "picture";
+  private limbTools: LimbTools | null = null;
+  private flips: Flips = NO_FLIPS;
+  private pointedAt: TurnedLimb | null = null;
   private scheduled = 0;
   /** Nothing is drawn before the canvas' size is known: it would be shown stretched. */
   private isSized = false;
@@ -70,7 +74,8 @@ export class BodyScene {
     this.texture.needsUpdate = true;
     this.parts = this.added({ posed: body, canonical: upright });
     this.tapes = new Tapes(tapes);
-    this.scene.add(this.tapes.group);
+    this.scene.add(this.tapes.group, this.floor.mesh);
+    this.facing = facingOf(body, upright);
     this.table = new Turntable(canvas, () => this.draw());
     this.place("picture");
   }
@@ -80,9 +85,27 @@ export class BodyScene {
     this.placement = placement;
     this.reveal();
     this.table.enabled = placement !== "picture";
-    // Over the picture there is nothing to turn, and a finger may scroll the page.
-    this.renderer.domElement.style.touchAction = placement === "picture" ? "auto" : "none";
-    if (placement !== "picture") this.table.lookAt(this.shown(), placement === "canonical" ? 0.35 : 0);
+    // Over the picture there is nothing to turn; elsewhere a finger turns sideways, and up and down it scrolls the page.
+    this.renderer.domElement.style.touchAction = placement === "picture" ? "auto" : "pan-y";
+    if (placement !== "picture") {
+      this.setUpright();
+      this.table.lookAt(this.shown(), placement === "canonical" ? FROM_ASIDE : 0);
+      this.layFloor();
+    }
+    this.draw();
+  }
+
+  /** Look at the body from a side of its own; nothing over the picture. */
+  lookFrom(side: Side): void {
+    if (this.placement === "picture") return;
+    const facing = this.placement === "canonical" ? 0 : this.facing;
+    this.table.lookAt(this.shown(), facing + SIDES[side]);
+    this.draw();
+  }
+
+  /** Tell where on the canvas the tapes lie, whenever it is drawn; none while they are hidden. */
+  followTapes(tell: (ends: readonly TapeEnds[]) => void): void {
+    this.onTapes = tell;
     this.draw();
   }
 
@@ -118,10 +141,39 @@ export class BodyScene {
     this.draw();
   }
 
+  /** From now on limbs can be found and turned. */
+  useLimbs(tools: LimbTools): void {
+    this.limbTools = tools;
+    this.turnLimbs(this.flips);
+  }
+
+  /** The posed body with these limbs turned. */
+  turnLimbs(flips: Flips): void {
+    this.flips = flips;
+    this.limbTools?.reshape(this.parts.posed.mesh, this.limbTools.bent(this.body, flips) ?? this.body);
+    if (this.placement === "turned") this.layFloor();
+    this.markLimb(this.pointedAt);
+  }
+
+  /** Let a limb of the posed body stand out. */
+  markLimb(limb: TurnedLimb | null): void {
+    this.pointedAt = limb;
+    this.limbTools?.markLimbs(this.parts.posed.mesh, limb, this.flips);
+    this.draw();
+  }
+
+  /** The limb at a place of the window, where one can be turned. */
+  limbAt(clientX: number, clientY: number): TurnedLimb | null {
+    const { mesh } = this.parts.posed;
+    if (!this.limbTools || this.shown().mesh !== mesh) return null;
+    const { left, top, width, height } = this.renderer.domElement.getBoundingClientRect();
+    return this.limbTools.limbUnder(mesh, this.table.camera, (2 * (clientX - left)) / width - 1, 1 - (2 * (clientY - top)) / height);
+  }
+
   resize(width: number, height: number): void {
     if (width === 0 || height === 0) return;
     this.renderer.setSize(width, height, false);
-    this.table.camera.aspect = width / height;
+    this.table.aspect = width / height;
     this.isSized = true;
     // At once: another size has emptied the canvas.
     this.render();
@@ -137,6 +189,7 @@ export class BodyScene {
     this.table.dispose();
     this.texture.dispose();
     this.tapes.dispose();
+    this.floor.dispose();
     for (const each of this.all()) {
       each.mesh.geometry.dispose();
       each.mesh.material.dispose();
@@ -151,8 +204,8 @@ export class BodyScene {
 
   private added({ posed, canonical }: PosedAndUpright): Parts {
     const parts = {
-      posed: part(posed, posed, this.texture),
-      canonical: canonical && part(canonical, posed, this.texture),
+      posed: bodyPart(posed, posed, this.texture),
+      canonical: canonical && bodyPart(canonical, posed, this.texture),
     };
     for (const each of partsOf(parts)) this.scene.add(each.mesh);
     return parts;
@@ -167,6 +220,15 @@ export class BodyScene {
     for (const each of this.all()) each.mesh.visible = each === shown;
     // Tapes lie on the final body's skin.
     this.tapes.group.visible = shown === this.parts.canonical;
+    // Where the camera's tilt is not known, the posed body does not stand on anything.
+    this.floor.mesh.visible = this.placement === "canonical" || (this.placement === "turned" && this.body.upright !== null);
+  }
+
+  private layFloor(): void {
+    const { mesh, centre } = this.shown();
+    const places = mesh.geometry.getAttribute("position");
+    const vertices = Array.from({ length: places.count }, (_, i) => new Vector3().fromBufferAttribute(places, i).applyMatrix4(mesh.matrixWorld));
+    this.floor.layUnder(vertices, centre);
   }
 
   private draw(): void {
@@ -184,9 +246,13 @@ export class BodyScene {
     // Light and surface are in the axes of the file.
     mesh.material.uniforms.eye!.value.copy(mesh.worldToLocal(camera.position.clone()));
     this.renderer.render(this.scene, camera);
+    const { clientWidth, clientHeight } = this.renderer.domElement;
+    this.onTapes?.(this.tapes.group.visible ? this.tapes.endsOn(camera, clientWidth, clientHeight) : []);
     // What is drawn, not what is wanted: the outlined body comes later than its choice.
     const cues = this.cues === "SE" && this.outlined ? "SE" : "SES";
-    this.renderer.domElement.dataset.shows = [this.placement, this.kind, cues, this.marked ?? "none"].join(" ");
+    const { dataset } = this.renderer.domElement;
+    dataset.shows = [this.placement, this.kind, cues, this.marked ?? "none"].join(" ");
+    if (this.limbTools) dataset.limbs = [this.pointedAt ?? "none", ...Object.entries(this.flips).flat()].join(" ");
   }
 
   /** Over its picture the body is in the camera's axes; turned, it stands as gravity has it. */
@@ -229,54 +295,4 @@ export class BodyScene {
 
 function partsOf({ posed, canonical }: Parts): Part[] {
   return canonical ? [posed, canonical] : [posed];
-}
-
-/** How far each vertex moved outward from one body to the other, along the latter's normals, metres. */
-function shiftAlongNormals(before: GlbBody, after: GlbBody): Float32Array {
-  const [from, to, normals] = [before.positions, after.positions, after.normals];
-  return Float32Array.from({ length: to.length / 3 }, (_, vertex) => {
-    let along = 0;
-    for (let i = 3 * vertex; i < 3 * vertex + 3; i++) along += (to[i]! - from[i]!) * normals[i]!;
-    return along;
-  });
-}
-
-/** A mesh of the body as it is shown, with the posed one beside it for what the picture says. */
-function part(shown: GlbBody, posed: GlbBody, texture: Texture): Part {
-  const count = shown.positions.length / 3;
-  const grey = (value: number, width: number) => new Float32Array(width * count).fill(value);
-  const geometry = new BufferGeometry();
-  const add = (name: string, values: Float32Array, width: number) =>
-    geometry.setAttribute(name, new BufferAttribute(values, width));
-  add("position", shown.positions, 3);
-  add("normal", shown.normals, 3);
-  add("posed", posed.positions, 3);
-  add("posedNormal", posed.normals, 3);
-  add("tint", scaled(shown.colours, posed.light?.colourScale ?? 1) ?? grey(0.6, 3), 3);
-  add("albedo", shown.albedo ?? grey(0.6, 1), 1);
-  add("specularity", shown.specularity ?? grey(0, 1), 1);
-  add("lit", shown.lit ?? grey(1, 1), 1);
-  add("posedLit", posed.lit ?? grey(1, 1), 1);
-  add("shift", grey(0, 1), 1);
-  geometry.setIndex(new BufferAttribute(shown.triangles, 1));
-  geometry.computeBoundingBox();
-  const box = geometry.boundingBox!;
-  const centre = box.getCenter(new Vector3());
-  const material = surfaceMaterial(posed, texture);
-  if (shown !== posed && posed.light) moveLight(material, posed, centre);
-  return { mesh: new Mesh(geometry, material), centre, height: box.max.y - box.min.y };
-}
-
-/** The light stands to the canonical body as it stood to the posed one. */
-function moveLight(material: ShaderMaterial, posed: GlbBody, centre: Vector3): void {
-  if (posed.light!.kind !== "point") return;
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new BufferAttribute(posed.positions, 3));
-  geometry.computeBoundingBox();
-  const old = geometry.boundingBox!.getCenter(new Vector3());
-  material.uniforms.lightVector!.value.sub(old).add(centre);
-}
-
-function scaled(values: Float32Array | null, factor: number): Float32Array | null {
-  return values && values.map((value) => value * factor);
 }

@@ -3,6 +3,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { getFile } from "../api/calls";
 import { problemFrom } from "../api/client";
 import type { Problem } from "../api/types";
+import { messages } from "../messages/language";
 import { ProblemNote } from "../ui/ProblemNote";
 import type { DerivedScene } from "./DerivedScene";
 import { readGlb } from "./glb";
@@ -41,14 +42,14 @@ export function DerivedCanvas({ path, label }: { path: string; label: string }) 
   }, [path]);
 
   if (problem) return <ProblemNote problem={problem} />;
-  if (failed) return <p class="note is-problem">This browser offers no WebGL 2, which turning the body needs.</p>;
+  if (failed) return <p class="note is-problem">{messages.value.look.noWebglToTurn}</p>;
   return (
     <canvas
       ref={canvas}
       class="derived-canvas"
       tabIndex={0}
       role="img"
-      aria-label={`${label}; arrow keys turn it`}
+      aria-label={messages.value.look.derived(label)}
       onKeyDown={(event) => {
         if (scene.current?.turnBy(event.key)) event.preventDefault();
       }}

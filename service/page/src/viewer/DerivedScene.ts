@@ -1,6 +1,7 @@
 // A body by itself, to be turned: with its texture, or as clay.
 import {
   AmbientLight,
+  Box3,
   BufferAttribute,
   BufferGeometry,
   DirectionalLight,
@@ -20,6 +21,15 @@ const CLAY = 0xdfd3c5;
 /** A little from the left, so that a form that is lit shows its relief. */
 const KEY_FROM = new Vector3(-0.5, 0.6, 1);
 
+interface View {
+  /** What sets the body upright; null of one that stands. */
+  readonly upright: GlbBody["upright"];
+  /** Radians to the right of its front. */
+  readonly azimuth: number;
+}
+
+const FRONT: View = { upright: null, azimuth: 0 };
+
 export class DerivedScene {
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
@@ -29,19 +39,34 @@ export class DerivedScene {
   /** Nothing is drawn before the canvas' size is known: it would be shown stretched. */
   private isSized = false;
 
-  constructor(canvas: HTMLCanvasElement, body: GlbBody, image: ImageBitmap | null) {
+  constructor(canvas: HTMLCanvasElement, body: GlbBody, image: ImageBitmap | null, { upright, azimuth }: View = FRONT) {
     this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: true });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
     this.renderer.setClearColor(0, 0);
-    canvas.style.touchAction = "none";
     this.mesh = new Mesh(geometryOf(body), materialOf(body, image));
+    // Not its vertices: they are others' as well.
+    if (upright) this.mesh.quaternion.fromArray(upright);
     this.table = new Turntable(canvas, () => this.draw());
+    // A finger turns sideways; up and down it scrolls the page, which the canvas may fill.
+    canvas.style.touchAction = "pan-y";
     const key = new DirectionalLight(0xffffff, 2.2);
     key.position.copy(KEY_FROM);
     this.table.camera.add(key);
     this.scene.add(this.mesh, this.table.camera, new AmbientLight(0xffffff, 0.9));
-    const box = this.mesh.geometry.boundingBox!;
-    this.table.lookAt({ centre: box.getCenter(new Vector3()), height: box.max.y - box.min.y }, 0);
+    const box = new Box3().setFromObject(this.mesh, true);
+    this.table.lookAt({ centre: box.getCenter(new Vector3()), size: box.getSize(new Vector3()) }, azimuth);
+  }
+
+  /** Another shape of the same mesh. */
+  reshape({ positions, normals }: Pick<GlbBody, "positions" | "normals">): void {
+    const { geometry } = this.mesh;
+    for (const [name, values] of [["position", positions], ["normal", normals]] as const) {
+      // Not its array: it is others' as well.
+      const attribute = geometry.getAttribute(name) as BufferAttribute;
+      attribute.array = values;
+      attribute.needsUpdate = true;
+    }
+    this.draw();
   }
 
   turnBy(key: string): boolean {
@@ -51,8 +76,7 @@ export class DerivedScene {
   resize(width: number, height: number): void {
     if (width === 0 || height === 0) return;
     this.renderer.setSize(width, height, false);
-    this.table.camera.aspect = width / height;
-    this.table.camera.updateProjectionMatrix();
+    this.table.aspect = width / height;
     this.isSized = true;
     // At once: another size has emptied the canvas.
     this.render();
@@ -85,7 +109,6 @@ function geometryOf(body: GlbBody): BufferGeometry {
   geometry.setAttribute("normal", new BufferAttribute(body.normals, 3));
   if (body.uv) geometry.setAttribute("uv", new BufferAttribute(body.uv, 2));
   geometry.setIndex(new BufferAttribute(body.triangles, 1));
-  geometry.computeBoundingBox();
   return geometry;
 }
 

@@ -14,29 +14,47 @@ const STEPS: Readonly<Record<string, readonly [number, number]>> = {
   ArrowDown: [0, STEP],
 };
 
+/** From where a body is looked at, as radians to the right of its front. */
+export const SIDES = { front: 0, side: Math.PI / 2, back: Math.PI } as const;
+export type Side = keyof typeof SIDES;
+
 export interface Standing {
   readonly centre: Vector3;
-  readonly height: number;
+  /** Along the axes. */
+  readonly size: Vector3;
 }
 
 export class Turntable {
   readonly camera = new PerspectiveCamera(TURNED_FOV_DEG, 1, 0.02, 100);
   private readonly controls: OrbitControls;
+  /** How the body is looked at, until somebody turns it. */
+  private looked: readonly [Standing, number] | null = null;
 
   constructor(canvas: HTMLCanvasElement, onChange: () => void) {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enablePan = false;
     this.controls.addEventListener("change", onChange);
+    this.controls.addEventListener("start", () => (this.looked = null));
   }
 
   set enabled(enabled: boolean) {
     this.controls.enabled = enabled;
   }
 
+  /** Of the canvas; a body that nobody turned stays whole. */
+  set aspect(aspect: number) {
+    this.camera.aspect = aspect;
+    this.camera.updateProjectionMatrix();
+    if (this.looked) this.lookAt(...this.looked);
+  }
+
   /** The whole body, seen from so many radians to the right of its front. */
-  lookAt({ centre, height }: Standing, azimuth: number): void {
+  lookAt(standing: Standing, azimuth: number): void {
+    const { centre, size } = standing;
     const half = Math.tan((TURNED_FOV_DEG * Math.PI) / 360);
-    const distance = (MARGIN * height) / 2 / half;
+    const width = Math.abs(size.x * Math.cos(azimuth)) + Math.abs(size.z * Math.sin(azimuth));
+    const distance = (MARGIN * Math.max(size.y, width / this.camera.aspect)) / 2 / half;
+    this.looked = [standing, azimuth];
     this.camera.position.set(centre.x + distance * Math.sin(azimuth), centre.y, centre.z + distance * Math.cos(azimuth));
     this.controls.target.copy(centre);
     this.controls.minDistance = 0.2 * distance;
@@ -53,6 +71,7 @@ export class Turntable {
     const side = new Vector3().crossVectors(this.camera.up, offset).normalize();
     offset.applyAxisAngle(this.camera.up, step[0]).applyAxisAngle(side, step[1]);
     if (Math.abs(offset.clone().normalize().y) <= STEEPEST) {
+      this.looked = null;
       this.camera.position.copy(centre).add(offset);
       this.controls.update();
     }

@@ -14,6 +14,8 @@ const VERTEX = /* glsl */ `
   in float lit;
   in float posedLit;
   in float shift;
+  in vec2 mark;
+  out vec2 vMark;
   out float vLit;
   out float vPosedLit;
   out vec3 vPosition;
@@ -23,7 +25,9 @@ const VERTEX = /* glsl */ `
   out vec3 vPosed;
   out vec3 vPosedNormal;
   out float vShift;
+  out vec3 vSeenNormal;
   void main() {
+    vSeenNormal = normalMatrix * normal;
     vPosition = position;
     vNormal = normal;
     vTint = tint;
@@ -33,6 +37,7 @@ const VERTEX = /* glsl */ `
     vLit = lit;
     vPosedLit = posedLit;
     vShift = shift;
+    vMark = mark;
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
   }
 `;
@@ -52,6 +57,8 @@ const FRAGMENT = /* glsl */ `
   in float vShift;
   in float vLit;
   in float vPosedLit;
+  in vec3 vSeenNormal;
+  in vec2 vMark;
   uniform bool hasSurroundings;
   uniform float surroundings[9];
   uniform int surface;
@@ -102,9 +109,10 @@ const FRAGMENT = /* glsl */ `
     return mix(pow((display + 0.055) / 1.055, vec3(2.4)), display / 12.92, lessThanEqual(display, vec3(0.04045)));
   }
 
-  vec3 claySurface(vec3 normal, vec3 toEye) {
-    float key = max(dot(normal, normalize(vec3(-0.45, 0.65, 0.62))), 0.0);
-    float sky = 0.5 + 0.5 * normal.y;
+  // The lamp walks along with the eye: no side of a form lies in the dark.
+  vec3 claySurface(vec3 seen, vec3 normal, vec3 toEye) {
+    float key = max(dot(seen, normalize(vec3(-0.45, 0.65, 0.62))), 0.0);
+    float sky = 0.5 + 0.5 * seen.y;
     float rim = pow(1.0 - max(dot(normal, toEye), 0.0), 3.0);
     return clay * (0.16 + 0.22 * sky + 0.66 * key) + 0.05 * rim;
   }
@@ -136,16 +144,23 @@ const FRAGMENT = /* glsl */ `
   void main() {
     vec3 normal = normalize(vNormal);
     vec3 toEye = normalize(eye - vPosition);
-    if (!gl_FrontFacing) normal = -normal;
+    vec3 seen = normalize(vSeenNormal);
+    if (!gl_FrontFacing) {
+      normal = -normal;
+      seen = -seen;
+    }
     vec2 terms = eq1(vPosition, normal, toEye, lightVector);
     vec3 linear;
-    if (surface == 1) linear = claySurface(normal, toEye);
+    if (surface == 1) linear = claySurface(seen, normal, toEye);
     else if (surface == 2) linear = vTint;
     else if (surface == 3) linear = vec3(vReflectance.y);
     else if (surface == 4) linear = shaded(vec3(0.5), 0.2, normal, terms, vLit);
     else if (surface == 5) linear = residualSurface();
     else if (surface == 6) linear = changeSurface(normal, toEye);
     else linear = shaded(vTint, vReflectance.y, normal, terms, vLit);
+    // Limbs that were turned, and the one pointed at.
+    linear = mix(linear, vec3(0.08, 0.3, 0.75) * (0.4 + 0.6 * max(seen.z, 0.0)), 0.6 * clamp(vMark.y, 0.0, 1.0));
+    linear = mix(linear, vec3(1.0, 0.38, 0.02) * (0.5 + 0.5 * max(seen.z, 0.0)), 0.55 * vMark.x);
     colour = vec4(encoded(linear), 1.0);
   }
 `;

@@ -9,11 +9,12 @@ from api_schemas.derivation_kinds.report import ReportOptions, ReportResult
 from api_schemas.results import FitResult
 from api_schemas.scans import ScanResult
 from service.jobs.inputs import RESULT
-from service.worker.derived.report.content import report_content
+from service.worker.derived.report.content import NO_NUMBERS, report_content
 from service.worker.derived.report.page_html import report_html
 from service.worker.derived.report.page_pdf import report_pdf
 from service.worker.derived.report.pictures import report_pictures
 from service.worker.derived.report.scan_content import scan_content
+from service.worker.derived.report.tape_drawing import tape_drawing
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 
 RESULTS: Final[TypeAdapter[FitResult | ScanResult]] = TypeAdapter(FitResult | ScanResult)
@@ -24,8 +25,16 @@ def derive(
 ) -> DerivationOutput[ReportResult]:
     """Write the report; see :class:`service.worker.derivers.Deriver`."""
     result = RESULTS.validate_json(job.inputs[RESULT])
-    content = scan_content(result) if isinstance(result, ScanResult) else report_content(result)
-    pictures = report_pictures(job.inputs, models=job.models)
+    drawing = tape_drawing(job.inputs, models=job.models) if result.measurements else None
+    numbers = NO_NUMBERS if drawing is None else drawing.numbers
+    content = (
+        scan_content(result, job.options, numbers=numbers)
+        if isinstance(result, ScanResult)
+        else report_content(result, job.options, numbers=numbers)
+    )
+    pictures = report_pictures(
+        job.inputs, drawing, words=content.wording.pictures, models=job.models
+    )
     observe(0.5)
     return DerivationOutput(
         result=ReportResult(artifacts=()),

@@ -1,11 +1,13 @@
 """What the report says, in words: the numbers, units and names of ``result.json``."""
 
 import math
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Final
 
-from api_schemas.requests import Cues
+from api_schemas.derivation_kinds.report import ReportOptions
+from api_schemas.requests import Gender
 from api_schemas.results import (
     Assumption,
     CameraResult,
@@ -14,11 +16,22 @@ from api_schemas.results import (
     FocalLengthSource,
     LightResult,
     Measurement,
+    Outcome,
     ReflectanceResult,
     SurroundingsResult,
     Verdict,
 )
 from fitter.measurement.groups import CHIEF, Group, group_of
+from service.worker.derived.report.units import height_in_words, in_units
+from service.worker.derived.report.wording import (
+    Wording,
+    measurement_name,
+    quantity_name,
+    reason_in_words,
+    value_in_words,
+    warning_in_words,
+)
+from service.worker.derived.report.wordings import WORDINGS
 
 WITHIN_95: Final = 1.96
 """Standard errors on either side of a value that make a 95 % interval."""
@@ -26,38 +39,22 @@ WITHIN_95: Final = 1.96
 DIAGONAL_35MM: Final = 43.27
 """Diagonal of the 24 x 36 mm frame, to which the 35 mm equivalent of a focal length refers."""
 
-TITLE: Final = "Body, pose and light from one picture"
-
-FOOTNOTE: Final = (
-    "Measured in the canonical pose, right limbs; every definition and its source is in "
-    "result.json. Intervals are 1.96 standard errors of the fit on either side. This is no medical "
-    "device."
-)
-
-WITHHELD: Final = (
-    "Measurements are withheld, because the picture contradicts a person: see the outcome."
-)
-
-CUES: Final = {
-    Cues.SE: "silhouette and edges (SE)",
-    Cues.SES: "silhouette, edges and shading (SES)",
-}
-_LENS: Final = {
-    FocalLengthSource.CALLER: "given",
-    FocalLengthSource.EXIF_35MM: "from the picture's EXIF data",
-    FocalLengthSource.EXIF_SENSOR: "from the picture's EXIF data",
-    FocalLengthSource.ASSUMED: "assumed",
-}
+DEFAULTS: Final = ReportOptions(kind="report")
+NO_NUMBERS: Final[Mapping[str, int]] = MappingProxyType({})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MeasurementRow:
-    """A measurement as printed; ``interval`` may say that the value was given."""
+    """A measurement as printed; ``interval`` may say that the value was given.
+
+    ``number`` is that of its tape in the drawing, None where it has none.
+    """
 
     name: str
     value: str
     unit: str
     interval: str
+    number: int | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,10 +78,11 @@ class Section:
 class ReportContent:
     """The page without its pictures; plain text throughout.
 
-    Without measurements :data:`WITHHELD` stands in their place. ``measurements`` are the chief
-    ones, ``further`` all others.
+    Without measurements the table's ``withheld`` stands in their place. ``measurements`` are the
+    chief ones, ``further`` all others.
     """
 
+    wording: Wording
     title: str
     subtitle: str
     measurements: tuple[MeasurementRow, ...]
@@ -92,138 +90,201 @@ class ReportContent:
     sections: tuple[Section, ...]
 
 
-def report_content(result: FitResult) -> ReportContent:
-    """Put a result into words."""
+def report_content(
+    result: FitResult,
+    options: ReportOptions = DEFAULTS,
+    *,
+    numbers: Mapping[str, int] = NO_NUMBERS,
+) -> ReportContent:
+    """Put a result into words; ``numbers`` are those of tapes, by the measurements' names."""
+    wording = WORDINGS[options.language]
     return ReportContent(
-        title=TITLE,
-        subtitle=f"{result.gender.capitalize()}, {result.height_m:.3f} m, by {CUES[result.cues]}",
-        measurements=chief_rows(result.measurements),
-        further=further_groups(result.measurements),
+        wording=wording,
+        title=wording.title,
+        subtitle=wording.subtitle.format(
+            about=about(result.gender, result.height_m, options), cues=wording.cues[result.cues]
+        ),
+        measurements=chief_rows(result.measurements, options, numbers),
+        further=further_groups(result.measurements, options),
         sections=(
-            _light_and_skin(result.light, result.reflectance),
-            _fit(result),
-            assumed(result.assumptions),
-            warned(result.warnings),
+            _light_and_skin(result.light, result.reflectance, wording),
+            _fit(result, wording),
+            assumed(result.assumptions, options),
+            warned(result.warnings, wording),
         ),
     )
 
 
-def chief_rows(measurements: Sequence[Measurement]) -> tuple[MeasurementRow, ...]:
+def about(gender: Gender, height_m: float, options: ReportOptions) -> str:
+    """Whose body it is, of which day, and what the request says of the person."""
+    wording = WORDINGS[options.language]
+    day = None if options.date is None else wording.figures.day(options.date)
+    person = f"{wording.genders[gender]}, {_height(height_m, options)}"
+    return ", ".join(part for part in (options.name, day, person) if part)
+
+
+def chief_rows(
+    measurements: Sequence[Measurement], options: ReportOptions, numbers: Mapping[str, int]
+) -> tuple[MeasurementRow, ...]:
     """The chief ones, in words."""
-    return tuple(measurement_row(each) for each in measurements if each.name in CHIEF)
+    return tuple(
+        measurement_row(each, options, number=numbers.get(each.name))
+        for each in measurements
+        if each.name in CHIEF
+    )
 
 
-def further_groups(measurements: Sequence[Measurement]) -> tuple[MeasurementGroup, ...]:
+def further_groups(
+    measurements: Sequence[Measurement], options: ReportOptions
+) -> tuple[MeasurementGroup, ...]:
     """All others, by groups."""
     others = [each for each in measurements if each.name not in CHIEF]
     groups = {
-        group: tuple(measurement_row(each) for each in others if group_of(each.name) is group)
+        group: tuple(
+            measurement_row(each, options, number=None)
+            for each in others
+            if group_of(each.name) is group
+        )
         for group in Group
     }
+    headings = WORDINGS[options.language].table.groups
     return tuple(
-        MeasurementGroup(heading=group.value, rows=rows) for group, rows in groups.items() if rows
+        MeasurementGroup(heading=headings[group], rows=rows)
+        for group, rows in groups.items()
+        if rows
     )
 
 
-def measurement_row(measurement: Measurement) -> MeasurementRow:
+def measurement_row(
+    measurement: Measurement, options: ReportOptions, *, number: int | None
+) -> MeasurementRow:
     """Put a measurement into words."""
-    value, error = measurement.value, measurement.standard_error
+    wording = WORDINGS[options.language]
+    shown = wording.figures.number
+    value, unit = in_units(measurement.value, measurement.unit, options.units)
+    error = measurement.standard_error
     if error is None:
-        interval = "not known"
+        interval = wording.table.not_known
     elif error == 0.0:
-        interval = "given" if measurement.given else "exact"
+        interval = wording.table.given if measurement.given else wording.table.exact
     else:
-        low, high = value - WITHIN_95 * error, value + WITHIN_95 * error
-        interval = f"{low:.1f} – {high:.1f}"
+        half, _ = in_units(WITHIN_95 * error, measurement.unit, options.units)
+        interval = f"{shown(value - half, '.1f')} – {shown(value + half, '.1f')}"
     return MeasurementRow(
-        name=words(measurement.name),
-        value=f"{value:.1f}",
-        unit=measurement.unit,
+        name=measurement_name(measurement.name, wording),
+        value=shown(value, ".1f"),
+        unit=unit,
         interval=interval,
+        number=number,
     )
 
 
-def _light_and_skin(light: LightResult | None, reflectance: ReflectanceResult | None) -> Section:
-    heading = "Light and reflectance"
+def _light_and_skin(
+    light: LightResult | None, reflectance: ReflectanceResult | None, wording: Wording
+) -> Section:
+    said, number = wording.light, wording.figures.number
     if light is None or reflectance is None:
-        return Section(
-            heading=heading,
-            remarks=("Not estimated: the fit was made by silhouette and edges alone.",),
-        )
-    across = (
-        f"{abs(light.azimuth_deg):.0f}° from the {'right' if light.azimuth_deg > 0 else 'left'}"
+        return Section(heading=said.heading, remarks=(said.not_estimated,))
+    across = (said.from_right if light.azimuth_deg > 0 else said.from_left).format(
+        degrees=number(abs(light.azimuth_deg), ".0f")
     )
-    along = (
-        f"{abs(light.elevation_deg):.0f}° from {'above' if light.elevation_deg > 0 else 'below'}"
+    along = (said.from_above if light.elevation_deg > 0 else said.from_below).format(
+        degrees=number(abs(light.elevation_deg), ".0f")
     )
-    away = "far away" if light.distance_m is None else f"{light.distance_m:.2f} m away"
+    away = (
+        said.far_away
+        if light.distance_m is None
+        else said.away.format(metres=number(light.distance_m, ".2f"))
+    )
+    all_round = (
+        said.of_lamp.format(percent=number(100.0 * reflectance.ambient, ".0f"))
+        if light.surroundings is None
+        else said.of_lamp_on_mean.format(percent=number(_mean_percent(light.surroundings), ".0f"))
+    )
+    skin = number(100.0 * reflectance.mean_albedo, ".0f")
+    gloss = number(100.0 * reflectance.mean_specularity, ".0f")
     return Section(
-        heading=heading,
+        heading=said.heading,
         facts=(
-            (f"{words(light.kind).capitalize()} light", f"{across}, {along}, {away}"),
-            ("Mean albedo", f"{reflectance.mean_albedo:.3f}"),
-            ("Mean specularity", f"{reflectance.mean_specularity:.3f}"),
-            ("Specular exponent", f"{reflectance.specular_exponent:.0f}"),
-            ("Ambient", f"{reflectance.ambient:.3f}")
-            if light.surroundings is None
-            else ("Light from all round", _surroundings(light.surroundings)),
+            (said.lamp, f"{across}, {along}, {away}"),
+            (said.skin, said.throws_back.format(percent=skin)),
+            (said.gloss, said.mirrors.format(percent=gloss)),
+            (said.all_round, all_round),
         ),
     )
 
 
-def _surroundings(surroundings: SurroundingsResult) -> str:
+def _mean_percent(surroundings: SurroundingsResult) -> float:
     """The mean of E over all directions."""
-    mean = surroundings.coefficients[0] / (2.0 * math.sqrt(math.pi))
-    return f"{100.0 * mean:.0f} % of the lamp's on the mean"
+    return 100.0 * surroundings.coefficients[0] / (2.0 * math.sqrt(math.pi))
 
 
-def _fit(result: FitResult) -> Section:
+def _fit(result: FitResult, wording: Wording) -> Section:
+    said, camera = wording.fit, result.image_camera
+    overlap = wording.figures.number(100.0 * result.silhouette_overlap, ".0f")
+    ended = how_it_ended(result.verdict, result.outcome, result.outcome_explanation, wording)
     return Section(
-        heading="The fit",
+        heading=said.fit,
         facts=(
-            ("Outcome", f"{_ended(result)}. {result.outcome_explanation}"),
-            ("Overlap with the silhouette", f"{100.0 * result.silhouette_overlap:.1f} %"),
-            ("Focal length", lens(result.image_camera, result.focal_length_source)),
-            ("Picture", f"{result.image_camera.width} × {result.image_camera.height} pixels"),
+            (said.how_it_ended, ended),
+            (said.overlap, said.overlap_of.format(percent=overlap)),
+            (said.lens, lens(camera, result.focal_length_source, wording)),
+            (said.picture, said.pixels.format(width=camera.width, height=camera.height)),
         ),
     )
 
 
-def _ended(result: FitResult) -> str:
-    return words(result.outcome if result.verdict is Verdict.PLAUSIBLE else result.verdict)
+def how_it_ended(verdict: Verdict, outcome: Outcome, explanation: str, wording: Wording) -> str:
+    """What the outcome means, or why a person is contradicted."""
+    said = wording.fit
+    if verdict is Verdict.PLAUSIBLE:
+        return said.ended[outcome]
+    return f"{said.verdicts[verdict]}. {said.contradicted.get(verdict) or explanation}"
 
 
-def lens(camera: CameraResult, source: FocalLengthSource) -> str:
-    """The focal length, and who says so."""
+def lens(camera: CameraResult, source: FocalLengthSource, wording: Wording) -> str:
+    """The focal length as on 35 mm film, and who says so."""
     equivalent_mm = camera.focal_length_px * DIAGONAL_35MM / math.hypot(camera.width, camera.height)
-    return f"{camera.focal_length_px:.0f} px ({equivalent_mm:.0f} mm equivalent), {_LENS[source]}"
+    return wording.fit.lens_of.format(
+        millimetres=wording.figures.number(equivalent_mm, ".0f"),
+        source=wording.fit.lens_sources[source],
+    )
 
 
-def assumed(assumptions: Collection[Assumption]) -> Section:
+def assumed(assumptions: Collection[Assumption], options: ReportOptions) -> Section:
     """What was assumed, and why."""
-    heading = "What was assumed"
+    wording = WORDINGS[options.language]
+    said = wording.remarks
     if not assumptions:
-        return Section(heading=heading, remarks=("Nothing.",))
+        return Section(heading=said.assumed, remarks=(said.nothing,))
     return Section(
-        heading=heading,
+        heading=said.assumed,
         facts=tuple(
-            (words(each.quantity).capitalize(), f"{_assumed_value(each)}. {each.reason}")
+            (
+                quantity_name(each.quantity, wording),
+                f"{_assumed_value(each, options)}. {reason_in_words(each, wording)}",
+            )
             for each in assumptions
         ),
     )
 
 
-def warned(warnings: Iterable[FitWarning]) -> Section:
+def warned(warnings: Iterable[FitWarning], wording: Wording) -> Section:
     """What to look at."""
-    remarks = tuple(each.message for each in warnings)
-    return Section(heading="Warnings", remarks=remarks or ("None.",))
+    said = wording.remarks
+    remarks = tuple(warning_in_words(each, wording) for each in warnings)
+    return Section(heading=said.warned, remarks=remarks or (said.nothing,))
 
 
-def _assumed_value(assumption: Assumption) -> str:
-    value = assumption.value
-    return value if isinstance(value, str) else f"{value:.4g}"
+def _assumed_value(assumption: Assumption, options: ReportOptions) -> str:
+    value, wording = assumption.value, WORDINGS[options.language]
+    if isinstance(value, str):
+        return value_in_words(value, wording)
+    if assumption.quantity == "height_m":
+        return _height(value, options)
+    shown = wording.figures.number(value, ".4g")
+    return f"{shown} mm" if assumption.quantity == "focal_length_35mm" else shown
 
 
-def words(name: str) -> str:
-    """A name as people read it."""
-    return name.replace("_", " ")
+def _height(height_m: float, options: ReportOptions) -> str:
+    return height_in_words(height_m, options.units, WORDINGS[options.language].figures)

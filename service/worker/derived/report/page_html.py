@@ -8,14 +8,14 @@ from html import escape
 from typing import Final
 
 from service.worker.derived.report.content import (
-    FOOTNOTE,
-    WITHHELD,
     MeasurementGroup,
     MeasurementRow,
     ReportContent,
     Section,
 )
 from service.worker.derived.report.pictures import Picture, ReportPictures
+from service.worker.derived.report.tapes_svg import tapes_svg
+from service.worker.derived.report.wording import TableWords
 
 STYLE: Final = """
 @page { size: A4; margin: 12mm 14mm; }
@@ -33,15 +33,25 @@ figure img { display: block; width: 100%; height: auto; max-height: 420px; objec
   object-position: left top; }
 figcaption, footer { color: #555; font-size: 11px; }
 .sides { display: grid; gap: 6px; grid-template-columns: repeat(4, 1fr); margin-top: 12px; }
+.tapes { margin-top: 16px; }
+.tapes p { color: #555; font-size: 11px; }
+.tapes div { display: flex; gap: 10px; align-items: flex-end; margin-top: 4px; }
+.tapes svg { display: block; width: 100%; height: auto; }
+.tapes path { fill: none; stroke: #a2441f; stroke-width: 4; stroke-linejoin: round; }
+.tapes path.other { stroke: #c9a48f; stroke-width: 2; }
+.tapes circle { fill: #fff; stroke: #a2441f; stroke-width: 2; }
+.tapes text { font-size: 25px; text-anchor: middle; fill: #1c1c1c; }
 .further { columns: 2; column-gap: 24px; margin-top: 12px; }
 .small { display: flex; gap: 8px; margin: 6px 0; }
 .small figure { width: 42%; }
 .small img { max-height: 150px; object-position: left top; }
 table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
 th, td { border-bottom: 1px solid #ddd; padding: 2px 0 2px 8px; text-align: right; }
-th:first-child { padding-left: 0; text-align: left; font-weight: 400; }
+th[scope=row], th:first-child { padding-left: 0; text-align: left; font-weight: 400; }
+.no, .no + th { padding-left: 0; text-align: left; }
+.no { width: 26px; color: #a2441f; }
 thead th { border-bottom: 1px solid #888; color: #555; font-weight: 400; font-size: 11px; }
-td.interval { color: #555; }
+td { white-space: nowrap; } td.interval, th:last-child { white-space: nowrap; color: #555; }
 dl { display: grid; gap: 0 10px; grid-template-columns: max-content 1fr; margin: 0; }
 dt { color: #555; max-width: 150px; }
 dd { margin: 0; }
@@ -59,19 +69,21 @@ footer { border-top: 1px solid #ddd; margin-top: 12px; padding-top: 5px; }
   figure img { max-height: 92mm; } .small img { max-height: 32mm; }
   .sides img { max-height: 66mm; } th, td { padding: 0.35mm 0 0.35mm 2mm; }
   dt { max-width: 32mm; }
-  .further { break-before: page; }
+  .tapes, .further { break-before: page; } .tapes + .further { break-before: auto; }
+  .tapes div { max-width: 168mm; }
 }
 """
 
 
 def report_html(content: ReportContent, pictures: ReportPictures) -> bytes:
     """Write the page; the same report gives the same bytes."""
+    words = content.wording
     light, *others = content.sections
     body = f"""<header><h1>{escape(content.title)}</h1><p>{escape(content.subtitle)}</p></header>
 <main>
 <div class="top">
 {_figure(pictures.overlay)}
-{_measurements(content.measurements)}
+{_measurements(content.measurements, words.table)}
 </div>
 <div class="sides">{"".join(_figure(each) for each in pictures.sides)}</div>
 <div class="notes">
@@ -80,11 +92,12 @@ def report_html(content: ReportContent, pictures: ReportPictures) -> bytes:
 {"".join(_section(each) for each in others)}
 </div>
 </div>
-{_further(content.further)}
+{tapes_svg(pictures.tapes, words.pictures)}
+{_further(content.further, words.table)}
 </main>
-<footer>{escape(FOOTNOTE)}</footer>"""
+<footer>{escape(words.footnote)}</footer>"""
     page = f"""<!doctype html>
-<html lang="en">
+<html lang="{words.language}">
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
@@ -109,34 +122,38 @@ def _figure(picture: Picture) -> str:
     )
 
 
-def _measurements(rows: tuple[MeasurementRow, ...]) -> str:
+def _measurements(rows: tuple[MeasurementRow, ...], words: TableWords) -> str:
     if not rows:
-        return f"<section><p>{escape(WITHHELD)}</p></section>"
-    return f"<section>{_table(rows)}</section>"
+        return f"<section><p>{escape(words.withheld)}</p></section>"
+    return f"<section>{_table(rows, words)}</section>"
 
 
-def _further(groups: tuple[MeasurementGroup, ...]) -> str:
+def _further(groups: tuple[MeasurementGroup, ...], words: TableWords) -> str:
     if not groups:
         return ""
     tables = "".join(
-        f"<section><h2>{escape(group.heading)}</h2>{_table(group.rows)}</section>"
+        f"<section><h2>{escape(group.heading)}</h2>{_table(group.rows, words)}</section>"
         for group in groups
     )
     return f'<div class="further">{tables}</div>'
 
 
-def _table(rows: tuple[MeasurementRow, ...]) -> str:
+def _table(rows: tuple[MeasurementRow, ...], words: TableWords) -> str:
+    numbered = any(row.number is not None for row in rows)
     lines = "\n".join(
-        f'<tr><th scope="row">{escape(row.name)}</th><td>{escape(row.value)}</td>'
-        f'<td>{escape(row.unit)}</td><td class="interval">{escape(row.interval)}</td></tr>'
+        f'<tr>{_number(row) if numbered else ""}<th scope="row">{escape(row.name)}</th>'
+        f"<td>{escape(row.value)}</td><td>{escape(row.unit)}</td>"
+        f'<td class="interval">{escape(row.interval)}</td></tr>'
         for row in rows
     )
-    return f"""<table>
-<thead><tr><th scope="col">Measurement</th><th scope="col">Value</th><th scope="col">Unit</th>\
-<th scope="col">95 % interval</th></tr></thead>
-<tbody>
-{lines}
-</tbody></table>"""
+    heads = (words.measurement, words.value, words.unit, words.interval)
+    number = f'<th scope="col" class="no">{escape(words.number)}</th>' if numbered else ""
+    head = number + "".join(f'<th scope="col">{escape(each)}</th>' for each in heads)
+    return f"<table>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{lines}\n</tbody></table>"
+
+
+def _number(row: MeasurementRow) -> str:
+    return f'<td class="no">{"" if row.number is None else row.number}</td>'
 
 
 def _section(section: Section, figures: str = "") -> str:

@@ -1,6 +1,6 @@
 """The report as A4 pages of PDF, drawn with the fonts that every PDF reader has.
 
-One page, and another one with what was measured besides the chief measurements.
+One page, and another one with the tapes on the body and what else was measured.
 """
 
 import io
@@ -16,14 +16,14 @@ from reportlab.pdfgen.canvas import Canvas
 from reportlab.platypus import Flowable, Frame, KeepInFrame, Paragraph, Spacer, Table
 
 from service.worker.derived.report.content import (
-    FOOTNOTE,
-    WITHHELD,
     MeasurementGroup,
     MeasurementRow,
     ReportContent,
     Section,
 )
 from service.worker.derived.report.pictures import Picture, ReportPictures
+from service.worker.derived.report.tapes_pdf import draw_tapes
+from service.worker.derived.report.wording import TableWords, Wording
 
 PAGE_WIDTH, PAGE_HEIGHT = A4
 MARGIN: Final = 14 * mm
@@ -37,6 +37,8 @@ SIDES_HEIGHT: Final = 68 * mm
 SKIN_HEIGHT: Final = 42 * mm
 CAPTION_HEIGHT: Final = 4.5 * mm
 FOOTER_HEIGHT: Final = 10 * mm
+TAPES_HEADING: Final = 11 * mm
+TAPES_HEIGHT: Final = 88 * mm
 
 INK: Final = HexColor("#1c1c1c")
 GREY: Final = HexColor("#555555")
@@ -45,6 +47,7 @@ RULE: Final = HexColor("#dddddd")
 TEXT: Final = ParagraphStyle(
     "text", fontName="Helvetica", fontSize=8, leading=10, textColor=INK, spaceAfter=1
 )
+NAME: Final = ParagraphStyle("name", parent=TEXT, leading=9.6, spaceAfter=0)
 LABEL: Final = ParagraphStyle("label", parent=TEXT, textColor=GREY)
 HEADING: Final = ParagraphStyle(
     "heading", parent=TEXT, fontName="Helvetica-Bold", fontSize=9, leading=12, spaceBefore=3
@@ -68,7 +71,7 @@ def report_pdf(content: ReportContent, pictures: ReportPictures) -> bytes:
     table_left = MARGIN + left + GUTTER
     _fill(
         canvas,
-        [_measurements(content.measurements, WIDTH - left - GUTTER)],
+        [_measurements(content.measurements, WIDTH - left - GUTTER, content.wording.table)],
         (table_left, TOP - TOP_HEIGHT, WIDTH - left - GUTTER, TOP_HEIGHT),
     )
 
@@ -88,17 +91,35 @@ def report_pdf(content: ReportContent, pictures: ReportPictures) -> bytes:
         [part for section in others for part in _section(section, half)],
         (MARGIN + half + GUTTER, notes_bottom, half, notes_top - notes_bottom),
     )
-    _fill(canvas, [Paragraph(_text(FOOTNOTE), SMALL)], (MARGIN, MARGIN, WIDTH, FOOTER_HEIGHT))
+    _footer(canvas, content.wording)
     canvas.showPage()
-    if content.further:
-        _further_page(canvas, content)
+    if content.further or pictures.tapes:
+        _second_page(canvas, content, pictures)
     canvas.save()
     return stream.getvalue()
 
 
-def _further_page(canvas: Canvas, content: ReportContent) -> None:
-    """What else was measured, in two columns: groups as they come, the fuller column first."""
+def _second_page(canvas: Canvas, content: ReportContent, pictures: ReportPictures) -> None:
+    """Where the tapes lie, and below it what else was measured."""
     _header(canvas, content)
+    top = TOP
+    if pictures.tapes:
+        words = content.wording.pictures
+        heading: list[Flowable] = [
+            Paragraph(_text(words.tapes), HEADING),
+            Paragraph(_text(words.tapes_note), LABEL),
+        ]
+        _fill(canvas, heading, (MARGIN, top - TAPES_HEADING, WIDTH, TAPES_HEADING))
+        drawn = (MARGIN, top - TAPES_HEADING, WIDTH, TAPES_HEIGHT)
+        draw_tapes(canvas, pictures.tapes, drawn, caption=_caption)
+        top -= TAPES_HEADING + TAPES_HEIGHT + GUTTER
+    _further(canvas, content, top)
+    _footer(canvas, content.wording)
+    canvas.showPage()
+
+
+def _further(canvas: Canvas, content: ReportContent, top: float) -> None:
+    """What else was measured, in two columns: groups as they come, the fuller column first."""
     half = (WIDTH - GUTTER) / 2
     columns: tuple[list[MeasurementGroup], list[MeasurementGroup]] = ([], [])
     rows = sum(len(group.rows) for group in content.further)
@@ -113,13 +134,16 @@ def _further_page(canvas: Canvas, content: ReportContent) -> None:
             for group in groups
             for part in (
                 Paragraph(_text(group.heading), HEADING),
-                _measurements(group.rows, half),
+                _measurements(group.rows, half, content.wording.table),
             )
         ]
         left = MARGIN + number * (half + GUTTER)
-        _fill(canvas, flowables, (left, bottom, half, TOP - bottom))
-    _fill(canvas, [Paragraph(_text(FOOTNOTE), SMALL)], (MARGIN, MARGIN, WIDTH, FOOTER_HEIGHT))
-    canvas.showPage()
+        _fill(canvas, flowables, (left, bottom, half, top - bottom))
+
+
+def _footer(canvas: Canvas, wording: Wording) -> None:
+    footnote = Paragraph(_text(wording.footnote), SMALL)
+    _fill(canvas, [footnote], (MARGIN, MARGIN, WIDTH, FOOTER_HEIGHT))
 
 
 def _header(canvas: Canvas, content: ReportContent) -> None:
@@ -162,9 +186,13 @@ def _picture(
         width=drawn_width,
         height=drawn_height,
     )
+    _caption(canvas, picture.caption, left, top - drawn_height)
+
+
+def _caption(canvas: Canvas, caption: str, left: float, top: float) -> None:
     canvas.setFillColor(GREY)
     canvas.setFont("Helvetica", 7)
-    canvas.drawString(left, top - drawn_height - 3.2 * mm, _shown(picture.caption))
+    canvas.drawString(left, top - 3.2 * mm, _shown(caption))
 
 
 def _fill(
@@ -185,14 +213,24 @@ def _fill(
     frame.add(KeepInFrame(width, height, flowables, mode="shrink"), canvas)
 
 
-def _measurements(rows: tuple[MeasurementRow, ...], width: float) -> Flowable:
+def _measurements(rows: tuple[MeasurementRow, ...], width: float, words: TableWords) -> Flowable:
     if not rows:
-        return Paragraph(_text(WITHHELD), TEXT)
-    cells = [["Measurement", "Value", "Unit", "95 % interval"]]
-    cells += [
-        [_shown(text) for text in (row.name, row.value, row.unit, row.interval)] for row in rows
+        return Paragraph(_text(words.withheld), TEXT)
+    numbers = ["" if row.number is None else str(row.number) for row in rows]
+    cells: list[list[str | Flowable]] = [
+        [words.measurement, words.value, words.unit, words.interval]
     ]
-    shares = (0.42, 0.17, 0.11, 0.30)
+    # Names may need two lines.
+    cells += [
+        [Paragraph(_text(row.name), NAME), *map(_shown, (row.value, row.unit, row.interval))]
+        for row in rows
+    ]
+    shares = [0.44, 0.14, 0.12, 0.30]
+    if any(numbers):
+        cells = [
+            [number, *row] for number, row in zip([words.number, *numbers], cells, strict=True)
+        ]
+        shares = [0.06, 0.40, *shares[1:]]
     return Table(
         cells,
         colWidths=[share * width for share in shares],
@@ -201,8 +239,9 @@ def _measurements(rows: tuple[MeasurementRow, ...], width: float) -> Flowable:
             ("FONTSIZE", (0, 0), (-1, 0), 7),
             ("TEXTCOLOR", (0, 0), (-1, -1), INK),
             ("TEXTCOLOR", (0, 0), (-1, 0), GREY),
-            ("TEXTCOLOR", (3, 1), (3, -1), GREY),
-            ("ALIGN", (1, 0), (-1, -1), "RIGHT"),
+            ("TEXTCOLOR", (-1, 1), (-1, -1), GREY),
+            ("VALIGN", (0, 0), (-1, -1), "MIDDLE"),
+            ("ALIGN", (-3, 0), (-1, -1), "RIGHT"),
             ("LINEBELOW", (0, 0), (-1, -1), 0.4, RULE),
             ("LEFTPADDING", (0, 0), (-1, -1), 0),
             ("RIGHTPADDING", (0, 0), (-1, -1), 2),

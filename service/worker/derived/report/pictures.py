@@ -8,13 +8,13 @@ from typing import Final
 
 from PIL import Image
 
+from fitter.arrays import Points2D
 from fitter.export.display import png
 from fitter.export.views import sides_pictures
 from service.jobs.inputs import OTHER_OVERLAYS, OVERLAY, PERSON
 from service.worker.derived.person import person_and_operators
-
-SKIN: Final[Mapping[str, str]] = {"albedo.png": "Albedo", "shading.png": "Shading"}
-"""Files that only a fit with shading has."""
+from service.worker.derived.report.tape_drawing import Tag, TapeDrawing
+from service.worker.derived.report.wording import PictureWords
 
 LONGEST_SIDE_PX: Final = 1_400
 """Size of the photograph: 300 dots per inch on the page, in a file small enough to send."""
@@ -33,25 +33,50 @@ class Picture:
     height: int
 
 
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class TapePicture:
+    """A picture of the body with lines and numbers to be drawn over it, in its pixels.
+
+    ``lines`` are of the tapes that ``tags`` number, ``others`` of tapes numbered elsewhere.
+    """
+
+    picture: Picture
+    lines: tuple[Points2D, ...]
+    others: tuple[Points2D, ...]
+    tags: tuple[Tag, ...]
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReportPictures:
     """All pictures of the page.
 
-    ``small`` are albedo and shading, none after SE; of a scan they are its other views.
+    ``small`` are albedo and shading, none after SE; of a scan they are its other views. ``tapes``
+    are in one scale, and none where measurements are withheld.
     """
 
     overlay: Picture
     sides: tuple[Picture, ...]
     small: tuple[Picture, ...]
+    tapes: tuple[TapePicture, ...] = ()
 
 
-def report_pictures(inputs: Mapping[str, bytes], *, models: Path | None) -> ReportPictures:
+def report_pictures(
+    inputs: Mapping[str, bytes],
+    drawing: TapeDrawing | None,
+    *,
+    words: PictureWords,
+    models: Path | None,
+) -> ReportPictures:
     """Collect the pictures from the fit's files.
 
     Parameters
     ----------
     inputs
         The derivation's inputs by name.
+    drawing
+        Where the measurements are taken.
+    words
+        The captions.
     models
         Folder with the body models, None for those shipped with the package.
 
@@ -61,20 +86,37 @@ def report_pictures(inputs: Mapping[str, bytes], *, models: Path | None) -> Repo
         If the person was fitted with a different body model from the current one.
     """
     return ReportPictures(
-        overlay=_photograph(inputs[OVERLAY], "The body over the picture"),
-        sides=_sides(inputs[PERSON], models),
+        overlay=_photograph(inputs[OVERLAY], words.overlay),
+        sides=_sides(inputs[PERSON], words, models),
         small=(
-            *(_drawing(inputs[name], caption) for name, caption in SKIN.items() if name in inputs),
             *(
-                _photograph(inputs[name], "The body over another picture")
+                _drawing(inputs[name], caption)
+                for name, caption in words.skin.items()
+                if name in inputs
+            ),
+            *(
+                _photograph(inputs[name], words.other_overlay)
                 for name in OTHER_OVERLAYS
                 if name in inputs
             ),
         ),
+        tapes=() if drawing is None else _tapes(drawing, words),
     )
 
 
-def _sides(person_file: bytes, models: Path | None) -> tuple[Picture, ...]:
+def _tapes(drawing: TapeDrawing, words: PictureWords) -> tuple[TapePicture, ...]:
+    return tuple(
+        TapePicture(
+            picture=_photograph(png(panel.view.picture), words.tape_sides[panel.view.side]),
+            lines=panel.lines,
+            others=panel.others,
+            tags=panel.tags,
+        )
+        for panel in drawing.panels
+    )
+
+
+def _sides(person_file: bytes, words: PictureWords, models: Path | None) -> tuple[Picture, ...]:
     person, operators = person_and_operators(person_file, models)
     sides = sides_pictures(
         operators.evaluator.vertices(person.body),
@@ -82,7 +124,7 @@ def _sides(person_file: bytes, models: Path | None) -> tuple[Picture, ...]:
         person.tilt,
         operators.model.triangles,
     )
-    return tuple(_drawing(png(levels), side.capitalize()) for side, levels in sides.items())
+    return tuple(_drawing(png(levels), words.sides[side]) for side, levels in sides.items())
 
 
 def _drawing(content: bytes, caption: str) -> Picture:

@@ -1,4 +1,6 @@
 // Caricatures.
+import { typed } from "../../messages/figures";
+import { messages } from "../../messages/language";
 import { Slider } from "../Slider";
 import type { Kind } from "./kind";
 
@@ -11,12 +13,15 @@ interface CaricatureWishes {
 export const FIRST_CARICATURE: CaricatureWishes = { factor: 2 };
 
 export const caricature: Kind<CaricatureWishes> = {
-  label: "Caricature",
-  help: "What is most unusual of this body, exaggerated; as tall as it is.",
-  request: ({ factor }) => ({ kind: "caricature", factor }),
+  request: ({ factor }) => ({ kind: "caricature", factor, exaggerated: "looks" }),
   Options: ({ wishes: { factor }, onWish }) => (
-    <Slider label="Times" range={FACTORS} value={factor} text={String(factor)} onInput={(factor) => onWish({ factor })} />
+    <Slider label={messages.value.derived.caricature.times} range={FACTORS} value={factor} text={typed(factor, 2)} onInput={(factor) => onWish({ factor })} />
   ),
-  pictures: [{ file: "caricature.png", alt: "Caricature of the body" }],
-  turns: { file: "body_caricature.glb", label: "The caricature" },
+  pictures: [{ file: "caricature.png", label: () => messages.value.derived.caricature.beside, alt: () => messages.value.derived.caricature.pictured }],
+  smaller: (largest) => ({
+    request: { kind: "caricature", factor: largest, exaggerated: "looks" },
+    refusal: messages.value.derived.caricature.refused(typed(largest, 2)),
+    make: messages.value.derived.caricature.smaller(typed(largest, 2)),
+  }),
+  turns: { file: "body_caricature.glb", label: () => messages.value.derived.caricature.turned },
 };

@@ -1,7 +1,9 @@
 // One body from several pictures.
 import type { CombinedResult } from "../../api/types";
 import { person } from "../../draft/draft";
-import { furtherMeasures, isChief, measureLabel, shown } from "../../result/reading";
+import { messages } from "../../messages/language";
+import { MeasuresHead } from "../../result/Measures";
+import { definitionOf, furtherMeasures, isChief, measureLabel, shown } from "../../result/reading";
 import { OtherFits } from "../OtherFits";
 import { percent } from "../percent";
 import type { Kind } from "./kind";
@@ -14,28 +16,30 @@ interface CombinedWishes {
 export const FIRST_COMBINED: CombinedWishes = { fits: [] };
 
 export const combined: Kind<CombinedWishes> = {
-  label: "Combined body",
-  help: "One body from several pictures of the same person: narrower intervals than any picture alone gives.",
   request: ({ fits }) => ({ kind: "combined", fits: [...fits] }),
-  lacks: ({ fits }) => (fits.length === 0 ? "Choose at least one other fit of this person." : null),
-  Options: ({ fit, wishes, onWish }) => <OtherFits fit={fit} chosen={wishes.fits} onChoose={(fits) => onWish({ fits })} />,
-  pictures: [{ file: "combined.png", alt: "Combined body beside this fit alone" }],
+  lacks: ({ fits }) => (fits.length === 0 ? words().lacks : null),
+  Options: ({ parent, wishes, onWish }) => <OtherFits fit={parent} chosen={wishes.fits} onChoose={(fits) => onWish({ fits })} />,
+  pictures: [{ file: "combined.png", alt: () => words().pictured, label: () => words().beside }],
   pictureOf: (file) => {
     const number = /^overlay_(\d+)\.png$/.exec(file)?.[1];
-    return number ? { file, alt: `Combined body over picture ${number}`, caption: `In picture ${number}, as posed there` } : null;
+    return number ? { file, label: () => words().picture(number), alt: () => words().over(number), caption: () => words().caption(number) } : null;
   },
-  turns: { file: "body_combined.glb", label: "The combined body" },
+  turns: { file: "body_combined.glb", label: () => words().turned },
   hasTable: true,
   told: (result) =>
     result.kind === "combined" && (
       <>
         <p class="fine">
-          {`From ${result.pictures} pictures. Fits of one person differ by as much as these in ${percent(result.agreement)} of cases.`}
+          {words().told(result.pictures, percent(result.agreement))}
         </p>
         <Measurements of={result.measurements} />
       </>
     ),
 };
+
+function words() {
+  return messages.value.derived.combined;
+}
 
 function Measurements({ of: measurements }: { of: CombinedResult["measurements"] }) {
   const { units } = person.value;
@@ -43,30 +47,20 @@ function Measurements({ of: measurements }: { of: CombinedResult["measurements"]
     const { value, unit, interval } = shown(measurement, units);
     return (
       <tr key={measurement.name}>
-        <th scope="row" title={measurement.definition}>
+        <th scope="row" title={definitionOf(measurement)}>
           {measureLabel(measurement.name)}
         </th>
         <td class="number">
           {value} <small>{unit}</small>
         </td>
-        <td class="number interval">{interval ?? (measurement.given ? "given" : "–")}</td>
+        <td class="number interval">{interval ?? (measurement.given ? messages.value.result.given : "–")}</td>
       </tr>
     );
   };
   return (
     <table class="measures">
-      <caption class="unseen">Measurements of the combined body</caption>
-      <thead>
-        <tr>
-          <th scope="col">Measure</th>
-          <th scope="col" class="number">
-            Value
-          </th>
-          <th scope="col" class="number">
-            95 % interval
-          </th>
-        </tr>
-      </thead>
+      <caption class="unseen">{words().measurements}</caption>
+      <MeasuresHead />
       <tbody>{measurements.filter((each) => isChief(each.name)).map(row)}</tbody>
       {furtherMeasures(measurements).map((group) => (
         <tbody key={group.heading}>

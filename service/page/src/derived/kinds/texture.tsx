@@ -1,6 +1,7 @@
 // Textures: of the picture, or of one's own.
 import type { TextureColours, TextureSize } from "../../api/types";
 import { LIMITS } from "../../api/limits";
+import { messages } from "../../messages/language";
 import { Choice } from "../../ui/Choice";
 import { FileChoice } from "../FileChoice";
 import { percent } from "../percent";
@@ -16,19 +17,18 @@ interface TextureWishes {
 export const FIRST_TEXTURE: TextureWishes = { colours: "picture", size: 1024, texture: null };
 
 export const texture: Kind<TextureWishes> = {
-  label: "Texture",
-  help: "The picture, or a texture of your own, laid on the body. What the picture does not show is made up.",
   request: ({ colours, size }) => ({ kind: "texture", colours, ...(colours === "own" ? {} : { size }) }),
   part: ({ colours, texture }) => (colours === "own" && texture ? { name: "texture", file: texture } : null),
-  lacks: ({ colours, texture }) => (colours === "own" && !texture ? "Choose a texture first." : null),
+  lacks: ({ colours, texture }) => (colours === "own" && !texture ? words().lacks : null),
   Options: TextureChoice,
-  turns: { file: "body_textured.glb", label: "The textured body" },
+  turns: { file: "body_textured.glb", label: () => words().turned, first: true },
   pictures: [
-    { file: "texture.png", alt: "Texture of the body" },
+    { file: "texture.png", alt: () => words().pictured, label: () => words().picture },
     {
       file: "coverage.png",
-      alt: "Where the texture comes from",
-      caption: "Where it comes from: white was seen in the picture, grey is mirrored from the other side of the body, black is continued from its surroundings.",
+      label: () => words().source,
+      alt: () => words().coverage,
+      caption: () => words().coverageCaption,
     },
   ],
   told: (result) => {
@@ -36,27 +36,30 @@ export const texture: Kind<TextureWishes> = {
     const { seen_share: seen, mirrored_share: mirrored } = result;
     return (
       <p class="fine">
-        {`${percent(seen)} of the body was seen, ${percent(mirrored)} is mirrored, ${percent(1 - seen - mirrored)} continued.`}
+        {words().told(percent(seen), percent(mirrored), percent(1 - seen - mirrored))}
       </p>
     );
   },
 };
 
-const PHOTOGRAPHED = { value: "picture", label: "As photographed", title: "With the light of the picture" } as const;
-const UNLIT = { value: "albedo", label: "Without the light", title: "The albedo: to be lit anew" } as const;
-const OWN = { value: "own", label: "My own", title: "A texture painted in the atlas’ layout" } as const;
+function words() {
+  return messages.value.derived.texture;
+}
 
 function TextureChoice({ hasLight, wishes, onWish }: OptionProps<TextureWishes>) {
+  const photographed = { value: "picture", ...words().photographed } as const;
+  const unlit = { value: "albedo", ...words().unlit } as const;
+  const own = { value: "own", ...words().own } as const;
   return (
     <>
       <Choice<TextureColours>
         name="colours"
-        legend="Colours"
-        options={hasLight ? [PHOTOGRAPHED, UNLIT, OWN] : [PHOTOGRAPHED, OWN]}
+        legend={words().colours}
+        options={hasLight ? [photographed, unlit, own] : [photographed, own]}
         value={wishes.colours}
         onChange={(colours) => onWish({ colours })}
       />
-      {!hasLight && <p class="fine">Only a fit with shading can take the light out of the picture.</p>}
+      {!hasLight && <p class="fine">{words().onlyShading}</p>}
       {wishes.colours === "own" ? <OwnTexture wishes={wishes} onWish={onWish} /> : <TextureSide wishes={wishes} onWish={onWish} />}
     </>
   );
@@ -68,14 +71,12 @@ function OwnTexture({ wishes: { texture }, onWish }: Wished) {
   return (
     <div class="row">
       <FileChoice
-        label={texture ? "Another texture" : "Choose a texture"}
+        label={texture ? words().another : words().choose}
         accept="image/png,image/jpeg,image/webp"
         onChoose={(file) => onWish({ texture: file })}
       />
       <span class="fine grow">
-        {texture
-          ? `${texture.name} is laid on the body.`
-          : "A square picture. Make a texture first: its atlas.png says where each part of the body lies."}
+        {texture ? words().laid(texture.name) : words().square}
       </span>
     </div>
   );
@@ -84,7 +85,7 @@ function OwnTexture({ wishes: { texture }, onWish }: Wished) {
 function TextureSide({ wishes, onWish }: Wished) {
   return (
     <div class="field">
-      <label for="texture-size">Size</label>
+      <label for="texture-size">{words().size}</label>
       <select
         id="texture-size"
         value={wishes.size}

@@ -1,0 +1,64 @@
+"""What gallery and tutorials show pictures with."""
+
+import io
+import json
+
+import matplotlib.pyplot as plt
+import numpy as np
+from PIL import Image
+
+from fitter import Click, FitRequest, Gender
+from fitter.arrays import Triangles, Vertices
+from fitter.training.report.body_sheets import FRONT, SIDE, Panel, scale_for, sheet
+from service.demo_data.sample import FOLDER
+
+PX_PER_M = 170.0
+DPI = 100
+
+
+def sample_request(name: str = "sample", points: str = "request") -> FitRequest:
+    """The request of one of the packaged samples, with its clicks."""
+    asked = json.loads((FOLDER / f"{points}.json").read_text())
+    return FitRequest(
+        image=(FOLDER / f"{name}.jpg").read_bytes(),
+        clicks={key: Click(x=at["x"], y=at["y"]) for key, at in asked["points"].items()},
+        gender=Gender(asked["gender"]),
+        height_m=asked["height_m"],
+    )
+
+
+def show(*pictures: bytes | np.ndarray, titles: tuple[str, ...] = ()) -> None:
+    """Pictures side by side: files, or arrays of levels."""
+    arrays = [
+        np.asarray(Image.open(io.BytesIO(each)).convert("RGB")) if isinstance(each, bytes) else each
+        for each in pictures
+    ]
+    shares = [array.shape[1] / array.shape[0] for array in arrays]
+    _, axes = plt.subplots(
+        1,
+        len(arrays),
+        figsize=(min(5.0 * sum(shares), 9.0), 9.0 / max(sum(shares), 1.8)),
+        dpi=DPI,
+        width_ratios=shares,
+        squeeze=False,
+        layout="constrained",
+    )
+    for index, (axis, array) in enumerate(zip(axes[0], arrays, strict=True)):
+        axis.imshow(array)
+        axis.set_axis_off()
+        if index < len(titles):
+            axis.set_title(titles[index], fontsize=10)
+    plt.show()
+
+
+def bodies_picture(bodies: dict[str, Vertices], triangles: Triangles) -> np.ndarray:
+    """Canonical bodies from the front and from the side, at one scale."""
+    groups = {
+        title: [
+            Panel(vertices=vertices, degrees=degrees, label="", lines_m=(1.0, 1.8))
+            for degrees in (FRONT, SIDE)
+        ]
+        for title, vertices in bodies.items()
+    }
+    scale = scale_for(list(bodies.values()), px_per_m=PX_PER_M)
+    return sheet(groups, triangles, scale, groups_per_row=len(groups))

@@ -1,0 +1,82 @@
+"""Whether one more job of a tenant is accepted: room, a token's jobs, repeated requests."""
+
+import hashlib
+from dataclasses import dataclass
+
+import sqlalchemy as sa
+
+from api_schemas.jobs import JobState
+from service.engine.browser_tokens import has_jobs_left
+from service.engine.port import Idempotency, Submission, SubmitOutcome
+from service.engine.records import job_record
+from service.engine.tables import JOBS
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Admission:
+    """What a tenant, or a browser with one of its tokens, may have waiting.
+
+    Both limits count pictures: of everybody's waiting jobs, and of the tenant's.
+    """
+
+    tenant: str
+    token: str | None
+    max_queued: int
+    max_queued_per_tenant: int
+
+    def answered(
+        self, connection: sa.Connection, idempotency: Idempotency | None
+    ) -> Submission | None:
+        """Return the answer to a submission that is not accepted; None if there is room."""
+        repeated = self.earlier(connection, idempotency)
+        if repeated is not None:
+            return repeated
+        refused = self._no_room(connection)
+        return None if refused is None else Submission(outcome=refused, job=None)
+
+    def earlier(
+        self, connection: sa.Connection, idempotency: Idempotency | None
+    ) -> Submission | None:
+        """Return the answer to an earlier submission with this key; None if there is none."""
+        if idempotency is None:
+            return None
+        row = (
+            connection.execute(
+                sa.select(JOBS).where(
+                    JOBS.c.tenant == self.tenant,
+                    JOBS.c.idempotency_key == self.stored_key(idempotency),
+                )
+            )
+            .mappings()
+            .one_or_none()
+        )
+        if row is None:
+            return None
+        earlier = job_record(row)
+        if earlier.fingerprint != idempotency.fingerprint:
+            return Submission(outcome=SubmitOutcome.KEY_REUSED, job=None)
+        return Submission(outcome=SubmitOutcome.REPEATED, job=earlier)
+
+    def stored_key(self, idempotency: Idempotency) -> str:
+        """A token's keys are its own: else it could be answered with another's job."""
+        if self.token is None:
+            return idempotency.key
+        return hashlib.sha256(f"{self.token} {idempotency.key}".encode()).hexdigest()
+
+    def _no_room(self, connection: sa.Connection) -> SubmitOutcome | None:
+        if self.token is not None and not has_jobs_left(connection, self.token):
+            return SubmitOutcome.TOKEN_SPENT
+        waiting = JOBS.c.state == JobState.QUEUED.value
+        everyone, ours = connection.execute(
+            sa.select(
+                sa.func.coalesce(sa.func.sum(JOBS.c.pictures), 0),
+                sa.func.coalesce(
+                    sa.func.sum(sa.case((JOBS.c.tenant == self.tenant, JOBS.c.pictures))), 0
+                ),
+            ).where(waiting)
+        ).one()
+        if everyone >= self.max_queued:
+            return SubmitOutcome.QUEUE_FULL
+        if ours >= self.max_queued_per_tenant:
+            return SubmitOutcome.TENANT_FULL
+        return None

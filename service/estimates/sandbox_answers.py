@@ -1,0 +1,56 @@
+"""The answers of a sandbox: of any picture what is said of a sample, in that picture's pixels.
+
+What needs no person in a picture is answered as everywhere.
+"""
+
+from pathlib import Path
+
+from api_schemas.checks import CaptureCheck, CheckRequest
+from api_schemas.points import PointsFormat
+from api_schemas.scans import ScanRequest
+from api_schemas.views import ViewKind
+from service.demo_data.sample import load_sample, load_scan_sample
+from service.estimates import answers
+from service.estimates.answers import body, conversion, initial_pose, jpeg, prepare
+from service.estimates.messages import CheckTask, PointsTask
+from service.estimates.port import ProposedPoints
+from service.estimates.sandbox_scale import scale_between
+from service.submissions.capture_questions import placed_question
+
+__all__ = ["body", "check", "conversion", "initial_pose", "jpeg", "points", "prepare"]
+
+
+def points(
+    task: PointsTask, image: bytes, *, max_pixels: int, detector: Path | None
+) -> ProposedPoints:
+    """Propose the points of the sample, scaled to the picture."""
+    sample = load_sample().image
+    found = answers.points(task, sample, max_pixels=max_pixels, detector=detector)
+    scale = scale_between(sample, image)
+    return ProposedPoints(
+        proposal=scale.proposal(found.proposal),
+        mask=scale.grey_png(found.mask) if found.mask else b"",
+    )
+
+
+def check(task: CheckTask, image: bytes, *, max_pixels: int, detector: Path | None) -> CaptureCheck:
+    """Check the sample from the side, or from the front whatever else is asked for."""
+    asked = task.request
+    sample = load_scan_sample()
+    place = 1 if asked.view is ViewKind.SIDE else 0
+    own_points = ScanRequest.model_validate_json(sample.request).views[place].points
+    request = CheckRequest(
+        view=asked.view if asked.view is ViewKind.SIDE else ViewKind.FRONT,
+        person=asked.person,
+        points=own_points if asked.points and not isinstance(own_points, str) else {},
+        format=PointsFormat.NAMED,
+        gender=asked.gender,
+        height_m=asked.height_m,
+        focal_length_35mm=asked.focal_length_35mm,
+    )
+    picture = sample.images[place]
+    placed = placed_question(request, picture, max_pixels=max_pixels)
+    found = answers.check(
+        CheckTask(request=placed), picture, max_pixels=max_pixels, detector=detector
+    )
+    return scale_between(picture, image).check(found)

@@ -1,0 +1,20 @@
+// Of how many points of a scan's pictures nobody said where they are.
+import type { ScanOptions, ScanResult } from "../api/types";
+import { messages } from "../messages/language";
+import { proposedOf } from "../ui/proposed";
+import { pictureOf } from "./views";
+
+type Viewed = Pick<ScanResult["views"][number], "number" | "view" | "assumptions">;
+
+/** Null where somebody clicked every point. */
+export function proposedText(views: readonly Viewed[], asked: Pick<ScanOptions, "views">): string | null {
+  const { frame, measure } = messages.value;
+  const counts = views.map(({ number, view, assumptions }) => ({ view, proposed: proposedOf(assumptions, asked.views[number]?.points ?? {}) }));
+  const told = counts.flatMap(({ view, proposed }) => {
+    if (!proposed) return [];
+    const { all, some } = measure.proposed;
+    return [proposed.isAll ? all(pictureOf(view)) : some(proposed.count, pictureOf(view))];
+  });
+  if (told.length === 0) return null;
+  return counts.every(({ proposed }) => proposed?.isAll) ? frame.assumed.allPoints : frame.assumed.pointsOf(told);
+}

@@ -1,0 +1,50 @@
+// A fit on its way, and how one ends without a result.
+import type { Messages } from "../catalogue";
+
+export const fit: Messages["fit"] = {
+  stages: {
+    observation: { label: "Bild", help: "gelesen, Objektiv bestimmt" },
+    initial_pose: { label: "Haltung", help: "aus den Klicks" },
+    segmentation: { label: "Person", help: "vom Hintergrund getrennt" },
+    silhouette_and_edges: { label: "Umriss", help: "Umriss und Kanten angeglichen" },
+    shading: { label: "Schattierung", help: "Licht und Haut bestimmt, Form verfeinert" },
+    measurement: { label: "Maße", help: "genommen, mit ihrer Unsicherheit" },
+    export: { label: "Dateien", help: "geschrieben" },
+  },
+  terms: {
+    silhouette: "Umriss",
+    edges: "Kanten",
+    penetration: "Durchdringung",
+    clicks: "Klicks",
+    shape_prior: "Ungewöhnliche Form",
+    pose_prior: "Ungewöhnliche Haltung",
+    stance: "Ungewöhnlicher Stand",
+    limb_slants: "Neigung der Gliedmaßen",
+    shading: "Schattierung",
+    measurements: "Bekannte Maße",
+    attributes: "Bekannte Maße",
+  },
+  queued: "Die Auswertung wartet",
+  running: "Der Körper wird bestimmt",
+  progress: "Fortschritt der Auswertung",
+  picture: "Das Bild dieser Auswertung",
+  misfit: {
+    title: "Was noch nicht passt",
+    help: "Wie schlecht der Körper das Bild erklärt: Der Wert soll sinken. Mehrere Anfänge werden versucht, der beste bleibt.",
+    empty: "Noch nichts zu zeigen.",
+    now: (total) => `Noch nicht passend: ${total}`,
+    total: "Gesamt",
+  },
+  cancel: "Abbrechen",
+  stopping: "Wird beendet …",
+  gone: "Diese Auswertung gibt es nicht mehr",
+  notShown: "Diese Auswertung lässt sich nicht zeigen",
+  startAnother: "Neue beginnen",
+  forget: "Hier vergessen",
+  changeAndRetry: "Punkte ändern und erneut versuchen",
+  endings: {
+    failed: "Es wurde kein Körper gefunden",
+    canceled: "Die Auswertung wurde abgebrochen",
+    timed_out: "Die Auswertung dauerte zu lange",
+  },
+};

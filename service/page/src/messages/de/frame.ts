@@ -1,0 +1,73 @@
+// The head, dialogs, the list of fits, and what appears everywhere.
+import type { Messages } from "../catalogue";
+import { plural } from "../figures";
+
+export const frame: Messages["frame"] = {
+  description: "Ein Körper in seiner Haltung, vermessen nach einem Bild und wenigen Klicks.",
+  start: "Maquette: Startseite",
+  sandbox: "Dies ist eine Testumgebung für die Entwicklung: Jedes Ergebnis ist das eines Beispiels, welches Bild auch gesendet wird.",
+  fresh: "Neu",
+  measure: "Messen",
+  history: "Verlauf",
+  api: "API",
+  lightPage: "Helle Darstellung",
+  darkPage: "Dunkle Darstellung",
+  close: "Schließen",
+  tryAgain: "Erneut versuchen",
+  sending: "Wird gesendet …",
+  units: "Einheiten",
+  unknown: "unbekannt",
+  key: {
+    title: "Dieser Dienst verlangt einen Schlüssel",
+    origin: "Wer den Dienst betreibt, erzeugt Schlüssel mit",
+    label: "API-Schlüssel",
+    kept: "Er bleibt in diesem Tab, bis Sie ihn schließen.",
+    use: "Schlüssel verwenden",
+  },
+  list: {
+    title: "Auswertungen und Scans dieses Browsers",
+    none: "Noch keine.",
+    takeOff: (name) => `${name} aus der Liste nehmen`,
+    note: "Nur dieser Browser kennt die Liste. Der Dienst löscht die Auswertungen nach einiger Zeit; wenn Sie eine löschen, geschieht es sofort.",
+    running: (stage, percent) => `${stage}, ${percent}`,
+    states: {
+      queued: "Wartet",
+      running: "Läuft",
+      succeeded: "Fertig",
+      failed: "Fehlgeschlagen",
+      canceled: "Abgebrochen",
+      timed_out: "Dauerte zu lange",
+    },
+  },
+  assumed: {
+    lens: (length) => `Angenommen wird ein Objektiv von ${length} (bezogen auf Kleinbild): Weder Sie noch das Bild nennen es.`,
+    height: (height) => `Angenommen wird eine Körperhöhe von ${height}: Es ist keine angegeben.`,
+    allPoints: "Alle Punkte hat die Erkennung vorgeschlagen; sie sind weniger sicher als Klicks.",
+    points: (count) =>
+      plural(count, {
+        one: "Einen Punkt hat die Erkennung vorgeschlagen; er ist weniger sicher als ein Klick.",
+        other: `${count} Punkte hat die Erkennung vorgeschlagen; sie sind weniger sicher als Klicks.`,
+      }),
+    pointsOf: (pictures) => `Die Erkennung hat Punkte vorgeschlagen; sie sind weniger sicher als Klicks: ${pictures.join(", ")}.`,
+    other: (quantity, value) => `Angenommen wird ${quantity} ${value}.`,
+  },
+  fields: {
+    gender: "Geschlecht",
+    height_m: "Körperhöhe",
+    weight_kg: "Gewicht",
+    focal_length_35mm: "Objektiv",
+    image: "Bild",
+    mask: "Maske",
+    points: "Punkte",
+    measurements: "Maße",
+    limb_facing: "Auf Sie zu oder von Ihnen weg",
+    light: "Licht",
+    colours: "Farben",
+    texture: "Textur",
+    bvh: "BVH-Datei",
+    kind: "Was erstellt werden soll",
+    label: "Name",
+    fits: "Andere Auswertungen",
+  },
+  ofField: (field, said) => `${field}: ${said}`,
+};

@@ -1,0 +1,74 @@
+// The head, dialogs, the list of fits, and what appears everywhere.
+import { plural } from "../figures";
+
+export const frame = {
+  description: "A body, posed and measured, from one picture and a few clicks.",
+  start: "Maquette: start",
+  sandbox: "This is a sandbox for developers: every result is that of a sample, whatever picture is sent.",
+  fresh: "New",
+  measure: "Measure",
+  history: "Fits",
+  api: "API",
+  lightPage: "Light page",
+  darkPage: "Dark page",
+  close: "Close",
+  tryAgain: "Try again",
+  sending: "Sending …",
+  units: "Units",
+  unknown: "unknown",
+  key: {
+    title: "This service asks for a key",
+    origin: "Whoever runs it makes keys with",
+    label: "API key",
+    kept: "It is kept in this tab until you close it.",
+    use: "Use this key",
+  },
+  list: {
+    title: "Fits and scans of this browser",
+    none: "None yet.",
+    takeOff: (name: string) => `Take ${name} off this list`,
+    note: "Only this browser knows the list. The service erases them after a while; deleting one erases it at once.",
+    running: (stage: string, percent: string) => `${stage}, ${percent}`,
+    states: {
+      queued: "Waiting",
+      running: "Running",
+      succeeded: "Done",
+      failed: "Failed",
+      canceled: "Canceled",
+      timed_out: "Took too long",
+    },
+  },
+  assumed: {
+    lens: (length: string) => `A lens of ${length} (as on 35 mm film) is assumed: neither you nor the picture name it.`,
+    height: (height: string) => `A height of ${height} is assumed: none was given.`,
+    allPoints: "All points were proposed by the detector, and they are less sure than clicks.",
+    points: (count: number) =>
+      plural(count, {
+        one: "One point was proposed by the detector, and it is less sure than a click.",
+        other: `${count} points were proposed by the detector, and they are less sure than clicks.`,
+      }),
+    /** By picture, of each how many. */
+    pointsOf: (pictures: readonly string[]) => `Points were proposed by the detector, and they are less sure than clicks: ${pictures.join(", ")}.`,
+    other: (quantity: string, value: string) => `${quantity} ${value} is assumed.`,
+  },
+  fields: {
+    gender: "Gender",
+    height_m: "Height",
+    weight_kg: "Weight",
+    focal_length_35mm: "Lens",
+    image: "Picture",
+    mask: "Mask",
+    points: "Points",
+    measurements: "Measurements",
+    limb_facing: "Toward you or away",
+    light: "Light",
+    colours: "Colours",
+    texture: "Texture",
+    bvh: "BVH file",
+    kind: "What to make",
+    label: "Name",
+    fits: "Other fits",
+  },
+  /** Names a field before what is said of it. */
+  ofField: (field: string, said: string) => `${field}: ${said}`,
+} as const;

@@ -1,0 +1,17 @@
+// Limbs that point the other way: shown first, then fitted again.
+export const limbs = {
+  title: "Limbs: toward you or away",
+  help: "One picture hardly tells whether a limb comes toward the camera or points away from it. Click the limb on the body or choose it here, and it is shown the other way. Then fit again.",
+  facings: { toward: "toward you", away: "away from you" },
+  isOpen: "uncertain",
+  /** Of a limb that was turned. */
+  now: (facing: string) => `now ${facing}`,
+  hover: (limb: string, facing: string) => `${limb}: points ${facing}. Click to turn it.`,
+  hoverBack: (limb: string, facing: string) => `${limb}: turned, points ${facing}. Click to take it back.`,
+  badge: "Preview, not fitted yet",
+  preview: (limbs: string) => `Preview: ${limbs}. The measurements are still those of the fit.`,
+  turned: { toward: (limb: string) => `${limb} toward you`, away: (limb: string) => `${limb} away from you` },
+  takeBack: "Take back",
+  takenBack: "The body is shown as it was fitted.",
+  again: "Fit again",
+} as const;

@@ -1,0 +1,19 @@
+// What a mouse, fingers and keys do on the picture.
+import { messages } from "../messages/language";
+
+export function Ways() {
+  const { ways } = messages.value.panel;
+  return (
+    <details class="fold">
+      <summary>{ways.title}</summary>
+      <dl class="ways">
+        {ways.list.map(({ way, does }) => (
+          <>
+            <dt>{way}</dt>
+            <dd>{does}</dd>
+          </>
+        ))}
+      </dl>
+    </details>
+  );
+}

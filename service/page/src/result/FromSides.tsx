@@ -1,0 +1,18 @@
+// From where the body is looked at.
+import { messages } from "../messages/language";
+import type { Side } from "../viewer/Turntable";
+
+const SIDES: readonly Side[] = ["front", "side", "back"];
+
+export function FromSides({ onLook }: { onLook: (from: { readonly side: Side }) => void }) {
+  const { look } = messages.value;
+  return (
+    <div class="row" role="group" aria-label={look.from}>
+      {SIDES.map((side) => (
+        <button key={side} class="button is-small" type="button" onClick={() => onLook({ side })}>
+          {look.sides[side]}
+        </button>
+      ))}
+    </div>
+  );
+}

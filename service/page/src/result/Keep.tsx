@@ -1,0 +1,73 @@
+// What most people want to keep: the table, the body as a mesh, and the body in their own room.
+import { useSignal } from "@preact/signals";
+import { getFile } from "../api/calls";
+import { problemFrom } from "../api/client";
+import { apiKey } from "../api/key";
+import type { Job, Problem } from "../api/types";
+import { messages } from "../messages/language";
+import { Icon } from "../ui/Icon";
+import { ProblemNote } from "../ui/ProblemNote";
+import { saveFile } from "../ui/save";
+import { tableOf, usePictureOf } from "./files";
+import { roomLink, thisDevice } from "./room";
+
+const BODY = "body_canonical.glb";
+const MESHES = ["glb", "obj", "usdz"] as const;
+
+export function Keep({ job, hasTable }: { job: Job; hasTable: boolean }) {
+  const { keep: words } = messages.value.files;
+  const problem = useSignal<Problem | null>(null);
+  const save = async (name: string, path: string) => {
+    try {
+      saveFile(name, await getFile(path));
+      problem.value = null;
+    } catch (error) {
+      problem.value = problemFrom(error);
+    }
+  };
+  const body = job.links.artifacts?.[BODY];
+  const room = body ? roomLink(body, thisDevice(apiKey.value !== null)) : null;
+  const [table, tablePath] = tableOf(job);
+  return (
+    <section class="section" aria-labelledby="keep-title">
+      <h2 id="keep-title">{words.title}</h2>
+      <div class="row">
+        {hasTable && (
+          <button class="button is-small" type="button" onClick={() => save(table, tablePath)}>
+            <Icon name="download" />
+            {words.table}
+          </button>
+        )}
+        {body &&
+          MESHES.map((ending) => (
+            <button
+              key={ending}
+              class="button is-small"
+              type="button"
+              title={words.meshes[ending]}
+              onClick={() => save(BODY.replace(/glb$/, ending), body.replace(/glb$/, ending))}
+            >
+              <Icon name="download" />
+              {words.mesh(ending.toUpperCase())}
+            </button>
+          ))}
+      </div>
+      {room && <InRoom job={job} {...room} />}
+      {problem.value && <ProblemNote problem={problem.value} />}
+    </section>
+  );
+}
+
+/** iOS takes a link for one to a body in the room only if a picture is all it holds. */
+function InRoom({ job, href, rel }: { job: Job; href: string; rel?: "ar" }) {
+  const { keep: words } = messages.value.files;
+  const url = usePictureOf(job, "views.png", rel === "ar");
+  return (
+    <p class="in-room">
+      <a href={href} rel={rel}>
+        {rel === "ar" ? <img src={url ?? ""} alt={words.room} /> : words.room}
+      </a>
+      {rel === "ar" && <span class="fine">{words.room}</span>}
+    </p>
+  );
+}

@@ -1,0 +1,27 @@
+// Of how many points nobody said where they are: their names tell nobody anything.
+import type { InitialPose } from "../api/types";
+import { messages } from "../messages/language";
+
+/** The assumption that names proposed points, one after the other. */
+export const PROPOSED_POINTS = "points";
+
+export interface Proposed {
+  readonly count: number;
+  /** Whether nobody clicked any; false while the request is not known. */
+  readonly isAll: boolean;
+}
+
+/** Null where somebody clicked every point. `asked` are the points of the request, null while they are not known. */
+export function proposedOf(assumptions: InitialPose["assumptions"], asked: unknown): Proposed | null {
+  const named = assumptions.find(({ quantity }) => quantity === PROPOSED_POINTS)?.value;
+  if (typeof named !== "string") return null;
+  const names = named.split(", ");
+  // A proposal that was sent back is among the proposed points, and no click.
+  const isAll = typeof asked === "object" && asked !== null && Object.keys(asked).every((name) => names.includes(name));
+  return { count: names.length, isAll };
+}
+
+export function proposedText({ count, isAll }: Proposed): string {
+  const { assumed } = messages.value.frame;
+  return isAll ? assumed.allPoints : assumed.points(count);
+}

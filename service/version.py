@@ -1,0 +1,6 @@
+"""The version: of the HTTP API, the packages, the image and the documentation alike.
+
+It is the only place that says it; the build reads it from here (pyproject.toml).
+"""
+
+VERSION = "1.0.0"

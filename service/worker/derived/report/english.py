@@ -1,0 +1,179 @@
+"""The report in English."""
+
+from typing import Final
+
+from api_schemas.derivation_kinds.report import Language
+from api_schemas.requests import Cues, Gender
+from api_schemas.results import FocalLengthSource, Outcome, Verdict
+from api_schemas.views import ViewKind
+from fitter.measurement.groups import Group
+from service.worker.derived.report.english_measures import MEASUREMENTS
+from service.worker.derived.report.wording import (
+    Figures,
+    FitWords,
+    LightWords,
+    PictureWords,
+    RemarkWords,
+    TableWords,
+    Wording,
+)
+
+_WARNINGS: Final = {
+    "ambiguous-limb-facing": (
+        "The picture fits about as well with some limbs slanting the other way, toward the camera "
+        "or away from it. Say which, and fit again."
+    ),
+    "low-silhouette-overlap": (
+        "The body covers little of the person as cut out of the picture. Check the points and "
+        "left and right, or use a mask."
+    ),
+    "implausible": "These measurements may be those of nobody: the picture contradicts the body.",
+    "no-person": (
+        "These measurements may be those of nobody: no person is seen where the points are."
+    ),
+    "shading-not-used": (
+        "Too little of the body is visible, unclipped and away from its outline for shading to "
+        "say anything; the body is found by outline alone."
+    ),
+    "surroundings-not-found": (
+        "Too little bare skin is visible to tell the light of the surroundings from the lamp."
+    ),
+}
+
+ENGLISH: Final = Wording(
+    language=Language.ENGLISH,
+    figures=Figures(
+        decimal_sign=".",
+        date="{day} {month} {year}",
+        months=(
+            *("January", "February", "March", "April", "May", "June", "July"),
+            *("August", "September", "October", "November", "December"),
+        ),
+    ),
+    title="Body measurements from one picture",
+    scan_title="Body and measurements from several pictures",
+    footnote=(
+        "Measured on the body standing upright, right limbs. In about 95 of 100 such fits of "
+        "people in close-fitting clothes the true value lies within the interval. This is no "
+        "medical device."
+    ),
+    genders={Gender.FEMALE: "woman", Gender.MALE: "man"},
+    cues={Cues.SE: "outline and edges", Cues.SES: "outline, edges and shading"},
+    subtitle="{about}, by {cues}",
+    scan_subtitle="{about}, from {count} pictures by {cues}",
+    measurements=MEASUREMENTS,
+    table=TableWords(
+        number="No.",
+        measurement="Measurement",
+        value="Value",
+        unit="Unit",
+        interval="95 % interval",
+        not_known="not known",
+        given="given",
+        exact="exact",
+        withheld=(
+            "Measurements are withheld, because the picture contradicts a person: see the outcome."
+        ),
+        groups={group: group.value for group in Group},
+    ),
+    light=LightWords(
+        heading="Light and skin",
+        not_estimated="Not estimated: the body was found by its outline alone.",
+        lamp="Lamp",
+        from_right="{degrees}° from the right",
+        from_left="{degrees}° from the left",
+        from_above="{degrees}° from above",
+        from_below="{degrees}° from below",
+        far_away="far away",
+        away="{metres} m away",
+        skin="Skin",
+        throws_back="throws back {percent} % of the light",
+        gloss="Gloss",
+        mirrors="mirrors {percent} % of it",
+        all_round="Light from all round",
+        of_lamp="{percent} % of the lamp's",
+        of_lamp_on_mean="{percent} % of the lamp's on the mean",
+    ),
+    fit=FitWords(
+        fit="The fit",
+        scan="The scan",
+        pictures="The pictures",
+        how_it_ended="How it ended",
+        ended={
+            Outcome.CONVERGED: "The body fits the picture as well as it can.",
+            Outcome.EVALUATION_LIMIT: (
+                "The search was stopped at its limit before it was done; this is the best body so "
+                "far."
+            ),
+            Outcome.POOR_FIT: (
+                "The body does not cover the person well; the points, the gender or the cut-out "
+                "may be wrong. Do not rely on these measurements."
+            ),
+        },
+        outcomes={
+            Outcome.CONVERGED: "found",
+            Outcome.EVALUATION_LIMIT: "stopped at the limit",
+            Outcome.POOR_FIT: "poor fit",
+        },
+        verdicts={
+            Verdict.PLAUSIBLE: "Plausible",
+            Verdict.IMPLAUSIBLE: "Implausible",
+            Verdict.NO_PERSON: "No person",
+        },
+        contradicted={},
+        overlap="Overlap",
+        overlap_of="{percent} % of body and outline",
+        overlap_in_view="overlap {percent} %",
+        lens="Lens",
+        lens_of="{millimetres} mm as on 35 mm film, {source}",
+        lens_sources={
+            FocalLengthSource.CALLER: "as given",
+            FocalLengthSource.EXIF_35MM: "as the picture says",
+            FocalLengthSource.EXIF_SENSOR: "as the picture says",
+            FocalLengthSource.ASSUMED: "assumed",
+        },
+        picture="Picture",
+        pixels="{width} × {height} pixels",
+        agreement="Agreement",
+        agreement_of="Pictures of one person differ as much as these in {percent} % of cases.",
+        views={
+            ViewKind.FRONT: "Front",
+            ViewKind.SIDE: "Side",
+            ViewKind.BACK: "Back",
+            ViewKind.OTHER: "Other",
+        },
+    ),
+    remarks=RemarkWords(
+        assumed="What was assumed",
+        warned="Worth a look",
+        nothing="Nothing.",
+        quantities={
+            "height_m": "Height",
+            "focal_length_35mm": "Lens",
+            "points": "Points",
+            "outline": "Outline",
+        },
+        values={},
+        reasons={
+            "focal_length_35mm": "Neither the request nor the picture says which lens took it.",
+        },
+        warnings=_WARNINGS,
+    ),
+    pictures=PictureWords(
+        overlay="The body over the picture",
+        other_overlay="The body over another picture",
+        sides={
+            "from the camera": "From the camera",
+            "from the right of the picture": "From the right of the picture",
+            "from behind": "From behind",
+            "from the left of the picture": "From the left of the picture",
+        },
+        skin={
+            "albedo.png": "The skin without the light",
+            "shading.png": "The light on an even skin",
+        },
+        tapes="Where the tapes lie",
+        tape_sides={"front": "From the front", "side": "From the side", "back": "From behind"},
+        tapes_note="The numbers are those before the measurements.",
+    ),
+)

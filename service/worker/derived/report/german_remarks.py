@@ -1,0 +1,148 @@
+"""What was assumed and what to look at, in German."""
+
+from typing import Final
+
+from service.worker.derived.report.wording import RemarkWords
+
+_POINTS: Final = {
+    "left_shoulder": "Linke Schulter",
+    "right_shoulder": "Rechte Schulter",
+    "left_elbow": "Linker Ellenbogen",
+    "right_elbow": "Rechter Ellenbogen",
+    "left_wrist": "Linkes Handgelenk",
+    "right_wrist": "Rechtes Handgelenk",
+    "left_hip": "Linke Hüfte",
+    "right_hip": "Rechte Hüfte",
+    "left_knee": "Linkes Knie",
+    "right_knee": "Rechtes Knie",
+    "left_ankle": "Linkes Fußgelenk",
+    "right_ankle": "Rechtes Fußgelenk",
+    "head_top": "Scheitel",
+    "nose": "Nase",
+    "left_eye": "Linkes Auge",
+    "right_eye": "Rechtes Auge",
+    "left_ear": "Linkes Ohr",
+    "right_ear": "Rechtes Ohr",
+    "chin": "Kinn",
+    "neck": "Halsgrube",
+    "left_heel": "Linke Ferse",
+    "right_heel": "Rechte Ferse",
+    "left_toe": "Linke Zehen",
+    "right_toe": "Rechte Zehen",
+}
+"""As the page calls them (``service/page/src/messages/de/points.ts``)."""
+
+_WARNINGS: Final = {
+    "ambiguous-limb-facing": (
+        "Das Bild passt etwa ebenso gut, wenn manche Gliedmaßen anders herum geneigt sind, auf "
+        "die Kamera zu oder von ihr weg. Sagen Sie, wie es ist, und werten Sie das Bild noch "
+        "einmal aus."
+    ),
+    "body-outside-picture": (
+        "Die Person reicht über den Rand des Bildes. Was außerhalb liegt, ist aus dem Rest "
+        "erschlossen."
+    ),
+    "clothes-not-loose": (
+        "Rumpf und Oberschenkel zeigen viel von der Hautfarbe der Person, wie in Unterwäsche oder "
+        "Badekleidung. Wenn nichts Weites sie verdeckt, wählen Sie anliegende Kleidung: So können "
+        "Umfänge um mehrere Zentimeter zu klein ausfallen."
+    ),
+    "cut-off": (
+        "Die Person reicht bis an den Rand des Bildes oder darüber hinaus: Punkte, die nicht im "
+        "Bild sind, fehlen."
+    ),
+    "different-people": (
+        "Die Bilder scheinen verschiedene Personen zu zeigen. Prüfen Sie die Bilder und ihre "
+        "Punkte, oder lassen Sie eine Auswertung weg."
+    ),
+    "given-contradicted": (
+        "Ein angegebener Wert widerspricht den Bildern und der Körperhöhe. Prüfen Sie die Angaben "
+        "und ihre Einheiten."
+    ),
+    "implausible": (
+        "Diese Maße sind vielleicht die von niemandem: Das Bild widerspricht dem Körper."
+    ),
+    "left-and-right-may-be-swapped": (
+        "Beide Augen sind zu sehen, aber links und rechts liegen wie von hinten: Sie sind "
+        "vielleicht vertauscht. Gemeint sind die Seiten der Person."
+    ),
+    "limbs-crossed": (
+        "Arme oder Beine kreuzen sich im Bild: Sehen Sie nach, ob links und rechts stimmen."
+    ),
+    "low-silhouette-overlap": (
+        "Der Körper deckt wenig von der ausgeschnittenen Person. Prüfen Sie die Punkte und links "
+        "und rechts, oder verwenden Sie eine Maske."
+    ),
+    "no-person": (
+        "Diese Maße sind vielleicht die von niemandem: An den Punkten ist keine Person zu sehen."
+    ),
+    "nobody-found": "In dem Bild wurde niemand gefunden: Klicken Sie die Punkte selbst.",
+    "other-view": (
+        "In einem der Bilder steht die Person anders zur Kamera als angegeben. Prüfen Sie die "
+        "Ansicht, ob links und rechts die Seiten der Person sind, und ob das Bild gespiegelt ist."
+    ),
+    "person-too-small": (
+        "Die Person ist so klein, dass die Maße leiden: Schneiden Sie das Bild auf sie zu, oder "
+        "nehmen Sie ein größeres."
+    ),
+    "sandbox": (
+        "Dies ist eine Testumgebung: Das Ergebnis ist das eines Beispiels, was auch gesendet wurde."
+    ),
+    "seen-from-behind": (
+        "Die Person scheint von hinten gesehen zu sein: Sehen Sie nach, ob links und rechts ihre "
+        "eigenen Seiten sind."
+    ),
+    "segmentation-doubtful": (
+        "Die Person hebt sich in der Farbe nicht vom Hintergrund ab; der Umriss ist kaum mehr als "
+        "eine erste Schätzung. Eine eigene Maske würde helfen."
+    ),
+    "several-people": (
+        "Mehrere Personen wurden gefunden, die größte ist genommen. Klicken Sie einen Punkt der "
+        "Person, die gemeint ist."
+    ),
+    "shading-not-used": (
+        "Vom Körper ist zu wenig zu sehen, das richtig belichtet ist und nicht am Rand liegt: Die "
+        "Schattierung sagt nichts, das Ergebnis beruht allein auf dem Umriss."
+    ),
+    "shoulders-and-hips-disagree": (
+        "Nach den Schultern ist die Person von der einen Seite zu sehen, nach den Hüften von der "
+        "anderen: Bei einem Paar sind links und rechts vielleicht vertauscht. Gemeint sind die "
+        "Seiten der Person."
+    ),
+    "skin-not-found": (
+        "Weder Gesicht noch Hände zeigen die Hautfarbe der Person, oder das Bild ist nicht "
+        "farbig: Was unbekleidet ist, ist geraten. Klicken Sie Nase oder Augen, wenn sie zu sehen "
+        "sind; nehmen Sie ein farbiges Bild, wenn es eines gibt."
+    ),
+    "surroundings-not-found": (
+        "Es ist zu wenig bloße Fläche zu sehen, um das Licht der Umgebung von der Lampe zu "
+        "trennen: Angenommen sind eine Lampe und gleichmäßiges schwaches Licht von überall."
+    ),
+    "transparency-over-white": (
+        "Das Bild ist zum Teil durchsichtig und wurde auf Weiß gelegt. Wenn der deckende Teil die "
+        "Person ist, verwenden Sie ihn als Maske."
+    ),
+}
+
+REMARKS: Final = RemarkWords(
+    assumed="Was angenommen wurde",
+    warned="Was Sie prüfen sollten",
+    nothing="Nichts.",
+    quantities={
+        "height_m": "Körperhöhe",
+        "focal_length_35mm": "Objektiv",
+        "points": "Punkte",
+        "outline": "Umriss",
+    },
+    values={"outer bound": "Äußere Grenze", **_POINTS},
+    reasons={
+        "height_m": "Angegeben ist keine; dies ist die wahrscheinlichste nach den Angaben.",
+        "focal_length_35mm": "Weder Sie noch das Bild sagen, welches Objektiv es aufnahm.",
+        "points": ("Die Erkennung hat sie vorgeschlagen; sie sind weniger sicher als Klicks."),
+        "outline": (
+            "Die Kleidung ist weit: Wo Kleidung zu sehen ist, liegt der Körper einige Zentimeter "
+            "innerhalb des Umrisses; an bloßer Haut liegt er auf ihm."
+        ),
+    },
+    warnings=_WARNINGS,
+)

@@ -1,0 +1,74 @@
+"""The pipeline of a sandbox: results of the packaged samples, at once, whatever was sent.
+
+What the pictures show is looked at by nobody. Derivations that are quick are made of the canned
+person as everywhere, by the options of the request; the others are canned too.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import cast
+
+from api_schemas.derivation_kinds import AnyDerivationOptions
+from api_schemas.derivation_kinds.base import DerivedFiles
+from api_schemas.derivation_kinds.combined import CombinedOptions, CombinedResult
+from service.engine.port import Report
+from service.jobs.inputs import IMAGE, OVERLAY, PERSON
+from service.worker import pipeline
+from service.worker.pipeline_port import (
+    DerivationInput,
+    DerivationOutput,
+    PipelineInput,
+    PipelineOutput,
+    ScanInput,
+    ScanOutput,
+    UnusableInputError,
+)
+from service.worker.sandbox_endings import end_as_asked, judged_fit, judged_scan, of_first_view
+from service.worker.sandbox_forms import combined_of_fits, scan_of_views
+from service.worker.sandbox_results import CannedResults, canned_results
+
+
+def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput:
+    """Give the fit of the sample of that gender."""
+    fit = canned_results(job.models, job.detector).fits[job.options.gender]
+    end_as_asked(job.ending, fit.reports, observe)
+    return replace(fit.output, result=judged_fit(fit.output.result, job.ending))
+
+
+def scan(job: ScanInput, observe: Callable[[Report], None]) -> ScanOutput:
+    """Give the scan of the sample, with the views that were asked for."""
+    canned = canned_results(job.models, job.detector).scan
+    try:
+        end_as_asked(job.ending, canned.reports, observe)
+    except UnusableInputError as error:
+        raise of_first_view(error) from None
+    output = scan_of_views(canned.output, job.options)
+    return replace(output, result=judged_scan(output.result, job.ending))
+
+
+def derive(
+    job: DerivationInput[AnyDerivationOptions], observe: Callable[[Report], None]
+) -> DerivationOutput[DerivedFiles]:
+    """Give what is kept of that kind, or derive it from the canned person."""
+    canned = canned_results(job.models, job.detector)
+    kind = job.options.kind
+    steps = [Report(stage=kind, progress=share / 10) for share in range(10)]
+    end_as_asked(job.ending, steps, observe)
+    if isinstance(job.options, CombinedOptions):
+        assert job.fit_id is not None
+        kept = cast("DerivationOutput[CombinedResult]", canned.derived[kind])
+        return combined_of_fits(kept, (job.fit_id, *job.options.fits))
+    if kind in canned.derived:
+        return canned.derived[kind]
+    return pipeline.derive(_with_sample(job, canned), observe)
+
+
+def _with_sample(
+    job: DerivationInput[AnyDerivationOptions], canned: CannedResults
+) -> DerivationInput[AnyDerivationOptions]:
+    """The job with the picture its person was fitted to, not the one that was sent."""
+    if IMAGE not in job.inputs:
+        return job
+    # A person of an earlier version's sample is none of these: what is drawn of it is.
+    picture = canned.pictures.get(job.inputs[PERSON], job.inputs[OVERLAY])
+    return replace(job, inputs={**job.inputs, IMAGE: picture})

@@ -1,0 +1,66 @@
+"""What a sandbox has of two pictures, given the form of a request with others."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from uuid import UUID
+
+from api_schemas.derivation_kinds.combined import CombinedResult
+from api_schemas.scans import ScannedView, ScanOptions
+from api_schemas.views import ViewKind
+from service.jobs.inputs import BODY_POSED, OVERLAY, SEGMENTATION, file_of
+from service.worker.pipeline_port import DerivationOutput, ScanOutput
+
+_OF_A_VIEW = (BODY_POSED, OVERLAY, SEGMENTATION)
+_OF_A_FIT = (BODY_POSED, OVERLAY)
+
+FRONT, SIDE = 0, 1
+"""Places of the sample's views."""
+
+
+def scan_of_views(output: ScanOutput, asked: ScanOptions) -> ScanOutput:
+    """A scan of as many views as were asked for; any but one from the side is that of the front."""
+    places = [SIDE if each.view is ViewKind.SIDE else FRONT for each in asked.views]
+    views = tuple(
+        _renumbered(output.result.views[place], number, view.view)
+        for number, (place, view) in enumerate(zip(places, asked.views, strict=True))
+    )
+    return replace(
+        output,
+        result=output.result.model_copy(update={"views": views}),
+        artifacts=_spread(output.artifacts, _OF_A_VIEW, places, first=0),
+    )
+
+
+def combined_of_fits(
+    output: DerivationOutput[CombinedResult], fits: Sequence[UUID]
+) -> DerivationOutput[CombinedResult]:
+    """A combined body of these fits, which is in all but the first what it is in the second."""
+    places = [min(at, 1) for at in range(len(fits))]
+    bodies = tuple(
+        output.result.bodies[place].model_copy(update={"number": number, "fit_id": fit})
+        for number, (place, fit) in enumerate(zip(places, fits, strict=True), start=1)
+    )
+    return replace(
+        output,
+        result=output.result.model_copy(update={"pictures": len(fits), "bodies": bodies}),
+        artifacts=_spread(output.artifacts, _OF_A_FIT, places, first=1),
+    )
+
+
+def _renumbered(view: ScannedView, number: int, kind: ViewKind) -> ScannedView:
+    return view.model_copy(update={"number": number, "view": kind})
+
+
+def _spread(
+    files: Mapping[str, bytes], names: Sequence[str], places: Sequence[int], *, first: int
+) -> dict[str, bytes]:
+    """The files, with those of each picture taken from the one at its place.
+
+    Numbers in their names count from ``first``.
+    """
+    of_pictures = {
+        file_of(name, first + number): files[file_of(name, first + place)]
+        for number, place in enumerate(places)
+        for name in names
+    }
+    return {**files, **of_pictures}

@@ -1,0 +1,125 @@
+"""A scan's result: what it says of itself, what is made of it, and measuring by force."""
+
+import base64
+import json
+import re
+from pathlib import Path
+
+import httpx
+import pytest
+from playwright.sync_api import Browser, Route, expect
+
+from service.demo_data import sample
+from tests.e2e.page.test_for_everyone import axe, serious_findings
+from tests.e2e.page.visitor import FIT_WITHIN_MS, PHONE, Visitor
+from tests.e2e.service import ended_job
+
+__all__ = ("axe",)
+
+DATA = Path(sample.__file__).parent
+
+
+@pytest.fixture(scope="module")
+def scan(service: httpx.Client) -> dict:
+    """A finished scan whose front picture came with a mask."""
+    views = []
+    for name in ("front", "side"):
+        content = (DATA / f"scan_{name}.jpg").read_bytes()
+        image = service.post("/v1/images", files={"image": content}).raise_for_status().json()
+        views.append({"view": name, "image_id": image["id"]})
+    asked = {"image_id": views[0]["image_id"], "mask": True}
+    proposed = service.post("/v1/points", json=asked).raise_for_status().json()
+    cut_out = base64.b64decode(proposed["mask"])
+    mask = service.post("/v1/images", files={"image": cut_out}).raise_for_status().json()
+    views[0]["mask_id"] = mask["id"]
+    asked = {"gender": "female", "height_m": 1.555, "views": views}
+    ended = ended_job(service, service.post("/v1/scans", json=asked))
+    assert ended["state"] == "succeeded"
+    return ended
+
+
+def open_scan(visitor: Visitor, scan: dict) -> None:
+    visitor.page.goto(f"{visitor.origin}/#/scans/{scan['id']}")
+    expect(visitor.page.locator('[data-scan][aria-busy="false"]')).to_be_attached()
+
+
+def test_it_says_how_the_pictures_agree_and_that_points_were_proposed(
+    visitor: Visitor, scan: dict, service: httpx.Client
+):
+    page = visitor.page
+    agreement = service.get(scan["links"]["result"]).raise_for_status().json()["agreement"]
+    open_scan(visitor, scan)
+    share = "nearly always" if agreement >= 0.995 else f"{100 * agreement:.0f}% of cases"
+    expect(page.locator(".panel")).to_contain_text(share)
+    expect(page.get_by_text("All points were proposed")).to_be_visible()
+    assert page.get_by_text("left ankle").count() == 0
+
+
+def test_a_browser_that_opened_a_scan_by_its_link_knows_it(visitor: Visitor, scan: dict):
+    open_scan(visitor, scan)
+    visitor.page.get_by_role("button", name="Fits").click()
+    expect(visitor.page.get_by_role("dialog")).to_contain_text("Woman, 155.5 cm")
+
+
+def test_size_and_report_are_made_of_a_scan(
+    browser: Browser, service: httpx.Client, axe: str, scan: dict
+):
+    settled = PHONE | {"reduced_motion": "reduce"}
+    with Visitor.at(browser, str(service.base_url), settled) as visitor:
+        page = visitor.page
+        open_scan(visitor, scan)
+        page.get_by_role("button", name="Make the report").tap()
+        made = page.locator(".derived")
+        expect(made).to_contain_text("report.pdf", timeout=FIT_WITHIN_MS)
+        page.get_by_role("radio", name="Clothing size").check()
+        expect(page.get_by_role("button", name="Find the size")).to_be_disabled()
+        page.get_by_role("radio", name="in, lb").check()
+        expect(page.get_by_text("Charts are in cm, whichever units you chose")).to_be_visible()
+        chart = {"S": ("76-82", "90-94"), "M": ("82-90", "95-103"), "L": ("90-98", "103-109")}
+        for label, (chest, hip) in chart.items():
+            page.get_by_label(f"{label}: Chest").fill(chest)
+            page.get_by_label(f"{label}: Hip").fill(hip)
+        page.get_by_role("button", name="Find the size").tap()
+        expect(made).to_contain_text("Size M", timeout=FIT_WITHIN_MS)
+        expect(made).to_contain_text("None fits")
+        expect(made).to_contain_text(re.compile(r"Chest [\d.]+ ± [\d.]+ cm: within M \(82 to 90\)"))
+        expect(made).to_contain_text("sizes.csv")
+        assert serious_findings(page, axe) == []
+        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+
+
+def test_on_a_phone_a_measurement_is_shown_on_the_body(
+    browser: Browser, service: httpx.Client, scan: dict
+):
+    with Visitor.at(browser, str(service.base_url), PHONE) as visitor:
+        page = visitor.page
+        open_scan(visitor, scan)
+        page.get_by_role("button", name="Outseam").tap()
+        expect(visitor.body).to_have_attribute("data-shows", "canonical clay SES outseam")
+        expect(visitor.body).to_be_in_viewport(ratio=0.9)
+
+
+def test_measuring_by_force_sends_the_masks_again(visitor: Visitor, scan: dict):
+    page = visitor.page
+    sent: list[dict] = []
+
+    def withhold(route: Route) -> None:
+        found = route.fetch()
+        withheld = found.json() | {"verdict": "implausible", "measurements": []}
+        route.fulfill(response=found, json=withheld)
+
+    def keep(route: Route) -> None:
+        sent.append(json.loads(route.request.post_data or "{}"))
+        # Another scan would tell nothing more: this one is given again.
+        route.fulfill(status=202, json=scan)
+
+    page.route(f"**{scan['links']['result']}", withhold)
+    page.route("**/v1/scans", keep)
+    open_scan(visitor, scan)
+    page.get_by_role("button", name="Measure anyway").click()
+    expect(page.get_by_role("button", name="Measure anyway")).to_be_enabled()
+    (asked,) = sent
+    assert asked["force"] is True
+    front, side = asked["views"]
+    assert front["mask_id"] not in {front["image_id"], side["image_id"]}
+    assert "mask_id" not in side

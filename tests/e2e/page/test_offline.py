@@ -1,0 +1,47 @@
+"""Without a connection somebody can go on clicking, and it is said that there is none."""
+
+from playwright.sync_api import expect
+
+from tests.e2e.page.test_drafts import WOMAN, uploads
+from tests.e2e.page.visitor import LIMBS, Visitor
+
+NO_CONNECTION = "No connection to the service."
+
+
+def test_offline_is_said_and_all_is_sent_once_it_is_over(visitor: Visitor):
+    page = visitor.page
+    visitor.open_sample()
+    visitor.describe_person()
+    expect(page.get_by_text(NO_CONNECTION)).to_have_count(0)
+    page.context.set_offline(True)
+    expect(page.get_by_text(NO_CONNECTION)).to_be_visible()
+    visitor.click_points(LIMBS)
+    page.context.set_offline(False)
+    expect(page.get_by_text(NO_CONNECTION)).to_have_count(0)
+    expect(page.locator(".live-outline")).to_be_attached()
+
+
+def test_a_picture_chosen_offline_is_uploaded_later(visitor: Visitor):
+    page = visitor.page
+    visitor.open_sample()
+    page.context.set_offline(True)
+    page.get_by_label("Choose another picture").set_input_files(WOMAN)
+    expect(page.get_by_text("woman.jpg")).to_be_visible()
+    expect(page.get_by_text(NO_CONNECTION)).to_be_visible()
+    with page.expect_response("**/v1/images") as answer:
+        page.context.set_offline(False)
+    assert answer.value.ok
+    expect(page.get_by_text(NO_CONNECTION)).to_have_count(0)
+
+
+def test_a_service_that_does_not_answer_is_tried_again(visitor: Visitor):
+    page = visitor.page
+    page.route("**/v1/images", lambda route: route.abort())
+    visitor.open_sample(with_points=True)
+    expect(page.get_by_text(NO_CONNECTION)).to_be_visible()
+    page.unroute("**/v1/images")
+    with page.expect_response("**/v1/images") as answer:
+        pass
+    assert answer.value.ok
+    expect(page.get_by_text(NO_CONNECTION)).to_have_count(0)
+    assert uploads(visitor) >= 2

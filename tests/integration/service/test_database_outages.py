@@ -1,0 +1,97 @@
+"""What a database that is away does to figures, logs and whoever stops a job."""
+
+import contextlib
+import threading
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import pytest
+
+from service.engine.ballast import Ballast
+from service.engine.database import open_database, prepare_database
+from service.engine.dbos_jobs import DbosJobEngine
+from service.engine.image_port import ImageQuota
+from service.engine.port import FIT, NewJob, StoredBlob
+from tests.integration.service.conftest import fresh_machine
+from tests.integration.service.database_outage import assert_refused_for_now, no_connections
+from tests.integration.service.harness import Machine, running_service
+
+STUCK_S = 60.0
+"""A guard against hanging."""
+
+
+@pytest.fixture
+def machine(tmp_path: Path) -> Iterator[Machine]:
+    with fresh_machine("postgres", tmp_path) as fresh:
+        yield fresh
+
+
+def test_figures_are_told_while_the_database_is_away(machine: Machine):
+    with running_service(machine, api_only=True) as service:
+        before = service.client.get("/metrics")
+        with no_connections(machine):
+            assert_refused_for_now(service.client.get("/v1/fits"))
+            during = service.client.get("/metrics")
+        after = service.client.get("/metrics")
+    for answer, is_available in ((before, "1.0"), (during, "0.0"), (after, "1.0")):
+        assert answer.status_code == 200
+        assert f"\nmaquette_database_available {is_available}\n" in answer.text
+    refused = 'maquette_http_requests_total{method="GET",route="/v1/fits",status="503"} 1.0'
+    assert refused in during.text
+    assert "maquette_workers" not in during.text
+
+
+def test_a_refusal_is_logged_in_a_line_not_in_a_trace(
+    machine: Machine, capfd: pytest.CaptureFixture[str]
+):
+    with running_service(machine, api_only=True) as service, no_connections(machine):
+        assert_refused_for_now(service.client.get("/v1/fits"))
+    lines = capfd.readouterr().err.splitlines()
+    (number,) = [n for n, line in enumerate(lines) if "GET /v1/fits: the database is" in line]
+    assert "not currently accepting connections" in lines[number]
+    assert lines[number + 1].startswith("20"), "it is followed by another record"
+
+
+@pytest.mark.parametrize(
+    ("stop", "step"), [("cancel", "_cancel_in_queue"), ("erase", "_forget_traces")]
+)
+def test_stopping_a_job_does_not_wait_for_a_database_that_goes_away_meanwhile(
+    machine: Machine, stop: str, step: str, monkeypatch: pytest.MonkeyPatch
+):
+    with contextlib.ExitStack() as stack:
+        jobs = stack.enter_context(contextlib.closing(job_engine(machine))).of("somebody")
+        jobs.reserve("a", None)
+        options = StoredBlob(digest="0" * 64, media_type="application/json")
+        jobs.submit(NewJob(id="a", kind=FIT, options=options, inputs={}))
+        proceed = getattr(jobs, step)
+
+        def go_away_first(of: str | Sequence[str]) -> None:
+            stack.enter_context(no_connections(machine))
+            proceed(of)
+
+        monkeypatch.setattr(jobs, step, go_away_first)
+        answers: list[object] = []
+        stopping = threading.Thread(
+            target=lambda: answers.append(getattr(jobs, stop)("a")), daemon=True
+        )
+        stopping.start()
+        stopping.join(STUCK_S)
+        assert len(answers) == 1
+        assert answers[0]
+
+
+def job_engine(machine: Machine) -> DbosJobEngine:
+    assert machine.database_url is not None
+    prepare_database(machine.database_url)
+    return DbosJobEngine(
+        open_database(machine.database_url),
+        blobs=None,  # pyright: ignore[reportArgumentType]
+        max_queued=10,
+        max_queued_per_tenant=10,
+        image_quota=ImageQuota(images=10, size=10_000),
+        retention_s=100.0,
+        sweep_interval_s=60.0,
+        heartbeat_s=1.0,
+        dead_after_s=10.0,
+        ballast=Ballast(None),
+    )

@@ -1,0 +1,106 @@
+"""The page about accuracy: commands that exist, figures that the tables and DECISIONS have."""
+
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+
+from tests.evaluation.command_line import parser
+from tests.evaluation.people_table import PEOPLE
+
+ROOT = Path(__file__).parents[2]
+PAGE = (ROOT / "service" / "docs" / "accuracy.md").read_text()
+README = (ROOT / "README.md").read_text()
+TABLES = (ROOT / "service" / "docs" / "accuracy_tables.md").read_text()
+DECISIONS = (ROOT / "DECISIONS.md").read_text()
+MEASURING = (ROOT / "MEASURING.md").read_text()
+
+OPTIONS = sorted(set(re.findall(r"`(?:python -m tests\.evaluation )?(--[^`]+)`", PAGE)))
+
+
+def cells(text: str, row: str) -> list[str]:
+    """The cells of a table's row, whatever stands around it."""
+    found = re.search(rf"^ *\| {re.escape(row)} \|(.*)\|$", text, re.MULTILINE)
+    assert found, row
+    return [each.strip() for each in found[1].split("|")]
+
+
+def test_commands_are_found():
+    assert "--scan --half reporting" in OPTIONS
+    assert len(OPTIONS) > 8
+
+
+@pytest.mark.parametrize("options", OPTIONS)
+def test_every_command_is_understood(options: str):
+    parser("").parse_args(shlex.split(options))
+
+
+@pytest.mark.parametrize(
+    ("ours", "table"),
+    [
+        ("one front picture of a phone", "front"),
+        ("front and side", "front and side"),
+        ("front and side, and the weight", "front and side, weight given"),
+        ("four pictures", "four pictures"),
+    ],
+)
+def test_phone_pictures_err_as_the_tables_say(ours: str, table: str):
+    assert cells(PAGE, ours)[:5] == cells(TABLES, table)
+
+
+@pytest.mark.parametrize(
+    "row", ["one front picture of a phone", "front and side", "front and side, and the weight"]
+)
+def test_the_readme_promises_no_more(row: str):
+    assert cells(README, row) == cells(PAGE, row)[:5]
+
+
+def test_a_known_weight_is_worth_what_the_tables_say():
+    chest, waist, hip = cells(TABLES, "SES, weight given")[:3]
+    told = [chest.split()[0], f"{waist.split()[0]} (navel)", hip.split()[0]]
+    assert cells(PAGE, "and the weight")[:3] == told
+
+
+@pytest.mark.parametrize("sex", ["women", "men"])
+@pytest.mark.parametrize("views", ["front", "front and side"])
+def test_perfect_outlines_are_those_of_the_decisions(views: str, sex: str):
+    assert cells(PAGE, f"{views}, {sex}") == cells(DECISIONS, f"{views}, {sex}")
+
+
+def test_the_detector_is_worth_what_the_decisions_say():
+    for ours, theirs in (
+        ("clicks, no detector", "home, none"),
+        ("clicks, and all of the detector", "both"),
+        ("no click, all of the detector", "both, no click"),
+    ):
+        assert cells(PAGE, ours) == cells(DECISIONS, theirs)[:6]
+
+
+@pytest.mark.parametrize(
+    "row",
+    [
+        "as they are",
+        "height given 3 cm too high",
+        "weight given 3 kg too high",
+        "lens not known",
+        "200 pixels tall",
+        "feet cropped away afterwards",
+    ],
+)
+def test_faults_cost_what_the_guide_says(row: str):
+    assert cells(PAGE, row) == cells(MEASURING, row)[:4]
+
+
+def test_the_worst_are_people_of_the_suite_and_eight():
+    (part,) = re.findall(r"### The eight worst of 24\n(.*?)\n##", PAGE, re.DOTALL)
+    named = re.findall(r"^\| `(\w+)`, (tuning|reporting) \|", part, re.MULTILINE)
+    assert len(named) == 8
+    assert all(PEOPLE[person].half.value == half for person, half in named)
+
+
+def test_the_decisions_that_are_quoted_have_such_headings():
+    headings = re.findall(r"^## [\d-]+ · (.+)$", DECISIONS, re.MULTILINE)
+    quoted = [" ".join(each.split()) for each in re.findall(r'"([A-Z][^"]+)"', PAGE)]
+    assert quoted
+    assert [each for each in quoted if not any(each in heading for heading in headings)] == []

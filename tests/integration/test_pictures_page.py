@@ -1,0 +1,170 @@
+"""The page about bad pictures: every code of the code and no other, with its threshold."""
+
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from api_schemas import checks as wire
+from fitter.applications.several_pictures import SAME_PERSON_PROBABILITY
+from fitter.capture import arms, camera_place, clothes, exposure, framing, sharpness, turning
+from fitter.capture.finding import Code
+from fitter.fits import reporting, scan_remarks
+from fitter.observation import decoding
+from fitter.result import Verdict
+
+ROOT = Path(__file__).parents[2]
+PAGE = (ROOT / "service" / "docs" / "pictures.md").read_text()
+
+DERIVED = ("fitter/applications", "service/worker/derived")
+"""Where what is made of fits warns; several pictures warn of the same as a scan."""
+
+
+def rows(heading: str) -> dict[str, str]:
+    """The table's rows below a heading, by the codes in their first cell."""
+    (part,) = re.findall(rf"^## {heading}$(.*?)(?=^## |\Z)", PAGE, re.MULTILINE | re.DOTALL)
+    found: dict[str, str] = {}
+    for line in re.findall(r"^\| (`.*)$", part, re.MULTILINE):
+        first, rest = line.split(" | ", 1)
+        for code in re.findall(r"`([a-z-]+)`", first):
+            assert code not in found
+            found[code] = rest
+    return found
+
+
+CHECKS = rows("The thirteen checks")
+OF_FITS = rows("Warnings of a fit or a scan")
+OF_POINTS = rows("Warnings of proposed points")
+OF_DERIVATIONS = rows("Warnings of what is made of a fit")
+REFUSALS = rows("Refusals of pictures")
+
+
+def sources(*folders: str) -> Iterator[Path]:
+    for folder in folders:
+        yield from (ROOT / folder).rglob("*.py")
+
+
+def codes_of(call: str, files: Iterator[Path]) -> set[str]:
+    """Constant codes with which a type is called."""
+    found: set[str] = set()
+    for file in files:
+        for node in ast.walk(ast.parse(file.read_text())):
+            if isinstance(node, ast.Call) and getattr(node.func, "id", None) == call:
+                for word in node.keywords:
+                    if word.arg == "code" and isinstance(word.value, ast.Constant):
+                        found.add(str(word.value.value))
+    return found
+
+
+def proposal_codes() -> set[str]:
+    """Those of the table in the module, and of the warning made by itself."""
+    file = ROOT / "fitter" / "fits" / "proposal_warnings.py"
+    keys = {
+        str(key.value)
+        for node in ast.walk(ast.parse(file.read_text()))
+        if isinstance(node, ast.Dict)
+        for key in node.keys
+        if isinstance(key, ast.Constant) and "-" in str(key.value)
+    }
+    return keys | codes_of("FitWarning", iter([file]))
+
+
+def test_the_checks_are_those_of_the_code_in_its_order():
+    assert list(CHECKS) == [code.value for code in Code]
+    assert len(CHECKS) == 13
+
+
+def test_they_are_those_of_the_wire():
+    described = re.findall(r"``([a-z-]+)``", (wire.CaptureCheck.__doc__ or "").split("Codes:")[1])
+    assert set(CHECKS) <= set(described)
+
+
+@pytest.mark.parametrize(
+    ("code", "thresholds"),
+    [
+        (Code.PERSON_TOO_SMALL, (framing.LEAST_STATURE_PX, framing.BLOCKING_STATURE_PX)),
+        (Code.PICTURE_TOO_SMALL, (framing.LEAST_STATURE_PX, framing.BLOCKING_STATURE_PX)),
+        (Code.OTHER_VIEW, (turning.LEAST_FRONTAL, turning.MOST_LATERAL)),
+        (Code.ARMS_AGAINST_TRUNK, (arms.LEAST_FREE,)),
+        (Code.CLOTHES_LOOSE, (clothes.LOOSE,)),
+        (Code.BLURRED, (sharpness.HARMFUL_PX, sharpness.BLOCKING_PX)),
+        (Code.TOO_DARK, (exposure.DARKEST,)),
+        (Code.TOO_BRIGHT, (exposure.BURNT, exposure.MOST_BURNT)),
+        (Code.CAMERA_ROLLED, (camera_place.MOST_ROLLED_DEG,)),
+        (Code.CAMERA_TOO_NEAR, (camera_place.NEAREST_M,)),
+        (Code.CUT_OFF, (framing.BORDER_PX,)),
+    ],
+)
+def test_thresholds_are_those_of_the_code(code: Code, thresholds: tuple[float, ...]):
+    numbers = [float(each) for each in re.findall(r"\d+(?:\.\d+)?", CHECKS[code.value])]
+    assert set(thresholds) <= set(numbers)
+
+
+def test_a_check_that_may_block_says_when():
+    """By the severities that the modules of ``fitter.capture`` name."""
+    blocking = {code for code, row in CHECKS.items() if "blocks" in row}
+    assert blocking == {
+        code.value
+        for code in (
+            Code.NOBODY_FOUND,
+            Code.CUT_OFF,
+            Code.PERSON_TOO_SMALL,
+            Code.PICTURE_TOO_SMALL,
+            Code.OTHER_VIEW,
+            Code.BLURRED,
+        )
+    }
+    modules = {"people": 1, "framing": 2, "turning": 1, "sharpness": 1}
+    for file in sources("fitter/capture"):
+        named = file.read_text().count("Severity.BLOCKS")
+        if file.stem not in ("finding", "checking"):
+            assert named == modules.get(file.stem, 0), file.name
+
+
+def test_warnings_of_fits_and_scans_are_those_of_the_code():
+    # Of proposed points, and of results that are of no picture that was sent.
+    apart = {
+        ROOT / "fitter" / "fits" / "proposal_warnings.py",
+        ROOT / "service" / "worker" / "sandbox_results.py",
+    }
+    made = {
+        file
+        for file in sources("fitter", "service")
+        if file not in apart and not any(file.is_relative_to(ROOT / folder) for folder in DERIVED)
+    }
+    verdicts = {each.value.replace("_", "-") for each in Verdict if each is not Verdict.PLAUSIBLE}
+    assert set(OF_FITS) == codes_of("FitWarning", iter(sorted(made))) | verdicts
+
+
+def test_warnings_of_proposals_are_those_of_the_code():
+    assert set(OF_POINTS) == proposal_codes()
+
+
+def test_warnings_of_derivations_are_those_of_the_code():
+    assert set(OF_DERIVATIONS) == codes_of("FitWarning", sources(*DERIVED)) - set(OF_FITS)
+
+
+def test_the_figures_of_warnings_are_those_of_the_code():
+    assert f"less than {reporting.POOR_OVERLAP} " in OF_FITS["low-silhouette-overlap"]
+    assert f"within {reporting.AMBIGUOUS_NATS:g} nats" in OF_FITS["ambiguous-limb-facing"]
+    assert f"{scan_remarks.MOST_TURNED_DEG:g} degrees" in OF_FITS["other-view"]
+    assert f"{scan_remarks.MOST_DEVIATIONS:g} standard errors" in OF_FITS["given-contradicted"]
+    assert f"{SAME_PERSON_PROBABILITY:.0%}".replace("%", " %") in OF_FITS["different-people"]
+    assert f"{framing.LEAST_STATURE_PX:g} pixels" in OF_POINTS["person-too-small"]
+    assert f"{decoding.LEAST_SIDE_PX} pixels" in REFUSALS["image-too-small"]
+    assert f"{decoding.LARGEST_ASPECT_RATIO:g} times" in REFUSALS["image-too-narrow"]
+
+
+def test_pictures_and_masks_are_refused_by_no_other_code():
+    decoding_text = (ROOT / "fitter" / "observation" / "decoding.py").read_text()
+    made = {f"image-{word}" for word in re.findall(r'f"\{field\}-([a-z-]+)"', decoding_text)}
+    made |= codes_of("InvalidInputError", iter([ROOT / "fitter" / "observation" / "masks.py"]))
+    made |= codes_of("FieldProblem", iter([ROOT / "service" / "submissions" / "submission.py"]))
+    made |= codes_of("InvalidInputError", sources("fitter/segmentation", "fitter/pose_init"))
+    assert made - set(REFUSALS) == set()
+    everything = "\n".join(file.read_text() for file in sources("fitter", "service", "api_schemas"))
+    for code in REFUSALS:
+        word = code.removeprefix("image-")
+        assert f'"{code}"' in everything or f'f"{{field}}-{word}"' in decoding_text, code

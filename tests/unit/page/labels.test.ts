@@ -1,0 +1,33 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { placedLabels } from "../../../service/page/src/viewer/labels";
+
+const ROOM = { width: 600, height: 400, step: 20 };
+
+function tape(name: string, x: number, y: number, half = 30) {
+  return { name, left: [x - half, y], right: [x + half, y] } as const;
+}
+
+test("no label covers another, and all stay in the room", () => {
+  const tapes = Array.from({ length: 30 }, (_, i) => tape(`tape ${i}`, 300 + (i % 3) - 1, 180 + i));
+  const labels = placedLabels(tapes, ROOM);
+  assert.equal(labels.length, 30);
+  for (const side of ["left", "right"]) {
+    const heights = labels.filter((each) => each.side === side).map(({ y }) => y);
+    assert.ok(heights[0]! >= 10 && heights.at(-1)! <= 390);
+    heights.slice(1).forEach((y, i) => assert.ok(y - heights[i]! >= 20 - 1e-9));
+  }
+});
+
+test("a label stands where its tape is if nothing is in the way", () => {
+  const [label] = placedLabels([tape("waist", 300, 200)], ROOM);
+  assert.deepEqual({ y: label!.y, at: label!.at }, { y: 200, at: [label!.side === "left" ? 270 : 330, 200] });
+});
+
+test("tapes of an arm are told on its own side, those of the trunk fill up the other", () => {
+  const labels = placedLabels([tape("right arm", 150, 150, 10), tape("left arm", 450, 150, 10), tape("hip", 300, 250), tape("waist", 300, 220)], ROOM);
+  const sideOf = Object.fromEntries(labels.map(({ name, side }) => [name, side]));
+  assert.equal(sideOf["right arm"], "left");
+  assert.equal(sideOf["left arm"], "right");
+  assert.notEqual(sideOf.hip, sideOf.waist);
+});

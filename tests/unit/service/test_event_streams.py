@@ -1,0 +1,83 @@
+"""A stream of events while the database is away: it goes on when that is back."""
+
+import asyncio
+import threading
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from api_schemas.jobs import EventData, EventKind, JobState
+from service.api import events
+from service.engine.port import EngineUnavailableError, JobEvent
+
+
+class Jobs:
+    """Jobs of a tenant whose database is away for some looks."""
+
+    def __init__(self, absences: int) -> None:
+        self.absences = absences
+
+    def events(self, _: str, *, after: int) -> Sequence[JobEvent]:
+        self.job("")
+        return [told(1, EventKind.STATE), told(2, EventKind.END)][after:]
+
+    def job(self, _: str) -> object:
+        if self.absences:
+            self.absences -= 1
+            raise EngineUnavailableError
+        return object()
+
+
+class Feed:
+    """Wakes at once."""
+
+    def __init__(self, draining: threading.Event) -> None:
+        self._draining = draining
+
+    @property
+    def is_ending(self) -> bool:
+        return self._draining.is_set()
+
+    async def wait_beyond(self, *_: object, timeout_s: float) -> None:
+        assert timeout_s >= 0.0
+
+
+def told(number: int, kind: EventKind) -> JobEvent:
+    data = EventData(at=datetime.now(UTC), state=JobState.SUCCEEDED, stage=None, progress=1.0)
+    return JobEvent(number=number, kind=kind, data=data)
+
+
+def stream(jobs: Jobs, draining: threading.Event) -> list[str]:
+    context: Any = SimpleNamespace(feed=Feed(draining))
+    absent: Any = jobs
+
+    async def read() -> list[str]:
+        return [part.decode() async for part in events._stream(context, absent, "a", 0)]
+
+    return asyncio.run(read())
+
+
+@pytest.fixture(autouse=True)
+def _no_pauses(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(events, "AWAY_PAUSE_S", 0.0)
+
+
+def test_a_stream_goes_on_when_the_database_is_back():
+    (_, first, last) = stream(Jobs(absences=5), threading.Event())
+    assert ("event: state" in first, "event: end" in last) == (True, True)
+
+
+def test_a_stream_that_is_silent_meanwhile_says_that_it_is_there(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(events, "PING_S", 0.0)
+    parts = stream(Jobs(absences=3), threading.Event())
+    assert [part for part in parts if part.startswith(":")]
+    assert "event: end" in parts[-1]
+
+
+def test_a_process_that_stops_ends_its_streams_though_the_database_is_away():
+    draining = threading.Event()
+    draining.set()
+    assert len(stream(Jobs(absences=1_000), draining)) == 1

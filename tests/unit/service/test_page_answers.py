@@ -1,0 +1,65 @@
+"""The codes that the page has words for are those of answers, so that none waits in vain."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from api_schemas.problems import PROBLEM_TYPES
+from fitter.capture.finding import Code
+from fitter.measurement.groups import CHIEF
+from fitter.result import Verdict
+
+REPOSITORY = Path(__file__).parents[3]
+MESSAGES = REPOSITORY / "service" / "page" / "src" / "messages"
+OWN = {"page-error", "unexpected-answer", "unreachable"}
+OF_FILES = re.compile(r"(image|mask)-(animated|damaged|empty|too-[a-z]+|unsupported)")
+"""Codes that decoding makes of the field and a word."""
+
+
+def known(name: str) -> set[str]:
+    source = (MESSAGES / "answers.ts").read_text(encoding="utf-8")
+    (listed,) = re.findall(rf"export const {name} = \[(.*?)\] as const", source, re.DOTALL)
+    return set(re.findall(r'"([a-z_-]+)"', listed))
+
+
+@pytest.fixture(scope="module")
+def code_written() -> str:
+    """All that answers are made by."""
+    folders = (REPOSITORY / "fitter", REPOSITORY / "service", REPOSITORY / "api_schemas")
+    files = [file for folder in folders for file in folder.rglob("*.py")]
+    return "\n".join(file.read_text(encoding="utf-8") for file in files)
+
+
+def test_headings_are_those_of_problem_types():
+    assert known("PROBLEM_TITLES") - OWN <= PROBLEM_TYPES.keys()
+
+
+def test_verdicts_and_findings_are_all_there():
+    assert known("VERDICTS") == {each.value for each in Verdict if each is not Verdict.PLAUSIBLE}
+    assert known("FINDINGS") == {each.value for each in Code}
+
+
+@pytest.mark.parametrize("name", ["FAULTS", "WARNINGS", "ASSUMPTIONS"])
+def test_codes_are_written_somewhere_in_the_service(name: str, code_written: str):
+    of_verdicts = {each.value.replace("_", "-") for each in Verdict}
+    for code in known(name) - OWN - of_verdicts:
+        if OF_FILES.fullmatch(code):
+            code = "{field}-" + code.partition("-")[2]
+        assert f'"{code}"' in code_written, code
+
+
+def test_what_a_motion_comes_from_is_told_as_the_page_expects(code_written: str):
+    page = MESSAGES.parent / "derived" / "kinds" / "animation.tsx"
+    expected = re.findall(
+        r'^const (?:SHIPPED_WALK|NAMED_JOINTS) = "(.+)";', page.read_text("utf-8"), re.MULTILINE
+    )
+    assert len(expected) == 2
+    for source in expected:
+        assert f'source = "{source}' in code_written or f'source=f"{source}' in code_written
+
+
+def test_the_measurements_shown_first_have_labels_in_every_language():
+    for language in ("en", "de"):
+        labels = (MESSAGES / language / "measures.ts").read_text(encoding="utf-8")
+        assert set(CHIEF) <= set(re.findall(r"^    (\w+): \"", labels, re.MULTILINE))
