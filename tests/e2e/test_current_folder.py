@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 
+from service.demo_data.sample import load_sample
 from service.process.interpreter import PYTHON
-from tests.e2e.service import FIT_WITHIN_S
+from tests.e2e.service import FIT_WITHIN_S, started_service, wait_for_estimator
 
 MAQUETTE = Path(sys.executable).with_name("maquette")
 NAMES = ("fitter", "http", "json", "logging", "numpy", "selectors", "service", "signal", "socket")
@@ -75,7 +76,7 @@ def test_the_folders_modules_are_run_where_they_are_looked_for(folder: Folder):
     assert folder.mark.exists()
 
 
-def test_neither_api_nor_worker_nor_estimators_nor_forks_run_what_lies_there(folder: Folder):
+def test_neither_api_nor_worker_nor_their_forks_run_what_lies_there(folder: Folder):
     done = subprocess.run(
         [MAQUETTE, "demo", "--output", "demo-output"],
         cwd=folder.path,
@@ -93,7 +94,6 @@ def test_neither_api_nor_worker_nor_estimators_nor_forks_run_what_lies_there(fol
         f"{MAQUETTE} demo",
         "-m service.cli serve",
         "-m service.worker",
-        "-m service.estimates",
         "multiprocessing.forkserver",
         "multiprocessing.resource_tracker",
     ):
@@ -119,3 +119,15 @@ def test_a_worker_of_its_own_and_its_fork_server_run_nothing_either(folder: Fold
     assert said != [None]
     assert folder.left() == ["maquette-data"]
     assert "multiprocessing.forkserver" in folder.processes.read_text()
+
+
+def test_an_api_alone_and_its_estimator_run_nothing_either(folder: Folder):
+    command = [str(MAQUETTE), "serve", "--no-worker", "--port", "0"]
+    with started_service(command, cwd=folder.path, environment=folder.environment) as client:
+        wait_for_estimator(client)
+        image = {"image": ("sample.jpg", load_sample().image, "image/jpeg")}
+        answer = client.post("/v1/points", files=image)
+    assert not folder.mark.exists(), folder.mark.read_text()
+    assert answer.status_code == 200, answer.text
+    assert folder.left() == ["maquette-data"]
+    assert "-m service.estimates" in folder.processes.read_text()

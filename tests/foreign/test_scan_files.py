@@ -14,6 +14,10 @@ from tests.foreign.test_overlay import overlap
 
 VIEWS = (0, 1)
 
+OVERLAP = 0.88
+"""Of body and segmentation at least: from the side hair, floor between the feet and fingers are a
+tenth of the segmentation, and not of the body."""
+
 LEVEL_TAPES = ("waist_girth_navel", "hip_girth")
 """Taken in a level plane, so that a stranger can cut the mesh at the same height."""
 
@@ -49,7 +53,7 @@ def test_the_body_of_each_view_lies_over_its_own_picture(files: Path, number: in
     body = drawn(files, number)
     segmented = np.asarray(Image.open(files / "scan" / f"segmentation_{number}.png").convert("L"))
     segmented = cv2.resize(segmented, body.shape[::-1], interpolation=cv2.INTER_NEAREST)
-    assert overlap(body, segmented > 127) > 0.9
+    assert overlap(body, segmented > 127) > OVERLAP
     other = drawn(files, 1 - number)
     assert overlap(body, other) < 0.8, "front and side are not told apart"
 

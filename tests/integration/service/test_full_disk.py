@@ -200,7 +200,8 @@ def test_a_service_started_on_a_full_disk_can_erase(disk: SmallDisk):
     with running_service(machine, api_only=True) as service:
         assert service.client.get(f"{path}/result").status_code == 200
         assert service.client.delete(path).status_code == 204
-        assert disk.free_bytes > 2_000_000
+        # The picture's two megabytes, less what the database wrote meanwhile.
+        assert disk.free_bytes > 1_500_000
 
 
 def test_a_key_can_be_revoked_on_a_full_disk(disk: SmallDisk):
