@@ -81,7 +81,7 @@ def lighter_model(model: BodyModel) -> LighterModel:
         model=replace(
             model,
             triangles=lighter.triangles,
-            mean_vertices=fitted[0],
+            mean_vertices=np.ascontiguousarray(fitted[0]),
             shape_basis=np.ascontiguousarray(fitted[1:]),
             part_of_triangle=model.part_of_triangle[lighter.origin],
             triangle_weights=_triangle_weights(model, lighter, fitted[0]),

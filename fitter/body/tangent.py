@@ -99,7 +99,7 @@ def tangent_model(model: BodyModel) -> TangentModel:
             shape_basis=model.shape_basis.transpose(1, 0, 2).astype(np.float32, order="C"),
         ),
         joints_mean=mean,
-        joints_derivative=derivative,
+        joints_derivative=np.ascontiguousarray(derivative),
     )
 
 

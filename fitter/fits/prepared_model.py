@@ -6,9 +6,9 @@ from pathlib import Path
 
 from fitter.body.model import BodyModel
 from fitter.energies.fitting_operators import FittingOperators, searched_operators
-from fitter.fits.usable_model import usable_model
+from fitter.fits.kept_models import kept
+from fitter.fits.usable_model import model_path, usable_model
 from fitter.measurement.anthropometry import MeasuringBody, measuring_body
-from fitter.optimizer.alternation import elimination_ranks
 from fitter.population.measured_population import MeasuredPopulation, measured_population
 from fitter.pose_init.landmark_rig import rig_space
 from fitter.request import Gender
@@ -35,25 +35,30 @@ class PreparedModel:
 
 
 def prepared_model(gender: Gender, *, models: Path | None = None) -> PreparedModel:
-    """A gender's model, loaded and prepared once a process; see :func:`usable_model`.
+    """A gender's model, prepared once a process, or read as it was kept (:func:`kept`).
+
+    See :func:`usable_model` for the arguments.
 
     Raises
     ------
     ModelFileError
         If the file is missing, damaged, of the other gender, or lacks something a fit needs.
     """
-    return _prepared(usable_model(gender, models=models))
+    return _prepared(model_path(gender, models=models), gender)
 
 
 @cache
-def _prepared(model: BodyModel) -> PreparedModel:
+def _prepared(source: Path, gender: Gender) -> PreparedModel:
+    prepared = kept(source, lambda: _prepare(usable_model(gender, models=source.parent)))
+    # Found once here, every process forked later has it.
+    rig_space(prepared.searched.model)
+    return prepared
+
+
+def _prepare(model: BodyModel) -> PreparedModel:
     searched = searched_operators(model)
     assert searched.whole is not None
     operators = searched.whole.operators
-    # Kept beside the model: found here, every process forked later has them.
-    rig_space(searched.model)
-    elimination_ranks(searched.shaded)
-    elimination_ranks(operators.shaded)
     measuring = measuring_body(model, operators.evaluator)
     return PreparedModel(
         operators=operators,

@@ -45,8 +45,13 @@ def usable_model(gender: Gender, *, models: Path | None = None) -> BodyModel:
     ModelFileError
         If the file is missing, damaged, of the other gender, or lacks something a fit needs.
     """
+    return _usable(model_path(gender, models=models), gender)
+
+
+def model_path(gender: Gender, *, models: Path | None = None) -> Path:
+    """The file of a gender's model in a folder, or in the package."""
     packaged = packaged_model_path(gender.value)
-    return _usable(packaged if models is None else models / packaged.name, gender)
+    return packaged if models is None else models / packaged.name
 
 
 def needed_landmarks() -> tuple[str, ...]:

@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Float, Integer
 
 from fitter.arrays import PerVertex, Vertices
+from fitter.numerics.elimination import elimination_order
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -25,11 +26,14 @@ class SurfaceSample:
         (e, 2) into ``vertices``, the smaller first: those whose surroundings touch.
     areas
         (m,) the share of the surface each stands for, 0 for all others.
+    elimination_ranks
+        (k,) when each is eliminated from matrices of this mesh (:func:`elimination_order`).
     """
 
     vertices: Integer[np.ndarray, " k"]
     edges: Integer[np.ndarray, "e 2"]
     areas: PerVertex
+    elimination_ranks: Integer[np.ndarray, " k"]
 
 
 def surface_sample(
@@ -51,10 +55,12 @@ def surface_sample(
     ends = np.sort(place[edges], axis=1)
     shares = np.zeros(len(vertices))
     np.add.at(shares, owners, areas)
+    between = np.unique(ends[ends[:, 0] < ends[:, 1]], axis=0)
     return SurfaceSample(
         vertices=chosen,
-        edges=np.unique(ends[ends[:, 0] < ends[:, 1]], axis=0),
+        edges=between,
         areas=shares / shares.sum(),
+        elimination_ranks=np.argsort(elimination_order(between, len(chosen))),
     )
 
 

@@ -6,7 +6,6 @@ it is the shape that has to change to make the predicted brightness match.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import numpy as np
 from jaxtyping import Float, Integer
@@ -28,7 +27,6 @@ from fitter.optimizer.light_step import (
     with_new_light,
     with_new_shadows,
 )
-from fitter.optimizer.pair_factor import elimination_order
 from fitter.optimizer.reflectance_solve import (
     ReflectanceFields,
     ReflectanceProblem,
@@ -70,8 +68,6 @@ _RELATIVE_ALBEDO_ETA = 0.1
 _RELATIVE_SPECULARITY_ETA = 0.1
 _MARGIN_RINGS = 3
 """Rings of vertices around those seen that get an albedo too: a search may bring them into view."""
-_SAMPLES = 4
-"""Models whose order of elimination is kept."""
 
 _LEAST_USABLE = 200
 _LEAST_FOR_SURROUNDINGS = 150
@@ -310,13 +306,7 @@ def _order_within(
     sample: SurfaceSample, vertices: Integer[np.ndarray, " v"]
 ) -> Integer[np.ndarray, " v"]:
     """Some vertices of a sample in the sample's order of elimination, numbered among themselves."""
-    return np.argsort(elimination_ranks(sample)[vertices])
-
-
-@lru_cache(maxsize=_SAMPLES)
-def elimination_ranks(sample: SurfaceSample) -> Integer[np.ndarray, " s"]:
-    """When each vertex of a model's sample is eliminated; found once a process."""
-    return np.argsort(elimination_order(sample.edges, len(sample.vertices)))
+    return np.argsort(sample.elimination_ranks[vertices])
 
 
 def _hidden(objective: Objective, candidate: Candidate, state: ShadingEvidence) -> HiddenVertices:

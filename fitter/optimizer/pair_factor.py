@@ -1,31 +1,9 @@
-"""Solving with symmetric matrices of one pattern: a mesh's graph, with two unknowns a vertex.
-
-An order of elimination is the costly part of such a factorisation, and does not depend on values:
-it is found once for a mesh, and any part of the mesh keeps it.
-"""
+"""Solving with symmetric matrices of one pattern: a mesh's graph, with two unknowns a vertex."""
 
 import numpy as np
-import qdldl
 from jaxtyping import Float, Integer
-from scipy import sparse
 
 from fitter.optimizer._pair_factor_kernels import factor_pattern, factorise, solve_factorised
-
-
-def elimination_order(edges: Integer[np.ndarray, "e 2"], count: int) -> Integer[np.ndarray, " m"]:
-    """The vertices of a graph in an order in which a factor stays sparse (minimum degree)."""
-    low, high = np.sort(edges, axis=1).T
-    every = np.arange(count)
-    degrees = np.bincount(edges.reshape(-1), minlength=count) + 1.0
-    matrix = sparse.csc_matrix(
-        (
-            np.concatenate([degrees, np.full(len(edges), -1.0)]),
-            (np.concatenate([every, low]), np.concatenate([every, high])),
-        ),
-        shape=(count, count),
-    )
-    _, _, order = qdldl.Solver(matrix, upper=True).factors()
-    return np.asarray(order, dtype=np.int64)
 
 
 class PairFactor:
@@ -36,7 +14,7 @@ class PairFactor:
     edges
         (e, 2) of the mesh.
     order
-        (m,) its vertices in the order of elimination.
+        (m,) its vertices in the order of elimination (:func:`elimination_order`).
     """
 
     def __init__(self, edges: Integer[np.ndarray, "e 2"], order: Integer[np.ndarray, " m"]) -> None:

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from jaxtyping import Float
@@ -53,18 +54,21 @@ def _population(
     mean: Float[np.ndarray, " k"],
     jacobian_at_mean: Float[np.ndarray, "k n"],
 ) -> MeasuredPopulation:
-    def values(shape: Shape, rows: Sequence[int]) -> Float[np.ndarray, " r"]:
-        chosen = replace(body, definitions=tuple(body.definitions[row] for row in rows))
-        return measurement_values(chosen, shape)
-
     return MeasuredPopulation(
         body=body,
         names=tuple(definition.about.name for definition in body.definitions),
         units=tuple(definition.about.unit.value for definition in body.definitions),
         shapes=MeasuredShapes(
-            measure=values,
-            jacobian=lambda shape: measurement_jacobian(body, shape),
+            measure=partial(_values_of_rows, body),
+            jacobian=partial(measurement_jacobian, body),
             mean=mean,
             jacobian_at_mean=jacobian_at_mean,
         ),
     )
+
+
+def _values_of_rows(
+    body: MeasuringBody, shape: Shape, rows: Sequence[int]
+) -> Float[np.ndarray, " r"]:
+    chosen = replace(body, definitions=tuple(body.definitions[row] for row in rows))
+    return measurement_values(chosen, shape)

@@ -17,7 +17,7 @@ from service.commands.local_work import UNUSABLE_INPUT, told, write_files
 from service.commands.terminal import print_result, stage_bars
 from service.demo_data.sample import load_sample
 from service.jobs.inputs import PERSON
-from service.process.kernels import keep_kernels
+from service.process.caches import keep_what_is_costly
 from service.settings import Settings
 from service.submissions.refusal import RefusedError
 from service.submissions.submission import check_submission
@@ -157,7 +157,7 @@ def _fit(
     models: Path | None,
     pipeline: str,
 ) -> PipelineOutput:
-    keep_kernels()
+    keep_what_is_costly()
     settings = Settings()
     checked = check_submission(
         request=request, image=image, mask=mask, max_pixels=settings.max_pixels

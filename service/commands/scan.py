@@ -13,7 +13,7 @@ from api_schemas.scans import ScanChoices, ScanRequest, ScanViewRequest, ViewKin
 from service.commands.fit import PIPELINE, values_from_file
 from service.commands.local_work import UNUSABLE_INPUT, told, write_files
 from service.commands.terminal import print_scan, stage_bars
-from service.process.kernels import keep_kernels
+from service.process.caches import keep_what_is_costly
 from service.settings import Settings
 from service.submissions.scan_submission import ViewFiles, check_scan
 from service.submissions.validation import parsed
@@ -60,7 +60,7 @@ def scan_locally(arguments: ScanArguments, *, pipeline: str = PIPELINE) -> int:
 
 
 def _scan(console: Console, arguments: ScanArguments, *, pipeline: str) -> ScanOutput:
-    keep_kernels()
+    keep_what_is_costly()
     settings = Settings()
     asked = parsed(ScanRequest, _request(arguments), whole="request", called="what is asked for")
     images = [path.read_bytes() for path in arguments.images]

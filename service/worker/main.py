@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from typing import Final
 
 from service.blobs import open_blob_store
+from service.process.caches import keep_what_is_costly
 from service.process.data_folder import prepare_data_folder
 from service.process.disk import open_disk
 from service.process.heap import KEPT
 from service.process.interpreter import SAFE_PATH_VARIABLE
-from service.process.kernels import keep_kernels
 from service.process.stop_request import StopRequest
 from service.settings import Settings
 from service.worker.body_models.asking import COMMAND as MODELS_COMMAND
@@ -67,7 +67,7 @@ def run_worker(
         os.environ.setdefault(variable, value)
     # The fork server and its resource tracker are started by `python -c`.
     os.environ[SAFE_PATH_VARIABLE] = "1"
-    keep_kernels()
+    keep_what_is_costly()
     prepare_data_folder(settings)
     check_detector(settings)
     blobs = open_blob_store(settings)

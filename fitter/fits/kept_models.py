@@ -1,0 +1,157 @@
+"""Prepared models kept in files: read in a hundredth of the time that preparing takes.
+
+A file is mapped, not read: what processes use of it is in memory once for all of them. It is kept
+in the folder that the environment variable FITTER_CACHE_DIR names, and nowhere if that is unset.
+Like Numba's compiled kernels it is code to whoever reads it: the folder must be the user's own.
+"""
+
+import hashlib
+import logging
+import mmap
+import os
+import pickle
+import platform
+import sys
+import tempfile
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from functools import cache
+from importlib.metadata import version
+from pathlib import Path
+from typing import IO, Any, Final, TypeVar
+
+LOG: Final = logging.getLogger(__name__)
+
+VARIABLE: Final = "FITTER_CACHE_DIR"
+
+KEPT: Final = 4
+"""Files, the newest: models of women and men, of two versions or two folders."""
+
+_SUFFIX: Final = ".prepared"
+_PACKAGES: Final = ("numpy", "scipy", "qdldl")
+"""Of others, by whose functions models are prepared."""
+
+_ALIGNED: Final = 64
+_LENGTH_BYTES: Final = 8
+
+Made = TypeVar("Made")
+
+
+def kept(source: Path, make: Callable[[], Made]) -> Made:
+    """What ``make`` makes of a file, or made of it before with the same code.
+
+    Arrays in it can be written to, which changes neither the file nor other processes'. What
+    cannot be kept is made, and that is logged.
+
+    Parameters
+    ----------
+    source
+        The file of which it is made.
+    make
+        Makes it, and raises whatever is wrong with the file.
+    """
+    named = os.environ.get(VARIABLE)
+    if not named or not source.is_file():
+        return make()
+    path = Path(named) / f"{_key(source)}{_SUFFIX}"
+    try:
+        return _read(path)
+    except FileNotFoundError:
+        pass
+    # What a damaged pickle raises is not said anywhere.
+    except Exception as error:
+        LOG.warning("A prepared model in %s is made anew: %s", path.parent, error)
+    made = make()
+    try:
+        _write(path, made)
+        _forget_old(path.parent)
+    except OSError as error:
+        LOG.warning("A prepared model could not be kept in %s: %s", path.parent, error)
+    return made
+
+
+def _key(source: Path) -> str:
+    digest = hashlib.sha256(source.read_bytes())
+    digest.update(_code())
+    return digest.hexdigest()
+
+
+@cache
+def _code() -> bytes:
+    """A digest of everything but the model that what is prepared depends on."""
+    digest = hashlib.sha256(f"{sys.version} {platform.machine()}".encode())
+    for package in _PACKAGES:
+        digest.update(f"{package} {version(package)}".encode())
+    root = Path(__file__).parents[1]
+    for path in sorted((*root.rglob("*.py"), *root.rglob("*.json"))):
+        digest.update(f"{path.relative_to(root)} {path.stat().st_size}".encode())
+        digest.update(path.read_bytes())
+    return digest.digest()
+
+
+def _write(path: Path, made: object) -> None:
+    """A pickle without its arrays, their lengths, and then each of them at an even place."""
+    buffers: list[pickle.PickleBuffer] = []
+    pickled = pickle.dumps(made, protocol=5, buffer_callback=buffers.append)
+    arrays = [buffer.raw() for buffer in buffers]
+    head = pickle.dumps((pickled, [array.nbytes for array in arrays]))
+    path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+    with tempfile.NamedTemporaryFile(dir=path.parent, suffix=".new", delete=False) as file:
+        try:
+            _write_parts(file, [len(head).to_bytes(_LENGTH_BYTES), head, *arrays])
+            file.flush()
+            os.fsync(file.fileno())
+            Path(file.name).replace(path)
+        except OSError:
+            Path(file.name).unlink()
+            raise
+
+
+def _write_parts(file: IO[bytes], parts: Sequence[bytes | memoryview]) -> None:
+    for part in parts:
+        file.write(part)
+        file.write(bytes(-file.tell() % _ALIGNED))
+
+
+def _read(path: Path) -> Any:
+    with path.open("rb") as file:
+        # Private and not read-only: kernels are compiled for arrays that can be written.
+        mapped = memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_COPY))
+    parts = _Parts(mapped)
+    head = parts.taken(int.from_bytes(parts.taken(_LENGTH_BYTES)))
+    pickled, lengths = pickle.loads(head)
+    made = pickle.loads(pickled, buffers=[parts.taken(length) for length in lengths])
+    with suppress(OSError):
+        os.utime(path)
+    return made
+
+
+class _Parts:
+    """The parts of a mapped file, one after the other."""
+
+    def __init__(self, mapped: memoryview) -> None:
+        self._mapped = mapped
+        self._at = 0
+
+    def taken(self, length: int) -> memoryview:
+        """The next part.
+
+        Raises
+        ------
+        EOFError
+            If the file ends before it.
+        """
+        end = self._at + length
+        if end > len(self._mapped):
+            message = f"it has {len(self._mapped)} bytes in place of {end} or more"
+            raise EOFError(message)
+        part = self._mapped[self._at : end]
+        self._at = end + -end % _ALIGNED
+        return part
+
+
+def _forget_old(folder: Path) -> None:
+    files = sorted(folder.glob(f"*{_SUFFIX}"), key=lambda path: path.stat().st_mtime)
+    for path in files[:-KEPT]:
+        with suppress(FileNotFoundError):
+            path.unlink()

@@ -1,0 +1,52 @@
+"""Where compiled kernels and prepared models are kept."""
+
+import os
+
+import pytest
+
+from service.process.caches import VARIABLE, keep_what_is_costly, users_folder
+
+
+@pytest.fixture
+def caches(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.delenv(VARIABLE, raising=False)
+    # Put back at the end, whatever is set meanwhile.
+    monkeypatch.setenv("NUMBA_CACHE_DIR", os.environ.get("NUMBA_CACHE_DIR", ""))
+    return tmp_path
+
+
+def test_models_are_kept_in_the_users_cache_and_nobody_else_reads_them(caches, monkeypatch):
+    monkeypatch.setenv(VARIABLE, "")
+    monkeypatch.delenv(VARIABLE)
+    keep_what_is_costly()
+    assert os.environ[VARIABLE] == str(caches / "maquette")
+    assert (caches / "maquette").stat().st_mode & 0o777 == 0o700
+
+
+@pytest.mark.parametrize("named", ["", "/elsewhere"])
+def test_a_folder_that_the_environment_names_stays(caches, monkeypatch, named):
+    monkeypatch.setenv(VARIABLE, named)
+    keep_what_is_costly()
+    assert os.environ[VARIABLE] == named
+    assert list(caches.iterdir()) == []
+
+
+def test_nothing_is_read_where_others_may_have_put_it(caches):
+    (caches / "maquette").mkdir()
+    (caches / "maquette").chmod(0o777)
+    assert users_folder() is None
+
+
+def test_without_a_home_there_is_no_folder(caches, monkeypatch):
+    (caches / "home").touch()
+    monkeypatch.delenv("XDG_CACHE_HOME")
+    monkeypatch.setenv("HOME", str(caches / "home"))
+    assert users_folder() is None
+
+
+def test_a_cache_is_never_looked_for_in_the_current_folder(caches, monkeypatch):
+    monkeypatch.chdir(caches)
+    monkeypatch.setenv("XDG_CACHE_HOME", "here")
+    assert users_folder() is None
+    assert list(caches.iterdir()) == []
