@@ -11,6 +11,7 @@ from functools import lru_cache
 
 import numpy as np
 from jaxtyping import Float, Integer
+from scipy import sparse
 
 from fitter.arrays import Shape, Vertices
 from fitter.body.model import BodyModel, SparseRows
@@ -121,8 +122,9 @@ def landmark_rig(model: BodyModel, shape: Shape) -> LandmarkRig:
 @lru_cache(maxsize=_MODELS)
 def rig_space(model: BodyModel) -> RigSpace:
     """A model's rigs: some twenty of them, once a process."""
-    mean = rig_of_vertices(model, model.mean_vertices)
-    changes = [rig_of_vertices(model, change) for change in model.shape_basis]
+    shares = _vertex_shares(model)
+    mean = _rig(model, shares, model.mean_vertices)
+    changes = [_rig(model, shares, change) for change in model.shape_basis]
     return RigSpace(
         mean=mean,
         changes=np.stack(
@@ -138,26 +140,35 @@ def rig_space(model: BodyModel) -> RigSpace:
 
 def rig_of_vertices(model: BodyModel, vertices: Vertices) -> LandmarkRig:
     """The rig of a body at rest with a model's mesh."""
-    rows = model.landmarks
+    return _rig(model, _vertex_shares(model), vertices)
+
+
+def _rig(model: BodyModel, shares: sparse.csr_array, vertices: Vertices) -> LandmarkRig:
     rest_joints = _weighted_sums(model.joint_regressor, vertices)
-    landmark = np.repeat(np.arange(len(rows.names)), np.diff(rows.pointers))
-    parts = model.skinning_parts[rows.indices]
-    shares = rows.weights[:, None] * model.skinning_weights[rows.indices]
-    shares /= model.skinning_weights[rows.indices].sum(axis=1, keepdims=True)
-    weights = np.zeros((len(rows.names), len(model.part_names)))
-    arms = np.zeros((*weights.shape, 3))
-    offsets = vertices[rows.indices][:, None] - rest_joints[parts]
-    np.add.at(weights, (landmark[:, None], parts), shares)
-    np.add.at(arms, (landmark[:, None], parts), shares[..., None] * offsets)
+    shape = (len(model.landmarks.names), len(model.part_names))
+    weights = shares.sum(axis=1).reshape(shape)
     return LandmarkRig(
         part_names=model.part_names,
         part_parent=model.part_parent,
         rest_joints=rest_joints,
-        landmark_names=rows.names,
-        rest_landmarks=_weighted_sums(rows, vertices),
+        landmark_names=model.landmarks.names,
+        rest_landmarks=_weighted_sums(model.landmarks, vertices),
         weights=weights,
-        arms=arms,
+        arms=(shares @ vertices).reshape(*shape, 3) - weights[:, :, None] * rest_joints,
     )
+
+
+def _vertex_shares(model: BodyModel) -> sparse.csr_array:
+    """(k p, m) how much of a landmark is each vertex by each part that moves the vertex."""
+    rows = model.landmarks
+    landmark = np.repeat(np.arange(len(rows.names)), np.diff(rows.pointers))
+    parts = model.skinning_parts[rows.indices]
+    shares = rows.weights[:, None] * model.skinning_weights[rows.indices]
+    shares /= model.skinning_weights[rows.indices].sum(axis=1, keepdims=True)
+    row = landmark[:, None] * len(model.part_names) + parts
+    column = np.broadcast_to(rows.indices[:, None], row.shape)
+    size = (len(rows.names) * len(model.part_names), len(model.skinning_parts))
+    return sparse.csr_array((shares.ravel(), (row.ravel(), column.ravel())), shape=size)
 
 
 def _weighted_sums(rows: SparseRows, vertices: Vertices) -> Float[np.ndarray, "r 3"]:

@@ -25,10 +25,9 @@ def _load() -> None:
 
 gc.disable()
 _load()
-gc.enable()
 
 # What is here by now stays: the collector of a fork that looked through it would copy its pages.
 # What has been freed would be copied too, where a fork writes to it.
-gc.collect()
 gc.freeze()
+gc.enable()
 give_back()
