@@ -1,7 +1,7 @@
 """What the kernel knows of the processes under test: who runs, for whom, and what they use."""
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -46,8 +46,14 @@ def processor_s(pid: int, *, with_ended_children: bool = False) -> float:
 
 def own_memory_mib(pid: int) -> float:
     """Memory that the process shares with no other, so that it can be added up."""
-    lines = _bytes(pid, "smaps_rollup").splitlines()
-    return sum(int(line.split()[1]) for line in lines if line.startswith(b"Private_")) / KIB_PER_MIB
+    return sum(memory_mib(pid, ("Private_Clean", "Private_Dirty")))
+
+
+def memory_mib(pid: int, fields: Sequence[str]) -> tuple[float, ...]:
+    """What the kernel's account of a process's memory says of each field; nothing if it is gone."""
+    lines = [line.split() for line in _bytes(pid, "smaps_rollup").decode().splitlines()[1:]]
+    values = {line[0].removesuffix(":"): int(line[1]) / KIB_PER_MIB for line in lines}
+    return tuple(values.get(field, 0.0) for field in fields)
 
 
 def _processes() -> Iterator[Process]:

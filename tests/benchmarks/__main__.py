@@ -16,6 +16,7 @@ FITS = {
     "stages": 20,
     "simplex": 3,
     "memory": 1,
+    "idle": 3,
     "throughput": 10,
     "scaling": 5,
     "startup": 3,
@@ -28,7 +29,8 @@ FITS = {
     "soak": 10,
 }
 """The parts, each a module of this package, and how many fits each makes unless told otherwise:
-of ``startup`` starts, of ``page`` visits, of ``load`` jobs that wait, of ``soak`` minutes."""
+of ``idle`` services, of ``startup`` starts, of ``page`` visits, of ``load`` jobs that wait, of
+``soak`` minutes."""
 
 
 def main(arguments: Sequence[str]) -> int:
