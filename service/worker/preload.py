@@ -3,7 +3,7 @@
 import gc
 from contextlib import suppress
 
-from service.process.heap import give_back
+from service.process.heap import give_back, give_back_files
 
 
 def _load() -> None:
@@ -17,10 +17,11 @@ def _load() -> None:
     # The worker has the same models read and reports what is wrong with them.
     with suppress(ModelFileError):
         settings = Settings()
-        for gender in Gender:
-            prepared_model(gender, models=settings.models_dir)
+        # First: preparing a model compiles what is not compiled yet, and keeps what that took.
         prepare = rehearse_sandbox if settings.sandbox else make_ready
         prepare(settings.models_dir, settings.detector_dir)
+        for gender in Gender:
+            prepared_model(gender, models=settings.models_dir)
 
 
 gc.disable()
@@ -31,3 +32,4 @@ _load()
 gc.freeze()
 gc.enable()
 give_back()
+give_back_files()

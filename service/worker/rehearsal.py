@@ -12,6 +12,7 @@ from PIL import Image
 from fitter.detection.detector import installed_detector
 from fitter.errors import DetectorUnavailableError, ModelFileError
 from service.demo_data.sample import Sample, load_sample
+from service.process.apart import succeeds_apart
 from service.submissions.submission import check_submission
 from service.worker import pipeline
 from service.worker.artifacts import with_result_document
@@ -31,10 +32,10 @@ COMPILED: Final = 0.9
 
 
 def make_ready(models: Path | None, detector: Path | None = None) -> None:
-    """Have everything in memory that fits need; the models are there already.
+    """Have everything in memory that fits need beside the models.
 
-    A second of processor where the kernels are compiled; else the sample is fitted, which compiles
-    them.
+    A second of processor where the kernels are compiled; else the sample is fitted in a child,
+    which compiles them, and here too if no cache can keep them.
 
     Raises
     ------
@@ -44,6 +45,10 @@ def make_ready(models: Path | None, detector: Path | None = None) -> None:
     # Without one, whoever needs it is told.
     with suppress(DetectorUnavailableError):
         installed_detector(detector)
+    if load_compiled_kernels() >= COMPILED:
+        return
+    # What compiles takes a gigabyte. It ends with a child, which leaves the kernels in their cache.
+    succeeds_apart(lambda: rehearse(models, detector))
     if load_compiled_kernels() < COMPILED:
         rehearse(models, detector)
 
