@@ -50,21 +50,31 @@ def warn_of_unknown_names() -> None:
 
 def run_told(command: str, run: Callable[[], int | None]) -> int:
     """Run a command; anything that then proves unusable or unavailable is reported in one line."""
+    try:
+        return run() or 0
+    except Exception as error:
+        told = _told(error)
+        if told is None:
+            raise
+        status, line = told
+        print(f"maquette {command}: {line}", file=sys.stderr)
+        return status
+
+
+def _told(error: Exception) -> tuple[int, str] | None:
+    """The exit status and the line for an error that is no fault of the program's."""
+    # Imported once something has failed: an estimator has no database, and this loads all of it.
     from sqlalchemy.exc import OperationalError
 
     from service.blobs import BlobsUnavailableError
     from service.engine.port import DatabaseUnusableError, EngineUnavailableError
 
-    try:
-        return run() or 0
-    except (DatabaseUnusableError, SettingError) as error:
-        print(f"maquette {command}: {error}", file=sys.stderr)
-        return UNUSABLE_SETTINGS
-    except (EngineUnavailableError, OperationalError) as error:
+    if isinstance(error, DatabaseUnusableError | SettingError):
+        return UNUSABLE_SETTINGS, str(error)
+    if isinstance(error, EngineUnavailableError | OperationalError):
         cause = getattr(error, "orig", None) or error.__cause__ or "no answer"
         line = " ".join(str(cause).split())
-        print(f"maquette {command}: the database is not available ({line}).", file=sys.stderr)
-        return UNAVAILABLE
-    except BlobsUnavailableError as error:
-        print(f"maquette {command}: the storage is not available ({error}).", file=sys.stderr)
-        return UNAVAILABLE
+        return UNAVAILABLE, f"the database is not available ({line})."
+    if isinstance(error, BlobsUnavailableError):
+        return UNAVAILABLE, f"the storage is not available ({error})."
+    return None
