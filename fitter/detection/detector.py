@@ -20,7 +20,7 @@ from fitter.detection.landmark_meanings import (
 )
 from fitter.detection.network import Network
 from fitter.detection.person_detector import DetectedPerson, PersonDetector
-from fitter.detection.weights import read_weights
+from fitter.detection.weights import checked_weights
 from fitter.request import Click
 
 MOST_PERSONS = 8
@@ -122,7 +122,7 @@ def installed_detector(folder: Path | None = None) -> Detector:
     DetectorUnavailableError
         If it is not installed, or its weights are not the ones it was evaluated with.
     """
-    weights = read_weights(folder)
+    weights = checked_weights(folder)
     return Detector(
         PersonDetector(Network(weights.person_detector)),
         LandmarkNetwork(Network(weights.body_landmarks)),

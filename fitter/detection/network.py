@@ -29,15 +29,15 @@ class Network:
 
     Parameters
     ----------
-    content
-        The model's file.
+    file
+        The model's file. It is mapped, not read: nothing may write to it as long as this is used.
     """
 
-    def __init__(self, content: bytes) -> None:
+    def __init__(self, file: Path) -> None:
         from ai_edge_litert.interpreter import Interpreter
 
         with _standard_error_withheld():
-            self._interpreter = Interpreter(model_content=content, num_threads=1)
+            self._interpreter = Interpreter(model_path=str(file), num_threads=1)
             self._interpreter.allocate_tensors()
         self._input = self._interpreter.get_input_details()[0]["index"]
         self._outputs = self._interpreter.get_output_details()

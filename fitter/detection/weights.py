@@ -43,10 +43,10 @@ BODY_LANDMARKS: Final = WeightFile(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DetectorWeights:
-    """The content of both files."""
+    """Both files, each what it must be."""
 
-    person_detector: bytes
-    body_landmarks: bytes
+    person_detector: Path
+    body_landmarks: Path
 
 
 def detector_fault(folder: Path | None = None) -> str | None:
@@ -64,8 +64,8 @@ def detector_fault(folder: Path | None = None) -> str | None:
     return None
 
 
-def read_weights(folder: Path | None = None) -> DetectorWeights:
-    """Read both files from the package, or from a folder that holds them side by side.
+def checked_weights(folder: Path | None = None) -> DetectorWeights:
+    """Check both files of the package, or of a folder that holds them side by side.
 
     Raises
     ------
@@ -76,19 +76,20 @@ def read_weights(folder: Path | None = None) -> DetectorWeights:
     if fault is not None:
         raise DetectorUnavailableError(reason=fault, remedy=REMEDY)
     return DetectorWeights(
-        person_detector=_content(PERSON_DETECTOR, folder),
-        body_landmarks=_content(BODY_LANDMARKS, folder),
+        person_detector=_checked(PERSON_DETECTOR, folder),
+        body_landmarks=_checked(BODY_LANDMARKS, folder),
     )
 
 
-def _content(file: WeightFile, folder: Path | None) -> bytes:
+def _checked(file: WeightFile, folder: Path | None) -> Path:
     path = _path(file, folder)
     assert path is not None, "the caller has looked for faults"
-    content = path.read_bytes()
-    if hashlib.sha256(content).hexdigest() != file.sha256:
+    with path.open("rb") as content:
+        digest = hashlib.file_digest(content, "sha256").hexdigest()
+    if digest != file.sha256:
         reason = f"{file.name} is another file than that of {CARRIER_REQUIREMENT}."
         raise DetectorUnavailableError(reason=reason, remedy=REMEDY)
-    return content
+    return path
 
 
 def _path(file: WeightFile, folder: Path | None) -> Path | None:

@@ -1,7 +1,6 @@
 """The paper's optimiser: Nelder and Mead's simplex search on the same energy (section 3)."""
 
 import numpy as np
-from scipy.optimize import minimize
 
 from fitter.energies.objective import Body, Candidate, Objective
 from fitter.optimizer.damped_descent import EnergyObserver
@@ -50,6 +49,9 @@ def minimize_simplex(
         if evaluations % _REPORT_EVERY == 0:
             on_energies(best.energies)
         return candidate.total
+
+    # Loaded by those who ask for it: three megabytes, and a tenth of a second.
+    from scipy.optimize import minimize
 
     dimension = space.directions.shape[1]
     corners = np.vstack([np.zeros(dimension), np.eye(dimension)])

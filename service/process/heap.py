@@ -29,7 +29,7 @@ DONT_NEED: Final = 4
 """Linux's MADV_DONTNEED: pages of a file that nobody has written to are read from it again."""
 
 MAPPING: Final = re.compile(
-    r"^([0-9a-f]+)-([0-9a-f]+) r-.p \S+ \S+ \d+ +/.*\n(?:[A-Z]\w+:.*\n)*?Anonymous: +0 kB$",
+    r"^([0-9a-f]+)-([0-9a-f]+) r..[ps] \S+ \S+ \d+ +/.*\n(?:[A-Z]\w+:.*\n)*?Anonymous: +0 kB$",
     flags=re.MULTILINE,
 )
 """In the kernel's account of a process's memory: a file's pages, none of them written to."""

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Final
 
 import fitter.body
-from fitter.detection.weights import read_weights
+from fitter.detection.weights import checked_weights
 from fitter.errors import DetectorUnavailableError
 from service.settings import SettingError, Settings
 from service.worker.body_models.asking import ModelsBeingRead, unusable_models
@@ -38,7 +38,7 @@ def check_detector(settings: Settings) -> None:
     if settings.detector_dir is None:
         return
     try:
-        read_weights(settings.detector_dir)
+        checked_weights(settings.detector_dir)
     except DetectorUnavailableError as error:
         raise SettingError(str(error), name="detector_dir", value=settings.detector_dir) from error
 

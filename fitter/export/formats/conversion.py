@@ -5,7 +5,6 @@ from typing import Final
 
 from fitter.export.formats.obj import mtl_file, obj_file
 from fitter.export.formats.shown_body import ShownBody, shown_body
-from fitter.export.formats.trimesh_files import ply_file, stl_file
 
 
 class UsdMissingError(Exception):
@@ -35,6 +34,19 @@ def _mtl(body: ShownBody) -> bytes:
     return mtl_file(body, body.texture)
 
 
+def _ply(body: ShownBody) -> bytes:
+    # Trimesh brings a hundred modules, and is loaded by whom one of its formats is asked of.
+    from fitter.export.formats.trimesh_files import ply_file
+
+    return ply_file(body)
+
+
+def _stl(body: ShownBody) -> bytes:
+    from fitter.export.formats.trimesh_files import stl_file
+
+    return stl_file(body)
+
+
 def _usdz(body: ShownBody) -> bytes:
     try:
         # An optional extra of 200 MB, loaded by whom it is asked of.
@@ -47,8 +59,8 @@ def _usdz(body: ShownBody) -> bytes:
 FORMATS: Final[Mapping[str, Callable[[ShownBody], bytes]]] = {
     "obj": obj_file,
     "mtl": _mtl,
-    "ply": ply_file,
-    "stl": stl_file,
+    "ply": _ply,
+    "stl": _stl,
     "usdz": _usdz,
 }
 """By the ending of a file's name; ``mtl`` is the material file of a textured OBJ."""

@@ -9,38 +9,39 @@ import pytest
 from fitter.detection.weights import (
     BODY_LANDMARKS,
     PERSON_DETECTOR,
+    checked_weights,
     detector_fault,
-    read_weights,
 )
 from fitter.errors import DetectorUnavailableError
 
 
 def test_the_installed_package_has_both_files():
     assert detector_fault() is None
-    weights = read_weights()
-    assert len(weights.person_detector) > 1_000_000
-    assert len(weights.body_landmarks) > 1_000_000
+    weights = checked_weights()
+    assert weights.person_detector.name == PERSON_DETECTOR.name
+    assert weights.body_landmarks.name == BODY_LANDMARKS.name
 
 
 def test_a_folder_may_hold_them(tmp_path):
-    weights = read_weights()
-    (tmp_path / PERSON_DETECTOR.name).write_bytes(weights.person_detector)
-    (tmp_path / BODY_LANDMARKS.name).write_bytes(weights.body_landmarks)
-    assert read_weights(tmp_path) == weights
+    weights = checked_weights()
+    (tmp_path / PERSON_DETECTOR.name).write_bytes(weights.person_detector.read_bytes())
+    (tmp_path / BODY_LANDMARKS.name).write_bytes(weights.body_landmarks.read_bytes())
+    found = checked_weights(tmp_path)
+    assert (found.person_detector.parent, found.body_landmarks.parent) == (tmp_path, tmp_path)
 
 
 def test_a_file_that_is_not_there_is_named(tmp_path):
     with pytest.raises(DetectorUnavailableError, match=PERSON_DETECTOR.name) as raised:
-        read_weights(tmp_path)
+        checked_weights(tmp_path)
     assert "pip install" in raised.value.remedy
 
 
 def test_another_file_of_the_same_name_is_refused(tmp_path):
-    weights = read_weights()
-    (tmp_path / PERSON_DETECTOR.name).write_bytes(weights.person_detector)
-    (tmp_path / BODY_LANDMARKS.name).write_bytes(weights.body_landmarks[:-1] + b"x")
+    weights = checked_weights()
+    (tmp_path / PERSON_DETECTOR.name).write_bytes(weights.person_detector.read_bytes())
+    (tmp_path / BODY_LANDMARKS.name).write_bytes(weights.body_landmarks.read_bytes()[:-1] + b"x")
     with pytest.raises(DetectorUnavailableError, match=BODY_LANDMARKS.name):
-        read_weights(tmp_path)
+        checked_weights(tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -57,7 +58,7 @@ def test_without_runtime_or_weights_there_is_no_detector(monkeypatch, tmp_path, 
     monkeypatch.chdir(tmp_path)
     assert detector_fault() is not None
     with pytest.raises(DetectorUnavailableError, match=told):
-        read_weights()
+        checked_weights()
 
 
 def test_loading_the_networks_writes_nothing_into_its_caller_s_log():

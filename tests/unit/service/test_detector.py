@@ -41,9 +41,9 @@ def test_a_worker_without_it_ends_a_fit_that_wants_points_proposed(tmp_path: Pat
 
 
 def test_files_that_are_others_are_an_unusable_setting(tmp_path: Path):
-    content = weights.read_weights()
-    (tmp_path / DETECTOR_FILES[0]).write_bytes(content.person_detector)
-    (tmp_path / DETECTOR_FILES[1]).write_bytes(content.body_landmarks)
+    given = weights.checked_weights()
+    (tmp_path / DETECTOR_FILES[0]).write_bytes(given.person_detector.read_bytes())
+    (tmp_path / DETECTOR_FILES[1]).write_bytes(given.body_landmarks.read_bytes())
     check_detector(Settings(detector_dir=tmp_path))
     (tmp_path / DETECTOR_FILES[1]).write_bytes(b"something else")
     with pytest.raises(SettingError) as caught:
