@@ -82,12 +82,20 @@ def searched_operators(model: BodyModel) -> FittingOperators:
     """Prepare a model for searching on fewer vertices; ``whole`` leads back to all of them."""
     lighter = lighter_model(model)
     searched = fitting_operators(lighter.model)
-    whole = replace(fitting_operators(model), shaded=lighter.whole_sample(searched.shaded))
+    whole = _operators(model, lighter.whole_sample(searched.shaded))
     return replace(searched, whole=WholeBody(operators=whole, lighter=lighter))
 
 
 def fitting_operators(model: BodyModel) -> FittingOperators:
     """Prepare a model for fitting."""
+    edges = mesh_topology(model.triangles, vertex_count=len(model.mean_vertices)).edges
+    areas = vertex_areas(model.mean_vertices, model.triangles)
+    return _operators(
+        model, surface_sample(model.mean_vertices, edges, areas, spacing=SHADED_SPACING_M)
+    )
+
+
+def _operators(model: BodyModel, shaded: SurfaceSample) -> FittingOperators:
     evaluator = ScapeEvaluator(model)
     tangent = tangent_model(model)
     canonical = evaluator.body_frame_vertices(
@@ -99,12 +107,11 @@ def fitting_operators(model: BodyModel) -> FittingOperators:
     )
     penetration = penetration_proxy(model, canonical)
     m = len(model.mean_vertices)
-    topology = mesh_topology(model.triangles, vertex_count=m)
     return FittingOperators(
         model=model,
         evaluator=evaluator,
         tangent=tangent,
-        topology=topology,
+        topology=mesh_topology(model.triangles, vertex_count=m),
         rings=vertex_rings(model.triangles, m),
         pose_prior=pose_prior(model.part_names, model.part_parent, tangent.joints_mean),
         penetration=penetration,
@@ -112,10 +119,5 @@ def fitting_operators(model: BodyModel) -> FittingOperators:
         sphere_attachments=attached_rows(tangent, penetration.centres),
         joint_attachments=attached_rows(tangent, model.joint_regressor),
         stance_vectors=stance_vectors(model.part_names),
-        shaded=surface_sample(
-            model.mean_vertices,
-            topology.edges,
-            vertex_areas(model.mean_vertices, model.triangles),
-            spacing=SHADED_SPACING_M,
-        ),
+        shaded=shaded,
     )

@@ -1,4 +1,4 @@
-"""Numba kernel of the supernodal solve; see :mod:`fitter.numerics.supernodal`."""
+"""Numba kernels of the supernodal solve; see :mod:`fitter.numerics.supernodal`."""
 
 from typing import no_type_check
 
@@ -87,3 +87,35 @@ def solve_supernodal(
         p = uint32(permutation[i])
         for c in range(3):
             result[p, c] = work[i, c]
+
+
+@no_type_check
+@njit(cache=True)
+def fill_blocks(
+    pointers,
+    indices,
+    values,
+    starts,
+    row_pointers,
+    rows,
+    triangle_pointers,
+    triangles,
+    rectangle_pointers,
+    rectangles,
+):
+    """Entries of a strictly lower triangular matrix (CSC, sorted) to their places in the blocks."""
+    for block in range(len(starts) - 1):
+        start, stop = starts[block], starts[block + 1]
+        width = stop - start
+        for column in range(start, stop):
+            place = row_pointers[block]
+            for entry in range(pointers[column], pointers[column + 1]):
+                row = indices[entry]
+                if row < stop:
+                    inside = (row - start) * width + column - start
+                    triangles[triangle_pointers[block] + inside] = values[entry]
+                    continue
+                while rows[place] != row:
+                    place += 1
+                below = (place - row_pointers[block]) * width + column - start
+                rectangles[rectangle_pointers[block] + below] = values[entry]

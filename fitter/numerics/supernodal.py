@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Float, Integer
 from scipy import sparse
 
-from fitter.numerics._supernodal_kernels import solve_supernodal
+from fitter.numerics._supernodal_kernels import fill_blocks, solve_supernodal
 
 # A column joins the block before it if the zeros then stored are no more than these few and this
 # share of the block.
@@ -92,20 +92,24 @@ def supernodal_factor(
     rectangle_pointers = _ends_before(widths * heights)
     triangles = np.zeros(int((widths * widths).sum()))
     rectangles = np.zeros(int((widths * heights).sum()))
-    for block, pattern in enumerate(patterns):
-        start, width = starts[block], widths[block]
-        for column in range(start, start + width):
-            span = slice(pointers[column], pointers[column + 1])
-            rows, entries = indices[span], values[span]
-            inside = rows < start + width
-            within = (rows[inside] - start) * width + column - start
-            triangles[triangle_pointers[block] + within] = entries[inside]
-            below = np.searchsorted(pattern, rows[~inside]) * width + column - start
-            rectangles[rectangle_pointers[block] + below] = entries[~inside]
+    row_pointers = np.concatenate([[0], np.cumsum(heights)])
+    rows = np.concatenate(patterns).astype(np.int32)
+    fill_blocks(
+        pointers,
+        indices,
+        values,
+        starts,
+        row_pointers,
+        rows,
+        triangle_pointers,
+        triangles,
+        rectangle_pointers,
+        rectangles,
+    )
     return SupernodalFactor(
         starts=starts,
-        row_pointers=np.concatenate([[0], np.cumsum(heights)]),
-        rows=np.concatenate(patterns).astype(np.int32),
+        row_pointers=row_pointers,
+        rows=rows,
         triangle_pointers=triangle_pointers,
         triangles=triangles,
         rectangle_pointers=rectangle_pointers,
