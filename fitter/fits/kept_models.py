@@ -65,6 +65,8 @@ def kept(source: Path, make: Callable[[], Made]) -> Made:
     try:
         _write(path, made)
         _forget_old(path.parent)
+        # What was made would be in memory, used or not.
+        return _read(path)
     except OSError as error:
         LOG.warning("A prepared model could not be kept in %s: %s", path.parent, error)
     return made

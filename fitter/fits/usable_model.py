@@ -4,7 +4,6 @@ It is enough to say which models there are, and that they can be used. Preparing
 (:mod:`fitter.fits.prepared_model`) takes ten times as long, and the compiled kernels.
 """
 
-from functools import cache
 from pathlib import Path
 
 from fitter.body.joint_limits import JOINT_RANGES
@@ -31,7 +30,7 @@ NEEDED_PARTS = (
 
 
 def usable_model(gender: Gender, *, models: Path | None = None) -> BodyModel:
-    """A gender's model, loaded and checked once a process.
+    """A gender's model, loaded and checked.
 
     Parameters
     ----------
@@ -45,7 +44,10 @@ def usable_model(gender: Gender, *, models: Path | None = None) -> BodyModel:
     ModelFileError
         If the file is missing, damaged, of the other gender, or lacks something a fit needs.
     """
-    return _usable(model_path(gender, models=models), gender)
+    path = model_path(gender, models=models)
+    model = load_body_model(path, gender=gender.value)
+    _check_names(path, model)
+    return model
 
 
 def model_path(gender: Gender, *, models: Path | None = None) -> Path:
@@ -63,13 +65,6 @@ def needed_landmarks() -> tuple[str, ...]:
         if not point.startswith(JOINT_PREFIX)
     )
     return tuple(dict.fromkeys((*POINT_NAMES, *measured)))
-
-
-@cache
-def _usable(path: Path, gender: Gender) -> BodyModel:
-    model = load_body_model(path, gender=gender.value)
-    _check_names(path, model)
-    return model
 
 
 def _check_names(path: Path, model: BodyModel) -> None:
