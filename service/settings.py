@@ -259,8 +259,8 @@ class Settings(BaseSettings):
         le=MOST_PROCESSES,
         description=(
             "Processes beside the API that answer bodies and initial poses, propose points and "
-            "write other formats, one question at a time each; about 400 MB each, 100 more with "
-            "the detector and 100 more once they wrote USDZ."
+            "write other formats, one question at a time each; about 110 MB each beside a worker, "
+            "400 elsewhere, 100 more once they wrote USDZ."
         ),
     )
     job_time_limit_s: float = Field(
