@@ -53,6 +53,10 @@ class Descents:
         searches = [settle, descend] if self.meets_lines else [descend]
         return self._renewing(searches)(objective, start)
 
+    def first_steps(self, objective: Objective, start: Body, report: EnergyObserver) -> Minimum:
+        """The same as far as a search of several pictures needs it to go on from."""
+        return self._renewing([self.search(self.limits.contest, report)])(objective, start)
+
     def shading(
         self,
         objective: Objective,

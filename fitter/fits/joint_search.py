@@ -2,7 +2,8 @@
 
 Searches follow those of a single picture (:mod:`fitter.fits.descents`, and section 5's alternation,
 :mod:`fitter.optimizer.alternation`): outlines are found again before each, and light and
-reflectance of every picture in turn with the bodies in all of them.
+reflectance of every picture in turn with the bodies in all of them. They end earlier, and take
+fewer rounds, for where several views tell the depth shading has less left to tell.
 """
 
 from collections.abc import Sequence
@@ -20,8 +21,7 @@ from fitter.fits.foretold import Foretold, foretold
 from fitter.fits.joint_view import JointView
 from fitter.fits.lit_view import LitView, first_lit
 from fitter.fits.settling import compared_with, settle
-from fitter.optimizer.alternation import ROUND_TOLERANCES
-from fitter.optimizer.damped_descent import SETTLED_NATS, EnergyObserver
+from fitter.optimizer.damped_descent import EnergyObserver
 from fitter.optimizer.gauss_newton import Minimum
 from fitter.optimizer.joint_gauss_newton import JointMinimum, minimize_jointly
 from fitter.optimizer.joint_uncertainty import joint_certainty
@@ -35,6 +35,16 @@ SHARED_ERROR = 0.2
 """Correlation of the errors of two pictures that are searched together. It is less than that of
 whole fits of one picture (:data:`fitter.applications.several_pictures.SHARED_ERROR`), because what
 a prior about depth makes them err in alike, another view tells."""
+
+ROUGHLY_SETTLED_NATS = 0.5
+"""Gain below which a search ends that another follows."""
+
+LAST_SETTLED_NATS = 0.1
+"""The same of the last: twice that of one picture, for two are about twice as rough."""
+
+ROUNDS = ((0, ROUGHLY_SETTLED_NATS), (2, LAST_SETTLED_NATS))
+"""The first and the last round of the alternation, by their number in
+:data:`fitter.optimizer.alternation.SMOOTHNESS_SCHEDULE`, and where the search of each ends."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -72,9 +82,7 @@ def search_jointly(
         attributes=known.attributes,
     )
 
-    def minimum(
-        energies: Sequence[Objective], most: int, settled_nats: float = SETTLED_NATS
-    ) -> JointMinimum:
+    def minimum(energies: Sequence[Objective], most: int, settled_nats: float) -> JointMinimum:
         """Search against outlines that are found anew along the present bodies."""
         about = _about(views, energies, bodies)
         return minimize_jointly(
@@ -86,17 +94,18 @@ def search_jointly(
         )
 
     limits = limits_of(OptimizerKind.GAUSS_NEWTON)
-    found = minimum([view.objective for view in views], limits.contest)
-    bodies = found.candidate.views
-    found = minimum([view.objective for view in views], limits.silhouette_and_edges)
+    found = minimum(
+        [view.objective for view in views], limits.silhouette_and_edges, ROUGHLY_SETTLED_NATS
+    )
     bodies = found.candidate.views
     lit = [first_lit(view, seen) for view, seen in zip(views, found.candidate.views, strict=True)]
-    if any(each.shading is not None for each in lit):
-        for number, settled_nats in enumerate(ROUND_TOLERANCES):
-            seen = found.candidate.views
-            lit = [each.next(body, number) for each, body in zip(lit, seen, strict=True)]
-            found = minimum([each.energy for each in lit], limits.shading_round, settled_nats)
-            bodies = found.candidate.views
+    shows_light = any(each.shading is not None for each in lit)
+    for number, settled_nats in ROUNDS if shows_light else ROUNDS[-1:]:
+        seen = found.candidate.views
+        lit = [each.next(body, number) for each, body in zip(lit, seen, strict=True)]
+        most = limits.shading_round if shows_light else limits.silhouette_and_edges
+        found = minimum([each.energy for each in lit], most, settled_nats)
+        bodies = found.candidate.views
     return _settled(views, known, objective, lit, found)
 
 

@@ -37,7 +37,7 @@ class JointView:
 
 
 def view_of(picture: Outlined) -> JointView:
-    """A picture that was searched as far as the minimum of E1."""
+    """A picture that was searched by itself until near the minimum of E1."""
     return JointView(
         request=picture.request,
         observation=picture.observation,

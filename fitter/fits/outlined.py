@@ -1,4 +1,4 @@
-"""One picture by itself, as far as the minimum of E1: what every fit begins with."""
+"""One picture by itself, to the minimum of E1 or near it: what every fit and scan begins with."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -40,7 +40,7 @@ class Outlined:
     trimap, segmentation
         Of the second cut; no tri-map where the caller sent a mask.
     objective, minimum
-        E1 and its minimum.
+        E1 and its minimum, or a body near that for one of several pictures.
     evaluations
         True energies computed so far.
     """
@@ -65,8 +65,12 @@ def outlined(
     *,
     models: Path | None = None,
     detector_weights: Path | None = None,
+    one_of_several: bool = False,
 ) -> Outlined:
     """Sections 3.1 to 3.3: pose from points, the person cut out twice, the minimum of E1.
+
+    ``one_of_several`` says that a search of several pictures goes on from here, so that a few steps
+    towards the minimum are enough.
 
     Raises
     ------
@@ -127,7 +131,8 @@ def outlined(
             hopeless_nats=limits.hopeless_nats,
             contest=searches.search(limits.contest, report),
         )
-        minimum = searches.silhouette_and_edges(objective, tried.winner, report)
+        descend = searches.first_steps if one_of_several else searches.silhouette_and_edges
+        minimum = descend(objective, tried.winner, report)
     return Outlined(
         request=request,
         observation=observation,

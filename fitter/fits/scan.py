@@ -119,7 +119,7 @@ def scan(
     detector_weights: Path | None = None,
     observe: Callable[[ScanProgress], None] = lambda _: None,
 ) -> ScanResult:
-    """Fit one body to all pictures: each by itself as far as its outline, then all together.
+    """Fit one body to all pictures: each by itself until near its outline, then all together.
 
     Raises
     ------
@@ -135,7 +135,13 @@ def scan(
         clock = StageClock(_of_view(number, len(views), observe))
         try:
             pictures.append(
-                outlined(_posed(view), clock, models=models, detector_weights=detector_weights)
+                outlined(
+                    _posed(view),
+                    clock,
+                    models=models,
+                    detector_weights=detector_weights,
+                    one_of_several=True,
+                )
             )
         except InvalidInputError as error:
             raise of_view(number, error) from error
