@@ -14,11 +14,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, Final
 
-from llvmlite import binding
+from numba.core import codegen
 from numba.core.caching import FunctionCache
 from numba.core.registry import CPUDispatcher
 
 PACKAGE: Final = "fitter."
+
+LLVM: Final[Any] = vars(codegen)["ll"]
+"""What Numba itself calls LLVM by."""
 
 
 def load_compiled_kernels() -> float:
@@ -65,11 +68,11 @@ class _Bitcode:
 
     content: bytes
 
-    def clone(self) -> binding.ModuleRef:
-        return binding.parse_bitcode(self.content)
+    def clone(self) -> Any:
+        return LLVM.parse_bitcode(self.content)
 
 
 def _shrink(library: Any) -> None:
     """Keep as bitcode what others would link; a library compiled here keeps what it is made of."""
-    if isinstance(library._shared_module, binding.ModuleRef) and library._disable_inspection:
+    if isinstance(library._shared_module, LLVM.ModuleRef) and library._disable_inspection:
         library._shared_module = _Bitcode(library._shared_module.as_bitcode())
