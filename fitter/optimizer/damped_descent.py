@@ -17,6 +17,9 @@ _SMALLEST_DAMPING, _LARGEST_DAMPING = 1e-6, 1e4
 # A fixed rise and fall had half of its evaluations rejected and ended 2 to 12 % higher.
 _FASTEST_FALL, _FASTEST_RISE = 1.0 / 3.0, 5.0
 _FIRST_RISE = 2.0
+_PROMISED_AFTER_REJECTION = 0.7
+"""Where a step was rejected, one is tried that promises at most this share of it: with a damping so
+small that it changes nothing, the next step would end nearly where the rejected one did."""
 
 SETTLED_NATS = 0.05
 """A step that promises less is not tried, and two in a row that gain less end the search. A tenth
@@ -104,19 +107,21 @@ def descend(
     while evaluations < max_evaluations:
         offered = paraboloid(now)
         accepted: Point | None = None
+        most_promised = np.inf
         while evaluations < max_evaluations and damping < _LARGEST_DAMPING:
             offer = offered(damping)
             if offer.promised < settled_nats:
                 return Descent(point=now, converged=True, evaluations=evaluations)
-            reached = offer.taken()
-            evaluations += 1
-            if reached is not None and reached.total < now.total:
-                accepted = reached
-                gain = (now.total - reached.total) / offer.promised
-                change = np.clip(1.0 - (2.0 * gain - 1.0) ** 3, _FASTEST_FALL, _FASTEST_RISE)
-                damping = max(damping * float(change), _SMALLEST_DAMPING)
-                rise = _FIRST_RISE
-                break
+            if offer.promised <= most_promised:
+                reached = offer.taken()
+                evaluations += 1
+                if reached is not None and reached.total < now.total:
+                    accepted = reached
+                    change = damping_change((now.total - reached.total) / offer.promised)
+                    damping = max(damping * change, _SMALLEST_DAMPING)
+                    rise = _FIRST_RISE
+                    break
+                most_promised = _PROMISED_AFTER_REJECTION * offer.promised
             damping *= rise
             rise *= 2.0
         if accepted is None:
@@ -130,3 +135,8 @@ def descend(
         if settled == 2:
             return Descent(point=now, converged=True, evaluations=evaluations)
     return Descent(point=now, converged=False, evaluations=evaluations)
+
+
+def damping_change(gain: float) -> float:
+    """Factor of the damping after a step that gained this share of what it promised."""
+    return float(np.clip(1.0 - (2.0 * gain - 1.0) ** 3, _FASTEST_FALL, _FASTEST_RISE))

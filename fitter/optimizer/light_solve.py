@@ -14,6 +14,7 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.numerics.robust import geman_mcclure_weights
+from fitter.optimizer.damped_descent import damping_change
 from fitter.optimizer.light_sums import LightSums
 from fitter.optimizer.lit_surface import LightEstimate, LitSurface
 from fitter.parameters import Light, LightKind, Surroundings
@@ -47,8 +48,10 @@ AMBIENT_COLUMNS = slice(3, -2)
 _LEAST_SURROUNDINGS, _LEAST_LAMP = 0.01, 0.02
 """As shares of the lamp's light and of the surroundings': their ratio stays finite."""
 
-_DAMPING_DOWN, _DAMPING_UP = 0.3, 5.0
+_FIRST_DAMPING, _DAMPING_UP = 0.1, 5.0
 _LARGEST_DAMPING = 1e6
+_SETTLED = 2e-4
+"""Share of the energy: a step that promises or gains less ends the search."""
 
 # First guesses when the caller gave none: frontal and from both sides, level and from above.
 _GUESSED_AZIMUTHS = (-0.9, 0.0, 0.9)
@@ -61,7 +64,7 @@ def estimate_light(surface: LitSurface, start: LightEstimate, *, iterations: int
     """Descend from one light by damped, reweighted Gauss-Newton; the energy never rises."""
     sums = LightSums(surface, surrounded=start.light.surroundings is not None)
     now = replace(start, energy=sums.energy(start) + _prior(start))
-    damping = 1e-2
+    damping = _FIRST_DAMPING
     for _ in range(iterations):
         matrix, gradient = sums.normal_equations(now)
         if now.light.kind is LightKind.POINT:
@@ -80,13 +83,17 @@ def estimate_light(surface: LitSurface, start: LightEstimate, *, iterations: int
         before = now.energy
         while damping < _LARGEST_DAMPING:
             step = np.linalg.solve(matrix + damping * np.diag(matrix.diagonal() + 1e-12), -gradient)
+            promised = -float(step @ (gradient + 0.5 * matrix @ step))
+            if promised < _SETTLED * before:
+                return now
             candidate = _stepped(now, step, surface.ambient_limit)
             candidate = replace(candidate, energy=sums.energy(candidate) + _prior(candidate))
-            if candidate.energy < now.energy:
-                now, damping = candidate, max(damping * _DAMPING_DOWN, 1e-8)
+            if candidate.energy < before:
+                now = candidate
+                damping *= damping_change((before - now.energy) / promised)
                 break
             damping *= _DAMPING_UP
-        if before - now.energy < 1e-5 * before:
+        if before - now.energy < _SETTLED * before:
             break
     return now
 
