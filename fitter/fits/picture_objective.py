@@ -24,7 +24,7 @@ from fitter.request import Clothing
 from fitter.segmentation.bones import clicked_bones, foot_bones
 from fitter.segmentation.grabcut import Segmentation, border_warnings, segment
 from fitter.segmentation.preference import preference
-from fitter.segmentation.trimap import Trimap, first_band, seeded_trimap, trimap
+from fitter.segmentation.trimap import Trimap, TrimapLabel, first_band, seeded_trimap, trimap
 
 RESEGMENTED_BAND = 0.5
 """Width of the second band as a share of the first. The picture is segmented again around the body
@@ -46,28 +46,36 @@ def segmented(
     """The caller's mask, or GrabCut (section 3.2).
 
     Its tri-map lies around the detector's mask if there is one, else around a body. ``fitted`` says
-    that the body was fitted to the picture, and is no first guess.
+    that the body was fitted to the picture, and is no first guess: for a first guess the detector's
+    mask is near enough as it is.
     """
     if observation.mask is not None:
         return None, Segmentation(mask=observation.mask, warnings=border_warnings(observation.mask))
     vertices = prepared.searched.evaluator.vertices(parameters)
-    silhouette = render(vertices, prepared.searched.model.triangles, observation.camera).silhouette
     landmarks = prepared.searched.model.landmarks
     points = observation.camera.project(regress(landmarks, vertices))
     seen = dict(zip(landmarks.names, points, strict=True))
     bones = np.concatenate(
         [clicked_bones(observation.clicks), foot_bones(observation.clicks, seen)]
     )
+    labels = None if observation.seed is None else seeded_trimap(observation.seed, bones)
+    if observation.seed is not None and labels is not None and not fitted:
+        return labels, _uncut(observation.seed, labels)
+    silhouette = render(vertices, prepared.searched.model.triangles, observation.camera).silhouette
     # The body inside loose clothes does not say how far they reach.
     telling = fitted and observation.clothing is Clothing.TIGHT
-    if observation.seed is not None:
-        labels = seeded_trimap(observation.seed, bones)
-        if labels is not None:
-            preferred = preference(observation.seed, silhouette if telling else None)
-            return labels, segment(observation.display, labels, preferred)
+    if observation.seed is not None and labels is not None:
+        preferred = preference(observation.seed, silhouette if telling else None)
+        return labels, segment(observation.display, labels, preferred)
     share = RESEGMENTED_BAND if telling else 1.0
     labels = trimap(silhouette, bones, band=share * first_band(silhouette, bones))
     return labels, segment(observation.display, labels)
+
+
+def _uncut(seed: GreyImage, labels: Trimap) -> Segmentation:
+    """The detector's mask, and the clicked bones where it lacks them."""
+    mask = (seed > 0.5) | (labels == TrimapLabel.FOREGROUND)
+    return Segmentation(mask=mask, warnings=border_warnings(mask))
 
 
 def silhouette_and_edges(
