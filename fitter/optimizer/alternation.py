@@ -55,12 +55,12 @@ REPORTED_SMOOTHNESS = 0.3
 """λ₁ = λ₂ of the reflectance that is reported, once the body no longer moves: at 5, dark cloth may
 still cost more as an edge of albedo than as an error of intensity."""
 
-GRADUATION = ((8.0, 2), (3.0, 2), (1.0, 3))
+GRADUATION = ((8.0, 2), (3.0, 2), (1.0, 2))
 """Factors of η₁ and iterations of each reflectance solve. Graduated non-convexity: cloth and hair
 are far from the first, uniform albedo, and a narrow robust function would treat them as outliers
 for good instead of giving them an albedo of their own."""
 
-REFINEMENT = ((1.0, 3),)
+REFINEMENT = ((1.0, 2),)
 """The same, starting from a reflectance already found."""
 
 # η₂ and η₃ relative to the median albedo: larger steps than this are edges of cloth or hair.
