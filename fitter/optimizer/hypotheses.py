@@ -58,14 +58,15 @@ def try_hypotheses(
     contenders, hopeless_nats
         How many of the best results go on at most; only those less than so far above the best do.
     contest
-        The search from those.
+        The search from those, where there are several.
     """
     found = [trial(wide, start) for start in starts]
     evaluations = sum(minimum.evaluations for minimum in found)
     by_energy = sorted(range(len(found)), key=lambda index: found[index].candidate.total)
     bound = found[by_energy[0]].candidate.total + hopeless_nats
     contending = [index for index in by_energy[:contenders] if found[index].candidate.total < bound]
-    for index in contending:
+    # One alone has nothing to win: whoever searches on from it does so with a sharper objective.
+    for index in contending if len(contending) > 1 else ():
         found[index] = contest(wide, found[index].candidate)
         evaluations += found[index].evaluations
     ends = tuple(

@@ -54,7 +54,8 @@ def test_only_the_best_ends_are_searched_on_and_the_best_of_those_wins():
     assert tried.evaluations == 3 * 4 + 3 * 2 + 4
 
 
-def test_one_start_alone_is_the_best():
+def test_one_start_alone_is_the_best_and_not_searched_on():
+    second: list[float] = []
     tried = try_hypotheses(
         Bowl(),
         Bowl(),
@@ -62,10 +63,11 @@ def test_one_start_alone_is_the_best():
         trial=nearer(0.5, []),
         contenders=2,
         hopeless_nats=1.0,
-        contest=nearer(0.5, []),
+        contest=nearer(0.5, second),
     )
     assert tried.best == 0
-    assert tried.ends[0].parameters == 0.75
+    assert tried.winner.parameters == tried.ends[0].parameters == 1.5
+    assert second == []
 
 
 def test_what_ends_far_above_the_best_is_not_searched_on():
@@ -73,12 +75,12 @@ def test_what_ends_far_above_the_best_is_not_searched_on():
     tried = try_hypotheses(
         Bowl(),
         Bowl(),
-        [8.0, 2.0],
+        [8.0, 2.0, 3.0],
         trial=nearer(0.5, []),
-        contenders=2,
+        contenders=3,
         hopeless_nats=10.0,
         contest=nearer(0.5, second),
     )
-    assert second == [1.0]
-    assert [end.parameters for end in tried.ends] == [4.0, 0.5]
+    assert second == [1.0, 1.5]
+    assert [end.parameters for end in tried.ends] == [4.0, 0.5, 0.75]
     assert tried.best == 1
