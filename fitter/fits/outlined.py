@@ -97,7 +97,7 @@ def outlined(
     searches = descents(request, observation)
     limits = searches.limits
     with clock.stage(Stage.SEGMENTATION) as report:
-        labels, segmentation = segmented(observation, prepared, initial.parameters, fitted=False)
+        _, segmentation = segmented(observation, prepared, initial.parameters, fitted=False)
         coarse = silhouette_and_edges(
             observation,
             prepared,

@@ -24,7 +24,13 @@ from fitter.request import Clothing
 from fitter.segmentation.bones import clicked_bones, foot_bones
 from fitter.segmentation.grabcut import Segmentation, border_warnings, segment
 from fitter.segmentation.preference import preference
-from fitter.segmentation.trimap import Trimap, TrimapLabel, first_band, seeded_trimap, trimap
+from fitter.segmentation.trimap import (
+    Trimap,
+    first_band,
+    seeded_person,
+    seeded_trimap,
+    trimap,
+)
 
 RESEGMENTED_BAND = 0.5
 """Width of the second band as a share of the first. The picture is segmented again around the body
@@ -58,24 +64,20 @@ def segmented(
     bones = np.concatenate(
         [clicked_bones(observation.clicks), foot_bones(observation.clicks, seen)]
     )
-    labels = None if observation.seed is None else seeded_trimap(observation.seed, bones)
-    if observation.seed is not None and labels is not None and not fitted:
-        return labels, _uncut(observation.seed, labels)
+    seed = observation.seed
+    if seed is not None and not fitted:
+        uncut = seeded_person(seed, bones)
+        if uncut is not None:
+            return None, Segmentation(mask=uncut, warnings=border_warnings(uncut))
     silhouette = render(vertices, prepared.searched.model.triangles, observation.camera).silhouette
     # The body inside loose clothes does not say how far they reach.
     telling = fitted and observation.clothing is Clothing.TIGHT
-    if observation.seed is not None and labels is not None:
-        preferred = preference(observation.seed, silhouette if telling else None)
+    if seed is not None and (labels := seeded_trimap(seed, bones)) is not None:
+        preferred = preference(seed, silhouette if telling else None)
         return labels, segment(observation.display, labels, preferred)
     share = RESEGMENTED_BAND if telling else 1.0
     labels = trimap(silhouette, bones, band=share * first_band(silhouette, bones))
     return labels, segment(observation.display, labels)
-
-
-def _uncut(seed: GreyImage, labels: Trimap) -> Segmentation:
-    """The detector's mask, and the clicked bones where it lacks them."""
-    mask = (seed > 0.5) | (labels == TrimapLabel.FOREGROUND)
-    return Segmentation(mask=mask, warnings=border_warnings(mask))
 
 
 def silhouette_and_edges(

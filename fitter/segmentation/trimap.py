@@ -73,10 +73,7 @@ def trimap(silhouette: Mask, bones: Float[np.ndarray, "b 2 2"], *, band: float) 
     band
         How far to erode and dilate, pixels.
     """
-    skeleton = np.zeros(silhouette.shape, dtype=np.uint8)
-    thickness = max(1, round(BONE_SHARE_OF_BODY * body_size(silhouette, bones)))
-    for start, end in np.rint(bones - 0.5).astype(int):  # OpenCV counts from pixel centres.
-        cv2.line(skeleton, start.tolist(), end.tolist(), 1, thickness=thickness)
+    skeleton = _skeleton(silhouette, bones)
     region = silhouette.astype(np.uint8)
     labels = np.full(silhouette.shape, TrimapLabel.BACKGROUND, dtype=np.uint8)
     if not (silhouette.any() or skeleton.any()):
@@ -112,6 +109,21 @@ def seeded_trimap(seed: GreyImage, bones: Float[np.ndarray, "b 2 2"]) -> Trimap 
         return None
     band = max(LEAST_SEEDED_BAND_PX, SEEDED_BAND_SHARE_OF_BODY * body_size(person, bones))
     return trimap(person, bones, band=band)
+
+
+def seeded_person(seed: GreyImage, bones: Float[np.ndarray, "b 2 2"]) -> Mask | None:
+    """The detector's mask with the clicked bones; None as for :func:`seeded_trimap`."""
+    person = seed > 0.5
+    return person | (_skeleton(person, bones) > 0) if _covers(person, bones) else None
+
+
+def _skeleton(silhouette: Mask, bones: Float[np.ndarray, "b 2 2"]) -> UInt8[np.ndarray, "h w"]:
+    """1 along the bones, narrower than any limb."""
+    drawn = np.zeros(silhouette.shape, dtype=np.uint8)
+    thickness = max(1, round(BONE_SHARE_OF_BODY * body_size(silhouette, bones)))
+    for start, end in np.rint(bones - 0.5).astype(int):  # OpenCV counts from pixel centres.
+        cv2.line(drawn, start.tolist(), end.tolist(), 1, thickness=thickness)
+    return drawn
 
 
 def _covers(person: Mask, bones: Float[np.ndarray, "b 2 2"]) -> bool:

@@ -8,6 +8,7 @@ from fitter.segmentation.trimap import (
     body_size,
     first_band,
     is_uncertain,
+    seeded_person,
     seeded_trimap,
     trimap,
     trimap_picture,
@@ -130,7 +131,18 @@ def test_a_seeds_border_alone_is_open():
     assert uncertain[disc(62) & ~disc(58)].all()
 
 
+def test_a_person_before_any_cut_is_the_seed_with_the_clicked_bones():
+    person = seeded_person(SEED, LIMB_WITHIN)
+    assert person is not None
+    assert (person >= (SEED > 0.5)).all()
+    labels = seeded_trimap(SEED, LIMB_WITHIN)
+    assert labels is not None
+    assert person[labels == TrimapLabel.FOREGROUND].all()
+    assert not person[labels == TrimapLabel.BACKGROUND].any()
+
+
 def test_a_seed_that_leaves_out_a_clicked_limb_is_not_used():
     half_outside = np.array([[[120.0, 100.0], [220.0, 100.0]]])
     assert seeded_trimap(SEED, half_outside) is None
     assert seeded_trimap(SEED, NO_BONES) is None
+    assert seeded_person(SEED, half_outside) is None
