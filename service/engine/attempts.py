@@ -5,6 +5,7 @@ finds that its attempt is no longer the current one, and none of its writes have
 """
 
 import json
+from collections.abc import Callable
 from typing import Final
 
 import sqlalchemy as sa
@@ -67,9 +68,12 @@ def given_up(reason: str) -> Problem:
 class RecordedAttempt:
     """The attempt a worker is running; see :class:`service.engine.port.Attempt`."""
 
-    def __init__(self, database: sa.Engine, job: JobRecord) -> None:
+    def __init__(
+        self, database: sa.Engine, job: JobRecord, *, leave_slot: Callable[[str], None]
+    ) -> None:
         self._database = database
         self._job = job
+        self._leave_slot = leave_slot
 
     @property
     def job(self) -> JobRecord:
@@ -100,6 +104,10 @@ class RecordedAttempt:
             return Directive.SUPERSEDED
         return Directive.CANCELED if cancel_requested else Directive.CONTINUE
 
+    def leave_slot(self) -> None:
+        """Let another job begin, while this one's result is stored."""
+        self._leave_slot(self._job.id)
+
 
 def _current(job: JobRecord) -> dict[str, object]:
     return {"job": job.id, "of_attempt": job.attempt}
@@ -109,12 +117,19 @@ class AttemptLog:
     """Begin and end attempts on behalf of one worker."""
 
     def __init__(
-        self, database: sa.Engine, *, executor_id: str, max_crashes: int, retention_s: float
+        self,
+        database: sa.Engine,
+        *,
+        executor_id: str,
+        max_crashes: int,
+        retention_s: float,
+        leave_slot: Callable[[str], None],
     ) -> None:
         self._database = database
         self._executor_id = executor_id
         self._max_crashes = max_crashes
         self._retention_s = retention_s
+        self._leave_slot = leave_slot
 
     @retry_while_database_is_away
     def begin(self, job_id: str) -> RecordedAttempt | None:
@@ -155,7 +170,9 @@ class AttemptLog:
                     "progress": 0.0,
                 },
             )
-        return None if job is None else RecordedAttempt(self._database, job)
+        if job is None:
+            return None
+        return RecordedAttempt(self._database, job, leave_slot=self._leave_slot)
 
     @retry_while_database_is_away
     def count_crash(self, attempt: RecordedAttempt) -> None:

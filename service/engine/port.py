@@ -108,6 +108,7 @@ class JobRecord:
     request_id: str | None
     traceparent: str | None
     webhook: WebhookRecord | None
+    token: str | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -358,6 +359,10 @@ class Attempt(Protocol):
 
     def directive(self) -> Directive:
         """Ask whether to continue."""
+        ...
+
+    def leave_slot(self) -> None:
+        """Let another job begin: all that is left of this one is to store its result."""
         ...
 
 
