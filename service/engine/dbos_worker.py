@@ -215,8 +215,8 @@ class DbosWorkerEngine:
 
     def _publish(self, job_id: str, text: str) -> None:
         number, result = result_from_json(text)
-        self._attempts.end(job_id, number, result)
-        self._erase_if_forgotten(job_id)
+        if self._attempts.end(job_id, number, result) is None:
+            self._erase_if_forgotten(job_id)
 
     def _erase_if_forgotten(self, job_id: str) -> None:
         # The job may have been erased while its attempt was still writing results. If this fails,

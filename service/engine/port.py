@@ -353,8 +353,8 @@ class Attempt(Protocol):
         """The job as it was when the attempt began."""
         ...
 
-    def report(self, report: Report) -> None:
-        """Store progress; reports of a superseded attempt are dropped."""
+    def report(self, report: Report) -> Directive:
+        """Store progress and say whether to continue; a superseded attempt's is dropped."""
         ...
 
     def directive(self) -> Directive:

@@ -13,6 +13,8 @@ import os
 import resource
 import signal
 import threading
+import time
+from collections.abc import Callable
 from multiprocessing.connection import Connection
 from pathlib import Path
 from queue import SimpleQueue
@@ -49,6 +51,9 @@ NICENESS: Final = 5
 OOM_SCORE: Final = 500
 """When memory runs out, the kernel is to take the fit and not the worker."""
 
+TOLD_EVERY_S: Final = 0.05
+"""A search reports every few milliseconds, and the worker is woken by each."""
+
 
 def work(setup: ChildSetup, connection: Connection) -> None:
     """Run the jobs that come, and tell the worker of each how it went."""
@@ -83,9 +88,7 @@ def _answered(given: GivenTask, setup: ChildSetup, connection: Connection) -> Me
 def _done(
     given: GivenTask, setup: ChildSetup, connection: Connection, pipeline: Pipeline
 ) -> DoneMessage:
-    def observe(report: Report) -> None:
-        _send(connection, _progress(report))
-
+    observe = _telling(connection)
     kind = given.task.kind
     if kind == SCAN:
         scanned = pipeline.scan(scan_input(setup, given), observe)
@@ -103,6 +106,21 @@ def _done(
         _send(connection, FileMessage(name=name))
         connection.send_bytes(content)
     return DoneMessage(stage_seconds=stage_seconds)
+
+
+def _telling(connection: Connection) -> Callable[[Report], None]:
+    """Tell the worker of progress: of a new stage or view at once, else now and then."""
+    told: tuple[str, int | None] | None = None
+    due = 0.0
+
+    def observe(report: Report) -> None:
+        nonlocal told, due
+        now, news = time.monotonic(), (report.stage, report.view)
+        if now >= due or news != told:
+            told, due = news, now + TOLD_EVERY_S
+            _send(connection, _progress(report))
+
+    return observe
 
 
 def _progress(report: Report) -> ProgressMessage:

@@ -206,22 +206,25 @@ class ChildRunner:
             if isinstance(message, ProgressMessage):
                 progress.take(message)
                 spans.enter(message.stage)
-            progress.store_if_due()
+            directive = progress.store_if_due()
             now = time.monotonic()
             if now >= deadline:
                 return self._timed_out()
-            if now >= next_look:
-                next_look = now + self._settings.cancel_poll_s
+            if directive is None and now >= next_look:
                 directive = attempt.directive()
+            if directive is not None:
+                next_look = now + self._settings.cancel_poll_s
                 if directive is not Directive.CONTINUE:
                     return STOPPED[directive]
 
     def _store(self, scope: str, files: Mapping[str, bytes]) -> tuple[Artifact, ...]:
-        put = retry_while_storage_is_away(self._blobs.put)
+        put_all = retry_while_storage_is_away(self._blobs.put_all)
         with span("store result"):
-            for content in files.values():
-                put(scope, content)
-        return tuple(describe_artifact(name, content) for name, content in files.items())
+            digests = put_all(scope, list(files.values()))
+        return tuple(
+            describe_artifact(name, content, digest=digest)
+            for (name, content), digest in zip(files.items(), digests, strict=True)
+        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

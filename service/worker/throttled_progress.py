@@ -2,7 +2,7 @@
 
 import time
 
-from service.engine.port import Attempt, Report
+from service.engine.port import Attempt, Directive, Report
 from service.worker.messages import ProgressMessage
 
 
@@ -25,12 +25,12 @@ class ThrottledProgress:
             self._due = 0.0
         self._latest = message
 
-    def store_if_due(self) -> None:
-        """Store the latest report, if there is one and it is time."""
+    def store_if_due(self) -> Directive | None:
+        """Store the latest report, if there is one and it is time; then say whether to go on."""
         now = time.monotonic()
         if self._latest is None or now < self._due:
-            return
-        self._attempt.report(
+            return None
+        directive = self._attempt.report(
             Report(
                 stage=self._latest.stage,
                 progress=min(max(self._latest.progress, 0.0), 1.0),
@@ -40,3 +40,4 @@ class ThrottledProgress:
         )
         self._latest = None
         self._due = now + self._interval_s
+        return directive
