@@ -281,6 +281,15 @@ class Settings(BaseSettings):
         le=1_048_576,
         description="Address space of the process that makes one fit.",
     )
+    child_jobs: int = Field(
+        default=50,
+        ge=1,
+        le=1_000,
+        description=(
+            "How many jobs of one owner (an API key's tenant, or a browser token), if they follow "
+            "at once, a process may make one after the other; with 1 each has a process of its own."
+        ),
+    )
     drain_s: float = Field(
         default=20.0,
         ge=0.0,

@@ -11,7 +11,7 @@ import os
 import shutil
 import tempfile
 import uuid
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import BinaryIO, Final
 
@@ -22,9 +22,6 @@ FULL: Final = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
 
 NAMELESS_UNKNOWN: Final = frozenset({errno.EOPNOTSUPP, errno.EISDIR, errno.EINVAL})
 """Errors of file systems without nameless files, such as NFS."""
-
-SCOPE_DEPTH: Final = 3
-"""Folders of ours above a blob."""
 
 
 class LocalBlobStore:
@@ -46,13 +43,30 @@ class LocalBlobStore:
         BlobMissingError
             If the scope was erased meanwhile.
         """
-        digest = hashlib.sha256(content).hexdigest()
+        (digest,) = self.put_all(scope, [content])
+        return digest
+
+    def put_all(self, scope: str, contents: Iterable[bytes]) -> list[str]:
+        """Store several at once, and return their names; one write of the folder names them all.
+
+        Raises
+        ------
+        BlobMissingError
+            If the scope was erased meanwhile.
+        """
+        folder = self._folder(scope)
+        files = list(contents)
+        digests = [hashlib.sha256(content).hexdigest() for content in files]
         try:
             with _told():
-                _write(self._folder(scope) / digest, content)
+                for each in (self.root, folder.parent, folder):
+                    make_private_folder(each)
+                for digest, content in zip(digests, files, strict=True):
+                    _write(folder / digest, content)
+                _sync_folder(folder)
         except FileNotFoundError as error:
-            raise BlobMissingError(digest) from error
-        return digest
+            raise BlobMissingError(scope) from error
+        return digests
 
     def get(self, scope: str, name: str) -> bytes:
         """Read a blob.
@@ -106,8 +120,6 @@ def _told() -> Iterator[None]:
 
 
 def _write(path: Path, content: bytes) -> None:
-    for folder in reversed(path.parents[:SCOPE_DEPTH]):
-        make_private_folder(folder)
     try:
         handle = os.open(path.parent, os.O_TMPFILE | os.O_WRONLY, 0o600)
     except OSError as error:
@@ -121,7 +133,6 @@ def _write(path: Path, content: bytes) -> None:
             with contextlib.suppress(FileExistsError):
                 # Naming a folder, though the path needs none, makes this follow the link in /proc.
                 os.link(f"/proc/self/fd/{handle}", path, src_dir_fd=handle)
-    _sync_folder(path.parent)
 
 
 def _write_named(path: Path, content: bytes) -> None:

@@ -1,5 +1,6 @@
 """What the service requires of a blob store, and the errors a store may raise."""
 
+from collections.abc import Iterable
 from typing import Protocol
 
 
@@ -28,6 +29,10 @@ class BlobStore(Protocol):
 
     def put(self, scope: str, content: bytes) -> str:
         """Store ``content`` and return its SHA-256, its name in the scope."""
+        ...
+
+    def put_all(self, scope: str, contents: Iterable[bytes]) -> list[str]:
+        """Store several at once, and return their names."""
         ...
 
     def get(self, scope: str, name: str) -> bytes:

@@ -7,7 +7,7 @@ Credentials come from where every S3 client looks for them: ``AWS_ACCESS_KEY_ID`
 import contextlib
 import hashlib
 import uuid
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any, Final
 
 import boto3
@@ -75,6 +75,10 @@ class S3BlobStore:
         with _told(digest):
             self._client.put_object(Bucket=self._bucket, Key=self._key(scope, digest), Body=content)
         return digest
+
+    def put_all(self, scope: str, contents: Iterable[bytes]) -> list[str]:
+        """Store several at once, and return their names."""
+        return [self.put(scope, content) for content in contents]
 
     def get(self, scope: str, name: str) -> bytes:
         """Read a blob.

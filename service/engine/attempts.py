@@ -5,6 +5,7 @@ finds that its attempt is no longer the current one, and none of its writes have
 """
 
 import json
+from collections.abc import Callable
 from typing import Final
 
 import sqlalchemy as sa
@@ -67,9 +68,12 @@ def given_up(reason: str) -> Problem:
 class RecordedAttempt:
     """The attempt a worker is running; see :class:`service.engine.port.Attempt`."""
 
-    def __init__(self, database: sa.Engine, job: JobRecord) -> None:
+    def __init__(
+        self, database: sa.Engine, job: JobRecord, *, leave_slot: Callable[[str], None]
+    ) -> None:
         self._database = database
         self._job = job
+        self._leave_slot = leave_slot
 
     @property
     def job(self) -> JobRecord:
@@ -77,7 +81,7 @@ class RecordedAttempt:
         return self._job
 
     @retry_while_database_is_away
-    def report(self, report: Report) -> None:
+    def report(self, report: Report) -> Directive:
         """Store progress and its event; the share never decreases."""
         with self._database.begin() as connection:
             values = {
@@ -86,8 +90,11 @@ class RecordedAttempt:
                 "share": report.progress,
             }
             row = connection.execute(_REPORT, _current(self._job) | values).mappings().one_or_none()
-            if row is not None:
-                append_event(connection, job_record(row), EventKind.PROGRESS, report.energies)
+            if row is None:
+                return Directive.SUPERSEDED
+            job = job_record(row)
+            append_event(connection, job, EventKind.PROGRESS, report.energies)
+        return Directive.CANCELED if job.cancel_requested else Directive.CONTINUE
 
     @retry_while_database_is_away
     def directive(self) -> Directive:
@@ -100,6 +107,10 @@ class RecordedAttempt:
             return Directive.SUPERSEDED
         return Directive.CANCELED if cancel_requested else Directive.CONTINUE
 
+    def leave_slot(self) -> None:
+        """Let another job begin, while this one's result is stored."""
+        self._leave_slot(self._job.id)
+
 
 def _current(job: JobRecord) -> dict[str, object]:
     return {"job": job.id, "of_attempt": job.attempt}
@@ -109,43 +120,29 @@ class AttemptLog:
     """Begin and end attempts on behalf of one worker."""
 
     def __init__(
-        self, database: sa.Engine, *, executor_id: str, max_crashes: int, retention_s: float
+        self,
+        database: sa.Engine,
+        *,
+        executor_id: str,
+        max_crashes: int,
+        retention_s: float,
+        leave_slot: Callable[[str], None],
     ) -> None:
         self._database = database
         self._executor_id = executor_id
         self._max_crashes = max_crashes
         self._retention_s = retention_s
+        self._leave_slot = leave_slot
 
     @retry_while_database_is_away
     def begin(self, job_id: str) -> RecordedAttempt | None:
         """Claim the next attempt; None if there is nothing (more) to do for this job."""
         with self._database.begin() as connection:
-            canceled = end_job(
-                connection,
-                job_id,
-                JOBS.c.cancel_requested.is_(True),
-                state=JobState.CANCELED,
-                retention_s=self._retention_s,
-            )
-            if canceled is not None:
-                return None
-            hopeless = end_job(
-                connection,
-                job_id,
-                JOBS.c.crashes >= self._max_crashes,
-                state=JobState.FAILED,
-                retention_s=self._retention_s,
-                values={
-                    "problem": given_up(
-                        f"The process of this job died {self._max_crashes} times."
-                    ).model_dump_json()
-                },
-            )
-            if hopeless is not None:
-                return None
             job = move_job(
                 connection,
                 job_id,
+                JOBS.c.cancel_requested.is_(False),
+                JOBS.c.crashes < self._max_crashes,
                 state=JobState.RUNNING,
                 values={
                     "attempt": JOBS.c.attempt + 1,
@@ -155,7 +152,30 @@ class AttemptLog:
                     "progress": 0.0,
                 },
             )
-        return None if job is None else RecordedAttempt(self._database, job)
+            if job is None:
+                self._end_unbegun(connection, job_id)
+                return None
+        return RecordedAttempt(self._database, job, leave_slot=self._leave_slot)
+
+    def _end_unbegun(self, connection: sa.Connection, job_id: str) -> None:
+        """End a job that is not to be begun, unless it has ended."""
+        canceled = end_job(
+            connection,
+            job_id,
+            JOBS.c.cancel_requested.is_(True),
+            state=JobState.CANCELED,
+            retention_s=self._retention_s,
+        )
+        if canceled is None:
+            reason = given_up(f"The process of this job died {self._max_crashes} times.")
+            end_job(
+                connection,
+                job_id,
+                JOBS.c.crashes >= self._max_crashes,
+                state=JobState.FAILED,
+                retention_s=self._retention_s,
+                values={"problem": reason.model_dump_json()},
+            )
 
     @retry_while_database_is_away
     def count_crash(self, attempt: RecordedAttempt) -> None:

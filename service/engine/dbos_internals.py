@@ -19,7 +19,8 @@ AWAY_PAUSE_S: Final = 1.0
 """How long to pause before a poll while the database is away."""
 
 LOOK_S: Final = 0.01
-"""How long DBOS itself pauses between two polls; ``await_turn`` decides when it polls."""
+"""How long DBOS itself pauses between two polls, in which what it has begun comes to be counted;
+``await_turn`` decides when it polls."""
 
 
 def put_back_executions_of(dead: Collection[str]) -> None:
@@ -74,19 +75,20 @@ def stop_claiming(dbos: DBOS) -> None:
 
 def pace_queue(
     dbos: DBOS,
-    queue_name: str,
+    paced_name: str,
     *,
     await_turn: Callable[[], None],
     usable_slots: Callable[[], int],
 ) -> None:
     """Let this process decide when DBOS polls a queue, and how many jobs run at the same time.
 
-    DBOS, which must be launched, waits in ``await_turn`` before each poll, then keeps to
+    DBOS, which must be launched, waits in ``await_turn`` before it claims anything, then keeps to
     ``usable_slots``; with 0 it claims nothing.
 
     *Private:* DBOS reads the queue's record before each poll with ``get_queue`` of its ``_sys_db``,
-    which is replaced here, and keeps what it read in ``_worker_concurrency`` and
-    ``_polling_interval_sec`` of the queue.
+    pauses for ``_polling_interval_sec`` of the queue, asks ``dequeue_scopes`` from where to claim,
+    and claims as many as ``_worker_concurrency`` lets it. The two functions are replaced here. It
+    waits in the second: nothing is between its turn and the claim.
 
     *The public way*, ``worker_concurrency`` and ``polling_interval_sec`` of ``register_queue``, is
     one record for all machines: the same number of slots on each of them, no holding back where one
@@ -94,20 +96,29 @@ def pace_queue(
     none is free. The registered record is the fallback in case this way in disappears.
     """
     system_database = dbos._sys_db
-    get_queue = system_database.get_queue
+    get_queue, dequeue_scopes = system_database.get_queue, system_database.dequeue_scopes
+    paced: Queue | None = None
 
-    def get_queue_in_turn(name: str, **options: Any) -> Queue | None:
-        if name == queue_name:
-            await_turn()
+    def get_paced_queue(name: str, **options: Any) -> Queue | None:
+        nonlocal paced
         try:
             queue = get_queue(name, **options)
         except OperationalError:
             # DBOS logs each of these, and polls again at once.
             time.sleep(AWAY_PAUSE_S)
             raise
-        if queue is not None and queue.name == queue_name:
-            queue._worker_concurrency = usable_slots()
+        if queue is not None and queue.name == paced_name:
             queue._polling_interval_sec = LOOK_S
+            paced = queue
         return queue
 
-    system_database.get_queue = get_queue_in_turn
+    def dequeue_scopes_in_turn(queue_name: str) -> list[str | None]:
+        if queue_name == paced_name:
+            await_turn()
+            if paced is None:
+                return []
+            paced._worker_concurrency = usable_slots()
+        return dequeue_scopes(queue_name)
+
+    system_database.get_queue = get_paced_queue
+    system_database.dequeue_scopes = dequeue_scopes_in_turn

@@ -85,6 +85,7 @@ class DbosWorkerEngine:
             executor_id=self.executor_id,
             max_crashes=max_crashes,
             retention_s=retention_s,
+            leave_slot=self._slots.leave,
         )
         self._heartbeat = Heartbeat(
             database,
@@ -214,8 +215,8 @@ class DbosWorkerEngine:
 
     def _publish(self, job_id: str, text: str) -> None:
         number, result = result_from_json(text)
-        self._attempts.end(job_id, number, result)
-        self._erase_if_forgotten(job_id)
+        if self._attempts.end(job_id, number, result) is None:
+            self._erase_if_forgotten(job_id)
 
     def _erase_if_forgotten(self, job_id: str) -> None:
         # The job may have been erased while its attempt was still writing results. If this fails,
@@ -243,12 +244,13 @@ class DbosWorkerEngine:
         DBOS asks five things whenever it looks. Its queue also holds executions whose job does not
         wait: what dead workers ran, which can wait for a second longer.
         """
+        self._slots.end_look()
         deadline = time.monotonic() + LOOK_ANYWAY_S
         while True:
             self._slots.await_turn()
             if time.monotonic() >= deadline or self._slots.is_closed or self._is_any_waiting():
                 return
-            # Just after a job's end the slots do not wait.
+            # Just after a slot was left there is no wait for a turn.
             time.sleep(LOOK_S)
 
     def _is_any_waiting(self) -> bool:
@@ -268,7 +270,7 @@ class DbosWorkerEngine:
                 LOG.warning("Too little of the disk is free: no job that waits is begun.")
             else:
                 LOG.info("There is room on the disk again: jobs are begun.")
-        return 0 if is_short else self._slots.count
+        return 0 if is_short else self._slots.claimable()
 
     def _store_body_models(self, body_models: BodyModels) -> None:
         with self._database.begin() as connection:

@@ -108,6 +108,7 @@ class JobRecord:
     request_id: str | None
     traceparent: str | None
     webhook: WebhookRecord | None
+    token: str | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -352,12 +353,16 @@ class Attempt(Protocol):
         """The job as it was when the attempt began."""
         ...
 
-    def report(self, report: Report) -> None:
-        """Store progress; reports of a superseded attempt are dropped."""
+    def report(self, report: Report) -> Directive:
+        """Store progress and say whether to continue; a superseded attempt's is dropped."""
         ...
 
     def directive(self) -> Directive:
         """Ask whether to continue."""
+        ...
+
+    def leave_slot(self) -> None:
+        """Let another job begin: all that is left of this one is to store its result."""
         ...
 
 

@@ -66,6 +66,7 @@ def job_record(values: sa.RowMapping) -> JobRecord:
             last_error=values["webhook_error"],
             next_attempt_at=values["webhook_due_at"],
         ),
+        token=values["token_id"],
     )
 
 

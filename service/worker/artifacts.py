@@ -25,13 +25,13 @@ MEDIA_TYPES: Final[Mapping[str, str]] = {
 Result = TypeVar("Result", FitResult, ScanResult, DerivedFiles)
 
 
-def describe_artifact(name: str, content: bytes) -> Artifact:
-    """Describe a file by name, kind, size and content."""
+def describe_artifact(name: str, content: bytes, *, digest: str | None = None) -> Artifact:
+    """Describe a file by name, kind, size and content, whose digest may be known."""
     return Artifact(
         name=name,
         media_type=MEDIA_TYPES[PurePath(name).suffix],
         size=len(content),
-        sha256=hashlib.sha256(content).hexdigest(),
+        sha256=digest or hashlib.sha256(content).hexdigest(),
     )
 
 

@@ -1,9 +1,10 @@
 """Inside the child process: the only place where a caller's picture is decoded.
 
-One process a job. Input and files of the result go through the pipe to its worker, so it needs
-neither database nor storage. It dies with its worker: once it has its input, a thread reads the
-pipe, on which the worker says nothing more, and the end of the pipe is the end of the worker (a
-signal on the parent's death does not serve, the parent being the fork server).
+It runs one job after the other, as many as its worker gives it, all of one owner. Input and files
+of the results go through the pipe to its worker, so it needs neither database nor storage. It dies
+with its worker: a thread reads the pipe, on which there is nothing but the next job, and the end of
+the pipe is the end of the worker (a signal on the parent's death does not serve, the parent being
+the fork server).
 """
 
 import faulthandler
@@ -12,23 +13,21 @@ import os
 import resource
 import signal
 import threading
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+import time
+from collections.abc import Callable
 from multiprocessing.connection import Connection
 from pathlib import Path
+from queue import SimpleQueue
 from typing import Final
-from uuid import UUID
 
-from api_schemas.derivation_kinds import AnyDerivationOptions
-from api_schemas.derivations import DerivationRequest
-from api_schemas.problems import Problem, field_problem, problem
-from api_schemas.requests import FitOptions
-from api_schemas.scans import ScanOptions
+from api_schemas.problems import field_problem
 from service.engine.port import FIT, SCAN, Report
-from service.jobs.inputs import IMAGE, MASK, SANDBOX, image_of, mask_of, own_and_others
-from service.process.logs import LogContext, configure_logging, log_context
+from service.process.logs import configure_logging, log_context
 from service.process.naming import call_process
 from service.worker.artifacts import with_result_document
+from service.worker.child_inputs import derivation_input, fit_input, scan_input
+from service.worker.child_tasks import ChildSetup, GivenTask, take
+from service.worker.endings import fault, out_of_memory
 from service.worker.messages import (
     MESSAGES,
     DoneMessage,
@@ -38,11 +37,8 @@ from service.worker.messages import (
     ProgressMessage,
 )
 from service.worker.pipeline_port import (
-    DerivationInput,
-    PipelineInput,
+    Pipeline,
     ProblemError,
-    ScanInput,
-    ScanPicture,
     UnusableInputError,
     load_pipeline,
 )
@@ -55,60 +51,55 @@ NICENESS: Final = 5
 OOM_SCORE: Final = 500
 """When memory runs out, the kernel is to take the fit and not the worker."""
 
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ChildTask:
-    """What the worker tells the child to begin with; options and named inputs follow as bytes.
-
-    ``fit_id`` is that of the fit a job derives from, None for a fit.
-    """
-
-    pipeline: str
-    kind: str
-    inputs: tuple[str, ...]
-    max_pixels: int
-    models: Path | None
-    detector: Path | None
-    memory_mb: int
-    log_level: str
-    log_format: str
-    log_context: LogContext
-    fit_id: str | None = None
+TOLD_EVERY_S: Final = 0.05
+"""A search reports every few milliseconds, and the worker is woken by each."""
 
 
-def work(task: ChildTask, connection: Connection) -> None:
-    """Run one job and tell the worker how it went."""
+def work(setup: ChildSetup, connection: Connection) -> None:
+    """Run the jobs that come, and tell the worker of each how it went."""
     call_process("job")
-    _configure_logging(task)
-    _limit(task.memory_mb)
+    _configure_logging(setup)
+    _limit(setup.memory_mb)
+    jobs = _follow_worker(connection)
+    while True:
+        # Nothing here holds a job on to the next: it goes out of scope with the call.
+        _work_on(jobs.get(), setup, connection)
+
+
+def _work_on(given: GivenTask, setup: ChildSetup, connection: Connection) -> None:
+    with log_context(**given.task.log_context):
+        _send(connection, _answered(given, setup, connection))
+
+
+def _answered(given: GivenTask, setup: ChildSetup, connection: Connection) -> Message:
     try:
-        options = connection.recv_bytes()
-        inputs = {name: connection.recv_bytes() for name in task.inputs}
-    except EOFError:
-        os._exit(1)
-    _follow_worker(connection)
-    with log_context(**task.log_context):
-        _answer(connection, lambda: _work(task, options, inputs, connection))
+        return _done(given, setup, connection, load_pipeline(setup.pipeline))
+    except ProblemError as error:
+        return ProblemMessage(problem=error.problem)
+    except UnusableInputError as error:
+        return ProblemMessage(problem=field_problem("unusable-input", error.error))
+    except MemoryError:
+        return ProblemMessage(problem=out_of_memory())
+    except Exception:
+        LOG.exception("The job failed.")
+        return ProblemMessage(problem=fault())
 
 
-def _work(
-    task: ChildTask, options: bytes, inputs: Mapping[str, bytes], connection: Connection
-) -> Message:
-    pipeline = load_pipeline(task.pipeline)
-
-    def observe(report: Report) -> None:
-        _send(connection, _progress(report))
-
-    if task.kind == SCAN:
-        scanned = pipeline.scan(_scan_input(task, options, inputs), observe)
+def _done(
+    given: GivenTask, setup: ChildSetup, connection: Connection, pipeline: Pipeline
+) -> DoneMessage:
+    observe = _telling(connection)
+    kind = given.task.kind
+    if kind == SCAN:
+        scanned = pipeline.scan(scan_input(setup, given), observe)
         files = with_result_document(scanned.result, scanned.artifacts)
         stage_seconds = {}
-    elif task.kind == FIT:
-        fitted = pipeline.run(_fit_input(task, options, inputs), observe)
+    elif kind == FIT:
+        fitted = pipeline.run(fit_input(setup, given), observe)
         files = with_result_document(fitted.result, fitted.artifacts)
         stage_seconds = fitted.result.stage_seconds
     else:
-        derived = pipeline.derive(_derivation_input(task, options, inputs), observe)
+        derived = pipeline.derive(derivation_input(setup, given), observe)
         files = with_result_document(derived.result, derived.artifacts)
         stage_seconds = {}
     for name, content in files.items():
@@ -117,66 +108,19 @@ def _work(
     return DoneMessage(stage_seconds=stage_seconds)
 
 
-def _fit_input(task: ChildTask, options: bytes, inputs: Mapping[str, bytes]) -> PipelineInput:
-    return PipelineInput(
-        options=FitOptions.model_validate_json(options),
-        image=inputs[IMAGE],
-        mask=inputs.get(MASK),
-        max_pixels=task.max_pixels,
-        models=task.models,
-        detector=task.detector,
-        ending=_ending(inputs),
-    )
+def _telling(connection: Connection) -> Callable[[Report], None]:
+    """Tell the worker of progress: of a new stage or view at once, else now and then."""
+    told: tuple[str, int | None] | None = None
+    due = 0.0
 
+    def observe(report: Report) -> None:
+        nonlocal told, due
+        now, news = time.monotonic(), (report.stage, report.view)
+        if now >= due or news != told:
+            told, due = news, now + TOLD_EVERY_S
+            _send(connection, _progress(report))
 
-def _scan_input(task: ChildTask, options: bytes, inputs: Mapping[str, bytes]) -> ScanInput:
-    asked = ScanOptions.model_validate_json(options)
-    return ScanInput(
-        options=asked,
-        pictures=tuple(
-            ScanPicture(image=inputs[image_of(number)], mask=inputs.get(mask_of(number)))
-            for number in range(len(asked.views))
-        ),
-        max_pixels=task.max_pixels,
-        models=task.models,
-        detector=task.detector,
-        ending=_ending(inputs),
-    )
-
-
-def _derivation_input(
-    task: ChildTask, options: bytes, inputs: Mapping[str, bytes]
-) -> DerivationInput[AnyDerivationOptions]:
-    own, others = own_and_others(inputs)
-    return DerivationInput(
-        options=DerivationRequest.model_validate_json(options).root,
-        inputs=own,
-        others=others,
-        max_pixels=task.max_pixels,
-        models=task.models,
-        detector=task.detector,
-        fit_id=None if task.fit_id is None else UUID(task.fit_id),
-        ending=_ending(inputs),
-    )
-
-
-def _ending(inputs: Mapping[str, bytes]) -> str | None:
-    return inputs[SANDBOX].decode() if SANDBOX in inputs else None
-
-
-def _answer(connection: Connection, work: Callable[[], Message]) -> None:
-    try:
-        message = work()
-    except ProblemError as error:
-        message = ProblemMessage(problem=error.problem)
-    except UnusableInputError as error:
-        message = ProblemMessage(problem=field_problem("unusable-input", error.error))
-    except MemoryError:
-        message = ProblemMessage(problem=_out_of_memory())
-    except Exception:
-        LOG.exception("The job failed.")
-        message = ProblemMessage(problem=_fault())
-    _send(connection, message)
+    return observe
 
 
 def _progress(report: Report) -> ProgressMessage:
@@ -189,37 +133,27 @@ def _send(connection: Connection, message: Message) -> None:
     connection.send_bytes(MESSAGES.dump_json(message))
 
 
-def _fault() -> Problem:
-    return problem(
-        "fit-failed",
-        detail="An unexpected fault ended the job.",
-        remedy="Report it with the job's id; other jobs are not affected.",
+def _configure_logging(setup: ChildSetup) -> None:
+    configure_logging(
+        setup.log_level, setup.log_format, withhold_messages=setup.log_level != "DEBUG"
     )
-
-
-def _out_of_memory() -> Problem:
-    return problem(
-        "fit-failed",
-        code="out-of-memory",
-        detail="The job needed more memory than one job may have.",
-        remedy="Send a smaller picture, or ask for less at once.",
-    )
-
-
-def _configure_logging(task: ChildTask) -> None:
-    configure_logging(task.log_level, task.log_format, withhold_messages=task.log_level != "DEBUG")
     # A crash in a decoder leaves the places it passed through, and nothing of what it read.
     faulthandler.enable()
 
 
-def _follow_worker(connection: Connection) -> None:
-    def wait_for_the_end() -> None:
+def _follow_worker(connection: Connection) -> SimpleQueue[GivenTask]:
+    """Take jobs from the pipe as they come, and end with the worker at any moment."""
+    jobs: SimpleQueue[GivenTask] = SimpleQueue()
+
+    def follow() -> None:
         try:
-            connection.recv_bytes()
-        except (EOFError, OSError):
+            while True:
+                jobs.put(take(connection))
+        finally:
             os._exit(1)
 
-    threading.Thread(target=wait_for_the_end, name="lifeline", daemon=True).start()
+    threading.Thread(target=follow, name="lifeline", daemon=True).start()
+    return jobs
 
 
 def _limit(memory_mb: int) -> None:

@@ -1,26 +1,35 @@
-"""The worker's side of a child process: start it, listen, stop it in time, note how it ended."""
+"""The worker's side of a job's process: find one, listen, stop it in time, note how it ended."""
 
 import contextlib
 import logging
 import threading
 import time
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from multiprocessing.connection import Connection
-from multiprocessing.context import ForkServerProcess
 from typing import Final
 
 from pydantic import ValidationError
 
 from api_schemas.results import Artifact
 from service.blobs import BlobMissingError, BlobStore, BlobsUnavailableError
-from service.engine.port import Attempt, AttemptResult, Directive, Ending, JobRecord, Report
+from service.engine.port import Attempt, AttemptResult, Directive, Ending, JobRecord
 from service.process.logs import current_log_context
 from service.process.tracing import StageSpans, span
 from service.settings import Settings
 from service.worker import child
 from service.worker.artifacts import describe_artifact
-from service.worker.endings import ending_by, input_gone, no_process, no_storage, too_slow
-from service.worker.forking import ForkedProcesses, NoProcessError, end, killed_in_time
+from service.worker.child_tasks import ChildSetup, ChildTask
+from service.worker.endings import (
+    ending_by,
+    input_gone,
+    is_unforeseen,
+    no_process,
+    no_storage,
+    too_slow,
+)
+from service.worker.forking import ForkedProcesses, NoProcessError, killed_in_time
+from service.worker.kept_children import Child, KeptChildren, Owner, owner_of
 from service.worker.messages import (
     MESSAGES,
     DoneMessage,
@@ -30,6 +39,7 @@ from service.worker.messages import (
     ProgressMessage,
 )
 from service.worker.retrying import retry_while_storage_is_away
+from service.worker.throttled_progress import ThrottledProgress
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -49,7 +59,10 @@ STOPPED: Final = {
 
 
 class ChildRunner:
-    """Runs attempts in child processes, forked from a server that has the numerics loaded."""
+    """Runs attempts in child processes, forked from a server that has the numerics loaded.
+
+    One that has done a job well runs the next one, if that is its owner's and follows at once.
+    """
 
     def __init__(
         self,
@@ -63,6 +76,7 @@ class ChildRunner:
         self._blobs = blobs
         self._pipeline = pipeline
         self._processes = processes
+        self._kept = KeptChildren(jobs=settings.child_jobs)
         self._has_loaded = threading.Event()
 
     def begin_preloading(self) -> None:
@@ -102,25 +116,56 @@ class ChildRunner:
             return AttemptResult(ending=Ending.FAILED, problem=no_process())
 
     def _run(self, attempt: Attempt) -> AttemptResult:
-        connection, process = self._start(attempt.job)
         deadline = time.monotonic() + self._settings.job_time_limit_s
+        owner = owner_of(attempt.job)
+        # Whatever ended the attempt before is not to have been left in a process.
+        kept = self._kept.take(owner) if attempt.job.attempt == 1 else None
+        if kept is not None:
+            result = self._run_in(kept, owner, attempt, deadline)
+            if not is_unforeseen(result):
+                return result
+            LOG.warning("The job failed in a process that had run others: it gets a new one.")
+        return self._run_in(self._start(), owner, attempt, deadline)
+
+    def _run_in(
+        self, child: Child, owner: Owner, attempt: Attempt, deadline: float
+    ) -> AttemptResult:
+        try:
+            computed = self._compute(child, attempt, deadline)
+        except Exception:
+            child.end()
+            raise
+        if isinstance(computed, AttemptResult):
+            child.end()
+            return computed
+        self._kept.keep(child, owner)
+        attempt.leave_slot()
+        directive = attempt.directive()
+        if directive is not Directive.CONTINUE:
+            return STOPPED[directive]
+        return AttemptResult(
+            ending=Ending.SUCCEEDED,
+            artifacts=self._store(attempt.job.id, computed.files),
+            stage_seconds=computed.stage_seconds,
+        )
+
+    def _compute(
+        self, child: Child, attempt: Attempt, deadline: float
+    ) -> "_Computed | AttemptResult":
         try:
             with (
-                killed_in_time(process, self._settings.job_time_limit_s + WATCHDOG_S),
+                killed_in_time(child.process, deadline - time.monotonic() + WATCHDOG_S),
                 contextlib.closing(StageSpans()) as spans,
             ):
-                for part in self._input(attempt.job):
-                    connection.send_bytes(part)
-                return self._follow(attempt, connection, spans, deadline=deadline)
+                child.give(_task(attempt.job), self._input(attempt.job))
+                return self._follow(attempt, child.connection, spans, deadline=deadline)
         except (EOFError, OSError, ValidationError):
             # The pipe broke, or what came through it was no message of ours.
             if time.monotonic() >= deadline:
                 return self._timed_out()
-            process.join(JOIN_S)
-            LOG.warning("The process of the job died, exit code %s.", process.exitcode)
+            child.process.join(JOIN_S)
+            LOG.warning("The process of the job died, exit code %s.", child.process.exitcode)
             return AttemptResult(ending=Ending.CRASHED)
-        finally:
-            end(connection, process)
 
     def _input(self, job: JobRecord) -> Iterator[bytes]:
         read = retry_while_storage_is_away(self._blobs.get)
@@ -132,93 +177,71 @@ class ChildRunner:
             ending=Ending.TIMED_OUT, problem=too_slow(self._settings.job_time_limit_s)
         )
 
-    def _start(self, job: JobRecord) -> tuple[Connection, ForkServerProcess]:
-        task = child.ChildTask(
+    def _start(self) -> Child:
+        setup = ChildSetup(
             pipeline=self._pipeline,
-            kind=job.kind,
-            inputs=tuple(job.inputs),
             max_pixels=self._settings.max_pixels,
             models=self._settings.models_dir,
             detector=self._settings.detector_dir,
             memory_mb=self._settings.child_memory_mb,
             log_level=self._settings.log_level,
             log_format=self._settings.log_format,
-            log_context=dict(current_log_context()),
-            fit_id=job.parent,
         )
-        return self._processes.start(child.work, task)
+        return Child(*self._processes.start(child.work, setup))
 
     def _follow(
         self, attempt: Attempt, connection: Connection, spans: StageSpans, *, deadline: float
-    ) -> AttemptResult:
-        progress = _ThrottledProgress(attempt, interval_s=self._settings.progress_interval_s)
+    ) -> "_Computed | AttemptResult":
+        progress = ThrottledProgress(attempt, interval_s=self._settings.progress_interval_s)
         next_look = 0.0
         files: dict[str, bytes] = {}
         while True:
             message = _receive(connection, timeout_s=self._settings.cancel_poll_s)
             if isinstance(message, FileMessage):
                 files[message.name] = connection.recv_bytes(LARGEST_FILE_BYTES)
+            if isinstance(message, DoneMessage):
+                return _Computed(files=files, stage_seconds=message.stage_seconds)
             if isinstance(message, ProblemMessage):
                 return AttemptResult(ending=ending_by(message.problem), problem=message.problem)
             if isinstance(message, ProgressMessage):
                 progress.take(message)
                 spans.enter(message.stage)
-            progress.store_if_due()
+            directive = progress.store_if_due()
             now = time.monotonic()
             if now >= deadline:
                 return self._timed_out()
-            if now >= next_look or isinstance(message, DoneMessage):
-                next_look = now + self._settings.cancel_poll_s
+            if directive is None and now >= next_look:
                 directive = attempt.directive()
+            if directive is not None:
+                next_look = now + self._settings.cancel_poll_s
                 if directive is not Directive.CONTINUE:
                     return STOPPED[directive]
-            if isinstance(message, DoneMessage):
-                return AttemptResult(
-                    ending=Ending.SUCCEEDED,
-                    artifacts=self._store(attempt.job.id, files),
-                    stage_seconds=message.stage_seconds,
-                )
 
     def _store(self, scope: str, files: Mapping[str, bytes]) -> tuple[Artifact, ...]:
-        put = retry_while_storage_is_away(self._blobs.put)
+        put_all = retry_while_storage_is_away(self._blobs.put_all)
         with span("store result"):
-            for content in files.values():
-                put(scope, content)
-        return tuple(describe_artifact(name, content) for name, content in files.items())
-
-
-class _ThrottledProgress:
-    """Keeps the latest report back until the last stored one is old enough."""
-
-    def __init__(self, attempt: Attempt, *, interval_s: float) -> None:
-        self._attempt = attempt
-        self._interval_s = interval_s
-        self._due = 0.0
-        self._news: tuple[str, int | None] | None = None
-        self._latest: ProgressMessage | None = None
-
-    def take(self, message: ProgressMessage) -> None:
-        news = (message.stage, message.view)
-        if news != self._news:
-            # A new stage, or the next picture, is news: it does not wait.
-            self._news = news
-            self._due = 0.0
-        self._latest = message
-
-    def store_if_due(self) -> None:
-        now = time.monotonic()
-        if self._latest is None or now < self._due:
-            return
-        self._attempt.report(
-            Report(
-                stage=self._latest.stage,
-                progress=min(max(self._latest.progress, 0.0), 1.0),
-                energies=self._latest.energies,
-                view=self._latest.view,
-            )
+            digests = put_all(scope, list(files.values()))
+        return tuple(
+            describe_artifact(name, content, digest=digest)
+            for (name, content), digest in zip(files.items(), digests, strict=True)
         )
-        self._latest = None
-        self._due = now + self._interval_s
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Computed:
+    """A result that has yet to be stored."""
+
+    files: Mapping[str, bytes]
+    stage_seconds: Mapping[str, float]
+
+
+def _task(job: JobRecord) -> ChildTask:
+    return ChildTask(
+        kind=job.kind,
+        inputs=tuple(job.inputs),
+        log_context=dict(current_log_context()),
+        fit_id=job.parent,
+    )
 
 
 def _receive(connection: Connection, *, timeout_s: float) -> Message | None:

@@ -1,14 +1,38 @@
-"""Problems for attempts that their child did not end itself, as reported to callers."""
+"""Problems for attempts that no pipeline ended, as reported to callers."""
 
 from api_schemas.problems import Problem, problem
 from service.blobs import BlobsUnavailableError, StorageFullError
-from service.engine.port import Ending
+from service.engine.port import AttemptResult, Ending
 
 
 def ending_by(reason: Problem) -> Ending:
     """How an attempt ended whose process told of this problem."""
     is_late = reason.type == too_slow(0.0).type
     return Ending.TIMED_OUT if is_late else Ending.FAILED
+
+
+def is_unforeseen(result: AttemptResult) -> bool:
+    """Whether an attempt may have ended so for what was in its process before."""
+    return result.ending is Ending.CRASHED or result.problem in (fault(), out_of_memory())
+
+
+def fault() -> Problem:
+    """Something is wrong with the service itself."""
+    return problem(
+        "fit-failed",
+        detail="An unexpected fault ended the job.",
+        remedy="Report it with the job's id; other jobs are not affected.",
+    )
+
+
+def out_of_memory() -> Problem:
+    """The job met the limit of its process."""
+    return problem(
+        "fit-failed",
+        code="out-of-memory",
+        detail="The job needed more memory than one job may have.",
+        remedy="Send a smaller picture, or ask for less at once.",
+    )
 
 
 def input_gone() -> Problem:

@@ -120,7 +120,7 @@ def _serve(deployment: Deployment, client: httpx.Client, submissions: list[Submi
 
 
 def _used(deployment: Deployment) -> list[float]:
-    return [used_s(deployment, kind) for kind in (Kind.FORK_SERVER, Kind.WORKER, Kind.API)]
+    return [used_s(deployment, kind) for kind in (Kind.FIT, Kind.WORKER, Kind.API)]
 
 
 def _loop(answer: Connection) -> None:

@@ -36,11 +36,15 @@ def ready(client: httpx.Client, probe: str = "/healthz/ready") -> None:
 
 
 def used_s(deployment: Deployment, kind: Kind) -> float:
-    """Processor seconds that the processes of a kind have used; a fork server's with its fits."""
-    return sum(
-        processor_s(process.pid, with_ended_children=kind is Kind.FORK_SERVER)
-        for process in deployment.of_kind(kind)
-    )
+    """Processor seconds that the processes of a kind have used; of fits, those that ended too."""
+    if kind is Kind.FIT:
+        servers = deployment.of_kind(Kind.FORK_SERVER)
+        ended = (
+            processor_s(each.pid, with_ended_children=True) - processor_s(each.pid)
+            for each in servers
+        )
+        return sum(ended) + sum(processor_s(each.pid) for each in deployment.of_kind(kind))
+    return sum(processor_s(process.pid) for process in deployment.of_kind(kind))
 
 
 def all_ended(client: httpx.Client, paths: Sequence[str]) -> None:

@@ -1,6 +1,7 @@
 """A pipeline that does what the picture tells it: the script is JSON behind a PNG header.
 
-``gate`` keeps a job from ending until the file of this name exists.
+``gate`` keeps a job from ending until the file of this name exists; ``note_end`` names a file that
+is there once its process has nothing more to do.
 """
 
 import ctypes
@@ -149,6 +150,8 @@ def _go_on(script: dict[str, Any]) -> None:
         raise MemoryError
     if script.get("segfault"):
         ctypes.string_at(0)
+    if "note_end" in script:
+        Path(script["note_end"]).touch()
 
 
 def describe(models: Path | None) -> BodyModels:

@@ -17,7 +17,6 @@ from tests.integration.service.harness import (
     Machine,
     Service,
     eventually,
-    is_running,
     pids_noted,
     running_service,
 )
@@ -32,14 +31,14 @@ BEYOND_RETENTION_S = 30 * 86_400.0
 
 
 def test_what_is_accepted_survives_a_full_disk(embedded: Machine, tmp_path: Path):
-    note, gate = tmp_path / "pids", tmp_path / "gate"
+    note, gate, end = tmp_path / "pids", tmp_path / "gate", tmp_path / "end"
     with running_service(embedded) as service:
-        path = service.submit({"gate": str(gate), "note_pid": str(note)})
-        (pid,) = eventually(lambda: pids_noted(note), what="the fit runs")
+        path = service.submit({"gate": str(gate), "note_pid": str(note), "note_end": str(end)})
+        eventually(lambda: pids_noted(note), what="the fit runs")
         with full_disk(embedded):
             refused = [service.post({"number": number}) for number in range(3)]
             gate.touch()
-            eventually(lambda: not is_running(pid), what="the fit is done")
+            eventually(end.exists, what="the fit is done")
             time.sleep(WHILE_S)
         assert {answer.status_code for answer in refused} == {507}
         assert {answer.json()["type"] for answer in refused} == {"/problems/insufficient-storage"}

@@ -46,7 +46,13 @@ def database(tmp_path):
 
 
 def log(database: sa.Engine, name: str = "worker-1") -> AttemptLog:
-    return AttemptLog(database, executor_id=name, max_crashes=3, retention_s=60.0)
+    return AttemptLog(
+        database,
+        executor_id=name,
+        max_crashes=3,
+        retention_s=60.0,
+        leave_slot=lambda _: None,
+    )
 
 
 def job(database: sa.Engine):

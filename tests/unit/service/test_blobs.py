@@ -1,6 +1,7 @@
 import hashlib
 import os
 import signal
+import stat
 import subprocess
 import sys
 
@@ -36,6 +37,23 @@ def test_storing_the_same_content_twice_leaves_one_file(tmp_path):
     digest = blobs.put("job-1", b"picture")
     assert blobs.put("job-1", b"picture") == digest
     assert [path.name for path in (tmp_path / "jo" / "job-1").iterdir()] == [digest]
+
+
+def test_several_are_stored_with_their_names_in_order(tmp_path):
+    blobs = LocalBlobStore(tmp_path)
+    contents = [b"body", b"overlay", b"body"]
+    names = blobs.put_all("job-1", contents)
+    assert names == [hashlib.sha256(content).hexdigest() for content in contents]
+    assert [blobs.get("job-1", name) for name in names] == contents
+
+
+def test_all_files_reach_the_disk_before_their_folder_does(tmp_path, monkeypatch):
+    synced: list[bool] = []
+    monkeypatch.setattr(
+        "os.fsync", lambda handle: synced.append(stat.S_ISDIR(os.fstat(handle).st_mode))
+    )
+    LocalBlobStore(tmp_path).put_all("job-1", [b"body", b"overlay"])
+    assert synced == [False, False, True]
 
 
 def test_erasing_a_scope_leaves_other_scopes_with_the_same_content(tmp_path):

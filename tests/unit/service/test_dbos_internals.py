@@ -41,12 +41,18 @@ SIGNATURES = [
         "self, name, *, client_system_database=None",
         "it still returns a queue's record by name, or None",
     ),
+    (
+        "_sys_db:SystemDatabase.dequeue_scopes",
+        "self, queue_name",
+        "it still returns the list of what a queue is to be claimed from",
+    ),
 ]
 
 CLAIMS = "the limit of a worker is still `_worker_concurrency` less what it runs"
 READS_FIRST = (
-    "the queue is read by `_sys_db.get_queue` before each look, `_polling_interval_sec` and "
-    "`_worker_concurrency` are taken from what was read, and an event that is set ends the thread"
+    "before each look the queue is read by `_sys_db.get_queue`, then `_sys_db.dequeue_scopes` is "
+    "asked, `_polling_interval_sec` and after that `_worker_concurrency` are taken from what was "
+    "read, without scopes nothing is claimed, and an event that is set ends the thread"
 )
 PUTS_BACK = "only what stands as PENDING by one of the dead is put back, with its count"
 STOPS = "`background_thread_stop_events` holds the event that ends the queues' threads"
@@ -59,6 +65,7 @@ READ = [
     ("_queue:queue_thread", "e54ec9c69e992899", STOPS),
     ("_sys_db:SystemDatabase.start_queued_workflows", "f8d6ba4ec0b52137", CLAIMS),
     ("_sys_db:SystemDatabase.get_queue", "89a5ccf936c5eee8", READS_FIRST),
+    ("_sys_db:SystemDatabase.dequeue_scopes", "4e4f440a21b04a94", READS_FIRST),
     ("_sys_db:queue_from_db_row", "89454bc7ae33627a", READS_FIRST),
     ("_recovery:recover_pending_workflows", "9f2a97ad0756a741", PUTS_BACK),
     ("_recovery:_recover_workflow", "ebfc6ed4df454172", PUTS_BACK),

@@ -90,3 +90,50 @@ def test_closed_places_keep_nobody_waiting_and_wait_for_those_who_have_one():
         assert not slots.all_left(within_s=0.01)
     assert slots.all_left(within_s=0.0)
     assert set(slots.held()) == set()
+
+
+def test_a_slot_that_was_left_is_another_jobs_while_the_result_is_stored():
+    slots = WorkerSlots(1, poll_s=LONG_S, monotonic=lambda: 5.0)
+    with slots.taken_by("one"):
+        slots.leave("one")
+        with waiting(slots):
+            pass
+        # The engine has begun one, which it still counts.
+        assert slots.claimable() == 2
+        slots.end_look()
+        assert set(slots.held()) == {"one"}
+        assert not slots.all_left(within_s=0.01)
+    assert slots.all_left(within_s=0.0)
+    assert slots.claimable() == 1
+
+
+def test_no_more_results_are_being_stored_than_there_are_slots(monkeypatch):
+    monkeypatch.setattr(worker_slots, "FULL_LOOK_S", LONG_S)
+    slots = WorkerSlots(1, poll_s=0.0)
+    with slots.taken_by("one"), slots.taken_by("two"):
+        slots.leave("one")
+        slots.leave("two")
+        assert slots.claimable() == 2
+        slots.end_look()
+        thread = threading.Thread(target=slots.await_turn, daemon=True)
+        thread.start()
+        assert is_waiting(thread)
+    thread.join(PATIENCE_S)
+    assert not thread.is_alive()
+
+
+def test_a_job_that_a_look_has_counted_does_not_end_during_it(monkeypatch):
+    monkeypatch.setattr(worker_slots, "FULL_LOOK_S", LONG_S)
+    slots = WorkerSlots(1, poll_s=LONG_S)
+
+    def run() -> None:
+        with slots.taken_by("one"):
+            slots.leave("one")
+            assert slots.claimable() == 2
+
+    thread = threading.Thread(target=run, daemon=True)
+    thread.start()
+    assert is_waiting(thread)
+    slots.end_look()
+    thread.join(PATIENCE_S)
+    assert not thread.is_alive()

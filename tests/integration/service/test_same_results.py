@@ -1,0 +1,108 @@
+"""Real fits in processes that have run others: their files are those of a process of their own."""
+
+import json
+from collections.abc import Iterator, Sequence
+
+import pytest
+
+from api_schemas.derivations import DerivationRequest
+from service.engine.port import FIT
+from service.jobs.inputs import IMAGE, PERSON, RESULT
+from service.submissions.submission import check_submission
+from service.worker import child
+from service.worker.child_tasks import ChildSetup, ChildTask
+from service.worker.forking import ForkedProcesses
+from service.worker.kept_children import Child
+from service.worker.messages import MESSAGES, DoneMessage, FileMessage, ProgressMessage
+from tests.submissions import small_submissions
+
+MAX_PIXELS = 10_000_000
+SETUP = ChildSetup(
+    pipeline="service.worker.pipeline",
+    max_pixels=MAX_PIXELS,
+    models=None,
+    detector=None,
+    memory_mb=4_096,
+    log_level="INFO",
+    log_format="text",
+)
+
+Job = tuple[str, bytes, dict[str, bytes]]
+"""Kind, options and inputs."""
+
+
+@pytest.fixture(scope="module")
+def processes() -> ForkedProcesses:
+    return ForkedProcesses("service.worker.pipeline")
+
+
+@pytest.fixture(scope="module")
+def fits() -> Sequence[Job]:
+    return [_fit(each.request, each.image) for each in small_submissions(3)]
+
+
+@pytest.fixture(scope="module")
+def found(processes: ForkedProcesses, fits: Sequence[Job]) -> dict[str, bytes]:
+    """What is derived from: files of one of the fits."""
+    files = next(results(processes, fits))
+    return {name: files[name] for name in (PERSON, RESULT)}
+
+
+def test_a_fit_is_the_same_in_a_process_that_has_run_others(
+    processes: ForkedProcesses, fits: Sequence[Job]
+):
+    one, other, last = fits
+    alone = [next(results(processes, [each])) for each in (one, last)]
+    after_others = list(results(processes, [other, one, last, one]))
+    assert after_others[1] == after_others[3] == alone[0]
+    assert after_others[2] == alone[1]
+
+
+@pytest.mark.parametrize("kind", ["body_composition", "caricature", "pose", "animation"])
+def test_what_is_derived_from_a_fit_is_the_same_after_other_jobs(
+    processes: ForkedProcesses, fits: Sequence[Job], found: dict[str, bytes], kind: str
+):
+    job = _derivation({"kind": kind}, found)
+    assert list(results(processes, [fits[1], job]))[1] == next(results(processes, [job]))
+
+
+def results(processes: ForkedProcesses, jobs: Sequence[Job]) -> Iterator[dict[str, bytes]]:
+    """The files of jobs that one process runs, one after the other."""
+    process = Child(*processes.start(child.work, SETUP))
+    try:
+        for kind, options, inputs in jobs:
+            task = ChildTask(kind=kind, inputs=tuple(inputs), log_context={})
+            process.give(task, (options, *inputs.values()))
+            yield _files(process)
+    finally:
+        process.end()
+
+
+def _files(process: Child) -> dict[str, bytes]:
+    files: dict[str, bytes] = {}
+    while True:
+        message = MESSAGES.validate_json(process.connection.recv_bytes())
+        if isinstance(message, FileMessage):
+            files[message.name] = process.connection.recv_bytes()
+        elif isinstance(message, DoneMessage):
+            return files | {RESULT: _without_durations(files[RESULT])}
+        else:
+            assert isinstance(message, ProgressMessage), message
+
+
+def _without_durations(document: bytes) -> bytes:
+    result = json.loads(document)
+    result.pop("stage_seconds", None)
+    return json.dumps(result).encode()
+
+
+def _fit(request: str, image: bytes) -> Job:
+    checked = check_submission(
+        request=request.encode(), image=image, mask=None, max_pixels=MAX_PIXELS
+    )
+    return FIT, checked.options.model_dump_json().encode(), {IMAGE: image}
+
+
+def _derivation(options: dict[str, object], inputs: dict[str, bytes]) -> Job:
+    checked = DerivationRequest.model_validate(options)
+    return checked.root.kind, checked.model_dump_json().encode(), inputs
