@@ -6,15 +6,13 @@ import os
 import platform
 import sys
 from collections.abc import Sequence
-
-from tests.benchmarks import baseline
+from pathlib import Path
 
 # Before numpy is loaded: one thread a fit, as in the service.
 for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ[_variable] = "1"
 
 FITS = {
-    "goals": 20,
     "stages": 20,
     "simplex": 3,
     "memory": 1,
@@ -22,7 +20,6 @@ FITS = {
     "throughput": 10,
     "scaling": 5,
     "startup": 3,
-    "demo": 5,
     "upload": 5,
     "page": 10,
     "load": 1_000,
@@ -32,8 +29,8 @@ FITS = {
     "soak": 10,
 }
 """The parts, each a module of this package, and how many fits each makes unless told otherwise:
-of ``idle`` services, of ``startup`` starts and demos, of ``page`` visits, of ``load`` jobs that
-wait, of ``soak`` minutes."""
+of ``idle`` services, of ``startup`` starts, of ``page`` visits, of ``load`` jobs that wait, of
+``soak`` minutes."""
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -41,9 +38,8 @@ def main(arguments: Sequence[str]) -> int:
     options = _parser().parse_args(arguments)
     print(f"{platform.machine()}, {os.cpu_count()} processors, Python {platform.python_version()}")
     if options.against is not None:
-        with baseline.checkout(options.against) as folder:
-            for line in importlib.import_module("tests.benchmarks.against").lines(folder):
-                print(line, flush=True)
+        for line in importlib.import_module("tests.benchmarks.against").lines(options.against):
+            print(line, flush=True)
         return 0
     for part in options.part or FITS:
         load = ", ".join(f"{value:.1f}" for value in os.getloadavg())
@@ -62,8 +58,9 @@ def _parser() -> argparse.ArgumentParser:
     counts = ", ".join(f"{count} {part}" for part, count in FITS.items())
     parser.add_argument(
         "--against",
-        metavar="REVISION",
-        help="instead, compare fits, uploads and scans with another state, a revision or a folder",
+        type=Path,
+        metavar="FOLDER",
+        help="instead, compare fits, uploads and scans with another checkout, in turns",
     )
     parser.add_argument("--fits", type=int, help=f"fits of each part (default: {counts})")
     return parser

@@ -4,8 +4,7 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -20,17 +19,8 @@ FITS = {"fits": 7, "uploads": 3, "scans": 3}
 """What is compared, see :mod:`tests.benchmarks.probe`, and over how many fits a round."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Comparison:
-    """A figure of both checkouts, medians over the rounds, and the median of the rounds' ratios."""
-
-    there: float
-    here: float
-    ratio: float
-
-
-def comparisons(baseline: Path) -> Mapping[str, Comparison]:
-    """Every figure of the probes by its name, over three rounds in turns."""
+def lines(baseline: Path) -> Iterator[str]:
+    """A row a figure: medians of both checkouts over three rounds, and of the rounds' ratios."""
     theirs: dict[str, list[float]] = {}
     ours: dict[str, list[float]] = {}
     for probe in FITS:
@@ -38,24 +28,17 @@ def comparisons(baseline: Path) -> Mapping[str, Comparison]:
             for checkout, found in ((baseline.resolve(), theirs), (HERE, ours)):
                 for name, figure in _figures(checkout, probe).items():
                     found.setdefault(name, []).append(figure)
-    return {
-        name: Comparison(
-            there=float(np.median(theirs[name])),
-            here=float(np.median(ours[name])),
-            ratio=float(np.median(np.divide(ours[name], theirs[name]))),
-        )
-        for name in theirs
-    }
-
-
-def lines(baseline: Path) -> Iterator[str]:
-    """A row a figure."""
     yield from table_lines(
         f"This checkout against {baseline.name}, {ROUNDS} rounds in turns, seconds or shares",
         ("", "there", "here", "ratio"),
         [
-            (name, f"{each.there:.3f}", f"{each.here:.3f}", f"{each.ratio:.2f}")
-            for name, each in comparisons(baseline).items()
+            (
+                name,
+                f"{np.median(theirs[name]):.3f}",
+                f"{np.median(ours[name]):.3f}",
+                f"{np.median(np.divide(ours[name], theirs[name])):.2f}",
+            )
+            for name in theirs
         ],
     )
     yield from note_lines("Fits, pictures and meshes: processor time; the upload: wall time.")

@@ -2,7 +2,7 @@
 
 import tempfile
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
@@ -38,21 +38,12 @@ def lines(count: int) -> Iterator[str]:
         ("", "resident", "its share", "of no file", "of files"),
         [(each.name, *(f"{value:.0f}" for value in each.mib)) for each in services[-1]],
     )
-    shares = [_share_of_all(each) for each in services]
+    shares = [each[-1].mib[FIELDS.index("Pss")] for each in services]
     yield from note_lines(
         f"All shares in {count} services: median {median(shares):.0f}, {min(shares):.0f} to "
         f"{max(shares):.0f}. A share counts pages that several processes have by their number: "
         "other programs that use the same libraries make the part of files less."
     )
-
-
-def shares_mib(count: int) -> list[float]:
-    """What all processes of an idle service hold, of ``count`` services."""
-    return [_share_of_all(_idle()) for _ in range(count)]
-
-
-def _share_of_all(service: Sequence[_Use]) -> float:
-    return service[-1].mib[FIELDS.index("Pss")]
 
 
 def _idle() -> list[_Use]:

@@ -2,7 +2,7 @@
 
 import tempfile
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
@@ -19,34 +19,30 @@ ROUNDS = 3
 PICTURES = 4
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Taken:
-    """Wall seconds, and processor seconds by who used them."""
-
-    wall_s: float
-    fits_s: float
-    worker_s: float = 0.0
-    api_s: float = 0.0
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Round:
-    """The same fits both ways; ``share`` is the service's rate over the bare one."""
-
-    bare: _Taken
-    served: _Taken
-
-    @property
-    def share(self) -> float:
-        """1 if the service cost nothing."""
-        return self.bare.wall_s / self.served.wall_s
-
-
 def lines(count: int) -> Iterator[str]:
     """``count`` fits each way, in each of three rounds; one fit at a time."""
+    submissions = small_submissions(count)
+    ours, theirs = get_context("spawn").Pipe()
+    loop = get_context("spawn").Process(target=_loop, args=(theirs,))
+    loop.start()
+    ours.send(submissions[:PICTURES])
+    ours.recv()
+    bare: list[_Taken] = []
+    served: list[_Taken] = []
+    with tempfile.TemporaryDirectory(prefix="maquette-benchmark-") as folder:
+        deployment = Deployment(folder=Path(folder), commands=NO_WORKER, workers=1)
+        with running(deployment), httpx.Client(base_url=deployment.address, timeout=120) as client:
+            ready(client)
+            _serve(deployment, client, submissions[:PICTURES])
+            for _ in range(ROUNDS):
+                ours.send(submissions)
+                bare.append(ours.recv())
+                served.append(_serve(deployment, client, submissions))
+    ours.send([])
+    loop.join()
     rows = [
-        (f"round {number}", *_cells(count, each))
-        for number, each in enumerate(rounds(count), start=1)
+        (f"round {number}", *_cells(count, *each))
+        for number, each in enumerate(zip(bare, served, strict=True), start=1)
     ]
     yield from table_lines(
         f"{count} small fits by silhouette and edges, with their files, one at a time",
@@ -69,35 +65,21 @@ def lines(count: int) -> Iterator[str]:
     )
 
 
-def rounds(count: int) -> Sequence[Round]:
-    """Three rounds in turns, each of ``count`` fits both ways."""
-    submissions = small_submissions(count)
-    ours, theirs = get_context("spawn").Pipe()
-    loop = get_context("spawn").Process(target=_loop, args=(theirs,))
-    loop.start()
-    ours.send(submissions[:PICTURES])
-    ours.recv()
-    taken: list[Round] = []
-    with tempfile.TemporaryDirectory(prefix="maquette-benchmark-") as folder:
-        deployment = Deployment(folder=Path(folder), commands=NO_WORKER, workers=1)
-        with running(deployment), httpx.Client(base_url=deployment.address, timeout=120) as client:
-            ready(client)
-            _serve(deployment, client, submissions[:PICTURES])
-            for _ in range(ROUNDS):
-                ours.send(submissions)
-                bare = ours.recv()
-                taken.append(Round(bare=bare, served=_serve(deployment, client, submissions)))
-    ours.send([])
-    loop.join()
-    return taken
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Taken:
+    """Wall seconds, and processor seconds by who used them."""
+
+    wall_s: float
+    fits_s: float
+    worker_s: float = 0.0
+    api_s: float = 0.0
 
 
-def _cells(count: int, each: Round) -> tuple[str, ...]:
-    bare, served = each.bare, each.served
+def _cells(count: int, bare: _Taken, served: _Taken) -> tuple[str, ...]:
     return (
         f"{count / bare.wall_s:.2f}",
         f"{count / served.wall_s:.2f}",
-        f"{100 * each.share:.0f} %",
+        f"{100 * bare.wall_s / served.wall_s:.0f} %",
         f"{bare.fits_s / count:.3f}",
         f"{served.fits_s / count:.3f}",
         f"{served.worker_s / count:.3f}",

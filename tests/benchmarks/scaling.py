@@ -1,19 +1,16 @@
-"""What a fit's cost grows with: size of the picture, starts, vertices, views of a scan."""
+"""What a fit's cost grows with: size of the picture, number of starts, number of vertices."""
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import qdldl
 import trimesh
 from scipy import sparse
 
-from fitter.capture.capture import ViewKind
 from fitter.fits import descents
 from fitter.fits.progress import Stage
-from fitter.fits.scan import ScanView, scan
 from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
 from fitter.numerics.mesh_topology import mesh_topology
 from fitter.numerics.supernodal import supernodal_factor
@@ -21,29 +18,23 @@ from fitter.optimizer.search import limits_of
 from fitter.render.camera import Camera
 from fitter.render.contours import model_edges
 from fitter.render.rasterizer import render
-from fitter.request import Cues
 from fitter.training.report.text_tables import note_lines, table_lines
 from tests.benchmarks.requests import suite_requests, warm_up
 from tests.benchmarks.spent import TimedFit, median, timed, timed_fit
-from tests.evaluation.files import read_case
-from tests.evaluation.phone_cases import REPEATED_PAIRS
-from tests.evaluation.suite import fit_request
 
 WIDTHS = (240, 360, 480, 960, 1920, 3000)
 STARTS = (1, 2, 3, 4)
 SUBDIVISIONS = (3, 4, 5, 6)
-VIEWS = (2, 3, 4, 6)
 CAMERA = Camera(focal_length_px=800, centre_x=240, centre_y=320, width=480, height=640)
 _CALLS = 20
 
 
 def lines(count: int) -> Iterator[str]:
-    """Four tables; what more processes bring is told by :mod:`tests.benchmarks.throughput`."""
+    """Three tables."""
     warm_up()
     yield from _by_picture(count)
     yield from _by_starts(count)
     yield from _by_vertices()
-    yield from _by_views()
 
 
 def _by_picture(count: int) -> Iterator[str]:
@@ -116,33 +107,6 @@ def _by_vertices() -> Iterator[str]:
         "A body has 12,440 vertices. These are the parts of an energy that work on every vertex; "
         "the terms of shape and pose grow in proportion to vertices as well."
     )
-
-
-def _by_views() -> Iterator[str]:
-    """Scans of the people photographed five times, from the front and from the side each time."""
-    people = {pair.person for pair in REPEATED_PAIRS.values()}
-    views = [_views_of(person) for person in sorted(people)]
-    single = [timed_fit(each[0].request).whole.processor_s for each in views]
-    rows: list[tuple[str, ...]] = []
-    for count in VIEWS:
-        taken = [timed(partial(scan, each[:count]))[1].processor_s for each in views]
-        share = median([float(each) for each in np.divide(taken, single)])
-        rows.append((str(count), f"{median(taken):.2f}", f"{share:.2f}"))
-    yield from table_lines(
-        f"Views of a scan, median processor seconds of {len(people)} people",
-        ("views", "in all", "over a single fit"),
-        rows,
-    )
-
-
-def _views_of(person: str) -> Sequence[ScanView]:
-    """All pictures of a person, front and side in turn."""
-    return [
-        ScanView(kind=kind, request=fit_request(read_case(case), Cues.SES))
-        for pair in REPEATED_PAIRS.values()
-        if pair.person == person
-        for case, kind in ((pair.front, ViewKind.FRONT), (pair.side, ViewKind.SIDE))
-    ]
 
 
 def _vertex_row(subdivisions: int) -> tuple[str, ...]:
