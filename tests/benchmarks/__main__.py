@@ -14,6 +14,7 @@ for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ[_variable] = "1"
 
 FITS = {
+    "goals": 3,
     "stages": 20,
     "simplex": 3,
     "memory": 1,
@@ -31,7 +32,7 @@ FITS = {
     "soak": 10,
 }
 """The parts, each a module of this package, and how many fits each makes unless told otherwise:
-of ``idle`` services, of ``startup`` starts, of ``demo`` runs, of ``page``
+of ``goals`` rounds, of ``idle`` services, of ``startup`` starts, of ``demo`` runs, of ``page``
 visits, of ``load`` jobs that wait, of ``soak`` minutes."""
 
 
