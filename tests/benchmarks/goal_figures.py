@@ -23,11 +23,17 @@ SIMPLEX_PICTURES = 1
 FITS_A_PROCESS = 10
 
 
-def of_idle_services() -> Figures:
-    """MiB; before all others, lest this process share the libraries of the services."""
-    from tests.benchmarks import idle
+def of_the_command() -> Figures:
+    """Seconds and MiB of `maquette`, while this process shares no library with a service.
 
-    return {IDLE: [each.share_mib for each in idle.measured(SERVICES)]}
+    The demo comes first: it compiles the kernels if they are not yet, and nothing idle does then.
+    """
+    from tests.benchmarks import demo, idle
+
+    return {
+        DEMO: demo.measured(DEMOS),
+        IDLE: [each.share_mib for each in idle.measured(SERVICES)],
+    }
 
 
 def of_the_baseline(rounds: int) -> Figures:
@@ -47,15 +53,14 @@ def of_the_baseline(rounds: int) -> Figures:
 
 
 def of_this_checkout() -> Figures:
-    """Shares of something measured here too, percent and seconds."""
-    from tests.benchmarks import against, demo, overhead, simplex, throughput
+    """Shares of something else that this checkout takes, and percent."""
+    from tests.benchmarks import against, overhead, simplex, throughput
 
     scans = against.figures(against.HERE, "scans", SCANS)
     rates = throughput.measured(FITS_A_PROCESS)
     one, *_, most = (rates[processes] for processes in sorted(rates))
     return {name: [share] for name, share in scans.items()} | {
         OWN_COST: [100.0 * (1.0 - each.served_share) for each in overhead.measured(SMALL_FITS)],
-        DEMO: demo.measured(DEMOS),
         SIMPLEX: [each.times_slower for each in simplex.measured(SIMPLEX_PICTURES)],
         PROCESSES: [most / one],
     }

@@ -46,7 +46,7 @@ GOALS = (
 
 def lines(count: int) -> Iterator[str]:
     """All goals, those that are shares of the baseline over ``count`` rounds in turns."""
-    figures = dict(goal_figures.of_idle_services())
+    figures = dict(goal_figures.of_the_command())
     note = (
         f"The baseline is {BASELINE[:7]}, in turns with this checkout: processor time, of the "
         "upload wall time. The simplex is stopped at so many energies, most often before it has "
