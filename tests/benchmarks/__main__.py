@@ -6,13 +6,15 @@ import os
 import platform
 import sys
 from collections.abc import Sequence
-from pathlib import Path
+
+from tests.benchmarks.checkouts import BASELINE
 
 # Before numpy is loaded: one thread a fit, as in the service.
 for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ[_variable] = "1"
 
 FITS = {
+    "goals": 3,
     "stages": 20,
     "simplex": 3,
     "memory": 1,
@@ -20,6 +22,7 @@ FITS = {
     "throughput": 10,
     "scaling": 5,
     "startup": 3,
+    "demo": 3,
     "upload": 5,
     "page": 10,
     "load": 1_000,
@@ -29,8 +32,8 @@ FITS = {
     "soak": 10,
 }
 """The parts, each a module of this package, and how many fits each makes unless told otherwise:
-of ``idle`` services, of ``startup`` starts, of ``page`` visits, of ``load`` jobs that wait, of
-``soak`` minutes."""
+of ``goals`` rounds, of ``idle`` services, of ``startup`` starts, of ``demo`` runs, of ``page``
+visits, of ``load`` jobs that wait, of ``soak`` minutes."""
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -58,9 +61,11 @@ def _parser() -> argparse.ArgumentParser:
     counts = ", ".join(f"{count} {part}" for part, count in FITS.items())
     parser.add_argument(
         "--against",
-        type=Path,
-        metavar="FOLDER",
-        help="instead, compare fits, uploads and scans with another checkout, in turns",
+        nargs="?",
+        const=BASELINE,
+        metavar="REVISION",
+        help="instead, compare fits, uploads and scans with another revision, or the checkout in a "
+        "folder, in turns (given no other: that of the goals)",
     )
     parser.add_argument("--fits", type=int, help=f"fits of each part (default: {counts})")
     return parser

@@ -30,15 +30,37 @@ class _Use:
     mib: tuple[float, ...]
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Idle:
+    """A service that waits."""
+
+    processes: tuple[_Use, ...]
+
+    @property
+    def together(self) -> _Use:
+        """All processes."""
+        columns = zip(*(each.mib for each in self.processes), strict=True)
+        return _Use(name=ALL, mib=tuple(sum(values) for values in columns))
+
+    @property
+    def share_mib(self) -> float:
+        """The sum of their shares."""
+        return self.together.mib[FIELDS.index("Pss")]
+
+
 def lines(count: int) -> Iterator[str]:
     """``count`` services, one after the other; the processes shown are those of the last."""
-    services = [_idle() for _ in range(count)]
+    services = measured(count)
+    last = services[-1]
     yield from table_lines(
         "Processes of `maquette serve` with one worker, idle, MiB",
         ("", "resident", "its share", "of no file", "of files"),
-        [(each.name, *(f"{value:.0f}" for value in each.mib)) for each in services[-1]],
+        [
+            (each.name, *(f"{value:.0f}" for value in each.mib))
+            for each in (*last.processes, last.together)
+        ],
     )
-    shares = [each[-1].mib[FIELDS.index("Pss")] for each in services]
+    shares = [each.share_mib for each in services]
     yield from note_lines(
         f"All shares in {count} services: median {median(shares):.0f}, {min(shares):.0f} to "
         f"{max(shares):.0f}. A share counts pages that several processes have by their number: "
@@ -46,20 +68,25 @@ def lines(count: int) -> Iterator[str]:
     )
 
 
-def _idle() -> list[_Use]:
-    """The processes of a service that has answered once, and last all of them together."""
+def measured(count: int) -> list[Idle]:
+    """``count`` services, one after the other."""
+    return [_idle() for _ in range(count)]
+
+
+def _idle() -> Idle:
+    """The processes of a service that has answered once."""
     with tempfile.TemporaryDirectory(prefix="maquette-benchmark-") as folder:
         deployment = Deployment(folder=Path(folder), workers=0)
         with running(deployment), httpx.Client(base_url=deployment.address, timeout=120) as client:
             ready(client)
             wait_for_estimator(client)
             time.sleep(SETTLED_S)
-            uses = [
-                _Use(name=_name(each, deployment), mib=memory_mib(each.pid, FIELDS))
-                for each in deployment.processes()
-            ]
-    together = tuple(sum(values) for values in zip(*(each.mib for each in uses), strict=True))
-    return [*uses, _Use(name=ALL, mib=together)]
+            return Idle(
+                processes=tuple(
+                    _Use(name=_name(each, deployment), mib=memory_mib(each.pid, FIELDS))
+                    for each in deployment.processes()
+                )
+            )
 
 
 def _name(process: Process, deployment: Deployment) -> str:

@@ -19,30 +19,34 @@ ROUNDS = 3
 PICTURES = 4
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Taken:
+    """Wall seconds, and processor seconds by who used them."""
+
+    wall_s: float
+    fits_s: float
+    worker_s: float = 0.0
+    api_s: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Round:
+    """The same fits both ways."""
+
+    bare: _Taken
+    served: _Taken
+
+    @property
+    def served_share(self) -> float:
+        """The rate through the service over that of the bare loop."""
+        return self.bare.wall_s / self.served.wall_s
+
+
 def lines(count: int) -> Iterator[str]:
     """``count`` fits each way, in each of three rounds; one fit at a time."""
-    submissions = small_submissions(count)
-    ours, theirs = get_context("spawn").Pipe()
-    loop = get_context("spawn").Process(target=_loop, args=(theirs,))
-    loop.start()
-    ours.send(submissions[:PICTURES])
-    ours.recv()
-    bare: list[_Taken] = []
-    served: list[_Taken] = []
-    with tempfile.TemporaryDirectory(prefix="maquette-benchmark-") as folder:
-        deployment = Deployment(folder=Path(folder), commands=NO_WORKER, workers=1)
-        with running(deployment), httpx.Client(base_url=deployment.address, timeout=120) as client:
-            ready(client)
-            _serve(deployment, client, submissions[:PICTURES])
-            for _ in range(ROUNDS):
-                ours.send(submissions)
-                bare.append(ours.recv())
-                served.append(_serve(deployment, client, submissions))
-    ours.send([])
-    loop.join()
     rows = [
-        (f"round {number}", *_cells(count, *each))
-        for number, each in enumerate(zip(bare, served, strict=True), start=1)
+        (f"round {number}", *_cells(count, each))
+        for number, each in enumerate(measured(count), start=1)
     ]
     yield from table_lines(
         f"{count} small fits by silhouette and edges, with their files, one at a time",
@@ -65,21 +69,36 @@ def lines(count: int) -> Iterator[str]:
     )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Taken:
-    """Wall seconds, and processor seconds by who used them."""
+def measured(count: int) -> list[Round]:
+    """Rounds of ``count`` fits each way, after a few untimed ones."""
+    submissions = small_submissions(count)
+    ours, theirs = get_context("spawn").Pipe()
+    loop = get_context("spawn").Process(target=_loop, args=(theirs,))
+    loop.start()
+    ours.send(submissions[:PICTURES])
+    ours.recv()
+    rounds: list[Round] = []
+    with tempfile.TemporaryDirectory(prefix="maquette-benchmark-") as folder:
+        deployment = Deployment(folder=Path(folder), commands=NO_WORKER, workers=1)
+        with running(deployment), httpx.Client(base_url=deployment.address, timeout=120) as client:
+            ready(client)
+            _serve(deployment, client, submissions[:PICTURES])
+            for _ in range(ROUNDS):
+                ours.send(submissions)
+                bare: _Taken = ours.recv()
+                served = _serve(deployment, client, submissions)
+                rounds.append(Round(bare=bare, served=served))
+    ours.send([])
+    loop.join()
+    return rounds
 
-    wall_s: float
-    fits_s: float
-    worker_s: float = 0.0
-    api_s: float = 0.0
 
-
-def _cells(count: int, bare: _Taken, served: _Taken) -> tuple[str, ...]:
+def _cells(count: int, each: Round) -> tuple[str, ...]:
+    bare, served = each.bare, each.served
     return (
         f"{count / bare.wall_s:.2f}",
         f"{count / served.wall_s:.2f}",
-        f"{100 * bare.wall_s / served.wall_s:.0f} %",
+        f"{100 * each.served_share:.0f} %",
         f"{bare.fits_s / count:.3f}",
         f"{served.fits_s / count:.3f}",
         f"{served.worker_s / count:.3f}",

@@ -41,10 +41,7 @@ class Contest:
 
 def lines(count: int) -> Iterator[str]:
     """Two contests a picture."""
-    warm_up()
-    contests: list[Contest] = []
-    for request in suite_requests(count, width=480, height=640):
-        contests += [_contest(name, search) for name, search in _searches(request).items()]
+    contests = measured(count)
     yield from table_lines(
         f"Gauss-Newton and simplex on the same energy from the same start, {count} pictures, "
         "480x640",
@@ -63,6 +60,16 @@ def lines(count: int) -> Iterator[str]:
         [_row(contest) for contest in contests],
     )
     yield from note_lines(_summary(contests))
+
+
+def measured(count: int) -> list[Contest]:
+    """The contests over ``count`` pictures."""
+    warm_up()
+    return [
+        _contest(name, search)
+        for request in suite_requests(count, width=480, height=640)
+        for name, search in _searches(request).items()
+    ]
 
 
 def _searches(request: FitRequest) -> Mapping[str, Search]:
@@ -129,7 +136,9 @@ def _summary(contests: Sequence[Contest]) -> str:
     capped = sum(not each.simplex.converged for each in contests)
     return (
         f"The simplex may compute {SIMPLEX_EVALUATIONS} energies, Gauss-Newton "
-        f"{NEWTON_EVALUATIONS}; the cap ended {capped} of {len(contests)} simplex searches. "
+        f"{NEWTON_EVALUATIONS}. {capped} of {len(contests)} simplex searches were stopped there "
+        "before they had converged: how many times slower the simplex is, is at least what stands "
+        "here. "
         f"Gauss-Newton's energy is equal or lower in {better} of {len(contests)}; the simplex "
         f"takes {median([each.times_slower for each in contests]):.0f} times its processor time "
         f"(median) and ends {median([each.times_higher for each in contests]):.3f} times as high."

@@ -20,9 +20,7 @@ WITHIN_S = 300.0
 
 def lines(count: int) -> Iterator[str]:
     """``count`` starts, one after the other, and one before them that is not counted."""
-    (submission,) = small_submissions(1)
-    _start(submission)
-    starts = [_start(submission) for _ in range(count)]
+    starts = measured(count)
     yield from table_lines(
         f"{count} starts, seconds from the command",
         ("", "answers", "ready", "first fit's end", "processor s until ready", "until the fit"),
@@ -36,7 +34,7 @@ def lines(count: int) -> Iterator[str]:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Start:
+class Start:
     """Seconds since the command, and processor seconds used by then."""
 
     answers_s: float
@@ -46,7 +44,13 @@ class _Start:
     used_until_fitted_s: float
 
 
-def _start(submission: Submission) -> _Start:
+def measured(count: int) -> list[Start]:
+    """``count`` starts, without one before them."""
+    (submission,) = small_submissions(1)
+    return [_start(submission) for _ in range(1 + count)][1:]
+
+
+def _start(submission: Submission) -> Start:
     with tempfile.TemporaryDirectory(prefix="maquette-benchmark-") as folder:
         deployment = Deployment(folder=Path(folder), workers=0)
         began = time.monotonic()
@@ -58,7 +62,7 @@ def _start(submission: Submission) -> _Start:
             used_until_ready_s = _used_s(deployment)
             posted = client.post("/v1/fits", files=submission.files).raise_for_status()
             all_ended(client, [posted.headers["Location"]])
-            return _Start(
+            return Start(
                 answers_s=answers_s,
                 ready_s=ready_s,
                 fitted_s=time.monotonic() - began,
@@ -82,7 +86,7 @@ def _used_s(deployment: Deployment) -> float:
     return sum(used_s(deployment, kind) for kind in Kind if kind is not Kind.FIT)
 
 
-def _cells(start: _Start) -> tuple[str, ...]:
+def _cells(start: Start) -> tuple[str, ...]:
     return (
         f"{start.answers_s:.2f}",
         f"{start.ready_s:.2f}",

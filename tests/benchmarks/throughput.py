@@ -1,7 +1,7 @@
 """Fits a second with one process and with several."""
 
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from multiprocessing.synchronize import Barrier
@@ -15,18 +15,22 @@ PROCESSES = (1, 2)
 
 def lines(count: int) -> Iterator[str]:
     """``count`` fits by each process."""
-    rows: list[tuple[str, ...]] = []
-    first = 0.0
-    for processes in PROCESSES:
-        rate = _fits_a_second(processes, count)
-        first = first or rate
-        rows.append((str(processes), f"{rate:.2f}", f"{rate / first:.2f}"))
+    rates = measured(count)
+    first = rates[PROCESSES[0]]
+    rows = [
+        (str(processes), f"{rate:.2f}", f"{rate / first:.2f}") for processes, rate in rates.items()
+    ]
     yield from table_lines(
         f"Throughput, {count} fits a process, 480x640",
         ("processes", "fits a second", "times one"),
         rows,
     )
     yield from note_lines("Wall time from the first fit's start to the last one's end.")
+
+
+def measured(count: int) -> Mapping[int, float]:
+    """Fits a second by the number of processes, each of which makes ``count``."""
+    return {processes: _fits_a_second(processes, count) for processes in PROCESSES}
 
 
 def _fits_a_second(processes: int, count: int) -> float:

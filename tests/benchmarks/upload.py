@@ -3,7 +3,7 @@
 import os
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import httpx
@@ -23,13 +23,8 @@ _QUIET = {"MAQUETTE_LOG_LEVEL": "WARNING"}
 
 def lines(count: int) -> Iterator[str]:
     """``count`` fits one after the other, wall time as a caller sees it."""
-    os.environ.update(_QUIET)
     requests = suite_requests(count + _WARMING, width=SIZE[0], height=SIZE[1])
-    with (
-        tempfile.TemporaryDirectory(prefix="maquette-benchmark-") as folder,
-        running_service(Path(folder)) as client,
-    ):
-        posted = [_posted(client, request) for request in requests][_WARMING:]
+    posted = measured(requests)
     names = ("accepted", "result there", "everything fetched", *(stage.value for stage in Stage))
     rows = [
         (name, f"{median(values):.2f}", f"{late(values):.2f}")
@@ -47,6 +42,16 @@ def lines(count: int) -> Iterator[str]:
         "The first three are counted from the start of the upload; the stages are the fit's own "
         "account of itself; pictures and meshes are made after them."
     )
+
+
+def measured(requests: Sequence[FitRequest]) -> list[dict[str, float]]:
+    """What each upload took, by what was waited for; the first warms up and is left out."""
+    os.environ.update(_QUIET)
+    with (
+        tempfile.TemporaryDirectory(prefix="maquette-benchmark-") as folder,
+        running_service(Path(folder)) as client,
+    ):
+        return [_posted(client, request) for request in requests][_WARMING:]
 
 
 def _posted(client: httpx.Client, request: FitRequest) -> dict[str, float]:
