@@ -79,7 +79,7 @@ def _wait_for(client: httpx.Client, probe: str) -> None:
 
 
 def _used_s(deployment: Deployment) -> float:
-    return sum(used_s(deployment, kind) for kind in Kind if kind is not Kind.FIT)
+    return sum(used_s(deployment, kind) for kind in Kind)
 
 
 def _cells(start: _Start) -> tuple[str, ...]:

@@ -112,7 +112,8 @@ def _taken(
 
 
 def _used_s(deployment: Deployment) -> float:
-    return sum(used_s(deployment, kind) for kind in (Kind.API, Kind.WORKER, Kind.FORK_SERVER))
+    kinds = (Kind.API, Kind.WORKER, Kind.FORK_SERVER, Kind.FIT)
+    return sum(used_s(deployment, kind) for kind in kinds)
 
 
 def _await_workers(client: httpx.Client, workers: int) -> None:
