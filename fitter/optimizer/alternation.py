@@ -60,6 +60,10 @@ GRADUATION = ((8.0, 2), (3.0, 2), (1.0, 2))
 are far from the first, uniform albedo, and a narrow robust function would treat them as outliers
 for good instead of giving them an albedo of their own."""
 
+REPORTED_GRADUATION = ((8.0, 2), (3.0, 2), (1.0, 3))
+"""The same of the reflectance that is reported: after two at the last width, half of a pair of dark
+trunks was still grey. The body's search does not mind."""
+
 REFINEMENT = ((1.0, 2),)
 """The same, starting from a reflectance already found."""
 
@@ -197,7 +201,9 @@ def shaded_fit(
     objective, now, reported = on_whole_body(objective, minimum.candidate, state)
     if state.light.surroundings is not None:
         reported = _with_shadows_explained(objective, now, reported)
-    reported = _with_new_reflectance(objective, now, reported, REPORTED_SMOOTHNESS, GRADUATION)
+    reported = _with_new_reflectance(
+        objective, now, reported, REPORTED_SMOOTHNESS, REPORTED_GRADUATION
+    )
     hidden = _hidden(objective, now, reported)
     reflectance = replace(
         reported.reflectance,
