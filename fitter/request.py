@@ -5,7 +5,8 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Final
 
-from fitter.parameters import LightKind
+from fitter.arrays import ShapeCovariance
+from fitter.parameters import BodyParameters, LightKind
 
 STATURE: Final = "stature"
 """The measurement that ``FitRequest.height_m`` is in metres."""
@@ -74,6 +75,15 @@ class Clothing(StrEnum):
 
     TIGHT = "tight"
     LOOSE = "loose"
+
+
+class ViewKind(StrEnum):
+    """From where a picture shows a person; ``OTHER`` is any view, which nothing contradicts."""
+
+    FRONT = "front"
+    SIDE = "side"
+    BACK = "back"
+    OTHER = "other"
 
 
 class Posture(StrEnum):
@@ -147,6 +157,99 @@ class LightGuess:
     elevation: float | None = None
     distance: float | None = None
     surroundings: SurroundingsKind = SurroundingsKind.UNIFORM
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Person:
+    """Who is in the pictures.
+
+    Attributes
+    ----------
+    height_m
+        Stature in metres; None means the mean of the gender, or the most probable height of people
+        with the known measurements, which is then reported as assumed.
+    measurements
+        What else is known of the person, by measurement name.
+    """
+
+    gender: Gender
+    height_m: float | None = None
+    measurements: Mapping[str, KnownMeasurement] = field(
+        default_factory=dict[str, KnownMeasurement]
+    )
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class StartingBody:
+    """The person as an earlier fit of the picture found them, and how certain their shape was."""
+
+    body: BodyParameters
+    shape_covariance: ShapeCovariance
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class View:
+    """One picture of the person, what is known of it and how it is read.
+
+    Attributes
+    ----------
+    image
+        The encoded picture (JPEG, PNG, WebP or HEIC).
+    clicks
+        By canonical name: COCO-17 (``left_shoulder`` ...), ``neck``, ``head_top``, ``chin``,
+        ``left_toe``, ``left_heel`` ...; left and right are the person's own. Points refer to pixels
+        of the upright picture.
+    kind
+        From where the picture shows the person, who then stands as asked, if it was taken to be
+        measured; None for any other picture. Pictures with a kind are checked as such.
+    mask
+        An encoded grey picture of the same size; above half is foreground. Replaces GrabCut.
+    focal_length_px, focal_length_35mm
+        At most one; pixels of the upright picture, or the 35 mm equivalent.
+    cues
+        What is compared with the picture.
+    limb_facing
+        The caller's word by limb name (``left_forearm`` ...).
+    complete_clicks
+        Whether the detector proposes the points that were not clicked.
+    slant_hints
+        Whether the detector says how limbs slant in depth.
+    start
+        Where the search of this picture begins; None has it begin with the clicks.
+    """
+
+    image: bytes
+    clicks: Mapping[str, Click]
+    kind: ViewKind | None = None
+    mask: bytes | None = None
+    focal_length_px: float | None = None
+    focal_length_35mm: float | None = None
+    cues: Cues = Cues.SES
+    clothing: Clothing = Clothing.TIGHT
+    light: LightGuess = field(default_factory=LightGuess)
+    limb_facing: Mapping[str, Facing] = field(default_factory=dict[str, Facing])
+    complete_clicks: bool = False
+    segmentation: SegmentationKind = SegmentationKind.SEEDED_GRABCUT
+    slant_hints: bool = True
+    start: StartingBody | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Choices:
+    """How a fit is done, whatever the pictures.
+
+    Attributes
+    ----------
+    force
+        Whether measurements are given even if the evidence contradicts a person.
+    max_pixels
+        Largest picture accepted, checked before decoding.
+    """
+
+    optimizer: OptimizerKind = OptimizerKind.GAUSS_NEWTON
+    outline: OutlineKind = OutlineKind.LINES
+    force: bool = False
+    max_pixels: int = 50_000_000
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

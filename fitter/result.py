@@ -5,12 +5,13 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from fitter.arrays import Image, Mask, Vertices
+from fitter.capture.finding import Finding
 from fitter.measurement.quantity import Measurement
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
 from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera, FocalLengthSource
-from fitter.request import Cues, Facing, OptimizerKind
+from fitter.request import Cues, Facing, OptimizerKind, ViewKind
 from fitter.segmentation.trimap import Trimap
 
 
@@ -138,6 +139,58 @@ class PictureFit:
         if self.is_plausible:
             return OUTCOME_EXPLANATIONS[self.outcome]
         return " ".join((VERDICT_EXPLANATIONS[self.verdict], *self.contradictions))
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class FittedView:
+    """One of the pictures of a fit, and the person in it.
+
+    Attributes
+    ----------
+    kind
+        As it was announced.
+    found
+        The person in this picture.
+    camera
+        Of the working picture.
+    limb_facing
+        How each limb's depth ambiguity was resolved; empty where the search began with a body.
+    findings
+        What is wrong with a picture that was taken to be measured; empty where ``kind`` is None.
+    assumptions, warnings
+        What was assumed of this picture, and what to look at in it.
+    """
+
+    kind: ViewKind | None
+    found: PictureFit
+    camera: Camera
+    focal_length_source: FocalLengthSource
+    limb_facing: tuple[LimbFacing, ...]
+    findings: tuple[Finding, ...]
+    assumptions: tuple[Assumption, ...]
+    warnings: tuple[FitWarning, ...]
+    pictures: Pictures
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class FitStage:
+    """One person at the end of a stage: ``initial``, ``SE`` or ``SES``.
+
+    Attributes
+    ----------
+    bodies
+        In each picture.
+    canonical_vertices
+        Of the shape they have in common, body frame, metres.
+    energies
+        By term, of all pictures together.
+    """
+
+    name: str
+    bodies: tuple[StageBody, ...]
+    canonical_vertices: Vertices
+    energies: Mapping[str, float]
+    measurements: tuple[Measurement, ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -7,7 +7,7 @@ The difference of a measurement has the variance
 of two errors with the correlation r. Much of what two fits of one person err by is the same both
 times: what a person differs in from the nearest body of the model, how a definition meets the
 body, what the prior adds. How much is known of pictures of one person on one day:
-:data:`fitter.applications.several_pictures.SHARED_ERROR`. No more is taken to be shared, although
+:data:`fitter.person.several_pictures.SHARED_ERROR`. No more is taken to be shared, although
 much more would be between two pictures taken alike, and nothing where a measurement was given. This
 errs on the side of calling too little a change; and a difference is, if anything, understated,
 because both fits are drawn toward the same population.
@@ -24,8 +24,8 @@ import numpy as np
 from jaxtyping import Bool, Float
 from scipy.special import ndtr, ndtri
 
-from fitter.applications.several_pictures import SHARED_ERROR
 from fitter.measurement.joint_measurements import JointMeasurements
+from fitter.person.several_pictures import SHARED_ERROR
 
 SIGNIFICANCE = 0.05
 """Of all comparisons where nothing has changed, at most this share names any change."""

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from enum import StrEnum
 from functools import cached_property
 
 import cv2
@@ -13,7 +12,7 @@ from fitter.arrays import Mask
 from fitter.capture.finding import Box
 from fitter.capture.joints import Joints, joints_of, middle, stature_px
 from fitter.detection.detector import DetectedBody
-from fitter.request import Click
+from fitter.request import Click, ViewKind
 
 MASK_LEVEL = 0.5
 """Probability from which a pixel belongs to the person."""
@@ -30,15 +29,6 @@ _BONES = (
     ("right_hip", "right_knee"), ("right_knee", "right_ankle"),
     ("left_shoulder", "left_elbow"), ("right_shoulder", "right_elbow"),
 )  # fmt: skip
-
-
-class ViewKind(StrEnum):
-    """From where a person is to be seen; ``OTHER`` is any view, which nothing contradicts."""
-
-    FRONT = "front"
-    SIDE = "side"
-    BACK = "back"
-    OTHER = "other"
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -10,8 +10,9 @@ from enum import StrEnum
 
 import numpy as np
 
-from fitter.capture.capture import Capture, ViewKind
+from fitter.capture.capture import Capture
 from fitter.capture.finding import Code, Finding, Remark, Severity, Unchecked
+from fitter.request import ViewKind
 
 FRONTAL_BREADTHS = {"shoulder": 0.71, "hip": 0.40}
 """Breadth of the detector's joints facing the camera, of the trunk's length."""

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from fitter.capture.capture import Capture, ViewKind
+from fitter.capture.capture import Capture
 from fitter.capture.checking import Checked, check_capture
 from fitter.detection.detector import DetectedBody, Detector, body_of_clicks
 from fitter.fits.proposal import chosen_person
@@ -21,7 +21,7 @@ from fitter.observation.resampling import (
 from fitter.observation.subject import MEAN_HEIGHT_M, check_height
 from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import FocalLengthSource
-from fitter.request import Click, FitRequest, Gender
+from fitter.request import Click, FitRequest, Gender, ViewKind
 
 ASSUMED_HEIGHT_M = 1.7
 """Of people whose gender is not known either."""

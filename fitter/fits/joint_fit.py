@@ -11,7 +11,6 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from fitter.applications.several_pictures import CombinedShape, combined_shape, told_differently
 from fitter.arrays import Shape
 from fitter.fits.detecting import detector_for
 from fitter.fits.joint_search import search_jointly
@@ -20,6 +19,7 @@ from fitter.fits.prepared_model import prepared_model
 from fitter.observation.observation import observe as observed
 from fitter.optimizer.free_space import held_shape
 from fitter.person.fitted_person import FittedPerson
+from fitter.person.several_pictures import CombinedShape, combined_shape, told_differently
 from fitter.population.known_person import known_person
 from fitter.request import STATURE, FitRequest
 from fitter.result import PictureFit

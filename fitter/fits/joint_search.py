@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
-from fitter.applications.several_pictures import counted_as
 from fitter.arrays import Shape
 from fitter.energies.joint_objective import JointObjective
 from fitter.energies.objective import Body, Candidate, Objective
@@ -27,13 +26,14 @@ from fitter.optimizer.joint_gauss_newton import JointMinimum, minimize_jointly
 from fitter.optimizer.joint_uncertainty import joint_certainty
 from fitter.optimizer.search import limits_of
 from fitter.optimizer.uncertainty import shape_covariance
+from fitter.person.several_pictures import counted_as
 from fitter.population.known_person import KnownPerson
 from fitter.request import OptimizerKind
 from fitter.result import PictureFit
 
 SHARED_ERROR = 0.2
 """Correlation of the errors of two pictures that are searched together. It is less than that of
-whole fits of one picture (:data:`fitter.applications.several_pictures.SHARED_ERROR`), because what
+whole fits of one picture (:data:`fitter.person.several_pictures.SHARED_ERROR`), because what
 a prior about depth makes them err in alike, another view tells."""
 
 ROUGHLY_SETTLED_NATS = 0.5

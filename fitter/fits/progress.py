@@ -21,12 +21,14 @@ class Stage(StrEnum):
 class Progress:
     """One report.
 
-    ``fraction`` is the share of the whole fit done so far, in [0, 1], never decreasing;
-    ``energies`` are the named terms at the moment, empty before there are any.
+    ``fraction`` is the share of the whole fit done so far, in [0, 1], never decreasing; ``view``
+    which of several pictures is searched by itself, None where all are searched together and where
+    there is one; ``energies`` are the named terms at the moment, empty before there are any.
     """
 
     stage: Stage
     fraction: float
+    view: int | None = None
     energies: Mapping[str, float] = field(default_factory=dict[str, float])
 
 

@@ -7,9 +7,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from fitter.applications.several_pictures import CombinedShape, combined_shape
 from fitter.arrays import Shape, Vertices
-from fitter.capture.capture import ViewKind
 from fitter.capture.checking import check_capture
 from fitter.capture.finding import Finding
 from fitter.errors import InvalidInputError
@@ -26,9 +24,10 @@ from fitter.measurement.quantity import Measurement
 from fitter.optimizer.free_space import held_shape
 from fitter.optimizer.uncertainty import certainty, shape_covariance
 from fitter.person.fitted_person import FittedPerson
+from fitter.person.several_pictures import CombinedShape, combined_shape
 from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera, FocalLengthSource
-from fitter.request import FitRequest, Posture
+from fitter.request import FitRequest, Posture, ViewKind
 from fitter.result import PictureFit, Pictures
 
 LEAST_VIEWS, MOST_VIEWS = 2, 6

@@ -9,12 +9,12 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from fitter.applications.several_pictures import CombinedShape
-from fitter.capture.capture import ViewKind
 from fitter.fits.joint_search import Foretold
 from fitter.numerics.rotations import rotation_matrices
 from fitter.parameters import BodyParameters
+from fitter.person.several_pictures import CombinedShape
 from fitter.remarks import FitWarning
+from fitter.request import ViewKind
 
 MOST_TURNED_DEG = 50.0
 """From the announced view; half way to the next, and a little."""

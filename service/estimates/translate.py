@@ -17,12 +17,11 @@ from api_schemas import results as wire_results
 from api_schemas.known import STATURE
 from api_schemas.points import PointName, PointSource
 from fitter.body.model import BodyModel
-from fitter.capture.capture import ViewKind
 from fitter.fits.capture_check import CaptureCheck, CaptureQuestion
 from fitter.fits.initial_body import InitialBody
 from fitter.fits.proposal import Proposal, ProposedPoint
 from fitter.population.body_estimate import BodyEstimate
-from fitter.request import Facing, FitRequest, Gender
+from fitter.request import Facing, FitRequest, Gender, ViewKind
 from service.worker.findings import finding_results, rounded_box
 from service.worker.translate import SEEN, body_result, camera_result, clicks, known_measurements
 

@@ -9,7 +9,6 @@ from api_schemas import scans as wire_scan
 from api_schemas.problems import FieldProblem
 from fitter.applications.previews import View, preview
 from fitter.body.model import BodyModel
-from fitter.capture.capture import ViewKind
 from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.export import overlay_png, tapes_of
 from fitter.export.display import png
@@ -26,7 +25,7 @@ from fitter.fits.scan import (
     ScanView,
     scan,
 )
-from fitter.request import Gender
+from fitter.request import Gender, ViewKind
 from fitter.result import Verdict
 from service.engine.port import Report
 from service.jobs.inputs import BODY_POSED, OVERLAY, PERSON, SEGMENTATION, file_of

@@ -12,9 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
-from fitter.capture.capture import ViewKind
 from fitter.fits.scan import ScanView, scan
-from fitter.request import Cues
+from fitter.request import Cues, ViewKind
 from tests.benchmarks import upload
 from tests.benchmarks.requests import suite_requests, warm_up
 from tests.benchmarks.spent import timed, timed_fit

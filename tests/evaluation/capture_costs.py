@@ -13,12 +13,11 @@ from enum import StrEnum
 import cv2
 import numpy as np
 
-from fitter.capture.capture import ViewKind
 from fitter.errors import FitterError
 from fitter.fits.capture_check import CaptureQuestion
 from fitter.fits.scan import ScanView, scan
 from fitter.observation.decoding import decode_picture
-from fitter.request import FitRequest, KnownMeasurement
+from fitter.request import FitRequest, KnownMeasurement, ViewKind
 from tests.evaluation.capture_forms import (
     ROLLED_SCALE,
     Picture,

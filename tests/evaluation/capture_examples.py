@@ -2,13 +2,13 @@
 
 from dataclasses import dataclass, replace
 
-from fitter.capture.capture import ViewKind
 from fitter.capture.checking import check_capture
 from fitter.capture.finding import Code
 from fitter.detection.detector import Detector
 from fitter.fits.capture_check import CaptureQuestion, capture_of
 from fitter.observation.decoding import DecodedPicture, decode_picture
 from fitter.observation.exif import ExifTags
+from fitter.request import ViewKind
 from tests.evaluation.capture_forms import (
     Picture,
     Source,

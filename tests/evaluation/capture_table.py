@@ -6,13 +6,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fitter.capture.capture import Capture, ViewKind
+from fitter.capture.capture import Capture
 from fitter.capture.checking import check_capture
 from fitter.capture.finding import Code
 from fitter.detection.detector import installed_detector
 from fitter.fits.capture_check import CaptureQuestion, capture_of
 from fitter.observation.decoding import DecodedPicture, decode_picture
 from fitter.observation.exif import ExifTags
+from fitter.request import ViewKind
 from tests.evaluation.capture_forms import Form, Picture, Source, spoilt_forms
 from tests.evaluation.capture_truth import variants_of
 from tests.evaluation.cases import CASES

@@ -9,8 +9,9 @@ import numpy as np
 from fitter.arrays import Mask
 from fitter.capture.arms import free_share
 from fitter.capture.camera_place import NEAREST_M
-from fitter.capture.capture import Capture, ViewKind
+from fitter.capture.capture import Capture
 from fitter.capture.finding import Code
+from fitter.request import ViewKind
 from tests.evaluation.joint_figures import part_of_joint
 from tests.evaluation.scene import Series
 from tests.evaluation.true_picture import TruePicture

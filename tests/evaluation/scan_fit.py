@@ -6,13 +6,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
-from fitter.applications.several_pictures import known_covariance
 from fitter.arrays import Shape
-from fitter.capture.capture import ViewKind
 from fitter.fits.pipeline import fit
 from fitter.fits.scan import ScanView, scan
 from fitter.measurement.quantity import Measurement
-from fitter.request import Posture
+from fitter.person.several_pictures import known_covariance
+from fitter.request import Posture, ViewKind
 from fitter.result import PictureFit
 
 

@@ -7,10 +7,9 @@ from enum import StrEnum
 import numpy as np
 
 from fitter.body.skeleton import regress
-from fitter.capture.capture import ViewKind
 from fitter.fits.scan import ScanView
 from fitter.render.rasterizer import render
-from fitter.request import Cues
+from fitter.request import Cues, ViewKind
 from tests.evaluation.cases import CASES
 from tests.evaluation.foreign import foreign_half, foreign_names
 from tests.evaluation.joint_figures import joint_error_mm

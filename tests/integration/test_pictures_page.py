@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 
 from api_schemas import checks as wire
-from fitter.applications.several_pictures import SAME_PERSON_PROBABILITY
 from fitter.capture import arms, camera_place, clothes, exposure, framing, sharpness, turning
 from fitter.capture.finding import Code
 from fitter.fits import reporting, scan_remarks
 from fitter.observation import decoding
+from fitter.person.several_pictures import SAME_PERSON_PROBABILITY
 from fitter.result import Verdict
 
 ROOT = Path(__file__).parents[2]

@@ -13,8 +13,8 @@ import matplotlib.pyplot as plt
 from _extensions.drawing import show
 
 from fitter import Click, FitRequest, Gender, fit
-from fitter.capture.capture import ViewKind
 from fitter.fits.scan import ScanView, scan
+from fitter.request import ViewKind
 from service.demo_data.sample import load_scan_sample
 
 sample = load_scan_sample()

@@ -6,7 +6,6 @@ from api_schemas.derivation_kinds.combined import CombinedOptions, CombinedResul
 from api_schemas.requests import FitOptions, OptimizerKind
 from api_schemas.results import FitResult, FitWarning
 from fitter.applications.previews import View, preview
-from fitter.applications.several_pictures import CombinedShape
 from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
 from fitter.errors import InvalidInputError
@@ -19,6 +18,7 @@ from fitter.fits.joint_fit import joint_fit
 from fitter.fits.prepared_model import prepared_model
 from fitter.measurement.anthropometry import measure
 from fitter.person.fitted_person import FittedPerson
+from fitter.person.several_pictures import CombinedShape
 from fitter.request import FitRequest
 from fitter.result import PictureFit
 from service.jobs.inputs import IMAGE, MASK, PERSON, REQUEST, RESULT

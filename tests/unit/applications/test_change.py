@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from fitter.applications.change import SIGNIFICANCE, changed, changes, holm
-from fitter.applications.several_pictures import SHARED_ERROR
 from fitter.measurement.joint_measurements import JointMeasurements
+from fitter.person.several_pictures import SHARED_ERROR
 
 NAMES = ("waist", "hip", "weight", "stature")
 

@@ -5,10 +5,10 @@ from dataclasses import replace
 import cv2
 import numpy as np
 
-from fitter.capture.capture import ViewKind
 from fitter.capture.checking import check_capture
 from fitter.capture.finding import Code, Severity
 from fitter.capture.turning import Seen
+from fitter.request import ViewKind
 from tests.unit.capture.made_up import by_points_alone, capture, of_nobody, person
 
 

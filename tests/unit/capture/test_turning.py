@@ -4,9 +4,9 @@ import math
 
 import pytest
 
-from fitter.capture.capture import ViewKind
 from fitter.capture.finding import Code, Finding, Severity, Unchecked
 from fitter.capture.turning import Seen, announced_view, facing, seen_from
+from fitter.request import ViewKind
 from tests.unit.capture.made_up import FRONT, by_points_alone, capture, person
 
 

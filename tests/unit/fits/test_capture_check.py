@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from PIL import Image as PillowImage
 
-from fitter.capture.capture import ViewKind
 from fitter.capture.checking import check_capture
 from fitter.capture.finding import Code, Severity
 from fitter.capture.turning import Seen
@@ -20,7 +19,7 @@ from fitter.fits.capture_check import (
     check_picture,
 )
 from fitter.observation.observation import observe
-from fitter.request import Click, Cues, Gender
+from fitter.request import Click, Cues, Gender, ViewKind
 from service.demo_data.sample import load_sample
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import read_case

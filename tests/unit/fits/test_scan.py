@@ -5,12 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitter.capture.capture import ViewKind
 from fitter.errors import InvalidInputError
 from fitter.fits.pipeline import fit
 from fitter.fits.progress import Stage
 from fitter.fits.scan import ScanProgress, ScanResult, ScanView, scan
-from fitter.request import Cues, FitRequest, KnownMeasurement
+from fitter.request import Cues, FitRequest, KnownMeasurement, ViewKind
 from tests.benchmarks.requests import resized
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import read_case

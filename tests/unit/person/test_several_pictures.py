@@ -3,11 +3,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitter.applications.several_pictures import SHARED_ERROR, combined_shape
 from fitter.energies.priors import POPULATION_PRECISION
 from fitter.errors import InvalidInputError
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
+from fitter.person.several_pictures import SHARED_ERROR, combined_shape
 from fitter.render.camera import Camera
 from fitter.request import Gender
 
