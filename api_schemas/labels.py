@@ -1,9 +1,14 @@
-"""The label of a fit or a scan: what a caller calls the person, to find them again."""
+"""Labels and names that somebody types and reads again: of a person, a size, a report.
+
+They are kept and shown as they were sent, so nothing may be in them that is not seen: it would make
+two of them look alike, turn what follows around, or end a line of somebody's log.
+"""
 
 import re
 from typing import Annotated, Final
 
 from pydantic import AfterValidator, Field
+from pydantic_core import PydanticCustomError
 
 from api_schemas.base import refusal
 
@@ -16,30 +21,77 @@ _UNSEEN: Final = (
 )
 _SPACES: Final = r" \u00a0\u1680\u2000-\u200a\u202f\u205f\u3000"
 PATTERN: Final = f"^[^{_UNSEEN}]*[^{_UNSEEN}{_SPACES}][^{_UNSEEN}]*$"
-_READABLE: Final = re.compile(PATTERN)
+"""Of the labels of fits and scans, as the OpenAPI document of 1.0 has it."""
+
+# Beyond the released pattern: soft hyphens, fillers that look like spaces, marks of annotations,
+# music and languages, and what is no character.
+_BLANK: Final = (
+    r"\u00ad\u115f\u1160\u17b4\u17b5\u180e\u3164\ud800-\udfff\uffa0\ufff0-\ufffb\ufffe\uffff"
+    r"\U0001bca0-\U0001bca3\U0001d173-\U0001d17a\U000e0000-\U000e001f"
+)
+# They shape or choose what stands before them (letters, emoji, flags), and alone are nothing.
+_ATTACHED: Final = r"\u034f\u180b-\u180d\u180f\u200c\u200d\u2800\ufe00-\ufe0f\U000e0020-\U000e01ef"
+_FINDABLE: Final = re.compile(PATTERN.removeprefix("^").removesuffix("$"))
+_READABLE: Final = re.compile(
+    f"[^{_UNSEEN}{_BLANK}]*[^{_UNSEEN}{_BLANK}{_SPACES}{_ATTACHED}][^{_UNSEEN}{_BLANK}]*"
+)
+
+READABLE: Final = (
+    "Line breaks, control characters and others that are not seen are refused, and so is what has "
+    "nothing but spaces."
+)
+"""The rule in words, for descriptions of fields."""
+
+UNREADABLE: Final = "It has nothing but spaces, or characters that are not seen."
+READABLE_REMEDY: Final = (
+    "Use letters, digits, signs and spaces; leave out line breaks and controls."
+)
 
 
-def _readable(label: str) -> str:
+def is_readable(text: str) -> bool:
+    """Whether all of a text is seen, and not all of it is spaces."""
+    return _READABLE.fullmatch(text) is not None
+
+
+def _check_readable(text: str) -> str:
+    if not is_readable(text):
+        raise _unreadable()
+    return text
+
+
+def _check_findable(label: str) -> str:
+    if _FINDABLE.fullmatch(label) is None:
+        raise _unreadable()
+    return label
+
+
+def _unreadable() -> PydanticCustomError:
+    return refusal(code="unreadable-label", reason=UNREADABLE, remedy=READABLE_REMEDY)
+
+
+def _check_length(label: str) -> str:
     if not 1 <= len(label) <= LONGEST:
         raise refusal(
             code="wrong-length",
             reason=f"The label has {len(label)} characters.",
             remedy=f"Send 1 to {LONGEST} characters, or leave it out.",
         )
-    if _READABLE.fullmatch(label) is None:
-        raise refusal(
-            code="unreadable-label",
-            reason="The label has nothing but spaces, or characters that are not seen.",
-            remedy="Use letters, digits, signs and spaces; leave out line breaks and controls.",
-        )
     return label
 
 
-Label = Annotated[
-    str,
-    AfterValidator(_readable),
-    Field(json_schema_extra={"minLength": 1, "maxLength": LONGEST, "pattern": PATTERN}),
+ReadableText = Annotated[str, AfterValidator(_check_readable)]
+"""Any text that somebody reads again; its length is for the field to limit."""
+
+_IN_DOCUMENT: Final = Field(
+    json_schema_extra={"minLength": 1, "maxLength": LONGEST, "pattern": PATTERN}
+)
+
+Label = Annotated[str, AfterValidator(_check_length), AfterValidator(_check_readable), _IN_DOCUMENT]
+
+LabelOfList = Annotated[
+    str, AfterValidator(_check_length), AfterValidator(_check_findable), _IN_DOCUMENT
 ]
+"""A label that is looked for: it may be of 1.0, which knew fewer characters that are not seen."""
 
 LABEL_OF_JOB: Final = (
     "What you call the person, for instance an id of yours: lists can be filtered by it. It is "

@@ -12,6 +12,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Final, NamedTuple
 
+from api_schemas.labels import READABLE_REMEDY, is_readable
 from api_schemas.measurement_names import MEASUREMENT_UNITS, unknown_name_remedy
 from api_schemas.size_charts import (
     LARGEST_VALUE,
@@ -94,6 +95,12 @@ def _rows(text: str) -> list[_Row]:
                 code="missing" if not label else "wrong-length",
                 reason=f"Row {number} has no label of 1 to {MAX_LABEL_LENGTH} characters.",
                 remedy="Put the size's label into the first column.",
+            )
+        if not is_readable(label):
+            raise ChartTableError(
+                code="unreadable-label",
+                reason=f"Row {number} has characters in its label that are not seen.",
+                remedy=READABLE_REMEDY,
             )
         rows.append(_Row(number, label, dict(zip(columns, cells[1:], strict=False))))
     if not rows:

@@ -8,6 +8,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 
 from api_schemas.base import WireModel, refusal
 from api_schemas.known import MeasurementName
+from api_schemas.labels import READABLE, ReadableText
 from api_schemas.measurement_names import MEASUREMENT_UNITS, unknown_name_remedy
 
 MAX_SIZES: Final = 200
@@ -50,7 +51,9 @@ BodyOfSize = Annotated[
 class Size(WireModel):
     """One size: for which bodies it is made, by the names of a result's measurements."""
 
-    label: str = Field(min_length=1, max_length=MAX_LABEL_LENGTH, examples=["M"])
+    label: ReadableText = Field(
+        min_length=1, max_length=MAX_LABEL_LENGTH, description=READABLE, examples=["M"]
+    )
     measurements: dict[MeasurementName, BodyOfSize] = Field(
         min_length=1,
         description=(

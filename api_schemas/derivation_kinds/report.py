@@ -7,6 +7,7 @@ from typing import Literal
 from pydantic import Field
 
 from api_schemas.derivation_kinds.base import DerivationOptions, DerivedFiles
+from api_schemas.labels import READABLE, ReadableText
 
 
 class Units(StrEnum):
@@ -32,11 +33,11 @@ class ReportOptions(DerivationOptions):
         default=Language.ENGLISH,
         description="Of words, numbers and dates; what somebody typed stays as it is.",
     )
-    name: str | None = Field(
+    name: ReadableText | None = Field(
         default=None,
         min_length=1,
         max_length=80,
-        description="Whose body it is, for the heading; it is kept with the report.",
+        description=(f"Whose body it is, for the heading; it is kept with the report. {READABLE}"),
     )
     date: datetime.date | None = Field(
         default=None, description="Of the report, for the heading.", examples=["2026-11-23"]

@@ -8,7 +8,7 @@ from contextlib import AbstractAsyncContextManager, AsyncExitStack, asynccontext
 from typing import Any, Final
 
 from anyio import CapacityLimiter
-from fastapi import FastAPI
+from fastapi import Depends, FastAPI
 from starlette.middleware.cors import CORSMiddleware
 
 from service.api import (
@@ -46,10 +46,12 @@ from service.api.estimates import Estimates
 from service.api.event_feed import EventFeed
 from service.api.job_inputs import COPIED_AT_ONCE
 from service.api.local_guard import LocalGuard
+from service.api.message_framing import MessageFraming
 from service.api.observation import Observation
 from service.api.openapi import complete_openapi
 from service.api.problems import install_problem_handlers
 from service.api.rate_limit import RateLimit
+from service.api.request_form import check_form
 from service.api.security_headers import SecurityHeaders
 from service.api.service_metrics import ServiceMetrics
 from service.blobs import BlobStore
@@ -175,6 +177,7 @@ def _surround(
         )
     if not needs_keys:
         app.add_middleware(LocalGuard, allowed_origins=settings.allowed_origins)
+    app.add_middleware(MessageFraming)
     # Outside of everything that reads or discards bodies.
     app.add_middleware(
         BodyTimeLimit,
@@ -205,6 +208,7 @@ def _resources(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]] 
         # Paths are exact: a redirect would be a response that no schema describes.
         redirect_slashes=False,
         generate_unique_id_function=lambda route: route.name,
+        dependencies=[Depends(check_form)],
     )
     install_problem_handlers(app)
     for resource in (

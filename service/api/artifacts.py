@@ -109,7 +109,6 @@ def file_headers(tag: str) -> dict[str, str]:
     """The headers that every file has."""
     return {
         "ETag": f'"{tag}"',
-        "Cache-Control": "private, immutable, max-age=31536000",
         "Accept-Ranges": "bytes",
     }
 

@@ -16,7 +16,7 @@ ROUTER: Final = APIRouter(prefix="/v1/body-models", tags=["body models"])
     "",
     response_model=BodyModels,
     summary="The bodies there are",
-    responses=documented("not-ready", "internal-error"),
+    responses=documented("invalid-request", "not-ready", "internal-error"),
 )
 def body_models(context: Context) -> BodyModels:
     """Return genders, mean heights, landmarks, accepted points, versions and provenance."""

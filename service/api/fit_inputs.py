@@ -131,7 +131,7 @@ async def serve_stored_picture(
 
 
 def _headers(tag: str) -> dict[str, str]:
-    return {"ETag": f'"{tag}"', "Cache-Control": "private, immutable, max-age=31536000"}
+    return {"ETag": f'"{tag}"'}
 
 
 def _is_known(tag: str, if_none_match: str | None) -> bool:

@@ -90,7 +90,6 @@ def get_image(
     record = context.images.find(image_id)
     if record is None:
         raise not_found(what="such picture")
-    response.headers["Cache-Control"] = "no-cache"
     return _represent(record)
 
 

@@ -9,7 +9,7 @@ from uuid import UUID
 from fastapi import Header, Query, Response
 
 from api_schemas.jobs import JobState
-from api_schemas.labels import Label
+from api_schemas.labels import LabelOfList
 from api_schemas.problems import FieldProblem, field_problem
 from service.api.context import ApiContext
 from service.api.erasure import erase_blobs
@@ -48,7 +48,7 @@ Cursor = Annotated[
 ]
 State = Annotated[JobState | None, Query()]
 OfLabel = Annotated[
-    Label | None, Query(alias="label", description="Only those with exactly this label.")
+    LabelOfList | None, Query(alias="label", description="Only those with exactly this label.")
 ]
 IfNoneMatch = Annotated[str | None, Header()]
 
@@ -69,7 +69,6 @@ def not_modified(
     if if_none_match is not None and tag in if_none_match:
         return Response(status_code=304, headers={"ETag": tag})
     response.headers["ETag"] = tag
-    response.headers["Cache-Control"] = "no-cache"
     if record.state in ACTIVE:
         response.headers["Retry-After"] = str(POLL_AFTER_S)
     return None

@@ -6,7 +6,7 @@ from urllib.parse import quote
 
 from fastapi import APIRouter, Query, Response
 
-from api_schemas.labels import Label
+from api_schemas.labels import LabelOfList
 from api_schemas.people import LabelledPerson, PeoplePage
 from service.api.context import Context
 from service.api.job_routes import Limit
@@ -29,7 +29,8 @@ def list_people(
     context: Context,
     limit: Limit = 50,
     cursor: Annotated[
-        Label | None, Query(description="From `next` of the page before: the label to go on after.")
+        LabelOfList | None,
+        Query(description="From `next` of the page before: the label to go on after."),
     ] = None,
 ) -> PeoplePage:
     """List the labels of the fits and scans that are kept, in the order of their characters.

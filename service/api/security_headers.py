@@ -54,7 +54,8 @@ UNLESS_SAID: Final[Mapping[str, str]] = {
     "Permissions-Policy": (
         "accelerometer=(), camera=(), gyroscope=(), geolocation=(), microphone=()"
     ),
-    # Responses belong to their caller; none may stay in a shared cache.
+    # Responses belong to their caller, and what is erased must not live on in a browser's cache:
+    # with an ETag alone it would, until it is asked for again.
     "Cache-Control": "no-store",
     "Cross-Origin-Resource-Policy": "same-origin",
 }

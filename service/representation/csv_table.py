@@ -1,10 +1,19 @@
-"""Rows of wire types as CSV, for spreadsheets: RFC 4180, UTF-8, one header line."""
+"""Rows of wire types as CSV, for spreadsheets: RFC 4180, UTF-8, one header line.
+
+A spreadsheet takes a text that begins like a formula for one, and runs it: what somebody has typed
+into a size chart could read the other cells and send them away. Such a text gets an apostrophe,
+which spreadsheets take for "this is text".
+"""
 
 import csv
 import io
 from collections.abc import Iterable, Sequence
+from typing import Final
 
 from pydantic import BaseModel
+
+FORMULAS: Final = tuple("=+-@\t\r\n\uff1d\uff0b\uff0d\uff20")
+"""What a cell begins with that is a formula to some spreadsheet, full-width forms included."""
 
 
 def models_csv(rows: Sequence[BaseModel], fields: Iterable[str]) -> bytes:
@@ -21,4 +30,8 @@ def _cell(value: object) -> object:
     """As JSON has it, which spreadsheets read too; several values in one cell, by semicolons."""
     if isinstance(value, bool):
         return str(value).lower()
-    return "; ".join(map(str, value)) if isinstance(value, tuple) else value
+    if isinstance(value, tuple):
+        value = "; ".join(map(str, value))
+    if isinstance(value, str) and any(each.startswith(FORMULAS) for each in (value, value.strip())):
+        return f"'{value}"
+    return value

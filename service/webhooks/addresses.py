@@ -19,6 +19,38 @@ IPAddress = ipaddress.IPv4Address | ipaddress.IPv6Address
 GLOBAL_UNICAST: Final = ipaddress.IPv6Network("2000::/3")
 NAT64: Final = ipaddress.IPv6Network("64:ff9b::/96")
 LOW_32_BITS: Final = 0xFFFFFFFF
+
+SPECIAL: Final = tuple(
+    map(
+        ipaddress.ip_network,
+        (
+            # RFC 6890 and 7723: protocols between a host and its own network. The gateway answers
+            # at 192.0.0.9, Oracle's metadata at 192.0.0.192.
+            "192.0.0.0/24",
+            # RFC 7535 and 7450: whichever name server or relay is nearest.
+            "192.31.196.0/24",
+            "192.52.193.0/24",
+            "192.175.48.0/24",
+            "2620:4f:8000::/48",
+            # RFC 7526: the nearest relay of 6to4, which is no more.
+            "192.88.99.0/24",
+            # Azure's own services, from every machine in it, and from nowhere else.
+            "168.63.129.16/32",
+            # RFC 2928: Teredo, benchmarks, identifiers, the gateway at 2001:1::1.
+            "2001::/23",
+            # RFC 3849 and 9637: documentation.
+            "2001:db8::/32",
+            "3fff::/20",
+            # RFC 3701: the testing network of before, given back.
+            "3ffe::/16",
+            # RFC 9602: segments of routes within one network.
+            "5f00::/16",
+        ),
+    )
+)
+"""Networks that are not what a name on the open internet leads to, as IANA's registries of special
+addresses have them. Python's own list depends on its release: it is asked as well."""
+
 DEFAULT_PORTS: Final = {"http": 80, "https": 443}
 
 
@@ -32,7 +64,7 @@ class AddressRefusedError(Exception):
 
 def is_public(address: IPAddress) -> bool:
     """Whether an address, and any IPv4 address embedded in it, is on the open internet."""
-    if not address.is_global or address.is_multicast:
+    if not address.is_global or address.is_multicast or any(address in each for each in SPECIAL):
         return False
     if isinstance(address, ipaddress.IPv4Address):
         return True

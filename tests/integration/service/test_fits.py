@@ -121,12 +121,23 @@ def test_a_job_is_not_sent_again_while_it_is_unchanged(service: Service):
     assert service.client.get(path, headers={"If-None-Match": '"other"'}).status_code == 200
 
 
+def test_nothing_of_a_fit_is_kept_by_a_browser_so_that_erasing_it_is_enough(service: Service):
+    path = service.submit()
+    links = service.ended(path)["links"]
+    paths = [path, links["result"], links["image"], links["request"]]
+    for each in (*paths, links["artifacts"]["overlay.png"], "/v1/fits"):
+        assert service.client.get(each).headers["Cache-Control"] == "no-store", each
+    assert service.client.delete(path).status_code == 204
+    for each in paths:
+        assert service.client.get(each).status_code == 404
+
+
 def test_artifacts_have_strong_tags_and_ranges(service: Service):
     path = service.submit()
     url = service.ended(path)["links"]["artifacts"]["body_posed.glb"]
     whole = service.client.get(url)
     assert whole.headers["ETag"] == f'"{hashlib.sha256(whole.content).hexdigest()}"'
-    assert "immutable" in whole.headers["Cache-Control"]
+    assert whole.headers["Cache-Control"] == "no-store"
     tag = {"If-None-Match": whole.headers["ETag"]}
     assert service.client.get(url, headers=tag).status_code == 304
 

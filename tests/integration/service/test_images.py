@@ -50,6 +50,9 @@ def test_an_upload_is_named_by_its_content_and_found_again(service: Service):
     assert image.expires_at > image.created_at
     found = service.client.get(answer.headers["Location"])
     assert UploadedImage.model_validate_json(found.content) == image
+    picture = service.client.get(f"{answer.headers['Location']}/picture")
+    assert picture.content == content
+    assert found.headers["Cache-Control"] == picture.headers["Cache-Control"] == "no-store"
 
 
 def test_the_same_picture_is_kept_once_and_its_time_begins_anew(without_worker: Service):

@@ -72,6 +72,8 @@ def test_single_values_are_targets():
         (HEADER + "M,0,\n", "out-of-range", "holds 0"),
         (HEADER + "M,,\n", "missing", "says nothing"),
         (HEADER + ",94-98,\n", "missing", "Row 2 has no label"),
+        (HEADER + "M\0,94-98,\n", "unreadable-label", "Row 2"),
+        (HEADER + "M,94-98,\nL\u202e,98-102,\n", "unreadable-label", "Row 3"),
         (HEADER + "M,94-98,80-84,5\n", "not-a-table", "Row 2 has more cells"),
         (HEADER + "M,94-98,\nL,100,\n", "mixed-column", "Row 3, column 'chest_girth'"),
         (HEADER + 'M,"94-98\n', "not-a-table", "cannot be read"),

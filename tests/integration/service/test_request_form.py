@@ -1,0 +1,103 @@
+"""What is refused whatever is asked for: unknown parameters, compressed and ambiguous bodies."""
+
+import gzip
+import json
+from urllib.parse import urlsplit
+
+import pytest
+
+from tests.integration.service.harness import REQUEST, Service
+from tests.integration.service.limited_server import Caller
+from tests.integration.service.test_bad_input import checked
+
+
+def port_of(service: Service) -> int:
+    port = urlsplit(str(service.client.base_url)).port
+    assert port is not None
+    return port
+
+
+@pytest.mark.parametrize(
+    ("path", "known"),
+    [
+        ("/v1/fits", ("limit", "cursor", "state", "label")),
+        ("/v1/scans", ("limit", "cursor", "state", "label")),
+        ("/v1/people", ("limit", "cursor")),
+        (f"/v1/fits/{'0' * 8}-0000-0000-0000-{'0' * 12}/derivations", ("limit", "state")),
+    ],
+)
+def test_a_misspelt_filter_is_refused_by_its_name(service: Service, path, known):
+    problem = checked(service.client.get(path, params={"limit": 1, "sate": "failed"}), 422)
+    assert (problem.field, problem.code) == ("sate", "unknown-field")
+    assert all(name in problem.remedy for name in known)
+
+
+@pytest.mark.parametrize(
+    ("method", "path"),
+    [
+        ("GET", "/v1/body-models"),
+        ("GET", f"/v1/images/{'0' * 64}"),
+        ("POST", "/v1/fits"),
+        ("POST", "/v1/bodies"),
+        ("POST", "/v1/tokens"),
+        ("DELETE", f"/v1/images/{'0' * 64}"),
+    ],
+)
+def test_where_there_are_no_parameters_none_is_taken(service: Service, method, path):
+    answer = service.client.request(method, path, params={"access_token": "secret-1"})
+    problem = checked(answer, 422)
+    assert (problem.field, problem.code) == ("access_token", "unknown-field")
+    assert "none" in problem.remedy
+    assert "secret-1" not in answer.text
+
+
+def test_a_parameter_that_comes_twice_is_refused(service: Service):
+    problem = checked(service.client.get("/v1/fits?state=failed&state=queued"), 422)
+    assert (problem.field, problem.code) == ("state", "repeated-field")
+
+
+def test_however_many_unknown_parameters_there_are_the_answer_is_short(service: Service):
+    answer = service.client.get("/v1/fits?" + "&".join(f"p{n}" for n in range(2_000)))
+    assert len(checked(answer, 422).errors) == 10
+
+
+@pytest.mark.parametrize("path", ["/", "/page/sample.jpg", "/healthz/live", "/openapi.json"])
+def test_what_a_browser_or_a_probe_adds_elsewhere_does_not_matter(service: Service, path):
+    assert service.client.get(path, params={"embedded": "1"}).status_code == 200
+
+
+@pytest.mark.parametrize("coding", ["gzip", "br", "nonsense"])
+def test_a_compressed_body_is_said_to_be_one(service: Service, coding):
+    body = gzip.compress(json.dumps({"gender": "male"}).encode())
+    headers = {"Content-Type": "application/json", "Content-Encoding": coding}
+    answer = service.client.post("/v1/bodies", content=body, headers=headers)
+    problem = checked(answer, 415)
+    assert (problem.field, problem.code) == ("Content-Encoding", "encoded-body")
+    assert coding in problem.detail
+    assert answer.headers["Accept-Encoding"] == "identity"
+
+
+def test_a_compressed_form_is_said_to_be_one(service: Service):
+    headers = {"Content-Encoding": "gzip"}
+    assert checked(service.post(request=REQUEST, headers=headers), 415).code == "encoded-body"
+
+
+def test_a_body_said_to_be_as_it_is_is_read(service: Service):
+    headers = {"Content-Type": "application/json", "Content-Encoding": "identity"}
+    answer = service.client.post("/v1/bodies", content=b"no JSON", headers=headers)
+    assert checked(answer, 400).code == "invalid-json"
+
+
+def test_a_body_of_two_ends_is_refused_and_nothing_after_it_is_answered(service: Service):
+    smuggled = "GET /healthz/live HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n"
+    with Caller(port_of(service)) as caller:
+        caller.ask(
+            "/v1/bodies",
+            method="POST",
+            headers="Content-Type: application/json\r\nContent-Length: 4\r\n"
+            "Transfer-Encoding: chunked\r\n",
+        )
+        caller.send(f"0\r\n\r\n{smuggled}")
+        # The connection ends with it.
+        told = caller.problem(400)
+    assert (told.field, told.code) == ("Content-Length", "ambiguous-length")
