@@ -11,6 +11,7 @@ from sqlalchemy.exc import ArgumentError, DBAPIError
 
 from service.engine.driver_errors import refusal
 from service.engine.facts import read_fact, write_fact
+from service.engine.migration import bring_up_to_date
 from service.engine.port import DatabaseUnusableError
 from service.engine.retrying import retry_while_database_is_away
 from service.engine.sandbox import check_apart, keep_apart
@@ -20,7 +21,7 @@ from service.engine.sqlite_file import (
     prepare_file,
     secure_file,
 )
-from service.engine.tables import JOBS, METADATA
+from service.engine.tables import JOBS
 from service.engine.transactions import read_then_write
 from service.setting_addresses import without_secrets
 
@@ -107,7 +108,7 @@ def prepare_database(url: str, *, sandbox: bool | None = None) -> None:
         with read_then_write(engine) as connection:
             if engine.dialect.name == "postgresql":
                 connection.execute(sa.select(sa.func.pg_advisory_xact_lock(MIGRATION_LOCK)))
-            METADATA.create_all(connection)
+            bring_up_to_date(connection)
             write_fact(connection, SCHEMA_FACT, SCHEMA_VERSION)
             if sandbox is not None:
                 keep_apart(connection, sandbox=sandbox)

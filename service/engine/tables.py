@@ -18,6 +18,7 @@ JOBS = sa.Table(
     sa.Column("pictures", sa.Integer, nullable=False),
     sa.Column("label", LABEL),
     sa.Column("token_id", sa.String(16)),
+    sa.Column("turn", sa.Integer),
     sa.Column("state", sa.String(16), nullable=False),
     sa.Column("stage", sa.String(64)),
     sa.Column("view", sa.Integer),
@@ -58,7 +59,8 @@ and ``root`` is the kind of that one, or a job's own. ``inputs`` are blobs in th
 by name, as JSON, ``pictures`` of them pictures of a person; ``webhook_target`` is the digest of
 another, which holds whom to notify and the secret to sign with. It is not in the database, because
 databases keep what was deleted in dead rows, logs and backups. ``token_id`` names the browser's
-token that a job was made with, if it was."""
+token that a job was made with, if it was; ``turn`` says when it is begun
+(:mod:`service.engine.turns`), None if a version without turns accepted it."""
 
 SOURCES = sa.Table(
     "maquette_sources",

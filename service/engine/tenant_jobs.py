@@ -36,6 +36,7 @@ from service.engine.records import INPUTS, append_event, end_job, job_record
 from service.engine.retrying import ABSENCES
 from service.engine.tables import EVENTS, JOBS, SOURCES, TOMBSTONES
 from service.engine.transactions import read_then_write
+from service.engine.turns import turn_of_next_job
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -108,12 +109,14 @@ class DbosTenantJobs:
                 if self._token is not None and not take_job(connection, self._token):
                     # Another request got the last one; the blobs are erased by the caller.
                     return Submission(outcome=SubmitOutcome.TOKEN_SPENT, job=None)
-                record = self._insert(connection, job, expires_at=expires_at)
+                turn = turn_of_next_job(connection, tenant=self._tenant, token=self._token)
+                record = self._insert(connection, job, turn=turn, expires_at=expires_at)
                 options: EnqueueOptions = {
                     "workflow_name": WORKFLOW,
                     "queue_name": QUEUE,
                     "workflow_id": job.id,
                     "app_version": EXECUTION_VERSION,
+                    "priority": turn,
                 }
                 self._client.enqueue_in_transaction(connection, options, job.id)
                 return Submission(outcome=SubmitOutcome.ACCEPTED, job=record)
@@ -317,7 +320,7 @@ class DbosTenantJobs:
         return None
 
     def _insert(
-        self, connection: sa.Connection, job: NewJob, *, expires_at: float | None
+        self, connection: sa.Connection, job: NewJob, *, turn: int, expires_at: float | None
     ) -> JobRecord:
         again = job.idempotency
         row = (
@@ -332,6 +335,7 @@ class DbosTenantJobs:
                     pictures=job.pictures,
                     label=job.label,
                     token_id=self._token,
+                    turn=turn,
                     state=JobState.QUEUED.value,
                     progress=0.0,
                     attempt=0,

@@ -28,6 +28,7 @@ FITS = {
     "load": 1_000,
     "overhead": 20,
     "workers": 20,
+    "fairness": 60,
     "cancel": 20,
     "soak": 10,
 }

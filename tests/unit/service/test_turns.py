@@ -1,0 +1,168 @@
+"""The order in which waiting jobs are begun, played through with one slot or several."""
+
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from service.engine.turns import QueueSight, next_turn
+
+ALICE, BOB = ("alice", ""), ("bob", "")
+Owner = tuple[str, str]
+
+
+@dataclass
+class Played:
+    """A queue as DBOS keeps it: lowest turn first, then first in first out."""
+
+    slots: int = 1
+    waiting: list[tuple[int, int, Owner]] = field(default_factory=list)
+    running: list[tuple[int, int, Owner]] = field(default_factory=list)
+    begun: list[tuple[Owner, int]] = field(default_factory=list)
+    accepted: int = 0
+
+    def submit(self, owner: Owner, *, jobs: int = 1) -> None:
+        for _ in range(jobs):
+            turns = [turn for turn, _, each in (*self.waiting, *self.running) if each == owner]
+            others = {each for _, _, each in self.waiting if each[0] == owner[0] and each != owner}
+            turn = next_turn(
+                QueueSight(
+                    begun=max((turn for turn, _, _ in self.running), default=None),
+                    waiting=min((turn for turn, _, _ in self.waiting), default=None),
+                    own=max(turns, default=None),
+                    others=len(others),
+                )
+            )
+            self.accepted += 1
+            self.waiting.append((turn, self.accepted, owner))
+
+    def begin(self) -> None:
+        """Fill the slots."""
+        while self.waiting and len(self.running) < self.slots:
+            job = min(self.waiting)
+            self.waiting.remove(job)
+            self.running.append(job)
+            self.begun.append((job[2], job[1]))
+
+    def end_one(self) -> None:
+        """End the job that was begun first, and begin what comes next."""
+        self.running.pop(0)
+        self.begin()
+
+    def run_out(self) -> list[Owner]:
+        """Who is begun from now on, until nothing waits."""
+        before = len(self.begun)
+        self.begin()
+        while self.running:
+            self.end_one()
+        return [owner for owner, _ in self.begun[before:]]
+
+
+def test_a_single_job_is_begun_before_all_that_another_tenant_has_waiting():
+    queue = Played(slots=2)
+    queue.submit(ALICE, jobs=60)
+    queue.begin()
+    queue.submit(BOB)
+    assert queue.run_out()[0] == BOB
+
+
+def test_two_tenants_whose_jobs_wait_are_begun_in_turns():
+    queue = Played()
+    queue.submit(ALICE, jobs=10)
+    queue.submit(BOB, jobs=10)
+    assert queue.run_out() == [ALICE, BOB] * 10
+
+
+def test_who_sends_the_next_job_after_the_end_of_the_last_gets_every_other_turn():
+    queue = Played()
+    queue.submit(ALICE, jobs=10)
+    queue.begin()
+    for _ in range(4):
+        queue.submit(BOB)
+        queue.end_one()
+        assert queue.begun[-1][0] == BOB
+        queue.end_one()
+        assert queue.begun[-1][0] == ALICE
+
+
+def test_a_browser_is_not_kept_waiting_by_what_the_tenant_itself_has_waiting():
+    queue = Played()
+    queue.submit(ALICE, jobs=60)
+    queue.begin()
+    queue.submit(("alice", "token"))
+    assert ("alice", "token") in queue.run_out()[:2]
+
+
+def test_a_tenant_gets_no_more_turns_by_having_more_tokens():
+    queue = Played()
+    for number in range(60):
+        queue.submit(("alice", f"token {number}"))
+    queue.submit(BOB, jobs=10)
+    tenants = [tenant for tenant, _ in queue.run_out()]
+    assert tenants[:20] == ["alice", "bob"] * 10
+
+
+def test_who_comes_while_nothing_runs_waits_for_nothing_that_came_later():
+    queue = Played()
+    queue.submit(ALICE)
+    queue.submit(BOB)
+    queue.submit(("carol", ""))
+    assert queue.run_out() == [ALICE, BOB, ("carol", "")]
+
+
+def test_a_queue_of_an_earlier_version_has_no_turns_and_does_not_count():
+    assert next_turn(QueueSight(begun=None, waiting=None, own=None, others=0)) == 1
+
+
+OWNERS = st.sampled_from([(tenant, token) for tenant in "abc" for token in ("", "x", "y")])
+STEPS = st.lists(st.one_of(OWNERS, st.none()), max_size=120)
+"""Somebody submits a job, or, where it is None, a running one ends."""
+
+
+def played(steps: Iterable[Owner | None], slots: int) -> Iterator[Played]:
+    """The queue after each step."""
+    queue = Played(slots=slots)
+    for owner in steps:
+        if owner is not None:
+            queue.submit(owner)
+            queue.begin()
+        elif queue.running:
+            queue.end_one()
+        yield queue
+
+
+@given(STEPS, st.integers(1, 4))
+def test_the_jobs_of_an_owner_are_begun_in_the_order_they_came_in(
+    steps: list[Owner | None], slots: int
+):
+    *_, queue = Played(slots=slots), *played(steps, slots)
+    queue.run_out()
+    orders: dict[Owner, list[int]] = {}
+    for owner, number in queue.begun:
+        orders.setdefault(owner, []).append(number)
+    assert all(order == sorted(order) for order in orders.values())
+    assert len(queue.begun) == queue.accepted
+
+
+@given(STEPS, st.integers(1, 4))
+def test_nobody_is_overtaken_more_than_once_by_each_owner_who_comes_later(
+    steps: list[Owner | None], slots: int
+):
+    tenants_only = [None if step is None else (step[0], "") for step in steps]
+    overtaken: dict[int, Counter[Owner]] = {}
+    seen = 0
+    for queue in played(tenants_only, slots):
+        for owner, number in queue.begun[seen:]:
+            for _, older, _ in (job for job in queue.waiting if job[1] < number):
+                overtaken.setdefault(older, Counter())[owner] += 1
+        seen = len(queue.begun)
+    # An owner's first job in the queue: nobody may get ahead of it again and again.
+    first = {number for number in overtaken if _was_first(tenants_only, number)}
+    assert all(count <= 1 for number in first for count in overtaken[number].values())
+
+
+def _was_first(steps: list[Owner | None], number: int) -> bool:
+    submitted = [step for step in steps if step is not None]
+    return submitted[number - 1] not in submitted[: number - 1]
