@@ -5,7 +5,7 @@ the paper's simplex starts near the solution and stays there, while a fit from a
 needs to know what is plausible.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 
 import numpy as np
@@ -36,6 +36,9 @@ from fitter.render.camera import Camera
 from fitter.render.contours import ModelEdges, model_edges
 from fitter.render.rasterizer import Rendering, render
 from fitter.request import Posture
+
+EnergyObserver = Callable[[Mapping[str, float]], None]
+"""Receives energies by term as a search goes on."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -4,12 +4,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from fitter.arrays import Image
-from fitter.energies.objective import Body, Candidate, Objective
+from fitter.energies.objective import Body, Candidate, EnergyObserver, Objective
 from fitter.evidence.intensity import IntensityMap
 from fitter.observation.observation import Observation
 from fitter.optimizer.alternation import ROUND_TOLERANCES, BodySearch, ShadedFit, fit_shading
-from fitter.optimizer.damped_descent import SETTLED_NATS, EnergyObserver
-from fitter.optimizer.gauss_newton import Minimum
+from fitter.optimizer.gauss_newton import SETTLED_NATS, Minimum
 from fitter.optimizer.renewed_lines import renewing_lines, with_lines_about
 from fitter.optimizer.search import SearchLimits, body_search, limits_of
 from fitter.parameters import Light

@@ -14,13 +14,12 @@ from jaxtyping import Float
 
 from fitter.arrays import Shape
 from fitter.energies.joint_objective import JointObjective
-from fitter.energies.objective import Body, Candidate, Objective
+from fitter.energies.objective import Body, Candidate, EnergyObserver, Objective
 from fitter.energies.priors import population_prior
 from fitter.fits.foretold import Foretold, foretold
 from fitter.fits.joint_view import JointView
 from fitter.fits.lit_view import LitView, first_lit
 from fitter.fits.settling import compared_with, settle
-from fitter.optimizer.damped_descent import EnergyObserver
 from fitter.optimizer.gauss_newton import Minimum
 from fitter.optimizer.joint_gauss_newton import JointMinimum, minimize_jointly
 from fitter.optimizer.joint_uncertainty import joint_certainty

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 
 from fitter.body.model import BodyModel
-from fitter.energies.objective import Objective
+from fitter.energies.objective import EnergyObserver, Objective
 from fitter.evidence.intensity import IntensityMap, intensity_map
 from fitter.fits.clothing import where_bare
 from fitter.fits.contradiction import contradiction
@@ -13,7 +13,6 @@ from fitter.fits.reporting import outcome_of
 from fitter.observation.observation import Observation
 from fitter.optimizer.albedo_colour import albedo_rgb
 from fitter.optimizer.alternation import ShadedFit
-from fitter.optimizer.damped_descent import EnergyObserver
 from fitter.optimizer.gauss_newton import Minimum
 from fitter.optimizer.light_solve import guessed_lights
 from fitter.optimizer.uncertainty import Certainty, camera_tilt, shape_covariance

@@ -4,8 +4,8 @@ import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
+from fitter.energies.objective import EnergyObserver
 from fitter.fits.progress import Observer, Progress, Stage
-from fitter.optimizer.damped_descent import EnergyObserver
 
 # Where each stage begins, as a share of a typical fit's time (640x480, Gauss-Newton, SES).
 _BEGINS_AT: Mapping[Stage, float] = {

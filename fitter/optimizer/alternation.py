@@ -16,8 +16,7 @@ from fitter.energies.shading import ShadingEvidence, explained_vertices, seen_ve
 from fitter.evidence.intensity import IntensityMap
 from fitter.numerics.mesh_parts import grown, mesh_part
 from fitter.numerics.surface_sample import SurfaceSample
-from fitter.optimizer.damped_descent import NEARLY_SETTLED_NATS, SETTLED_NATS
-from fitter.optimizer.gauss_newton import Minimum
+from fitter.optimizer.gauss_newton import NEARLY_SETTLED_NATS, SETTLED_NATS, Minimum
 from fitter.optimizer.hidden_reflectance import HiddenVertices
 from fitter.optimizer.light_step import (
     darkest,

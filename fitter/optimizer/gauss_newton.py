@@ -2,19 +2,31 @@
 
 Rows from the contour, the edges, the clicks, the spheres and the shading give a 74 x 74 normal
 matrix; the gradient is exact, by the reverse mode of the body. The loop is
-:mod:`fitter.optimizer.damped_descent`.
+:mod:`fitter.numerics.damped_descent`.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from jaxtyping import Float
 
-from fitter.energies.objective import Body, Candidate, Objective
-from fitter.optimizer.damped_descent import SETTLED_NATS, EnergyObserver, Offer, descend
+from fitter.energies.objective import Body, Candidate, EnergyObserver, Objective
+from fitter.numerics.damped_descent import Offer, damped_steps, descend
 from fitter.optimizer.free_space import free_space
 from fitter.optimizer.normal_equations import normal_equations
 from fitter.optimizer.parameter_vector import limited
+
+SETTLED_NATS = 0.05
+"""A step that promises less is not tried, and two in a row that gain less end the search. A tenth
+of a nat changes a likelihood by a tenth; the pixel grid at the outline makes the energy about as
+rough."""
+
+NEARLY_SETTLED_NATS = 0.2
+"""The same of a search that another follows, about other evidence."""
+
+_FLOOR = 1e-9
+"""Keeps the matrix regular."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -45,28 +57,24 @@ def minimize_gauss_newton(
     def paraboloid(now: Candidate) -> Callable[[float], Offer[Candidate]]:
         matrix, gradient = normal_equations(objective, now)
         space = free_space(objective.attributes.held, now.parameters)
-        inner = space.directions.T @ matrix @ space.directions
-        pull = gradient @ space.directions
-        diagonal = inner.diagonal()
 
-        def offer(damping: float) -> Offer[Candidate]:
-            damped = inner + np.diag(damping * diagonal + 1e-9)
-            step = np.linalg.solve(damped, -pull)
+        def taken(step: Float[np.ndarray, " free"]) -> Candidate | None:
+            whole = limited(now.parameters, space.directions @ step)
+            reached = space.moved(now.parameters, whole)
+            return None if reached is None else objective.evaluate(reached)
 
-            def taken() -> Candidate | None:
-                whole = limited(now.parameters, space.directions @ step)
-                reached = space.moved(now.parameters, whole)
-                return None if reached is None else objective.evaluate(reached)
-
-            return Offer(promised=-float(step @ (pull + 0.5 * inner @ step)), taken=taken)
-
-        return offer
+        return damped_steps(
+            space.directions.T @ matrix @ space.directions,
+            gradient @ space.directions,
+            taken,
+            floor=_FLOOR,
+        )
 
     found = descend(
         objective.evaluate(start),
         paraboloid,
         max_evaluations=max_evaluations,
-        on_energies=on_energies,
-        settled_nats=settled_nats,
+        settled=settled_nats,
+        on_accepted=lambda candidate: on_energies(candidate.energies),
     )
     return Minimum(candidate=found.point, converged=found.converged, evaluations=found.evaluations)

@@ -6,9 +6,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitter.energies.joint_objective import JointCandidate, JointObjective
-from fitter.energies.objective import Body
-from fitter.optimizer.damped_descent import SETTLED_NATS, EnergyObserver, Offer, descend
+from fitter.energies.objective import Body, EnergyObserver
+from fitter.numerics.damped_descent import Offer, descend
 from fitter.optimizer.free_space import free_space
+from fitter.optimizer.gauss_newton import SETTLED_NATS
 from fitter.optimizer.joint_equations import joint_equations
 from fitter.optimizer.parameter_vector import excess, moved
 
@@ -69,8 +70,8 @@ def minimize_jointly(
         objective.evaluate(start),
         paraboloid,
         max_evaluations=max_evaluations,
-        on_energies=on_energies,
-        settled_nats=settled_nats,
+        settled=settled_nats,
+        on_accepted=lambda candidate: on_energies(candidate.energies),
     )
     return JointMinimum(
         candidate=found.point, converged=found.converged, evaluations=found.evaluations

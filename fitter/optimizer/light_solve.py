@@ -13,8 +13,8 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float
 
+from fitter.numerics.damped_descent import damping_change
 from fitter.numerics.robust import geman_mcclure_weights
-from fitter.optimizer.damped_descent import damping_change
 from fitter.optimizer.light_sums import LightSums
 from fitter.optimizer.lit_surface import LightEstimate, LitSurface
 from fitter.parameters import Light, LightKind, Surroundings

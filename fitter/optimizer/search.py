@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 
+from fitter.energies.objective import EnergyObserver
 from fitter.optimizer.alternation import BodySearch
-from fitter.optimizer.damped_descent import SETTLED_NATS, EnergyObserver
-from fitter.optimizer.gauss_newton import minimize_gauss_newton
+from fitter.optimizer.gauss_newton import SETTLED_NATS, minimize_gauss_newton
 from fitter.optimizer.simplex import minimize_simplex
 from fitter.request import OptimizerKind
 

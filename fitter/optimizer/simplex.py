@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from fitter.energies.objective import Body, Candidate, Objective
-from fitter.optimizer.damped_descent import EnergyObserver
+from fitter.energies.objective import Body, Candidate, EnergyObserver, Objective
 from fitter.optimizer.free_space import free_space
 from fitter.optimizer.gauss_newton import Minimum
 

@@ -4,10 +4,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-from fitter.energies.objective import Body, Objective
+from fitter.energies.objective import Body, EnergyObserver, Objective
 from fitter.fits import descents
 from fitter.optimizer.alternation import BodySearch
-from fitter.optimizer.damped_descent import EnergyObserver
 from fitter.optimizer.gauss_newton import Minimum
 from fitter.optimizer.search import body_search
 from fitter.request import OptimizerKind

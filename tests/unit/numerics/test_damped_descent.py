@@ -1,11 +1,11 @@
 """The loop of damped steps, on energies of one number."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import pytest
 
-from fitter.optimizer.damped_descent import Offer, damping_change, descend
+from fitter.numerics.damped_descent import Offer, damping_change, descend
 
 
 @dataclass(frozen=True)
@@ -14,11 +14,6 @@ class Place:
 
     at: float
     total: float
-
-    @property
-    def energies(self) -> Mapping[str, float]:
-        """One term."""
-        return {"it": self.total}
 
 
 def searched(
@@ -39,9 +34,7 @@ def searched(
 
         return offered
 
-    found = descend(
-        evaluated(start), paraboloid, max_evaluations=max_evaluations, on_energies=lambda _: None
-    )
+    found = descend(evaluated(start), paraboloid, max_evaluations=max_evaluations, settled=0.05)
     assert found.evaluations == len(tried)
     return found.point, found.converged, tried
 

@@ -1,17 +1,20 @@
-"""Damped Gauss-Newton, accepted on the true energy: the loop, whatever the unknowns are.
+"""Damped Gauss-Newton, accepted on the true energy: the loop of every search, whatever is sought.
 
 A paraboloid that approximates the energy at the present point offers a step for any damping; a step
-is accepted only if the true energy decreased there, not just the paraboloid.
+is accepted only if the true energy decreased there, not just the paraboloid. Who searches says what
+a point is, how the paraboloid is made there and where a step leads; most have a matrix and a
+gradient, for which :func:`damped_steps` makes the offers.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Generic, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
+from jaxtyping import Float
 
-_FIRST_DAMPING = 1e-2
-_SMALLEST_DAMPING, _LARGEST_DAMPING = 1e-6, 1e4
+FIRST_DAMPING, LARGEST_DAMPING = 1e-2, 1e4
+_SMALLEST_DAMPING = 1e-6
 # After Nielsen: damping falls, at most to a third, where the step gained what was predicted, rises
 # where it gained less than half of that, and rises twice as fast with every further rejection.
 # A fixed rise and fall had half of its evaluations rejected and ended 2 to 12 % higher.
@@ -21,29 +24,14 @@ _PROMISED_AFTER_REJECTION = 0.7
 """Where a step was rejected, one is tried that promises at most this share of it: with a damping so
 small that it changes nothing, the next step would end nearly where the rejected one did."""
 
-SETTLED_NATS = 0.05
-"""A step that promises less is not tried, and two in a row that gain less end the search. A tenth
-of a nat changes a likelihood by a tenth; the pixel grid at the outline makes the energy about as
-rough."""
-
-NEARLY_SETTLED_NATS = 0.2
-"""The same of a search that another follows, about other evidence."""
-
-EnergyObserver = Callable[[Mapping[str, float]], None]
-
 
 @runtime_checkable
 class Evaluated(Protocol):
-    """A point at which the true energy is known, by term and in total, nats."""
-
-    @property
-    def energies(self) -> Mapping[str, float]:
-        """By term."""
-        ...
+    """A point at which the true energy is known."""
 
     @property
     def total(self) -> float:
-        """Their sum."""
+        """The energy."""
         ...
 
 
@@ -57,7 +45,7 @@ class Offer(Generic[Point]):
     Attributes
     ----------
     promised
-        By how much the paraboloid decreases, nats.
+        By how much the paraboloid decreases, in the energy's unit.
     taken
         Evaluates the energy where the step ends; None where there is nothing to evaluate.
     """
@@ -83,10 +71,15 @@ def descend(
     paraboloid: Callable[[Point], Callable[[float], Offer[Point]]],
     *,
     max_evaluations: int,
-    on_energies: EnergyObserver,
-    settled_nats: float = SETTLED_NATS,
+    settled: float,
+    settled_share: float = 0.0,
+    first_damping: float = FIRST_DAMPING,
+    largest_damping: float = LARGEST_DAMPING,
+    on_accepted: Callable[[Point], None] | None = None,
 ) -> Descent[Point]:
-    """Step until steps gain less than the tolerance or no damping helps.
+    """Step until two steps in a row gain less than the tolerance, or no damping helps.
+
+    A step that promises less than the tolerance is not tried, and ends the search.
 
     Parameters
     ----------
@@ -96,21 +89,25 @@ def descend(
         Gives, at a point, the step for each damping, which is a share of the diagonal.
     max_evaluations
         Of the true energy.
-    on_energies
-        Receives the energies of every accepted point.
-    settled_nats
-        The tolerance.
+    settled, settled_share
+        The tolerance: this much, and this share of the present energy.
+    first_damping, largest_damping
+        With which damping the search begins, and with which it gives up.
+    on_accepted
+        Receives the start and every accepted point.
     """
     now = start
-    damping, rise, evaluations, settled = _FIRST_DAMPING, _FIRST_RISE, 1, 0
-    on_energies(now.energies)
+    damping, rise, evaluations, small_gains = first_damping, _FIRST_RISE, 1, 0
+    if on_accepted is not None:
+        on_accepted(now)
     while evaluations < max_evaluations:
         offered = paraboloid(now)
+        tolerance = settled + settled_share * now.total
         accepted: Point | None = None
         most_promised = np.inf
-        while evaluations < max_evaluations and damping < _LARGEST_DAMPING:
+        while evaluations < max_evaluations and damping < largest_damping:
             offer = offered(damping)
-            if offer.promised < settled_nats:
+            if offer.promised < tolerance:
                 return Descent(point=now, converged=True, evaluations=evaluations)
             if offer.promised <= most_promised:
                 reached = offer.taken()
@@ -125,18 +122,38 @@ def descend(
             damping *= rise
             rise *= 2.0
         if accepted is None:
-            return Descent(
-                point=now, converged=damping >= _LARGEST_DAMPING, evaluations=evaluations
-            )
-        small = now.total - accepted.total < settled_nats
-        settled = settled + 1 if small else 0
+            return Descent(point=now, converged=damping >= largest_damping, evaluations=evaluations)
+        small_gains = small_gains + 1 if now.total - accepted.total < tolerance else 0
         now = accepted
-        on_energies(now.energies)
-        if settled == 2:
+        if on_accepted is not None:
+            on_accepted(now)
+        if small_gains == 2:
             return Descent(point=now, converged=True, evaluations=evaluations)
     return Descent(point=now, converged=False, evaluations=evaluations)
 
 
+def damped_steps(
+    matrix: Float[np.ndarray, "n n"],
+    gradient: Float[np.ndarray, " n"],
+    taken: Callable[[Float[np.ndarray, " n"]], Point | None],
+    *,
+    floor: float,
+) -> Callable[[float], Offer[Point]]:
+    """The offers of the paraboloid ½ xᵀMx + gᵀx: for damping μ, (M + μ diag M + floor I) x = -g.
+
+    ``taken`` evaluates the energy where a step x leads; ``floor`` keeps the matrix regular where
+    an unknown has no curvature.
+    """
+    diagonal = matrix.diagonal()
+
+    def offered(damping: float) -> Offer[Point]:
+        step = np.linalg.solve(matrix + np.diag(damping * diagonal + floor), -gradient)
+        promised = -float(step @ (gradient + 0.5 * matrix @ step))
+        return Offer(promised=promised, taken=lambda: taken(step))
+
+    return offered
+
+
 def damping_change(gain: float) -> float:
     """Factor of the damping after a step that gained this share of what it promised."""
-    return float(np.clip(1.0 - (2.0 * gain - 1.0) ** 3, _FASTEST_FALL, _FASTEST_RISE))
+    return min(max(1.0 - (2.0 * gain - 1.0) ** 3, _FASTEST_FALL), _FASTEST_RISE)
