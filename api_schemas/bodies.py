@@ -5,6 +5,7 @@ from pydantic import Field
 from api_schemas.base import WireModel
 from api_schemas.known import KnownMeasurements
 from api_schemas.requests import Gender
+from api_schemas.results import FitWarning
 
 
 class BodyRequest(KnownMeasurements):
@@ -43,7 +44,8 @@ class BodyEstimate(WireModel):
 
     ``shape`` are coefficients in standard deviations, the first of them the height.
     ``plausibility`` is the share of the population whose measurements of the given names are
-    together at least as unusual.
+    together at least as unusual. Warnings: ``unusual-height`` where bodies of the height are
+    extrapolated, with wider errors.
     """
 
     gender: Gender
@@ -52,6 +54,7 @@ class BodyEstimate(WireModel):
     measurements: tuple[EstimatedMeasurement, ...]
     plausibility: float = Field(ge=0.0, le=1.0)
     body_model: str = Field(description="Checksum of the body model.")
+    warnings: tuple[FitWarning, ...] = ()
     glb: str | None = Field(
         default=None,
         description="The body as a glTF 2.0 binary file, canonical pose, base64; if asked for.",

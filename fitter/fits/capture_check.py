@@ -82,7 +82,7 @@ def check_picture(
     ------
     InvalidInputError
         As :func:`fitter.observation.decoding.decode_picture`, ``person-unknown``,
-        ``height-out-of-range``, or as :func:`fitter.observation.focal_length.focal_length` and
+        ``out-of-range``, or as :func:`fitter.observation.focal_length.focal_length` and
         :func:`fitter.observation.clicks.check_places`.
     """
     check_height(question.height_m)

@@ -145,7 +145,7 @@ def initial_body(
         limbs=limb_readings(initial.hypotheses, request.limb_facing),
         residual_px=initial.residual_px,
         assumptions=focal.assumptions + person.assumptions,
-        warnings=side_warnings(request.clicks),
+        warnings=side_warnings(request.clicks) + person.warnings,
     )
 
 

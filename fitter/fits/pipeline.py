@@ -123,6 +123,7 @@ def fit(
         limb_facing=facings,
         assumptions=observation.assumptions + known.assumptions + clothing_assumptions,
         warnings=observation.warnings
+        + known.warnings
         + view.segmentation.warnings
         + clothing_warnings
         + fit_warnings(found.silhouette_overlap, facings)

@@ -178,7 +178,8 @@ def scan(
         given=known.given,
         alone=alone,
         assumptions=known.assumptions,
-        warnings=scan_warnings(
+        warnings=known.warnings
+        + scan_warnings(
             alone,
             found.foretold,
             dict(zip(prepared.population.names, prepared.population.units, strict=True)),

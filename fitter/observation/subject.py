@@ -10,9 +10,9 @@ from fitter.request import STATURE, FitRequest, Gender
 MEAN_HEIGHT_M: Mapping[Gender, float] = {Gender.FEMALE: 1.65, Gender.MALE: 1.82}
 """Section 4: the heights assumed for people whose height is not known, as in paintings."""
 
-PLAUSIBLE_HEIGHT_M = (1.2, 2.3)
-"""Heights of the adults the shape spaces were learned from, with a margin; beyond is extrapolation.
-"""
+LEAST_HEIGHT_M, MOST_HEIGHT_M = 1.2, 2.3
+"""What a request may say, the same for all (:mod:`api_schemas.known`). What is within and yet
+unusual is a warning (:mod:`fitter.population.unusual_height`)."""
 
 
 def check_subject(request: FitRequest) -> None:
@@ -21,7 +21,7 @@ def check_subject(request: FitRequest) -> None:
     Raises
     ------
     InvalidInputError
-        ``height-out-of-range``, ``two-heights``, ``measurement-invalid`` or ``light-invalid``.
+        ``out-of-range``, ``two-heights``, ``measurement-invalid`` or ``light-invalid``.
     """
     check_height(request.height_m)
     if request.height_m is not None and STATURE in request.measurements:
@@ -67,14 +67,15 @@ def check_height(height_m: float | None) -> None:
     Raises
     ------
     InvalidInputError
-        ``height-out-of-range``.
+        ``out-of-range``.
     """
-    low, high = PLAUSIBLE_HEIGHT_M
-    if height_m is not None and not low <= height_m <= high:
+    if height_m is not None and not LEAST_HEIGHT_M <= height_m <= MOST_HEIGHT_M:
         raise InvalidInputError(
-            code="height-out-of-range",
+            code="out-of-range",
             field="height_m",
-            reason=f"A height of {height_m:g} m is outside {low:g} to {high:g} m.",
+            reason=(
+                f"A height of {height_m:g} m is outside {LEAST_HEIGHT_M:g} to {MOST_HEIGHT_M:g} m."
+            ),
             remedy="Give the standing height in metres, or leave it out for the mean.",
         )
 

@@ -8,6 +8,7 @@ from jaxtyping import Float
 from fitter.arrays import Shape
 from fitter.energies.attributes import attribute_slopes
 from fitter.energies.objective import Candidate, Objective
+from fitter.energies.priors import height_extrapolation
 from fitter.optimizer.free_space import FreeSpace, free_space, kept_directions
 from fitter.optimizer.light_freedom import information_lost_to_light
 from fitter.optimizer.normal_equations import normal_equations
@@ -68,11 +69,14 @@ def shape_covariance(certain: Certainty, *, height_variance: float) -> Float[np.
     """Covariance of the shape, with pose and position marginalised.
 
     The height is never estimated from the picture: ``height_variance`` is the population's, given
-    what is known, in its coefficient's unit; zero for a height that is known.
+    what is known, in its coefficient's unit; zero for a height that is known. Beyond usual heights
+    all is wider (:func:`fitter.energies.priors.height_extrapolation`).
     """
-    n = len(certain.candidate.parameters.shape)
+    shape = certain.candidate.parameters.shape
+    n = len(shape)
     response = _height_response(certain.objective, certain.candidate, certain.space)
-    return certain.covariance[-n:, -n:] + height_variance * np.outer(response, response)
+    covariance = certain.covariance[-n:, -n:] + height_variance * np.outer(response, response)
+    return height_extrapolation(float(shape[0])) * covariance
 
 
 def camera_tilt(certain: Certainty) -> CameraTilt:

@@ -15,7 +15,7 @@ from jaxtyping import Float
 from scipy.special import chdtrc
 
 from fitter.arrays import Shape
-from fitter.energies.priors import population_prior
+from fitter.energies.priors import height_extrapolation, population_prior
 from fitter.errors import InvalidInputError
 from fitter.person.fitted_person import FittedPerson
 
@@ -97,7 +97,9 @@ def combined_shape(people: Sequence[FittedPerson]) -> CombinedShape:
             raise told_differently(index)
     count = len(people)
     weight = counted_as(count) / count
-    precision = directions.T @ population_prior(len(origin)).precision @ directions
+    # The fits' covariances are wider where the height is unusual, and so is their prior's.
+    wider = height_extrapolation(float(origin[0]))
+    precision = directions.T @ population_prior(len(origin)).precision @ directions / wider
     prior_step = -directions.T @ origin
     matrix, pull = precision.copy(), precision @ prior_step
     informations = [_information(person, directions) for person in people]

@@ -7,11 +7,14 @@ import numpy as np
 from scipy.special import chdtrc
 
 from fitter.arrays import Shape, Vertices
+from fitter.energies.priors import height_extrapolation
 from fitter.measurement.anthropometry import measure
 from fitter.measurement.quantity import Measurement
 from fitter.population.known import conditioned_population
 from fitter.population.measured_population import MeasuredPopulation
-from fitter.request import KnownMeasurement
+from fitter.population.unusual_height import height_warnings
+from fitter.remarks import FitWarning
+from fitter.request import STATURE, KnownMeasurement
 
 INTERVAL_PROBABILITY = 0.95
 _INTERVAL_SD = 1.959964
@@ -52,12 +55,15 @@ class BodyEstimate:
     plausibility
         Share of the population whose same measurements are together at least as unusual; 1 if
         nothing was known.
+    warnings
+        Of a height that few have.
     """
 
     shape: Shape
     canonical_vertices: Vertices
     measurements: tuple[EstimatedMeasurement, ...]
     plausibility: float
+    warnings: tuple[FitWarning, ...]
 
 
 def estimate_body(
@@ -67,7 +73,8 @@ def estimate_body(
 
     Intervals are the population's spread given what is known, in the model's own terms (a Gaussian,
     linearised at the estimate): how people differ who agree in what was given. They do not include
-    the error of the model itself.
+    the error of the model itself, but are wider where nobody surveyed was of the height
+    (:func:`fitter.energies.priors.height_extrapolation`).
 
     Raises
     ------
@@ -75,15 +82,16 @@ def estimate_body(
         If a name is not measured, or nobody has such measurements.
     """
     conditioned = conditioned_population(population, known)
+    covariance = height_extrapolation(float(conditioned.shape[0])) * conditioned.covariance
+    measurements = measure(population.body, conditioned.shape)
+    height_cm = next(each.value for each in measurements if each.name == STATURE)
     # What is held exactly has no spread; rounding would leave a millionth of a unit.
     held = {name for name, each in known.items() if not each.standard_error}
     spreads = {
         name: 0.0 if name in held else float(np.sqrt(max(variance, 0.0)))
         for name, variance in zip(
             population.names,
-            np.einsum(
-                "kn,nj,kj->k", conditioned.jacobian, conditioned.covariance, conditioned.jacobian
-            ),
+            np.einsum("kn,nj,kj->k", conditioned.jacobian, covariance, conditioned.jacobian),
             strict=True,
         )
     }
@@ -91,10 +99,10 @@ def estimate_body(
         shape=conditioned.shape,
         canonical_vertices=population.body.canonical.at(conditioned.shape),
         measurements=tuple(
-            _estimated(each, spreads[each.name], given=each.name in known)
-            for each in measure(population.body, conditioned.shape)
+            _estimated(each, spreads[each.name], given=each.name in known) for each in measurements
         ),
         plausibility=float(chdtrc(len(known), conditioned.squared_distance)) if known else 1.0,
+        warnings=height_warnings(population, height_cm / 100.0),
     )
 
 

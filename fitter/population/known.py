@@ -7,13 +7,17 @@ from jaxtyping import Float
 from scipy.special import chdtri
 
 from fitter.errors import InvalidInputError
+from fitter.observation.subject import LEAST_HEIGHT_M, MOST_HEIGHT_M
 from fitter.population.conditional_shape import ConditionedShape, Conditions, condition_shape
 from fitter.population.measured_population import MeasuredPopulation
-from fitter.request import KnownMeasurement
+from fitter.request import STATURE, KnownMeasurement
+
+CENTIMETRES_PER_METRE = 100.0
 
 RAREST_SD = 5.0
 """One person in two million is farther from the population's mean in a measurement, and the model,
-learned from a thousand people, knows nothing about such shapes."""
+learned from a thousand people, knows nothing about such shapes. Heights are an exception: all have
+one, and what an unusual one costs is told (:mod:`fitter.population.unusual_height`)."""
 
 _RAREST_SHARE = 5.733e-7
 """The share of people beyond that on either side; combined measurements are judged by it too."""
@@ -48,11 +52,14 @@ def conditioned_population(
                 reason="There is no measurement of this name.",
                 remedy=f"Use one of {', '.join(population.names)}.",
             )
+    if STATURE in known:
+        _check_stature(known[STATURE])
     conditioned = _condition(population, known)
-    if conditioned.met and conditioned.squared_distance <= _farthest(len(known)):
+    if _is_somebody(population, known, conditioned):
         return conditioned
     for name, measurement in known.items():
-        _check_alone(population, name, measurement)
+        if name != STATURE:
+            _check_alone(population, known, name, measurement)
     raise _contradiction(population, known)
 
 
@@ -72,31 +79,79 @@ def _conditions(
     )
 
 
+def _is_somebody(
+    population: MeasuredPopulation,
+    known: Mapping[str, KnownMeasurement],
+    conditioned: ConditionedShape,
+) -> bool:
+    """Whether people have all this together; of a given height, however unusual that is itself.
+
+    In a Gaussian the squared distance is that of the height and that of the rest given the height.
+    """
+    distance, count = conditioned.squared_distance, len(known)
+    if STATURE in known:
+        row, stature = population.names.index(STATURE), known[STATURE]
+        slope = population.shapes.jacobian_at_mean[row]
+        offset = stature.value - population.shapes.mean[row]
+        distance -= float(offset**2 / (slope @ slope + stature.standard_error**2))
+        count -= 1
+    return conditioned.met and (count == 0 or distance <= _farthest(count))
+
+
 def _farthest(count: int) -> float:
     """The χ² of ``count`` measurements exceeded by as few people as exceed the limit of one."""
     return float(chdtri(count, _RAREST_SHARE)) if count else 0.0
 
 
-def _check_alone(population: MeasuredPopulation, name: str, measurement: KnownMeasurement) -> None:
-    alone = population.only(name)
-    conditioned = _condition(alone, {name: measurement})
-    if conditioned.met and conditioned.squared_distance <= _farthest(1):
+def _check_stature(stature: KnownMeasurement) -> None:
+    if not LEAST_HEIGHT_M <= stature.value / CENTIMETRES_PER_METRE <= MOST_HEIGHT_M:
+        low, high = (CENTIMETRES_PER_METRE * each for each in (LEAST_HEIGHT_M, MOST_HEIGHT_M))
+        reason = f"A height of {stature.value:g} cm is outside {low:g} to {high:g} cm."
+        raise _out_of_range(STATURE, stature, "cm", (low, high), reason)
+
+
+def _check_alone(
+    population: MeasuredPopulation,
+    known: Mapping[str, KnownMeasurement],
+    name: str,
+    measurement: KnownMeasurement,
+) -> None:
+    """Refuse a value that nobody has, nor anybody of the given height."""
+    alone, only = population.only(name), {name: measurement}
+    if _is_somebody(alone, only, _condition(alone, only)):
         return
+    if STATURE in known:
+        both = {STATURE: known[STATURE], **only}
+        people = population.only(*both)
+        if _is_somebody(people, both, _condition(people, both)):
+            return
     low, high = _reach(alone)
     (unit,) = alone.units
     reason = (
         f"{measurement.value:g} {unit} is beyond what the bodies were learned from, about "
         f"{low:.0f} to {high:.0f} {unit}."
     )
+    raise _out_of_range(name, measurement, unit, (low, high), reason)
+
+
+def _out_of_range(
+    name: str,
+    measurement: KnownMeasurement,
+    unit: str,
+    reach: tuple[float, float],
+    reason: str,
+) -> InvalidInputError:
+    """Say which unit the value seems to be in, if it is of the reach in another one."""
+    low, high = reach
     for factor, other in _OTHER_UNITS[unit]:
         if low <= measurement.value * factor <= high:
-            raise InvalidInputError(
+            return InvalidInputError(
                 code="out-of-range",
                 field=measurement.field_of(name),
                 reason=f"{reason} It looks like {other}.",
                 remedy=f"Send {measurement.value * factor:.4g}: this measurement is in {unit}.",
             )
-    raise InvalidInputError(
+    return InvalidInputError(
         code="out-of-range",
         field=measurement.field_of(name),
         reason=reason,

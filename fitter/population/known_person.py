@@ -13,7 +13,8 @@ from fitter.observation.subject import subject_height
 from fitter.optimizer.free_space import held_shape
 from fitter.population.known import conditioned_population
 from fitter.population.measured_population import MeasuredPopulation
-from fitter.remarks import Assumption
+from fitter.population.unusual_height import height_warnings
+from fitter.remarks import Assumption, FitWarning
 from fitter.request import STATURE, FitRequest, KnownMeasurement
 
 CENTIMETRES_PER_METRE = 100.0
@@ -39,6 +40,8 @@ class KnownPerson:
         Names of those given without an error: every body of the fit has them.
     assumptions
         The height, if it was not given.
+    warnings
+        Of a height that few have.
     """
 
     height_m: float
@@ -48,6 +51,7 @@ class KnownPerson:
     given: tuple[str, ...]
     held: tuple[str, ...]
     assumptions: tuple[Assumption, ...]
+    warnings: tuple[FitWarning, ...]
 
 
 def known_person(
@@ -75,6 +79,7 @@ def known_person(
             given=given,
             held=given,
             assumptions=assumptions,
+            warnings=height_warnings(population, height_m),
         )
     known = _height_of(request) | dict(request.measurements)
     conditioned = conditioned_population(population, known)
@@ -89,6 +94,7 @@ def known_person(
         given=tuple(known),
         held=tuple(name for name, each in known.items() if not each.standard_error),
         assumptions=assumptions,
+        warnings=height_warnings(population, height_m),
     )
 
 

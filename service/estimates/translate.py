@@ -23,7 +23,14 @@ from fitter.fits.proposal import Proposal, ProposedPoint
 from fitter.population.body_estimate import BodyEstimate
 from fitter.request import Facing, FitRequest, Gender, ViewKind
 from service.worker.findings import finding_results, rounded_box
-from service.worker.translate import SEEN, body_result, camera_result, clicks, known_measurements
+from service.worker.translate import (
+    SEEN,
+    body_result,
+    camera_result,
+    clicks,
+    known_measurements,
+    warning_results,
+)
 
 JPEG_QUALITY = 90
 """Nothing is measured in these pictures; they are for the eye."""
@@ -176,6 +183,7 @@ def body_estimate(estimate: BodyEstimate, model: BodyModel) -> wire_bodies.BodyE
         measurements=measurements,
         plausibility=estimate.plausibility,
         body_model=str(model.header.get("checksum", "")),
+        warnings=warning_results(estimate.warnings),
     )
 
 

@@ -117,15 +117,20 @@ def load_moments(path: Path, gender: str) -> SurveyMoments:
     )
 
 
-def moments_from_survey(path: Path, names: Sequence[str]) -> SurveyMoments:
-    """Moments of one gender's file of the public release (CSV, latin-1)."""
+def surveyed_values(path: Path, names: Sequence[str]) -> Float[np.ndarray, "s q"]:
+    """Fields of everybody in one gender's file of the public release (CSV, latin-1); cm and kg."""
     with path.open(encoding="latin-1", newline="") as stream:
         subjects = list(csv.DictReader(stream))
     values = np.array([[float(subject[name]) for name in names] for subject in subjects])
-    values /= UNITS_PER_OURS
+    return values / UNITS_PER_OURS
+
+
+def moments_from_survey(path: Path, names: Sequence[str]) -> SurveyMoments:
+    """Moments of one gender's file."""
+    values = surveyed_values(path, names)
     return SurveyMoments(
         names=tuple(names),
-        count=len(subjects),
+        count=len(values),
         mean=values.mean(axis=0),
         covariance=np.cov(values.T),
     )

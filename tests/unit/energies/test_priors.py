@@ -3,7 +3,20 @@
 import numpy as np
 import pytest
 
-from fitter.energies.priors import POPULATION_PRECISION, ShapePrior, population_prior
+from fitter.energies.priors import (
+    HEIGHT_CURVATURE,
+    POPULATION_PRECISION,
+    USUAL_HEIGHT_SD,
+    ShapePrior,
+    height_extrapolation,
+    population_prior,
+)
+from fitter.fits.prepared_model import prepared_model
+from fitter.request import STATURE, Gender
+from fitter.training.surveys import survey_moments
+from tests.shared_data import SHARED_DATA, needs_shared
+
+SURVEY = SHARED_DATA / "anthropometry"
 
 N = 6
 
@@ -46,3 +59,32 @@ def test_the_slope_is_the_energy_s_derivative(told):
         for axis in np.eye(N)
     ]
     np.testing.assert_allclose(told.slope(shape), numeric, atol=1e-7)
+
+
+def test_variance_grows_by_the_square_of_how_far_a_bent_line_leaves_a_straight_one():
+    assert height_extrapolation(7.0) == pytest.approx(1.0 + (48.0 * HEIGHT_CURVATURE) ** 2)
+    assert height_extrapolation(-7.0) == height_extrapolation(7.0)
+    assert height_extrapolation(USUAL_HEIGHT_SD) == 1.0
+    assert 1.0 < height_extrapolation(1.001 * USUAL_HEIGHT_SD) < 1.05
+
+
+def curvature_on_the_height(gender: Gender) -> float:
+    """Root mean square of the survey's fields, in the heights' deviations of our model."""
+    path = SURVEY / survey_moments.FILE_NAMES[gender.value]
+    values = survey_moments.surveyed_values(path, survey_moments.FIELDS)
+    at = survey_moments.FIELDS.index("stature")
+    people = prepared_model(gender).population
+    slope = people.shapes.jacobian_at_mean[people.names.index(STATURE)]
+    height = (values[:, at] - values[:, at].mean()) / np.linalg.norm(slope)
+    line = np.stack([np.ones_like(height), height], axis=1)
+    others = np.delete(values, at, axis=1)
+    scatter = (others - line @ np.linalg.lstsq(line, others)[0]).std(axis=0)
+    bent = np.column_stack([line, height**2 - 1.0])
+    return float(np.sqrt(np.mean((np.linalg.lstsq(bent, others)[0][2] / scatter) ** 2)))
+
+
+@needs_shared(SURVEY)
+def test_the_curvature_is_that_of_surveyed_men_and_no_less_than_that_of_women():
+    women, men = (curvature_on_the_height(gender) for gender in (Gender.FEMALE, Gender.MALE))
+    assert men == pytest.approx(HEIGHT_CURVATURE, rel=0.02)
+    assert 0.5 * HEIGHT_CURVATURE < women < HEIGHT_CURVATURE

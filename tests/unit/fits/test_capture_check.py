@@ -159,7 +159,7 @@ def test_without_a_detector_points_tell_their_part():
 @pytest.mark.parametrize(
     ("said", "code"),
     [
-        ({"height_m": 17.0}, "height-out-of-range"),
+        ({"height_m": 17.0}, "out-of-range"),
         ({"points": {"nose": Click(x=721.0, y=5.0)}}, "point-outside-image"),
         ({"focal_length_px": 90.0, "focal_length_35mm": 50.0}, "focal-length-twice"),
         ({"focal_length_35mm": 1.0}, "focal-length-invalid"),

@@ -168,7 +168,7 @@ def test_an_unusable_mask_is_refused(mask: np.ndarray, code: str):
 @pytest.mark.parametrize("height_m", [1.19, 2.31, 0.0, -1.7, 170.0, float("nan")])
 def test_an_impossible_height_is_refused(height_m: float):
     problem = problem_of(height_m=height_m)
-    assert (problem.code, problem.field) == ("height-out-of-range", "height_m")
+    assert (problem.code, problem.field) == ("out-of-range", "height_m")
 
 
 @pytest.mark.parametrize("height_m", [None, 1.2, 2.3])

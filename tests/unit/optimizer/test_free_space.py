@@ -12,6 +12,7 @@ from fitter.energies.attributes import (
     attribute_slopes,
 )
 from fitter.energies.objective import Candidate, Objective
+from fitter.energies.priors import height_extrapolation
 from fitter.errors import NumericalError
 from fitter.fits.prepared_model import PreparedModel, prepared_model
 from fitter.measurement.anthropometry import measure
@@ -276,6 +277,17 @@ def test_an_unknown_height_spreads_all_but_what_is_held(scene, held_fit):
     assert errors["stature"] > 3.0
     for name in HELD:
         assert errors[name] < 1e-3
+
+
+def test_a_fit_of_somebody_of_an_unusual_height_is_less_certain(held_fit):
+    certain = certainty(held_fit[0], held_fit[1].candidate)
+    body = certain.candidate.parameters
+    tall = replace(body, shape=body.shape + (7.0 - body.shape[0]) * np.eye(len(body.shape))[0])
+    unusual = replace(certain, candidate=replace(certain.candidate, parameters=tall))
+    np.testing.assert_allclose(
+        shape_covariance(unusual, height_variance=0.0),
+        height_extrapolation(7.0) * shape_covariance(certain, height_variance=0.0),
+    )
 
 
 def test_an_unknown_height_leaves_uncertain_attributes_as_certain_as_they_were_told(scene):

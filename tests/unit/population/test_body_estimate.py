@@ -4,12 +4,14 @@ import numpy as np
 import pytest
 
 from fitter.body.shape_space import height_of_shape, shape_for_height
+from fitter.energies.priors import height_extrapolation
 from fitter.errors import InvalidInputError
 from fitter.fits.prepared_model import PreparedModel, prepared_model
 from fitter.measurement.anthropometry import measurement_values
 from fitter.population.body_estimate import BodyEstimate, estimate_body
+from fitter.population.known import conditioned_population
 from fitter.population.measured_population import MeasuredPopulation
-from fitter.request import Gender, KnownMeasurement
+from fitter.request import STATURE, Gender, KnownMeasurement
 
 GENDERS = pytest.mark.parametrize("gender", list(Gender))
 
@@ -160,10 +162,41 @@ def test_a_value_in_another_unit_is_recognised(known, unit, right):
     assert f"Send {right}:" in problem.remedy
 
 
-def test_a_value_nobody_has_is_refused_with_the_range():
-    problem = refusal(Gender.FEMALE, stature=260.0)
+@pytest.mark.parametrize("stature", [119.9, 230.1, 260.0])
+def test_a_height_that_no_request_may_name_is_refused_with_the_range(stature):
+    problem = refusal(Gender.FEMALE, stature=stature)
     assert (problem.code, problem.field) == ("out-of-range", "measurements.stature")
-    assert "195" in problem.reason
+    assert "120 to 230 cm" in problem.reason
+
+
+@GENDERS
+@pytest.mark.parametrize("stature", [120.0, 230.0])
+def test_beyond_usual_heights_errors_are_wider_and_a_warning_says_so(gender, stature):
+    people = population(gender)
+    known = {STATURE: KnownMeasurement(value=stature)}
+    unusual, usual = estimate(gender, stature=stature), estimate(gender, stature=170.0)
+    assert values(unusual)["stature"] == pytest.approx(stature, abs=0.01)
+    (warning,) = unusual.warnings
+    conditioned = conditioned_population(people, known)
+    wider = np.sqrt(height_extrapolation(conditioned.shape[0]))
+    assert wider > 1.25
+    assert (warning.code, f"{wider:.2f} times" in warning.message) == ("unusual-height", True)
+    variances = np.diag(conditioned.jacobian @ conditioned.covariance @ conditioned.jacobian.T)
+    for each, variance in zip(unusual.measurements, variances, strict=True):
+        if not each.given:
+            assert each.measurement.standard_error == pytest.approx(wider * np.sqrt(variance))
+    assert usual.warnings == ()
+
+
+def test_who_is_unusually_tall_may_have_the_limbs_and_the_weight_of_such_people():
+    tall = values(estimate(Gender.FEMALE, stature=215.0))
+    known = {name: tall[name] for name in ("stature", "inseam", "arm_length", "weight")}
+    assert values(estimate(Gender.FEMALE, **known))["inseam"] == pytest.approx(
+        tall["inseam"], abs=0.01
+    )
+    assert refusal(Gender.FEMALE, inseam=tall["inseam"]).code == "out-of-range"
+    problem = refusal(Gender.FEMALE, **known | {"inseam": 60.0})
+    assert problem.code == "contradictory-measurements"
 
 
 def test_measurements_nobody_has_together_name_the_one_that_does_not_fit():

@@ -65,6 +65,15 @@ def test_nothing_known_is_the_mean_height_and_says_so(gender):
     assert [each.quantity for each in found.assumptions] == ["height_m"]
 
 
+@pytest.mark.parametrize("known", [{}, {"weight": 80.0}])
+def test_a_height_that_few_have_is_taken_with_a_warning(known):
+    for height_m in (1.3, 2.1):
+        (warning,) = person(Gender.FEMALE, height_m, **known).warnings
+        assert warning.code == "unusual-height"
+        assert f"At {100 * height_m:.0f} cm" in warning.message
+    assert person(Gender.FEMALE, 1.7, **known).warnings == ()
+
+
 @GENDERS
 def test_what_is_given_is_had_from_the_beginning(gender):
     truth = typical(gender, 0.7, 1.2, -0.8, 0.4)
@@ -131,7 +140,7 @@ def test_it_is_the_body_that_measurements_alone_give(gender):
         (1.7, {"weight": 600.0}, "measurements.weight", "out-of-range"),
         (1.7, {"weight": 45.0, "waist_girth_navel": 110.0}, None, "contradictory-measurements"),
         (1.85, {"inseam": 70.0}, None, "contradictory-measurements"),
-        (2.2, {"weight": 70.0}, "height_m", "out-of-range"),
+        (None, {"stature": 231.0}, "measurements.stature", "out-of-range"),
     ],
 )
 def test_what_nobody_is_is_refused_by_its_field(height_m, known, field, code):

@@ -53,7 +53,7 @@ def test_height_weight_and_measurements_are_known_alike():
     [
         ({"height_m": 1.68, "weight_kg": 700.0}, "weight_kg", "out-of-range"),
         ({"measurements": {"weight": 700.0}}, "measurements.weight", "out-of-range"),
-        ({"height_m": 2.3, "weight_kg": 64.0}, "height_m", "out-of-range"),
+        ({"measurements": {"stature": 230.5}}, "measurements.stature", "out-of-range"),
         ({"measurements": {"bust": 90.0}}, "measurements.bust", "unknown-value"),
     ],
 )

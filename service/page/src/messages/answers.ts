@@ -16,7 +16,7 @@ export const FAULTS = [
   "bvh-skeleton-unknown", "bvh-too-far", "bvh-too-large", "bvh-too-long", "bvh-unreadable",
   "contradictory-measurements", "database-unavailable", "detector-not-installed", "disk-full", "draining",
   "empty-upload", "estimator-failed", "estimator-timeout", "estimator-unavailable", "fit-crashed", "fit-failed",
-  "fits-unusable", "fit-expired", "focal-length-invalid", "height-out-of-range", "image-animated", "image-damaged",
+  "fits-unusable", "fit-expired", "focal-length-invalid", "image-animated", "image-damaged",
   "image-empty", "image-too-large", "image-too-narrow", "image-too-small", "image-unsupported",
   "input-gone", "internal-error", "mask-damaged", "mask-size", "mask-size-mismatch", "mask-without-background",
   "mask-without-foreground", "measurement-invalid", "no-light", "no-process", "no-worker", "not-a-bvh",
@@ -34,7 +34,7 @@ export const WARNINGS = [
   "given-contradicted", "heights-differ", "implausible", "left-and-right-may-be-swapped", "limbs-crossed", "low-silhouette-overlap", "no-person",
   "nobody-found", "other-view", "person-too-small", "sandbox", "seen-from-behind", "segmentation-doubtful", "several-people",
   "shading-not-used", "shoulders-and-hips-disagree", "skin-not-found", "surroundings-not-found",
-  "transparency-over-white",
+  "transparency-over-white", "unusual-height",
 ] as const;
 
 /** Findings of checks of pictures, by `code`: what is wrong and what to do. */

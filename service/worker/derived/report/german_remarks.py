@@ -122,6 +122,10 @@ _WARNINGS: Final = {
         "Das Bild ist zum Teil durchsichtig und wurde auf Weiß gelegt. Wenn der deckende Teil die "
         "Person ist, verwenden Sie ihn als Maske."
     ),
+    "unusual-height": (
+        "Diese Körperhöhe haben wenige. Der übrige Körper ist aus den üblichen Größen "
+        "hochgerechnet, die Fehlerangaben sind weiter. Prüfen Sie Körperhöhe und Geschlecht."
+    ),
 }
 
 REMARKS: Final = RemarkWords(

@@ -51,7 +51,6 @@ export const answers: TranslatedAnswers = {
     "fits-unusable": "Diese Auswertungen lassen sich nicht zusammen verwenden: Eine ist nicht beendet, gelöscht oder ohne Maße. Wählen Sie andere.",
     "fit-expired": "Bild und Ergebnis wurden am Ende der Aufbewahrung gelöscht. Starten Sie eine neue Auswertung.",
     "focal-length-invalid": "Diese Brennweite hat kein Objektiv. Ändern Sie sie oder lassen Sie sie offen.",
-    "height-out-of-range": "So groß ist niemand. Geben Sie die Höhe im Stehen an oder lassen Sie sie offen.",
     "image-animated": "Das Bild bewegt sich. Nehmen Sie ein stehendes.",
     "image-damaged": "Das Bild ist beschädigt. Nehmen Sie ein anderes.",
     "image-empty": "Die Bilddatei ist leer. Nehmen Sie eine andere.",
@@ -126,6 +125,7 @@ export const answers: TranslatedAnswers = {
     "skin-not-found": "Weder Gesicht noch Hände zeigen die Hautfarbe der Person, oder das Bild ist nicht farbig: Was unbekleidet ist, ist geraten. Klicken Sie Nase oder Augen, wenn sie zu sehen sind; nehmen Sie ein farbiges Bild, wenn es eines gibt.",
     "surroundings-not-found": "Es ist zu wenig bloße Fläche zu sehen, um das Licht der Umgebung von der Lampe zu trennen: Angenommen sind eine Lampe und gleichmäßiges schwaches Licht von überall.",
     "transparency-over-white": "Das Bild ist zum Teil durchsichtig und wurde auf Weiß gelegt. Wenn der deckende Teil die Person ist, verwenden Sie ihn als Maske.",
+    "unusual-height": "Diese Körperhöhe haben wenige. Der übrige Körper ist aus den üblichen Größen hochgerechnet, die Fehlerangaben sind weiter. Prüfen Sie Körperhöhe und Geschlecht.",
   },
   findings: {
     "nobody-found": "In diesem Bild wurde niemand gefunden. Die ganze Person soll darin sein, aufrecht, in gutem Licht und unverdeckt.",

@@ -51,7 +51,6 @@ export const answers: Answers = {
     "fits-unusable": null,
     "fit-expired": null,
     "focal-length-invalid": null,
-    "height-out-of-range": null,
     "image-animated": null,
     "image-damaged": null,
     "image-empty": null,
@@ -129,6 +128,7 @@ export const answers: Answers = {
     "surroundings-not-found":
       "Too little bare surface is visible to tell the light from all round from the lamp: the light is a lamp, and the same faint light from everywhere.",
     "transparency-over-white": "The picture is partly transparent and was laid over white. If its opaque part is the person, use that as the mask.",
+    "unusual-height": null,
   },
   findings: {
     "nobody-found": "Nobody was found in this picture. Have the whole person in it, upright, in good light and unhidden.",

@@ -1,0 +1,63 @@
+"""One range of heights for every request, the fitter's and the page's too."""
+
+from collections.abc import Iterator
+
+import pytest
+from pydantic import BaseModel, TypeAdapter, ValidationError
+
+from api_schemas import bodies, checks, initial_poses, known, requests, scans
+from api_schemas.body_models import BodyModels
+from fitter.observation import subject
+from service.api.openapi import complete_openapi
+from service.submissions.validation import field_problems
+
+MODULES = (bodies, checks, initial_poses, known, requests, scans)
+
+
+def requests_with_a_height() -> Iterator[type[BaseModel]]:
+    """Every type of a request that may name a height."""
+    for module in MODULES:
+        for kind in vars(module).values():
+            if not (isinstance(kind, type) and issubclass(kind, BaseModel)):
+                continue
+            field = kind.model_fields.get("height_m")
+            # Results always have one.
+            if field is not None and not field.is_required():
+                yield kind
+
+
+def fault_of(kind: type[BaseModel], height_m: float) -> list[tuple[str, str]]:
+    """The fault of a request's height, by field and code; other fields are missing."""
+    try:
+        kind.model_validate({"height_m": height_m})
+    except ValidationError as error:
+        problems = field_problems(error.errors())
+        return [(each.field, each.code) for each in problems if each.field == "height_m"]
+    return []
+
+
+def test_fits_scans_bodies_poses_and_checks_name_heights():
+    assert {kind.__name__ for kind in requests_with_a_height()} >= {
+        "BodyRequest", "CheckRequest", "FitOptions", "InitialPoseRequest", "ScanOptions",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", sorted(set(requests_with_a_height()), key=str))
+def test_every_request_takes_the_same_heights_and_refuses_others_alike(kind):
+    low, high = subject.LEAST_HEIGHT_M, subject.MOST_HEIGHT_M
+    for height_m in (low, 1.7, high):
+        assert fault_of(kind, height_m) == []
+    for height_m in (low - 0.01, high + 0.01, 69.0, 170.0):
+        assert fault_of(kind, height_m) == [("height_m", "out-of-range")]
+
+
+def test_the_range_is_the_fitters_that_of_body_models_and_that_of_the_contract():
+    range_m = (subject.LEAST_HEIGHT_M, subject.MOST_HEIGHT_M)
+    stated = BodyModels(models=())
+    document = complete_openapi({"paths": {}})
+    limits = document["x-limits"]["height_m"]
+    assert range_m == (known.MIN_HEIGHT_M, known.MAX_HEIGHT_M)
+    assert (stated.min_height_m, stated.max_height_m) == range_m
+    assert (limits["least"], limits["most"]) == range_m
+    schema = TypeAdapter(known.HeightM).json_schema()
+    assert (schema["minimum"], schema["maximum"]) == range_m
