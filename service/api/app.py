@@ -51,6 +51,8 @@ from service.api.observation import Observation
 from service.api.openapi import complete_openapi
 from service.api.problems import install_problem_handlers
 from service.api.rate_limit import RateLimit
+from service.api.readiness import Readiness
+from service.api.readiness import checks as readiness_checks
 from service.api.request_form import check_form
 from service.api.security_headers import SecurityHeaders
 from service.api.service_metrics import ServiceMetrics
@@ -136,6 +138,7 @@ def create_app(
         draining=draining,
         copying=CapacityLimiter(COPIED_AT_ONCE),
         browser_tokens=browser_tokens,
+        readiness=Readiness(readiness_checks(engine, blobs, disk)),
     )
     _surround(
         app,

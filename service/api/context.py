@@ -9,6 +9,7 @@ from fastapi import Depends, Request
 
 from service.api.estimates import Estimates
 from service.api.event_feed import EventFeed
+from service.api.readiness import Readiness
 from service.api.service_metrics import ServiceMetrics
 from service.blobs import BlobStore
 from service.engine.browser_token_port import BrowserToken, BrowserTokens
@@ -33,7 +34,7 @@ class Caller:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Parts:
-    """Settings, engine, blobs, disk, estimates, events, metrics; ``draining`` once told to stop.
+    """Settings, engine, blobs, disk, estimates and so on; ``draining`` once told to stop.
 
     ``copying`` lets few requests at once copy what other jobs were made of.
     """
@@ -48,6 +49,7 @@ class Parts:
     draining: threading.Event
     copying: CapacityLimiter
     browser_tokens: BrowserTokens
+    readiness: Readiness
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,4 +1,4 @@
-"""The door to an object storage: open, locked (connections refused), or answering 503."""
+"""The door to an object storage: open, locked (connections refused), answering 503, or silent."""
 
 import asyncio
 import contextlib
@@ -21,6 +21,7 @@ class Manner(StrEnum):
 
     REFUSES = "refuses"
     ANSWERS_503 = "answers 503"
+    SAYS_NOTHING = "says nothing"
 
 
 class StorageDoor:
@@ -88,6 +89,9 @@ class StorageDoor:
         try:
             if self._manner is Manner.ANSWERS_503:
                 await _answer_unavailable(reader, writer)
+            elif self._manner is Manner.SAYS_NOTHING:
+                while await reader.read(READ_AT_ONCE):
+                    pass
             else:
                 await self._pass_on(reader, writer)
         except OSError:

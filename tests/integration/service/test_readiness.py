@@ -1,12 +1,14 @@
-"""A service is ready before its worker has loaded the numerics; jobs wait until it has."""
+"""Ready before the numerics are loaded, and not ready while the database is locked."""
 
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+import sqlalchemy as sa
 
+from service.engine.database import open_database
 from tests.integration.service.fake_preload import GATE
-from tests.integration.service.harness import Machine, running_service
+from tests.integration.service.harness import Machine, eventually, running_service
 
 
 @pytest.fixture
@@ -37,3 +39,26 @@ def test_a_service_that_has_not_loaded_the_numerics_stops_when_it_is_told_to(
         service.submit()
         assert not gate.exists()
     assert service.process.returncode == 0
+
+
+def test_probes_are_answered_while_the_database_is_locked(tmp_path: Path):
+    machine = Machine(tmp_path / "data")
+    database = open_database(f"sqlite:///{machine.data_dir / 'maquette.sqlite'}", connections=1)
+    with running_service(machine) as service:
+        with database.connect() as connection:
+            connection.execute(sa.text("BEGIN IMMEDIATE"))
+            answer = eventually(
+                lambda: (
+                    (ready := service.client.get("/healthz/ready")).status_code == 503 and ready
+                ),
+                what="not ready",
+            )
+            assert answer.json()["code"] == "database-unavailable"
+            # Answered before the database was: in the end that would be refused in other words.
+            assert "has not answered" in answer.json()["detail"]
+            assert service.client.get("/healthz/live").status_code == 200
+            connection.rollback()
+        eventually(
+            lambda: service.client.get("/healthz/ready").status_code == 200, what="ready again"
+        )
+    database.dispose()

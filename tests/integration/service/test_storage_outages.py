@@ -1,6 +1,7 @@
 """An object storage that refuses connections or answers 503: callers are told, jobs wait for it."""
 
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,9 @@ from tests.integration.service.harness import (
     running_service,
 )
 from tests.object_storage import CREDENTIALS, ObjectStorage, running_object_storage
+
+PROBES = 60
+"""More than the threads in which requests are answered."""
 
 JSON = "application/problem+json"
 
@@ -35,7 +39,7 @@ def door(storage: ObjectStorage) -> Iterator[StorageDoor]:
         yield kept
 
 
-@pytest.mark.parametrize("manner", Manner)
+@pytest.mark.parametrize("manner", [Manner.REFUSES, Manner.ANSWERS_503])
 def test_a_storage_that_is_away_is_told_and_waited_for(
     storage: ObjectStorage, door: StorageDoor, manner: Manner, tmp_path: Path
 ):
@@ -62,6 +66,29 @@ def test_a_storage_that_is_away_is_told_and_waited_for(
         job = service.ended(running)
         assert (job["state"], job["attempt"]) == ("succeeded", 1)
         assert service.client.get(f"{running}/result").status_code == 200
+
+
+def test_a_storage_that_says_nothing_keeps_neither_probes_nor_other_routes_waiting(
+    storage: ObjectStorage, door: StorageDoor, tmp_path: Path
+):
+    behind = {**storage.settings, "s3_endpoint_url": door.endpoint_url}
+    with running_service(Machine(tmp_path / "data", settings=behind)) as service:
+        door.fail(Manner.SAYS_NOTHING)
+        eventually(lambda: _silence_is_told(service), what="the storage is known to be silent")
+        with ThreadPoolExecutor(PROBES) as probing:
+            answers = list(probing.map(lambda _: _silence_is_told(service), range(PROBES)))
+        assert all(answers)
+        assert service.client.get("/v1/fits").status_code == 200
+        door.recover()
+        eventually(
+            lambda: service.client.get("/healthz/ready").status_code == 200, what="ready again"
+        )
+
+
+def _silence_is_told(service: Service) -> bool:
+    """Whether a probe is answered before the storage is: what it says in the end is another."""
+    answer = service.client.get("/healthz/ready")
+    return answer.status_code == 503 and "storage has not answered" in answer.json()["detail"]
 
 
 def assert_refused_for_now(service: Service, method: str, path: str) -> str:

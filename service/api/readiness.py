@@ -1,0 +1,154 @@
+"""Whether the service can do its work, looked at once for all who ask at the same time.
+
+A database or a storage that is silent keeps a look for a minute and more. So looks are made in a
+thread of their own, one at a time, and whoever asks is answered all the same: probes take neither
+the threads that other requests are answered in, nor more than one connection.
+"""
+
+import asyncio
+import contextlib
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Final
+
+from api_schemas.health import Ready
+from api_schemas.problems import problem
+from service.api.problems import ProblemError
+from service.blobs import BlobStore, BlobsUnavailableError, StorageFullError
+from service.engine.port import JobEngine
+from service.process.disk import Disk
+
+ANSWER_WITHIN_S: Final = 1.5
+"""What has not been found out by then is not ready: probes wait for two seconds and more."""
+
+SERVED_AGAIN_S: Final = 0.1
+"""How long an answer is given again without another look: whoever asks without a pause costs ten
+looks a second, each a write to database and storage."""
+
+SILENT: Final = {
+    "database": ("database-unavailable", "The database has not answered for {seconds:.0f} s."),
+    "storage": ("storage-unavailable", "The storage has not answered for {seconds:.0f} s."),
+}
+
+
+@dataclass(slots=True)
+class Look:
+    """One look at everything; ``at`` is what it waits for."""
+
+    began: float
+    at: str = "database"
+    answer: asyncio.Future[Ready] = field(default_factory=asyncio.Future[Ready])
+
+
+class Readiness:
+    """Answers probes; used by one event loop."""
+
+    def __init__(
+        self,
+        check: Callable[[Look], Ready],
+        *,
+        answer_within_s: float = ANSWER_WITHIN_S,
+        served_again_s: float = SERVED_AGAIN_S,
+        monotonic: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._check = check
+        self._answer_within_s = answer_within_s
+        self._served_again_s = served_again_s
+        self._monotonic = monotonic
+        self.last: Look | None = None
+        """The look that is being made, or was made last."""
+        self._ended = 0.0
+
+    async def ready(self) -> Ready:
+        """Return within two seconds, whatever database and storage do.
+
+        Raises
+        ------
+        ProblemError
+            If a part is missing, or does not answer.
+        EngineUnavailableError
+            If the database is not available.
+        """
+        look = self._current()
+        left_s = self._answer_within_s - (self._monotonic() - look.began)
+        await asyncio.wait([look.answer], timeout=max(left_s, 0.0))
+        if look.answer.done():
+            return look.answer.result()
+        code, detail = SILENT[look.at]
+        raise not_ready(
+            code=code, detail=detail.format(seconds=max(self._monotonic() - look.began, 1.0))
+        )
+
+    def _current(self) -> Look:
+        """The look that is being made, the last one if it is recent, or a new one."""
+        now = self._monotonic()
+        last = self.last
+        if last is not None and (
+            not last.answer.done() or now - self._ended < self._served_again_s
+        ):
+            return last
+        self.last = Look(began=now)
+        threading.Thread(
+            target=self._make,
+            args=(self.last, asyncio.get_running_loop()),
+            name="readiness",
+            daemon=True,
+        ).start()
+        return self.last
+
+    def _make(self, look: Look, loop: asyncio.AbstractEventLoop) -> None:
+        try:
+            outcome: Ready | Exception = self._check(look)
+        except Exception as error:
+            outcome = error
+        # Nobody asks any more once the loop is closed.
+        with contextlib.suppress(RuntimeError):
+            loop.call_soon_threadsafe(self._end, look, outcome)
+
+    def _end(self, look: Look, outcome: Ready | Exception) -> None:
+        self._ended = self._monotonic()
+        if isinstance(outcome, Exception):
+            look.answer.set_exception(outcome)
+            # Read here, so that an answer nobody waits for any more is not logged as forgotten.
+            look.answer.exception()
+        else:
+            look.answer.set_result(outcome)
+
+
+def checks(engine: JobEngine, blobs: BlobStore, disk: Disk) -> Callable[[Look], Ready]:
+    """What a look is made at: disk, database, storage and workers."""
+
+    def check(look: Look) -> Ready:
+        # First: a database on a full disk cannot be written, and would be reported as unavailable.
+        if not disk.has_room_for():
+            raise not_ready(code="disk-full", detail="The disk of the data folder is nearly full.")
+        engine.check_writable()
+        look.at = "storage"
+        _check_storage(blobs)
+        look.at = "database"
+        workers = sum(worker.alive is True for worker in engine.workers())
+        if workers == 0:
+            raise not_ready(code="no-worker", detail="No worker is alive.")
+        return Ready(workers=workers, queued=engine.queued())
+
+    return check
+
+
+def _check_storage(blobs: BlobStore) -> None:
+    try:
+        blobs.check_writable()
+    except StorageFullError as error:
+        raise not_ready(code="disk-full", detail="The storage is full.") from error
+    except BlobsUnavailableError as error:
+        raise not_ready(
+            code="storage-unavailable", detail="The storage cannot be written."
+        ) from error
+
+
+def not_ready(*, code: str, detail: str) -> ProblemError:
+    """Say what is missing."""
+    return ProblemError(
+        problem("not-ready", code=code, detail=detail, remedy="Try again in a moment.")
+    )
