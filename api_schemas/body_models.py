@@ -4,8 +4,9 @@ from pydantic import Field
 
 from api_schemas.base import WireModel
 from api_schemas.known import MAX_HEIGHT_M, MIN_HEIGHT_M
-from api_schemas.points import POINT_NAMES, PointsFormat
+from api_schemas.points import PointsFormat
 from api_schemas.requests import Gender, Limb
+from fitter.vocabulary.points import POINT_NAMES
 
 
 class BodyModelInfo(WireModel):

@@ -1,6 +1,5 @@
 """Checks of a picture before it is fitted: what a guide for taking it tells at once."""
 
-from enum import StrEnum
 from typing import Final
 
 from pydantic import Field
@@ -9,29 +8,15 @@ from api_schemas.base import Place, WireModel
 from api_schemas.images import ImageId
 from api_schemas.known import HeightM
 from api_schemas.lens import Lens
-from api_schemas.points import NamedPoint, PointName, Points, PointsFormat
+from api_schemas.points import NamedPoint, Points, PointsFormat
 from api_schemas.proposals import PictureSize
 from api_schemas.requests import Gender
 from api_schemas.results import Assumption, FitWarning
-from api_schemas.views import ViewKind
+from fitter.vocabulary.choices import ViewKind
+from fitter.vocabulary.outcomes import SeenFrom, Severity
+from fitter.vocabulary.points import PointName
 
 Box = tuple[float, float, float, float]
-
-
-class SeenFrom(StrEnum):
-    """From where a person is seen; ``between`` front or back and side."""
-
-    FRONT = "front"
-    SIDE = "side"
-    BACK = "back"
-    BETWEEN = "between"
-
-
-class Severity(StrEnum):
-    """Whether measurements will be worse, or the picture is to be taken again."""
-
-    BLOCKS = "blocks"
-    HARMS = "harms"
 
 
 _POINTS_DESCRIPTION: Final = (

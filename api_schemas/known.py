@@ -6,12 +6,12 @@ from typing import Annotated, Final, Self
 from pydantic import BeforeValidator, Discriminator, Field, Tag, model_validator
 
 from api_schemas.base import WireModel, refusal
+from fitter.vocabulary.measurements import STATURE
 
 MIN_HEIGHT_M: Final = 1.2
 MAX_HEIGHT_M: Final = 2.3
 MAX_NAME_LENGTH: Final = 64
 
-STATURE: Final = "stature"
 WEIGHT: Final = "weight"
 
 _OTHER_UNITS: Final = (

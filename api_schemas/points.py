@@ -7,69 +7,12 @@ are the person's own.
 
 from collections.abc import Mapping, Sequence
 from enum import StrEnum
-from typing import Annotated, Final, Literal, get_args
+from typing import Annotated, Final, Literal
 
 from pydantic import BeforeValidator, Discriminator, Field, Tag, WithJsonSchema
 
 from api_schemas.base import WireModel, refusal
-
-CocoPointName = Literal[
-    "nose",
-    "left_eye",
-    "right_eye",
-    "left_ear",
-    "right_ear",
-    "left_shoulder",
-    "right_shoulder",
-    "left_elbow",
-    "right_elbow",
-    "left_wrist",
-    "right_wrist",
-    "left_hip",
-    "right_hip",
-    "left_knee",
-    "right_knee",
-    "left_ankle",
-    "right_ankle",
-]
-ExtraPointName = Literal[
-    "neck", "head_top", "chin", "left_toe", "right_toe", "left_heel", "right_heel"
-]
-PointName = Literal[CocoPointName, ExtraPointName]
-
-COCO_POINT_NAMES: Final[tuple[CocoPointName, ...]] = get_args(CocoPointName)
-POINT_NAMES: Final[tuple[PointName, ...]] = COCO_POINT_NAMES + get_args(ExtraPointName)
-
-LIMB_POINT_NAMES: Final[tuple[PointName, ...]] = (
-    "left_shoulder",
-    "right_shoulder",
-    "left_elbow",
-    "right_elbow",
-    "left_wrist",
-    "right_wrist",
-    "left_hip",
-    "right_hip",
-    "left_knee",
-    "right_knee",
-    "left_ankle",
-    "right_ankle",
-)
-TRUNK_POINT_NAMES: Final[tuple[PointName, ...]] = (
-    "left_shoulder",
-    "right_shoulder",
-    "left_hip",
-    "right_hip",
-)
-MIN_LIMB_POINTS: Final = 6
-MIN_TRUNK_POINTS: Final = 2
-"""Of the twelve limb points at least six are needed, two of them shoulders or hips."""
-
-MIN_EXTENT: Final = 0.05
-"""The limb points must spread over this share of the picture's diagonal."""
-
-CLEAR_BREADTH: Final = 0.2
-"""A pair of joints tells left from right where it lies further apart, across the trunk, than this
-share of the trunk's length."""
+from fitter.vocabulary.points import COCO_POINT_NAMES, PointName
 
 OPENPOSE_BODY25_INDEX: Final[Mapping[PointName, int]] = {
     **dict(

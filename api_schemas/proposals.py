@@ -6,8 +6,9 @@ from pydantic import Field
 
 from api_schemas.base import Place, WireModel
 from api_schemas.images import ImageId
-from api_schemas.points import PointName, PointSource
+from api_schemas.points import PointSource
 from api_schemas.results import FitWarning
+from fitter.vocabulary.points import PointName
 
 
 class PointsRequest(WireModel):

@@ -11,64 +11,19 @@ from api_schemas.images import ImageId
 from api_schemas.known import KnownMeasurements
 from api_schemas.labels import LABEL_OF_JOB, Label
 from api_schemas.lens import Lens
-from api_schemas.points import AUTO, Point, PointName, Points, PointsFormat, PointsOrAuto
+from api_schemas.points import AUTO, Point, Points, PointsFormat, PointsOrAuto
 from api_schemas.webhooks import WebhookTarget
-
-
-class Gender(StrEnum):
-    """Which of the two trained bodies to fit."""
-
-    FEMALE = "female"
-    MALE = "male"
-
-
-class Cues(StrEnum):
-    """Image evidence: silhouette and edges, or these and shading."""
-
-    SE = "SE"
-    SES = "SES"
-
-
-class OptimizerKind(StrEnum):
-    """How the energy is minimised: fast, or as the paper does."""
-
-    GAUSS_NEWTON = "gauss_newton"
-    SIMPLEX = "simplex"
-
-
-class Clothing(StrEnum):
-    """How clothes lie: with the body's outline, or as an outer bound of it, skin excepted."""
-
-    TIGHT = "tight"
-    LOOSE = "loose"
-
-
-class SegmentationKind(StrEnum):
-    """How the person is cut out: GrabCut seeded by a detector's mask, or as the paper does."""
-
-    SEEDED_GRABCUT = "seeded_grabcut"
-    GRABCUT = "grabcut"
-
-
-class LightKind(StrEnum):
-    """A near point light (indoors) or a distant directional one (outdoors)."""
-
-    POINT = "point"
-    DIRECTIONAL = "directional"
-
-
-class SurroundingsKind(StrEnum):
-    """How light from all round is described, beside the one light."""
-
-    UNIFORM = "uniform"
-    SPHERICAL_HARMONICS = "spherical_harmonics"
-
-
-class Facing(StrEnum):
-    """Whether the far end of a limb is nearer to the camera than its near end, or farther."""
-
-    TOWARD = "toward"
-    AWAY = "away"
+from fitter.vocabulary.choices import (
+    Clothing,
+    Cues,
+    Facing,
+    Gender,
+    LightKind,
+    OptimizerKind,
+    SegmentationKind,
+    SurroundingsKind,
+)
+from fitter.vocabulary.points import PointName
 
 
 class Limb(StrEnum):

@@ -1,50 +1,12 @@
 """What a fit gives back: ``result.json``."""
 
-from enum import StrEnum
-
 from pydantic import Field
 
 from api_schemas.base import WireModel
 from api_schemas.requests import Cues, Facing, Gender, LightKind, OptimizerKind
+from fitter.vocabulary.outcomes import FacingSource, FocalLengthSource, Outcome, StanceKind, Verdict
 
 Vector = tuple[float, float, float]
-
-
-class Outcome(StrEnum):
-    """How the optimisation ended."""
-
-    CONVERGED = "converged"
-    EVALUATION_LIMIT = "evaluation_limit"
-    POOR_FIT = "poor_fit"
-
-
-class Verdict(StrEnum):
-    """Whether the picture bears out that a person was measured.
-
-    `no_person`: nothing shows a person where the points are. `implausible`: a body was fitted, but
-    the points, the mask or the picture contradict it. `outcome` is then `poor_fit`.
-    """
-
-    PLAUSIBLE = "plausible"
-    IMPLAUSIBLE = "implausible"
-    NO_PERSON = "no_person"
-
-
-class FocalLengthSource(StrEnum):
-    """Where the focal length came from, best first."""
-
-    CALLER = "caller"
-    EXIF_35MM = "exif_35mm_equivalent"
-    EXIF_SENSOR = "exif_focal_length_and_sensor"
-    ASSUMED = "assumed"
-
-
-class FacingSource(StrEnum):
-    """Who decided which way a limb faces."""
-
-    CALLER = "caller"
-    ENERGY = "energy"
-    PRIOR = "prior"
 
 
 class CameraResult(WireModel):
@@ -55,14 +17,6 @@ class CameraResult(WireModel):
     centre_y: float
     width: int
     height: int
-
-
-class StanceKind(StrEnum):
-    """How a person stands: on both feet, striding or on one foot, or neither."""
-
-    STANDING = "standing"
-    STRIDING = "striding"
-    OTHER = "other"
 
 
 class FittedCameraResult(CameraResult):

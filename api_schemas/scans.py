@@ -15,7 +15,7 @@ from api_schemas.derivations import DerivationEventType
 from api_schemas.images import ImageId
 from api_schemas.jobs import JobStanding
 from api_schemas.labels import LABEL_OF_JOB, Label
-from api_schemas.points import AUTO, Point, PointName, Points
+from api_schemas.points import AUTO, Point, Points
 from api_schemas.requests import (
     AskedPicture,
     AskedPoints,
@@ -38,8 +38,9 @@ from api_schemas.results import (
     StanceResult,
     Verdict,
 )
-from api_schemas.views import ViewKind
 from api_schemas.webhooks import WebhookTarget
+from fitter.vocabulary.choices import ViewKind
+from fitter.vocabulary.points import PointName
 
 LEAST_VIEWS: Final = 2
 MOST_VIEWS: Final = 6

@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from typing import Final, NamedTuple
 
 from api_schemas.labels import READABLE_REMEDY, is_readable
-from api_schemas.measurement_names import MEASUREMENT_UNITS, unknown_name_remedy
+from api_schemas.measurement_names import unknown_name_remedy
 from api_schemas.size_charts import (
     LARGEST_VALUE,
     MAX_LABEL_LENGTH,
@@ -24,6 +24,7 @@ from api_schemas.size_charts import (
     SizeChart,
     chart_faults,
 )
+from fitter.vocabulary.measurements import MEASUREMENT_UNITS
 
 MAX_CHART_BYTES: Final = 256 * 1024
 MAX_COLUMNS: Final = 200

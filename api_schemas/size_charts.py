@@ -9,7 +9,8 @@ from pydantic import Discriminator, Field, Tag, model_validator
 from api_schemas.base import WireModel, refusal
 from api_schemas.known import MeasurementName
 from api_schemas.labels import READABLE, ReadableText
-from api_schemas.measurement_names import MEASUREMENT_UNITS, unknown_name_remedy
+from api_schemas.measurement_names import unknown_name_remedy
+from fitter.vocabulary.measurements import MEASUREMENT_UNITS
 
 MAX_SIZES: Final = 200
 MAX_LABEL_LENGTH: Final = 64

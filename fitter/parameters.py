@@ -2,12 +2,13 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from enum import StrEnum
 
 import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import PerVertex, Pose, Shape, Vector3
+from fitter.vocabulary.choices import LightKind
+from fitter.vocabulary.outcomes import StanceKind
 
 Surroundings = Float[np.ndarray, "9"]
 """Light from all around: the coefficients e of :mod:`fitter.render.surroundings`."""
@@ -33,14 +34,6 @@ class BodyParameters:
     pose: Pose
     translation: Vector3
     shape: Shape
-
-
-class StanceKind(StrEnum):
-    """How a person stands: on both feet, striding or on one foot, or neither."""
-
-    STANDING = "standing"
-    STRIDING = "striding"
-    OTHER = "other"
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -85,13 +78,6 @@ class CameraTilt:
         return np.array(
             [-np.sin(self.roll) * level, -np.cos(self.roll) * level, np.sin(self.pitch)]
         )
-
-
-class LightKind(StrEnum):
-    """Section 5: a point light (indoors) or a distant directional one (outdoors)."""
-
-    POINT = "point"
-    DIRECTIONAL = "directional"
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -2,105 +2,22 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from enum import StrEnum
-from typing import Final
 
 from fitter.arrays import ShapeCovariance
-from fitter.parameters import BodyParameters, LightKind
-
-STATURE: Final = "stature"
-"""The measurement that ``FitRequest.height_m`` is in metres."""
-
-
-class Gender(StrEnum):
-    """The two shape spaces the paper learns."""
-
-    FEMALE = "female"
-    MALE = "male"
-
-
-class Cues(StrEnum):
-    """Section 6: silhouettes and edges (E1), or these and shading (E2)."""
-
-    SE = "SE"
-    SES = "SES"
-
-
-class OptimizerKind(StrEnum):
-    """How the energy is minimised."""
-
-    GAUSS_NEWTON = "gauss_newton"
-    SIMPLEX = "simplex"
-
-
-class OutlineKind(StrEnum):
-    """What the body's contour is to meet; a mask the caller sent is always met as it is.
-
-    ``GRABCUT``: the segmentation, as in the paper. ``LINES``: once a body is near, the person's
-    boundary on lines across its contour, found by the colours around each.
-    """
-
-    GRABCUT = "grabcut"
-    LINES = "correspondence_lines"
-
-
-class SegmentationKind(StrEnum):
-    """How the person is cut out where the caller sends no mask.
-
-    ``GRABCUT``: as in the paper, from a tri-map round the body. ``SEEDED_GRABCUT``: from a tri-map
-    round the detector's mask, where the detector is installed and finds the person.
-    """
-
-    GRABCUT = "grabcut"
-    SEEDED_GRABCUT = "seeded_grabcut"
-
-
-class SurroundingsKind(StrEnum):
-    """What light comes from all round, beside the one light of section 5.
-
-    ``UNIFORM``: the ambient constant of Eq. 1. ``SPHERICAL_HARMONICS``: second-order irradiance
-    (:mod:`fitter.render.surroundings`), with cast shadows.
-    """
-
-    UNIFORM = "uniform"
-    SPHERICAL_HARMONICS = "spherical_harmonics"
-
-
-class Clothing(StrEnum):
-    """How clothes lie.
-
-    ``TIGHT`` ones have the body's outline, ``LOOSE`` ones bound it from outside (Balan and Black
-    2008), while bare skin is as tight as ever.
-    """
-
-    TIGHT = "tight"
-    LOOSE = "loose"
-
-
-class ViewKind(StrEnum):
-    """From where a picture shows a person; ``OTHER`` is any view, which nothing contradicts."""
-
-    FRONT = "front"
-    SIDE = "side"
-    BACK = "back"
-    OTHER = "other"
-
-
-class Posture(StrEnum):
-    """What is known of how the person stands.
-
-    ``MEASURED`` people were asked to stand upright, straight and still on both feet.
-    """
-
-    ANY = "any"
-    MEASURED = "measured"
-
-
-class Facing(StrEnum):
-    """Whether the far end of a limb is nearer to the camera than its near end, or farther."""
-
-    TOWARD = "toward"
-    AWAY = "away"
+from fitter.parameters import BodyParameters
+from fitter.vocabulary.choices import (
+    Clothing,
+    Cues,
+    Facing,
+    Gender,
+    LightKind,
+    OptimizerKind,
+    OutlineKind,
+    Posture,
+    SegmentationKind,
+    SurroundingsKind,
+    ViewKind,
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from enum import StrEnum
 
 from fitter.arrays import Image, Mask, Vertices
 from fitter.capture.finding import Finding
@@ -13,15 +12,7 @@ from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera, FocalLengthSource
 from fitter.request import Cues, Facing, OptimizerKind, ViewKind
 from fitter.segmentation.trimap import Trimap
-
-
-class Outcome(StrEnum):
-    """How the optimisation ended; each value explains itself in the result."""
-
-    CONVERGED = "converged"
-    EVALUATION_LIMIT = "evaluation_limit"
-    POOR_FIT = "poor_fit"
-
+from fitter.vocabulary.outcomes import FacingSource, Outcome, Verdict
 
 OUTCOME_EXPLANATIONS: Mapping[Outcome, str] = {
     Outcome.CONVERGED: "The energy stopped decreasing.",
@@ -36,17 +27,6 @@ OUTCOME_EXPLANATIONS: Mapping[Outcome, str] = {
 }
 
 
-class Verdict(StrEnum):
-    """Whether the picture bears out that a person was measured.
-
-    Where it does not, the outcome is a poor fit.
-    """
-
-    PLAUSIBLE = "plausible"
-    IMPLAUSIBLE = "implausible"
-    NO_PERSON = "no_person"
-
-
 VERDICT_EXPLANATIONS: Mapping[Verdict, str] = {
     Verdict.IMPLAUSIBLE: (
         "A body was fitted, but the picture contradicts it. See whether the points are on the "
@@ -57,14 +37,6 @@ VERDICT_EXPLANATIONS: Mapping[Verdict, str] = {
         "another picture."
     ),
 }
-
-
-class FacingSource(StrEnum):
-    """Who decided which way a limb faces."""
-
-    CALLER = "caller"
-    ENERGY = "energy"
-    PRIOR = "prior"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

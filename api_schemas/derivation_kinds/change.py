@@ -8,8 +8,9 @@ from pydantic import AfterValidator, Field
 from api_schemas.base import WireModel, refusal
 from api_schemas.derivation_kinds.base import DerivationOptions, DerivedFiles
 from api_schemas.known import MeasurementName
-from api_schemas.measurement_names import MEASUREMENT_UNITS, unknown_name_remedy
+from api_schemas.measurement_names import unknown_name_remedy
 from api_schemas.results import FitWarning
+from fitter.vocabulary.measurements import MEASUREMENT_UNITS
 
 
 def _known_and_each_once(names: tuple[str, ...] | None) -> tuple[str, ...] | None:

@@ -1,7 +1,6 @@
 """A size: what is asked for, and what comes of it."""
 
 from collections.abc import Mapping
-from enum import StrEnum
 from typing import Annotated, Final, Literal, Self
 
 from pydantic import Field, model_validator
@@ -13,6 +12,7 @@ from api_schemas.problems import FieldProblem
 from api_schemas.results import FitWarning
 from api_schemas.size_chart_csv import MAX_CHART_BYTES, ChartTableError, read_chart
 from api_schemas.size_charts import SizeChart, chart_faults, columns_without_step
+from fitter.vocabulary.outcomes import SizedAs
 
 CHART: Final = "chart"
 """The field, and the part of a form, that hold the chart."""
@@ -131,18 +131,6 @@ def options_faults(options: SizeOptions, chart: SizeChart) -> tuple[FieldProblem
         if name not in options.tolerances
     )
     return (*unknown, *needed)
-
-
-class SizedAs(StrEnum):
-    """How a size fits the most probable body in one measurement.
-
-    ``unsaid``: the chart says nothing of it for this size.
-    """
-
-    WITHIN = "within"
-    TOO_SMALL = "too_small"
-    TOO_LARGE = "too_large"
-    UNSAID = "unsaid"
 
 
 class SizeChance(WireModel):

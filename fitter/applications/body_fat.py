@@ -27,7 +27,8 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.measurement.joint_measurements import JointMeasurements
-from fitter.request import STATURE, Gender
+from fitter.request import Gender
+from fitter.vocabulary.measurements import STATURE
 
 WEIGHT = "weight"
 

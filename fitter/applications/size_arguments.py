@@ -1,25 +1,16 @@
 """What each measurement argues for a size and against it."""
 
 from dataclasses import dataclass
-from enum import StrEnum
 
 import numpy as np
 from scipy.special import ndtr
 
 from fitter.applications.size_chart import SizeChart, size_of_least_cost
 from fitter.measurement.joint_measurements import JointMeasurements
+from fitter.vocabulary.outcomes import SizedAs
 
 NO_DIFFERENCE = 1e-3
 """Centimetres or kilograms: so far off the value that was given exactly a held one may lie."""
-
-
-class SizedAs(StrEnum):
-    """How a size fits a body in one measurement, at the body's most probable value."""
-
-    WITHIN = "within"
-    TOO_SMALL = "too_small"
-    TOO_LARGE = "too_large"
-    UNSAID = "unsaid"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -12,7 +12,8 @@ from fitter.capture.finding import Box, Code, Finding, Remark, Severity, Uncheck
 from fitter.capture.framing import picture_size, size, wholeness
 from fitter.capture.people import nobody_else, somebody
 from fitter.capture.sharpness import sharpness
-from fitter.capture.turning import Seen, announced_view, facing, seen_from
+from fitter.capture.turning import announced_view, facing, seen_from
+from fitter.vocabulary.outcomes import SeenFrom
 
 Check = Callable[[Capture], Remark | None]
 
@@ -69,7 +70,7 @@ class Checked:
     findings: tuple[Finding, ...]
     unchecked: tuple[Unchecked, ...]
     box: Box | None
-    seen: Seen | None
+    seen: SeenFrom | None
     lean_deg: float | None
     distance_m: float | None
 

@@ -3,19 +3,10 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
+from fitter.vocabulary.outcomes import Severity
+
 Box = tuple[float, float, float, float]
 """Left, top, right and bottom, pixels of the upright original."""
-
-
-class Severity(StrEnum):
-    """What a finding means for measurements.
-
-    ``BLOCKS``: take the picture again, for there is nothing to measure or not what was asked for.
-    ``HARMS``: measurements can be had and will be worse.
-    """
-
-    BLOCKS = "blocks"
-    HARMS = "harms"
 
 
 class Code(StrEnum):

@@ -6,13 +6,13 @@ Faces do not tell: the detector calls eyes visible from behind too.
 """
 
 import math
-from enum import StrEnum
 
 import numpy as np
 
 from fitter.capture.capture import Capture
 from fitter.capture.finding import Code, Finding, Remark, Severity, Unchecked
 from fitter.request import ViewKind
+from fitter.vocabulary.outcomes import SeenFrom
 
 FRONTAL_BREADTHS = {"shoulder": 0.71, "hip": 0.40}
 """Breadth of the detector's joints facing the camera, of the trunk's length."""
@@ -29,15 +29,6 @@ _SAID = {
     ViewKind.BACK: "from behind",
 }
 _TURN_DEG = {ViewKind.FRONT: 0, ViewKind.SIDE: 90, ViewKind.BACK: 180}
-
-
-class Seen(StrEnum):
-    """From where a person is seen; ``BETWEEN`` front or back and side."""
-
-    FRONT = "front"
-    SIDE = "side"
-    BACK = "back"
-    BETWEEN = "between"
 
 
 def facing(capture: Capture) -> float | None:
@@ -60,13 +51,13 @@ def facing(capture: Capture) -> float | None:
     return max(-1.0, min(1.0, sum(cosines) / len(cosines)))
 
 
-def seen_from(cosine: float) -> Seen:
+def seen_from(cosine: float) -> SeenFrom:
     """The view of a person who is turned by the arc of that cosine."""
     if abs(cosine) <= MOST_LATERAL:
-        return Seen.SIDE
+        return SeenFrom.SIDE
     if abs(cosine) < LEAST_FRONTAL:
-        return Seen.BETWEEN
-    return Seen.FRONT if cosine > 0.0 else Seen.BACK
+        return SeenFrom.BETWEEN
+    return SeenFrom.FRONT if cosine > 0.0 else SeenFrom.BACK
 
 
 def is_broadside(capture: Capture) -> bool:
@@ -89,7 +80,7 @@ def announced_view(capture: Capture) -> Remark | None:
         return None
     return Finding(
         code=Code.OTHER_VIEW,
-        severity=Severity.HARMS if seen is Seen.BETWEEN else Severity.BLOCKS,
+        severity=Severity.HARMS if seen is SeenFrom.BETWEEN else Severity.BLOCKS,
         reason=(
             f"The person is to be seen {_SAID[capture.view]} and is turned from the camera by "
             f"about {math.degrees(math.acos(cosine)):.0f} degrees, where "

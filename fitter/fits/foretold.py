@@ -8,7 +8,7 @@ from fitter.energies.attributes import NOTHING_KNOWN
 from fitter.energies.joint_objective import JointCandidate, JointObjective
 from fitter.optimizer.joint_equations import joint_equations
 from fitter.population.known_person import KnownPerson
-from fitter.request import STATURE
+from fitter.vocabulary.measurements import STATURE
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -10,7 +10,7 @@ from fitter.arrays import Vertices
 from fitter.body.skeleton import regress
 from fitter.fits.prepared_model import PreparedModel
 from fitter.fits.reporting import AMBIGUOUS_NATS
-from fitter.observation.clicks import POINT_NAMES, check_clicks, side_warnings
+from fitter.observation.clicks import check_clicks, side_warnings
 from fitter.observation.exif import ExifTags
 from fitter.observation.focal_length import focal_length
 from fitter.observation.resampling import working_size
@@ -24,6 +24,7 @@ from fitter.render.camera import Camera, FocalLengthSource
 from fitter.render.outline import outline_loops
 from fitter.render.rasterizer import render
 from fitter.request import Facing, FitRequest
+from fitter.vocabulary.points import POINT_NAMES
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -21,8 +21,9 @@ from fitter.optimizer.free_space import held_shape
 from fitter.person.fitted_person import FittedPerson
 from fitter.person.several_pictures import CombinedShape, combined_shape, told_differently
 from fitter.population.known_person import known_person
-from fitter.request import STATURE, FitRequest
+from fitter.request import FitRequest
 from fitter.result import PictureFit
+from fitter.vocabulary.measurements import STATURE
 
 # Each report of energies takes this share of what is left: their number is not known in advance.
 _STEP_SHARE = 0.03

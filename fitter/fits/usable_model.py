@@ -12,8 +12,8 @@ from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.errors import ModelFileError
 from fitter.measurement.definition_file import load_definitions
 from fitter.measurement.definitions import JOINT_PREFIX, needed_points
-from fitter.observation.clicks import POINT_NAMES
 from fitter.request import Gender
+from fitter.vocabulary.points import POINT_NAMES
 
 _MIDDLE_PARTS = ("pelvis", "spine", "chest", "neck", "head")
 

@@ -6,34 +6,7 @@ from collections.abc import Mapping
 from fitter.errors import InvalidInputError
 from fitter.remarks import FitWarning
 from fitter.request import Click
-
-LIMB_POINTS = (
-    "left_shoulder", "right_shoulder", "left_elbow", "right_elbow", "left_wrist", "right_wrist",
-    "left_hip", "right_hip", "left_knee", "right_knee", "left_ankle", "right_ankle",
-)  # fmt: skip
-FACE_POINTS = ("nose", "left_eye", "right_eye", "left_ear", "right_ear")
-FURTHER_POINTS = (
-    "neck", "head_top", "chin", "left_toe", "right_toe", "left_heel", "right_heel",
-)  # fmt: skip
-POINT_NAMES = (*FACE_POINTS, *LIMB_POINTS, *FURTHER_POINTS)
-TRUNK_POINTS = ("left_shoulder", "right_shoulder", "left_hip", "right_hip")
-
-LEAST_LIMB_POINTS = 6
-LEAST_TRUNK_POINTS = 2
-"""Two trunk points and six limb points in all leave at least two whole limbs: a root to hang the
-body on, and lengths to find its depth from. A seated half figure has them, a head does not."""
-
-LEAST_EXTENT = 0.05
-"""Points spread over less than this share of the picture's diagonal are no person to measure."""
-
-CLEAR_BREADTH = 0.2
-"""A pair of joints tells left from right when its horizontal distance exceeds this share of the
-trunk's length: nearer to profile, a few pixels of clicking error decide the order."""
-
-_MINIMUM = (
-    f"Click at least {LEAST_LIMB_POINTS} of the shoulders, elbows, wrists, hips, knees and ankles, "
-    f"{LEAST_TRUNK_POINTS} of them shoulders or hips."
-)
+from fitter.vocabulary.points import CLEAR_BREADTH, PointFault, place_faults, shortage
 
 
 def check_clicks(clicks: Mapping[str, Click], *, width: int, height: int) -> None:
@@ -46,29 +19,9 @@ def check_clicks(clicks: Mapping[str, Click], *, width: int, height: int) -> Non
         ``points-too-close``.
     """
     check_places(clicks, width=width, height=height)
-    limb_count = sum(name in clicks for name in LIMB_POINTS)
-    trunk_count = sum(name in clicks for name in TRUNK_POINTS)
-    if limb_count < LEAST_LIMB_POINTS or trunk_count < LEAST_TRUNK_POINTS:
-        raise InvalidInputError(
-            code="too-few-points",
-            field="points",
-            reason=(
-                f"{limb_count} limb points are given, {trunk_count} of them shoulders or hips."
-            ),
-            remedy=_MINIMUM,
-        )
-    places = [(clicks[name].x, clicks[name].y) for name in LIMB_POINTS if name in clicks]
-    extent = math.hypot(
-        max(x for x, _ in places) - min(x for x, _ in places),
-        max(y for _, y in places) - min(y for _, y in places),
-    )
-    if extent < LEAST_EXTENT * math.hypot(width, height):
-        raise InvalidInputError(
-            code="points-too-close",
-            field="points",
-            reason=f"All limb points lie within {extent:.0f} pixels.",
-            remedy="Give the points in pixels of the whole picture, or crop it to the person.",
-        )
+    fault = shortage(_places(clicks), width=width, height=height)
+    if fault is not None:
+        raise _refusal(fault)
 
 
 def check_places(clicks: Mapping[str, Click], *, width: int, height: int) -> None:
@@ -79,8 +32,8 @@ def check_places(clicks: Mapping[str, Click], *, width: int, height: int) -> Non
     InvalidInputError
         ``point-unknown``, ``point-not-finite`` or ``point-outside-image``.
     """
-    for name, click in clicks.items():
-        _check_click(name, click, width=width, height=height)
+    for fault in place_faults(_places(clicks), width=width, height=height):
+        raise _refusal(fault)
 
 
 def side_warnings(clicks: Mapping[str, Click]) -> tuple[FitWarning, ...]:
@@ -124,34 +77,14 @@ def side_warnings(clicks: Mapping[str, Click]) -> tuple[FitWarning, ...]:
     return ()
 
 
-def _check_click(name: str, click: Click, *, width: int, height: int) -> None:
-    if name not in POINT_NAMES:
-        raise InvalidInputError(
-            code="point-unknown",
-            field=f"points.{name}",
-            reason="There is no point of this name.",
-            remedy=f"Use one of {', '.join(POINT_NAMES)}.",
-        )
-    if not (math.isfinite(click.x) and math.isfinite(click.y)):
-        raise InvalidInputError(
-            code="point-not-finite",
-            field=f"points.{name}",
-            reason="A coordinate is not a finite number.",
-            remedy="Leave out points that are not known.",
-        )
-    if not (0.0 <= click.x <= width and 0.0 <= click.y <= height):
-        raise InvalidInputError(
-            code="point-outside-image",
-            field=f"points.{name}",
-            reason=(
-                f"({click.x:g}, {click.y:g}) lies outside the upright picture of "
-                f"{width} x {height} pixels."
-            ),
-            remedy=(
-                "Give points in pixels of the picture as a browser shows it, at full size; leave "
-                "out those beyond its border."
-            ),
-        )
+def _places(clicks: Mapping[str, Click]) -> dict[str, tuple[float, float]]:
+    return {name: (click.x, click.y) for name, click in clicks.items()}
+
+
+def _refusal(fault: PointFault) -> InvalidInputError:
+    return InvalidInputError(
+        code=fault.code, field=fault.field, reason=fault.reason, remedy=fault.remedy
+    )
 
 
 def _trunk(clicks: Mapping[str, Click]) -> tuple[float, float] | None:

@@ -5,7 +5,8 @@ from collections.abc import Mapping
 
 from fitter.errors import InvalidInputError
 from fitter.remarks import Assumption
-from fitter.request import STATURE, FitRequest, Gender
+from fitter.request import FitRequest, Gender
+from fitter.vocabulary.measurements import STATURE
 
 MEAN_HEIGHT_M: Mapping[Gender, float] = {Gender.FEMALE: 1.65, Gender.MALE: 1.82}
 """Section 4: the heights assumed for people whose height is not known, as in paintings."""

@@ -14,7 +14,8 @@ from fitter.population.known import conditioned_population
 from fitter.population.measured_population import MeasuredPopulation
 from fitter.population.unusual_height import height_warnings
 from fitter.remarks import FitWarning
-from fitter.request import STATURE, KnownMeasurement
+from fitter.request import KnownMeasurement
+from fitter.vocabulary.measurements import STATURE
 
 INTERVAL_PROBABILITY = 0.95
 _INTERVAL_SD = 1.959964

@@ -10,7 +10,8 @@ from fitter.errors import InvalidInputError
 from fitter.observation.subject import LEAST_HEIGHT_M, MOST_HEIGHT_M
 from fitter.population.conditional_shape import ConditionedShape, Conditions, condition_shape
 from fitter.population.measured_population import MeasuredPopulation
-from fitter.request import STATURE, KnownMeasurement
+from fitter.request import KnownMeasurement
+from fitter.vocabulary.measurements import STATURE
 
 CENTIMETRES_PER_METRE = 100.0
 

@@ -15,7 +15,8 @@ from fitter.population.known import conditioned_population
 from fitter.population.measured_population import MeasuredPopulation
 from fitter.population.unusual_height import height_warnings
 from fitter.remarks import Assumption, FitWarning
-from fitter.request import STATURE, FitRequest, KnownMeasurement
+from fitter.request import FitRequest, KnownMeasurement
+from fitter.vocabulary.measurements import STATURE
 
 CENTIMETRES_PER_METRE = 100.0
 

@@ -5,7 +5,7 @@ import numpy as np
 from fitter.energies.priors import USUAL_HEIGHT_SD, height_extrapolation
 from fitter.population.measured_population import MeasuredPopulation
 from fitter.remarks import FitWarning
-from fitter.request import STATURE
+from fitter.vocabulary.measurements import STATURE
 
 
 def height_warnings(population: MeasuredPopulation, height_m: float) -> tuple[FitWarning, ...]:

@@ -1,19 +1,11 @@
 """A pinhole camera with square pixels."""
 
 from dataclasses import dataclass
-from enum import StrEnum
 
 import numpy as np
 from jaxtyping import Float
 
-
-class FocalLengthSource(StrEnum):
-    """Where the focal length came from, best first."""
-
-    CALLER = "caller"
-    EXIF_35MM = "exif_35mm_equivalent"
-    EXIF_SENSOR = "exif_focal_length_and_sensor"
-    ASSUMED = "assumed"
+from fitter.vocabulary.outcomes import FocalLengthSource as FocalLengthSource
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -15,14 +15,6 @@ from api_schemas.images import LARGEST_ASPECT_RATIO, LEAST_SIDE_PX, UploadedImag
 from api_schemas.initial_poses import InitialPose, InitialPoseRequest
 from api_schemas.jobs import EventData
 from api_schemas.known import MAX_HEIGHT_M, MIN_HEIGHT_M
-from api_schemas.points import (
-    CLEAR_BREADTH,
-    LIMB_POINT_NAMES,
-    MIN_EXTENT,
-    MIN_LIMB_POINTS,
-    MIN_TRUNK_POINTS,
-    TRUNK_POINT_NAMES,
-)
 from api_schemas.problems import PROBLEM_MEDIA_TYPE, Problem
 from api_schemas.proposals import PointsOfImage, PointsProposal, PointsRequest
 from api_schemas.requests import FitOfImage, FitOptions, FitRequest
@@ -37,6 +29,14 @@ from api_schemas.scans import (
 )
 from api_schemas.tokens import TokenRequest
 from api_schemas.webhooks import WebhookEvent
+from fitter.vocabulary.points import (
+    CLEAR_BREADTH,
+    LIMB_POINT_NAMES,
+    MIN_EXTENT,
+    MIN_LIMB_POINTS,
+    MIN_TRUNK_POINTS,
+    TRUNK_POINT_NAMES,
+)
 from service.api.json_bodies import JSON, json_content
 from service.api.operation_examples import (
     ANSWERS,

@@ -8,7 +8,7 @@ from pathlib import Path
 from api_schemas.checks import CaptureCheck, CheckRequest
 from api_schemas.points import PointsFormat
 from api_schemas.scans import ScanRequest
-from api_schemas.views import ViewKind
+from fitter.vocabulary.choices import ViewKind
 from service.demo_data.sample import load_sample, load_scan_sample
 from service.estimates import answers
 from service.estimates.answers import body, conversion, initial_pose, jpeg, prepare

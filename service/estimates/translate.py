@@ -14,8 +14,7 @@ from api_schemas import initial_poses as wire_poses
 from api_schemas import proposals as wire_proposals
 from api_schemas import requests as wire_request
 from api_schemas import results as wire_results
-from api_schemas.known import STATURE
-from api_schemas.points import PointName, PointSource
+from api_schemas.points import PointSource
 from fitter.body.model import BodyModel
 from fitter.fits.capture_check import CaptureCheck, CaptureQuestion
 from fitter.fits.initial_body import InitialBody

@@ -8,10 +8,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
 
-from api_schemas.points import AUTO, Point, PointName
+from api_schemas.points import AUTO, Point
 from api_schemas.problems import FieldProblem
 from api_schemas.requests import AskedPicture, FitOptions, FitRequest
 from api_schemas.webhooks import WebhookTarget
+from fitter.vocabulary.points import PointName
 from service.jobs.inputs import IMAGE, MASK
 from service.submissions.heic import check_heic
 from service.submissions.image_header import (

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from typing import cast
 
 from api_schemas import checks as wire
-from api_schemas.points import PointName
 from fitter.capture.finding import Box, Finding
+from fitter.vocabulary.points import PointName
 
 
 def finding_results(findings: Sequence[Finding]) -> tuple[wire.Finding, ...]:

@@ -6,7 +6,7 @@ from uuid import UUID
 
 from api_schemas.derivation_kinds.combined import CombinedResult
 from api_schemas.scans import ScannedView, ScanOptions
-from api_schemas.views import ViewKind
+from fitter.vocabulary.choices import ViewKind
 from service.jobs.inputs import BODY_POSED, OVERLAY, SEGMENTATION, file_of
 from service.worker.pipeline_port import DerivationOutput, ScanOutput
 

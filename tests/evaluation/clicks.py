@@ -5,15 +5,15 @@ from collections.abc import Mapping
 import numpy as np
 from jaxtyping import Float
 
-from fitter.observation.clicks import FACE_POINTS, LIMB_POINTS
 from fitter.render.rasterizer import Rendering, render
+from fitter.vocabulary.points import FACE_POINT_NAMES, LIMB_POINT_NAMES
 from tests.evaluation.landmark_points import landmarks_on
 from tests.evaluation.people import INNER_POINT_BONES, rig_of_people
 from tests.evaluation.staging import Staged
 
 CLICK_DEVIATION_PX = 2.5
 
-SURFACE_POINTS = (*FACE_POINTS, "neck", "head_top", "chin")
+SURFACE_POINTS = (*FACE_POINT_NAMES, "neck", "head_top", "chin")
 
 SEEN_WITHIN_M = 0.015
 """A point of the surface is seen if nothing lies farther than this before it."""
@@ -31,7 +31,7 @@ def true_points(staged: Staged) -> Points:
     body, the body model's landmarks on its surface."""
     marks = landmarks_on(staged.person.gender, staged.body)
     world = {name: marks[name] for name in SURFACE_POINTS}
-    for name in LIMB_POINTS:
+    for name in LIMB_POINT_NAMES:
         side, joint = name.split("_")
         world[name] = staged.bones[f"{INNER_POINT_BONES[joint]}.{side[0].upper()}"]
     return {name: staged.in_camera(point) for name, point in world.items()}

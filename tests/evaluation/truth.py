@@ -13,7 +13,7 @@ from fitter.measurement.affine_body import AffineBody
 from fitter.measurement.anthropometry import measure
 from fitter.measurement.taking import CENTIMETRES_PER_METRE
 from fitter.parameters import Light, LightKind
-from fitter.request import STATURE
+from fitter.vocabulary.measurements import STATURE
 from tests.evaluation.landmark_points import packaged_model
 from tests.evaluation.people import Person, posed_body
 from tests.evaluation.scene import DISTANT_M

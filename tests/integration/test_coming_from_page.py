@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from api_schemas.measurement_names import MEASUREMENT_UNITS
 from api_schemas.points import OPENPOSE_BODY25_INDEX, PointsFormat, named_points
 from api_schemas.requests import FitRequest
 from api_schemas.scans import ScanRequest
@@ -20,6 +19,7 @@ from fitter.parameters import BodyParameters
 from fitter.training.articulation.part_tree import PART_NAMES
 from fitter.training.own_bodies.folder import read_own_bodies
 from fitter.training.own_bodies.template import packaged_template
+from fitter.vocabulary.measurements import MEASUREMENT_UNITS
 from tests.readme import block
 
 ROOT = Path(__file__).parents[2]

@@ -7,7 +7,6 @@ from pydantic import TypeAdapter, ValidationError
 
 from api_schemas.points import (
     BLAZEPOSE33_INDEX,
-    COCO_POINT_NAMES,
     OPENPOSE_BODY25_INDEX,
     POINT_COUNTS,
     Point,
@@ -15,6 +14,7 @@ from api_schemas.points import (
     PointsFormat,
     named_points,
 )
+from fitter.vocabulary.points import COCO_POINT_NAMES
 
 PARSER = TypeAdapter(Points)
 

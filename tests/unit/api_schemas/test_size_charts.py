@@ -5,20 +5,14 @@ import json
 import pytest
 
 from api_schemas.derivations import DerivationRequest
-from api_schemas.measurement_names import MEASUREMENT_UNITS, suggested_names
+from api_schemas.measurement_names import suggested_names
 from api_schemas.size_chart_csv import ChartTableError, read_chart
 from api_schemas.size_charts import MAX_SIZES, BodyRange
-from fitter.measurement.definition_file import load_definitions
 from service.submissions.refusal import RefusedError
 from service.submissions.validation import parsed
 
 M = {"label": "M", "measurements": {"chest_girth": {"low": 94, "high": 98}}}
 HEADER = "size,chest_girth,waist_girth_navel\n"
-
-
-def test_the_names_of_the_wire_are_those_of_the_definitions():
-    defined = {each.about.name: each.about.unit.value for each in load_definitions()}
-    assert defined == MEASUREMENT_UNITS, "set api_schemas/measurement_names.py to these"
 
 
 def table(text: str) -> dict[str, dict[str, object]]:

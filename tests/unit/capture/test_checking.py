@@ -7,15 +7,15 @@ import numpy as np
 
 from fitter.capture.checking import check_capture
 from fitter.capture.finding import Code, Severity
-from fitter.capture.turning import Seen
 from fitter.request import ViewKind
+from fitter.vocabulary.outcomes import SeenFrom
 from tests.unit.capture.made_up import by_points_alone, capture, of_nobody, person
 
 
 def test_nothing_is_wrong_with_a_good_picture_and_everything_was_checked():
     checked = check_capture(capture(view=ViewKind.FRONT))
     assert (checked.findings, checked.unchecked, checked.usable) == ((), (), True)
-    assert checked.seen is Seen.FRONT
+    assert checked.seen is SeenFrom.FRONT
     assert checked.box is not None
     # The head's top is drawn at 44, in a working picture of half the size.
     assert checked.box[1] == 2 * 44.0

@@ -5,8 +5,9 @@ import math
 import pytest
 
 from fitter.capture.finding import Code, Finding, Severity, Unchecked
-from fitter.capture.turning import Seen, announced_view, facing, seen_from
+from fitter.capture.turning import announced_view, facing, seen_from
 from fitter.request import ViewKind
+from fitter.vocabulary.outcomes import SeenFrom
 from tests.unit.capture.made_up import FRONT, by_points_alone, capture, person
 
 
@@ -35,13 +36,13 @@ def test_a_roll_of_the_camera_turns_nobody():
 @pytest.mark.parametrize(
     ("degrees", "seen"),
     [
-        (0.0, Seen.FRONT),
-        (35.0, Seen.FRONT),
-        (58.0, Seen.BETWEEN),
-        (80.0, Seen.SIDE),
-        (100.0, Seen.SIDE),
-        (122.0, Seen.BETWEEN),
-        (150.0, Seen.BACK),
+        (0.0, SeenFrom.FRONT),
+        (35.0, SeenFrom.FRONT),
+        (58.0, SeenFrom.BETWEEN),
+        (80.0, SeenFrom.SIDE),
+        (100.0, SeenFrom.SIDE),
+        (122.0, SeenFrom.BETWEEN),
+        (150.0, SeenFrom.BACK),
     ],
 )
 def test_views_have_names(degrees, seen):

@@ -12,12 +12,12 @@ from fitter.errors import InvalidInputError
 from fitter.fits.initial_body import initial_body, limb_readings
 from fitter.fits.prepared_model import prepared_model
 from fitter.measurement.anthropometry import measure
-from fitter.observation.clicks import POINT_NAMES
 from fitter.parameters import BodyParameters
 from fitter.pose_init.initial_pose import PoseHypothesis
 from fitter.render.camera import Camera, FocalLengthSource
 from fitter.render.rasterizer import render
 from fitter.request import Click, Facing, FitRequest, Gender, KnownMeasurement
+from fitter.vocabulary.points import POINT_NAMES
 
 CAMERA = Camera(focal_length_px=900.0, centre_x=360.0, centre_y=480.0, width=720, height=960)
 HEIGHT_M = 1.7

@@ -4,8 +4,9 @@ from dataclasses import replace
 import pytest
 
 from fitter.errors import InvalidInputError
-from fitter.observation.clicks import POINT_NAMES, check_clicks, side_warnings
+from fitter.observation.clicks import check_clicks, side_warnings
 from fitter.request import Click
+from fitter.vocabulary.points import POINT_NAMES
 from tests.unit.observation.pictures import HEIGHT, WIDTH, standing_clicks
 
 

@@ -12,7 +12,7 @@ from api_schemas.known import UncertainMeasurement
 from api_schemas.points import Point, PointSource
 from api_schemas.proposals import PointsRequest
 from api_schemas.requests import Facing, Gender, Limb
-from api_schemas.views import ViewKind
+from fitter.vocabulary.choices import ViewKind
 from service.demo_data.sample import load_sample
 from service.estimates.answers import body, check, initial_pose, jpeg, points
 from service.estimates.messages import BodyTask, CheckTask, InitialPoseTask, PointsTask

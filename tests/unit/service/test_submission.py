@@ -3,7 +3,8 @@ import sys
 
 import pytest
 
-from api_schemas.points import POINT_NAMES, Point
+from api_schemas.points import Point
+from fitter.vocabulary.points import POINT_NAMES
 from service.submissions.refusal import RefusedError
 from service.submissions.submission import CheckedSubmission, check_submission
 from tests.heif_files import Item, heif, size

@@ -14,7 +14,7 @@ from fitter.fits.prepared_model import prepared_model
 from fitter.measurement.definitions import Extent, Height, Length
 from fitter.measurement.groups import CHIEF, Group, group_of
 from fitter.person.fitted_person import FittedPerson
-from fitter.request import STATURE
+from fitter.vocabulary.measurements import STATURE
 from service.jobs.inputs import PERSON, TAPES
 
 TAG_PX: Final = 21.0

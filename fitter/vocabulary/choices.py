@@ -1,0 +1,97 @@
+"""What a caller may choose."""
+
+from enum import StrEnum
+
+
+class Gender(StrEnum):
+    """Which of the two trained bodies to fit: the paper learns a shape space for each."""
+
+    FEMALE = "female"
+    MALE = "male"
+
+
+class Cues(StrEnum):
+    """Image evidence (section 6): silhouette and edges (E1), or these and shading (E2)."""
+
+    SE = "SE"
+    SES = "SES"
+
+
+class OptimizerKind(StrEnum):
+    """How the energy is minimised: fast, or as the paper does."""
+
+    GAUSS_NEWTON = "gauss_newton"
+    SIMPLEX = "simplex"
+
+
+class OutlineKind(StrEnum):
+    """What the body's contour is to meet; a mask the caller sent is always met as it is.
+
+    ``grabcut``: the segmentation, as in the paper. ``correspondence_lines``: once a body is near,
+    the person's boundary on lines across its contour, found by the colours around each.
+    """
+
+    GRABCUT = "grabcut"
+    LINES = "correspondence_lines"
+
+
+class SegmentationKind(StrEnum):
+    """How the person is cut out where the caller sends no mask.
+
+    ``seeded_grabcut``: from a tri-map round the detector's mask, where the detector is installed
+    and finds the person. ``grabcut``: from a tri-map round the body, as in the paper.
+    """
+
+    SEEDED_GRABCUT = "seeded_grabcut"
+    GRABCUT = "grabcut"
+
+
+class LightKind(StrEnum):
+    """A near point light (indoors) or a distant directional one (outdoors); section 5."""
+
+    POINT = "point"
+    DIRECTIONAL = "directional"
+
+
+class SurroundingsKind(StrEnum):
+    """How light from all round is described, beside the one light of section 5.
+
+    ``uniform``: the ambient constant of Eq. 1. ``spherical_harmonics``: second-order irradiance,
+    with the shadows that the body casts on itself.
+    """
+
+    UNIFORM = "uniform"
+    SPHERICAL_HARMONICS = "spherical_harmonics"
+
+
+class Clothing(StrEnum):
+    """How clothes lie: with the body's outline, or as an outer bound of it, bare skin excepted."""
+
+    TIGHT = "tight"
+    LOOSE = "loose"
+
+
+class Posture(StrEnum):
+    """What is known of how the person stands.
+
+    ``measured`` people were asked to stand upright, straight and still on both feet.
+    """
+
+    ANY = "any"
+    MEASURED = "measured"
+
+
+class Facing(StrEnum):
+    """Whether the far end of a limb is nearer to the camera than its near end, or farther."""
+
+    TOWARD = "toward"
+    AWAY = "away"
+
+
+class ViewKind(StrEnum):
+    """From where a person is to be seen; ``side`` is either side, ``other`` is any view."""
+
+    FRONT = "front"
+    SIDE = "side"
+    BACK = "back"
+    OTHER = "other"

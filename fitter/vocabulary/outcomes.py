@@ -1,0 +1,76 @@
+"""What a result may say."""
+
+from enum import StrEnum
+
+
+class Outcome(StrEnum):
+    """How the optimisation ended."""
+
+    CONVERGED = "converged"
+    EVALUATION_LIMIT = "evaluation_limit"
+    POOR_FIT = "poor_fit"
+
+
+class Verdict(StrEnum):
+    """Whether the picture bears out that a person was measured.
+
+    `no_person`: nothing shows a person where the points are. `implausible`: a body was fitted, but
+    the points, the mask or the picture contradict it. `outcome` is then `poor_fit`.
+    """
+
+    PLAUSIBLE = "plausible"
+    IMPLAUSIBLE = "implausible"
+    NO_PERSON = "no_person"
+
+
+class FacingSource(StrEnum):
+    """Who decided which way a limb faces."""
+
+    CALLER = "caller"
+    ENERGY = "energy"
+    PRIOR = "prior"
+
+
+class FocalLengthSource(StrEnum):
+    """Where the focal length came from, best first."""
+
+    CALLER = "caller"
+    EXIF_35MM = "exif_35mm_equivalent"
+    EXIF_SENSOR = "exif_focal_length_and_sensor"
+    ASSUMED = "assumed"
+
+
+class StanceKind(StrEnum):
+    """How a person stands: on both feet, striding or on one foot, or neither."""
+
+    STANDING = "standing"
+    STRIDING = "striding"
+    OTHER = "other"
+
+
+class SeenFrom(StrEnum):
+    """From where a person is seen; ``between`` front or back and side."""
+
+    FRONT = "front"
+    SIDE = "side"
+    BACK = "back"
+    BETWEEN = "between"
+
+
+class Severity(StrEnum):
+    """What a finding means: measurements will be worse, or the picture is to be taken again."""
+
+    BLOCKS = "blocks"
+    HARMS = "harms"
+
+
+class SizedAs(StrEnum):
+    """How a size fits the most probable body in one measurement.
+
+    ``unsaid``: the chart says nothing of it for this size.
+    """
+
+    WITHIN = "within"
+    TOO_SMALL = "too_small"
+    TOO_LARGE = "too_large"
+    UNSAID = "unsaid"
