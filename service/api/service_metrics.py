@@ -115,6 +115,11 @@ class _EngineCollector(Collector):
             "Workers that are alive.",
             sum(each.alive is True for each in workers),
         )
+        yield _gauge(
+            "maquette_workers_able",
+            "Workers that are alive and can start processes for jobs.",
+            sum(each.is_ready for each in workers),
+        )
         ages = GaugeMetricFamily(
             "maquette_worker_heartbeat_age_seconds",
             "For how long a worker's heart was watched without a beat.",

@@ -8,9 +8,9 @@ import sqlalchemy as sa
 from service.commands.api_health import unhealthy
 from service.engine.availability import available
 from service.engine.database import open_database
-from service.engine.liveness import WorkerWatch, this_machine
+from service.engine.liveness import WORKERS_SEEN, WorkerWatch, this_machine
 from service.engine.port import DatabaseUnusableError, EngineUnavailableError
-from service.engine.tables import WORKERS
+from service.engine.tables import UNABLE_WORKERS, WORKERS
 from service.settings import Settings
 
 LATE_S: Final = 10.0
@@ -19,40 +19,54 @@ interval this is less than docker/compose.yaml gives this command."""
 
 LOOK_S: Final = 0.1
 
+NOT_ALIVE: Final = "no worker of this machine is alive"
+NOT_ABLE: Final = "no worker of this machine can start processes for jobs; its log says why"
+
 
 def worker_health(settings: Settings) -> int:
-    """Look for a worker on this machine that is running and whose heartbeat goes on."""
+    """Look for a worker on this machine that is running and able, and whose heartbeat goes on."""
     try:
-        beating = _beating(settings)
+        reason = _fault(settings)
     except EngineUnavailableError:
         return unhealthy("the database is not available")
     except DatabaseUnusableError as error:
         return unhealthy(str(error))
-    return 0 if beating else unhealthy("no worker of this machine is alive")
+    return 0 if reason is None else unhealthy(reason)
 
 
 @available
-def _beating(settings: Settings) -> bool:
+def _fault(settings: Settings) -> str | None:
+    """What is wrong with the workers of this machine, None if one of them is well."""
     database = open_database(settings.system_database_url, connections=1)
-    if not sa.inspect(database).has_table(WORKERS.name):
-        return False
-    query = sa.select(WORKERS).where(WORKERS.c.machine == this_machine())
+    try:
+        inspector = sa.inspect(database)
+        if not all(inspector.has_table(table.name) for table in (WORKERS, UNABLE_WORKERS)):
+            return NOT_ALIVE
+        return _fault_in(database, settings)
+    finally:
+        database.dispose()
+
+
+def _fault_in(database: sa.Engine, settings: Settings) -> str | None:
+    query = WORKERS_SEEN.where(WORKERS.c.machine == this_machine())
     watch = WorkerWatch(dead_after_s=settings.dead_after_s)
     began = time.monotonic()
     before: dict[str, int] | None = None
-    try:
-        while True:
-            with database.connect() as connection:
-                rows = connection.execute(query).all()
-            alive = watch.alive(rows)
-            if before is None:
-                before = {row.executor_id: row.beat for row in rows}
-            elif any(
-                row.executor_id in alive and row.beat != before.get(row.executor_id) for row in rows
-            ):
-                return True
-            if not alive or time.monotonic() - began >= settings.heartbeat_s + LATE_S:
-                return False
-            time.sleep(LOOK_S)
-    finally:
-        database.dispose()
+    while True:
+        with database.connect() as connection:
+            rows = connection.execute(query).all()
+        alive = watch.alive(rows)
+        if before is None:
+            before = {row.executor_id: row.beat for row in rows}
+        beaten = [
+            row
+            for row in rows
+            if row.executor_id in alive and row.beat != before.get(row.executor_id)
+        ]
+        if any(row.able for row in beaten):
+            return None
+        if beaten and not any(row.able for row in rows if row.executor_id in alive):
+            return NOT_ABLE
+        if not alive or time.monotonic() - began >= settings.heartbeat_s + LATE_S:
+            return NOT_ALIVE
+        time.sleep(LOOK_S)

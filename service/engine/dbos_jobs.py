@@ -18,13 +18,13 @@ from service.engine.ballast import Ballast
 from service.engine.facts import read_fact, touch_fact
 from service.engine.image_port import ImageQuota
 from service.engine.images import StoredImages
-from service.engine.liveness import WorkerWatch
+from service.engine.liveness import WORKERS_SEEN, WorkerWatch
 from service.engine.people import StoredPeople
 from service.engine.port import FIT, EngineStatistics, EngineUnavailableError, WorkerStatus
 from service.engine.queue import APPLICATION
 from service.engine.statistics import read_durations, read_outcomes
 from service.engine.sweeper import Sweeper
-from service.engine.tables import JOBS, WORKERS
+from service.engine.tables import JOBS
 from service.engine.tenant_jobs import DbosTenantJobs
 
 LOG: Final = logging.getLogger(__name__)
@@ -142,7 +142,7 @@ class DbosJobEngine:
     def workers(self) -> Sequence[WorkerStatus]:
         """Return the workers that are known and not known to be gone."""
         with self._database.connect() as connection:
-            rows = connection.execute(sa.select(WORKERS)).all()
+            rows = connection.execute(WORKERS_SEEN).all()
         return self._watch.look(rows)
 
     @available

@@ -70,6 +70,7 @@ class DbosWorkerEngine:
         queue_poll_s: float,
         retention_s: float,
         disk: Disk,
+        is_able: Callable[[], bool],
     ) -> None:
         # Never reused: two live workers with the same name would rerun each other's jobs.
         self.executor_id = f"{os.uname().nodename[:20]}-{uuid.uuid4().hex}"
@@ -77,6 +78,7 @@ class DbosWorkerEngine:
         self._blobs = blobs
         self._queue_poll_s = queue_poll_s
         self._disk = disk
+        self._is_able = is_able
         self._is_holding_back = False
         self._slots = WorkerSlots(processes, poll_s=queue_poll_s)
         self._executions = Executions(database)
@@ -97,6 +99,7 @@ class DbosWorkerEngine:
             recover=put_back_executions_of,
             put_back=lambda job_id: DBOS.resume_workflow(job_id, queue_name=QUEUE),
             holds=self._slots.held,
+            is_able=is_able,
         )
         self._handing_back = threading.Event()
         self._dbos: DBOS | None = None
@@ -106,11 +109,11 @@ class DbosWorkerEngine:
         handler: AttemptHandler,
         *,
         body_models: BodyModels,
-        can_begin: Callable[[], bool],
     ) -> None:
         """Begin to claim jobs and run each attempt through ``handler``, in threads of its own.
 
-        Jobs are left waiting, for this worker or another one, until the handler ``can_begin``.
+        While the worker is not able to run any, jobs are left waiting, for this one or another,
+        and each heartbeat says so.
         """
         shorten_pauses()
         self._dbos = DBOS(
@@ -133,7 +136,7 @@ class DbosWorkerEngine:
             self._dbos,
             QUEUE,
             await_turn=self._await_turn,
-            usable_slots=lambda: self._usable_slots() if can_begin() else 0,
+            usable_slots=lambda: self._usable_slots() if self._is_able() else 0,
         )
         self._heartbeat.start()
 

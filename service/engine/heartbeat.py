@@ -18,9 +18,10 @@ from api_schemas.jobs import JobState
 from api_schemas.problems import problem
 from service.engine.attempts import given_up
 from service.engine.executions import EXHAUSTED, Executions
-from service.engine.liveness import WorkerWatch, this_process
+from service.engine.liveness import WORKERS_SEEN, WorkerWatch, this_process
 from service.engine.records import end_job
-from service.engine.tables import JOBS, WORKERS
+from service.engine.tables import JOBS, UNABLE_WORKERS, WORKERS
+from service.engine.upsert import insert_or_update
 from service.jobs.states import ACTIVE
 
 LOG: Final = logging.getLogger(__name__)
@@ -53,6 +54,7 @@ class Heartbeat:
         recover: Callable[[Collection[str]], object],
         put_back: Callable[[str], object],
         holds: Callable[[], Collection[str]],
+        is_able: Callable[[], bool],
     ) -> None:
         self._database = database
         self._executor_id = executor_id
@@ -62,6 +64,7 @@ class Heartbeat:
         self._recover = recover
         self._put_back = put_back
         self._holds = holds
+        self._is_able = is_able
         self._watch = WorkerWatch(dead_after_s=dead_after_s)
         self._process = this_process()
         self._stopped = threading.Event()
@@ -82,7 +85,7 @@ class Heartbeat:
         self._stopped.set()
         self._thread.join()
         with self._database.begin() as connection:
-            connection.execute(sa.delete(WORKERS).where(WORKERS.c.executor_id == self._executor_id))
+            _forget(connection, [self._executor_id])
 
     def _run(self) -> None:
         while True:
@@ -122,10 +125,19 @@ class Heartbeat:
                         started_at=time.time(),
                     )
                 )
+            if self._is_able():
+                own = UNABLE_WORKERS.c.executor_id == self._executor_id
+                connection.execute(sa.delete(UNABLE_WORKERS).where(own))
+            else:
+                connection.execute(
+                    insert_or_update(connection, UNABLE_WORKERS)
+                    .values(executor_id=self._executor_id)
+                    .on_conflict_do_nothing()
+                )
 
     def _take_over(self, holders: set[str]) -> None:
         with self._database.connect() as connection:
-            workers = connection.execute(sa.select(WORKERS)).all()
+            workers = connection.execute(WORKERS_SEEN).all()
         alive = self._watch.alive(workers) | {self._executor_id}
         dead = sorted(holders - alive)
         if dead:
@@ -134,7 +146,7 @@ class Heartbeat:
         gone = [row.executor_id for row in workers if row.executor_id not in alive]
         if gone:
             with self._database.begin() as connection:
-                connection.execute(sa.delete(WORKERS).where(WORKERS.c.executor_id.in_(gone)))
+                _forget(connection, gone)
 
     def _pick_up(self, pending: set[str]) -> None:
         """Put back what is recorded as run by this worker but is not: its thread ended in an error.
@@ -186,3 +198,9 @@ class Heartbeat:
                 retention_s=self._retention_s,
                 values={"problem": reason.model_dump_json()},
             )
+
+
+def _forget(connection: sa.Connection, executor_ids: Collection[str]) -> None:
+    """Remove workers that have stopped or died."""
+    for table in (WORKERS, UNABLE_WORKERS):
+        connection.execute(sa.delete(table).where(table.c.executor_id.in_(executor_ids)))

@@ -18,6 +18,12 @@ from typing import Any, Final
 import sqlalchemy as sa
 
 from service.engine.port import WorkerStatus
+from service.engine.tables import UNABLE_WORKERS, WORKERS
+
+WORKERS_SEEN: Final = sa.select(
+    WORKERS, UNABLE_WORKERS.c.executor_id.is_(None).label("able")
+).outerjoin(UNABLE_WORKERS, WORKERS.c.executor_id == UNABLE_WORKERS.c.executor_id)
+"""What a :class:`WorkerWatch` looks at."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -90,7 +96,7 @@ class WorkerWatch:
         self._lock = threading.Lock()
 
     def look(self, workers: Sequence[sa.Row[Any]]) -> list[WorkerStatus]:
-        """Look at all rows of the workers' table, and return what is known about each."""
+        """Look at all rows of ``WORKERS_SEEN``, and return what is known about each."""
         with self._lock:
             now = self._monotonic()
             passed = 0.0 if self._last_look is None else now - self._last_look
@@ -120,7 +126,10 @@ class WorkerWatch:
         else:
             alive = True if runs or sight.has_beaten else None
         return WorkerStatus(
-            executor_id=row.executor_id, alive=alive, heartbeat_age_s=sight.silent_s
+            executor_id=row.executor_id,
+            alive=alive,
+            able=row.able,
+            heartbeat_age_s=sight.silent_s,
         )
 
     def _runs(self, row: sa.Row[Any]) -> bool | None:

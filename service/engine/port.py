@@ -234,11 +234,18 @@ class WorkerStatus:
     """A worker as seen from here: how long ago its last heartbeat was seen, by our own clock.
 
     ``alive`` is None as long as the worker has been seen only once and nothing can be said.
+    ``able`` is what it says of itself with its heartbeat: that it can start processes for jobs.
     """
 
     executor_id: str
     alive: bool | None
+    able: bool
     heartbeat_age_s: float
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether the worker is known to be alive, and able to work."""
+        return self.alive is True and self.able
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -377,11 +384,11 @@ class WorkerEngine(Protocol):
         handler: AttemptHandler,
         *,
         body_models: BodyModels,
-        can_begin: Callable[[], bool],
     ) -> None:
         """Begin to claim jobs and run each attempt through ``handler``, in threads of its own.
 
-        Jobs are left waiting, for this worker or another one, until the handler ``can_begin``.
+        While the worker is not able to run any, jobs are left waiting, for this one or another,
+        and each heartbeat says so.
         """
         ...
 

@@ -200,6 +200,13 @@ WORKERS = sa.Table(
     sa.Column("started_at", sa.Double, nullable=False),
 )
 
+UNABLE_WORKERS = sa.Table(
+    "maquette_unable_workers",
+    METADATA,
+    sa.Column("executor_id", sa.String(64), primary_key=True),
+)
+"""Workers that are alive and cannot start the process of a job: a row each, for as long."""
+
 FACTS = sa.Table(
     "maquette_facts",
     METADATA,

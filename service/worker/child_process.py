@@ -2,7 +2,6 @@
 
 import contextlib
 import logging
-import threading
 import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -77,29 +76,6 @@ class ChildRunner:
         self._pipeline = pipeline
         self._processes = processes
         self._kept = KeptChildren(jobs=settings.child_jobs)
-        self._has_loaded = threading.Event()
-
-    def begin_preloading(self) -> None:
-        """Let the numerics be loaded; returns at once."""
-        began = time.monotonic()
-        self._processes.begin_preloading()
-        threading.Thread(
-            target=self._see_loaded, args=(began,), name="loading", daemon=True
-        ).start()
-
-    def has_loaded(self) -> bool:
-        """Say whether the numerics are loaded: an attempt before would only wait for them."""
-        return self._has_loaded.is_set()
-
-    def _see_loaded(self, began: float) -> None:
-        try:
-            self._processes.wait_until_loaded()
-        except NoProcessError as error:
-            LOG.error("The numerics cannot be loaded (%s).", error)
-        else:
-            LOG.info("The numerics are loaded (%.1f s).", time.monotonic() - began)
-        # Either way: an attempt then waits for a process by itself, and tells if there is none.
-        self._has_loaded.set()
 
     def run(self, attempt: Attempt) -> AttemptResult:
         """Run one attempt to its end: done, failed, canceled, out of time or crashed."""

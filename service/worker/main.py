@@ -76,7 +76,7 @@ def run_worker(
         follow_starter(processes, lent=lent, ended=stop.ask)
     runner = ChildRunner(settings, blobs, processes, pipeline=pipeline)
     # What takes longest begins first, even if the database then turns out to be of no use.
-    runner.begin_preloading()
+    processes.begin_preloading()
     models = ModelsBeingRead(settings, command=models_command)
     # Imported while others load the numerics and read the models: a good part of a second each.
     from service.engine.database import open_database, prepare_database
@@ -99,12 +99,13 @@ def run_worker(
         queue_poll_s=settings.queue_poll_s,
         retention_s=settings.retention_s,
         disk=open_disk(settings),
+        is_able=processes.is_able,
     )
-    engine.start(runner.run, body_models=models.wait(), can_begin=runner.has_loaded)
+    engine.start(runner.run, body_models=models.wait())
     LOG.info("Worker %s is ready.", engine.executor_id)
     if settings.sandbox:
         LOG.warning("This worker is a sandbox: its results are canned, whatever was sent.")
-    if not runner.has_loaded():
+    if not processes.is_able():
         LOG.info("Jobs wait until the numerics are loaded, or compiled if that is not done yet.")
     stop.wait()
     LOG.info("Worker %s is stopping.", engine.executor_id)

@@ -1,6 +1,7 @@
 """What the fake worker's fork server loads: the fake pipeline, once the gate is open.
 
-The gate is the file named by the environment variable of ``GATE``; without one it is open.
+The gate is the file named by the environment variable of ``GATE``; without one it is open. While
+the file is there that the variable of ``FAULT`` names, whoever loads this dies.
 """
 
 import os
@@ -10,6 +11,10 @@ from pathlib import Path
 import tests.integration.service.fake_pipeline  # noqa: F401
 
 GATE = "FAKE_PRELOAD_GATE"
+FAULT = "FAKE_PRELOAD_FAULT"
 
 while GATE in os.environ and not Path(os.environ[GATE]).exists():
     time.sleep(0.01)
+
+if FAULT in os.environ and Path(os.environ[FAULT]).exists():
+    os._exit(1)

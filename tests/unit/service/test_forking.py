@@ -2,12 +2,23 @@
 
 import os
 import signal
-from multiprocessing import forkserver
+import subprocess
+import sys
+import time
+from collections.abc import Callable
 from multiprocessing.connection import Connection
+from pathlib import Path
 
 import pytest
 
 from service.worker.forking import ForkedProcesses, end
+
+REPOSITORY = Path(__file__).parents[3]
+
+
+def eventually(holds: Callable[[], bool]) -> None:
+    while not holds():
+        time.sleep(0.01)
 
 
 @pytest.fixture(scope="module")
@@ -33,16 +44,79 @@ def test_a_process_runs_what_it_is_told_with_its_end_of_the_pipe(processes):
 
 def test_a_server_is_waited_for_until_it_has_loaded_its_module(processes):
     processes.begin_preloading()
-    processes.wait_until_loaded()
+    eventually(processes.is_able)
     assert greeting(processes).startswith("hello from ")
+
+
+def server_of(processes: ForkedProcesses) -> int:
+    connection, process = processes.start(tell_server)
+    try:
+        return connection.recv()
+    finally:
+        end(connection, process)
+
+
+def tell_server(connection: Connection) -> None:
+    connection.send(os.getppid())
 
 
 def test_a_killed_server_is_started_again(processes):
-    greeting(processes)
-    server = forkserver._forkserver._forkserver_pid  # pyright: ignore
+    server = server_of(processes)
     os.kill(server, signal.SIGKILL)
-    assert greeting(processes).startswith("hello from ")
-    assert forkserver._forkserver._forkserver_pid != server  # pyright: ignore
+    assert server_of(processes) != server
+
+
+DYING = """
+import os, sys, threading
+from pathlib import Path
+from service.worker import forking
+
+fault = Path(sys.argv[1])
+processes = forking.ForkedProcesses("dies_if_told")
+
+def answer(connection):
+    connection.send("here")
+
+if __name__ == "__main__":
+    os.environ["FAULT"] = str(fault)
+    fault.touch()
+    processes.begin_preloading()
+    for _ in range(2):
+        try:
+            processes.start(print)
+        except forking.NoProcessError:
+            print("none", processes.is_able())
+    fault.unlink()
+    able = threading.Event()
+    while not processes.is_able():
+        able.wait(0.01)
+    print("able")
+    fault.touch()
+    processes.replace_server()
+    while processes.is_able():
+        able.wait(0.01)
+    print("unable")
+"""
+
+DIES_IF_TOLD = """
+import os
+if os.path.exists(os.environ["FAULT"]):
+    os._exit(1)
+"""
+
+
+def test_a_server_that_dies_time_after_time_is_not_waited_for_until_it_lives(tmp_path):
+    (tmp_path / "dies_if_told.py").write_text(DIES_IF_TOLD)
+    (tmp_path / "program.py").write_text(DYING)
+    done = subprocess.run(
+        [sys.executable, "program.py", str(tmp_path / "fault")],
+        cwd=tmp_path,
+        env=os.environ | {"PYTHONPATH": f"{REPOSITORY}{os.pathsep}{tmp_path}"},
+        stdout=subprocess.PIPE,
+        text=True,
+        check=True,
+    )
+    assert done.stdout.splitlines() == ["none False", "none False", "able", "unable"]
 
 
 @pytest.mark.parametrize("fault", [ConnectionRefusedError(), EOFError(), BlockingIOError()])
