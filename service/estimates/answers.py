@@ -54,7 +54,7 @@ def prepare(models: Path | None, detector: Path | None) -> None:
     for gender in Gender:
         body(
             BodyTask(
-                request=BodyRequest(gender=translate.wire_gender(gender), height_m=1.7),
+                request=BodyRequest(gender=gender, height_m=1.7),
                 with_glb=True,
             ),
             models,
@@ -81,7 +81,7 @@ def prepare(models: Path | None, detector: Path | None) -> None:
 
 def body(task: BodyTask, models: Path | None) -> EstimatedBody:
     """Estimate a body from measurements."""
-    gender = Gender(task.request.gender)
+    gender = task.request.gender
     fittable = prepared_model(gender, models=models)
     try:
         estimate = estimate_body(fittable.population, _known(task.request))

@@ -20,7 +20,9 @@ from fitter.fits.capture_check import CaptureCheck, CaptureQuestion
 from fitter.fits.initial_body import InitialBody
 from fitter.fits.proposal import Proposal, ProposedPoint
 from fitter.population.body_estimate import BodyEstimate
-from fitter.request import Facing, FitRequest, Gender, ViewKind
+from fitter.request import FitRequest
+from fitter.vocabulary.measurements import STATURE
+from fitter.vocabulary.points import PointName
 from service.worker.findings import finding_results, rounded_box
 from service.worker.translate import (
     SEEN,
@@ -35,22 +37,17 @@ JPEG_QUALITY = 90
 """Nothing is measured in these pictures; they are for the eye."""
 
 
-def wire_gender(gender: Gender) -> wire_request.Gender:
-    """Translate a gender."""
-    return wire_request.Gender(gender.value)
-
-
 def subject_request(subject: wire_request.SubjectOptions) -> FitRequest:
     """Translate a subject whose points are named; there is no picture."""
     return FitRequest(
         image=b"",
         clicks=clicks(subject.points),
-        gender=Gender(subject.gender),
+        gender=subject.gender,
         height_m=subject.height_m,
         measurements=known_measurements(subject),
         focal_length_px=subject.focal_length_px,
         focal_length_35mm=subject.focal_length_35mm,
-        limb_facing={limb.value: Facing(facing) for limb, facing in subject.limb_facing.items()},
+        limb_facing={limb.value: facing for limb, facing in subject.limb_facing.items()},
     )
 
 
@@ -59,10 +56,10 @@ def initial_pose(
 ) -> wire_poses.InitialPose:
     """Translate an initial body."""
     return wire_poses.InitialPose(
-        gender=wire_gender(request.gender),
+        gender=request.gender,
         height_m=initial.height_m,
         camera=camera_result(initial.camera),
-        focal_length_source=wire_results.FocalLengthSource(initial.focal_length_source.value),
+        focal_length_source=initial.focal_length_source,
         body=body_result(initial.body, part_names),
         outline=tuple(tuple(_pixel(corner) for corner in loop) for loop in initial.outline),
         points={name: _pixel(place) for name, place in initial.landmarks.items()},
@@ -70,7 +67,7 @@ def initial_pose(
         limbs=tuple(
             wire_poses.LimbReading(
                 limb=reading.limb,
-                facing=wire_request.Facing(reading.facing.value),
+                facing=reading.facing,
                 ambiguous=reading.ambiguous,
                 alternative_nats=reading.alternative_nats,
             )
@@ -109,10 +106,10 @@ def points_proposal(found: Proposal) -> wire_proposals.PointsProposal:
 def capture_question(asked: wire_checks.CheckRequest) -> CaptureQuestion:
     """Translate what is said of a picture; points are named."""
     return CaptureQuestion(
-        view=None if asked.view is None else ViewKind(asked.view),
+        view=asked.view,
         person=asked.person,
         points=clicks(asked.points),
-        gender=None if asked.gender is None else Gender(asked.gender),
+        gender=asked.gender,
         height_m=asked.height_m,
         focal_length_px=asked.focal_length_px,
         focal_length_35mm=asked.focal_length_35mm,
@@ -131,7 +128,7 @@ def capture_check(found: CaptureCheck) -> wire_checks.CaptureCheck:
             for each in checked.unchecked
         ),
         box=rounded_box(checked.box),
-        seen_from=None if checked.seen is None else wire_checks.SeenFrom(checked.seen.value),
+        seen_from=checked.seen,
         lean_deg=None if checked.lean_deg is None else round(checked.lean_deg, 1),
         distance_m=None if checked.distance_m is None else round(checked.distance_m, 2),
         assumptions=tuple(

@@ -13,7 +13,7 @@ def finding_results(findings: Sequence[Finding]) -> tuple[wire.Finding, ...]:
     return tuple(
         wire.Finding(
             code=found.code.value,
-            severity=wire.Severity(found.severity.value),
+            severity=found.severity,
             reason=found.reason,
             remedy=found.remedy,
             points=tuple(cast("PointName", name) for name in found.points),

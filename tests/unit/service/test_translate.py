@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from api_schemas import points as wire_points
 from api_schemas import requests as wire_request
 from api_schemas import results as wire
 from api_schemas.points import Point
@@ -27,6 +26,7 @@ from fitter.parameters import (
 from fitter.person.fitted_person import FittedPerson
 from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera, FocalLengthSource
+from fitter.vocabulary.points import POINT_NAMES
 from service.worker import translate
 
 PARTS = ("pelvis", "spine")
@@ -149,29 +149,11 @@ def test_what_the_caller_leaves_open_stays_open():
     assert request.limb_facing == {}
 
 
-@pytest.mark.parametrize(
-    ("wire_kind", "fitter_kind"),
-    [
-        (wire_request.Gender, fitter_request.Gender),
-        (wire_request.Cues, fitter_request.Cues),
-        (wire_request.OptimizerKind, fitter_request.OptimizerKind),
-        (wire_request.Facing, fitter_request.Facing),
-        (wire_request.LightKind, LightKind),
-        (wire.Outcome, fitter_result.Outcome),
-        (wire.Verdict, fitter_result.Verdict),
-        (wire.FacingSource, fitter_result.FacingSource),
-        (wire.FocalLengthSource, FocalLengthSource),
-    ],
-)
-def test_both_sides_know_the_same_words(wire_kind, fitter_kind):
-    assert {word.value for word in wire_kind} == {word.value for word in fitter_kind}
-
-
-def test_every_point_on_the_wire_is_a_landmark_of_the_models():
+def test_every_point_is_a_landmark_of_the_models():
     from service.worker.body_models.described import describe
 
     for model in describe(None).models:
-        assert set(wire_points.POINT_NAMES) <= set(model.landmarks)
+        assert set(POINT_NAMES) <= set(model.landmarks)
         assert 1.5 < model.mean_height_m < 1.9
         assert model.licences
 
