@@ -1,8 +1,8 @@
 """What a caller asks for: a fit, of a picture sent along or uploaded before."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from enum import StrEnum
-from typing import Annotated, Any, Final
+from typing import Annotated, Any, Final, Self
 
 from pydantic import Field
 
@@ -159,6 +159,11 @@ class FitChoices(PictureChoices, Subject):
 class FitOptions(FitChoices, SubjectOptions):
     """One fit, as it was understood: points are named, and none where all are to be proposed."""
 
+    @property
+    def pictures(self) -> tuple[Self]:
+        """What is asked of its only picture."""
+        return (self,)
+
 
 AskedPoints = Annotated[
     PointsOrAuto,
@@ -197,10 +202,22 @@ class FitRequest(AskedPicture, FitChoices):
     label: Label | None = Field(default=None, description=LABEL_OF_JOB, examples=["customer-4711"])
     webhook: WebhookTarget | None = None
 
-    def options(self, points: Mapping[PointName, Point]) -> FitOptions:
-        """The fit alone, without what concerns only the submission, of these named points."""
+    @property
+    def pictures(self) -> tuple[Self]:
+        """What is asked of its only picture."""
+        return (self,)
+
+    def understood(self, points: Sequence[Mapping[PointName, Point]]) -> FitOptions:
+        """The fit alone, without what concerns only the submission.
+
+        Parameters
+        ----------
+        points
+            Those of its only picture, by their names.
+        """
+        (of_picture,) = points
         values: dict[str, Any] = {name: getattr(self, name) for name in FitChoices.model_fields}
-        return FitOptions.model_construct(**values | self.named(points))
+        return FitOptions.model_construct(**values | self.named(of_picture))
 
 
 class FitOfImage(FitRequest):

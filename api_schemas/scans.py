@@ -95,6 +95,11 @@ class ScanOptions(ScanChoices):
 
     views: tuple[ScanViewOptions, ...]
 
+    @property
+    def pictures(self) -> tuple[ScanViewOptions, ...]:
+        """What is asked of each of its pictures."""
+        return self.views
+
     def of_view(self, number: int) -> FitOptions:
         """What is asked of one of the pictures, as of a fit."""
         view = self.views[number]
@@ -141,10 +146,22 @@ class ScanRequest(ScanChoices):
     label: Label | None = Field(default=None, description=LABEL_OF_JOB, examples=["customer-4711"])
     webhook: WebhookTarget | None = None
 
-    def options(self, views: Sequence[ScanViewOptions]) -> ScanOptions:
-        """The scan alone, without what concerns only the submission."""
+    @property
+    def pictures(self) -> tuple[ScanViewRequest, ...]:
+        """What is asked of each of its pictures."""
+        return self.views
+
+    def understood(self, points: Sequence[Mapping[PointName, Point]]) -> ScanOptions:
+        """The scan alone, without what concerns only the submission.
+
+        Parameters
+        ----------
+        points
+            Those of every picture, by their names.
+        """
         values = {name: getattr(self, name) for name in ScanChoices.model_fields}
-        return ScanOptions.model_construct(**values, views=tuple(views))
+        views = tuple(view.options(each) for view, each in zip(self.views, points, strict=True))
+        return ScanOptions.model_construct(**values, views=views)
 
 
 class ScanOfImages(ScanRequest):
@@ -153,6 +170,11 @@ class ScanOfImages(ScanRequest):
     views: Annotated[  # pyright: ignore[reportIncompatibleVariableOverride]
         tuple[ScanViewOfImage, ...], AfterValidator(_usable_together), Field(**_VIEWS)
     ]
+
+    @property
+    def pictures(self) -> tuple[ScanViewOfImage, ...]:
+        """What is asked of each of its pictures."""
+        return self.views
 
 
 class ScanViewLinks(WireModel):

@@ -1,4 +1,4 @@
-"""Responses with a file of a job: in the preferred format, whole or in part, or 304 if known."""
+"""Responses with a result: its document, or a file in the preferred format, whole or in part."""
 
 from functools import partial
 from typing import Annotated, Any, Final
@@ -7,16 +7,19 @@ from uuid import UUID
 from fastapi import Header, Path, Response
 from starlette.concurrency import run_in_threadpool
 
+from api_schemas.jobs import JobState
+from api_schemas.problems import Problem, problem
 from api_schemas.results import Artifact
 from service.api.byte_ranges import whole_or_part
 from service.api.context import ApiContext
 from service.api.job_routes import JOB_PROBLEMS, NOT_MODIFIED, find
 from service.api.json_bodies import JSON
-from service.api.problems import documented, not_found
+from service.api.problems import ProblemError, documented, not_found
 from service.api.renditions import Rendition, chosen_rendition, is_negotiated
 from service.api.security_headers import STAND_ALONE
 from service.blobs import BlobMissingError
 from service.engine.port import JobRecord, TenantJobs
+from service.jobs.inputs import RESULT
 from service.representation.formats import GLB, MESH_FORMATS, MTL
 from service.representation.measurement_table import CSV, measurements_csv_of
 
@@ -102,6 +105,36 @@ async def answer_artifact(
         headers=headers,
         range_header=range_header,
         if_range=if_range,
+    )
+
+
+def serve_result(context: ApiContext, record: JobRecord, *, if_none_match: str | None) -> Response:
+    """Answer with the result document; 409 if the job has none."""
+    document = next((each for each in record.artifacts if each.name == RESULT), None)
+    if record.state is not JobState.SUCCEEDED or document is None:
+        raise ProblemError(no_result(record))
+    headers = file_headers(document.sha256)
+    if is_known(document.sha256, if_none_match):
+        return Response(status_code=304, headers=headers)
+    content = stored_content(context, record, document)
+    return Response(content, media_type=document.media_type, headers=headers)
+
+
+def no_result(record: JobRecord) -> Problem:
+    """Say why a job has no result."""
+    if record.problem is not None:
+        return problem(
+            "no-result",
+            code=record.problem.code,
+            field=record.problem.field,
+            detail=f"The job {record.state}: {record.problem.detail}",
+            remedy=record.problem.remedy,
+        )
+    canceled = record.state is JobState.CANCELED
+    return problem(
+        "no-result",
+        detail=f"The job is {record.state}.",
+        remedy="Send it again." if canceled else "Wait until it has succeeded; follow its events.",
     )
 
 

@@ -1,6 +1,7 @@
 """What the resources share, built once in :func:`service.api.app.create_app`, and for whom."""
 
 import threading
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Final
 
@@ -54,7 +55,7 @@ class Parts:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ApiContext:
-    """The parts for one request: ``jobs``, its tenant's fits, ``scans``, ``images``, ``people``.
+    """The parts for one request: its tenant's ``jobs``, fits and scans, ``images`` and ``people``.
 
     ``key_id`` is the key it came with, None where none are asked for; ``token`` the browser's token
     that stands for it, if it does: then jobs and images are that token's alone.
@@ -73,8 +74,7 @@ class ApiContext:
     tenant: str
     key_id: str | None
     token: BrowserToken | None
-    jobs: TenantJobs
-    scans: TenantJobs
+    jobs: Mapping[str, TenantJobs]
     images: TenantImages
     people: TenantPeople
     request_id: str | None
@@ -99,8 +99,7 @@ def _context(request: Request) -> ApiContext:
         tenant=tenant,
         key_id=caller.key_id,
         token=caller.token,
-        jobs=parts.engine.of(tenant, FIT, token=token_id),
-        scans=parts.engine.of(tenant, SCAN, token=token_id),
+        jobs={root: parts.engine.of(tenant, root, token=token_id) for root in (FIT, SCAN)},
         images=parts.engine.images_of(tenant, token=token_id),
         people=parts.engine.people_of(tenant),
         request_id=getattr(request.state, "request_id", None),

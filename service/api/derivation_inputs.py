@@ -6,10 +6,10 @@ from uuid import UUID
 from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.jobs import JobState
 from api_schemas.problems import FieldProblem
+from service.api.artifacts import no_result
 from service.api.derivation_kinds import KINDS, needs_of
 from service.api.job_inputs import Copy, File, Inputs
 from service.api.problems import ProblemError
-from service.api.results import no_result
 from service.engine.port import SCAN, JobExpiredError, JobRecord, StoredBlob, TenantJobs
 from service.jobs.inputs import (
     IMAGE,

@@ -6,19 +6,17 @@ from collections.abc import AsyncIterator
 from typing import Annotated, Any, Final
 from uuid import UUID
 
-from fastapi import APIRouter, Header, Response
+from fastapi import Header, Response
 from fastapi.responses import StreamingResponse
 from fastapi.sse import KEEPALIVE_COMMENT, format_sse_event
 from starlette.concurrency import run_in_threadpool
 
 from api_schemas.jobs import EventData, EventKind
-from service.api.context import ApiContext, Context
+from service.api.context import ApiContext
 from service.api.job_routes import JOB_PROBLEMS, find
 from service.api.problems import documented
 from service.engine.port import EngineUnavailableError, JobEvent, TenantJobs
 from service.jobs.states import TERMINAL
-
-ROUTER: Final = APIRouter(prefix="/v1/fits", tags=["fits"])
 
 PING_S: Final = 15.0
 AWAY_PAUSE_S: Final = 1.0
@@ -59,21 +57,6 @@ EVENT_ANSWERS: Final[dict[int | str, dict[str, Any]]] = {
         "`EventSource` does not reconnect."
     },
 } | documented(*JOB_PROBLEMS)
-
-
-@ROUTER.get(
-    "/{fit_id}/events",
-    summary="Follow a job",
-    response_class=StreamingResponse,
-    responses=EVENT_ANSWERS,
-)
-def follow(fit_id: UUID, context: Context, last_event_id: LastEventId = None) -> Response:
-    """Stream state changes, stages, progress and energies.
-
-    All events since the job was accepted are kept: a client that comes late or reconnects misses
-    none.
-    """
-    return event_stream(context, context.jobs, fit_id, last_event_id)
 
 
 def event_stream(

@@ -15,10 +15,10 @@ from api_schemas.problems import FieldProblem, problem
 from service.api.artifacts import AcceptHeader
 from service.api.context import ApiContext, Context
 from service.api.erasure import erase_blobs
-from service.api.fit_inputs import AS_JPEG, PICTURE_ANSWERS, serve_stored_picture
 from service.api.job_routes import IfNoneMatch
 from service.api.json_bodies import JSON, json_content
 from service.api.picture_forms import picture_form
+from service.api.pictures import AS_JPEG, PICTURE_ANSWERS, serve_stored_picture
 from service.api.problems import ProblemError, documented, not_found
 from service.api.room import no_room, storing
 from service.api.uploads import read_image

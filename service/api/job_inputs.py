@@ -4,13 +4,21 @@ import contextlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
+from uuid import UUID
 
+from api_schemas.derivations import DerivationRequest
+from api_schemas.problems import problem
 from api_schemas.webhooks import WebhookTarget
 from service.api.context import ApiContext
+from service.api.derivation_kinds import needs_of
+from service.api.job_routes import find
 from service.api.json_bodies import JSON
-from service.api.problems import not_found
+from service.api.problems import ProblemError, not_found
 from service.blobs import BlobMissingError, BlobsUnavailableError
-from service.engine.port import FIT, StoredBlob
+from service.engine.port import StoredBlob, TenantJobs
+from service.jobs.inputs import SANDBOX
+from service.jobs.states import ACTIVE
+from service.webhooks.targets import read_target
 
 COPIED_AT_ONCE: Final = 2
 """For how many jobs a process makes copies at the same time: each holds one file in memory, and a
@@ -42,7 +50,7 @@ class Inputs:
     calls the person.
     """
 
-    kind: str = FIT
+    kind: str
     options: bytes
     files: Mapping[str, File | Copy]
     pictures: int = 1
@@ -94,6 +102,45 @@ def store_inputs(context: ApiContext, job_id: str, inputs: Inputs) -> StoredInpu
         raise
 
 
+def inputs_again(context: ApiContext, jobs: TenantJobs, job_id: UUID) -> Inputs:
+    """Copies of all that a job was made of that has ended.
+
+    Raises
+    ------
+    ProblemError
+        If it has not ended, or is gone.
+    """
+    record = find(jobs, job_id)
+    if record.state in ACTIVE:
+        raise ProblemError(
+            problem(
+                "not-ended",
+                detail=f"The job is {record.state}.",
+                remedy="Wait for its end, or cancel it first.",
+            )
+        )
+
+    try:
+        options = context.blobs.get(record.id, record.options.digest)
+        webhook = read_target(context.blobs, record)
+    except BlobMissingError as error:
+        raise not_found(what="such job any more") from error
+    return Inputs(
+        kind=record.kind,
+        options=options,
+        files={
+            name: Copy(scope=record.id, blob=blob)
+            for name, blob in record.inputs.items()
+            # What a sandbox was asked for was done: the retry ends as usual.
+            if name != SANDBOX
+        },
+        pictures=record.pictures,
+        label=record.label,
+        sources=() if record.parent is None else _sources(options),
+        webhook=webhook,
+    )
+
+
 def erase_at_once(context: ApiContext, job_id: str) -> None:
     """Erase what was stored for a job that is not accepted."""
     # If this fails too, the sweep will do it.
@@ -115,3 +162,8 @@ def _stored(context: ApiContext, job_id: str, file: File | Copy) -> StoredBlob:
         raise not_found(what="such job any more") from error
     context.blobs.put(job_id, content)
     return file.blob
+
+
+def _sources(options: bytes) -> tuple[str, ...]:
+    asked = DerivationRequest.model_validate_json(options).root
+    return tuple(map(str, needs_of(asked).other_fits.values()))

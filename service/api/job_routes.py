@@ -1,4 +1,4 @@
-"""What routes of fits and of derivations have in common: find, show, list, cancel and erase."""
+"""What routes do with a job: find, show, list, cancel and erase."""
 
 import re
 from collections.abc import Sequence
@@ -16,7 +16,7 @@ from service.api.erasure import erase_blobs
 from service.api.problems import ProblemError, not_found
 from service.engine.port import JobRecord, TenantJobs
 from service.jobs.states import ACTIVE, TERMINAL
-from service.representation.jobs import POLL_AFTER_S
+from service.representation.jobs import POLL_AFTER_S, list_path
 
 MAX_PAGE: Final = 200
 
@@ -78,19 +78,18 @@ def page_of(
     jobs: TenantJobs,
     response: Response,
     *,
-    path: str,
     limit: int,
     cursor: str | None,
     state: JobState | None,
-    label: str | None = None,
+    label: str | None,
 ) -> tuple[Sequence[JobRecord], str | None]:
-    """Return a page of jobs, newest first, and the path of the next page, below ``path``."""
+    """Return a page of jobs, newest first, and the path of the next page."""
     before = None if cursor is None else _read_cursor(cursor)
     records = jobs.jobs(limit=limit + 1, before=before, state=state, label=label)
     page = records[:limit]
     if len(records) <= limit:
         return page, None
-    following = f"{path}?limit={limit}&cursor={_cursor(page[-1])}"
+    following = f"{list_path(page[-1])}?limit={limit}&cursor={_cursor(page[-1])}"
     following += f"&state={state}" if state else ""
     following += f"&label={quote(label, safe='')}" if label else ""
     response.headers["Link"] = f'<{following}>; rel="next"'

@@ -1,7 +1,6 @@
-"""Read the multipart body of a submission."""
+"""Read multipart bodies."""
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Final
 
 from fastapi import Request
@@ -16,42 +15,12 @@ from service.api.room import no_room
 from service.blobs.local import FULL
 
 NEEDED_PARTS: Final = ("image", "request")
-PARTS: Final = (*NEEDED_PARTS, "mask")
+FEW_PARTS: Final = 3
 MOST_PARTS: Final = 32
 """Of a form whose request says what comes with it: more than any such request can ask for."""
 
 MULTIPART: Final = "multipart/form-data"
 MAX_REQUEST_PART_BYTES: Final = 1_000_000
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Upload:
-    """The parts of a submission; ``request`` is JSON text."""
-
-    request: bytes
-    image: bytes
-    mask: bytes | None
-
-
-async def read_upload(request: Request) -> Upload:
-    """Read the parts; ``request`` may come as a string or as a file.
-
-    Raises
-    ------
-    ProblemError
-        If the body is not a multipart form, or a part is missing, unknown or repeated.
-    """
-    if media_type(request) != MULTIPART:
-        raise unsupported(
-            request,
-            remedy=(
-                f"Send {MULTIPART} with the parts 'image' and 'request', or application/json with "
-                "the image_id of an uploaded picture."
-            ),
-            accepted=f"{MULTIPART}, application/json",
-        )
-    parts = await _parts(request, needed=NEEDED_PARTS, known=PARTS)
-    return Upload(request=parts["request"], image=parts["image"], mask=parts.get("mask"))
 
 
 async def read_image(request: Request) -> bytes:
@@ -75,7 +44,7 @@ async def read_image_and_request(request: Request) -> tuple[bytes, bytes]:
     Raises
     ------
     ProblemError
-        As :func:`read_upload`.
+        As :func:`read_image`.
     """
     if media_type(request) != MULTIPART:
         raise unsupported(
@@ -107,17 +76,19 @@ async def read_request_and_files(
 async def read_request_and_some(
     request: Request, known: Sequence[str]
 ) -> tuple[bytes, dict[str, bytes]]:
-    """Read the part ``request`` and whatever comes with it; what should, the request says.
+    """Read the part ``request`` and what comes with it; which of these should, the request says.
 
     Raises
     ------
     ProblemError
         If the body is not a multipart form, the request is missing, or a part is repeated. Parts
-        that are not ``known`` are for the caller to refuse.
+        that come with a request and are not ``known`` are for the caller to refuse, who has read
+        it.
     """
     form = await _form(request, ("request", *known), most=MOST_PARTS)
     try:
-        _check_parts(form, needed=("request",), known=tuple(form))
+        names = tuple(form) if "request" in form else ("request", *known)
+        _check_parts(form, needed=("request",), known=names)
         parts = {name: await _content(part) for name, part in form.items()}
     finally:
         await form.close()
@@ -140,7 +111,7 @@ def check_names(parts: Mapping[str, bytes], *, needed: Sequence[str], known: Seq
 async def _parts(
     request: Request, *, needed: Sequence[str], known: Sequence[str]
 ) -> dict[str, bytes]:
-    form = await _form(request, known)
+    form = await _form(request, known, most=FEW_PARTS)
     try:
         _check_parts(form, needed=needed, known=known)
         return {name: await _content(part) for name, part in form.items()}
@@ -148,7 +119,7 @@ async def _parts(
         await form.close()
 
 
-async def _form(request: Request, known: Sequence[str], *, most: int = len(PARTS)) -> FormData:
+async def _form(request: Request, known: Sequence[str], *, most: int) -> FormData:
     try:
         form = await request.form(
             max_files=most, max_fields=most, max_part_size=MAX_REQUEST_PART_BYTES

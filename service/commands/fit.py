@@ -20,7 +20,7 @@ from service.jobs.inputs import PERSON
 from service.process.caches import keep_what_is_costly
 from service.settings import Settings
 from service.submissions.refusal import RefusedError
-from service.submissions.submission import check_submission
+from service.submissions.submission import check_fit
 from service.worker.artifacts import with_result_document
 from service.worker.pipeline_port import (
     DerivationInput,
@@ -159,9 +159,7 @@ def _fit(
 ) -> PipelineOutput:
     keep_what_is_costly()
     settings = Settings()
-    checked = check_submission(
-        request=request, image=image, mask=mask, max_pixels=settings.max_pixels
-    )
+    checked = check_fit(request=request, image=image, mask=mask, max_pixels=settings.max_pixels)
     with stage_bars(console) as bars:
         output = load_pipeline(pipeline).run(
             PipelineInput(

@@ -13,9 +13,11 @@ from api_schemas.scans import ScanChoices, ScanRequest, ScanViewRequest, ViewKin
 from service.commands.fit import PIPELINE, values_from_file
 from service.commands.local_work import UNUSABLE_INPUT, told, write_files
 from service.commands.terminal import print_scan, stage_bars
+from service.jobs.inputs import SentPicture
 from service.process.caches import keep_what_is_costly
 from service.settings import Settings
-from service.submissions.scan_submission import ViewFiles, check_scan
+from service.submissions.detector import check_detector
+from service.submissions.submission import check_submission
 from service.submissions.validation import parsed
 from service.worker.artifacts import with_result_document
 from service.worker.pipeline_port import ScanInput, ScanOutput, ScanPicture, load_pipeline
@@ -64,12 +66,10 @@ def _scan(console: Console, arguments: ScanArguments, *, pipeline: str) -> ScanO
     settings = Settings()
     asked = parsed(ScanRequest, _request(arguments), whole="request", called="what is asked for")
     images = [path.read_bytes() for path in arguments.images]
-    checked = check_scan(
-        asked,
-        [ViewFiles(image=image, mask=None) for image in images],
-        max_pixels=settings.max_pixels,
-        detector=settings.detector_dir,
+    checked = check_submission(
+        asked, [SentPicture(image, None) for image in images], max_pixels=settings.max_pixels
     )
+    check_detector(checked.options, settings.detector_dir)
     with stage_bars(console, whole="whole scan") as bars:
         output = load_pipeline(pipeline).scan(
             ScanInput(

@@ -31,7 +31,7 @@ from service.estimates.messages import (
     PointsTask,
 )
 from service.estimates.port import EstimatedBody, NoDetectorError, ProposedPoints
-from service.submissions.submission import check_submission
+from service.submissions.submission import check_fit
 from service.worker.pipeline_port import UnusableInputError
 from service.worker.translate import field_problem, known_measurements
 
@@ -60,7 +60,7 @@ def prepare(models: Path | None, detector: Path | None) -> None:
             models,
         )
     sample = load_sample()
-    checked = check_submission(
+    checked = check_fit(
         request=sample.request, image=sample.image, mask=None, max_pixels=SAMPLE_PIXELS
     )
     initial_pose(

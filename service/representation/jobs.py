@@ -8,7 +8,6 @@ from api_schemas.derivation_kinds import DerivationKind
 from api_schemas.derivations import Derivation, DerivationLinks
 from api_schemas.jobs import Job, JobLinks, JobState, WebhookDelivery
 from api_schemas.scans import (
-    MOST_VIEWS,
     Scan,
     ScanDerivation,
     ScanDerivationLinks,
@@ -16,7 +15,7 @@ from api_schemas.scans import (
     ScanViewLinks,
 )
 from service.engine.port import FIT, SCAN, JobRecord, WebhookRecord
-from service.jobs.inputs import MASK, image_of, mask_of
+from service.jobs.inputs import MASK, pictures_of
 from service.jobs.states import ACTIVE
 
 POLL_AFTER_S: Final = 1
@@ -40,8 +39,21 @@ def job_path(record: JobRecord) -> str:
     return f"{derivations_path(record.root, record.parent)}/{record.id}"
 
 
-def represent(record: JobRecord) -> Job:
-    """Translate the record of a fit."""
+def list_path(record: JobRecord) -> str:
+    """Path of the list that a job is in."""
+    return job_path(record).rpartition("/")[0]
+
+
+def represent(record: JobRecord) -> Job | Scan | Derivation | ScanDerivation:
+    """Translate a record."""
+    is_of_fits = record.root == FIT
+    if record.parent is None:
+        return _fit(record) if is_of_fits else _scan(record)
+    of_root = _derivation if is_of_fits else _scan_derivation
+    return of_root(record, record.parent)
+
+
+def _fit(record: JobRecord) -> Job:
     path = job_path(record)
     succeeded = record.state is JobState.SUCCEEDED
     return Job(
@@ -56,11 +68,9 @@ def represent(record: JobRecord) -> Job:
     )
 
 
-def represent_scan(record: JobRecord) -> Scan:
-    """Translate the record of a scan."""
+def _scan(record: JobRecord) -> Scan:
     path = job_path(record)
     succeeded = record.state is JobState.SUCCEEDED
-    numbers = range(sum(image_of(number) in record.inputs for number in range(MOST_VIEWS)))
     return Scan(
         **_standing(record),
         view=record.view,
@@ -70,26 +80,16 @@ def represent_scan(record: JobRecord) -> Scan:
             views=tuple(
                 ScanViewLinks(
                     image=f"{path}/views/{number}/image",
-                    mask=f"{path}/views/{number}/mask"
-                    if mask_of(number) in record.inputs
-                    else None,
+                    mask=None if picture.mask is None else f"{path}/views/{number}/mask",
                 )
-                for number in numbers
+                for number, picture in enumerate(pictures_of(record.inputs))
             ),
             derivations=derivations_path(SCAN, record.id) if succeeded else None,
         ),
     )
 
 
-def represent_derivation(record: JobRecord) -> Derivation:
-    """Translate the record of a derivation of a fit.
-
-    Raises
-    ------
-    ValueError
-        If it is derived from none.
-    """
-    fit = _parent(record, FIT)
+def _derivation(record: JobRecord, fit: str) -> Derivation:
     return Derivation(
         **_standing(record),
         kind=DerivationKind(record.kind),
@@ -98,28 +98,13 @@ def represent_derivation(record: JobRecord) -> Derivation:
     )
 
 
-def represent_scan_derivation(record: JobRecord) -> ScanDerivation:
-    """Translate the record of a derivation of a scan.
-
-    Raises
-    ------
-    ValueError
-        If it is derived from none.
-    """
-    scan = _parent(record, SCAN)
+def _scan_derivation(record: JobRecord, scan: str) -> ScanDerivation:
     return ScanDerivation(
         **_standing(record),
         kind=DerivationKind(record.kind),
         scan_id=UUID(scan),
         links=ScanDerivationLinks(**_links(record), scan=f"{collection_path(SCAN)}/{scan}"),
     )
-
-
-def _parent(record: JobRecord, root: str) -> str:
-    if record.parent is None or record.root != root:
-        message = f"job {record.id} is derived from no {root}"
-        raise ValueError(message)
-    return record.parent
 
 
 def _standing(record: JobRecord) -> dict[str, Any]:

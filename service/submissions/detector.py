@@ -9,9 +9,9 @@ from typing import Final
 
 from api_schemas.problems import FieldProblem
 from api_schemas.requests import FitOptions
-from api_schemas.scans import ScanViewOptions
+from api_schemas.scans import ScanOptions
 from fitter.detection.weights import INSTALLATION, detector_fault
-from service.submissions.refusal import refused
+from service.submissions.refusal import of_picture, refused
 
 DETECTOR_MISSING: Final = "detector-not-installed"
 
@@ -27,7 +27,7 @@ def detector_is_installed(folder: Path | None) -> bool:
     return detector_fault(folder) is None
 
 
-def check_detector(options: FitOptions | ScanViewOptions, folder: Path | None) -> None:
+def check_detector(options: FitOptions | ScanOptions, folder: Path | None) -> None:
     """Refuse a request that needs the detector if there is none.
 
     Raises
@@ -35,13 +35,14 @@ def check_detector(options: FitOptions | ScanViewOptions, folder: Path | None) -
     RefusedError
         ``detector-not-installed``, of the field that asks for it.
     """
-    if not options.complete_points or detector_is_installed(folder):
-        return
-    raise refused(
-        FieldProblem(
-            field="complete_points" if options.points else "points",
-            code=DETECTOR_MISSING,
-            reason=NOT_INSTALLED,
-            remedy=REMEDY,
-        )
-    )
+    for number, asked in enumerate(options.pictures):
+        if asked.complete_points and not detector_is_installed(folder):
+            with of_picture(number, among=len(options.pictures)):
+                raise refused(
+                    FieldProblem(
+                        field="complete_points" if asked.points else "points",
+                        code=DETECTOR_MISSING,
+                        reason=NOT_INSTALLED,
+                        remedy=REMEDY,
+                    )
+                )

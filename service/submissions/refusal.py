@@ -15,13 +15,13 @@ class RefusedError(Exception):
 
 
 @contextlib.contextmanager
-def of_view(number: int) -> Iterator[None]:
-    """Let fields that are refused begin with the view of the scan they belong to."""
+def of_picture(number: int, *, among: int) -> Iterator[None]:
+    """Let fields that are refused begin with the view they belong to, if there are several."""
     try:
         yield
     except RefusedError as error:
         told = error.problem
-        if not told.errors:
+        if among == 1 or not told.errors:
             raise
         named = [
             each.model_copy(update={"field": f"views.{number}.{each.field}"})

@@ -4,16 +4,17 @@ The API makes them at ``POST``, the command line before it fits. What only a dec
 (a truncated picture, a strange colour space) ends the job with the same kind of problem later.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, Generic, Protocol, TypeVar
 
 from api_schemas.points import AUTO, Point
 from api_schemas.problems import FieldProblem
 from api_schemas.requests import AskedPicture, FitOptions, FitRequest
+from api_schemas.scans import ScanOptions
 from api_schemas.webhooks import WebhookTarget
 from fitter.vocabulary.points import PointName
-from service.jobs.inputs import IMAGE, MASK
+from service.jobs.inputs import IMAGE, MASK, SentPicture, named_pictures
 from service.submissions.heic import check_heic
 from service.submissions.image_header import (
     HEIC,
@@ -23,96 +24,109 @@ from service.submissions.image_header import (
     read_image_header,
 )
 from service.submissions.point_rules import checked_points, placed_points
-from service.submissions.refusal import refused
+from service.submissions.refusal import of_picture, refused
 from service.submissions.validation import parsed
 
 ACCEPTED_KINDS: Final = "JPEG, PNG, WebP or HEIC"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class CheckedPicture:
-    """Points that are named pixels inside the picture, and the kinds of picture and mask."""
+class SentFile:
+    """An encoded picture or mask, and its kind."""
 
-    points: Mapping[PointName, Point]
-    media_types: Mapping[str, str]
+    content: bytes
+    media_type: str
+
+
+Options_co = TypeVar("Options_co", bound=FitOptions | ScanOptions, covariant=True)
+
+
+class AskedFor(Protocol[Options_co]):
+    """A request for a fit or for a scan: a person, and what is asked of each of their pictures."""
+
+    @property
+    def pictures(self) -> Sequence[AskedPicture]:
+        """What is asked of each of them."""
+        ...
+
+    @property
+    def label(self) -> str | None:
+        """What the caller calls the person."""
+        ...
+
+    @property
+    def webhook(self) -> WebhookTarget | None:
+        """Whom to notify of the end."""
+        ...
+
+    def understood(self, points: Sequence[Mapping[PointName, Point]]) -> Options_co:
+        """What is asked for, of these points in the pictures."""
+        ...
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class CheckedSubmission:
-    """Options whose points are named pixels inside the picture, and the pictures' kinds.
+class CheckedSubmission(Generic[Options_co]):
+    """Options whose points are named pixels inside their pictures, and the files by name.
 
     ``webhook`` is as it was sent: whether a notice may go there is for the service to say.
     """
 
-    options: FitOptions
+    options: Options_co
     label: str | None
     webhook: WebhookTarget | None
-    media_types: Mapping[str, str]
+    files: Mapping[str, SentFile]
+
+
+def check_fit(
+    *, request: bytes, image: bytes, mask: bytes | None, max_pixels: int
+) -> CheckedSubmission[FitOptions]:
+    """Check the JSON text of a :class:`~api_schemas.requests.FitRequest` and its encoded picture.
+
+    Raises
+    ------
+    RefusedError
+        With the problem to answer.
+    """
+    return check_submission(
+        parsed(FitRequest, request, whole="request", called="the part 'request'"),
+        (SentPicture(image, mask),),
+        max_pixels=max_pixels,
+    )
 
 
 def check_submission(
-    *, request: bytes, image: bytes, mask: bytes | None, max_pixels: int
-) -> CheckedSubmission:
-    """Check the parts of a submission against each other.
+    asked: AskedFor[Options_co], sent: Sequence[SentPicture[bytes]], *, max_pixels: int
+) -> CheckedSubmission[Options_co]:
+    """Check a request against its encoded pictures, of which there are as many as it speaks of.
 
     Parameters
     ----------
-    request
-        The JSON text of a :class:`~api_schemas.requests.FitRequest`.
-    image, mask
-        The encoded pictures.
     max_pixels
         The largest picture accepted.
 
     Raises
     ------
     RefusedError
-        With the problem to answer.
+        With the problem to answer; of several pictures its fields begin with ``views.NUMBER``.
     """
-    return check_parts(
-        parsed(FitRequest, request, whole="request", called="the part 'request'"),
-        image=image,
-        mask=mask,
-        max_pixels=max_pixels,
-    )
-
-
-def check_parts(
-    asked: FitRequest, *, image: bytes, mask: bytes | None, max_pixels: int
-) -> CheckedSubmission:
-    """Check a request and encoded pictures against each other, as :func:`check_submission` does.
-
-    Raises
-    ------
-    RefusedError
-        With the problem to answer.
-    """
-    picture = check_image(asked, image=image, mask=mask, max_pixels=max_pixels)
+    points, files = [], []
+    for number, (picture, each) in enumerate(zip(asked.pictures, sent, strict=True)):
+        with of_picture(number, among=len(sent)):
+            header = check_picture(IMAGE, each.image, max_pixels=max_pixels)
+            mask = None
+            if each.mask is not None:
+                mask_header = check_picture(MASK, each.mask, max_pixels=max_pixels)
+                _check_same_size(header, mask_header)
+                mask = SentFile(content=each.mask, media_type=mask_header.media_type)
+            points.append(_points(picture, header))
+        image = SentFile(content=each.image, media_type=header.media_type)
+        files.append(SentPicture(image, mask))
     return CheckedSubmission(
-        options=asked.options(picture.points),
+        options=asked.understood(points),
         label=asked.label,
         webhook=asked.webhook,
-        media_types=picture.media_types,
+        files=named_pictures(files),
     )
-
-
-def check_image(
-    asked: AskedPicture, *, image: bytes, mask: bytes | None, max_pixels: int
-) -> CheckedPicture:
-    """Check what is asked of one encoded picture against it and its mask.
-
-    Raises
-    ------
-    RefusedError
-        With the problem to answer.
-    """
-    header = check_picture(IMAGE, image, max_pixels=max_pixels)
-    media_types = {IMAGE: header.media_type}
-    if mask is not None:
-        mask_header = check_picture(MASK, mask, max_pixels=max_pixels)
-        _check_same_size(header, mask_header)
-        media_types[MASK] = mask_header.media_type
-    return CheckedPicture(points=_points(asked, header), media_types=media_types)
 
 
 def _points(asked: AskedPicture, picture: ImageHeader) -> dict[PointName, Point]:

@@ -10,20 +10,21 @@ from datetime import UTC, datetime
 from functools import partial
 from typing import Final
 
-from api_schemas.derivations import DerivationEvent, DerivationEventType
-from api_schemas.jobs import WebhookState
-from api_schemas.scans import ScanDerivationEvent, ScanEvent, ScanEventType
+from api_schemas.derivations import Derivation, DerivationEvent, DerivationEventType
+from api_schemas.jobs import Job, WebhookState
+from api_schemas.scans import (
+    Scan,
+    ScanDerivation,
+    ScanDerivationEvent,
+    ScanEvent,
+    ScanEventType,
+)
 from api_schemas.webhooks import WebhookEvent, WebhookEventType
 from service.blobs import BlobMissingError, BlobStore, BlobsUnavailableError
-from service.engine.port import SCAN, EngineUnavailableError, JobRecord
+from service.engine.port import EngineUnavailableError, JobRecord
 from service.engine.webhooks import DueWebhook, WebhookLedger
 from service.process.logs import fields
-from service.representation.jobs import (
-    represent,
-    represent_derivation,
-    represent_scan,
-    represent_scan_derivation,
-)
+from service.representation.jobs import represent
 from service.webhooks.sending import Answer, Sender
 from service.webhooks.signing import signed_headers
 from service.webhooks.targets import read_target
@@ -49,27 +50,21 @@ def notice(job: JobRecord) -> bytes:
     return _event(job).model_dump_json().encode()
 
 
-def _event(job: JobRecord) -> WebhookEvent | DerivationEvent | ScanEvent | ScanDerivationEvent:
-    ended_at = datetime.fromtimestamp(job.finished_at or 0.0, UTC)
-    unsent = {"webhook": None}
-    if job.parent is not None:
-        how = DerivationEventType(f"derivation.{job.state}")
-        if job.root == SCAN:
-            scanned = represent_scan_derivation(job).model_copy(update=unsent)
-            return ScanDerivationEvent(type=how, timestamp=ended_at, data=scanned)
-        derived = represent_derivation(job).model_copy(update=unsent)
-        return DerivationEvent(type=how, timestamp=ended_at, data=derived)
-    if job.root == SCAN:
-        return ScanEvent(
-            type=ScanEventType(f"scan.{job.state}"),
-            timestamp=ended_at,
-            data=represent_scan(job).model_copy(update=unsent),
-        )
-    return WebhookEvent(
-        type=WebhookEventType(f"fit.{job.state}"),
-        timestamp=ended_at,
-        data=represent(job).model_copy(update=unsent),
-    )
+def _event(job: JobRecord) -> WebhookEvent | ScanEvent | DerivationEvent | ScanDerivationEvent:
+    at = datetime.fromtimestamp(job.finished_at or 0.0, UTC)
+    match represent(job).model_copy(update={"webhook": None}):
+        case Job() as data:
+            how = WebhookEventType(f"fit.{job.state}")
+            return WebhookEvent(type=how, timestamp=at, data=data)
+        case Scan() as data:
+            how = ScanEventType(f"scan.{job.state}")
+            return ScanEvent(type=how, timestamp=at, data=data)
+        case Derivation() as data:
+            how = DerivationEventType(f"derivation.{job.state}")
+            return DerivationEvent(type=how, timestamp=at, data=data)
+        case ScanDerivation() as data:
+            how = DerivationEventType(f"derivation.{job.state}")
+            return ScanDerivationEvent(type=how, timestamp=at, data=data)
 
 
 class Deliverer:

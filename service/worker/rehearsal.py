@@ -13,7 +13,7 @@ from fitter.detection.detector import installed_detector
 from fitter.errors import DetectorUnavailableError, ModelFileError
 from service.demo_data.sample import Sample, load_sample
 from service.process.apart import succeeds_apart
-from service.submissions.submission import check_submission
+from service.submissions.submission import check_fit
 from service.worker import pipeline
 from service.worker.artifacts import with_result_document
 from service.worker.compiled_kernels import load_compiled_kernels
@@ -68,7 +68,7 @@ def rehearse(models: Path | None, detector: Path | None = None) -> None:
     """
     try:
         image, request = _smaller(load_sample())
-        checked = check_submission(request=request, image=image, mask=None, max_pixels=MAX_PIXELS)
+        checked = check_fit(request=request, image=image, mask=None, max_pixels=MAX_PIXELS)
         output = pipeline.run(
             PipelineInput(
                 options=checked.options,

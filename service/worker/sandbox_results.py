@@ -22,9 +22,8 @@ from service.demo_data.sample import (
     load_woman,
 )
 from service.engine.port import Report
-from service.jobs.inputs import IMAGE, PERSON, REQUEST
-from service.submissions.scan_submission import ViewFiles, check_scan
-from service.submissions.submission import check_submission
+from service.jobs.inputs import IMAGE, PERSON, REQUEST, SentPicture
+from service.submissions.submission import check_fit, check_submission
 from service.worker import pipeline
 from service.worker.artifacts import with_result_document
 from service.worker.pipeline_port import (
@@ -129,7 +128,7 @@ class _Folders:
 
 
 def _fit(sample: Sample | PictureSample, folders: _Folders) -> CannedFit:
-    checked = check_submission(
+    checked = check_fit(
         request=sample.request, image=sample.image, mask=None, max_pixels=MAX_PIXELS
     )
     reports: list[Report] = []
@@ -153,11 +152,10 @@ def _fit(sample: Sample | PictureSample, folders: _Folders) -> CannedFit:
 
 
 def _scan(sample: ScanSample, folders: _Folders) -> CannedScan:
-    checked = check_scan(
+    checked = check_submission(
         ScanRequest.model_validate_json(sample.request),
-        [ViewFiles(image=image, mask=None) for image in sample.images],
+        [SentPicture(image, None) for image in sample.images],
         max_pixels=MAX_PIXELS,
-        detector=folders.detector,
     )
     reports: list[Report] = []
     output = pipeline.scan(

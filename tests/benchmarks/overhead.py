@@ -126,7 +126,7 @@ def _used(deployment: Deployment) -> list[float]:
 
 def _loop(answer: Connection) -> None:
     from api_schemas.requests import FitOptions
-    from service.submissions.submission import check_submission
+    from service.submissions.submission import check_fit
     from service.worker import pipeline
     from service.worker.artifacts import with_result_document
     from service.worker.pipeline_port import PipelineInput
@@ -134,7 +134,7 @@ def _loop(answer: Connection) -> None:
     while submissions := answer.recv():
         used, began = time.process_time(), time.monotonic()
         for each in submissions:
-            checked = check_submission(
+            checked = check_fit(
                 request=each.request.encode(), image=each.image, mask=None, max_pixels=10**7
             )
             options = FitOptions.model_validate_json(checked.options.model_dump_json())

@@ -14,9 +14,15 @@ from api_schemas.derivations import DerivationRequest
 from api_schemas.scans import ScanRequest
 from service.api.derivation_kinds import needs_of
 from service.demo_data.sample import load_sample, load_scan_sample
-from service.jobs.inputs import IMAGE, OF_EACH_PICTURE, OF_FIRST_VIEW, REQUEST, image_of
-from service.submissions.scan_submission import ViewFiles, check_scan
-from service.submissions.submission import check_submission
+from service.jobs.inputs import (
+    IMAGE,
+    OF_EACH_PICTURE,
+    OF_FIRST_VIEW,
+    REQUEST,
+    SentPicture,
+    image_of,
+)
+from service.submissions.submission import check_fit, check_submission
 from service.worker.artifacts import with_result_document
 from service.worker.pipeline import derive, run, scan
 from service.worker.pipeline_port import (
@@ -102,7 +108,7 @@ def _made() -> Iterator[tuple[str, Mapping[str, bytes]]]:
 def _of_fit() -> dict[str, bytes]:
     """A fit's files, its picture and its request."""
     sample = load_sample()
-    options = check_submission(
+    options = check_fit(
         request=sample.request, image=sample.image, mask=None, max_pixels=MAX_PIXELS
     ).options
     output = run(
@@ -116,11 +122,10 @@ def _of_fit() -> dict[str, bytes]:
 def _of_scan() -> dict[str, bytes]:
     """A scan's files, its pictures and its request."""
     sample = load_scan_sample()
-    checked = check_scan(
+    checked = check_submission(
         ScanRequest.model_validate_json(sample.request),
-        [ViewFiles(image=image, mask=None) for image in sample.images],
+        [SentPicture(image, None) for image in sample.images],
         max_pixels=MAX_PIXELS,
-        detector=None,
     )
     pictures = tuple(ScanPicture(image=image, mask=None) for image in sample.images)
     output = scan(

@@ -9,7 +9,7 @@ from fitter.fits.pipeline import fit
 from fitter.request import Cues, FitRequest, KnownMeasurement
 from fitter.result import FitResult, StageBody
 from service.demo_data.sample import load_sample
-from service.submissions.submission import check_submission
+from service.submissions.submission import check_fit
 from service.worker.translate import fit_request
 
 SAMPLE = load_sample()
@@ -18,7 +18,7 @@ MOST_PIXELS = 50_000_000
 
 def sample_request(**known: float | tuple[float, float]) -> FitRequest:
     """The sample with some of the true measurements, of silhouette and edges for speed."""
-    checked = check_submission(
+    checked = check_fit(
         request=SAMPLE.request, image=SAMPLE.image, mask=None, max_pixels=MOST_PIXELS
     )
     request = fit_request(checked.options, image=SAMPLE.image, mask=None, max_pixels=MOST_PIXELS)

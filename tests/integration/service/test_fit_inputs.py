@@ -43,7 +43,7 @@ def test_a_mask_can_be_had_again_where_one_was_sent(service: Service):
     assert without["links"]["mask"] is None
     answer = service.client.get(f"{without['links']['self']}/mask")
     assert answer.status_code == 404
-    assert answer.json()["detail"] == "There is no mask: this job was sent none."
+    assert answer.json()["detail"] == "There is no mask: none was sent with this picture."
 
 
 def test_a_picture_can_be_had_as_a_jpeg(service: Service):

@@ -8,7 +8,7 @@ import pytest
 from api_schemas.derivations import DerivationRequest
 from service.engine.port import FIT
 from service.jobs.inputs import IMAGE, PERSON, RESULT
-from service.submissions.submission import check_submission
+from service.submissions.submission import check_fit
 from service.worker import child
 from service.worker.child_tasks import ChildSetup, ChildTask
 from service.worker.forking import ForkedProcesses
@@ -97,9 +97,7 @@ def _without_durations(document: bytes) -> bytes:
 
 
 def _fit(request: str, image: bytes) -> Job:
-    checked = check_submission(
-        request=request.encode(), image=image, mask=None, max_pixels=MAX_PIXELS
-    )
+    checked = check_fit(request=request.encode(), image=image, mask=None, max_pixels=MAX_PIXELS)
     return FIT, checked.options.model_dump_json().encode(), {IMAGE: image}
 
 

@@ -67,7 +67,7 @@ def test_of_every_view_the_same_person_is_asked():
         cues="SE",
         force=True,
     )
-    options = asked.options([view.options({}) for view in asked.views])
+    options = asked.understood([{} for _ in asked.views])
     kept = ScanOptions.model_validate_json(options.model_dump_json())
     assert kept == options
     first, second = (kept.of_view(number) for number in range(2))

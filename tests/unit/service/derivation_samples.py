@@ -29,7 +29,7 @@ from service.jobs.inputs import (
     of_other,
     own_and_others,
 )
-from service.submissions.submission import check_submission
+from service.submissions.submission import check_fit
 from service.worker.pipeline import derive, run
 from service.worker.pipeline_port import (
     DerivationInput,
@@ -97,9 +97,7 @@ def sample_inputs() -> dict[str, bytes]:
     """
     sample = load_sample()
     asked = json.dumps(json.loads(sample.request) | {"cues": "SE"}).encode()
-    options = check_submission(
-        request=asked, image=sample.image, mask=None, max_pixels=1_000_000
-    ).options
+    options = check_fit(request=asked, image=sample.image, mask=None, max_pixels=1_000_000).options
     output = run(
         PipelineInput(options=options, image=sample.image, mask=None, max_pixels=1_000_000),
         lambda _: None,

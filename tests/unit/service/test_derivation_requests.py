@@ -8,7 +8,7 @@ import pytest
 from starlette.requests import Request
 
 from service.api.derivation_kinds import texture
-from service.api.derivation_requests import read_derivation
+from service.api.derivations import read_derivation
 from service.jobs.inputs import TEXTURE
 from service.submissions.submission import check_picture
 from tests.integration.service.fake_pipeline import scripted_image

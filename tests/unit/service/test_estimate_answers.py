@@ -17,7 +17,7 @@ from service.demo_data.sample import load_sample
 from service.estimates.answers import body, check, initial_pose, jpeg, points
 from service.estimates.messages import BodyTask, CheckTask, InitialPoseTask, PointsTask
 from service.estimates.port import NoDetectorError
-from service.submissions.submission import check_submission
+from service.submissions.submission import check_fit
 from service.worker.pipeline_port import UnusableInputError
 from tests.heif_files import SAMPLE_LYING, coded, phone_picture
 
@@ -66,7 +66,7 @@ def test_what_nobody_is_is_refused_where_it_was_said(known, field, code):
 
 def sample_pose(*, exif_focal_length_35mm: float | None = None, **changes: object):
     sample = load_sample()
-    options = check_submission(
+    options = check_fit(
         request=sample.request, image=sample.image, mask=None, max_pixels=1_000_000
     ).options.model_copy(update=changes)
     task = InitialPoseTask(
@@ -190,7 +190,7 @@ def test_the_sample_is_not_seen_from_the_side_nor_far_enough_through_half_the_le
 
 
 def test_without_a_detector_points_are_checked_and_a_picture_alone_is_not(tmp_path):
-    points = check_submission(
+    points = check_fit(
         request=load_sample().request, image=load_sample().image, mask=None, max_pixels=1_000_000
     ).options.points
     found = checked_sample(detector=tmp_path, points=points, view=ViewKind.FRONT)

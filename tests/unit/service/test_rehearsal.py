@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from fitter.errors import ModelFileError
-from service.submissions.submission import check_submission
+from service.submissions.submission import check_fit
 from service.worker import pipeline, rehearsal
 from service.worker.main import THREAD_LIMITS
 from service.worker.pipeline_port import PipelineInput, PipelineOutput
@@ -22,7 +22,7 @@ REPOSITORY = Path(__file__).parents[3]
 
 def fitted() -> PipelineOutput:
     (submission,) = small_submissions(1)
-    checked = check_submission(
+    checked = check_fit(
         request=submission.request.encode(), image=submission.image, mask=None, max_pixels=10**6
     )
     return pipeline.run(

@@ -6,7 +6,7 @@ import pytest
 from api_schemas.points import Point
 from fitter.vocabulary.points import POINT_NAMES
 from service.submissions.refusal import RefusedError
-from service.submissions.submission import CheckedSubmission, check_submission
+from service.submissions.submission import CheckedSubmission, check_fit
 from tests.heif_files import Item, heif, size
 from tests.integration.service.fake_pipeline import scripted_image
 
@@ -36,7 +36,7 @@ def check(
     **changes: object,
 ) -> CheckedSubmission:
     whole = {"gender": "male", "height_m": 1.8, "points": POINTS} | changes
-    return check_submission(
+    return check_fit(
         request=request if isinstance(request, bytes) else json.dumps(request or whole).encode(),
         image=scripted_image() if image is None else image,
         mask=mask,
@@ -184,7 +184,9 @@ def test_a_bad_picture_is_refused(field, content, status, code):
 
 def test_a_heic_is_accepted_by_its_head():
     checked = check(image=heif(Item(b"hvc1", b"", (size(300, 400),))))
-    assert checked.media_types == {"image": "image/heic"}
+    assert {name: file.media_type for name, file in checked.files.items()} == {
+        "image": "image/heic"
+    }
 
 
 def test_a_heic_with_too_many_pixels_is_refused():
@@ -204,4 +206,4 @@ def test_a_mask_of_another_size_is_refused():
 
 
 def test_a_mask_of_the_same_size_is_accepted():
-    assert check(mask=scripted_image()).media_types["mask"] == "image/png"
+    assert check(mask=scripted_image()).files["mask"].media_type == "image/png"
