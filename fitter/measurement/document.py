@@ -14,7 +14,7 @@ from fitter.measurement.definitions import (
     MeasurementDefinition,
     SurveyDefinition,
 )
-from fitter.measurement.groups import Group, group_of
+from fitter.vocabulary.measurements import Group, group_of
 
 _HEADING = """# Measurements
 

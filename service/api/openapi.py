@@ -29,12 +29,14 @@ from api_schemas.scans import (
 )
 from api_schemas.tokens import TokenRequest
 from api_schemas.webhooks import WebhookEvent
+from fitter.vocabulary.measurements import CHIEF, MEASUREMENT_UNITS, Group, group_of
 from fitter.vocabulary.points import (
     CLEAR_BREADTH,
     LIMB_POINT_NAMES,
     MIN_EXTENT,
     MIN_LIMB_POINTS,
     MIN_TRUNK_POINTS,
+    POINT_NAMES,
     TRUNK_POINT_NAMES,
 )
 from service.api.json_bodies import JSON, json_content
@@ -136,14 +138,25 @@ _WEBHOOKS: dict[str, Any] = {
 
 
 _LIMITS: dict[str, Any] = {
-    "description": "Limits of several fields together, for clients that check before they send.",
+    "description": (
+        "Limits of several fields together, for clients that check before they send, and the names "
+        "of points and measurements."
+    ),
     "points": {
+        "names": POINT_NAMES,
         "limb_names": LIMB_POINT_NAMES,
         "trunk_names": TRUNK_POINT_NAMES,
         "least_limb_points": MIN_LIMB_POINTS,
         "least_trunk_points": MIN_TRUNK_POINTS,
         "least_extent": MIN_EXTENT,
         "clear_breadth": CLEAR_BREADTH,
+    },
+    "measurements": {
+        "chief": CHIEF,
+        "groups": {
+            group.name.lower(): [name for name in MEASUREMENT_UNITS if group_of(name) is group]
+            for group in Group
+        },
     },
     "height_m": {"least": MIN_HEIGHT_M, "most": MAX_HEIGHT_M},
     "texture_sizes": TEXTURE_SIZES,

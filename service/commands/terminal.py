@@ -11,7 +11,7 @@ from rich.table import Table
 from api_schemas.problems import Problem
 from api_schemas.results import Assumption, FitResult, FitWarning, Measurement
 from api_schemas.scans import ScanResult
-from fitter.measurement.groups import group_of
+from fitter.vocabulary.measurements import group_of
 
 SHADED: Final = "SES"
 UNSHADED: Final = "SE"

@@ -23,12 +23,12 @@ from fitter.export.views import turned_about_vertical
 from fitter.measurement.anthropometry import measuring_body, tape_lines
 from fitter.measurement.definitions import Extent, Height, Length
 from fitter.measurement.document import ATLAS_FOLDER, sheet_name
-from fitter.measurement.groups import Group, group_of
 from fitter.observation.colour import display_from_linear
 from fitter.render.camera import Camera
 from fitter.render.interpolation import shade_image
 from fitter.render.rasterizer import Rendering, render
 from fitter.training.report.body_sheets import CLAY, DISTANCE_M, FILL_LIGHT, FONT, TO_LIGHT
+from fitter.vocabulary.measurements import Group, group_of
 
 GENDER = "female"
 

@@ -2,7 +2,7 @@ from pathlib import Path
 
 from fitter.measurement.definition_file import load_definitions
 from fitter.measurement.document import ATLAS_FOLDER, measurements_page, sheet_name
-from fitter.measurement.groups import Group
+from fitter.vocabulary.measurements import Group
 
 PAGE = Path(__file__).parents[3] / "MEASUREMENTS.md"
 

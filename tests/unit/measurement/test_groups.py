@@ -1,7 +1,7 @@
 import pytest
 
 from fitter.measurement.definition_file import load_definitions
-from fitter.measurement.groups import CHIEF, Group, group_of
+from fitter.vocabulary.measurements import CHIEF, Group, group_of
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from PIL import Image
 from api_schemas.derivation_kinds.report import Language, ReportOptions
 from api_schemas.scans import ScanResult
 from fitter.measurement.definition_file import load_definitions
-from fitter.measurement.groups import CHIEF
+from fitter.vocabulary.measurements import CHIEF
 from service.api.examples.scans import RESULT as SCAN
 from service.worker.derived.report.content import report_content
 from service.worker.derived.report.page_html import report_html

@@ -11,8 +11,8 @@ import pytest
 from api_schemas.results import FitResult
 from fitter.export.tapes import tapes_of
 from fitter.fits.prepared_model import prepared_model
-from fitter.measurement.groups import CHIEF
 from fitter.person.fitted_person import FittedPerson
+from fitter.vocabulary.measurements import CHIEF
 from service.jobs.inputs import PERSON, RESULT, TAPES
 from service.worker.derived.report.tape_drawing import TapeDrawing, tape_drawing
 from tests.unit.service.derivation_samples import INPUTS, derived

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from fitter.measurement.document import ATLAS_FOLDER, sheet_name
-from fitter.measurement.groups import Group
 from fitter.training.report.measurement_atlas import TAPE, atlas_sheets
+from fitter.vocabulary.measurements import Group
 
 FOLDER = Path(__file__).parents[3] / ATLAS_FOLDER
 

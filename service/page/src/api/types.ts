@@ -48,5 +48,6 @@ export type ViewKind = Schemas["ViewKind"];
 export type CheckOfImage = Schemas["CheckOfImage"];
 export type CaptureCheck = Schemas["CaptureCheck"];
 export type Finding = Schemas["Finding"];
+export type PointName = NonNullable<Finding["points"]>[number];
 export type CombinedResult = Schemas["CombinedResult"];
 export type SizeResult = Schemas["SizeResult"];

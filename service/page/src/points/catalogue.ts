@@ -1,37 +1,23 @@
 // The points a person clicks, in the order they are asked for.
 
-export const POINT_NAMES = [
-  "left_shoulder",
-  "right_shoulder",
-  "left_elbow",
-  "right_elbow",
-  "left_wrist",
-  "right_wrist",
-  "left_hip",
-  "right_hip",
-  "left_knee",
-  "right_knee",
-  "left_ankle",
-  "right_ankle",
-  "head_top",
-  "nose",
-  "left_eye",
-  "right_eye",
-  "left_ear",
-  "right_ear",
-  "chin",
-  "neck",
-  "left_heel",
-  "right_heel",
-  "left_toe",
-  "right_toe",
-] as const;
+import { POINTS } from "../api/limits";
+import type { PointName } from "../api/types";
 
-export type PointName = (typeof POINT_NAMES)[number];
+export type { PointName };
+
+export const LIMB_POINTS = POINTS.limbs;
+export const TRUNK_POINTS = POINTS.trunk;
+
+const HEAD_FIRST: readonly PointName[] = ["head_top", "nose"];
+const FURTHER = POINTS.names.filter((name) => !LIMB_POINTS.includes(name));
+
+export const POINT_NAMES: readonly PointName[] = [
+  ...LIMB_POINTS,
+  ...HEAD_FIRST,
+  ...FURTHER.filter((name) => !HEAD_FIRST.includes(name)),
+];
+
 export type Side = "left" | "right" | "middle";
-
-export const LIMB_POINTS: readonly PointName[] = POINT_NAMES.slice(0, 12);
-export const TRUNK_POINTS: readonly PointName[] = ["left_shoulder", "right_shoulder", "left_hip", "right_hip"];
 
 export const BONES: readonly (readonly [PointName, PointName])[] = [
   ["left_shoulder", "right_shoulder"],

@@ -1,15 +1,13 @@
 // Points from files and to files: COCO's annotation JSON, detectors' lists, and our own.
+import { POINTS } from "../api/limits";
 import { messages } from "../messages/language";
 import { isPointName } from "./catalogue";
 import type { PointName } from "./catalogue";
 import { NO_POINTS } from "./placed";
 import type { Place, Points } from "./placed";
 
-export const COCO_NAMES: readonly PointName[] = [
-  "nose", "left_eye", "right_eye", "left_ear", "right_ear",
-  "left_shoulder", "right_shoulder", "left_elbow", "right_elbow", "left_wrist", "right_wrist",
-  "left_hip", "right_hip", "left_knee", "right_knee", "left_ankle", "right_ankle",
-];
+const COCO_COUNT = 17;
+export const COCO_NAMES: readonly PointName[] = POINTS.names.slice(0, COCO_COUNT);
 
 type Placed = Partial<Record<PointName, Place>>;
 

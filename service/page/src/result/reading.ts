@@ -1,4 +1,5 @@
 // Measurements as a person reads them.
+import { MEASUREMENTS } from "../api/limits";
 import type { FitResult, Measurement } from "../api/types";
 import { feetAndInches } from "../draft/feet";
 import type { Person } from "../draft/person";
@@ -26,32 +27,7 @@ export function definitionOf({ name, definition }: Pick<Measurement, "name" | "d
 }
 
 /** What most people ask for: shown first, and drawn on the body before one is chosen. */
-const CHIEF: ReadonlySet<string> = new Set([
-  "stature",
-  "weight",
-  "head_girth",
-  "neck_girth",
-  "chest_girth",
-  "under_bust_girth",
-  "waist_girth_smallest",
-  "waist_girth_navel",
-  "hip_girth",
-  "upper_arm_girth",
-  "forearm_girth",
-  "wrist_girth",
-  "thigh_girth",
-  "knee_girth",
-  "calf_girth",
-  "ankle_girth",
-  "shoulder_breadth",
-  "back_shoulder_width",
-  "arm_length",
-  "sleeve_length",
-  "back_waist_length",
-  "crotch_length",
-  "inseam",
-  "outseam",
-]);
+const CHIEF: ReadonlySet<string> = new Set(MEASUREMENTS.chief);
 
 export function isChief(name: string): boolean {
   return CHIEF.has(name);
@@ -62,25 +38,18 @@ export interface MeasureGroup<M> {
   readonly members: readonly M[];
 }
 
-/** All that is not chief, under headings; the names tell what they are. */
+/** All that is not chief, under headings. */
 export function furtherMeasures<M extends { readonly name: string }>(measurements: readonly M[]): readonly MeasureGroup<M>[] {
   const further = measurements.filter((each) => !isChief(each.name));
   return GROUPS
     .map((group) => ({
       heading: messages.value.measures.groups[group],
-      members: further.filter((each) => groupOf(each.name) === group),
+      members: further.filter((each) => MEASUREMENTS.groups[group].includes(each.name)),
     }))
     .filter((group) => group.members.length > 0);
 }
 
 const GROUPS = ["girths", "lengths", "heights", "breadths"] as const;
-
-function groupOf(name: string): (typeof GROUPS)[number] {
-  if (name.split("_").includes("girth")) return "girths";
-  // Of the heights one is the head's own.
-  if (name.endsWith("_height") && name !== "head_height") return "heights";
-  return /_(breadth|depth)$/.test(name) ? "breadths" : "lengths";
-}
 
 export interface Shown {
   readonly value: string;

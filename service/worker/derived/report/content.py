@@ -21,7 +21,7 @@ from api_schemas.results import (
     SurroundingsResult,
     Verdict,
 )
-from fitter.measurement.groups import CHIEF, Group, group_of
+from fitter.vocabulary.measurements import CHIEF, Group, group_of
 from service.worker.derived.report.units import height_in_words, in_units
 from service.worker.derived.report.wording import (
     Wording,

@@ -12,9 +12,8 @@ from fitter.arrays import Points2D, Points3D
 from fitter.export.tape_views import TapeView, best_sides, tape_views
 from fitter.fits.prepared_model import prepared_model
 from fitter.measurement.definitions import Extent, Height, Length
-from fitter.measurement.groups import CHIEF, Group, group_of
 from fitter.person.fitted_person import FittedPerson
-from fitter.vocabulary.measurements import STATURE
+from fitter.vocabulary.measurements import CHIEF, STATURE, Group, group_of
 from service.jobs.inputs import PERSON, TAPES
 
 TAG_PX: Final = 21.0

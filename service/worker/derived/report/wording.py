@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from api_schemas.derivation_kinds.report import Language
 from api_schemas.requests import Cues, Gender
 from api_schemas.results import Assumption, FitWarning, FocalLengthSource, Outcome, Verdict
-from fitter.measurement.groups import Group
 from fitter.vocabulary.choices import ViewKind
+from fitter.vocabulary.measurements import Group
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
