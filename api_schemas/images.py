@@ -37,3 +37,13 @@ class UploadedImage(WireModel):
     )
     created_at: datetime
     expires_at: datetime | None = Field(description="When it is erased; null if it is kept.")
+    token_id: str | None = Field(
+        default=None, description="The browser's token it was uploaded with; null if with a key."
+    )
+
+
+class ImagePage(WireModel):
+    """Uploaded pictures, newest first; ``next`` is the path of the following page."""
+
+    images: tuple[UploadedImage, ...]
+    next: str | None

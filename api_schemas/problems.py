@@ -214,7 +214,10 @@ _TYPES: Final = (
         slug="quota-exceeded",
         title="There is no room for more of your pictures",
         status=507,
-        description="As many uploaded pictures, or bytes of them, are kept as one tenant may have.",
+        description=(
+            "As many uploaded pictures, or bytes of them, are kept as one tenant may have, or one "
+            "browser's token."
+        ),
     ),
 )
 

@@ -35,11 +35,12 @@ from service.api import browser_tokens as token_routes
 from service.api.authentication import Authentication, KeySource, KnownKeys
 from service.api.body_limit import BodyLimit
 from service.api.body_time import BodyTimeLimit
-from service.api.browser_tokens import KnownTokens
 from service.api.context import Parts
 from service.api.estimates import Estimates
 from service.api.event_feed import EventFeed
 from service.api.job_inputs import COPIED_AT_ONCE
+from service.api.key_uses import KeyUses
+from service.api.known_tokens import KnownTokens
 from service.api.local_guard import LocalGuard
 from service.api.message_framing import MessageFraming
 from service.api.observation import Observation
@@ -122,6 +123,7 @@ def create_app(
 
     app = _resources(lifespan)
     metrics = ServiceMetrics(engine, disk)
+    known_tokens = KnownTokens(browser_tokens)
     app.state.parts = Parts(
         settings=settings,
         engine=engine,
@@ -133,13 +135,14 @@ def create_app(
         draining=draining,
         copying=CapacityLimiter(COPIED_AT_ONCE),
         browser_tokens=browser_tokens,
+        known_tokens=known_tokens,
         readiness=Readiness(readiness_checks(engine, blobs, disk)),
     )
     _surround(
         app,
         settings=settings,
         keys=keys,
-        browser_tokens=browser_tokens,
+        known_tokens=known_tokens,
         rate_limit=rate_limit,
         metrics=metrics,
     )
@@ -151,7 +154,7 @@ def _surround(
     *,
     settings: Settings,
     keys: KeySource,
-    browser_tokens: BrowserTokens,
+    known_tokens: KnownTokens,
     rate_limit: RateLimit | None,
     metrics: ServiceMetrics,
 ) -> None:
@@ -161,7 +164,8 @@ def _surround(
     app.add_middleware(
         Authentication,
         keys=KnownKeys(keys) if needs_keys else None,
-        tokens=KnownTokens(browser_tokens),
+        tokens=known_tokens,
+        uses=KeyUses(keys),
         rate_limit=rate_limit,
     )
     if settings.allowed_origins:

@@ -13,8 +13,10 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 
 from api_schemas.problems import problem
 from service.api.body_limit import refuse
-from service.api.browser_tokens import KnownTokens, is_allowed
+from service.api.browser_tokens import is_allowed
 from service.api.context import SOLE_TENANT, Caller
+from service.api.key_uses import KeyUses, UseStore
+from service.api.known_tokens import KnownTokens
 from service.api.problems import ProblemError, problem_response
 from service.api.rate_limit import RateLimit
 from service.engine.browser_tokens import MARK
@@ -45,8 +47,8 @@ UNKNOWN_TOKEN: Final = "The token is unknown or has expired, or its key is revok
 NEW_TOKEN: Final = "Have the site that shows this page make a new one: POST /v1/tokens."
 
 
-class KeySource(Protocol):
-    """Where the keys are."""
+class KeySource(UseStore, Protocol):
+    """Where the keys and their uses are."""
 
     def all_keys(self) -> Sequence[ApiKey]:
         """Return all keys."""
@@ -105,11 +107,13 @@ class Authentication:
         *,
         keys: KnownKeys | None,
         tokens: KnownTokens,
+        uses: KeyUses,
         rate_limit: RateLimit | None,
     ) -> None:
         self._app = app
         self._keys = keys
         self._tokens = tokens
+        self._uses = uses
         self._rate_limit = rate_limit
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -141,6 +145,8 @@ class Authentication:
                 caller = await self._holder(self._keys, presented.strip(), path)
         except EngineUnavailableError as error:
             raise _not_ready() from error
+        if caller.key_id is not None:
+            self._uses.note(caller.key_id)
         if self._rate_limit is not None and caller.key_id is not None:
             retry_after_s = await self._rate_limit.take(caller.key_id)
             if retry_after_s:

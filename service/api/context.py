@@ -10,6 +10,7 @@ from fastapi import Depends, Request
 
 from service.api.estimates import Estimates
 from service.api.event_feed import EventFeed
+from service.api.known_tokens import KnownTokens
 from service.api.readiness import Readiness
 from service.api.service_metrics import ServiceMetrics
 from service.blobs import BlobStore
@@ -50,6 +51,7 @@ class Parts:
     draining: threading.Event
     copying: CapacityLimiter
     browser_tokens: BrowserTokens
+    known_tokens: KnownTokens
     readiness: Readiness
 
 
@@ -71,6 +73,7 @@ class ApiContext:
     draining: threading.Event
     copying: CapacityLimiter
     browser_tokens: BrowserTokens
+    known_tokens: KnownTokens
     tenant: str
     key_id: str | None
     token: BrowserToken | None
@@ -96,6 +99,7 @@ def _context(request: Request) -> ApiContext:
         draining=parts.draining,
         copying=parts.copying,
         browser_tokens=parts.browser_tokens,
+        known_tokens=parts.known_tokens,
         tenant=tenant,
         key_id=caller.key_id,
         token=caller.token,

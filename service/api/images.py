@@ -7,28 +7,38 @@ from functools import partial
 from typing import Annotated, Any, Final
 from uuid import uuid4
 
-from fastapi import APIRouter, Path, Request, Response
+from fastapi import APIRouter, Path, Query, Request, Response
 from starlette.concurrency import run_in_threadpool
 
-from api_schemas.images import ImageId, UploadedImage
+from api_schemas.images import ImageId, ImagePage, UploadedImage
 from api_schemas.problems import FieldProblem, problem
 from service.api.artifacts import AcceptHeader
 from service.api.context import ApiContext, Context
 from service.api.erasure import erase_blobs
-from service.api.job_routes import IfNoneMatch
+from service.api.job_routes import IfNoneMatch, Limit
 from service.api.json_bodies import JSON, json_content
+from service.api.list_cursors import cursor_of, cursor_pattern, read_cursor
 from service.api.picture_forms import picture_form
 from service.api.pictures import AS_JPEG, PICTURE_ANSWERS, serve_stored_picture
 from service.api.problems import ProblemError, documented, not_found
 from service.api.room import no_room, storing
 from service.api.uploads import read_image
 from service.blobs import BlobMissingError, BlobsUnavailableError
-from service.engine.image_port import ImageQuotaError, ImageRecord, KeptImage, NewImage
+from service.engine.image_port import (
+    ImageQuotaError,
+    ImageRecord,
+    KeptImage,
+    NewImage,
+    TokenQuotaError,
+)
 from service.engine.port import StoredBlob
 from service.submissions.refusal import RefusedError, refused
 from service.submissions.submission import check_picture
 
-ROUTER: Final = APIRouter(prefix="/v1/images", tags=["images"])
+PATH: Final = "/v1/images"
+ROUTER: Final = APIRouter(prefix=PATH, tags=["images"])
+
+CURSOR: Final = cursor_pattern("[0-9a-f]{64}")
 
 _UPLOAD: Final[dict[str, Any]] = {"requestBody": {"required": True, "content": picture_form()}}
 _CONTENT: Final = {JSON: json_content(UploadedImage)}
@@ -72,8 +82,38 @@ async def upload_image(request: Request, response: Response, context: Context) -
     with storing():
         kept = await run_in_threadpool(_keep, context, content)
     response.status_code = 201 if kept.is_new else 200
-    response.headers["Location"] = f"/v1/images/{kept.record.id}"
+    response.headers["Location"] = f"{PATH}/{kept.record.id}"
     return _represent(kept.record)
+
+
+@ROUTER.get(
+    "",
+    response_model=ImagePage,
+    summary="List uploaded pictures, newest first",
+    responses=documented("invalid-request", "not-ready", "internal-error"),
+)
+def list_images(
+    response: Response,
+    context: Context,
+    limit: Limit = 50,
+    cursor: Annotated[
+        str | None,
+        Query(description="From `next` of the page before.", json_schema_extra={"pattern": CURSOR}),
+    ] = None,
+) -> ImagePage:
+    """List the pictures that are kept: with a token its own, with a key all of the tenant's.
+
+    Where the same picture was uploaded with a key and with tokens it is listed for each of them.
+    `next` and the Link header lead to the following page.
+    """
+    before = None if cursor is None else read_cursor(CURSOR, cursor)
+    found = context.images.images(limit=limit + 1, before=before)
+    page = found[:limit]
+    following = None
+    if len(found) > limit:
+        following = f"{PATH}?limit={limit}&cursor={cursor_of(page[-1].created_at, page[-1].id)}"
+        response.headers["Link"] = f'<{following}>; rel="next"'
+    return ImagePage(images=tuple(map(_represent, page)), next=following)
 
 
 @ROUTER.get(
@@ -122,11 +162,14 @@ async def get_picture(
     responses=documented("not-found", "invalid-request", "not-ready", "internal-error"),
 )
 def erase_image(image_id: Annotated[ImageId, Path()], context: Context) -> Response:
-    """Erase a picture; fits that were made of it are not affected."""
-    scope = context.images.erase(image_id)
-    if scope is None:
+    """Erase a picture; fits that were made of it are not affected.
+
+    With a key it is erased wherever it was uploaded: with keys and with tokens of the tenant.
+    """
+    scopes = context.images.erase(image_id)
+    if not scopes:
         raise not_found(what="such picture")
-    erase_blobs(context.blobs, [scope])
+    erase_blobs(context.blobs, scopes)
     return Response(status_code=204)
 
 
@@ -184,30 +227,26 @@ def _keep(context: ApiContext, content: bytes) -> KeptImage:
     try:
         context.images.reserve(scope, size=len(content))
     except ImageQuotaError as error:
-        raise ProblemError(
-            problem(
-                "quota-exceeded",
-                detail=str(error),
-                remedy="Erase pictures you need no more by DELETE /v1/images/{id}, or wait until "
-                "they expire; a fit can also bring its picture along.",
-            )
-        ) from error
+        raise _no_quota(error) from error
     try:
         context.blobs.put(scope, content)
     except BlobsUnavailableError:
         _erase_at_once(context, scope)
         raise
-    kept = context.images.keep(
-        NewImage(
-            id=image_id,
-            scope=scope,
-            media_type=header.media_type,
-            width=header.width,
-            height=header.height,
-            size=len(content),
-            focal_length_35mm=header.focal_length_35mm,
-        )
+    new = NewImage(
+        id=image_id,
+        scope=scope,
+        media_type=header.media_type,
+        width=header.width,
+        height=header.height,
+        size=len(content),
+        focal_length_35mm=header.focal_length_35mm,
     )
+    try:
+        kept = context.images.keep(new)
+    except TokenQuotaError as error:
+        _erase_at_once(context, scope)
+        raise _no_quota(error) from error
     if kept is None or not kept.is_new:
         _erase_at_once(context, scope)
     if kept is None:
@@ -220,6 +259,19 @@ def _keep(context: ApiContext, content: bytes) -> KeptImage:
             )
         )
     return kept
+
+
+def _no_quota(error: ImageQuotaError) -> ProblemError:
+    of_token = isinstance(error, TokenQuotaError)
+    return ProblemError(
+        problem(
+            "quota-exceeded",
+            detail=str(error),
+            remedy="Erase pictures you need no more by DELETE /v1/images/{id}, or "
+            + ("ask with another token" if of_token else "wait until they expire")
+            + "; a fit can also bring its picture along.",
+        )
+    )
 
 
 def _erase_at_once(context: ApiContext, scope: str) -> None:
@@ -238,4 +290,5 @@ def _represent(record: ImageRecord) -> UploadedImage:
         focal_length_35mm=record.focal_length_35mm,
         created_at=datetime.fromtimestamp(record.created_at, UTC),
         expires_at=datetime.fromtimestamp(record.expires_at, UTC),
+        token_id=record.token_id,
     )

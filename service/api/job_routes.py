@@ -1,6 +1,5 @@
 """What routes do with a job: find, show, list, cancel and erase."""
 
-import re
 from collections.abc import Sequence
 from typing import Annotated, Any, Final
 from urllib.parse import quote
@@ -10,19 +9,17 @@ from fastapi import Header, Query, Response
 
 from api_schemas.jobs import JobState
 from api_schemas.labels import LabelOfList
-from api_schemas.problems import FieldProblem, field_problem
 from service.api.context import ApiContext
 from service.api.erasure import erase_blobs
-from service.api.problems import ProblemError, not_found
+from service.api.list_cursors import cursor_of, cursor_pattern, read_cursor
+from service.api.problems import not_found
 from service.engine.port import JobRecord, TenantJobs
 from service.jobs.states import ACTIVE, TERMINAL
 from service.representation.jobs import POLL_AFTER_S, list_path
 
 MAX_PAGE: Final = 200
 
-CURSOR: Final = re.compile(
-    r"^([0-9]{1,12}(?:\.[0-9]{1,9})?)-([0-9a-f]{8}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{12})$"
-)
+CURSOR: Final = cursor_pattern("[0-9a-f]{8}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{12}")
 """When the last job of a page was accepted, in epoch seconds, and its id."""
 
 JOB_PROBLEMS: Final = (
@@ -43,7 +40,7 @@ Cursor = Annotated[
     str | None,
     Query(
         description="From `next` of the page before.",
-        json_schema_extra={"pattern": CURSOR.pattern},
+        json_schema_extra={"pattern": CURSOR},
     ),
 ]
 State = Annotated[JobState | None, Query()]
@@ -84,12 +81,13 @@ def page_of(
     label: str | None,
 ) -> tuple[Sequence[JobRecord], str | None]:
     """Return a page of jobs, newest first, and the path of the next page."""
-    before = None if cursor is None else _read_cursor(cursor)
+    before = None if cursor is None else read_cursor(CURSOR, cursor)
     records = jobs.jobs(limit=limit + 1, before=before, state=state, label=label)
     page = records[:limit]
     if len(records) <= limit:
         return page, None
-    following = f"{list_path(page[-1])}?limit={limit}&cursor={_cursor(page[-1])}"
+    last = page[-1]
+    following = f"{list_path(last)}?limit={limit}&cursor={cursor_of(last.created_at, last.id)}"
     following += f"&state={state}" if state else ""
     following += f"&label={quote(label, safe='')}" if label else ""
     response.headers["Link"] = f'<{following}>; rel="next"'
@@ -121,24 +119,3 @@ def _tag(record: JobRecord) -> str:
     if record.webhook is not None:
         parts += [record.webhook.state, record.webhook.attempts]
     return f'W/"{"-".join(map(str, parts))}"'
-
-
-def _cursor(record: JobRecord) -> str:
-    return f"{record.created_at!r}-{record.id}"
-
-
-def _read_cursor(cursor: str) -> tuple[float, str]:
-    found = CURSOR.fullmatch(cursor)
-    if found is None:
-        raise ProblemError(
-            field_problem(
-                "invalid-request",
-                FieldProblem(
-                    field="cursor",
-                    code="unknown-cursor",
-                    reason="This is no cursor of this service.",
-                    remedy="Follow 'next' of a page, or leave the cursor out.",
-                ),
-            )
-        )
-    return float(found[1]), found[2]

@@ -24,10 +24,11 @@ def create_key(settings: Settings, *, tenant: str, role: Role) -> int:
 
 
 def list_keys(settings: Settings) -> int:
-    """Print every key's id, tenant, role and dates."""
+    """Print every key's id, tenant, role, dates and last use."""
     for key in _open(settings).all_keys():
+        used = "no use known" if key.used_at is None else f"used {_minute(key.used_at)}"
         revoked = "" if key.revoked_at is None else f" revoked {_day(key.revoked_at)}"
-        print(f"{key.id} {key.tenant} {key.role} created {_day(key.created_at)}{revoked}")
+        print(f"{key.id} {key.tenant} {key.role} created {_day(key.created_at)} {used}{revoked}")
     return 0
 
 
@@ -45,6 +46,10 @@ def _open(settings: Settings) -> KeyRing:
     open_ballast(settings).make_room()
     prepare_database(settings.system_database_url)
     return KeyRing(open_database(settings.system_database_url, connections=1))
+
+
+def _minute(seconds: float) -> str:
+    return datetime.fromtimestamp(seconds, UTC).strftime("%Y-%m-%dT%H:%MZ")
 
 
 def _day(seconds: float) -> str:

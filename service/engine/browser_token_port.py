@@ -1,5 +1,6 @@
 """What the API requires of the short-lived tokens that browsers use in place of a key."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -18,6 +19,16 @@ class BrowserToken:
     jobs: int
     label: str | None
     expires_at: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TokenStanding:
+    """What a token has left: ``jobs_left`` it may still have made, ``images`` are kept with it."""
+
+    token: BrowserToken
+    created_at: float
+    jobs_left: int
+    images: int
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,4 +51,18 @@ class BrowserTokens(Protocol):
 
     def find(self, presented: str) -> BrowserToken | None:
         """Return the token with this text, unless it has expired or its key is revoked."""
+        ...
+
+    def tokens(
+        self, tenant: str, *, limit: int, before: tuple[float, str] | None
+    ) -> Sequence[TokenStanding]:
+        """Return a tenant's valid tokens, newest first, after the one ``before`` names."""
+        ...
+
+    def token(self, tenant: str, identity: str) -> TokenStanding | None:
+        """Return a tenant's valid token, if there is one with this id."""
+        ...
+
+    def revoke(self, tenant: str, identity: str) -> bool:
+        """Forget a token, so that it is refused within seconds; returns whether it was valid."""
         ...

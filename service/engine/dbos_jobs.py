@@ -110,7 +110,7 @@ class DbosJobEngine:
         )
 
     def images_of(self, tenant: str, *, token: str | None = None) -> StoredImages:
-        """Return the uploaded pictures of a tenant: those of its keys, or those of a token."""
+        """Return the uploaded pictures of a tenant; with a token those uploaded with it."""
         return StoredImages(
             tenant,
             token=token,

@@ -1,5 +1,6 @@
 """What the API asks of the store of uploaded pictures."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -22,8 +23,12 @@ class NewImage:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ImageRecord(NewImage):
-    """A stored picture; times are seconds since the epoch."""
+    """A stored picture; times are seconds since the epoch.
 
+    ``token_id`` is the browser's token that it was uploaded with, None if it was a key.
+    """
+
+    token_id: str | None
     created_at: float
     expires_at: float
 
@@ -48,8 +53,14 @@ class ImageQuotaError(Exception):
     """There is no room for this picture besides the tenant's others; the message says how many."""
 
 
+class TokenQuotaError(ImageQuotaError):
+    """There is none besides those that were uploaded with the same browser's token."""
+
+
 class TenantImages(Protocol):
     """The uploaded pictures of one tenant; those of others can be neither seen nor touched.
+
+    With a browser's token these are those uploaded with it, else all of the tenant.
 
     Every method may raise :class:`service.engine.port.EngineUnavailableError`.
     """
@@ -58,8 +69,12 @@ class TenantImages(Protocol):
         """Return the picture, or None if there is none or it has expired."""
         ...
 
+    def images(self, *, limit: int, before: tuple[float, str] | None) -> Sequence[ImageRecord]:
+        """Return pictures newest first, after the one that ``before`` names by time and id."""
+        ...
+
     def renew(self, image_id: str) -> ImageRecord | None:
-        """Restart the picture's retention time, if there is such a picture."""
+        """Restart the picture's time, if the same caller has uploaded it."""
         ...
 
     def reserve(self, scope: str, *, size: int) -> None:
@@ -78,11 +93,18 @@ class TenantImages(Protocol):
         """Keep a picture whose scope was reserved, or return the same one kept before.
 
         None if its scope was considered abandoned and has been erased meanwhile.
+
+        Raises
+        ------
+        TokenQuotaError
+            If others that were uploaded with the same token meanwhile have left no room.
         """
         ...
 
-    def erase(self, image_id: str) -> str | None:
-        """Forget the picture; returns its scope, if any, which the caller should erase.
+    def erase(self, image_id: str) -> Sequence[str]:
+        """Forget the picture; returns its scopes, if any, which the caller should erase.
+
+        There are several where it was uploaded with a key and with tokens.
 
         If the caller does not get to it, the sweep will.
         """

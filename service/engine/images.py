@@ -7,14 +7,23 @@ the other.
 """
 
 import time
+from collections.abc import Sequence
 
 import sqlalchemy as sa
 from sqlalchemy.exc import IntegrityError
 
 from service.engine.availability import available
 from service.engine.ballast import Ballast
+from service.engine.browser_tokens import images_of_token
 from service.engine.expiry import ABANDONED_AFTER_S, enter_erasures, take_out
-from service.engine.image_port import ImageQuota, ImageQuotaError, ImageRecord, KeptImage, NewImage
+from service.engine.image_port import (
+    ImageQuota,
+    ImageQuotaError,
+    ImageRecord,
+    KeptImage,
+    NewImage,
+    TokenQuotaError,
+)
 from service.engine.tables import IMAGES
 
 
@@ -41,12 +50,36 @@ class StoredImages:
     @available
     def find(self, image_id: str) -> ImageRecord | None:
         """Return the picture, or None if there is none or it has expired."""
+        query = (
+            sa.select(IMAGES)
+            .where(IMAGES.c.id == image_id, *self._seen())
+            # With a key, its own before those of tokens.
+            .order_by(IMAGES.c.token_id)
+            .limit(1)
+        )
         with self._database.connect() as connection:
-            return self._find(connection, image_id)
+            row = connection.execute(query).mappings().one_or_none()
+        return None if row is None else _record(row)
+
+    @available
+    def images(self, *, limit: int, before: tuple[float, str] | None) -> Sequence[ImageRecord]:
+        """Return pictures newest first."""
+        query = (
+            sa.select(IMAGES)
+            .where(*self._seen())
+            .order_by(IMAGES.c.created_at.desc(), IMAGES.c.id.desc())
+            .limit(limit)
+        )
+        if before is not None:
+            query = query.where(
+                sa.tuple_(IMAGES.c.created_at, IMAGES.c.id) < sa.tuple_(*map(sa.literal, before))
+            )
+        with self._database.connect() as connection:
+            return [_record(row) for row in connection.execute(query).mappings()]
 
     @available
     def renew(self, image_id: str) -> ImageRecord | None:
-        """Restart the picture's retention time, if there is such a picture."""
+        """Restart the picture's time, if the same caller has uploaded it."""
         with self._database.begin() as connection:
             return self._renew(connection, image_id)
 
@@ -55,6 +88,7 @@ class StoredImages:
         """List the scope for erasure until the picture is kept."""
         with self._database.begin() as connection:
             self._check_room(connection, size)
+            self._check_room_of_token(connection)
             enter_erasures(connection, [scope], due_at=time.time() + ABANDONED_AFTER_S)
 
     @available
@@ -69,20 +103,25 @@ class StoredImages:
         except IntegrityError:
             # Two uploads of one picture raced, or an expired one has not been swept yet.
             with self._database.begin() as connection:
-                self._forget(connection, image.id, IMAGES.c.expires_at <= time.time())
+                _forget(connection, *self._own(image.id), IMAGES.c.expires_at <= time.time())
                 earlier = self._renew(connection, image.id)
                 if earlier is not None:
                     return KeptImage(record=earlier, is_new=False)
                 return self._insert(connection, image)
 
     @available
-    def erase(self, image_id: str) -> str | None:
-        """Forget the picture; returns its scope, which the caller should erase."""
+    def erase(self, image_id: str) -> Sequence[str]:
+        """Forget the picture; returns its scopes, which the caller should erase."""
         return self._ballast.spend_on(lambda: self._erase(image_id))
 
-    def _erase(self, image_id: str) -> str | None:
+    def _erase(self, image_id: str) -> Sequence[str]:
         with self._database.begin() as connection:
-            return self._forget(connection, image_id, IMAGES.c.expires_at > time.time())
+            return _forget(connection, IMAGES.c.id == image_id, *self._seen())
+
+    def _seen(self) -> tuple[sa.ColumnElement[bool], ...]:
+        """What the caller may know of: with a key also what was uploaded with tokens."""
+        seen = (IMAGES.c.tenant == self._tenant, IMAGES.c.expires_at > time.time())
+        return (*seen, IMAGES.c.token_id == self._token) if self._token else seen
 
     def _own(self, image_id: str) -> tuple[sa.ColumnElement[bool], ...]:
         return (
@@ -108,10 +147,14 @@ class StoredImages:
             )
             raise ImageQuotaError(message)
 
-    def _find(self, connection: sa.Connection, image_id: str) -> ImageRecord | None:
-        query = sa.select(IMAGES).where(*self._own(image_id), IMAGES.c.expires_at > time.time())
-        row = connection.execute(query).mappings().one_or_none()
-        return None if row is None else _record(row)
+    def _check_room_of_token(self, connection: sa.Connection) -> None:
+        """Raise :class:`TokenQuotaError` unless one more picture may be kept with the token."""
+        if not self._token:
+            return
+        kept, most = images_of_token(connection, self._token)
+        if kept >= most:
+            message = f"{kept} pictures are kept for this token; at most {most} may be."
+            raise TokenQuotaError(message)
 
     def _renew(self, connection: sa.Connection, image_id: str) -> ImageRecord | None:
         now = time.time()
@@ -130,6 +173,8 @@ class StoredImages:
     def _insert(self, connection: sa.Connection, image: NewImage) -> KeptImage | None:
         if not take_out(connection, image.scope):
             return None
+        # Once more, now that no other upload with the token can be between reading and writing.
+        self._check_room_of_token(connection)
         now = time.time()
         row = (
             connection.execute(
@@ -154,19 +199,21 @@ class StoredImages:
         )
         return KeptImage(record=_record(row), is_new=True)
 
-    def _forget(
-        self, connection: sa.Connection, image_id: str, condition: sa.ColumnElement[bool]
-    ) -> str | None:
-        scope = connection.execute(
-            sa.delete(IMAGES).where(*self._own(image_id), condition).returning(IMAGES.c.scope)
-        ).scalar_one_or_none()
-        if scope is not None:
-            enter_erasures(connection, [scope], due_at=time.time())
-        return scope
+
+def _forget(connection: sa.Connection, *those: sa.ColumnElement[bool]) -> Sequence[str]:
+    scopes = (
+        connection.execute(sa.delete(IMAGES).where(*those).returning(IMAGES.c.scope))
+        .scalars()
+        .all()
+    )
+    if scopes:
+        enter_erasures(connection, scopes, due_at=time.time())
+    return scopes
 
 
 def _record(row: sa.RowMapping) -> ImageRecord:
     return ImageRecord(
+        token_id=row["token_id"] or None,
         id=row["id"],
         scope=row["scope"],
         media_type=row["media_type"],

@@ -14,9 +14,12 @@ from enum import StrEnum
 from typing import Final
 
 import sqlalchemy as sa
+from sqlalchemy.exc import InternalError
 
 from service.engine.availability import available
-from service.engine.tables import API_KEYS
+from service.engine.port import EngineUnavailableError
+from service.engine.tables import API_KEYS, KEY_USES
+from service.engine.upsert import insert_or_update
 
 MARK: Final = "mq"
 TENANT_NAME: Final = re.compile(r"[a-z0-9][a-z0-9-]{0,62}")
@@ -31,7 +34,11 @@ class Role(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ApiKey:
-    """A stored key; times are seconds since the epoch."""
+    """A stored key; times are seconds since the epoch.
+
+    ``used_at`` is when it was last used, itself or by a browser's token, to the minute; None if no
+    use is known.
+    """
 
     id: str
     tenant: str
@@ -39,6 +46,7 @@ class ApiKey:
     secret_hash: str
     created_at: float
     revoked_at: float | None
+    used_at: float | None
 
 
 class KeyRing:
@@ -89,6 +97,11 @@ class KeyRing:
     @available
     def all_keys(self) -> Sequence[ApiKey]:
         """Return all keys, oldest first."""
+        query = (
+            sa.select(API_KEYS, KEY_USES.c.used_at)
+            .outerjoin(KEY_USES, KEY_USES.c.key_id == API_KEYS.c.id)
+            .order_by(API_KEYS.c.created_at)
+        )
         with self._database.connect() as connection:
             return [
                 ApiKey(
@@ -98,9 +111,31 @@ class KeyRing:
                     secret_hash=row.secret_hash,
                     created_at=row.created_at,
                     revoked_at=row.revoked_at,
+                    used_at=row.used_at,
                 )
-                for row in connection.execute(sa.select(API_KEYS).order_by(API_KEYS.c.created_at))
+                for row in connection.execute(query)
             ]
+
+    @available
+    def note_use(self, identity: str, *, at: float, unless_since: float) -> None:
+        """Keep that a key was used, unless a use since ``unless_since`` is known.
+
+        Several processes note the uses of one key.
+        """
+        try:
+            with self._database.begin() as connection:
+                connection.execute(
+                    insert_or_update(connection, KEY_USES)
+                    .values(key_id=identity, used_at=at)
+                    .on_conflict_do_update(
+                        index_elements=[KEY_USES.c.key_id],
+                        set_={"used_at": at},
+                        where=KEY_USES.c.used_at < unless_since,
+                    )
+                )
+        except InternalError as error:
+            # How Postgres refuses writes when it is read-only, as a standby is.
+            raise EngineUnavailableError from error
 
 
 def hash_key(key: str) -> str:

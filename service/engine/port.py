@@ -281,7 +281,7 @@ class JobEngine(Protocol):
         ...
 
     def images_of(self, tenant: str, *, token: str | None = None) -> TenantImages:
-        """Return the uploaded pictures of a tenant: those of its keys, or those of a token."""
+        """Return the uploaded pictures of a tenant; with a token those uploaded with it."""
         ...
 
     def people_of(self, tenant: str) -> TenantPeople:

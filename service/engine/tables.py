@@ -143,6 +143,14 @@ API_KEYS = sa.Table(
     sa.Column("revoked_at", sa.Double),
 )
 
+KEY_USES = sa.Table(
+    "maquette_key_uses",
+    METADATA,
+    sa.Column("key_id", sa.String(16), primary_key=True),
+    sa.Column("used_at", sa.Double, nullable=False),
+)
+"""When keys were last used, to the minute; apart from the keys, whose table is that of 1.0."""
+
 BROWSER_TOKENS = sa.Table(
     "maquette_browser_tokens",
     METADATA,

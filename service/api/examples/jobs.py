@@ -129,6 +129,20 @@ TOKEN: Final[dict[str, Any]] = {
     "label": "customer-4711",
 }
 
+STANDING_TOKEN: Final[dict[str, Any]] = {
+    "id": TOKEN["id"],
+    "key_id": "1f2e3d4c",
+    "label": "customer-4711",
+    "created_at": "2026-05-04T09:30:00.995Z",
+    "expires_at": TOKEN["expires_at"],
+    "jobs": 2,
+    "jobs_left": 1,
+    "images": 1,
+    "most_images": 24,
+}
+
+TOKENS: Final[dict[str, Any]] = {"tokens": [STANDING_TOKEN], "next": None}
+
 PEOPLE: Final[dict[str, Any]] = {
     "people": [
         {

@@ -4,6 +4,7 @@ from uuid import uuid4
 
 import httpx
 
+from api_schemas.images import ImagePage
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.guarded_service import Guarded, fit, guarded, made
 from tests.integration.service.harness import REQUEST, Service
@@ -74,9 +75,10 @@ def test_the_same_idempotency_key_of_another_token_is_another_job(guarded: Guard
     assert len(set(first)) == 3
 
 
-def test_pictures_of_a_token_are_its_own(guarded: Guarded):
+def test_pictures_of_a_token_are_its_own_and_its_tenant_s(guarded: Guarded):
     holder = guarded.caller(guarded.key())
     browser, other = (guarded.caller(made(holder).token) for _ in range(2))
+    stranger = guarded.caller(guarded.key("elsewhere"))
     content = scripted_image({"n": uuid4().hex})
 
     def upload(caller: Service) -> httpx.Response:
@@ -84,12 +86,28 @@ def test_pictures_of_a_token_are_its_own(guarded: Guarded):
 
     path = upload(browser).headers["Location"]
     body = {**REQUEST, "image_id": path.rpartition("/")[2]}
-    for each in (other, holder):
+    for each in (other, stranger):
         assert each.client.get(path).status_code == 404
         assert each.client.delete(path).status_code == 404
         assert checked(each.client.post("/v1/fits", json=body), 422).code == "unknown-image"
+        assert path not in listed(each)
+    assert holder.client.get(f"{path}/picture").content == content
+    assert holder.client.post("/v1/fits", json=body).status_code == 202
     # Nor does an answer tell that somebody else has it.
-    assert [upload(each).status_code for each in (other, holder)] == [201, 201]
+    assert [upload(each).status_code for each in (other, holder, stranger)] == [201] * 3
+    assert (listed(browser), listed(other)) == ([path], [path])
+    assert listed(holder).count(path) == 3
     assert browser.client.post("/v1/fits", json=body).status_code == 202
-    assert holder.client.delete(path).status_code == 204
+    # A token erases its own, a key all that its tenant has.
+    assert other.client.delete(path).status_code == 204
     assert browser.client.get(path).status_code == 200
+    assert holder.client.delete(path).status_code == 204
+    assert [each.client.get(path).status_code for each in (browser, holder)] == [404, 404]
+    assert stranger.client.get(path).status_code == 200
+
+
+def listed(caller: Service) -> list[str]:
+    """The paths of the pictures that somebody sees."""
+    answer = caller.client.get("/v1/images", params={"limit": 200})
+    images = ImagePage.model_validate_json(answer.content).images
+    return [f"/v1/images/{each.id}" for each in images]

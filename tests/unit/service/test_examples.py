@@ -15,7 +15,7 @@ from api_schemas.derivations import (
     DerivationResult,
 )
 from api_schemas.health import Live, Ready
-from api_schemas.images import UploadedImage
+from api_schemas.images import ImagePage, UploadedImage
 from api_schemas.initial_poses import InitialPose, InitialPoseRequest
 from api_schemas.jobs import Job, JobPage
 from api_schemas.people import PeoplePage
@@ -34,7 +34,7 @@ from api_schemas.scans import (
     ScanPage,
     ScanResult,
 )
-from api_schemas.tokens import NewToken, TokenRequest
+from api_schemas.tokens import NewToken, Token, TokenPage, TokenRequest
 from api_schemas.webhooks import WebhookEvent
 from service.api.operation_examples import (
     ANSWERS,
@@ -67,6 +67,8 @@ KINDS = {
     "list_scans": ScanPage,
     "list_people": PeoplePage,
     "make_token": NewToken,
+    "list_tokens": TokenPage,
+    "get_token": Token,
     "get_scan": Scan,
     "cancel_scan": Scan,
     "scan_request": ScanOptions,
@@ -81,6 +83,7 @@ KINDS = {
     "derivation_result_of_scan": DerivationResult,
     "derivation_artifact_of_scan": DerivationResult,
     "upload_image": UploadedImage,
+    "list_images": ImagePage,
     "get_image": UploadedImage,
     "initial_pose": InitialPose,
     "estimate_body": BodyEstimate,

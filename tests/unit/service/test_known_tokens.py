@@ -2,13 +2,15 @@
 
 import asyncio
 import time
+from collections.abc import Sequence
 from dataclasses import replace
 
 import pytest
 
-from service.api import browser_tokens
-from service.api.browser_tokens import REFRESH_S, KnownTokens, is_allowed
-from service.engine.browser_token_port import BrowserToken, NewBrowserToken
+from service.api import known_tokens
+from service.api.browser_tokens import is_allowed
+from service.api.known_tokens import REFRESH_S, KnownTokens
+from service.engine.browser_token_port import BrowserToken, NewBrowserToken, TokenStanding
 
 TOKEN = BrowserToken(
     id="1", key_id="k", tenant="shop", jobs=1, label=None, expires_at=time.time() + 3_600
@@ -36,6 +38,24 @@ class Tokens:
         self.asked.append(presented)
         return self.known.get(presented)
 
+    def tokens(
+        self, tenant: str, *, limit: int, before: tuple[float, str] | None
+    ) -> Sequence[TokenStanding]:
+        raise AssertionError(tenant, limit, before)
+
+    def token(self, tenant: str, identity: str) -> TokenStanding | None:
+        raise AssertionError(tenant, identity)
+
+    def revoke(self, tenant: str, identity: str) -> bool:
+        texts = [
+            text
+            for text, token in self.known.items()
+            if (token.tenant, token.id) == (tenant, identity)
+        ]
+        for text in texts:
+            del self.known[text]
+        return bool(texts)
+
 
 def test_a_token_is_looked_up_again_after_seconds_and_then_gone():
     tokens, clock = Tokens(a=TOKEN), Clock()
@@ -54,6 +74,23 @@ def test_a_token_is_looked_up_again_after_seconds_and_then_gone():
     asyncio.run(ask())
 
 
+def test_a_token_that_is_revoked_here_is_refused_at_once_and_no_other():
+    tokens = Tokens(a=TOKEN, b=replace(TOKEN, id="2"))
+
+    async def ask() -> None:
+        known = KnownTokens(tokens, monotonic=Clock())
+        assert await known.find("a") is not None
+        assert await known.find("b") is not None
+        assert not await known.revoke("elsewhere", "1")
+        assert await known.find("a") is not None
+        assert await known.revoke("shop", "1")
+        assert await known.find("a") is None
+        assert await known.find("b") is not None
+        assert not await known.revoke("shop", "1")
+
+    asyncio.run(ask())
+
+
 def test_a_remembered_token_ends_when_its_time_is_over():
     ending = replace(TOKEN, expires_at=time.time() - 0.001)
 
@@ -64,7 +101,7 @@ def test_a_remembered_token_ends_when_its_time_is_over():
 
 
 def test_no_more_are_remembered_than_there_is_room_for(monkeypatch):
-    monkeypatch.setattr(browser_tokens, "MOST_REMEMBERED", 3)
+    monkeypatch.setattr(known_tokens, "MOST_REMEMBERED", 3)
     tokens = Tokens(**{str(number): TOKEN for number in range(9)})
 
     async def ask() -> int:
