@@ -22,6 +22,8 @@ _FROM_DERIVATION: Final = {
 }
 _SAME_DERIVATION: Final = _SAME_FIT | {"derivation_id": "$request.path.derivation_id"}
 _FROM_IMAGE: Final = {"image_id": "$response.body#/id"}
+_FROM_TOKEN: Final = {"token_id": "$response.body#/id"}
+_SAME_TOKEN: Final = {"token_id": "$request.path.token_id"}
 _SAME_IMAGE: Final = {"image_id": "$request.path.image_id"}
 
 
@@ -111,5 +113,7 @@ LINKS: Final[Mapping[tuple[str, str], dict[str, Any]]] = {
     ("upload_image", "200"): _links(_FROM_IMAGE, "get_image", "get_picture", "erase_image"),
     ("upload_image", "201"): _links(_FROM_IMAGE, "get_image", "get_picture", "erase_image"),
     ("get_image", "200"): _links(_SAME_IMAGE, "erase_image"),
+    ("make_token", "201"): _links(_FROM_TOKEN, "get_token", "revoke_token"),
+    ("get_token", "200"): _links(_SAME_TOKEN, "revoke_token"),
 }
 """By operation and status."""
