@@ -54,6 +54,11 @@ def _parser() -> argparse.ArgumentParser:
     prepare = commands.add_parser(
         "prepare", help="make tables and bucket, where they are not there yet"
     )
+    prepare.add_argument(
+        "--adopt-storage",
+        action="store_true",
+        help="let this folder or bucket take the place of the one that the database had",
+    )
     prepare.set_defaults(command=_prepare)
 
     keys = commands.add_parser("keys", help="make, list and revoke API keys")
@@ -149,12 +154,12 @@ def _worker(_: argparse.Namespace) -> int:
     return run_told("worker", lambda: run_worker(settings, follow_stdin=False))
 
 
-def _prepare(_: argparse.Namespace) -> int:
+def _prepare(parsed: argparse.Namespace) -> int:
     from service.commands.prepare import prepare
     from service.startup.begin import begin, run_told
 
     settings = begin("prepare")
-    return run_told("prepare", lambda: prepare(settings))
+    return run_told("prepare", lambda: prepare(settings, adopt_storage=parsed.adopt_storage))
 
 
 def _keys(parsed: argparse.Namespace) -> int:

@@ -9,6 +9,9 @@ POSTGRES: Final = "postgresql"
 POSTGRES_NAMES: Final = (POSTGRES, "postgres", "postgresql+psycopg")
 """What the scheme of a Postgres database is called; all mean the first."""
 
+BUCKET: Final = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{1,253}[A-Za-z0-9]")
+"""Names that some server takes: old buckets of Amazon's are longer, or have capitals and _."""
+
 NOT_SHOWN: Final = "(not shown)"
 
 
@@ -63,10 +66,16 @@ def check_framing_origin(origin: str) -> None:
 
 
 def check_bucket(url: str) -> None:
-    """Raise ValueError unless this is the address of a bucket."""
-    parts = urlsplit(url)
-    if parts.scheme != "s3" or not parts.netloc:
+    """Raise ValueError unless this is the address of a bucket that can exist."""
+    parts = _parts(url)
+    if parts is None or parts.scheme != "s3" or not parts.netloc or parts.query or parts.fragment:
         message = "write it as s3://bucket or s3://bucket/prefix"
+        raise ValueError(message)
+    if not BUCKET.fullmatch(parts.netloc) or ".." in parts.netloc:
+        message = (
+            f"no bucket can be named {parts.netloc!r}: names have 3 to 63 lower-case letters, "
+            "digits, - and ., with a letter or digit at both ends"
+        )
         raise ValueError(message)
 
 

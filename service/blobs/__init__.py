@@ -6,13 +6,23 @@ blobs: what a caller sent (picture, mask, points, whom to notify and with what s
 made from it is here and nowhere else.
 """
 
-from service.blobs.port import BlobMissingError, BlobStore, BlobsUnavailableError, StorageFullError
-from service.blobs.selection import open_blob_store
+from service.blobs.port import (
+    BlobMissingError,
+    BlobStore,
+    BlobsUnavailableError,
+    StorageFullError,
+    StorageRefusedError,
+    StorageUnusableError,
+)
+from service.blobs.selection import open_blob_store, setting_of_storage
 
 __all__ = [
     "BlobMissingError",
     "BlobStore",
     "BlobsUnavailableError",
     "StorageFullError",
+    "StorageRefusedError",
+    "StorageUnusableError",
     "open_blob_store",
+    "setting_of_storage",
 ]

@@ -16,6 +16,14 @@ class StorageFullError(BlobsUnavailableError):
     """There is no room left."""
 
 
+class StorageRefusedError(BlobsUnavailableError):
+    """The store does not do what it is asked for as it is set up, however long one waits."""
+
+
+class StorageUnusableError(Exception):
+    """The store cannot be used as it is set up; the message, one line, says what to do."""
+
+
 class BlobStore(Protocol):
     """Content-addressed bytes in scopes.
 

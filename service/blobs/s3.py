@@ -14,10 +14,30 @@ import boto3
 from botocore.config import Config
 from botocore.exceptions import BotoCoreError, ClientError
 
-from service.blobs.port import BlobMissingError, BlobsUnavailableError, StorageFullError
+from service.blobs.port import (
+    BlobMissingError,
+    BlobsUnavailableError,
+    StorageFullError,
+    StorageRefusedError,
+)
 
 MISSING: Final = frozenset({"NoSuchKey", "404", "NotFound"})
 FULL: Final = frozenset({"XMinioStorageFull", "QuotaExceeded", "InsufficientStorage", "507"})
+REFUSED: Final = frozenset(
+    {
+        "AccessDenied",
+        "AuthorizationHeaderMalformed",
+        "BucketAlreadyExists",
+        "IllegalLocationConstraintException",
+        "InvalidAccessKeyId",
+        "InvalidBucketName",
+        "InvalidLocationConstraint",
+        "PermanentRedirect",
+        "SignatureDoesNotMatch",
+    }
+)
+"""What is answered until name, region, credentials or rights are corrected."""
+
 UNVERSIONED: Final = frozenset({"NotImplemented", "MethodNotAllowed"})
 """Errors of servers that do not support versions when asked for them."""
 
@@ -144,7 +164,13 @@ def _told(name: str) -> Iterator[None]:
         code = str(error.response.get("Error", {}).get("Code", ""))
         if code in MISSING:
             raise BlobMissingError(name) from error
-        kind = StorageFullError if code in FULL else BlobsUnavailableError
+        kind = (
+            StorageFullError
+            if code in FULL
+            else StorageRefusedError
+            if code in REFUSED
+            else BlobsUnavailableError
+        )
         message = f"the object storage answered {code}"
         raise kind(message) from error
     except BotoCoreError as error:

@@ -4,7 +4,14 @@ from urllib.parse import urlsplit
 
 from service.blobs.local import LocalBlobStore
 from service.blobs.port import BlobStore
-from service.settings import SettingError, Settings
+from service.settings import PREFIX, SettingError, Settings
+
+
+def setting_of_storage(settings: Settings) -> str:
+    """The setting that says where blobs are, as an operator would write it."""
+    if settings.blob_url is None:
+        return f"{PREFIX}DATA_DIR={settings.data_dir}"
+    return f"{PREFIX}BLOB_URL={settings.blob_url}"
 
 
 def open_blob_store(settings: Settings) -> BlobStore:

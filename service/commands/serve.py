@@ -10,7 +10,7 @@ import threading
 from collections.abc import Callable, Sequence
 from typing import Final
 
-from service.blobs import open_blob_store
+from service.blobs import setting_of_storage
 from service.commands.ground import check_ground
 from service.engine.ballast import open_ballast
 from service.process.disk import open_disk
@@ -81,9 +81,8 @@ def serve(
     # All faults of the settings come to light before anything with the same settings is started.
     ballast = open_ballast(settings)
     ballast.make_room()
-    check_ground(settings)
+    blobs = check_ground(settings)
     tracing = start_tracing(settings, role="api")
-    blobs = open_blob_store(settings)
     environment = _environment(settings)
     if worker_command is not None:
         worker = SupervisedWorker(
@@ -104,6 +103,7 @@ def serve(
     from service.engine.image_port import ImageQuota
     from service.engine.keys import KeyRing
     from service.engine.rate_tokens import RateTokens
+    from service.engine.storage_identity import take_storage
     from service.engine.webhooks import WebhookLedger
     from service.estimates.pool import EstimatorPool
     from service.estimates.starting import by_command, by_passing_on, can_watch_processes
@@ -111,6 +111,7 @@ def serve(
     from service.webhooks.sending import Sender
 
     prepare_database(settings.system_database_url, sandbox=settings.sandbox)
+    take_storage(settings.system_database_url, blobs, named=setting_of_storage(settings))
     ballast.fill()
     database = open_database(settings.system_database_url)
     engine = DbosJobEngine(

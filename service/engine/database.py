@@ -26,7 +26,7 @@ from service.engine.transactions import read_then_write
 from service.setting_addresses import without_secrets
 
 MIGRATION_LOCK: Final = 0x6D617175
-"""Key of the Postgres advisory lock held while tables are created."""
+"""Key of the Postgres advisory lock held while tables are created and facts are settled."""
 
 SCHEMA_VERSION: Final = "7"
 SCHEMA_FACT: Final = "schema_version"
@@ -83,7 +83,7 @@ def check_database(url: str, *, sandbox: bool | None = None) -> None:
     DatabaseUnusableError
         If it answers but cannot be used as it is.
     """
-    with _opened(url) as engine:
+    with opened(url) as engine:
         _check_schema(engine)
         if sandbox is not None and sa.inspect(engine).has_table(JOBS.name):
             with engine.connect() as connection:
@@ -100,14 +100,12 @@ def prepare_database(url: str, *, sandbox: bool | None = None) -> None:
     # Imported here because it takes half a second to load.
     from dbos import DBOS
 
-    with _opened(url) as engine:
+    with opened(url) as engine:
         _check_schema(engine)
         if engine.dialect.name == "sqlite":
             prepare_file(engine)
         DBOS.migrate(url)
-        with read_then_write(engine) as connection:
-            if engine.dialect.name == "postgresql":
-                connection.execute(sa.select(sa.func.pg_advisory_xact_lock(MIGRATION_LOCK)))
+        with locked(engine) as connection:
             bring_up_to_date(connection)
             write_fact(connection, SCHEMA_FACT, SCHEMA_VERSION)
             if sandbox is not None:
@@ -115,7 +113,16 @@ def prepare_database(url: str, *, sandbox: bool | None = None) -> None:
 
 
 @contextlib.contextmanager
-def _opened(url: str) -> Iterator[sa.Engine]:
+def locked(engine: sa.Engine) -> Iterator[sa.Connection]:
+    """Begin a transaction that no other process can be in at the same time."""
+    with read_then_write(engine) as connection:
+        if engine.dialect.name == "postgresql":
+            connection.execute(sa.select(sa.func.pg_advisory_xact_lock(MIGRATION_LOCK)))
+        yield connection
+
+
+@contextlib.contextmanager
+def opened(url: str) -> Iterator[sa.Engine]:
     """Open the database briefly; errors that waiting cannot cure name its address."""
     try:
         engine = open_database(url, connections=2)

@@ -66,10 +66,10 @@ def _told(error: Exception) -> tuple[int, str] | None:
     # Imported once something has failed: an estimator has no database, and this loads all of it.
     from sqlalchemy.exc import OperationalError
 
-    from service.blobs import BlobsUnavailableError
+    from service.blobs import BlobsUnavailableError, StorageUnusableError
     from service.engine.port import DatabaseUnusableError, EngineUnavailableError
 
-    if isinstance(error, DatabaseUnusableError | SettingError):
+    if isinstance(error, DatabaseUnusableError | StorageUnusableError | SettingError):
         return UNUSABLE_SETTINGS, str(error)
     if isinstance(error, EngineUnavailableError | OperationalError):
         cause = getattr(error, "orig", None) or error.__cause__ or "no answer"

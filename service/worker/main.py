@@ -6,7 +6,7 @@ import signal
 from collections.abc import Sequence
 from typing import Final
 
-from service.blobs import open_blob_store
+from service.blobs import open_blob_store, setting_of_storage
 from service.process.caches import keep_what_is_costly
 from service.process.data_folder import prepare_data_folder
 from service.process.disk import open_disk
@@ -80,8 +80,10 @@ def run_worker(
     models = ModelsBeingRead(settings, command=models_command)
     # Imported while others load the numerics and read the models: a good part of a second each.
     from service.engine.database import open_database, prepare_database
+    from service.engine.storage_identity import take_storage
 
     prepare_database(settings.system_database_url, sandbox=settings.sandbox)
+    take_storage(settings.system_database_url, blobs, named=setting_of_storage(settings))
     from service.engine.dbos_worker import DbosWorkerEngine
     from service.process.tracing import start_tracing
 

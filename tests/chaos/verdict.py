@@ -9,6 +9,7 @@ import sqlalchemy as sa
 
 from service.engine.database import open_database
 from service.engine.executions import Executions
+from service.engine.storage_identity import SCOPE as STORAGE_SCOPE
 from service.engine.tables import ERASURES, JOBS
 from tests.chaos.caller import ACTIVE, Caller
 from tests.chaos.examined import examine
@@ -133,9 +134,10 @@ def _scopes(deployment: Deployment) -> set[str]:
 
 
 def _known_scopes(database: sa.Engine) -> set[str]:
-    """Scopes of jobs, and of submissions that came to nothing and wait for their erasure."""
+    """Scopes of the storage itself, of jobs, and of submissions that wait for their erasure."""
     with database.connect() as connection:
         return {
+            STORAGE_SCOPE,
             *connection.execute(sa.select(JOBS.c.id)).scalars(),
             *connection.execute(sa.select(ERASURES.c.scope)).scalars(),
         }

@@ -11,6 +11,7 @@ import pytest
 
 from api_schemas.derivations import Derivation, DerivationEvent, DerivationPage, DerivationResult
 from service.engine.port import NewJob, StoredBlob, SubmitOutcome
+from service.engine.storage_identity import SCOPE as STORAGE_SCOPE
 from tests.integration.service.harness import (
     REQUEST,
     Machine,
@@ -317,7 +318,7 @@ def test_a_derivation_expires_with_its_fit(tmp_path: Path):
         for gone in (fit, path, f"{path}/events", f"{fit}/derivations"):
             eventually(lambda gone=gone: service.client.get(gone).status_code == 410, what=gone)
         blobs = tmp_path / "blobs"
-        eventually(lambda: not [each for each in blobs.rglob("*") if each.is_file()])
+        eventually(lambda: {each.name for each in blobs.glob("*/*")} == {STORAGE_SCOPE})
 
 
 def test_waiting_derivations_count_among_the_jobs_of_the_queue(tmp_path: Path):

@@ -12,6 +12,7 @@ from service.engine.ballast import Ballast
 from service.engine.database import open_database, prepare_database
 from service.engine.dbos_jobs import DbosJobEngine
 from service.engine.image_port import ImageQuota, NewImage
+from service.engine.storage_identity import SCOPE as STORAGE_SCOPE
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
     REQUEST,
@@ -34,7 +35,8 @@ def uploaded(service: Service, content: bytes) -> UploadedImage:
 
 
 def blobs_below(folder: Path) -> list[Path]:
-    return sorted(path for path in (folder / "blobs").rglob("*") if path.is_file())
+    files = [path for path in (folder / "blobs").rglob("*") if path.is_file()]
+    return sorted(path for path in files if path.parent.name != STORAGE_SCOPE)
 
 
 def test_an_upload_is_named_by_its_content_and_found_again(service: Service):

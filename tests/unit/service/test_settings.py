@@ -109,6 +109,25 @@ def test_object_storage_is_named_by_bucket():
 
 
 @pytest.mark.parametrize(
+    "name", ["b", "no bucket", "-bucket", "bucket_", "a..b", "key@bucket", "bucket:9000", "a" * 256]
+)
+def test_a_bucket_that_no_server_takes_is_refused(name: str):
+    with pytest.raises(ValidationError, match=r"no bucket can be named|s3://bucket/prefix"):
+        Settings(blob_url=f"s3://{name}")
+
+
+@pytest.mark.parametrize("url", ["s3://bucket?x=1", "s3://bucket#x"])
+def test_a_bucket_has_no_more_than_a_prefix(url: str):
+    with pytest.raises(ValidationError, match="s3://bucket/prefix"):
+        Settings(blob_url=url)
+
+
+@pytest.mark.parametrize("name", ["maquette", "my.bucket-1", "Old_Bucket"])
+def test_a_bucket_that_some_server_takes_is_accepted(name: str):
+    assert Settings(blob_url=f"s3://{name}/prefix").blob_url == f"s3://{name}/prefix"
+
+
+@pytest.mark.parametrize(
     ("name", "value"), [("port", -1), ("max_crashes", 0), ("job_time_limit_s", 0)]
 )
 def test_a_senseless_setting_is_refused(name, value):

@@ -1,0 +1,151 @@
+"""A database is not used with another folder or bucket than the one its jobs are in."""
+
+import shutil
+import threading
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+import sqlalchemy as sa
+
+from service.blobs import StorageUnusableError
+from service.blobs.local import LocalBlobStore
+from service.engine.database import open_database, prepare_database
+from service.engine.storage_identity import STORAGE_FACT, check_storage, take_storage
+from service.engine.tables import FACTS
+from tests.integration.service.harness import Machine, running_service
+from tests.integration.service.test_refused_start import (
+    PREPARE,
+    SERVE,
+    WORKER,
+    assert_refused,
+    run,
+)
+from tests.object_storage import CREDENTIALS, ObjectStorage, running_object_storage
+from tests.postgres import fresh_database
+
+NAMED = "MAQUETTE_DATA_DIR=/somewhere"
+AT_ONCE = 8
+
+
+@pytest.fixture
+def url(machine: Machine) -> str:
+    """The address of a database with tables, which names no storage: as one of before."""
+    address = machine.database_url or f"sqlite:///{machine.data_dir / 'maquette.sqlite'}"
+    prepare_database(address)
+    return address
+
+
+def take(url: str, folder: Path, *, adopt: bool = False) -> None:
+    take_storage(url, LocalBlobStore(folder), named=NAMED, adopt=adopt)
+
+
+def check(url: str, folder: Path) -> None:
+    check_storage(url, LocalBlobStore(folder), named=NAMED)
+
+
+def test_the_first_to_start_decides_and_whoever_has_another_storage_is_refused(
+    url: str, tmp_path: Path
+):
+    ours, theirs = tmp_path / "ours", tmp_path / "theirs"
+    check(url, theirs)
+    for _ in range(2):
+        take(url, ours)
+        check(url, ours)
+    for start in (take, check):
+        with pytest.raises(StorageUnusableError, match=NAMED) as refused:
+            start(url, theirs)
+        assert "\n" not in str(refused.value)
+        assert "maquette prepare --adopt-storage" in str(refused.value)
+    assert not theirs.exists()
+    take(url, ours)
+
+
+def test_a_copy_of_the_storage_is_the_storage_and_an_emptied_one_is_not(url: str, tmp_path: Path):
+    take(url, tmp_path / "ours")
+    shutil.copytree(tmp_path / "ours", tmp_path / "copy")
+    take(url, tmp_path / "copy")
+    shutil.rmtree(tmp_path / "ours")
+    with pytest.raises(StorageUnusableError):
+        take(url, tmp_path / "ours")
+
+
+def test_a_storage_may_be_let_take_the_place_of_one_that_is_lost(url: str, tmp_path: Path):
+    take(url, tmp_path / "lost")
+    take(url, tmp_path / "new", adopt=True)
+    take(url, tmp_path / "new")
+
+
+def test_a_storage_may_serve_several_databases_one_after_the_other(url: str, tmp_path: Path):
+    take(url, tmp_path)
+    database = open_database(url, connections=1)
+    with database.begin() as connection:
+        connection.execute(sa.delete(FACTS).where(FACTS.c.name == STORAGE_FACT))
+    database.dispose()
+    take(url, tmp_path)
+
+
+def test_of_several_that_start_at_once_with_storages_of_their_own_one_is_taken(
+    url: str, tmp_path: Path
+):
+    together = threading.Barrier(AT_ONCE)
+
+    def start(number: int) -> bool:
+        together.wait()
+        try:
+            take(url, tmp_path / str(number))
+        except StorageUnusableError:
+            return False
+        return True
+
+    with ThreadPoolExecutor(AT_ONCE) as starting:
+        assert sorted(starting.map(start, range(AT_ONCE))) == [False] * (AT_ONCE - 1) + [True]
+
+
+@pytest.mark.parametrize("command", [SERVE, WORKER, PREPARE])
+def test_no_command_starts_with_another_folder(command: tuple[str, ...], tmp_path: Path):
+    with fresh_database() as database_url:
+        with running_service(Machine(tmp_path / "ours", database_url), api_only=True):
+            pass
+        done = run(command, tmp_path / "theirs", database_url=database_url)
+        line = assert_refused(done, naming=f"MAQUETTE_DATA_DIR={tmp_path / 'theirs'}:")
+        assert "not the storage of the database" in line
+
+
+def test_a_lost_folder_is_replaced_by_a_command(tmp_path: Path):
+    with running_service(Machine(tmp_path), api_only=True):
+        pass
+    shutil.rmtree(tmp_path / "blobs")
+    assert_refused(run(SERVE, tmp_path), naming=f"MAQUETTE_DATA_DIR={tmp_path}:")
+    done = run((*PREPARE, "--adopt-storage"), tmp_path)
+    assert done.returncode == 0, done.stderr
+    with running_service(Machine(tmp_path), api_only=True):
+        pass
+
+
+@pytest.fixture
+def storage(monkeypatch: pytest.MonkeyPatch) -> Iterator[ObjectStorage]:
+    for name, value in CREDENTIALS.items():
+        monkeypatch.setenv(name, value)
+    with running_object_storage() as running:
+        yield running
+
+
+def test_another_bucket_or_prefix_is_refused(storage: ObjectStorage, tmp_path: Path):
+    ours = storage.settings
+    theirs = ours | {"blob_url": f"{ours['blob_url']}-of-others"}
+    assert run(PREPARE, tmp_path, **ours).returncode == 0
+    done = run(SERVE, tmp_path, **theirs)
+    assert_refused(done, naming=f"MAQUETTE_BLOB_URL={theirs['blob_url']}:")
+    assert run(PREPARE, tmp_path, **ours).returncode == 0
+    assert_refused(run(PREPARE, tmp_path, **theirs), naming="MAQUETTE_BLOB_URL=")
+
+
+def test_what_the_storage_refuses_for_good_is_not_asked_for_again(
+    storage: ObjectStorage, tmp_path: Path
+):
+    """Amazon's servers take no new bucket of a name so long, though some old ones have one."""
+    wrong = storage.settings | {"blob_url": f"s3://{'a' * 70}"}
+    line = assert_refused(run(PREPARE, tmp_path, **wrong), naming="MAQUETTE_BLOB_URL=s3://aaa")
+    assert "InvalidBucketName" in line
