@@ -12,7 +12,7 @@ class Live(WireModel):
 
 
 class Ready(WireModel):
-    """The service can accept and finish a fit: database writable, disk free, a worker alive."""
+    """The service can accept and finish a fit: database writable, disk free, a worker able."""
 
     status: Literal["ready"] = "ready"
     workers: int

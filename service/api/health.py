@@ -28,13 +28,14 @@ async def live() -> Live:
     responses=documented("not-ready"),
 )
 async def ready(request: Request) -> Ready:
-    """Check that database and storage can be written and a worker was seen to be alive.
+    """Check that database and storage can be written and a worker is alive and able to work.
 
     Answered within two seconds: a database or a storage that says nothing for so long is not
     available. Probes that come at the same time share one check.
 
-    A fit may still wait some seconds for a worker that has just started, or minutes where that
-    compiles its numerics first. 503 also while the process is being stopped.
+    A worker is able once it has started a process for jobs, and until it cannot start any more:
+    seconds after its start, or minutes where it compiles its numerics first. 503 also while this
+    process is being stopped.
     """
     parts: Parts = request.app.state.parts
     if parts.draining.is_set():

@@ -9,7 +9,7 @@ import asyncio
 import contextlib
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
@@ -17,7 +17,7 @@ from api_schemas.health import Ready
 from api_schemas.problems import problem
 from service.api.problems import ProblemError
 from service.blobs import BlobStore, BlobsUnavailableError, StorageFullError
-from service.engine.port import JobEngine
+from service.engine.port import JobEngine, WorkerStatus
 from service.process.disk import Disk
 
 ANSWER_WITHIN_S: Final = 1.5
@@ -128,12 +128,19 @@ def checks(engine: JobEngine, blobs: BlobStore, disk: Disk) -> Callable[[Look], 
         look.at = "storage"
         _check_storage(blobs)
         look.at = "database"
-        workers = sum(worker.alive is True for worker in engine.workers())
-        if workers == 0:
-            raise not_ready(code="no-worker", detail="No worker is alive.")
-        return Ready(workers=workers, queued=engine.queued())
+        workers = engine.workers()
+        able = sum(worker.is_ready for worker in workers)
+        if able == 0:
+            raise not_ready(code="no-worker", detail=_why_none(workers))
+        return Ready(workers=able, queued=engine.queued())
 
     return check
+
+
+def _why_none(workers: Sequence[WorkerStatus]) -> str:
+    if not any(worker.alive for worker in workers):
+        return "No worker is alive."
+    return "No worker can begin a job: it is still loading, or its log says what is wrong."
 
 
 def _check_storage(blobs: BlobStore) -> None:

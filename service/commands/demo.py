@@ -21,7 +21,7 @@ from service.process.interpreter import PYTHON
 
 SERVE_COMMAND: Final = (*PYTHON, "-m", "service.cli", "serve", "--port", "0")
 START_TIMEOUT_S: Final = 240.0
-"""A guard against hanging: a service is ready in a few seconds. The fit waits for what is to be
+"""A guard against hanging: a worker is there in a few seconds. The fit waits for what is to be
 compiled, however long that takes."""
 
 READY_POLL_S: Final = 0.05
@@ -69,13 +69,13 @@ def run_demo(
 
 @contextmanager
 def running_service(command: Sequence[str], data_dir: Path, log: IO[str]) -> Iterator[httpx.Client]:
-    """A service of one's own with its data in a folder, and a client of it once it is ready."""
+    """A service of one's own with its data in a folder, and a client of it once it has a worker."""
     with subprocess.Popen(
         [*command, "--data-dir", str(data_dir)], stdout=subprocess.PIPE, stderr=log, text=True
     ) as process:
         try:
             with httpx.Client(base_url=_address(process), timeout=30.0) as client:
-                _wait_until_ready(client, process)
+                _wait_for_worker(client, process)
                 yield client
         finally:
             process.terminate()
@@ -91,11 +91,11 @@ def _address(process: subprocess.Popen[str]) -> str:
     raise ServiceStartError(message)
 
 
-def _wait_until_ready(client: httpx.Client, process: subprocess.Popen[str]) -> None:
+def _wait_for_worker(client: httpx.Client, process: subprocess.Popen[str]) -> None:
     deadline = time.monotonic() + START_TIMEOUT_S
     while time.monotonic() < deadline and process.poll() is None:
         try:
-            if client.get("/healthz/ready").status_code == httpx.codes.OK:
+            if client.get("/v1/body-models").status_code == httpx.codes.OK:
                 return
         except httpx.TransportError:
             pass

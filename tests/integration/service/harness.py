@@ -200,9 +200,9 @@ class Service:
 
 @contextlib.contextmanager
 def running_service(
-    machine: Machine, *, api_only: bool = False, estimator: str = "fake"
+    machine: Machine, *, api_only: bool = False, estimator: str = "fake", loads: bool = True
 ) -> Iterator[Service]:
-    """Start the service and, unless ``api_only``, wait until its worker is alive.
+    """Start the service and, unless ``api_only`` or it never ``loads``, wait until it can work.
 
     A ``broken`` estimator ends as soon as it is started; a ``real`` one is the service's own.
     """
@@ -218,7 +218,7 @@ def running_service(
             found for line in process.stdout if (found := re.search(r"http://\S+:\d+", line))
         )
         with httpx.Client(base_url=found[0], timeout=PATIENCE_S) as client:
-            probe = "/healthz/live" if api_only else "/healthz/ready"
+            probe = "/healthz/live" if api_only or not loads else "/healthz/ready"
             eventually(lambda: _answers(client, probe), what=probe)
             yield Service(process, client, machine)
     finally:

@@ -1,4 +1,4 @@
-"""Ready before the numerics are loaded, and not ready while the database is locked."""
+"""Ready is who can work: not before the numerics are loaded, nor while the database is locked."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -8,7 +8,7 @@ import sqlalchemy as sa
 
 from service.engine.database import open_database
 from tests.integration.service.fake_preload import GATE
-from tests.integration.service.harness import Machine, eventually, running_service
+from tests.integration.service.harness import Machine, Service, eventually, running_service
 
 
 @pytest.fixture
@@ -21,8 +21,13 @@ def gate(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 
 def test_jobs_wait_for_the_numerics_and_can_be_canceled_meanwhile(gate: Path, tmp_path: Path):
-    with running_service(Machine(tmp_path / "data", settings={"worker_processes": 8})) as service:
-        service.client.get("/v1/body-models").raise_for_status()
+    machine = Machine(tmp_path / "data", settings={"worker_processes": 8})
+    with running_service(machine, loads=False) as service:
+        eventually(
+            lambda: service.client.get("/v1/body-models").status_code == 200, what="a worker"
+        )
+        ready = eventually(lambda: said_of_the_worker(service), what="it is alive")
+        assert "still loading" in ready
         # Between its becoming known and its first turn a worker may claim one job.
         claimed, waiting, given_up = (service.submit() for _ in range(3))
         service.client.post(f"{given_up}/cancel").raise_for_status()
@@ -30,12 +35,23 @@ def test_jobs_wait_for_the_numerics_and_can_be_canceled_meanwhile(gate: Path, tm
         assert "queued" in {service.state(claimed), service.state(waiting)}
         gate.touch()
         assert service.ended(waiting)["state"] == "succeeded"
+        eventually(lambda: service.client.get("/healthz/ready").status_code == 200, what="ready")
+
+
+def said_of_the_worker(service: Service) -> str:
+    """What is told of a worker that is alive and not ready; empty while none is known to be."""
+    answer = service.client.get("/healthz/ready")
+    assert answer.status_code == 503
+    assert answer.json()["code"] == "no-worker"
+    told: str = answer.json()["detail"]
+    return "" if told == "No worker is alive." else told
 
 
 def test_a_service_that_has_not_loaded_the_numerics_stops_when_it_is_told_to(
     gate: Path, tmp_path: Path
 ):
-    with running_service(Machine(tmp_path / "data", settings={"drain_s": 1.0})) as service:
+    machine = Machine(tmp_path / "data", settings={"drain_s": 1.0})
+    with running_service(machine, loads=False) as service:
         service.submit()
         assert not gate.exists()
     assert service.process.returncode == 0

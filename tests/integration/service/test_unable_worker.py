@@ -31,6 +31,9 @@ def test_it_says_so_everywhere_and_begins_jobs_once_it_is_able(
     with running_service(embedded, api_only=True) as service, running_worker(embedded):
         eventually(lambda: gauge(service, "maquette_workers") == 1.0, what="it is alive")
         assert gauge(service, "maquette_workers_able") == 0.0
+        ready = service.client.get("/healthz/ready")
+        assert (ready.status_code, ready.json()["code"]) == (503, "no-worker")
+        assert "its log says what is wrong" in ready.json()["detail"]
         eventually(
             lambda: (
                 worker_health.worker_health(settings) == UNHEALTHY
@@ -43,6 +46,7 @@ def test_it_says_so_everywhere_and_begins_jobs_once_it_is_able(
         fault.unlink()
         eventually(lambda: gauge(service, "maquette_workers_able") == 1.0, what="it is able")
         assert worker_health.worker_health(settings) == HEALTHY
+        eventually(lambda: service.client.get("/healthz/ready").status_code == 200, what="ready")
         assert service.ended(waiting)["state"] == "succeeded"
 
 
