@@ -152,7 +152,7 @@ def test_a_host_takes_over_from_one_that_is_gone(
 
 def test_the_limit_of_requests_is_one_for_all_hosts(database_url: str, tmp_path: Path):
     shared = {"authentication": "keys", "requests_per_minute": LIMIT}
-    left, right = (Machine(tmp_path / name, database_url, shared) for name in ("left", "right"))
+    left, right = (Machine(tmp_path / "shared", database_url, shared) for _ in range(2))
     prepare(left)
     key = new_key(database_url)
     with contextlib.ExitStack() as stack:
