@@ -1,11 +1,13 @@
 """A body in motion: what is asked for, and what comes of it."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from api_schemas.derivation_kinds.base import DerivationOptions, DerivedFiles
 from api_schemas.results import FitWarning
+
+UpAxis = Literal["x", "-x", "y", "-y", "z", "-z"]
 
 
 class AnimationOptions(DerivationOptions):
@@ -28,6 +30,23 @@ class AnimationOptions(DerivationOptions):
             "cut, with a warning."
         ),
     )
+    joints: dict[str, Annotated[str, Field(max_length=200)]] = Field(
+        default_factory=dict[str, str],
+        max_length=64,
+        description=(
+            "Which joint of the BVH file moves which part of the body: names of the file's joints, "
+            "by the names that `/v1/body-models` gives to parts. Parts not named here are found by "
+            "the names that programs give to joints."
+        ),
+        examples=[{"left_thigh": "Oberschenkel_L", "right_thigh": "Oberschenkel_R"}],
+    )
+    up: UpAxis | None = Field(
+        default=None,
+        description=(
+            "Which axis of the BVH file points up; null finds it from the motion, along which "
+            "heads are above feet. Send it for a person who lies."
+        ),
+    )
 
 
 class AnimationResult(DerivedFiles):
@@ -39,6 +58,10 @@ class AnimationResult(DerivedFiles):
 
     kind: Literal["animation"] = "animation"
     source: str = Field(description="Where the motion comes from.")
+    up: UpAxis | None = Field(
+        default=None,
+        description="Which axis of the BVH file was taken to point up; null for the walk.",
+    )
     frames: int
     frame_time_s: float
     morph_targets: int

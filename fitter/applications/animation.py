@@ -4,18 +4,19 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from fitter.applications.animated_glb import morphed_glb, skinned_glb
-from fitter.applications.bvh import BvhClip
 from fitter.applications.filmstrip import film, strip
 from fitter.applications.gltf_skin import skin_of
 from fitter.applications.grounding import grounded, sliding_m
 from fitter.applications.motion import Motion, moving_body
+from fitter.applications.motion_file import MotionFile
 from fitter.applications.principal_frames import principal_frames
 from fitter.applications.retarget import retarget
 from fitter.applications.rig import Rig
 from fitter.applications.walk import stride_of, walk
 from fitter.body.scape import ScapeEvaluator
-from fitter.errors import InvalidInputError
 from fitter.export.display import png
 from fitter.person.fitted_person import FittedPerson
 from fitter.remarks import FitWarning
@@ -30,11 +31,13 @@ MOST_FRAMES_PER_SECOND = 30.0
 class ChosenMotion:
     """A motion to animate a person with.
 
-    ``source`` says where it comes from, ``warnings`` what was left out of it.
+    ``source`` says where it comes from, ``up`` which axis of its file points up, and ``warnings``
+    what was left out of it or is in doubt.
     """
 
     motion: Motion
     source: str
+    up: str | None
     warnings: tuple[FitWarning, ...]
 
 
@@ -75,46 +78,40 @@ class Animation:
 
 
 def motion_of_clip(
-    clip: BvhClip, rig: Rig, *, start_s: float = 0.0, duration_s: float | None = None
+    source: MotionFile, rig: Rig, *, duration_s: float | None = None, up: str | None = None
 ) -> ChosenMotion:
-    """A stretch of a BVH clip on a person's skeleton, thinned out to 30 frames a second at most.
+    """A stretch of a BVH file on a person's skeleton, thinned out to 30 frames a second at most.
 
     Parameters
     ----------
-    clip
-        The whole clip.
+    source
+        The file, and where the stretch begins.
     rig
         The person's skeleton.
-    start_s, duration_s
-        Which stretch; None goes on to the clip's end. What is longer than there may be frames is
+    duration_s
+        How long it is; None goes on to the clip's end. What is longer than there may be frames is
         cut, with a warning.
-
-    Raises
-    ------
-    InvalidInputError
-        If the stretch begins after the clip's end, or the skeleton cannot be understood.
+    up
+        The file's axis that points up; found from the motion if None.
     """
-    length_s = len(clip.numbers) * clip.frame_time_s
-    first = round(start_s / clip.frame_time_s)
-    if not start_s >= 0.0 or first >= len(clip.numbers):
-        raise InvalidInputError(
-            code="stretch-outside-clip",
-            field="start_s",
-            reason=f"The clip is {length_s:.2f} s long and {start_s:g} s is not within it.",
-            remedy="Begin within the clip.",
-        )
+    clip = source.clip
     # Whole steps only: every frame that is shown is one that was recorded.
     # Files round their frame times: 0.0083333 s is meant for 120 Hz.
     step = max(1, math.ceil(1.0 / (clip.frame_time_s * MOST_FRAMES_PER_SECOND) - 0.01))
-    wanted = len(clip.numbers) - first
+    wanted = clip.frames - source.first
     if duration_s is not None:
         wanted = min(wanted, max(1, round(duration_s / clip.frame_time_s)))
     frames = min((wanted + step - 1) // step, MOST_FRAMES)
-    retargeted = retarget(clip, rig, slice(first, first + frames * step, step))
+    retargeted = retarget(source, rig, source.first + step * np.arange(frames), up=up)
     return ChosenMotion(
         motion=retargeted.motion,
-        source=f"BVH with the names of {retargeted.naming}",
-        warnings=_told_if_cut(frames * step, wanted, clip.frame_time_s),
+        source=f"BVH with the names of {source.naming}",
+        up=retargeted.up.axis,
+        warnings=(
+            *clip.warnings,
+            *retargeted.up.warnings,
+            *_told_if_cut(frames * step, wanted, clip.frame_time_s),
+        ),
     )
 
 
@@ -135,12 +132,13 @@ def motion_of_walk(
     first = round(start_s / frame_time_s)
     source = "the walk that ships with the package"
     if duration_s is None:
-        return ChosenMotion(motion=walk(rig, first=first), source=source, warnings=())
+        return ChosenMotion(motion=walk(rig, first=first), source=source, up=None, warnings=())
     wanted = max(1, round(duration_s / frame_time_s))
     frames = min(wanted, MOST_FRAMES)
     return ChosenMotion(
         motion=walk(rig, first=first, frames=frames),
         source=source,
+        up=None,
         warnings=_told_if_cut(frames, wanted, frame_time_s),
     )
 

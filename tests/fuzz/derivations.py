@@ -66,6 +66,11 @@ def derivation_form(chance: random.Random) -> RawRequest:
         parts["chart"] = damaged(chart, chance) if chance.random() < 0.3 else chart
     elif roll < 0.6:
         document = {"kind": "animation", "start_s": chance.choice((0, 0, 0.05, 3600, -1))}
+        if chance.random() < 0.3:
+            document["up"] = chance.choice(("y", "z", "-x", "w"))
+        if chance.random() < 0.3:
+            part, name = (chance.choice(("pelvis", "chest", "left_shin", "tail")) for _ in range(2))
+            document["joints"] = {part: chance.choice(("Hips", "LeftKnee", "Chest", name))}
         parts["bvh"] = motion(chance)
     else:
         document = {"kind": "texture", "colours": "own"}

@@ -10,7 +10,7 @@ from fitter.applications.animation import (
     motion_of_clip,
     motion_of_walk,
 )
-from fitter.applications.bvh import parse_bvh
+from fitter.applications.motion_file import read_motion
 from fitter.applications.rig import Rig, rig_of
 from service.jobs.inputs import CLIP, PERSON
 from service.worker.derived.person import person_and_operators
@@ -30,6 +30,7 @@ def derive(
     return DerivationOutput(
         result=AnimationResult(
             source=chosen.source,
+            up=chosen.up,
             frames=made.frames,
             frame_time_s=made.frame_time_s,
             morph_targets=made.morph_targets,
@@ -51,6 +52,5 @@ def derive(
 def _chosen(clip: bytes | None, options: AnimationOptions, rig: Rig) -> ChosenMotion:
     if clip is None:
         return motion_of_walk(rig, start_s=options.start_s, duration_s=options.duration_s)
-    return motion_of_clip(
-        parse_bvh(clip, field=CLIP), rig, start_s=options.start_s, duration_s=options.duration_s
-    )
+    source = read_motion(clip, named=options.joints, start_s=options.start_s)
+    return motion_of_clip(source, rig, duration_s=options.duration_s, up=options.up)

@@ -177,7 +177,9 @@ def test_a_request_at_fault_is_refused_with_the_field(
     assert problem(post(service, fitted(service), body)) == (status, code, field)
 
 
-BVH = "HIERARCHY\nROOT Hips\n"
+MOTIONS = Path(__file__).parents[2] / "unit" / "applications" / "data" / "bvh"
+BVH = (MOTIONS / "r_identity.bvh").read_text(encoding="ascii")
+"""Five seconds of a walk."""
 
 
 def post_motion(service: Service, fit: str, clip: str = BVH, **changes: Any) -> httpx.Response:
@@ -193,9 +195,15 @@ def test_a_motion_comes_along_with_the_request(service: Service):
     job = service.ended(post_motion(service, fit).headers["Location"])
     assert job["state"] == "succeeded"
     links = job["links"]
-    assert service.client.get(links["result"]).json()["source"] == BVH
+    assert service.client.get(links["result"]).json()["source"] == BVH[:40]
     asked = service.client.get(links["request"]).json()
-    assert asked == {"kind": "animation", "start_s": 1.0, "duration_s": None}
+    assert asked == {
+        "kind": "animation",
+        "start_s": 1.0,
+        "duration_s": None,
+        "joints": {},
+        "up": None,
+    }
     walking = service.ended(derived(service, fit, {"kind": "animation"}))
     assert service.client.get(walking["links"]["result"]).json()["source"] == "a walk"
 

@@ -119,7 +119,7 @@ def bvh_of(
         for child in children:
             write(child, depth + 1)
         if not children:
-            end = axes @ np.array([0.0, -0.05, 0.1]) / unit_m
+            end = axes @ rest_turn[part] @ np.array([0.0, -0.05, 0.1]) / unit_m
             lines.extend(
                 [f"{pad}  End Site", pad + "  {", f"{pad}    OFFSET {end[0]} {end[1]} {end[2]}"]
             )

@@ -1,9 +1,12 @@
+import codecs
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 from fitter.applications import bvh
-from fitter.applications.bvh import BvhClip, parse_bvh
+from fitter.applications.bvh import read_bvh
+from fitter.applications.clip import Stretch, stretch_of
 from fitter.errors import InvalidInputError
 
 ARM = """\
@@ -32,67 +35,123 @@ Frame Time: 0.04
 
 def refusal(content: str | bytes) -> InvalidInputError:
     with pytest.raises(InvalidInputError) as caught:
-        parse_bvh(content if isinstance(content, bytes) else content.encode())
+        read_bvh(content if isinstance(content, bytes) else content.encode())
     assert caught.value.field == "bvh"
     assert caught.value.remedy.endswith(".")
     return caught.value
 
 
+def moved(content: str, *frames: int) -> Stretch:
+    return stretch_of(read_bvh(content.encode()), np.array(frames))
+
+
 def test_a_small_file_is_read_as_written():
-    clip = parse_bvh(ARM.encode())
+    clip = read_bvh(ARM.encode())
     assert clip.names == ("Hips", "Arm")
-    assert clip.parent.tolist() == [-1, 0]
-    assert clip.offsets.tolist() == [[0, 1, 0], [2, 0, 0]]
-    assert clip.ends.tolist() == [[0, 0, 3]]
-    assert clip.end_parent.tolist() == [1]
-    assert clip.frame_time_s == 0.04
-    np.testing.assert_array_equal(clip.rest_positions(), [[0, 1, 0], [2, 1, 0]])
+    assert clip.parents == (-1, 0)
+    assert clip.offsets == ((0, 1, 0), (2, 0, 0))
+    assert clip.ends == ((0, 0, 3),)
+    assert clip.end_parents == (1,)
+    assert (clip.frames, clip.frame_time_s) == (2, 0.04)
+    assert clip.numbers.tolist() == [1, 2, 3, 0, 0, 0, 0, 0, 0, 4, 5, 6, 10, 20, 30, 40, 50, 60]
+    assert clip.warnings == ()
 
 
 def test_euler_angles_are_intrinsic_in_the_order_listed():
-    rotations, positions = parse_bvh(ARM.encode()).motion(slice(None))
+    found = moved(ARM, 0, 1)
     hips = Rotation.from_euler("ZXY", [10, 20, 30], degrees=True)
     arm = hips * Rotation.from_euler("YZX", [40, 50, 60], degrees=True)
-    np.testing.assert_allclose(rotations[1, 0], hips.as_matrix(), atol=1e-12)
-    np.testing.assert_allclose(rotations[1, 1], arm.as_matrix(), atol=1e-12)
-    np.testing.assert_allclose(positions[1, 0], [4, 5, 6])
-    np.testing.assert_allclose(positions[1, 1], [4, 5, 6] + hips.apply([2, 0, 0]), atol=1e-12)
-    np.testing.assert_array_equal(rotations[0], np.tile(np.eye(3), (2, 1, 1)))
+    np.testing.assert_allclose(found.rotations[1, 0], hips.as_matrix(), atol=1e-12)
+    np.testing.assert_allclose(found.rotations[1, 1], arm.as_matrix(), atol=1e-12)
+    np.testing.assert_allclose(found.positions[1, 0], [4, 5, 6])
+    place = [4, 5, 6] + hips.apply([2, 0, 0])
+    np.testing.assert_allclose(found.positions[1, 1], place, atol=1e-12)
+    np.testing.assert_allclose(found.ends[1, 0], place + arm.apply([0, 0, 3]), atol=1e-12)
+    np.testing.assert_array_equal(found.rotations[0], np.tile(np.eye(3), (2, 1, 1)))
 
 
 def test_whole_turns_make_no_difference_however_many():
     turned = ARM.replace("10 20 30 40 50 60", "370 -340 36000030 40 50 -300")
-    found, _ = parse_bvh(turned.encode()).motion(slice(1, 2))
-    expected, _ = parse_bvh(ARM.encode()).motion(slice(1, 2))
-    np.testing.assert_allclose(found, expected, atol=1e-7)
+    np.testing.assert_allclose(moved(turned, 1).rotations, moved(ARM, 1).rotations, atol=1e-7)
 
 
 @pytest.mark.parametrize("order", ["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"])
 def test_any_order_of_channels_is_understood(order):
     listed = " ".join(f"{axis}rotation" for axis in order)
     content = ARM.replace("Yrotation Zrotation Xrotation", listed)
-    clip = parse_bvh(content.encode())
-    rotations, _ = clip.motion(slice(1, 2))
+    rotations = moved(content, 1).rotations
     local = rotations[0, 0].T @ rotations[0, 1]
     expected = Rotation.from_euler(order, [40, 50, 60], degrees=True).as_matrix()
     np.testing.assert_allclose(local, expected, atol=1e-12)
 
 
 def test_some_frames_are_the_same_as_in_the_whole():
-    clip = parse_bvh(ARM.encode())
-    for whole, some in zip(clip.motion(slice(None)), clip.motion(slice(1, 2)), strict=True):
-        np.testing.assert_array_equal(whole[1:], some)
+    whole, some = moved(ARM, 0, 1), moved(ARM, 1)
+    np.testing.assert_array_equal(whole.rotations[1:], some.rotations)
+    np.testing.assert_array_equal(whole.positions[1:], some.positions)
 
 
-def test_windows_line_ends_small_letters_and_blank_lines_do_no_harm():
-    content = ARM.replace("\n", "\r\n\r\n").replace("OFFSET", "Offset").replace("MOTION", "Motion")
-    assert isinstance(parse_bvh(content.encode()), BvhClip)
+@pytest.mark.parametrize(
+    "content",
+    [
+        ARM.replace("\n", "\r\n\r\n").replace("OFFSET", "Offset").replace("MOTION", "Motion"),
+        ARM.replace("\n  {\n", " {\n").replace("{\n    OFFSET", "{ OFFSET"),
+        "\n\n" + ARM.replace(" ", "\t"),
+    ],
+    ids=["Windows, small letters and blank lines", "braces within lines", "tabs"],
+)
+def test_other_layouts_of_the_same_words_are_read_without_a_word(content):
+    found, expected = read_bvh(content.encode()), read_bvh(ARM.encode())
+    assert (found.offsets, found.numbers) == (expected.offsets, expected.numbers)
+    assert found.warnings == ()
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        codecs.BOM_UTF8 + ARM.encode(),
+        codecs.BOM_UTF16_LE + ARM.encode("utf-16-le"),
+        codecs.BOM_UTF16_BE + ARM.encode("utf-16-be"),
+    ],
+)
+def test_a_byte_order_mark_is_read(content):
+    found = read_bvh(content)
+    assert (found.names, found.frames, found.warnings) == (("Hips", "Arm"), 2, ())
+
+
+LAST = "4 5 6 10 20 30 40 50 60"
+
+
+@pytest.mark.parametrize(
+    ("content", "frames", "told"),
+    [
+        (ARM.replace("Frames: 2", "Frames:2"), 2, "Line 17"),
+        (ARM.replace("Frame Time: 0.04", "Frame Time:0.04"), 2, "Line 18"),
+        (ARM.replace(LAST, "4 5 6\n10 20 30\n\n40 50 60"), 2, "Line 20"),
+        (ARM.replace("Frames: 2", "Frames: 1"), 2, "announces 1 frames and has 2"),
+        (ARM.replace("Frames: 2", "Frames: 3"), 2, "announces 3 frames and has 2"),
+    ],
+)
+def test_what_a_file_says_against_itself_or_oddly_is_read_with_a_warning(content, frames, told):
+    found = read_bvh(content.encode())
+    assert found.frames == frames
+    assert found.numbers == read_bvh(ARM.encode()).numbers
+    (warning,) = found.warnings
+    assert warning.code == "bvh-irregular"
+    assert told in warning.message
+
+
+@pytest.mark.parametrize(
+    "numbers",
+    [LAST.replace("60", "60 70"), "4 5 6\n10 20 30 40 50 60 70", f"{LAST} {LAST}", "4 5 6\n10 20"],
+)
+def test_a_frame_ends_where_a_line_ends(numbers):
+    assert "Line 20: frame 2 is not 9" in refusal(ARM.replace(LAST, numbers)).reason
 
 
 @pytest.mark.parametrize(
     ("old", "new", "line", "word"),
     [
-        ("HIERARCHY", "hello", 1, "HIERARCHY"),
         ("ROOT Hips", "JOINT Hips", 2, "ROOT"),
         ("OFFSET 0 1 0", "OFFSET 0 1", 4, "three numbers"),
         ("OFFSET 0 1 0", "OFFSET 0 one 0", 4, "three numbers"),
@@ -105,7 +164,7 @@ def test_windows_line_ends_small_letters_and_blank_lines_do_no_harm():
         ("MOTION", "Frames: 2", 16, "MOTION"),
         ("Frames: 2", "Frames: two", 17, "whole number"),
         ("Frames: 2", "Frames: 0", 17, "0 frames"),
-        ("Frames: 2", "Frames: 1", 20, "announced"),
+        ("Frames: 2", "Frames 2", 17, "Frames:"),
         ("Frame Time: 0.04", "Frame Time: 0", 18, "seconds"),
         ("Frame Time: 0.04", "Frame Time: 1e-320", 18, "seconds"),
         ("Frame Time: 0.04", "Frame Time: 1e-6", 18, "seconds"),
@@ -128,12 +187,18 @@ def test_what_is_wrong_is_told_by_its_line(old, new, line, word):
 
 
 def test_missing_frames_are_counted():
-    assert "after 2 of the 3 frames" in refusal(ARM.replace("Frames: 2", "Frames: 3")).reason
+    assert "after 2 of the 4 frames" in refusal(ARM.replace("Frames: 2", "Frames: 4")).reason
+    more = ARM + f"{LAST}\n" * 2
+    assert "Line 22: more frames than the 2" in refusal(more).reason
 
 
-@pytest.mark.parametrize("content", [b"", b"\n\n", bytes(range(256)), b"\x89PNG\r\n\x1a\n" * 9])
+@pytest.mark.parametrize(
+    "content", [b"", b"hello\nROOT Hips", b"\n\n", bytes(range(256)), b"\x89PNG\r\n\x1a\n" * 9]
+)
 def test_what_is_no_text_of_this_kind_is_no_bvh(content):
-    assert "HIERARCHY" in refusal(content).reason
+    error = refusal(content)
+    assert error.code == "not-a-bvh"
+    assert "HIERARCHY" in error.reason
 
 
 @pytest.mark.parametrize("cut", range(40, len(ARM) - 30, 37))

@@ -30,11 +30,11 @@ export const FAULTS = [
 
 /** Warnings of fits, scans, proposals, initial bodies and derivations, by `code`. */
 export const WARNINGS = [
-  "ambiguous-limb-facing", "body-outside-picture", "chart-gap", "chart-overlap", "clip-cut", "clothes-not-loose", "cut-off", "different-people",
+  "ambiguous-limb-facing", "body-outside-picture", "bvh-irregular", "chart-gap", "chart-overlap", "clip-cut", "clothes-not-loose", "cut-off", "different-people",
   "given-contradicted", "heights-differ", "implausible", "left-and-right-may-be-swapped", "limbs-crossed", "low-silhouette-overlap", "no-person",
   "nobody-found", "other-view", "person-too-small", "sandbox", "seen-from-behind", "segmentation-doubtful", "several-people",
   "shading-not-used", "shoulders-and-hips-disagree", "skin-not-found", "surroundings-not-found",
-  "transparency-over-white", "unusual-height",
+  "transparency-over-white", "unusual-height", "up-uncertain",
 ] as const;
 
 /** Findings of checks of pictures, by `code`: what is wrong and what to do. */

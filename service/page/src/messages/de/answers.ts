@@ -32,7 +32,7 @@ export const answers: TranslatedAnswers = {
     unreachable: "Der Dienst antwortet nicht",
   },
   faults: {
-    "bvh-skeleton-unknown": "Das Skelett der Datei ist in Ruhe kein aufrechter Mensch mit bekannten Gelenken. Nehmen Sie eine Datei mit Gelenken, wie CMU, Mixamo, Rokoko oder Blender sie nennen.",
+    "bvh-skeleton-unknown": "Die Gelenke der Datei sind unbekannt oder nicht die eines Menschen. Nehmen Sie eine Datei mit Gelenken, wie CMU, Mixamo, Biovision, SMPL oder Unreal sie nennen.",
     "bvh-too-far": "Die Bewegung führt zu weit weg. Kürzen Sie die Datei.",
     "bvh-too-large": "Die BVH-Datei ist zu groß. Kürzen Sie sie.",
     "bvh-too-long": "Die Bewegung ist zu lang. Kürzen Sie die Datei.",
@@ -99,6 +99,7 @@ export const answers: TranslatedAnswers = {
   warnings: {
     "ambiguous-limb-facing": "Das Bild passt etwa ebenso gut, wenn Arme oder Beine anders herum geneigt sind. Sagen Sie es unter „Auf Sie zu oder von Ihnen weg“.",
     "body-outside-picture": "Die Person reicht über den Rand des Bildes. Was außerhalb liegt, ist aus dem Rest erschlossen.",
+    "bvh-irregular": "Die BVH-Datei widerspricht sich oder ist ungewöhnlich geschrieben. Sie wurde gelesen, wie sie wohl gemeint ist.",
     "chart-gap": "Zwischen manchen Größen der Tabelle ist eine Lücke: Wer dort liegt, bekommt die nähere; zu klein zählt dabei doppelt.",
     "chart-overlap": "Manche Größen der Tabelle überschneiden sich: Wer in beide fällt, bekommt die, deren Mitte näher liegt.",
     "clip-cut": "Von der Bewegung ist nur ein Teil zu sehen: Sie ist länger, als eine Animation sein darf.",
@@ -126,6 +127,7 @@ export const answers: TranslatedAnswers = {
     "surroundings-not-found": "Es ist zu wenig bloße Fläche zu sehen, um das Licht der Umgebung von der Lampe zu trennen: Angenommen sind eine Lampe und gleichmäßiges schwaches Licht von überall.",
     "transparency-over-white": "Das Bild ist zum Teil durchsichtig und wurde auf Weiß gelegt. Wenn der deckende Teil die Person ist, verwenden Sie ihn als Maske.",
     "unusual-height": "Diese Körperhöhe haben wenige. Der übrige Körper ist aus den üblichen Größen hochgerechnet, die Fehlerangaben sind weiter. Prüfen Sie Körperhöhe und Geschlecht.",
+    "up-uncertain": "Welche Achse der BVH-Datei nach oben zeigt, ist aus der Bewegung erschlossen und nicht sicher.",
   },
   findings: {
     "nobody-found": "In diesem Bild wurde niemand gefunden. Die ganze Person soll darin sein, aufrecht, in gutem Licht und unverdeckt.",

@@ -107,7 +107,7 @@ export const derived: Messages["derived"] = {
     choose: "BVH-Datei wählen",
     walk: "Gehen lassen",
     moves: (file) => `Er bewegt sich nach ${file}.`,
-    walks: "Ohne Datei geht er. Gelenke dürfen heißen wie bei CMU, Mixamo, Rokoko oder Blender.",
+    walks: "Ohne Datei geht er. Gelenke dürfen heißen wie in vielen Programmen: CMU, Mixamo, Biovision, SMPL, Unreal und anderen.",
     told: (source, length, way) => `Nach ${source}: ${length}, ${way} Weg.`,
     shippedWalk: "dem mitgelieferten Gang",
     namedJoints: (naming) => `BVH-Datei mit den Namen von ${naming}`,

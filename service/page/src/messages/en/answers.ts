@@ -99,6 +99,7 @@ export const answers: Answers = {
   warnings: {
     "ambiguous-limb-facing": "The picture fits about as well with some limbs slanting the other way. Say which under “Toward you or away”.",
     "body-outside-picture": null,
+    "bvh-irregular": null,
     "chart-gap": null,
     "chart-overlap": null,
     "clip-cut": null,
@@ -129,6 +130,7 @@ export const answers: Answers = {
       "Too little bare surface is visible to tell the light from all round from the lamp: the light is a lamp, and the same faint light from everywhere.",
     "transparency-over-white": "The picture is partly transparent and was laid over white. If its opaque part is the person, use that as the mask.",
     "unusual-height": null,
+    "up-uncertain": null,
   },
   findings: {
     "nobody-found": "Nobody was found in this picture. Have the whole person in it, upright, in good light and unhidden.",

@@ -92,7 +92,7 @@ export const derived = {
     choose: "Choose a BVH file",
     walk: "Let it walk",
     moves: (file: string) => `It moves as ${file} says.`,
-    walks: "Without a file it walks. Joints may be named as by CMU, Mixamo, Rokoko or Blender.",
+    walks: "Without a file it walks. Joints may be named as by many programs: CMU, Mixamo, Biovision, SMPL, Unreal and others.",
     told: (source: string, length: string, way: string) => `By ${source}: ${length}, ${way} of way.`,
     shippedWalk: "the walk that ships with the package",
     namedJoints: (naming: string) => `BVH with the names of ${naming}`,
