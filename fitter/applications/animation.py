@@ -15,6 +15,7 @@ from fitter.applications.motion_file import MotionFile
 from fitter.applications.principal_frames import principal_frames
 from fitter.applications.retarget import retarget
 from fitter.applications.rig import Rig
+from fitter.applications.up_axis import Axis
 from fitter.applications.walk import stride_of, walk
 from fitter.body.scape import ScapeEvaluator
 from fitter.export.display import png
@@ -37,7 +38,7 @@ class ChosenMotion:
 
     motion: Motion
     source: str
-    up: str | None
+    up: Axis | None
     warnings: tuple[FitWarning, ...]
 
 
@@ -78,7 +79,7 @@ class Animation:
 
 
 def motion_of_clip(
-    source: MotionFile, rig: Rig, *, duration_s: float | None = None, up: str | None = None
+    source: MotionFile, rig: Rig, *, duration_s: float | None = None, up: Axis | None = None
 ) -> ChosenMotion:
     """A stretch of a BVH file on a person's skeleton, thinned out to 30 frames a second at most.
 

@@ -14,7 +14,7 @@ from fitter.applications.clip import Stretch, stretch_of
 from fitter.applications.motion import Motion
 from fitter.applications.motion_file import MotionFile
 from fitter.applications.rig import Rig
-from fitter.applications.up_axis import UpAxis, found_up_axis, told_up_axis
+from fitter.applications.up_axis import Axis, UpAxis, found_up_axis, told_up_axis
 from fitter.numerics.rotations import rotation_matrices, rotation_vectors
 
 LIFT_DEAD_ZONE_M = 0.05
@@ -42,7 +42,7 @@ class Retargeted:
 
 
 def retarget(
-    source: MotionFile, rig: Rig, frames: Integer[np.ndarray, " t"], *, up: str | None = None
+    source: MotionFile, rig: Rig, frames: Integer[np.ndarray, " t"], *, up: Axis | None = None
 ) -> Retargeted:
     """Some frames of a file as poses of a person.
 
@@ -87,7 +87,7 @@ def retarget(
     )
 
 
-def _world_and_samples(source: MotionFile, up: str | None) -> tuple[UpAxis, Samples]:
+def _world_and_samples(source: MotionFile, up: Axis | None) -> tuple[UpAxis, Samples]:
     """How the file's world stands, and the frames of the clip from which A follows.
 
     They are of the whole clip, so that every stretch of it shows the same.

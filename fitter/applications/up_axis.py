@@ -1,6 +1,7 @@
 """Which axis of a motion's file points up: the one along which heads are above feet."""
 
 from dataclasses import dataclass
+from typing import Literal, get_args
 
 import numpy as np
 from jaxtyping import Float
@@ -9,7 +10,8 @@ from fitter.arrays import Vector3
 from fitter.numerics.vectors import unit_vectors
 from fitter.remarks import FitWarning
 
-AXES = ("y", "-y", "z", "-z", "x", "-x")
+Axis = Literal["y", "-y", "z", "-z", "x", "-x"]
+AXES: tuple[Axis, ...] = get_args(Axis)
 """In the order in which they are preferred: most files' up is y."""
 
 _UPRIGHT_COSINE = np.cos(np.radians(45.0))
@@ -22,12 +24,12 @@ _MOST = 0.75
 class UpAxis:
     """The axis, its rotation to a world whose y is up, and a warning where it is in doubt."""
 
-    axis: str
+    axis: Axis
     to_world: Float[np.ndarray, "3 3"]
     warnings: tuple[FitWarning, ...]
 
 
-def told_up_axis(axis: str) -> UpAxis:
+def told_up_axis(axis: Axis) -> UpAxis:
     """The axis that the caller says is up."""
     return UpAxis(axis=axis, to_world=_to_world(axis), warnings=())
 

@@ -73,8 +73,8 @@ RIGHT = (("Left", "Right"), ("left", "right"), ("_L_", "_R_"), ("~L~", "~R~"), (
 def joints(line: str) -> dict[str, str]:
     """By part, from names of the trunk and the left limbs."""
     trunk, left = (half.split() for half in line.split(" / "))
-    parts: tuple[str, ...] = ("pelvis", "spine", "chest", "neck", "head")
-    names = dict(zip(parts, trunk, strict=True))
+    names: dict[str, str] = {}
+    names.update(zip(("pelvis", "spine", "chest", "neck", "head"), trunk, strict=True))
     for limb, name in zip(LIMBS, left, strict=True):
         names[f"left_{limb}"] = name.replace("~", " ")
         names[f"right_{limb}"] = right(name).replace("~", " ")
