@@ -24,7 +24,7 @@ CHECKED := --jaxtyping-packages=fitter,beartype.beartype(conf=beartype.BeartypeC
 FITTER_TESTS := $(filter $(wildcard tests/unit/*/__init__.py),\
 	$(patsubst fitter/%,tests/unit/%,$(wildcard fitter/*/__init__.py)))
 
-.PHONY: demo test test-rest test-shapes blender lint serve train report openapi docs page wheel image sbom release lock clean
+.PHONY: demo test test-rest test-shapes blender lint serve train report openapi docs page wheel image audit sbom release lock clean
 
 demo: $(STAMP)
 	$(VENV)/bin/maquette demo
@@ -83,6 +83,13 @@ page:
 wheel: $(STAMP)
 	$(VENV)/bin/python -m hatchling build
 
+# Known vulnerabilities of the locked packages; says so where no list of them can be reached.
+audit: $(STAMP)
+	test -x .venv-audit/bin/pip-audit \
+		|| { $(PYTHON) -m venv .venv-audit && .venv-audit/bin/python -m pip install -q --disable-pip-version-check pip-audit==2.10.1; } \
+		|| echo "pip-audit cannot be installed here."
+	$(VENV)/bin/python -m tests.dependency_audit .venv-audit/bin/pip-audit
+
 # What a container is made of, as CycloneDX. The image has the same at /opt/maquette/sbom.cdx.json.
 sbom: $(STAMP)
 	$(VENV)/bin/python docker/sbom.py --python $(VENV)/bin/python --detector $(VENV)/lib \
@@ -119,4 +126,4 @@ $(STAMP): pyproject.toml service/version.py requirements.lock requirements-detec
 	touch $(STAMP)
 
 clean:
-	rm -rf $(VENV) .venv-blender maquette-data demo-output dist service/docs_site
+	rm -rf $(VENV) .venv-audit .venv-blender maquette-data demo-output dist service/docs_site

@@ -1,5 +1,8 @@
 """Write what the service is made of, as CycloneDX: packages, the page's libraries, models.
 
+A package has within it the native libraries that its wheel brings along: the files, by what they
+were called before the wheel was made and their bytes, and what the wheel's own list says of them.
+
 Run from the repository's root, by a Python that has cyclonedx-bom. The environment that is
 described is that of ``--python``; of its packages those are listed that a container runs with.
 """
@@ -11,6 +14,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Iterator
+from importlib.metadata import Distribution, distributions
 from pathlib import Path
 from typing import Any, Final
 
@@ -24,6 +28,10 @@ UNDECLARED: Final = {"protobuf": "BSD-3-Clause", "qdldl": "Apache-2.0"}
 
 WEIGHTS: Final = ("pose_detection.tflite", "pose_landmark_full.tflite")
 CARRIER: Final = re.compile(r"^(mediapipe)==(\S+)", re.MULTILINE)
+NATIVE: Final = re.compile(r"lib[^/]+\.so(\.[^/]+)?")
+WHEELS_MARK: Final = re.compile(r"-[0-9a-f]{8}(?=[-.])")
+"""What tools that make wheels put into the name of a library, so that no two meet."""
+
 MODELS: Final = Path("fitter/body/data")
 PROJECT: Final = Path("pyproject.toml")
 VERSION: Final = re.compile(r'^VERSION = "(.+)"$', re.MULTILINE)
@@ -50,6 +58,10 @@ def main() -> None:
     for each in packages:
         if "licenses" not in each and normal(each["name"]) in UNDECLARED:
             each["licenses"] = licence(UNDECLARED[normal(each["name"])])
+    brought = natives(parsed.python)
+    for each in packages:
+        if parts := brought.get(normal(each["name"])):
+            each["components"] = parts
     version = own_version()
     models = [*weights(parsed.detector), *body_models(version)]
     libraries = page_libraries()
@@ -76,6 +88,49 @@ def environment(python: str) -> Component:
     command += ["--mc-type", "application", "--of", "JSON", "--output-reproducible"]
     printed = subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout
     return json.loads(printed)
+
+
+def natives(python: str) -> dict[str, list[Component]]:
+    """List the native libraries in the packages of a Python, by the packages' names."""
+    asked = [python, "-c", "import sysconfig; print(sysconfig.get_path('platlib'))"]
+    folder = subprocess.run(asked, check=True, stdout=subprocess.PIPE, text=True).stdout.strip()
+    return {
+        normal(each.name): [*native_files(each), *listed_by_wheel(each)]
+        for each in distributions(path=[folder])
+    }
+
+
+def native_files(package: Distribution) -> Iterator[Component]:
+    """Describe the libraries that a package has as files, as far as they are still there."""
+    for file in sorted(package.files or (), key=str):
+        path = Path(str(package.locate_file(file)))
+        if NATIVE.fullmatch(path.name) and path.is_file():
+            name, _, version = WHEELS_MARK.sub("", path.name).partition(".so")
+            yield {
+                "bom-ref": f"{normal(package.name)}/{file}",
+                "type": "library",
+                "name": name,
+                "hashes": [
+                    {"alg": "SHA-256", "content": hashlib.sha256(path.read_bytes()).hexdigest()}
+                ],
+            } | ({"version": version.removeprefix(".")} if version else {})
+
+
+def listed_by_wheel(package: Distribution) -> Iterator[Component]:
+    """What the wheel's own lists (PEP 770) say was built into it: systems' packages and crates."""
+    seen: set[str] = set()
+    for file in sorted(package.files or (), key=str):
+        path = Path(str(package.locate_file(file)))
+        if path.parent.name != "sboms" or path.suffix != ".json" or not path.is_file():
+            continue
+        for each in json.loads(path.read_text()).get("components", ()):
+            purl = each.get("purl", "")
+            if purl and not purl.startswith("pkg:pypi/") and purl not in seen:
+                seen.add(purl)
+                kept = ("type", "name", "version", "purl")
+                yield {"bom-ref": f"{normal(package.name)}/{purl}"} | {
+                    name: each[name] for name in kept if name in each
+                }
 
 
 def weights(folder: Path) -> Iterator[Component]:

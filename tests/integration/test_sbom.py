@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 import sys
+import sysconfig
 from pathlib import Path
 from typing import Any
 
@@ -97,6 +98,66 @@ def test_it_is_refused_for_a_page_that_was_built_of_other_libraries(tmp_path: Pa
     )
     assert done.returncode != 0
     assert "another version: make page" in done.stderr
+
+
+def natives(text: str, package: str) -> dict[str, dict[str, Any]]:
+    """The libraries within a package, by name."""
+    return {each["name"]: each for each in components(text, "library")[package]["components"]}
+
+
+@pytest.mark.parametrize(
+    ("package", "brought"),
+    [
+        ("opencv-python-headless", {"libavcodec", "libavformat", "libcrypto", "libssl", "libaom"}),
+        ("psycopg-binary", {"libpq", "libcrypto", "libssl"}),
+        ("pi-heif", {"libheif", "libde265"}),
+        ("pillow", {"libjpeg", "libtiff", "libwebp"}),
+        ("llvmlite", {"libllvmlite"}),
+    ],
+)
+def test_native_libraries_are_named_within_the_package_whose_wheel_brings_them(
+    text: str, package: str, brought: set[str]
+):
+    assert brought <= set(natives(text, package))
+
+
+def test_every_file_of_a_native_library_is_listed_by_its_bytes(text: str):
+    listed = {
+        digest["content"]
+        for package in components(text, "library").values()
+        for part in package.get("components", ())
+        for digest in part.get("hashes", ())
+    }
+    packages = Path(sysconfig.get_path("platlib"))
+    names = ("opencv_python_headless", "psycopg_binary", "pi_heif", "pillow", "numpy", "scipy")
+    files = [each for name in names for each in (packages / f"{name}.libs").iterdir()]
+    assert len(files) > len(names)
+    assert {hashlib.sha256(each.read_bytes()).hexdigest() for each in files} <= listed
+
+
+def test_versions_are_those_of_the_files_and_of_the_wheel_s_own_list(text: str):
+    brought = natives(text, "opencv-python-headless")
+    assert re.fullmatch(r"[\d.]+[a-z]?", brought["libcrypto"]["version"])
+    assert brought["openssl-libs"]["purl"].startswith("pkg:rpm/")
+    assert natives(text, "pydantic-core")["serde"]["purl"].startswith("pkg:cargo/serde@")
+
+
+def test_the_notice_names_what_comes_under_the_lesser_licence(text: str):
+    notice = (REPOSITORY / "NOTICE").read_text()
+    lesser = [
+        name
+        for name, each in components(text, "library").items()
+        if "LGPL" in json.dumps(each.get("licenses", ()))
+        or "Lesser General" in json.dumps(each.get("licenses", ()))
+    ]
+    assert {"psycopg", "psycopg-binary"} <= set(lesser)
+    for name in lesser:
+        assert f"`{name}`" in notice, name
+    opencv = natives(text, "opencv-python-headless")
+    ffmpeg = {each for each in opencv if each.startswith(("libav", "libsw"))} - {"libavif"}
+    assert len(ffmpeg) == 5
+    for name in {*ffmpeg, *natives(text, "pi-heif")}:
+        assert name in notice, name
 
 
 def test_everything_has_a_licence(text: str):

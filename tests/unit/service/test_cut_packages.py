@@ -1,8 +1,10 @@
 """What is cut from the packages of an image, and what stays."""
 
+import importlib.metadata
 import shutil
 import subprocess
 import sys
+import sysconfig
 from pathlib import Path
 
 import botocore
@@ -41,6 +43,26 @@ def test_what_a_service_never_reads_is_erased_and_nothing_else(tmp_path: Path):
     left = {str(each.relative_to(tmp_path)) for each in tmp_path.rglob("*") if each.is_file()}
     assert left == set(LEFT)
     assert [line.split()[0] for line in printed.splitlines()] == ["2.0", "1.0", "1.0", "2.0"]
+
+
+def test_no_library_that_a_wheel_brings_is_one_that_nothing_links():
+    """Else it is for the cut, as OpenSSL 1.1.1 will be once OpenCV's FFmpeg needs it no more."""
+    packages = Path(sysconfig.get_path("platlib"))
+    names = ("opencv_python_headless", "psycopg_binary", "pi_heif", "pillow", "numpy", "scipy")
+    for name in names:
+        brought = [*(packages / f"{name}.libs").iterdir()]
+        folder = importlib.metadata.distribution(name)
+        binaries = {
+            Path(str(each.locate())).resolve()
+            for each in folder.files or ()
+            if ".so" in each.name and Path(str(each.locate())).is_file()
+        }
+        contents = {path: path.read_bytes() for path in binaries}
+        for library in brought:
+            # As the string table of whoever links it has it.
+            linked = b"\0" + library.name.encode() + b"\0"
+            users = [path for path, content in contents.items() if linked in content]
+            assert set(users) - {library.resolve()}, library.name
 
 
 @pytest.fixture
