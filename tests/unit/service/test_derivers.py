@@ -4,6 +4,7 @@ import io
 import json
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -43,6 +44,8 @@ from tests.unit.service.derivation_samples import (
     png,
     sample_inputs,
 )
+
+MOTIONS = Path(__file__).parents[1] / "applications" / "data" / "bvh"
 
 
 def test_the_named_poses_of_the_wire_are_the_fitter_s():
@@ -228,6 +231,29 @@ def test_a_clip_that_comes_along_is_what_moves_the_body_and_says_its_errors():
     with pytest.raises(UnusableInputError) as caught:
         derived(files={CLIP: b"HIERARCHY\nROOT Hips\n{\n}\n"}, kind="animation")
     assert caught.value.error.field == "bvh"
+
+
+def test_a_clip_moves_the_body_by_the_joints_and_the_axis_that_are_told():
+    clip = (MOTIONS / "r_lafanlike.bvh").read_bytes().replace(b"LeftKnee", b"Knie L")
+    clip = clip.replace(b"Frames: 40", b"Frames: 41")
+    output = derived(
+        files={CLIP: clip},
+        kind="animation",
+        start_s=1.0,
+        duration_s=0.4,
+        joints={"left_shin": "Knie L"},
+        up="y",
+    )
+    result = output.result.model_dump()
+    assert (result["source"], result["up"]) == ("BVH with the names of CMU", "y")
+    assert result["frames"] == 3
+    assert [warning["code"] for warning in result["warnings"]] == ["bvh-irregular"]
+    assert set(output.artifacts) == {
+        "animation.png",
+        "animation.webp",
+        "body_animated.glb",
+        "body_skinned.glb",
+    }
 
 
 @pytest.mark.parametrize(
