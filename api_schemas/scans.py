@@ -267,7 +267,7 @@ class ScanResult(WireModel):
         le=1.0,
         description=(
             "How often pictures of one person, each by itself, give bodies that differ as much as "
-            "these do; below 0.01 a warning names the view that differs most."
+            "these do; below 0.1 a warning names the view that differs most."
         ),
     )
     assumptions: tuple[Assumption, ...]

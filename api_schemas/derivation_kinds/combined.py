@@ -66,7 +66,7 @@ class CombinedResult(DerivedFiles):
         le=1.0,
         description=(
             "How often pictures of one person give bodies that differ as much as these do; below "
-            "0.01 a warning names the fit that differs most."
+            "0.1 a warning names the fit that differs most."
         ),
     )
     warnings: tuple[FitWarning, ...]

@@ -122,6 +122,7 @@ def _add_modes(to: argparse.ArgumentParser) -> None:
             "--scan",
             "measure people from the front, from the side and from both, foreign ones too",
         ),
+        ("--strangers", "scan pictures of one person and of two: how often that is told"),
     ):
         to.add_argument(name, action="store_true", help=what)
     to.add_argument(

@@ -25,6 +25,7 @@ from tests.evaluation.scans import Pair, Scanned, foreign_pairs, own_pairs, repe
 from tests.evaluation.scene import Case, Half, Series
 from tests.evaluation.several import several_pictures
 from tests.evaluation.shape_limit import shape_limit
+from tests.evaluation.strangers import agreement_of, asked_of, stranger_lines
 from tests.evaluation.table import MEASUREMENTS, case_lines
 from tests.evaluation.verdict_table import judged_nonsense, judged_picture, verdict_lines
 
@@ -165,6 +166,13 @@ def repeat(choice: Choice) -> None:
         _print(repeat_lines(_scans(repeated_pairs(half), choice.jobs)), f"{half.value} half")
 
 
+def strangers(choice: Choice) -> None:
+    """Pictures of one person and of two, and how often a scan tells them apart."""
+    for half in choice.halves:
+        found = of_each(agreement_of, asked_of(half), choice.jobs)
+        _print(stranger_lines(list(found)), f"{half.value} half")
+
+
 def dressed(choice: Choice) -> None:
     """Loose clothes said to be tight and loose."""
     for half, cases in choice.cases_by_half.items():
@@ -187,6 +195,7 @@ MODES: Mapping[str, Mode] = {
     "nonsense": verdicts,
     "repeat": repeat,
     "scan": scan,
+    "strangers": strangers,
 }
 
 

@@ -3,8 +3,8 @@ Light and reflectance
 =====================
 
 Shape from shading (section 5 of the paper) finds a direction to the light, and for every vertex
-how much it reflects. The three pictures are the sample, its shading alone, and the albedo alone:
-their product is the picture.
+how much it reflects. As in the paper's Fig. 7 the pictures are the sample, the albedo, the albedo
+in the light, and all of Eq. 1, with highlights, which is to come near the sample's brightness.
 """
 
 import numpy as np
@@ -15,7 +15,13 @@ from fitter import files_of, fit
 request = sample_request()
 result = fit(request)
 files = files_of(result, request.image)
-show(files["shading.png"], files["albedo.png"], titles=("shading", "albedo"))
+show(
+    request.image,
+    files["albedo.png"],
+    files["shading_lambertian.png"],
+    files["shading.png"],
+    titles=("picture", "albedo", "Lambertian", "Blinn-Phong"),
+)
 
 # %%
 # Where the light comes from: azimuth from the camera's side toward the right of the picture,

@@ -2,7 +2,7 @@
 The height-preserving shape space
 =================================
 
-Coefficient 0 is the height's own axis, and all others leave the height as it is (section 3.1 of
+Coefficient 0 is the height's own axis, and all others leave the height as it is (section 4 of
 the paper). Each row is one coefficient at minus two, zero and plus two standard deviations.
 """
 

@@ -90,9 +90,6 @@ test("pictures agree only where the result says so", () => {
   assert.match(qualityOf(GOOD).text, /^Good.*they agree/);
   assert.match(qualityOf(GOOD).agreement!, /in 84% of cases/);
   assert.match(qualityOf({ ...GOOD, agreement: 1 }).agreement!, /nearly always/);
-  const unlike = qualityOf({ ...GOOD, agreement: 0.02 });
-  assert.match(unlike.text, /^Fair.*hardly agree/);
-  assert.match(unlike.agreement!, /only 2% of cases/);
   const others = qualityOf({ ...GOOD, agreement: 0.003, warnings: [{ code: "different-people" }] });
   assert.ok(others.isBad);
   assert.match(others.text, /contradict/);

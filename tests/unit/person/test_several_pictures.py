@@ -7,7 +7,7 @@ from fitter.energies.priors import POPULATION_PRECISION
 from fitter.errors import InvalidInputError
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
-from fitter.person.several_pictures import SHARED_ERROR, combined_shape
+from fitter.person.several_pictures import SAME_PERSON_PROBABILITY, SHARED_ERROR, combined_shape
 from fitter.render.camera import Camera
 from fitter.request import Gender
 
@@ -81,6 +81,27 @@ def test_pictures_of_different_people_are_noticed_and_the_odd_one_named():
     mixed = combined_shape([fit_of(SHAPE, told), fit_of(other, told), fit_of(SHAPE, told)])
     assert mixed.doubtful
     assert mixed.differing == 1
+
+
+def drawn_fits(rng: np.random.Generator, told, count: int) -> list[FittedPerson]:
+    """Fits of one person of the population, whose errors correlate as those of pictures do."""
+    shape = np.concatenate([[0.3], rng.standard_normal(N - 1)])
+    common = rng.standard_normal(N - 1)
+    fits: list[FittedPerson] = []
+    for own in rng.standard_normal((count, N - 1)):
+        error = np.sqrt(SHARED_ERROR) * common + np.sqrt(1.0 - SHARED_ERROR) * own
+        noise = np.where(told > 0.0, error / np.sqrt(np.maximum(told, 1e-9)), 0.0)
+        fits.append(fit_of(shape + np.concatenate([[0.0], noise]), told))
+    return fits
+
+
+@pytest.mark.parametrize("count", [2, 4])
+def test_pictures_of_one_person_are_doubted_no_more_often_than_the_agreement_says(count):
+    rng, told = np.random.default_rng(7), np.array([9.0, 4.0, 2.0, 1.0, 25.0])
+    agreements = [combined_shape(drawn_fits(rng, told, count)).agreement for _ in range(400)]
+    for share in (0.05, SAME_PERSON_PROBABILITY, 0.3):
+        assert np.mean(np.array(agreements) < share) < share
+    assert np.mean(np.array(agreements) < 0.3) > 0.01
 
 
 @pytest.mark.parametrize(

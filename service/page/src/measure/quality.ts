@@ -7,8 +7,8 @@ import { isContradicted } from "../result/outcome";
 /** Told by the page itself, with the picture it belongs to. */
 const DIFFERENT_PEOPLE = "different-people";
 
-/** Below it the pictures differ more than those of one person usually do: one in twenty pairs. */
-const USUAL_AGREEMENT = 0.05;
+/** Below it the service warns, and a share is said to be small. */
+const USUAL_AGREEMENT = 0.1;
 
 export interface Quality {
   readonly text: string;
@@ -30,7 +30,6 @@ export function qualityOf(result: Judged): Quality {
   if (result.warnings.some(({ code }) => code === DIFFERENT_PEOPLE)) return { text: quality.differentPeople, isBad: true, agreement };
   if (findings.some(({ severity }) => severity === "blocks")) return { text: quality.poor, isBad: true, agreement };
   if (findings.length > 0) return { text: quality.fair, isBad: false, agreement };
-  if (result.agreement < USUAL_AGREEMENT) return { text: quality.unlike, isBad: false, agreement };
   return { text: quality.good, isBad: false, agreement };
 }
 

@@ -170,7 +170,7 @@ ENGLISH: Final = Wording(
         },
         skin={
             "albedo.png": "The skin without the light",
-            "shading.png": "The light on an even skin",
+            "shading.png": "The skin in the light, with its gloss",
         },
         tapes="Where the tapes lie",
         tape_sides={"front": "From the front", "side": "From the side", "back": "From behind"},

@@ -152,7 +152,7 @@ GERMAN: Final = Wording(
         },
         skin={
             "albedo.png": "Die Haut ohne das Licht",
-            "shading.png": "Das Licht auf gleichmäßiger Haut",
+            "shading.png": "Die Haut im Licht, mit ihrem Glanz",
         },
         tapes="Wo gemessen wird",
         tape_sides={"front": "Von vorn", "side": "Von der Seite", "back": "Von hinten"},

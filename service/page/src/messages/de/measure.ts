@@ -133,7 +133,6 @@ export const measure: Messages["measure"] = {
     differentPeople: "Die Bilder widersprechen sich: Trauen Sie diesen Maßen nicht.",
     poor: "Schlecht: Ein Bild sollte neu aufgenommen werden. Siehe unten.",
     fair: "Mittel: Die Bilder könnten besser sein. Siehe unten.",
-    unlike: "Mittel: An den einzelnen Bildern ist nichts auszusetzen, aber sie passen kaum zueinander.",
     good: "Gut: An den Bildern ist nichts auszusetzen, und sie passen zueinander.",
     rarely: (share) => `So verschieden wie diese sind Bilder einer Person nur in ${share} der Fälle. Prüfen Sie, ob beide dieselbe Person zeigen, gleich gekleidet.`,
     nearlyAlways: "Bilder einer Person sind fast immer verschiedener als diese.",

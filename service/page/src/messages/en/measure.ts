@@ -129,7 +129,6 @@ export const measure = {
     differentPeople: "The pictures contradict each other: do not trust these measurements.",
     poor: "Poor: a picture should be taken again. See below.",
     fair: "Fair: the pictures could be better. See below.",
-    unlike: "Fair: nothing is wrong with each picture, but they hardly agree.",
     good: "Good: nothing is wrong with the pictures, and they agree.",
     rarely: (share: string) => `Pictures of one person differ as much as these in only ${share} of cases. See that both show the same person, dressed alike.`,
     nearlyAlways: "Pictures of one person nearly always differ more than these.",
