@@ -3,9 +3,9 @@
 from pydantic import Field
 
 from api_schemas.base import WireModel
-from api_schemas.known import MAX_HEIGHT_M, MIN_HEIGHT_M
 from api_schemas.points import PointsFormat
 from api_schemas.requests import Gender, Limb
+from fitter.vocabulary.measurements import LEAST_HEIGHT_M, MOST_HEIGHT_M
 from fitter.vocabulary.points import POINT_NAMES
 
 
@@ -32,5 +32,5 @@ class BodyModels(WireModel):
     points: tuple[str, ...] = POINT_NAMES
     point_formats: tuple[PointsFormat, ...] = tuple(PointsFormat)
     limbs: tuple[Limb, ...] = tuple(Limb)
-    min_height_m: float = MIN_HEIGHT_M
-    max_height_m: float = MAX_HEIGHT_M
+    min_height_m: float = LEAST_HEIGHT_M
+    max_height_m: float = MOST_HEIGHT_M

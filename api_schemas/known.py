@@ -6,10 +6,8 @@ from typing import Annotated, Final, Self
 from pydantic import BeforeValidator, Discriminator, Field, Tag, model_validator
 
 from api_schemas.base import WireModel, refusal
-from fitter.vocabulary.measurements import STATURE
+from fitter.vocabulary.measurements import LEAST_HEIGHT_M, MOST_HEIGHT_M, STATURE
 
-MIN_HEIGHT_M: Final = 1.2
-MAX_HEIGHT_M: Final = 2.3
 MAX_NAME_LENGTH: Final = 64
 
 WEIGHT: Final = "weight"
@@ -20,7 +18,7 @@ _OTHER_UNITS: Final = (
     (0.3048, "feet"),
     (0.0254, "inches"),
 )
-_LARGEST_NUMBER: Final = MAX_HEIGHT_M / min(factor for factor, _ in _OTHER_UNITS)
+_LARGEST_NUMBER: Final = MOST_HEIGHT_M / min(factor for factor, _ in _OTHER_UNITS)
 """A height in the smallest of these units. Beyond it nothing is converted: a whole number of JSON
 may be too large for a float."""
 
@@ -28,8 +26,8 @@ may be too large for a float."""
 def _metres(value: object) -> object:
     """Name the unit a height was probably given in; other faults are told as usual."""
     if isinstance(value, int | float) and not isinstance(value, bool):
-        for factor, unit in _OTHER_UNITS if MAX_HEIGHT_M < value <= _LARGEST_NUMBER else ():
-            if MIN_HEIGHT_M <= value * factor <= MAX_HEIGHT_M:
+        for factor, unit in _OTHER_UNITS if MOST_HEIGHT_M < value <= _LARGEST_NUMBER else ():
+            if LEAST_HEIGHT_M <= value * factor <= MOST_HEIGHT_M:
                 raise refusal(
                     code="out-of-range",
                     reason=f"{value:g} metres is nobody's height; it looks like {unit}.",
@@ -41,7 +39,7 @@ def _metres(value: object) -> object:
 HeightM = Annotated[
     float,
     # First, for behind a validator pydantic writes bounds into schemas that no schema knows.
-    Field(ge=MIN_HEIGHT_M, le=MAX_HEIGHT_M, description="Stature in metres.", examples=[1.68]),
+    Field(ge=LEAST_HEIGHT_M, le=MOST_HEIGHT_M, description="Stature in metres.", examples=[1.68]),
     BeforeValidator(_metres),
 ]
 WeightKg = Annotated[

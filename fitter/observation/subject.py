@@ -6,14 +6,10 @@ from collections.abc import Mapping
 from fitter.errors import InvalidInputError
 from fitter.remarks import Assumption
 from fitter.request import FitRequest, Gender
-from fitter.vocabulary.measurements import STATURE
+from fitter.vocabulary.measurements import LEAST_HEIGHT_M, MOST_HEIGHT_M, STATURE
 
 MEAN_HEIGHT_M: Mapping[Gender, float] = {Gender.FEMALE: 1.65, Gender.MALE: 1.82}
 """Section 4: the heights assumed for people whose height is not known, as in paintings."""
-
-LEAST_HEIGHT_M, MOST_HEIGHT_M = 1.2, 2.3
-"""What a request may say, the same for all (:mod:`api_schemas.known`). What is within and yet
-unusual is a warning (:mod:`fitter.population.unusual_height`)."""
 
 
 def check_subject(request: FitRequest) -> None:

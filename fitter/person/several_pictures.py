@@ -28,8 +28,8 @@ MOST_PICTURES = 12
 
 SAME_PERSON_PROBABILITY = 0.1
 """Shapes that differ so much that pictures of one person would do so more rarely than this. By
-``python -m tests.evaluation --strangers`` no pair of one person is below it (the least 0.14), of 124
-pairs with a stranger 97: all 67 whose trunks differ by 20 cm or more, 23 of 36 from 10 cm on."""
+``python -m tests.evaluation --strangers`` no pair of one person is below it (the least 0.14), of
+124 pairs with a stranger 97: all 67 whose trunks differ by 20 cm or more, 23 of 36 by 10 to 20."""
 
 _CERTAIN = 1.0 - 1e-12
 

@@ -7,11 +7,10 @@ from jaxtyping import Float
 from scipy.special import chdtri
 
 from fitter.errors import InvalidInputError
-from fitter.observation.subject import LEAST_HEIGHT_M, MOST_HEIGHT_M
 from fitter.population.conditional_shape import ConditionedShape, Conditions, condition_shape
 from fitter.population.measured_population import MeasuredPopulation
 from fitter.request import KnownMeasurement
-from fitter.vocabulary.measurements import STATURE
+from fitter.vocabulary.measurements import LEAST_HEIGHT_M, MOST_HEIGHT_M, STATURE
 
 CENTIMETRES_PER_METRE = 100.0
 

@@ -14,6 +14,11 @@ from typing import Final
 STATURE: Final = "stature"
 """The measurement that a request's ``height_m`` is in metres."""
 
+LEAST_HEIGHT_M: Final = 1.2
+MOST_HEIGHT_M: Final = 2.3
+"""What a request may say of a height, whichever request. What is within and yet unusual is taken
+with a warning (:mod:`fitter.population.unusual_height`)."""
+
 
 def _units() -> Mapping[str, str]:
     text = files("fitter.measurement").joinpath("definitions.json").read_text(encoding="utf-8")

@@ -14,7 +14,6 @@ from api_schemas.derivations import DerivationEvent, DerivationRequest, Derivati
 from api_schemas.images import LARGEST_ASPECT_RATIO, LEAST_SIDE_PX, UploadedImage
 from api_schemas.initial_poses import InitialPose, InitialPoseRequest
 from api_schemas.jobs import EventData
-from api_schemas.known import MAX_HEIGHT_M, MIN_HEIGHT_M
 from api_schemas.problems import PROBLEM_MEDIA_TYPE, Problem
 from api_schemas.proposals import PointsOfImage, PointsProposal, PointsRequest
 from api_schemas.requests import FitOfImage, FitOptions, FitRequest
@@ -29,7 +28,14 @@ from api_schemas.scans import (
 )
 from api_schemas.tokens import TokenRequest
 from api_schemas.webhooks import WebhookEvent
-from fitter.vocabulary.measurements import CHIEF, MEASUREMENT_UNITS, Group, group_of
+from fitter.vocabulary.measurements import (
+    CHIEF,
+    LEAST_HEIGHT_M,
+    MEASUREMENT_UNITS,
+    MOST_HEIGHT_M,
+    Group,
+    group_of,
+)
 from fitter.vocabulary.points import (
     CLEAR_BREADTH,
     LIMB_POINT_NAMES,
@@ -158,7 +164,7 @@ _LIMITS: dict[str, Any] = {
             for group in Group
         },
     },
-    "height_m": {"least": MIN_HEIGHT_M, "most": MAX_HEIGHT_M},
+    "height_m": {"least": LEAST_HEIGHT_M, "most": MOST_HEIGHT_M},
     "texture_sizes": TEXTURE_SIZES,
     "most_other_fits": MOST_OTHER_FITS,
     "picture": {"least_side": LEAST_SIDE_PX, "largest_aspect_ratio": LARGEST_ASPECT_RATIO},

@@ -1,7 +1,8 @@
-"""Whether a scan tells that its pictures show different people: how often, and how often in vain."""
+"""How often a scan tells that its pictures show different people, and how often in vain."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -97,8 +98,7 @@ def stranger_lines(found: Sequence[Agreement]) -> list[str]:
     heading = "".join(f"{f'< {share:g}':>8s}" for share in shares)
     lines = [f"{'agreement':32s}{'pairs':>7s}{heading}{'least':>8s}"]
     groups = {"one person": [each for each in found if each.pictures.same]}
-    bounds = [*UNLIKE_CM, np.inf]
-    for low, high in zip(bounds, bounds[1:], strict=False):
+    for low, high in pairwise([*UNLIKE_CM, np.inf]):
         groups[f"strangers, {low:g} to {high:g} cm"] = [
             each for each in found if not each.pictures.same and low <= each.unlike_cm < high
         ]

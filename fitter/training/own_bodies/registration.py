@@ -17,6 +17,7 @@ from fitter.training.articulation.part_tree import part_index
 from fitter.training.own_bodies.frame import METRES, Frame, axes_entry
 from fitter.training.own_bodies.mesh_files import MeshFile
 from fitter.training.own_bodies.template import Template
+from fitter.vocabulary.measurements import LEAST_HEIGHT_M, MOST_HEIGHT_M
 
 STRANGE_RATIO = 2.0
 STRANGE_SHARE = 0.1
@@ -24,9 +25,6 @@ STRANGE_SHARE = 0.1
 strange; more than this share of them, and the mesh is no registration. Of 480 registered bodies of
 body mass index 16 to 42 the worst has 0.6 % strange edges; with its vertices numbered from one
 instead of zero it has 51 %."""
-
-LIKELY_HEIGHT_M = (1.2, 2.3)
-"""Heights by which a wrong unit is guessed."""
 
 ALIGNED = 0.8
 """Cosine within which the body's own directions must keep to axes: 37 degrees."""
@@ -115,8 +113,11 @@ def check_unit(place: str, raw: Vertices, frame: Frame) -> None:
     low, high = HEIGHT_RANGE_M
     if low <= METRES[frame.unit] * extent <= high:
         return
-    low, high = LIKELY_HEIGHT_M
-    likely = [unit for unit, metres in METRES.items() if low <= metres * extent <= high]
+    likely = [
+        unit
+        for unit, metres in METRES.items()
+        if LEAST_HEIGHT_M <= metres * extent <= MOST_HEIGHT_M
+    ]
     raise MeshFolderError(
         place=place,
         reason=f"is {extent:.4g} {frame.unit} high or wide, expected a person"

@@ -7,7 +7,7 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 
 from api_schemas import bodies, checks, initial_poses, known, requests, scans
 from api_schemas.body_models import BodyModels
-from fitter.observation import subject
+from fitter.vocabulary.measurements import LEAST_HEIGHT_M, MOST_HEIGHT_M
 from service.api.openapi import complete_openapi
 from service.submissions.validation import field_problems
 
@@ -44,19 +44,17 @@ def test_fits_scans_bodies_poses_and_checks_name_heights():
 
 @pytest.mark.parametrize("kind", sorted(set(requests_with_a_height()), key=str))
 def test_every_request_takes_the_same_heights_and_refuses_others_alike(kind):
-    low, high = subject.LEAST_HEIGHT_M, subject.MOST_HEIGHT_M
-    for height_m in (low, 1.7, high):
+    for height_m in (LEAST_HEIGHT_M, 1.7, MOST_HEIGHT_M):
         assert fault_of(kind, height_m) == []
-    for height_m in (low - 0.01, high + 0.01, 69.0, 170.0):
+    for height_m in (LEAST_HEIGHT_M - 0.01, MOST_HEIGHT_M + 0.01, 69.0, 170.0):
         assert fault_of(kind, height_m) == [("height_m", "out-of-range")]
 
 
-def test_the_range_is_the_fitters_that_of_body_models_and_that_of_the_contract():
-    range_m = (subject.LEAST_HEIGHT_M, subject.MOST_HEIGHT_M)
+def test_the_range_is_that_of_body_models_and_that_of_the_contract():
+    range_m = (LEAST_HEIGHT_M, MOST_HEIGHT_M)
     stated = BodyModels(models=())
     document = complete_openapi({"paths": {}})
     limits = document["x-limits"]["height_m"]
-    assert range_m == (known.MIN_HEIGHT_M, known.MAX_HEIGHT_M)
     assert (stated.min_height_m, stated.max_height_m) == range_m
     assert (limits["least"], limits["most"]) == range_m
     schema = TypeAdapter(known.HeightM).json_schema()
