@@ -1,1 +1,0 @@
-import{V as e,t}from"/page/chunk.MLYPYE6S.js";import{k as r}from"/page/chunk.PJCD6TXW.js";var i=r([]);async function m(){try{i.value=(await e()).map(({label:o})=>o)}catch(o){if(!(o instanceof t))throw o}}export{i as a,m as b};
