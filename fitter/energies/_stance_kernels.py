@@ -4,7 +4,7 @@ A stance is nine vectors in the camera frame, metres: rows of a (9, 3) array. De
 complex steps, f(x + ih) = f(x) + ih f'(x), exact to rounding because every feature is analytic.
 """
 
-from typing import no_type_check
+from typing import NamedTuple, no_type_check
 
 import numpy as np
 from numba import njit
@@ -13,9 +13,23 @@ HIPS, BALANCE, ANKLES, TRUNK, MIDDLE, LEFT_THIGH, LEFT_SHIN, RIGHT_THIGH, RIGHT_
 VECTORS, FEATURES = 9, 9
 
 _STEP = 1e-20
-_ITERATIONS = 30
-_SETTLED = 1e-6
-_LONGEST_TURN = 0.3
+
+
+class Kinds(NamedTuple):
+    """Every kind of stance with every camera: means (9,), precisions (6, 9) and offsets (6,)."""
+
+    means: np.ndarray
+    precisions: np.ndarray
+    offsets: np.ndarray
+
+
+class Weighed(NamedTuple):
+    """The energy at a tilt; the features' departures and weights (9,), the shares of the kinds."""
+
+    energy: float
+    departures: np.ndarray
+    weights: np.ndarray
+    shares: np.ndarray
 
 
 @no_type_check
@@ -34,7 +48,7 @@ def cosine(a, b):
 
 @no_type_check
 @njit(cache=True)
-def fill_features(vectors, pitch, roll, result):
+def features(vectors, pitch, roll):
     """Balance forward and to the left, ankles in height and forward, trunk, knees, camera."""
     up = np.empty(3, dtype=np.complex128)
     up[0] = -np.sin(roll) * np.cos(pitch)
@@ -46,6 +60,7 @@ def fill_features(vectors, pitch, roll, result):
     forward[0] = left[1] * up[2] - left[2] * up[1]
     forward[1] = left[2] * up[0] - left[0] * up[2]
     forward[2] = left[0] * up[1] - left[1] * up[0]
+    result = np.empty(FEATURES, dtype=np.complex128)
     length = np.sqrt(dot(vectors[TRUNK], vectors[TRUNK]))
     result[0] = dot(vectors[BALANCE], forward)
     result[1] = dot(vectors[BALANCE], left)
@@ -57,96 +72,58 @@ def fill_features(vectors, pitch, roll, result):
     result[6] -= cosine(vectors[RIGHT_THIGH], vectors[RIGHT_SHIN])
     result[7] = -dot(vectors[MIDDLE], up)
     result[8] = roll
+    return result
 
 
 @no_type_check
 @njit(cache=True)
-def fill_slopes(vectors, tilt, by_vectors, by_tilt):
-    """Derivatives of the features: (9, 9, 3) by the vectors, (9, 2) by pitch and roll."""
-    features = np.empty(FEATURES, dtype=np.complex128)
+def slopes_by_vectors(vectors, tilt):
+    """(9, 9, 3) derivatives of the features by the vectors."""
+    slopes = np.empty((FEATURES, VECTORS, 3))
     moved = vectors.astype(np.complex128)
     for v in range(VECTORS):
         for c in range(3):
             moved[v, c] += 1j * _STEP
-            fill_features(moved, complex(tilt[0]), complex(tilt[1]), features)
+            slopes[:, v, c] = features(moved, complex(tilt[0]), complex(tilt[1])).imag / _STEP
             moved[v, c] = vectors[v, c]
-            by_vectors[:, v, c] = features.imag / _STEP
-    fill_features(moved, tilt[0] + 1j * _STEP, complex(tilt[1]), features)
-    by_tilt[:, 0] = features.imag / _STEP
-    fill_features(moved, complex(tilt[0]), tilt[1] + 1j * _STEP, features)
-    by_tilt[:, 1] = features.imag / _STEP
+    return slopes
 
 
 @no_type_check
 @njit(cache=True)
-def weigh(vectors, tilt, means, precisions, offsets, departures, weights, shares):
-    """Energy at a tilt; fills departures from the means, weights (9,) and shares of the kinds."""
-    features = np.empty(FEATURES, dtype=np.complex128)
-    fill_features(vectors.astype(np.complex128), complex(tilt[0]), complex(tilt[1]), features)
-    kinds = len(precisions)
+def slopes_by_tilt(vectors, tilt):
+    """(9, 2) derivatives of the features by pitch and roll."""
+    slopes = np.empty((FEATURES, 2))
+    fixed = vectors.astype(np.complex128)
+    slopes[:, 0] = features(fixed, tilt[0] + 1j * _STEP, complex(tilt[1])).imag / _STEP
+    slopes[:, 1] = features(fixed, complex(tilt[0]), tilt[1] + 1j * _STEP).imag / _STEP
+    return slopes
+
+
+@no_type_check
+@njit(cache=True)
+def weigh(vectors, tilt, kinds):
+    """The energy at a tilt, and how the kinds share it."""
+    found = features(vectors.astype(np.complex128), complex(tilt[0]), complex(tilt[1]))
+    departures = found.real - kinds.means
+    costs = kinds.offsets + 0.5 * np.dot(kinds.precisions, departures * departures)
+    least = costs.min()
+    shares = np.exp(least - costs)
+    total = shares.sum()
+    shares /= total
+    weights = np.dot(shares, kinds.precisions)
+    return Weighed(least - np.log(total), departures, weights, shares)
+
+
+@no_type_check
+@njit(cache=True)
+def normal_equations(vectors, tilt, weighed):
+    """Of half the weighted squares of the departures, with the kinds' shares held."""
+    slopes = slopes_by_tilt(vectors, tilt)
+    matrix, gradient = np.zeros((2, 2)), np.zeros(2)
     for i in range(FEATURES):
-        departures[i] = features[i].real - means[i]
-    least = np.inf
-    for k in range(kinds):
-        cost = offsets[k]
-        for i in range(FEATURES):
-            cost += 0.5 * precisions[k, i] * departures[i] ** 2
-        shares[k] = cost
-        least = min(least, cost)
-    total = 0.0
-    for k in range(kinds):
-        shares[k] = np.exp(least - shares[k])
-        total += shares[k]
-    weights[:] = 0.0
-    for k in range(kinds):
-        shares[k] /= total
-        for i in range(FEATURES):
-            weights[i] += shares[k] * precisions[k, i]
-    return least - np.log(total)
-
-
-@no_type_check
-@njit(cache=True)
-def descend(vectors, tilt, means, precisions, offsets):
-    """Most probable tilt from the one given, which is changed; returns its energy.
-
-    Damped Gauss-Newton with the shares of each step held: expectation and maximisation.
-    """
-    kinds = len(precisions)
-    departures, weights, shares = np.empty(FEATURES), np.empty(FEATURES), np.empty(kinds)
-    by_vectors, by_tilt = np.empty((FEATURES, VECTORS, 3)), np.empty((FEATURES, 2))
-    energy = weigh(vectors, tilt, means, precisions, offsets, departures, weights, shares)
-    damping = 1e-3
-    reached = np.empty(2)
-    for _ in range(_ITERATIONS):
-        fill_slopes(vectors, tilt, by_vectors, by_tilt)
-        a, b, c, x, y = 0.0, 0.0, 0.0, 0.0, 0.0
-        for i in range(FEATURES):
-            a += weights[i] * by_tilt[i, 0] ** 2
-            b += weights[i] * by_tilt[i, 0] * by_tilt[i, 1]
-            c += weights[i] * by_tilt[i, 1] ** 2
-            x += weights[i] * by_tilt[i, 0] * departures[i]
-            y += weights[i] * by_tilt[i, 1] * departures[i]
-        moved = False
-        while damping < 1e4:
-            first, second = a * (1.0 + damping), c * (1.0 + damping)
-            determinant = first * second - b * b
-            reached[0] = -(second * x - b * y) / determinant
-            reached[1] = -(first * y - b * x) / determinant
-            size = max(abs(reached[0]), abs(reached[1]))
-            reached *= min(1.0, _LONGEST_TURN / max(size, 1e-12))
-            reached += tilt
-            lower = weigh(vectors, reached, means, precisions, offsets, departures, weights, shares)
-            if lower <= energy:
-                moved = True
-                break
-            damping *= 10.0
-        if not moved:
-            break
-        damping = max(damping * 0.2, 1e-9)
-        size = max(abs(reached[0] - tilt[0]), abs(reached[1] - tilt[1]))
-        tilt[:] = reached
-        energy = lower
-        if size < _SETTLED:
-            break
-    return energy
+        for r in range(2):
+            gradient[r] += weighed.weights[i] * slopes[i, r] * weighed.departures[i]
+            for c in range(2):
+                matrix[r, c] += weighed.weights[i] * slopes[i, r] * slopes[i, c]
+    return matrix, gradient

@@ -19,7 +19,7 @@ tilt is no parameter of the body: its most probable value enters, so that the de
 is that at this tilt (envelope theorem), and the rows of the matrix have it eliminated (Schur).
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,11 +28,9 @@ from jaxtyping import Float
 from fitter.arrays import Points3D
 from fitter.energies import _stance_kernels as kernels
 from fitter.energies.rows import PositionRows
+from fitter.numerics.damped_descent import Offer, Step, damped_steps, descend
 from fitter.parameters import StanceKind
 from fitter.request import Posture
-
-_Table = tuple[np.ndarray, np.ndarray, np.ndarray]
-"""Means (9,), precisions (6, 9) and offsets (6,): every kind of stance with every camera."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -130,6 +128,11 @@ where they crouch or sit; the rest stand on a table, a stair or a tripod. Probab
 ROLL_SPREAD = np.radians(2.0)
 """People hold cameras level to a degree or two, and turn pictures that are not."""
 
+_MOST_EVALUATIONS = 60
+_LONGEST_TURN = 0.3
+_SETTLED_NATS = 1e-9
+"""A millionth of a radian: the gradient by the body is that at the most probable tilt."""
+
 # Masses and centres of segments: D. A. Winter, "Biomechanics and Motor Control of Human Movement",
 # table 4.1, trunk and head apart as in P. de Leva, J. Biomechanics 29 (1996).
 _SEGMENTS: tuple[tuple[float, float, str, str], ...] = (
@@ -177,6 +180,18 @@ class StanceRows:
     by_tilt: Float[np.ndarray, "9 2"]
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Weighed:
+    """A tilt with its energy."""
+
+    tilt: Float[np.ndarray, "2"]
+    weighed: kernels.Weighed
+
+    @property
+    def total(self) -> float:
+        return self.weighed.energy
+
+
 def stance_vectors(part_names: tuple[str, ...]) -> Float[np.ndarray, "9 p"]:
     """What makes the nine vectors of a stance of the joints.
 
@@ -221,40 +236,58 @@ def most_probable_tilt(
     joints: Points3D, vectors: Float[np.ndarray, "9 p"], posture: Posture = Posture.ANY
 ) -> Tilt:
     """The tilt of least energy; joints (p, 3) in the camera frame."""
-    stance, table = vectors @ joints, _TABLES[posture]
-    place, least = np.zeros(2), np.inf
-    for start in _starts(stance):
-        energy = kernels.descend(stance, start, *table)
-        if energy < least:
-            place, least = start, energy
-    _, _, shares = _weighed(stance, place, table)
-    return Tilt(pitch=place[0], roll=place[1], energy=least, shares=shares, posture=posture)
+    stance, kinds = vectors @ joints, KINDS[posture]
+    found = [_descended(stance, start, kinds) for start in _starts(stance)]
+    best = min(found, key=lambda each: each.total)
+    return Tilt(
+        pitch=float(best.tilt[0]),
+        roll=float(best.tilt[1]),
+        energy=best.total,
+        shares=best.weighed.shares.reshape(len(StanceKind), -1).sum(axis=1),
+        posture=posture,
+    )
 
 
 def stance_rows(joints: Points3D, vectors: Float[np.ndarray, "9 p"], tilt: Tilt) -> StanceRows:
     """The rows of the energy at its most probable tilt."""
     stance, place = vectors @ joints, np.array([tilt.pitch, tilt.roll])
-    departures, weights, _ = _weighed(stance, place, _TABLES[tilt.posture])
-    by_vectors, by_tilt = np.empty((9, 9, 3)), np.empty((9, 2))
-    kernels.fill_slopes(stance, place, by_vectors, by_tilt)
+    weighed = kernels.weigh(stance, place, KINDS[tilt.posture])
+    by_vectors = kernels.slopes_by_vectors(stance, place)
     return StanceRows(
         rows=PositionRows(
-            residuals=departures,
-            weights=weights,
+            residuals=weighed.departures,
+            weights=weighed.weights,
             points=np.tile(np.arange(len(joints)), (9, 1)),
             derivatives=np.einsum("kvc,vp->kpc", by_vectors, vectors),
         ),
-        by_tilt=np.sqrt(weights)[:, None] * by_tilt,
+        by_tilt=np.sqrt(weighed.weights)[:, None] * kernels.slopes_by_tilt(stance, place),
     )
 
 
-def _weighed(
-    stance: Float[np.ndarray, "9 3"], tilt: Float[np.ndarray, "2"], table: _Table
-) -> tuple[Float[np.ndarray, "9"], Float[np.ndarray, "9"], Float[np.ndarray, "3"]]:
-    """Departures of the features from their means, their weights, and the kinds' shares."""
-    departures, weights, shares = np.empty(9), np.empty(9), np.empty(len(table[2]))
-    kernels.weigh(stance, tilt, *table, departures, weights, shares)
-    return departures, weights, shares.reshape(len(StanceKind), -1).sum(axis=1)
+def _descended(
+    stance: Float[np.ndarray, "9 3"], start: Float[np.ndarray, "2"], kinds: kernels.Kinds
+) -> _Weighed:
+    """The most probable tilt near one, with the shares of each step held.
+
+    That is expectation and maximisation.
+    """
+
+    def weighed(tilt: Step) -> _Weighed:
+        return _Weighed(tilt, kernels.weigh(stance, tilt, kinds))
+
+    def paraboloid(now: _Weighed) -> Callable[[float], Offer[_Weighed]]:
+        matrix, gradient = kernels.normal_equations(stance, now.tilt, now.weighed)
+
+        def taken(step: Step) -> _Weighed:
+            shortened = min(1.0, _LONGEST_TURN / max(float(np.abs(step).max()), 1e-12))
+            return weighed(now.tilt + shortened * step)
+
+        return damped_steps(matrix, gradient, taken, floor=0.0)
+
+    found = descend(
+        weighed(start), paraboloid, max_evaluations=_MOST_EVALUATIONS, settled=_SETTLED_NATS
+    )
+    return found.point
 
 
 def _starts(stance: Float[np.ndarray, "9 3"]) -> list[Float[np.ndarray, "2"]]:
@@ -265,9 +298,9 @@ def _starts(stance: Float[np.ndarray, "9 3"]) -> list[Float[np.ndarray, "2"]]:
     return [level, above]
 
 
-def _table(kinds: Mapping[StanceKind, StanceSpreads]) -> _Table:
+def _kinds(spreads_of: Mapping[StanceKind, StanceSpreads]) -> kernels.Kinds:
     means = np.array([FORWARD_OF_ANKLES_M, *[0.0] * 6, CAMERA_HEIGHT_M - ANKLE_HEIGHT_M, 0.0])
-    pairs = [(kinds[kind], camera) for kind in StanceKind for camera in CAMERA_SPREADS]
+    pairs = [(spreads_of[kind], camera) for kind in StanceKind for camera in CAMERA_SPREADS]
     spreads = np.array(
         [
             [
@@ -281,10 +314,11 @@ def _table(kinds: Mapping[StanceKind, StanceSpreads]) -> _Table:
     probable /= probable.sum()
     offsets = np.log(spreads).sum(axis=1) - np.log(probable)
     # At the means the energy is zero, and nowhere is it less.
-    return means, spreads**-2, offsets + np.log(np.exp(-offsets).sum())
+    return kernels.Kinds(means, spreads**-2, offsets + np.log(np.exp(-offsets).sum()))
 
 
-_TABLES: Mapping[Posture, _Table] = {
-    Posture.ANY: _table(STANCES),
-    Posture.MEASURED: _table({**STANCES, StanceKind.STANDING: MEASURED_STANDING}),
+KINDS: Mapping[Posture, kernels.Kinds] = {
+    Posture.ANY: _kinds(STANCES),
+    Posture.MEASURED: _kinds({**STANCES, StanceKind.STANDING: MEASURED_STANDING}),
 }
+"""What is known of stances and cameras, by what is known of the posture."""

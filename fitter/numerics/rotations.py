@@ -7,9 +7,7 @@ times a fit, and building the objects costs more than the evaluation itself.
 import numpy as np
 from jaxtyping import Float
 
-from fitter.numerics._rotation_kernels import rodrigues
-
-_SMALL_ANGLE = 1e-8
+from fitter.numerics import _rotation_kernels as kernels
 
 
 def rotation_matrices(vectors: Float[np.ndarray, "k 3"]) -> Float[np.ndarray, "k 3 3"]:
@@ -19,19 +17,7 @@ def rotation_matrices(vectors: Float[np.ndarray, "k 3"]) -> Float[np.ndarray, "k
     """
     vectors = np.asarray(vectors, dtype=np.float64)
     matrices = np.empty((len(vectors), 3, 3))
-    rodrigues(vectors, _SMALL_ANGLE, matrices)
-    return matrices
-
-
-def cross_product_matrices(vectors: Float[np.ndarray, "k 3"]) -> Float[np.ndarray, "k 3 3"]:
-    """Matrices K with K x = v × x."""
-    matrices = np.zeros((len(vectors), 3, 3))
-    matrices[:, 0, 1] = -vectors[:, 2]
-    matrices[:, 0, 2] = vectors[:, 1]
-    matrices[:, 1, 0] = vectors[:, 2]
-    matrices[:, 1, 2] = -vectors[:, 0]
-    matrices[:, 2, 0] = -vectors[:, 1]
-    matrices[:, 2, 1] = vectors[:, 0]
+    kernels.rodrigues(vectors, kernels.SMALL_ANGLE, matrices)
     return matrices
 
 
@@ -60,7 +46,7 @@ def rotation_vectors(matrices: Float[np.ndarray, "k 3 3"]) -> Float[np.ndarray, 
     quaternion = np.where(quaternion[:, :1] < 0.0, -quaternion, quaternion)
     imaginary = np.linalg.norm(quaternion[:, 1:], axis=1)
     angle = 2.0 * np.arctan2(imaginary, quaternion[:, 0])
-    small = imaginary < _SMALL_ANGLE
+    small = imaginary < kernels.SMALL_ANGLE
     factor = np.where(small, 2.0, angle / np.where(small, 1.0, imaginary))
     return quaternion[:, 1:] * factor[:, None]
 
@@ -68,5 +54,25 @@ def rotation_vectors(matrices: Float[np.ndarray, "k 3 3"]) -> Float[np.ndarray, 
 def compose(
     first: Float[np.ndarray, "k 3"], second: Float[np.ndarray, "k 3"]
 ) -> Float[np.ndarray, "k 3"]:
-    """Rotation vectors of exp(first) exp(second)."""
-    return rotation_vectors(np.matmul(rotation_matrices(first), rotation_matrices(second)))
+    """Rotation vectors of exp(first) exp(second), angles in [0, π]."""
+    first = np.ascontiguousarray(first, dtype=np.float64)
+    second = np.ascontiguousarray(second, dtype=np.float64)
+    result = np.empty_like(first)
+    kernels.composed(first, second, kernels.SMALL_ANGLE, result)
+    return result
+
+
+def inverse_left_jacobians(
+    vectors: Float[np.ndarray, "... 3"],
+) -> Float[np.ndarray, "... 3 3"]:
+    """Matrices B with log(exp(δ) exp(v)) = v + B δ + O(δ²): how turning further moves a vector.
+
+    B = I - K/2 + (1/t² - (1 + cos t) / (2 t sin t)) K², with K the cross-product matrix of v and
+    t its length; singular only at a full turn.
+    """
+    vectors = np.ascontiguousarray(vectors, dtype=np.float64)
+    result = np.empty((*vectors.shape, 3))
+    kernels.inverse_left_jacobians(
+        vectors.reshape(-1, 3), kernels.SERIES_BELOW, result.reshape(-1, 3, 3)
+    )
+    return result

@@ -8,11 +8,8 @@ matrix; the gradient is exact, by the reverse mode of the body. The loop is
 from collections.abc import Callable
 from dataclasses import dataclass
 
-import numpy as np
-from jaxtyping import Float
-
 from fitter.energies.objective import Body, Candidate, EnergyObserver, Objective
-from fitter.numerics.damped_descent import Offer, damped_steps, descend
+from fitter.numerics.damped_descent import Offer, Step, damped_steps, descend
 from fitter.optimizer.free_space import free_space
 from fitter.optimizer.normal_equations import normal_equations
 from fitter.optimizer.parameter_vector import limited
@@ -58,7 +55,7 @@ def minimize_gauss_newton(
         matrix, gradient = normal_equations(objective, now)
         space = free_space(objective.attributes.held, now.parameters)
 
-        def taken(step: Float[np.ndarray, " free"]) -> Candidate | None:
+        def taken(step: Step) -> Candidate | None:
             whole = limited(now.parameters, space.directions @ step)
             reached = space.moved(now.parameters, whole)
             return None if reached is None else objective.evaluate(reached)

@@ -8,12 +8,13 @@ in their products with the albedo's scale, so these products are solved for. The
 (:func:`surroundings_prior`) keeps band 1 from being mistaken for the lamp.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 from jaxtyping import Float
 
-from fitter.numerics.damped_descent import damping_change
+from fitter.numerics.damped_descent import Offer, damped_steps, descend
 from fitter.numerics.robust import geman_mcclure_weights
 from fitter.optimizer.light_sums import LightSums
 from fitter.optimizer.lit_surface import LightEstimate, LitSurface
@@ -48,54 +49,65 @@ AMBIENT_COLUMNS = slice(3, -2)
 _LEAST_SURROUNDINGS, _LEAST_LAMP = 0.01, 0.02
 """As shares of the lamp's light and of the surroundings': their ratio stays finite."""
 
-_FIRST_DAMPING, _DAMPING_UP = 0.1, 5.0
-_LARGEST_DAMPING = 1e6
+_FIRST_DAMPING = 0.1
+_FLOOR = 1e-12
 _SETTLED = 2e-4
-"""Share of the energy: a step that promises or gains less ends the search."""
+"""Share of the energy: see :func:`fitter.numerics.damped_descent.descend`."""
 
 # First guesses when the caller gave none: frontal and from both sides, level and from above.
 _GUESSED_AZIMUTHS = (-0.9, 0.0, 0.9)
 _GUESSED_ELEVATIONS = (0.0, 0.7)
 # Each guess is followed for a few steps, and the best of them to the end.
-_TRIAL_ITERATIONS, _CONTENDERS, _ITERATIONS = 4, 2, 12
+_TRIAL_ITERATIONS, _CONTENDERS, _ITERATIONS = 5, 2, 15
 
 
 def estimate_light(surface: LitSurface, start: LightEstimate, *, iterations: int) -> LightEstimate:
-    """Descend from one light by damped, reweighted Gauss-Newton; the energy never rises."""
+    """Descend from one light by damped, reweighted Gauss-Newton; the energy never rises.
+
+    ``iterations`` is how many steps are tried at most.
+    """
     sums = LightSums(surface, surrounded=start.light.surroundings is not None)
-    now = replace(start, energy=sums.energy(start) + _prior(start))
-    damping = _FIRST_DAMPING
-    for _ in range(iterations):
-        matrix, gradient = sums.normal_equations(now)
-        if now.light.kind is LightKind.POINT:
-            away = np.log(now.light.distance / _USUAL_DISTANCE_M) / DISTANCE_SPREAD**2
-            matrix[2, 2] += 2.0 * _DISTANCE_PRIOR_WEIGHT / DISTANCE_SPREAD**2
-            gradient[2] += 2.0 * _DISTANCE_PRIOR_WEIGHT * away
-        else:
-            matrix[2, :] = matrix[:, 2] = 0.0
-            matrix[2, 2], gradient[2] = 1.0, 0.0
-        if now.light.surroundings is not None:
-            away, slopes = surroundings_prior(now.albedo_scale * now.light.surroundings)
-            matrix[AMBIENT_COLUMNS, AMBIENT_COLUMNS] += (
-                2.0 * _SURROUNDINGS_PRIOR_WEIGHT * slopes.T @ slopes
-            )
-            gradient[AMBIENT_COLUMNS] += 2.0 * _SURROUNDINGS_PRIOR_WEIGHT * slopes.T @ away
-        before = now.energy
-        while damping < _LARGEST_DAMPING:
-            step = np.linalg.solve(matrix + damping * np.diag(matrix.diagonal() + 1e-12), -gradient)
-            promised = -float(step @ (gradient + 0.5 * matrix @ step))
-            if promised < _SETTLED * before:
-                return now
-            candidate = _stepped(now, step, surface.ambient_limit)
-            candidate = replace(candidate, energy=sums.energy(candidate) + _prior(candidate))
-            if candidate.energy < before:
-                now = candidate
-                damping *= damping_change((before - now.energy) / promised)
-                break
-            damping *= _DAMPING_UP
-        if before - now.energy < _SETTLED * before:
-            break
-    return now
+
+    def evaluated(estimate: LightEstimate) -> LightEstimate:
+        return replace(estimate, energy=sums.energy(estimate) + _prior(estimate))
+
+    def paraboloid(now: LightEstimate) -> Callable[[float], Offer[LightEstimate]]:
+        matrix, gradient = _normal_equations(sums, now)
+        return damped_steps(
+            matrix,
+            gradient,
+            lambda step: evaluated(_stepped(now, step, surface.ambient_limit)),
+            floor=_FLOOR,
+        )
+
+    return descend(
+        evaluated(start),
+        paraboloid,
+        max_evaluations=1 + iterations,
+        settled=0.0,
+        settled_share=_SETTLED,
+        first_damping=_FIRST_DAMPING,
+    ).point
+
+
+def _normal_equations(
+    sums: LightSums, now: LightEstimate
+) -> tuple[Float[np.ndarray, "c c"], Float[np.ndarray, " c"]]:
+    """Those of what is seen, with what is known of lights."""
+    matrix, gradient = sums.normal_equations(now)
+    if now.light.kind is LightKind.POINT:
+        away = np.log(now.light.distance / _USUAL_DISTANCE_M) / DISTANCE_SPREAD**2
+        matrix[2, 2] += 2.0 * _DISTANCE_PRIOR_WEIGHT / DISTANCE_SPREAD**2
+        gradient[2] += 2.0 * _DISTANCE_PRIOR_WEIGHT * away
+    else:
+        matrix[2, :] = matrix[:, 2] = 0.0
+        matrix[2, 2], gradient[2] = 1.0, 0.0
+    if now.light.surroundings is not None:
+        away, slopes = surroundings_prior(now.albedo_scale * now.light.surroundings)
+        weight = 2.0 * _SURROUNDINGS_PRIOR_WEIGHT
+        matrix[AMBIENT_COLUMNS, AMBIENT_COLUMNS] += weight * slopes.T @ slopes
+        gradient[AMBIENT_COLUMNS] += weight * slopes.T @ away
+    return matrix, gradient
 
 
 def first_light(surface: LitSurface, guesses: tuple[Light, ...]) -> LightEstimate:

@@ -27,7 +27,7 @@ _LIGHT_WIDENING = 3.0
 """Factors of η₁ for the light: while albedo is uniform, cloth and hair are not outliers to reject
 but half of what there is to see. At 1 the first light of two rendered people was 17 and 96 degrees
 off; at 8 it was 4 and 6, and nearly the same from every guess."""
-_LIGHT_ITERATIONS = 8
+_LIGHT_ITERATIONS = 10
 _TRIAL_POINTS = 500
 """Points of the surface on which guesses and exponents are compared: a light has seven unknowns."""
 # Share of the lamp's light to begin with where Eq. 1 found no ambient light.

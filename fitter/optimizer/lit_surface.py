@@ -59,3 +59,8 @@ class LightEstimate:
     albedo_scale: float
     specularity_scale: float
     energy: float
+
+    @property
+    def total(self) -> float:
+        """The energy, as searches ask for it."""
+        return self.energy

@@ -1,18 +1,18 @@
 """Damped Gauss-Newton on clicks, from each of a batch of poses.
 
-Minimises the energy of :mod:`fitter.pose_init.click_problem`. A step is accepted only if the energy
-decreases. Rotations are updated as exp(δ) exp(pose), which has no pole.
+Minimises the energy of :mod:`fitter.pose_init.click_problem` by the loop of
+:mod:`fitter.numerics.damped_descent`. Rotations are updated as exp(δ) exp(pose), which has no pole.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float, Integer
 
-from fitter.arrays import Points2D
 from fitter.body.joint_limits import LIMIT_SOFTNESS_DEG
-from fitter.body.skeleton import descendants
-from fitter.pose_init._click_kernels import descend
+from fitter.numerics.damped_descent import FIRST_DAMPING, LARGEST_DAMPING
+from fitter.pose_init import _click_kernels as kernels
 from fitter.pose_init.click_problem import (
     FACING_MARGIN_M,
     FACING_SPREAD_M,
@@ -20,16 +20,11 @@ from fitter.pose_init.click_problem import (
     TRUNK_YAW_SPREAD,
     ClickProblem,
 )
+from fitter.pose_init.landmark_rig import rig_arrays
 from fitter.pose_init.limb_reaches import TRUNCATION
 
-_FIRST_DAMPING = 1e-2
-_MOST_DAMPING = 1.0
-"""A pose whose steps still fail at this damping has converged."""
-
-_TRACE = 1e-6
+FLOOR = 1e-6
 """The root has no prior: this keeps the matrix regular where clicks leave the root undetermined."""
-
-KernelArguments = tuple[tuple, tuple, tuple, tuple, Integer[np.ndarray, " j"]]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -61,68 +56,59 @@ def fit_clicks(
 ) -> FittedPoses:
     """Refine each pose of a batch by damped Gauss-Newton steps.
 
-    A pose stops when a step gains less than ``tolerance`` (in units of energy, half a squared
-    standard deviation), or no step lowers the energy.
+    ``iterations`` is how many steps are tried at most. ``tolerance`` is the gain, in units of
+    energy (half a squared standard deviation), below which steps end the search of a pose.
     """
-    pose = np.array(pose, dtype=np.float64, order="C")
-    translation = np.array(translation, dtype=np.float64, order="C")
-    pixels = np.broadcast_to(problem.pixels, (len(pose), problem.clicked, 2))
-    energy = np.empty(len(pose))
-    rules = (float(iterations), tolerance, _FIRST_DAMPING, _MOST_DAMPING, _TRACE)
-    for row in range(len(pose)):
-        rig, prior, clicks, soft, turning = kernel_arguments(problem, pixels[row])
-        columns = 3 * len(turning) + (3 if problem.moving else 0)
-        energy[row] = descend(
-            rig, prior, clicks, soft, turning, columns, pose[row], translation[row], rules
+    rig, unknowns = rig_arrays(problem.rig), unknowns_of(problem)
+    limits = kernels.Limits(iterations, tolerance, FIRST_DAMPING, LARGEST_DAMPING, FLOOR)
+    found = [
+        kernels.descend(rig, terms, unknowns, each, place, limits)
+        for terms, each, place in zip(
+            terms_of(problem, len(pose)),
+            np.array(pose, dtype=np.float64, order="C"),
+            np.array(translation, dtype=np.float64, order="C"),
+            strict=True,
         )
-    return FittedPoses(pose=pose, translation=translation, energy=energy)
-
-
-def kernel_arguments(problem: ClickProblem, pixels: Points2D) -> KernelArguments:
-    """A problem in the form the kernels take: plain arrays of fixed types, compiled once."""
-    rig, prior, camera = problem.rig, problem.prior, problem.camera
-    return (
-        (
-            _integers(rig.part_parent),
-            _floats(rig.rest_joints),
-            _floats(rig.weights),
-            _floats(rig.arms),
-            descendants(rig.part_parent),
-        ),
-        (
-            _floats(prior.axes),
-            _floats(prior.mean),
-            _floats(prior.precision),
-            _floats(prior.lower),
-            _floats(prior.upper),
-            float(np.radians(LIMIT_SOFTNESS_DEG)),
-        ),
-        (
-            _floats(pixels),
-            _floats(problem.precision),
-            (float(camera.focal_length_px), float(camera.centre_x), float(camera.centre_y)),
-        ),
-        (
-            _floats(problem.slants),
-            FACING_MARGIN_M,
-            FACING_SPREAD_M,
-            TRUNK_LEAN_SPREAD,
-            TRUNK_YAW_SPREAD,
-            (
-                _floats(problem.hints.rows),
-                _floats(problem.hints.toward),
-                _floats(problem.hints.reach_m),
-                _floats(problem.hints.precision),
-                TRUNCATION,
-            ),
-        ),
-        _integers(np.flatnonzero(problem.turning)),
+    ]
+    poses, places, energies = zip(*found, strict=True)
+    return FittedPoses(
+        pose=np.stack(poses), translation=np.stack(places), energy=np.array(energies)
     )
 
 
-def _floats(array: np.ndarray) -> np.ndarray:
-    return np.array(array, dtype=np.float64, order="C")
+def unknowns_of(problem: ClickProblem) -> kernels.Unknowns:
+    """What is solved for."""
+    return kernels.Unknowns(np.flatnonzero(problem.turning), problem.moving)
 
 
-def _integers(array: np.ndarray) -> np.ndarray:
-    return np.array(array, dtype=np.int64, order="C")
+def terms_of(problem: ClickProblem, count: int) -> Iterator[kernels.Terms]:
+    """The terms for each pose of a batch, which may have clicks of its own."""
+    prior, hints, camera = problem.prior, problem.hints, problem.camera
+    rest = (
+        kernels.Prior(
+            axes=np.ascontiguousarray(prior.axes),
+            mean=np.ascontiguousarray(prior.mean),
+            precision=np.ascontiguousarray(prior.precision),
+            lower=np.ascontiguousarray(prior.lower),
+            upper=np.ascontiguousarray(prior.upper),
+            softness=float(np.radians(LIMIT_SOFTNESS_DEG)),
+        ),
+        kernels.Facings(
+            rows=np.ascontiguousarray(problem.slants),
+            margin=FACING_MARGIN_M,
+            spread=FACING_SPREAD_M,
+        ),
+        kernels.Hints(
+            rows=np.ascontiguousarray(hints.rows),
+            toward=np.ascontiguousarray(hints.toward),
+            reach=np.ascontiguousarray(hints.reach_m),
+            precision=np.ascontiguousarray(hints.precision),
+            truncation=TRUNCATION,
+        ),
+        np.array([TRUNK_YAW_SPREAD, TRUNK_LEAN_SPREAD]),
+    )
+    precision = np.ascontiguousarray(problem.precision)
+    seen_by = np.array([camera.focal_length_px, camera.centre_x, camera.centre_y])
+    for pixels in np.broadcast_to(problem.pixels, (count, problem.clicked, 2)):
+        clicks = kernels.Clicks(np.array(pixels), precision, seen_by)
+        yield kernels.Terms(clicks, *rest)

@@ -8,7 +8,7 @@ from jaxtyping import Float
 from fitter.pose_init.click_fit import FittedPoses, fit_clicks
 from fitter.pose_init.click_problem import ClickProblem
 from fitter.pose_init.head import turn_head
-from fitter.pose_init.landmark_rig import LandmarkRig, pose_landmarks
+from fitter.pose_init.landmark_rig import LandmarkRig, landmark_points
 from fitter.pose_init.lifting import Lifting
 from fitter.pose_init.limbs import LIMBS, limb_slant
 from fitter.pose_init.reference_limb import ReferenceLimb
@@ -77,7 +77,7 @@ def limb_facings(rig: LandmarkRig, fitted: FittedPoses) -> list[dict[str, Facing
     really the same reading. So a pose differs from the first only in limbs whose slant clearly
     differs.
     """
-    points = pose_landmarks(rig, fitted.pose, fitted.translation).points
+    points = landmark_points(rig, fitted.pose, fitted.translation)
     result: list[dict[str, Facing]] = [{} for _ in points]
     for limb in LIMBS:
         row = limb_slant(limb, rig.landmark_names)

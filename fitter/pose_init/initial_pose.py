@@ -33,7 +33,7 @@ from fitter.pose_init.hypotheses import (
     limb_facings,
     refined_hypotheses,
 )
-from fitter.pose_init.landmark_rig import LandmarkRig, landmark_rig, pose_landmarks
+from fitter.pose_init.landmark_rig import LandmarkRig, landmark_points, landmark_rig
 from fitter.pose_init.limbs import LIMBS, TORSO, landmarks_of, limb_lengths_m
 from fitter.pose_init.perspective import PerspectiveLifting
 from fitter.pose_init.points import ClickedPoints
@@ -199,7 +199,7 @@ def _on_the_surface(
             for pose, translation in zip(fitted.pose, fitted.translation, strict=True)
         ]
     )
-    blended = pose_landmarks(problem.rig, fitted.pose, fitted.translation).points
+    blended = landmark_points(problem.rig, fitted.pose, fitted.translation)
     shift = problem.camera.project(blended[:, : problem.clicked]) - problem.camera.project(surface)
     shifted = dataclasses.replace(problem, pixels=problem.pixels + shift)
     settled = fit_clicks(shifted, fitted.pose, fitted.translation, iterations=_SETTLING_ITERATIONS)
@@ -208,7 +208,7 @@ def _on_the_surface(
 
 def _in_front(rig: LandmarkRig, fitted: FittedPoses) -> FittedPoses:
     """The poses in front of the camera; absurd points may be met best by a body behind it."""
-    landmarks = pose_landmarks(rig, fitted.pose, fitted.translation).points
+    landmarks = landmark_points(rig, fitted.pose, fitted.translation)
     rows = np.flatnonzero(landmarks[:, :, 2].min(axis=1) > _NEAREST_M)
     if not len(rows):
         raise InvalidInputError(

@@ -3,7 +3,6 @@
 A clicked point is compared with a landmark regressed from vertices, not with a joint centre. Each
 landmark is a weighted sum of vertices and each vertex follows a few parts, so a landmark is a sum
 of rigid terms over parts: linear blend skinning of some twenty points instead of the mesh.
-All functions take a batch of poses in the leading axes, as pose hypotheses are refined together.
 """
 
 from dataclasses import dataclass, replace
@@ -15,8 +14,8 @@ from scipy import sparse
 
 from fitter.arrays import Shape, Vertices
 from fitter.body.model import BodyModel, SparseRows
-from fitter.body.scape import CAMERA_AXES
 from fitter.numerics.rotations import rotation_matrices
+from fitter.pose_init._landmark_kernels import Rig, pose_rig
 
 _MODELS = 4
 """How many models' rigs are kept."""
@@ -70,27 +69,6 @@ class LandmarkRig:
             weights=self.weights[rows],
             arms=self.arms[rows],
         )
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class PosedLandmarks:
-    """Landmarks of a batch of poses.
-
-    Attributes
-    ----------
-    points
-        (..., k, 3) camera frame, metres.
-    shares
-        (..., k, p, 3) the terms whose sum over parts is a landmark, body frame axes, root joint
-        at the origin; they include the rig's ``weights``.
-    rotations, joints
-        (..., p, 3, 3) and (..., p, 3), body frame axes, root joint at the origin.
-    """
-
-    points: Float[np.ndarray, "... k 3"]
-    shares: Float[np.ndarray, "... k p 3"]
-    rotations: Float[np.ndarray, "... p 3 3"]
-    joints: Float[np.ndarray, "... p 3"]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -177,30 +155,26 @@ def _weighted_sums(rows: SparseRows, vertices: Vertices) -> Float[np.ndarray, "r
     return np.add.reduceat(terms, rows.pointers[:-1], axis=0)
 
 
-def pose_landmarks(
+def landmark_points(
     rig: LandmarkRig,
     pose: Float[np.ndarray, "... p 3"],
     translation: Float[np.ndarray, "... 3"],
-) -> PosedLandmarks:
+) -> Float[np.ndarray, "... k 3"]:
     """Landmarks in the camera frame for a batch of poses (radians) and root positions (metres)."""
-    p = len(rig.part_names)
-    local = rotation_matrices(pose.reshape(-1, 3)).reshape(*pose.shape, 3)
-    rotations = np.empty_like(local)
-    joints = np.zeros_like(pose)
-    for part, parent in enumerate(rig.part_parent):
-        if parent < 0:
-            rotations[..., part, :, :] = local[..., part, :, :]
-            continue
-        bone = rig.rest_joints[part] - rig.rest_joints[parent]
-        rotations[..., part, :, :] = rotations[..., parent, :, :] @ local[..., part, :, :]
-        joints[..., part, :] = joints[..., parent, :] + rotations[..., parent, :, :] @ bone
-    # (..., p, k, 3) = arms (p, k, 3) times transposed rotations (..., p, 3, 3).
-    shares = np.matmul(rig.arms.transpose(1, 0, 2), np.swapaxes(rotations, -1, -2))
-    shares = shares + rig.weights.T[:, :, None] * joints[..., :, None, :]
-    points = shares.sum(axis=-3) * CAMERA_AXES + translation[..., None, :]
-    return PosedLandmarks(
-        points=points,
-        shares=shares.reshape(*pose.shape[:-2], p, -1, 3).swapaxes(-3, -2),
-        rotations=rotations,
-        joints=joints,
+    arrays = rig_arrays(rig)
+    local = rotation_matrices(pose.reshape(-1, 3)).reshape(-1, *pose.shape[-2:], 3)
+    points = [
+        pose_rig(arrays, each, place).points
+        for each, place in zip(local, translation.reshape(-1, 3), strict=True)
+    ]
+    return np.stack(points).reshape(*pose.shape[:-2], -1, 3)
+
+
+def rig_arrays(rig: LandmarkRig) -> Rig:
+    """A rig as its kernels take it."""
+    return Rig(
+        parents=np.ascontiguousarray(rig.part_parent, dtype=np.int64),
+        rest_joints=np.ascontiguousarray(rig.rest_joints),
+        weights=np.ascontiguousarray(rig.weights),
+        arms=np.ascontiguousarray(rig.arms),
     )

@@ -1,15 +1,17 @@
-"""Solve for the body that has a subject's measurements: Levenberg-Marquardt with bounds.
+"""Solve for the body that has a subject's measurements: damped Gauss-Newton with bounds.
 
 Minimises Σ ((measured - wanted) / tolerance)² + Σ ((parameter - centre) / spread)². The prior's
 centre is drawn per subject, so that what no measurement decides varies from body to body.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float, Integer
 
 from fitter.arrays import Vertices
+from fitter.numerics.damped_descent import Offer, Step, damped_steps, descend
 from fitter.training.makehuman.body_space import BodySpace, Traits, target_coefficients
 from fitter.training.people._subject_kernels import add_targets, pulls_on_targets, volume_and_pull
 from fitter.training.surveys.survey_measurements import MEASUREMENTS, LinearForms
@@ -17,12 +19,9 @@ from fitter.training.surveys.survey_measurements import MEASUREMENTS, LinearForm
 DENSITY_KG_PER_M3 = 1000.0
 """Of the whole body (section 6 takes the density of water)."""
 
-MAX_STEPS = 30
-FIRST_DAMPING = 1e-2
-SMALLEST_DAMPING = 1e-9
-LARGEST_DAMPING = 1e8
+MAX_EVALUATIONS = 40
 RELATIVE_DECREASE = 1e-4
-"""A step that lowers the cost by a smaller share ends the search."""
+"""Of the cost: see :func:`fitter.numerics.damped_descent.descend`."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -66,12 +65,13 @@ class Placed:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class _Linearised:
+    parameters: Float[np.ndarray, " p"]
     residuals: Float[np.ndarray, " r"]
     jacobian: Float[np.ndarray, "r p"]
 
     @property
-    def cost(self) -> float:
-        return float(self.residuals @ self.residuals)
+    def total(self) -> float:
+        return 0.5 * float(self.residuals @ self.residuals)
 
 
 def place(
@@ -104,45 +104,29 @@ def fit_subject(
 ) -> Float[np.ndarray, " p"]:
     """Parameters of the body nearest to what is wanted, within the space's bounds."""
     lower, upper = placed.space.lower, placed.space.upper
-    parameters = np.clip(start, lower, upper)
-    here = _linearise(placed, wanted, parameters)
-    damping = FIRST_DAMPING
-    for _ in range(MAX_STEPS):
-        step = _step(placed, wanted, parameters, here, damping)
-        if step is None:
-            break
-        parameters, there, damping = step
-        decrease = (here.cost - there.cost) / here.cost
-        here = there
-        if decrease < RELATIVE_DECREASE:
-            break
-    return parameters
 
+    def paraboloid(now: _Linearised) -> Callable[[float], Offer[_Linearised]]:
+        gradient = now.jacobian.T @ now.residuals
+        # A parameter at its bound that the descent pushes outwards stays there for this step.
+        held = (now.parameters <= lower) & (gradient > 0.0)
+        held |= (now.parameters >= upper) & (gradient < 0.0)
+        free = np.flatnonzero(~held)
 
-def _step(
-    placed: Placed,
-    wanted: Wanted,
-    parameters: Float[np.ndarray, " p"],
-    here: _Linearised,
-    damping: float,
-) -> tuple[Float[np.ndarray, " p"], _Linearised, float] | None:
-    """The next parameters, their linearisation and damping; None where no step lowers the cost."""
-    lower, upper = placed.space.lower, placed.space.upper
-    gradient = here.jacobian.T @ here.residuals
-    # A parameter at its bound that the descent pushes outwards stays there for this step.
-    held = ((parameters <= lower) & (gradient > 0.0)) | ((parameters >= upper) & (gradient < 0.0))
-    free = np.flatnonzero(~held)
-    curvature = here.jacobian[:, free].T @ here.jacobian[:, free]
-    while damping < LARGEST_DAMPING:
-        damped = curvature + damping * np.diag(np.diagonal(curvature))
-        trial = parameters.copy()
-        trial[free] -= np.linalg.solve(damped, gradient[free])
-        trial = np.clip(trial, lower, upper)
-        there = _linearise(placed, wanted, trial)
-        if there.cost < here.cost:
-            return trial, there, max(damping / 10.0, SMALLEST_DAMPING)
-        damping *= 10.0
-    return None
+        def taken(step: Step) -> _Linearised:
+            reached = now.parameters.copy()
+            reached[free] += step
+            return _linearise(placed, wanted, np.clip(reached, lower, upper))
+
+        slopes = now.jacobian[:, free]
+        return damped_steps(slopes.T @ slopes, gradient[free], taken, floor=0.0)
+
+    return descend(
+        _linearise(placed, wanted, np.clip(start, lower, upper)),
+        paraboloid,
+        max_evaluations=MAX_EVALUATIONS,
+        settled=0.0,
+        settled_share=RELATIVE_DECREASE,
+    ).point.parameters
 
 
 def measured(
@@ -179,6 +163,7 @@ def measured(
 def _linearise(placed: Placed, wanted: Wanted, parameters: Float[np.ndarray, " p"]) -> _Linearised:
     values, derivative = measured(placed, parameters)
     return _Linearised(
+        parameters=parameters,
         residuals=np.concatenate(
             [
                 (values - wanted.measurements) / wanted.tolerance,

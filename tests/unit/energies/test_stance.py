@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from fitter.body.skeleton import regress
+from fitter.energies import _stance_kernels as kernels
 from fitter.energies import stance as stances
 from fitter.energies.stance import (
     CAMERA_HEIGHT_M,
@@ -15,7 +16,7 @@ from fitter.energies.stance import (
 from fitter.fits.prepared_model import prepared_model
 from fitter.parameters import BodyParameters, CameraTilt, StanceKind
 from fitter.person.upright import upright_rotation
-from fitter.request import Gender
+from fitter.request import Gender, Posture
 from fitter.training.articulation.part_tree import PART_NAMES, part_index
 
 VECTORS = stance_vectors(PART_NAMES)
@@ -169,6 +170,21 @@ def test_at_the_most_probable_tilt_no_tilt_is_better():
     stance = stance_rows(joints, VECTORS, tilt)
     pull = (np.sqrt(stance.rows.weights) * stance.rows.residuals) @ stance.by_tilt
     np.testing.assert_allclose(pull, 0.0, atol=1e-3)
+
+
+def test_the_tilt_found_is_the_best_of_a_fine_grid():
+    rng = np.random.default_rng(9)
+    angles = np.radians(np.linspace(-25.0, 25.0, 51))
+    for _ in range(10):
+        turned = seen(standing_joints(), tilted(rng.uniform(-15, 10), rng.uniform(-5, 5)))
+        joints = turned + 0.08 * rng.standard_normal((17, 3))
+        energies = [
+            kernels.weigh(VECTORS @ joints, np.array([pitch, roll]), stances.KINDS[Posture.ANY])
+            for pitch in angles
+            for roll in angles
+        ]
+        tilt = most_probable_tilt(joints, VECTORS)
+        assert tilt.energy <= min(each.energy for each in energies)
 
 
 def test_the_centre_of_mass_is_that_of_the_bodys_volume():

@@ -2,17 +2,20 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
+import numpy as np
 import pytest
 
-from fitter.numerics.damped_descent import Offer, damping_change, descend
+from fitter.numerics import _damping_kernels as kernels
+from fitter.numerics.damped_descent import Offer, damped_steps, descend
 
 
 @dataclass(frozen=True)
 class Place:
     """A number with its energy."""
 
-    at: float
+    at: Any
     total: float
 
 
@@ -71,4 +74,24 @@ def test_a_search_stops_when_it_may_compute_no_more() -> None:
 def test_damping_falls_where_a_step_kept_its_promise_and_rises_where_it_did_not(
     gain: float, change: float
 ) -> None:
-    assert damping_change(gain) == pytest.approx(change)
+    assert kernels.after_gain(kernels.Damping(0.1, 8.0), gain).share == pytest.approx(0.1 * change)
+
+
+def test_damping_rises_twice_as_fast_with_every_rejection_until_a_step_gains() -> None:
+    first = kernels.after_rejection(kernels.Damping(0.1, 2.0))
+    second = kernels.after_rejection(first)
+    assert (first.share, second.share) == pytest.approx((0.2, 0.8))
+    assert kernels.after_gain(second, 0.5).rise == 2.0
+
+
+def test_a_step_solves_the_damped_equations_and_promises_what_the_paraboloid_falls() -> None:
+    rng = np.random.default_rng(4)
+    root, gradient = rng.standard_normal((9, 9)), rng.standard_normal(9)
+    matrix = root @ root.T
+    offer = damped_steps(matrix, gradient, lambda step: Place(step, 0.0), floor=0.1)(0.5)
+    reached = offer.taken()
+    assert reached is not None
+    step = reached.at
+    damped = matrix + np.diag(0.5 * matrix.diagonal() + 0.1)
+    np.testing.assert_allclose(damped @ step, -gradient, atol=1e-9)
+    assert offer.promised == pytest.approx(-(gradient @ step + 0.5 * step @ matrix @ step))

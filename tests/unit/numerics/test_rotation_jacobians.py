@@ -5,8 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from fitter.numerics.rotation_jacobians import inverse_left_jacobians
-from fitter.numerics.rotations import compose
+from fitter.numerics.rotations import compose, inverse_left_jacobians
 
 vectors = arrays(np.float64, (3, 3), elements=st.floats(-1.7, 1.7))
 

@@ -1,5 +1,7 @@
 """The fit to clicks in plain numpy, for a batch of poses: what its kernels must agree with."""
 
+from dataclasses import dataclass
+
 import numpy as np
 from jaxtyping import Bool, Float
 
@@ -7,6 +9,7 @@ from fitter.body.pose_prior import prior_residuals, prior_terms
 from fitter.body.scape import CAMERA_AXES
 from fitter.body.skeleton import descendants
 from fitter.numerics.robust import huber, huber_weights
+from fitter.numerics.rotations import rotation_matrices
 from fitter.pose_init.click_problem import (
     FACING_MARGIN_M,
     FACING_SPREAD_M,
@@ -14,8 +17,58 @@ from fitter.pose_init.click_problem import (
     TRUNK_YAW_SPREAD,
     ClickProblem,
 )
-from fitter.pose_init.landmark_rig import LandmarkRig, PosedLandmarks
+from fitter.pose_init.landmark_rig import LandmarkRig
 from fitter.pose_init.limb_reaches import TRUNCATION
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class PosedLandmarks:
+    """Landmarks of a batch of poses.
+
+    Attributes
+    ----------
+    points
+        (..., k, 3) camera frame, metres.
+    shares
+        (..., k, p, 3) the terms whose sum over parts is a landmark, body frame axes, root joint
+        at the origin; they include the rig's ``weights``.
+    rotations, joints
+        (..., p, 3, 3) and (..., p, 3), body frame axes, root joint at the origin.
+    """
+
+    points: Float[np.ndarray, "... k 3"]
+    shares: Float[np.ndarray, "... k p 3"]
+    rotations: Float[np.ndarray, "... p 3 3"]
+    joints: Float[np.ndarray, "... p 3"]
+
+
+def pose_landmarks(
+    rig: LandmarkRig,
+    pose: Float[np.ndarray, "... p 3"],
+    translation: Float[np.ndarray, "... 3"],
+) -> PosedLandmarks:
+    """Landmarks in the camera frame for a batch of poses (radians) and root positions (metres)."""
+    p = len(rig.part_names)
+    local = rotation_matrices(pose.reshape(-1, 3)).reshape(*pose.shape, 3)
+    rotations = np.empty_like(local)
+    joints = np.zeros_like(pose)
+    for part, parent in enumerate(rig.part_parent):
+        if parent < 0:
+            rotations[..., part, :, :] = local[..., part, :, :]
+            continue
+        bone = rig.rest_joints[part] - rig.rest_joints[parent]
+        rotations[..., part, :, :] = rotations[..., parent, :, :] @ local[..., part, :, :]
+        joints[..., part, :] = joints[..., parent, :] + rotations[..., parent, :, :] @ bone
+    # (..., p, k, 3) = arms (p, k, 3) times transposed rotations (..., p, 3, 3).
+    shares = np.matmul(rig.arms.transpose(1, 0, 2), np.swapaxes(rotations, -1, -2))
+    shares = shares + rig.weights.T[:, :, None] * joints[..., :, None, :]
+    points = shares.sum(axis=-3) * CAMERA_AXES + translation[..., None, :]
+    return PosedLandmarks(
+        points=points,
+        shares=shares.reshape(*pose.shape[:-2], p, -1, 3).swapaxes(-3, -2),
+        rotations=rotations,
+        joints=joints,
+    )
 
 
 def click_energy(

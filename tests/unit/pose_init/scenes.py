@@ -9,7 +9,7 @@ from fitter.pose_init.click_fit import FittedPoses
 from fitter.pose_init.click_problem import ClickProblem, click_problem
 from fitter.pose_init.hypotheses import refined_hypotheses
 from fitter.pose_init.initial_pose import reference_of
-from fitter.pose_init.landmark_rig import pose_landmarks
+from fitter.pose_init.landmark_rig import landmark_points
 from fitter.pose_init.limbs import LIMBS, MIDDLES, limb_lengths_m
 from fitter.pose_init.perspective import PerspectiveLifting
 from fitter.pose_init.points import ClickedPoints
@@ -77,7 +77,7 @@ def scene(
     camera = Camera(
         focal_length_px=focal_length_px, centre_x=320.0, centre_y=240.0, width=640, height=480
     )
-    points = pose_landmarks(RIG, pose, place).points
+    points = landmark_points(RIG, pose, place)
     rows = [RIG.landmark_names.index(name) for name in CLICKED]
     pixels = camera.project(points[rows]) + noise_px * rng.standard_normal((len(rows), 2))
     return Scene(
@@ -129,7 +129,7 @@ def solve(
 
 def body_points(fitted: FittedPoses, row: int = 0) -> np.ndarray:
     """Body landmarks of one fitted pose, camera frame."""
-    return pose_landmarks(RIG, fitted.pose[row], fitted.translation[row]).points
+    return landmark_points(RIG, fitted.pose[row], fitted.translation[row])
 
 
 def errors_mm(points: np.ndarray, truth: np.ndarray) -> np.ndarray:

@@ -1,18 +1,26 @@
 """The compiled fit to clicks against the plain one and against finite differences."""
 
 import dataclasses
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
 
 from fitter.detection.detector import DetectedSlants, LimbSlant
-from fitter.numerics.rotations import compose, rotation_matrices
+from fitter.numerics.damped_descent import Descent, Offer, damped_steps, descend
+from fitter.numerics.rotations import compose
 from fitter.pose_init import _click_kernels as kernels
-from fitter.pose_init.click_fit import fit_clicks, kernel_arguments
+from fitter.pose_init.click_fit import FLOOR, fit_clicks, terms_of, unknowns_of
 from fitter.pose_init.click_problem import ClickProblem, click_problem
-from fitter.pose_init.landmark_rig import LandmarkRig, pose_landmarks
+from fitter.pose_init.landmark_rig import LandmarkRig, rig_arrays
 from fitter.request import Facing
-from tests.unit.pose_init.plain_clicks import click_energy, landmark_jacobian, normal_equations
+from tests.unit.pose_init.plain_clicks import (
+    click_energy,
+    landmark_jacobian,
+    normal_equations,
+    pose_landmarks,
+)
 from tests.unit.pose_init.scenes import PRIOR, RIG, scene
 
 SLANTS = DetectedSlants(
@@ -61,18 +69,60 @@ def some_poses(count: int) -> tuple[np.ndarray, np.ndarray]:
 def linearised(
     problem: ClickProblem, pose: np.ndarray, place: np.ndarray
 ) -> tuple[float, np.ndarray, np.ndarray]:
-    rig, prior, clicks, soft, turning = kernel_arguments(problem, problem.pixels)
-    k, n = len(problem.rig.landmark_names), 3 * len(turning) + 3
-    rotations, joints = np.empty((17, 3, 3)), np.empty((17, 3))
-    shares, points = np.empty((k, 17, 3)), np.empty((k, 3))
-    matrix, gradient = np.empty((n, n)), np.empty(n)
-    kernels.pose_points(rig, pose, place, rotations, joints, shares, points)
-    energy = kernels.residuals_energy(rig, prior, clicks, soft, pose, rotations, points)
-    kernels.linearise(
-        rig, prior, clicks, soft, turning, pose, rotations, joints, shares, points,
-        matrix, gradient,
-    )  # fmt: skip
+    rig, (terms,) = rig_arrays(problem.rig), terms_of(problem, 1)
+    posed, energy = kernels.evaluate(rig, terms, pose, place)
+    matrix, gradient = kernels.normal_equations(rig, terms, unknowns_of(problem), pose, posed)
     return energy, matrix, gradient
+
+
+@dataclass(frozen=True)
+class Place:
+    """A pose with its plain energy."""
+
+    pose: np.ndarray
+    translation: np.ndarray
+    total: float
+
+
+def plainly_fitted(
+    problem: ClickProblem, pose: np.ndarray, translation: np.ndarray, *, iterations: int
+) -> Descent[Place]:
+    """The search by the loop of all searches, with terms in plain numpy."""
+    turns = 3 * int(problem.turning.sum())
+
+    def evaluated(pose: np.ndarray, translation: np.ndarray) -> Place:
+        posed = pose_landmarks(problem.rig, pose[None], translation[None])
+        return Place(pose, translation, float(click_energy(problem, pose[None], posed)[0]))
+
+    def paraboloid(now: Place) -> Callable[[float], Offer[Place]]:
+        posed = pose_landmarks(problem.rig, now.pose[None], now.translation[None])
+        (matrix,), (gradient,) = normal_equations(problem, now.pose[None], posed)
+
+        def taken(step: np.ndarray) -> Place:
+            pose = now.pose.copy()
+            turned = compose(step[:turns].reshape(-1, 3), pose[problem.turning])
+            pose[problem.turning] = turned
+            moved = now.translation + step[turns:] if problem.moving else now.translation
+            return evaluated(pose, moved)
+
+        return damped_steps(matrix, gradient, taken, floor=FLOOR)
+
+    return descend(
+        evaluated(pose, translation), paraboloid, max_evaluations=1 + iterations, settled=1e-3
+    )
+
+
+@pytest.mark.parametrize("moving", [True, False])
+@pytest.mark.parametrize("iterations", [1, 4, 30])
+def test_the_compiled_search_takes_the_steps_of_the_loop_of_all_searches(iterations, moving):
+    problem = dataclasses.replace(blended_problem(), moving=moving)
+    poses, places = some_poses(4)
+    fitted = fit_clicks(problem, poses, places, iterations=iterations)
+    for row in range(4):
+        plain = plainly_fitted(problem, poses[row], places[row], iterations=iterations).point
+        assert fitted.energy[row] == pytest.approx(plain.total, rel=1e-9)
+        np.testing.assert_allclose(fitted.pose[row], plain.pose, atol=1e-6)
+        np.testing.assert_allclose(fitted.translation[row], plain.translation, atol=1e-6)
 
 
 def test_energy_and_normal_equations_agree_with_the_plain_ones():
@@ -85,7 +135,7 @@ def test_energy_and_normal_equations_agree_with_the_plain_ones():
         energy, matrix, gradient = linearised(problem, poses[row], places[row])
         assert energy == pytest.approx(energies[row], rel=1e-12)
         np.testing.assert_allclose(gradient, gradients[row], rtol=1e-9, atol=1e-7)
-        np.testing.assert_allclose(np.tril(matrix), np.tril(matrices[row]), rtol=1e-9, atol=1e-7)
+        np.testing.assert_allclose(matrix, matrices[row], rtol=1e-9, atol=1e-7)
 
 
 def test_gradient_agrees_with_finite_differences_of_the_energy():
@@ -126,29 +176,6 @@ def test_plain_jacobian_agrees_with_finite_differences():
             ]
             slope = (moved[0] - moved[1]) / (2 * step)
             np.testing.assert_allclose(jacobian[..., 3 * column + axis], slope, atol=1e-8)
-
-
-@pytest.mark.parametrize("angle", [0.0, 1e-9, 0.3, 3.0, np.pi])
-def test_rotations_agree_with_the_project_s_own(angle):
-    rng = np.random.default_rng(3)
-    first, second = rng.standard_normal((2, 3))
-    first *= angle / np.linalg.norm(first)
-    matrix = np.empty((3, 3))
-    kernels.rotation_matrix(first, matrix)
-    np.testing.assert_allclose(matrix, rotation_matrices(first[None])[0], atol=1e-12)
-    turned = second.copy()
-    kernels.turn_further(first, turned)
-    np.testing.assert_allclose(turned, compose(first[None], second[None])[0], atol=1e-9)
-
-
-def test_cholesky_solves_and_refuses_what_is_not_definite():
-    rng = np.random.default_rng(4)
-    root = rng.standard_normal((9, 9))
-    matrix, right = root @ root.T + np.eye(9), rng.standard_normal(9)
-    solution = right.copy()
-    assert kernels.solve_in_place(np.tril(matrix), solution)
-    np.testing.assert_allclose(matrix @ solution, right, atol=1e-9)
-    assert not kernels.solve_in_place(-np.eye(3), np.ones(3))
 
 
 def test_a_fit_ends_where_the_plain_gradient_vanishes():

@@ -8,7 +8,7 @@ import pytest
 from fitter.body.pose_prior import joint_angles, mean_pose
 from fitter.pose_init.click_problem import ClickProblem, click_problem
 from fitter.pose_init.head import turn_head
-from fitter.pose_init.landmark_rig import pose_landmarks
+from fitter.pose_init.landmark_rig import landmark_points
 from fitter.pose_init.points import ClickedPoints
 from tests.unit.pose_init.scenes import PRIOR, RIG, scene
 
@@ -27,7 +27,7 @@ def turned_pose(*, yaw_degrees: float, nod_degrees: float) -> np.ndarray:
 
 def problem_for(pose: np.ndarray, names: tuple[str, ...]) -> ClickProblem:
     camera = scene(0, noise_px=0.0).camera
-    points = pose_landmarks(RIG, pose, PLACE[0]).points
+    points = landmark_points(RIG, pose, PLACE[0])
     rows = [RIG.landmark_names.index(name) for name in names]
     clicks = ClickedPoints(
         names=names,

@@ -7,14 +7,14 @@ import pytest
 
 from fitter.pose_init.hypotheses import limb_facings
 from fitter.pose_init.initial_pose import reference_of
-from fitter.pose_init.landmark_rig import pose_landmarks
+from fitter.pose_init.landmark_rig import landmark_points
 from fitter.pose_init.orthographic import OrthographicLifting
 from fitter.pose_init.perspective import PerspectiveLifting
 from fitter.pose_init.points import ClickedPoints
 from fitter.pose_init.start_poses import start_poses
 from fitter.pose_init.trunk_points import trunk_points
 from fitter.request import Facing
-from tests.unit.pose_init.plain_clicks import click_energy
+from tests.unit.pose_init.plain_clicks import click_energy, pose_landmarks
 from tests.unit.pose_init.scenes import (
     HIPS,
     LENGTHS,
@@ -86,7 +86,7 @@ def closed_form_errors(*, distance: float, focal_length_px: float) -> dict[str, 
                 limb_facing=truth.facing,
                 count=1,
             )
-            points = pose_landmarks(RIG, start.pose[0], start.translation[0]).points
+            points = landmark_points(RIG, start.pose[0], start.translation[0])
             errors[name].append(errors_mm(points, truth.points))
     return {name: float(np.mean(values)) for name, values in errors.items()}
 

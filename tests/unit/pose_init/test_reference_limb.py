@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fitter.body.pose_prior import mean_pose
-from fitter.pose_init.landmark_rig import pose_landmarks
+from fitter.pose_init.landmark_rig import landmark_points
 from fitter.pose_init.limbs import LIMB_NAMES, MIDDLES, limb_named
 from fitter.pose_init.perspective import PerspectiveLifting
 from fitter.pose_init.reference_limb import reference_limb
@@ -16,7 +16,7 @@ CAMERA = Camera(focal_length_px=600.0, centre_x=320.0, centre_y=240.0, width=640
 
 
 def seen(pose: np.ndarray, depth: float) -> dict[str, np.ndarray]:
-    points = pose_landmarks(RIG, pose, np.array([0.0, 0.0, depth])).points
+    points = landmark_points(RIG, pose, np.array([0.0, 0.0, depth]))
     pixels = dict(zip(RIG.landmark_names, CAMERA.project(points), strict=True))
     for name, (right, left) in MIDDLES.items():
         pixels[name] = 0.5 * (pixels[right] + pixels[left])
@@ -51,8 +51,8 @@ def test_its_depth_is_the_smallest_of_all_limbs_bounds():
 def test_the_root_is_found_from_any_parallel_limb(reference):
     """A limb turned parallel to the image fixes the root's depth, wherever in the body it is."""
     pose = mean_pose(PRIOR)
-    posed = pose_landmarks(RIG, pose, np.array([0.05, 0.0, 3.0]))
-    points = dict(zip(RIG.landmark_names, posed.points, strict=True))
+    points = landmark_points(RIG, pose, np.array([0.05, 0.0, 3.0]))
+    points = dict(zip(RIG.landmark_names, points, strict=True))
     for name, (right, left) in MIDDLES.items():
         points[name] = 0.5 * (points[right] + points[left])
     limb = limb_named(reference)
