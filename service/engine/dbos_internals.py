@@ -60,19 +60,6 @@ def shorten_pauses() -> None:
     _sys_db.time = _ShortPauses()  # pyright: ignore
 
 
-def stop_claiming(dbos: DBOS) -> None:
-    """Let DBOS claim nothing more, while running executions go on and their ends are recorded.
-
-    *Private:* ``background_thread_stop_events``, the events that end DBOS's own threads.
-
-    *The public way*, ``DBOS.destroy(workflow_completion_timeout_sec=...)``, checks once a second
-    whether everything is done, waits for whole seconds, and then closes DBOS's database: attempts
-    that are still running could be neither handed back nor ended.
-    """
-    for stop in dbos.background_thread_stop_events:
-        stop.set()
-
-
 def pace_queue(
     dbos: DBOS,
     paced_name: str,
@@ -83,7 +70,8 @@ def pace_queue(
     """Let this process decide when DBOS polls a queue, and how many jobs run at the same time.
 
     DBOS, which must be launched, waits in ``await_turn`` before it claims anything, then keeps to
-    ``usable_slots``; with 0 it claims nothing.
+    ``usable_slots``; with 0 it claims nothing. As long as ``await_turn`` does not return, running
+    executions go on and their ends are recorded.
 
     *Private:* DBOS reads the queue's record before each poll with ``get_queue`` of its ``_sys_db``,
     pauses for ``_polling_interval_sec`` of the queue, asks ``dequeue_scopes`` from where to claim,

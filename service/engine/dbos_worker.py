@@ -22,7 +22,6 @@ from service.engine.dbos_internals import (
     pace_queue,
     put_back_executions_of,
     shorten_pauses,
-    stop_claiming,
 )
 from service.engine.dbos_jobs import BODY_MODELS_FACT
 from service.engine.executions import Executions
@@ -148,7 +147,6 @@ class DbosWorkerEngine:
         """
         if self._dbos is None:
             return
-        stop_claiming(self._dbos)
         self._slots.close()
         if not self._slots.all_left(within_s=drain_s):
             self._handing_back.set()
@@ -251,7 +249,10 @@ class DbosWorkerEngine:
         deadline = time.monotonic() + LOOK_ANYWAY_S
         while True:
             self._slots.await_turn()
-            if time.monotonic() >= deadline or self._slots.is_closed or self._is_any_waiting():
+            if self._slots.is_closed:
+                # No turn comes any more: the process ends once its jobs have.
+                threading.Event().wait()
+            if time.monotonic() >= deadline or self._is_any_waiting():
                 return
             # Just after a slot was left there is no wait for a turn.
             time.sleep(LOOK_S)
@@ -273,7 +274,7 @@ class DbosWorkerEngine:
                 LOG.warning("Too little of the disk is free: no job that waits is begun.")
             else:
                 LOG.info("There is room on the disk again: jobs are begun.")
-        return 0 if is_short else self._slots.claimable()
+        return 0 if is_short or self._slots.is_closed else self._slots.claimable()
 
     def _store_body_models(self, body_models: BodyModels) -> None:
         with self._database.begin() as connection:

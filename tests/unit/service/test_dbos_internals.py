@@ -52,17 +52,15 @@ CLAIMS = "the limit of a worker is still `_worker_concurrency` less what it runs
 READS_FIRST = (
     "before each look the queue is read by `_sys_db.get_queue`, then `_sys_db.dequeue_scopes` is "
     "asked, `_polling_interval_sec` and after that `_worker_concurrency` are taken from what was "
-    "read, without scopes nothing is claimed, and an event that is set ends the thread"
+    "read, and without scopes nothing is claimed"
 )
 PUTS_BACK = "only what stands as PENDING by one of the dead is put back, with its count"
-STOPS = "`background_thread_stop_events` holds the event that ends the queues' threads"
 
 REPEATS = "it still sleeps by the module's `time` between two attempts"
 
 # Of each function that was read: the digest of its source, and what is relied on.
 READ = [
     ("_queue:queue_worker_thread", "c0b22c3a946ff0c7", READS_FIRST),
-    ("_queue:queue_thread", "e54ec9c69e992899", STOPS),
     ("_sys_db:SystemDatabase.start_queued_workflows", "f8d6ba4ec0b52137", CLAIMS),
     ("_sys_db:SystemDatabase.get_queue", "89a5ccf936c5eee8", READS_FIRST),
     ("_sys_db:SystemDatabase.dequeue_scopes", "4e4f440a21b04a94", READS_FIRST),
@@ -71,8 +69,6 @@ READ = [
     ("_recovery:_recover_workflow", "ebfc6ed4df454172", PUTS_BACK),
     ("_sys_db:SystemDatabase.reenqueue_for_recovery", "ac0bc1c45d8c36e4", PUTS_BACK),
     ("_sys_db:db_retry", "c548d54a31c8ccbd", REPEATS),
-    ("_dbos:DBOS._destroy", "09e06f5ebe7bcf77", STOPS),
-    ("_dbos:DBOS._launch", "581c866e5a6f1846", STOPS),
 ]
 
 
@@ -117,7 +113,7 @@ def test_what_is_relied_on_is_as_it_was_read(path, digest, relied_on):
 
 
 def test_what_is_replaced_is_where_it_was():
-    dbos = part_of_dbos("_dbos:DBOS", relied_on=STOPS)
+    dbos = part_of_dbos("_dbos:DBOS", relied_on=READS_FIRST)
     queue = part_of_dbos("_queue:Queue", relied_on=READS_FIRST)
     assert isinstance(inspect.getattr_static(dbos, "_sys_db", None), property), LOOK_AT.format(
         what="DBOS._sys_db", relied_on="it is the system database that the queue's thread asks"
@@ -125,9 +121,6 @@ def test_what_is_replaced_is_where_it_was():
     assert {"_worker_concurrency", "_polling_interval_sec"} <= set(
         queue.__init__.__code__.co_names
     ), LOOK_AT.format(what="Queue", relied_on=READS_FIRST)
-    assert "background_thread_stop_events" in dbos.__init__.__code__.co_names, LOOK_AT.format(
-        what="DBOS.__init__", relied_on=STOPS
-    )
 
 
 def test_what_fails_for_want_of_the_database_is_repeated_after_short_pauses(
