@@ -18,15 +18,29 @@ class Clock:
 
 
 def row(
-    name: str, beat: int, *, machine: str = "elsewhere", pid: int = 1, started: str = ""
+    name: str,
+    beat: int,
+    *,
+    machine: str = "elsewhere",
+    pid: int = 1,
+    started: str = "",
+    able: bool = True,
 ) -> SimpleNamespace:
     return SimpleNamespace(
-        executor_id=name, beat=beat, machine=machine, pid=pid, pid_started=started
+        executor_id=name, beat=beat, machine=machine, pid=pid, pid_started=started, able=able
     )
 
 
 def test_a_worker_seen_for_the_first_time_is_given_the_benefit_of_the_doubt():
     assert WorkerWatch(dead_after_s=DEAD_AFTER_S).alive([row("a", 5)]) == {"a"}
+
+
+def test_a_worker_is_ready_once_it_is_known_to_be_alive_and_while_it_says_that_it_is_able():
+    watch = WorkerWatch(dead_after_s=DEAD_AFTER_S)
+    (first,) = watch.look([row("a", 5)])
+    (beaten,) = watch.look([row("a", 6)])
+    (unable,) = watch.look([row("a", 7, able=False)])
+    assert [each.is_ready for each in (first, beaten, unable)] == [False, True, False]
 
 
 def test_a_worker_whose_beat_stands_still_is_dead_and_one_whose_beat_rises_is_not():
