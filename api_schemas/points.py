@@ -44,8 +44,11 @@ BLAZEPOSE33_INDEX: Final[Mapping[PointName, int]] = {
     "right_toe": 32,
 }
 
-BLAZEPOSE_SURE: Final = 0.5
-"""BlazePose points less visible than this are guesses: passed on as occluded."""
+DETECTOR_SURE: Final = 0.5
+"""A detector's points of less confidence than this are guesses: passed on as hidden."""
+
+MOST_SHARE: Final = 2.0
+"""BlazePose guesses points beyond the picture, but not most of them as far as this."""
 
 
 class PointsFormat(StrEnum):
@@ -93,8 +96,9 @@ class Point(WireModel):
     """A clicked point, continuous pixels, with COCO's visibility: 0 absent, 1 hidden, 2 seen.
 
     A point of ``/v1/points`` can be sent as it came: as a ``proposal`` it binds a fit as loosely as
-    proposals of its name err. ``confidence`` and ``expected_error_px`` are for people; a fit does
-    not look at them. Who moves or confirms a point sends it as a ``click``.
+    proposals of its name and ``confidence`` err. ``expected_error_px`` is for people; a fit does
+    not look at it. Who moves or confirms a point sends it as a ``click``, whose confidence does not
+    count.
     """
 
     x: float
@@ -177,6 +181,9 @@ def named_points(
 ) -> dict[PointName, Point]:
     """Translate any accepted layout to named points in pixels; absent points are left out.
 
+    Points of a detector are proposals with its confidence: COCO's with scores, OpenPose's and
+    BlazePose's.
+
     Parameters
     ----------
     points, layout
@@ -188,29 +195,59 @@ def named_points(
         return points_by_name(points)
     rows = _detector_rows(points, layout)
     if layout is PointsFormat.COCO17:
+        placed = dict(zip(COCO_POINT_NAMES, rows, strict=True))
+        if _has_scores(rows):
+            return _proposals(placed)
         return _present(
             {
                 name: Point(x=x, y=y, visibility=_coco_visibility(visibility))
-                for name, (x, y, visibility) in zip(COCO_POINT_NAMES, rows, strict=True)
+                for name, (x, y, visibility) in placed.items()
             }
         )
     if layout is PointsFormat.OPENPOSE_BODY25:
-        # A confidence of zero is how OpenPose says that it saw nothing.
-        return {
-            name: Point(x=rows[index][0], y=rows[index][1])
-            for name, index in OPENPOSE_BODY25_INDEX.items()
-            if rows[index][2] > 0.0
-        }
+        return _proposals({name: rows[index] for name, index in OPENPOSE_BODY25_INDEX.items()})
+    _check_shares(rows)
     # BlazePose always prints all its points, also those beyond the picture's edge.
+    return _proposals(
+        {
+            name: (rows[index][0] * width, rows[index][1] * height, rows[index][2])
+            for name, index in BLAZEPOSE33_INDEX.items()
+            if 0.0 <= rows[index][0] <= 1.0 and 0.0 <= rows[index][1] <= 1.0
+        },
+        least=-1.0,
+    )
+
+
+def _proposals(rows: Mapping[PointName, Row], *, least: float = 0.0) -> dict[PointName, Point]:
+    """Points with a detector's confidence; one of ``least`` says that it saw nothing."""
     return {
         name: Point(
-            x=rows[index][0] * width,
-            y=rows[index][1] * height,
-            visibility=2 if rows[index][2] >= BLAZEPOSE_SURE else 1,
+            x=x,
+            y=y,
+            visibility=2 if confidence >= DETECTOR_SURE else 1,
+            source=PointSource.PROPOSAL,
+            confidence=min(max(confidence, 0.0), 1.0),
         )
-        for name, index in BLAZEPOSE33_INDEX.items()
-        if 0.0 <= rows[index][0] <= 1.0 and 0.0 <= rows[index][1] <= 1.0
+        for name, (x, y, confidence) in rows.items()
+        if confidence > least
     }
+
+
+def _has_scores(rows: Sequence[Row]) -> bool:
+    """Whether a detector's scores stand where COCO has visibility."""
+    marks = [mark for _, _, mark in rows]
+    return all(0.0 <= mark <= 1.0 for mark in marks) and any(0.0 < mark < 1.0 for mark in marks)
+
+
+def _check_shares(rows: Sequence[Row]) -> None:
+    beyond = sum(max(x, y) > MOST_SHARE for x, y, _ in rows)
+    if 2 * beyond > len(rows):
+        raise refusal(
+            code="points-in-pixels",
+            reason="BlazePose's points are shares of the picture, but these look like pixels.",
+            field="points",
+            remedy="Divide each x by the picture's width and each y by its height: 0 to 1.",
+        )
 
 
 def _present(points: Mapping[PointName, Point]) -> dict[PointName, Point]:

@@ -13,7 +13,7 @@ from api_schemas import results as wire
 from api_schemas.derivation_kinds.combined import CombinedPicture
 from api_schemas.points import Point, Points, PointSource, points_by_name
 from api_schemas.problems import FieldProblem
-from fitter.detection.landmark_meanings import INDEX_OF_POINT, spread_m
+from fitter.detection.landmark_meanings import INDEX_OF_POINT, UNSEEN_CONFIDENCE, spread_m
 from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.fits.progress import Progress
 from fitter.measurement.quantity import Measurement
@@ -204,11 +204,14 @@ def _click(name: str, point: Point) -> Click:
     is_seen = point.visibility >= SEEN
     # The detector proposes no neck, so one that is sent as a proposal was clicked.
     is_proposal = point.source is PointSource.PROPOSAL and name in INDEX_OF_POINT
+    confidence = point.confidence
+    if confidence is None:
+        confidence = 1.0 if is_seen else UNSEEN_CONFIDENCE
     return Click(
         x=point.x,
         y=point.y,
         occluded=not is_seen,
-        spread_m=spread_m(name, float(is_seen)) if is_proposal else None,
+        spread_m=spread_m(name, confidence) if is_proposal else None,
     )
 
 

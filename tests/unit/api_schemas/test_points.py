@@ -4,6 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import TypeAdapter, ValidationError
+from pydantic_core import PydanticCustomError
 
 from api_schemas.points import (
     BLAZEPOSE33_INDEX,
@@ -12,6 +13,7 @@ from api_schemas.points import (
     Point,
     Points,
     PointsFormat,
+    PointSource,
     named_points,
 )
 from fitter.vocabulary.points import COCO_POINT_NAMES
@@ -60,9 +62,43 @@ def test_blazepose_is_scaled_to_pixels_and_loses_points_outside():
     landmarks[27] |= {"visibility": 0.2}
     landmarks[28] |= {"y": 1.2}
     points = named(landmarks, PointsFormat.BLAZEPOSE33)
-    assert points["left_knee"] == Point(x=100.0, y=25.0, visibility=2)
+    assert points["left_knee"] == Point(
+        x=100.0, y=25.0, visibility=2, source=PointSource.PROPOSAL, confidence=0.9
+    )
     assert points["left_ankle"].visibility == 1
     assert "right_ankle" not in points
+
+
+def test_blazepose_in_pixels_is_told_that_shares_are_expected():
+    landmarks = [{"x": 120.0 + i, "y": 300.0, "visibility": 0.9} for i in range(33)]
+    with pytest.raises(PydanticCustomError, match="shares of the picture") as caught:
+        named(landmarks, PointsFormat.BLAZEPOSE33)
+    assert caught.value.type == "points-in-pixels"
+    assert "width" in caught.value.context["remedy"]
+
+
+@pytest.mark.parametrize("layout", POINT_COUNTS)
+@pytest.mark.parametrize("confidence", [0.3, 0.8])
+def test_a_detectors_confidence_is_kept_in_every_format(layout, confidence):
+    rows = [[0.4, 0.5, confidence] for _ in range(POINT_COUNTS[layout])]
+    for point in named(rows, layout).values():
+        assert (point.source, point.confidence) == (PointSource.PROPOSAL, confidence)
+        assert point.visibility == (2 if confidence > 0.5 else 1)
+
+
+def test_a_score_above_one_is_one_and_a_score_of_zero_is_no_point():
+    rows = [[5.0, 5.0, 1.04] for _ in range(25)]
+    assert named(rows, PointsFormat.OPENPOSE_BODY25)["nose"].confidence == 1.0
+    rows = [[5.0, 5.0, 0.0 if i == 0 else 0.7] for i in range(17)]
+    assert "nose" not in named(rows, PointsFormat.COCO17)
+
+
+def test_coco_without_a_score_in_it_is_visibility():
+    rows = [[5.0, 5.0, float(i % 2)] for i in range(17)]
+    points = named(rows, PointsFormat.COCO17)
+    assert {(point.source, point.visibility) for point in points.values()} == {
+        (PointSource.CLICK, 1)
+    }
 
 
 @pytest.mark.parametrize("table", [OPENPOSE_BODY25_INDEX, BLAZEPOSE33_INDEX])

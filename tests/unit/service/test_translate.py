@@ -4,14 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from pydantic import TypeAdapter
 
 from api_schemas import requests as wire_request
 from api_schemas import results as wire
-from api_schemas.points import Point
+from api_schemas.points import Point, Points, PointsFormat, named_points
 from api_schemas.requests import FitOptions
 from fitter import request as fitter_request
 from fitter import result as fitter_result
-from fitter.detection.landmark_meanings import spread_m
+from fitter.detection.landmark_meanings import SPREAD_EXPONENT, spread_m
 from fitter.errors import InvalidInputError
 from fitter.fits.progress import Progress, Stage
 from fitter.measurement.quantity import Measurement
@@ -108,16 +109,38 @@ def test_a_proposed_point_has_the_spread_of_proposals_of_its_name():
     clicks = translated(
         points={
             "left_hip": sent(**proposal),
-            "left_wrist": sent(**proposal, visibility=1),
+            "left_wrist": sent(source="proposal", visibility=1),
             "right_hip": sent(source="click"),
             "neck": sent(source="proposal"),
         }
     ).clicks
-    assert clicks["left_hip"].spread_m == spread_m("left_hip", 1.0)
-    assert clicks["left_wrist"].spread_m == spread_m("left_wrist", 0.0) > 0.05
+    assert clicks["left_hip"].spread_m == spread_m("left_hip", 0.9)
+    assert clicks["left_wrist"].spread_m == pytest.approx(
+        3.0 * spread_m("left_wrist", 1.0), rel=0.01
+    )
     assert clicks["left_wrist"].occluded
     # Nothing proposes necks: somebody clicked it.
     assert clicks["right_hip"].spread_m is clicks["neck"].spread_m is None
+
+
+@pytest.mark.parametrize(
+    ("layout", "count", "elbow"),
+    [("openpose_body25", 25, 6), ("blazepose33", 33, 13), ("coco17", 17, 7)],
+)
+def test_a_detectors_point_binds_less_the_less_sure_it_is(layout, count, elbow):
+    def elbow_spread_m(confidence: float) -> float:
+        rows = [[0.5, 0.5, 0.97] for _ in range(count)]
+        rows[elbow][2] = confidence
+        points = TypeAdapter(Points).validate_python(rows)
+        named = named_points(points, PointsFormat(layout), width=1, height=1)
+        found = translate.clicks(named)["left_elbow"].spread_m
+        assert found is not None
+        return found
+
+    spreads = [elbow_spread_m(confidence) for confidence in (0.99, 0.8, 0.44, 0.1, 0.06)]
+    assert spreads == sorted(spreads)
+    assert spreads[2] / spreads[0] == pytest.approx((0.99 / 0.44) ** SPREAD_EXPONENT)
+    assert elbow_spread_m(0.01) == elbow_spread_m(0.02)
 
 
 def test_what_the_detector_is_to_do_is_said_in_both_languages():
