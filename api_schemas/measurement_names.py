@@ -6,7 +6,7 @@ from typing import Final
 
 from fitter.vocabulary.measurements import MEASUREMENT_UNITS
 
-_OTHER_WORDS: Final[Mapping[str, str]] = {
+OTHER_WORDS: Final[Mapping[str, str]] = {
     "bust": "chest",
     "seat": "hip",
     "hips": "hip",
@@ -25,7 +25,7 @@ _MOST_SUGGESTED: Final = 3
 def suggested_names(unknown: str) -> tuple[str, ...]:
     """Names that may have been meant by one that there is not, likeliest first; often none."""
     words = unknown.lower().replace("-", "_").replace(" ", "_").split("_")
-    meant = [_OTHER_WORDS.get(word, word) for word in words if len(word) > 2]
+    meant = [OTHER_WORDS.get(word, word) for word in words if len(word) > 2]
     alike = get_close_matches("_".join(meant), MEASUREMENT_UNITS, n=_MOST_SUGGESTED, cutoff=0.75)
     holding = [
         name

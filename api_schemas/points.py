@@ -195,7 +195,7 @@ def named_points(
         return points_by_name(points)
     rows = _detector_rows(points, layout)
     if layout is PointsFormat.COCO17:
-        placed = dict(zip(COCO_POINT_NAMES, rows, strict=True))
+        placed = dict[PointName, Row](zip(COCO_POINT_NAMES, rows, strict=True))
         if _has_scores(rows):
             return _proposals(placed)
         return _present(

@@ -1,9 +1,11 @@
 """Size charts as tables: CSV as spreadsheets write it.
 
 The first line names the columns, the first of which holds the sizes' labels. Every other one is
-named by a measurement, and holds ``94-98``, a range, or ``96``, a target; or it is one of a pair
-``chest_girth_low`` and ``chest_girth_high``. Empty cells say nothing. Columns are parted by commas,
-semicolons or tabs; between the latter two a comma may be decimal.
+named by a measurement, and holds ``94-98``, a range, or ``96``, a target
+(:mod:`api_schemas.size_chart_cells`); or it is one of a pair ``chest_girth_low`` and
+``chest_girth_high``, or ``_min`` and ``_max``. Empty cells say nothing. Columns are parted by
+commas, semicolons or tabs; between the latter two a comma may be decimal. Excel's line ``sep=;``
+before all says which.
 """
 
 import csv
@@ -14,6 +16,14 @@ from typing import Final, NamedTuple
 
 from api_schemas.labels import READABLE_REMEDY, is_readable
 from api_schemas.measurement_names import unknown_name_remedy
+from api_schemas.size_chart_cells import (
+    NOTHING,
+    UnitError,
+    header_of,
+    measurement_of,
+    read_cell,
+    unit_of,
+)
 from api_schemas.size_charts import (
     LARGEST_VALUE,
     MAX_LABEL_LENGTH,
@@ -30,8 +40,8 @@ MAX_CHART_BYTES: Final = 256 * 1024
 MAX_COLUMNS: Final = 200
 
 _LOW, _HIGH = "_low", "_high"
-_NUMBER: Final = r"\d{1,9}(?:[.,]\d{1,9})?"
-_CELL: Final = re.compile(rf"({_NUMBER})(?:\s*(?:-|–|—|to)\s*({_NUMBER}))?")
+_ENDINGS: Final = {"_min": _LOW, "_max": _HIGH}
+_SEPARATOR: Final = re.compile(r"\ufeff?\s*\"?sep=([,;\t])\"?[,;\t]*\r?\n", re.IGNORECASE)
 
 
 class ChartTableError(Exception):
@@ -45,11 +55,12 @@ class ChartTableError(Exception):
 
 
 class _Row(NamedTuple):
-    """``number`` counts the header as 1."""
+    """``number`` is that of the line; ``factors``, by column, convert from the header's units."""
 
     number: int
     label: str
     cells: Mapping[str, str]
+    factors: Mapping[str, float]
 
 
 def read_chart(content: bytes) -> SizeChart:
@@ -81,7 +92,7 @@ def _text(content: bytes) -> str:
 
 def _rows(text: str) -> list[_Row]:
     header, *lines = _lines(text)
-    columns = _columns(header[1])
+    columns, factors = _columns(header[1])
     rows: list[_Row] = []
     for number, cells in lines:
         if any(cells[len(columns) + 1 :]):
@@ -103,7 +114,8 @@ def _rows(text: str) -> list[_Row]:
                 reason=f"Row {number} has characters in its label that are not seen.",
                 remedy=READABLE_REMEDY,
             )
-        rows.append(_Row(number, label, dict(zip(columns, cells[1:], strict=False))))
+        said = ["" if cell.lower() in NOTHING else cell for cell in cells[1:]]
+        rows.append(_Row(number, label, dict(zip(columns, said, strict=False)), factors))
     if not rows:
         raise ChartTableError(
             code="no-sizes",
@@ -121,8 +133,12 @@ def _rows(text: str) -> list[_Row]:
 
 def _lines(text: str) -> list[tuple[int, list[str]]]:
     """Lines that are not empty, with their numbers."""
+    told = _SEPARATOR.match(text)
+    if told is not None:
+        # The line stays counted: rows are named as a spreadsheet numbers them.
+        text = "\n" + text[told.end() :]
     head = text.lstrip().partition("\n")[0]
-    delimiter = max("\t;,", key=head.count)
+    delimiter = told[1] if told is not None else max("\t;,", key=head.count)
     try:
         table = list(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter, strict=True))
     except csv.Error as error:
@@ -142,19 +158,45 @@ def _lines(text: str) -> list[tuple[int, list[str]]]:
     return lines
 
 
-def _columns(header: Sequence[str]) -> list[str]:
-    columns = [re.sub(r"[\s-]+", "_", cell.lower()) for cell in header[1:]]
-    while columns and not columns[-1]:
-        columns.pop()
-    if not columns or len(columns) > MAX_COLUMNS:
+def _columns(header: Sequence[str]) -> tuple[list[str], dict[str, float]]:
+    """Names of the columns behind the labels, and the factor of each that has a unit."""
+    cells = list(header[1:])
+    while cells and not cells[-1]:
+        cells.pop()
+    if not cells or len(cells) > MAX_COLUMNS:
         raise ChartTableError(
             code="not-a-table",
-            reason=f"The header names {len(columns)} measurements, not 1 to {MAX_COLUMNS}.",
+            reason=f"The header names {len(cells)} measurements, not 1 to {MAX_COLUMNS}.",
             remedy="Begin with a line such as: size,chest_girth,waist_girth_navel",
         )
-    for place, name in enumerate(columns, start=2):
+    columns: list[str] = []
+    units: list[str | None] = []
+    for cell in cells:
+        said, unit = header_of(cell)
+        columns.append(_column(said))
+        units.append(unit)
+    factors: dict[str, float] = {}
+    for place, (name, unit) in enumerate(zip(columns, units, strict=True), start=2):
         _check_name(name, columns, place)
-    return columns
+        if unit is not None:
+            try:
+                factors[name] = unit_of(name.removesuffix(_LOW).removesuffix(_HIGH), unit)
+            except UnitError as error:
+                raise ChartTableError(
+                    code="not-a-range",
+                    reason=f"Row 1, column '{name}': '{unit}' is no unit of this measurement.",
+                    remedy="Give lengths in centimetres and a weight in kilograms.",
+                ) from error
+    return columns, factors
+
+
+def _column(said: str) -> str:
+    """A column's name as measurements are written here, with the end of a range that it holds."""
+    name = re.sub(r"[\s-]+", "_", said.lower())
+    for ending in (*_ENDINGS, _LOW, _HIGH):
+        if name.endswith(ending):
+            return measurement_of(name.removesuffix(ending)) + _ENDINGS.get(ending, ending)
+    return measurement_of(name)
 
 
 def _check_name(name: str, columns: Sequence[str], place: int) -> None:
@@ -205,21 +247,25 @@ def _size(row: _Row) -> Size:
 
 
 def _value(row: _Row, column: str, cell: str) -> float | BodyRange:
-    found = _CELL.fullmatch(cell)
-    if found is None:
+    measurement = column.removesuffix(_LOW)
+    try:
+        ends = read_cell(measurement, cell, row.factors.get(column, 1.0))
+    except UnitError as error:
+        fault = f"holds '{cell[:40]}', whose unit is none of this measurement"
+        raise _cell_error(row, column, "not-a-range", fault) from error
+    if ends is None:
         raise _cell_error(row, column, "not-a-range", f"holds '{cell[:40]}', no number or range")
-    ends = [float(end.replace(",", ".")) for end in found.groups() if end is not None]
-    if not all(0.0 < end <= LARGEST_VALUE for end in ends):
+    if not all(0.0 < end <= LARGEST_VALUE for end in ends[:2]):
         raise _cell_error(
             row,
             column,
             "out-of-range",
             f"holds {cell[:40]}, beyond 0 to {LARGEST_VALUE:g} cm or kg",
         )
-    low, high = ends[0], ends[-1]
-    if low > high:
-        raise _cell_error(row, column, "low-above-high", f"goes from {low:g} down to {high:g}")
-    return BodyRange(low=low, high=high) if len(ends) > 1 else low
+    if ends.low > ends.high:
+        fault = f"goes from {ends.low:g} down to {ends.high:g}"
+        raise _cell_error(row, column, "low-above-high", fault)
+    return BodyRange(low=ends.low, high=ends.high) if ends.is_range else ends.low
 
 
 def _cell_error(row: _Row, column: str, code: str, fault: str) -> ChartTableError:

@@ -11,6 +11,7 @@ from api_schemas.known import MeasurementName
 from api_schemas.labels import READABLE, ReadableText
 from api_schemas.measurement_names import unknown_name_remedy
 from fitter.vocabulary.measurements import MEASUREMENT_UNITS
+from fitter.vocabulary.reach import USUAL_REACH, other_unit
 
 MAX_SIZES: Final = 200
 MAX_LABEL_LENGTH: Final = 64
@@ -131,6 +132,31 @@ def chart_faults(chart: SizeChart) -> Iterator[ChartFault]:
                     f"'{chart.sizes[first].label}' a {other}.",
                     remedy="Give ranges in the whole column, or targets in the whole column.",
                 )
+    yield from _unit_faults(chart)
+
+
+def _unit_faults(chart: SizeChart) -> Iterator[ChartFault]:
+    """Columns that look like another unit: none of their values is one that people have."""
+    for name in chart.columns:
+        rows = [row for row, size in enumerate(chart.sizes) if name in size.measurements]
+        values = [_middle(chart.sizes[row].measurements[name]) for row in rows]
+        found = other_unit(name, values) if name in MEASUREMENT_UNITS else None
+        if found is None:
+            continue
+        factor, other = found
+        unit, (low, high) = MEASUREMENT_UNITS[name], USUAL_REACH[name]
+        yield ChartFault(
+            code="out-of-range",
+            size=rows[0],
+            column=name,
+            reason=f"{name} goes from {min(values):g} to {max(values):g} {unit}; people have "
+            f"{low:g} to {high:g} {unit}. It looks like {other}.",
+            remedy=f"Send {unit}: {factor * values[0]:.4g} in place of {values[0]:g}.",
+        )
+
+
+def _middle(value: float | BodyRange) -> float:
+    return 0.5 * (value.low + value.high) if isinstance(value, BodyRange) else value
 
 
 def columns_without_step(chart: SizeChart) -> tuple[str, ...]:

@@ -1,6 +1,6 @@
 """What is known about somebody, and what is wrong with it if nobody is like that."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 from jaxtyping import Float
@@ -11,6 +11,7 @@ from fitter.population.conditional_shape import ConditionedShape, Conditions, co
 from fitter.population.measured_population import MeasuredPopulation
 from fitter.request import KnownMeasurement
 from fitter.vocabulary.measurements import LEAST_HEIGHT_M, MOST_HEIGHT_M, STATURE
+from fitter.vocabulary.reach import OTHER_UNITS
 
 CENTIMETRES_PER_METRE = 100.0
 
@@ -25,12 +26,6 @@ _RAREST_SHARE = 5.733e-7
 _LEAST_SPREAD = 0.1
 """Centimetres or kilograms: a measurement that follows from the others more closely than this is
 treated as one that cannot differ at all."""
-
-_OTHER_UNITS: Mapping[str, Sequence[tuple[float, str]]] = {
-    "cm": ((100.0, "metres"), (0.1, "millimetres"), (2.54, "inches")),
-    "kg": ((0.453_592, "pounds"), (6.350_29, "stones"), (0.001, "grams")),
-}
-"""By unit: the factors that convert a value given in another one."""
 
 
 def conditioned_population(
@@ -143,7 +138,7 @@ def _out_of_range(
 ) -> InvalidInputError:
     """Say which unit the value seems to be in, if it is of the reach in another one."""
     low, high = reach
-    for factor, other in _OTHER_UNITS[unit]:
+    for factor, other in OTHER_UNITS[unit]:
         if low <= measurement.value * factor <= high:
             return InvalidInputError(
                 code="out-of-range",

@@ -1,6 +1,7 @@
 """Size charts of requests: as JSON and as tables, and what is said of bad ones."""
 
 import json
+from pathlib import Path
 
 import pytest
 
@@ -8,6 +9,7 @@ from api_schemas.derivations import DerivationRequest
 from api_schemas.measurement_names import suggested_names
 from api_schemas.size_chart_csv import ChartTableError, read_chart
 from api_schemas.size_charts import MAX_SIZES, BodyRange
+from fitter.vocabulary.reach import USUAL_REACH
 from service.submissions.refusal import RefusedError
 from service.submissions.validation import parsed
 
@@ -15,8 +17,12 @@ M = {"label": "M", "measurements": {"chest_girth": {"low": 94, "high": 98}}}
 HEADER = "size,chest_girth,waist_girth_navel\n"
 
 
-def table(text: str) -> dict[str, dict[str, object]]:
-    chart = read_chart(text.encode())
+CHARTS = Path(__file__).parent / "data" / "charts"
+"""As shops and spreadsheets write them."""
+
+
+def table(text: str | bytes) -> dict[str, dict[str, object]]:
+    chart = read_chart(text.encode() if isinstance(text, str) else text)
     return {
         size.label: {
             name: (each.low, each.high) if isinstance(each, BodyRange) else each
@@ -41,6 +47,109 @@ def test_a_table_is_read_as_spreadsheets_write_it(text):
         "M": {"chest_girth": (94.0, 98.0), "waist_girth_navel": (80.0, 84.0)},
         "L": {"chest_girth": (98.0, 102.0)},
     }
+
+
+def shop(name: str) -> dict[str, dict[str, object]]:
+    return table((CHARTS / f"{name}.csv").read_bytes())
+
+
+def test_units_in_cells_are_read():
+    assert shop("cm_unit")["S"] == {
+        "chest_girth": (86.0, 91.0),
+        "waist_girth_smallest": (66.0, 71.0),
+        "hip_girth": (91.0, 97.0),
+    }
+    assert table("size,chest_girth,weight\nM,34-36 in,110-132 lbs\n")["M"] == {
+        "chest_girth": pytest.approx((86.36, 91.44)),
+        "weight": pytest.approx((49.895, 59.874), abs=1e-3),
+    }
+
+
+def test_excels_first_line_says_what_parts_the_columns():
+    assert shop("excel_sep")["36"]["chest_girth"] == (82.5, 86.0)
+    with pytest.raises(ChartTableError, match="Row 3"):
+        read_chart(b"sep=;\nsize;chest_girth\nM;a\n")
+
+
+def test_a_header_may_have_the_unit_and_a_name_that_only_one_measurement_has():
+    text = (CHARTS / "head_unit.csv").read_text()
+    with pytest.raises(ChartTableError) as caught:
+        read_chart(text.encode())
+    assert (caught.value.code, "column 'waist'" in caught.value.reason) == ("unknown-value", True)
+    assert "waist_girth_smallest" in caught.value.remedy
+    read = table(text.replace("Waist", "waist_girth_smallest"))
+    assert read["M"] == {
+        "chest_girth": (91.0, 97.0),
+        "waist_girth_smallest": (71.0, 76.0),
+        "hip_girth": (97.0, 102.0),
+    }
+    assert table("size,Bust (in)\nM,36-38\n") == {
+        "M": {"chest_girth": pytest.approx((91.44, 96.52))}
+    }
+
+
+def test_strokes_and_tildes_are_ranges():
+    assert shop("slash")["S"]["waist_girth_smallest"] == (66.0, 70.0)
+    assert shop("slash")["M"]["waist_girth_smallest"] == (70.0, 74.0)
+
+
+def test_open_ends_reach_as_far_as_people_do():
+    chart = shop("openends")
+    assert list(chart["S"]) == ["chest_girth", "waist_girth_smallest"]
+    least, most = USUAL_REACH["chest_girth"]
+    assert chart["S"]["chest_girth"] == (min(least, 43.0), 86.0)
+    assert chart["XL"]["chest_girth"] == (102.0, max(most, 153.0))
+    assert chart["XL"]["hip_girth"] == (106.0, 159.0)
+
+
+def test_columns_of_least_and_most_are_ranges():
+    assert shop("minmax_named")["M"] == {
+        "chest_girth": (95.0, 100.0),
+        "waist_girth_smallest": (85.0, 90.0),
+    }
+
+
+@pytest.mark.parametrize(
+    ("cell", "inches"),
+    [("34 1/2", 34.5), ("36½", 36.5), ("36 ¼", 36.25), ('34 3/8"', 34.375)],
+)
+def test_fractions_of_inches_are_read(cell, inches):
+    factor = 1.0 if '"' in cell else 2.54
+    header = "chest_girth (in)" if factor == 2.54 else "chest_girth"
+    cell = cell.replace('"', '""')
+    read = table(f'size,{header}\nM,"{cell}"\n')
+    assert read == {"M": {"chest_girth": pytest.approx(2.54 * inches)}}
+
+
+@pytest.mark.parametrize("name", ["inch_named", "inch_frac"])
+def test_a_chart_that_looks_like_inches_is_refused(name):
+    with pytest.raises(ChartTableError, match="It looks like inches") as caught:
+        shop(name)
+    assert caught.value.code == "out-of-range"
+    assert "Row 2, column 'chest_girth'" in caught.value.reason
+    assert "in place of" in caught.value.remedy
+
+
+@pytest.mark.parametrize(("values", "unit"), [((0.92, 0.98), "metres"), ((36.0, 38.5), "inches")])
+def test_a_chart_in_json_is_judged_by_its_units_too(values, unit):
+    sizes = [size(label, chest_girth=value) for label, value in zip("ML", values, strict=True)]
+    with pytest.raises(RefusedError) as caught:
+        parsed(
+            DerivationRequest,
+            json.dumps({"kind": "size", "chart": {"sizes": sizes}}).encode(),
+            whole="body",
+            called="the body",
+        )
+    (fault,) = caught.value.problem.errors
+    assert (fault.field, fault.code) == (
+        "chart.sizes.0.measurements.chest_girth",
+        "out-of-range",
+    )
+    assert unit in fault.reason
+
+
+def test_sizes_for_the_unusual_are_no_other_unit():
+    assert table(HEADER + "8XL,150-160,\nM,94-98,\n")["8XL"] == {"chest_girth": (150.0, 160.0)}
 
 
 def test_single_values_are_targets():

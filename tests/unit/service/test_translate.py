@@ -133,7 +133,7 @@ def test_a_detectors_point_binds_less_the_less_sure_it_is(layout, count, elbow):
         rows[elbow][2] = confidence
         points = TypeAdapter(Points).validate_python(rows)
         named = named_points(points, PointsFormat(layout), width=1, height=1)
-        found = translate.clicks(named)["left_elbow"].spread_m
+        found = translate.clicks({"left_elbow": named["left_elbow"]})["left_elbow"].spread_m
         assert found is not None
         return found
 
