@@ -77,9 +77,10 @@ def test_measurements_come_back_in_3dlooks_groups():
     assert page["as_before"](RESULT)["volume_params"]["low_hips"] == pytest.approx(71.2, abs=0.06)
 
 
-def test_openpose_output_becomes_a_fit_without_what_it_hardly_saw(tmp_path: Path):
+def test_openpose_output_becomes_a_fit_that_holds_little_to_what_it_hardly_saw(tmp_path: Path):
     rows = [[10.0 * at, 5.0 * at, 0.9] for at in range(25)]
     rows[OPENPOSE_BODY25_INDEX["left_wrist"]][2] = 0.05
+    rows[OPENPOSE_BODY25_INDEX["right_wrist"]][2] = 0.0
     people = [{"pose_keypoints_2d": [number for row in rows for number in row]}]
     file = tmp_path / "picture_keypoints.json"
     file.write_text(json.dumps({"version": 1.3, "people": people}))
@@ -88,7 +89,8 @@ def test_openpose_output_becomes_a_fit_without_what_it_hardly_saw(tmp_path: Path
     assert asked.format is PointsFormat.OPENPOSE_BODY25
     assert asked.points != "auto"
     points = named_points(asked.points, asked.format, width=640, height=480)
-    assert set(OPENPOSE_BODY25_INDEX) - set(points) == {"left_wrist"}
+    assert set(OPENPOSE_BODY25_INDEX) - set(points) == {"right_wrist"}
+    assert (points["left_wrist"].confidence, points["left_shoulder"].confidence) == (0.05, 0.9)
     assert (points["left_shoulder"].x, points["left_shoulder"].y) == (50.0, 25.0)
 
 
