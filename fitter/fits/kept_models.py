@@ -12,13 +12,14 @@ import os
 import pickle
 import platform
 import sys
-import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from contextlib import suppress
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
-from typing import IO, Any, Final, TypeVar
+from typing import Any, Final, TypeVar
+
+from fitter.numerics.checked_file import ALIGNED, DamagedFileError, check, write_checked
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -31,7 +32,6 @@ _SUFFIX: Final = ".prepared"
 _PACKAGES: Final = ("numpy", "scipy", "qdldl")
 """Of others, by whose functions models are prepared."""
 
-_ALIGNED: Final = 64
 _LENGTH_BYTES: Final = 8
 
 Made = TypeVar("Made")
@@ -58,8 +58,7 @@ def kept(source: Path, make: Callable[[], Made]) -> Made:
         return _read(path)
     except FileNotFoundError:
         pass
-    # What a damaged pickle raises is not said anywhere.
-    except Exception as error:
+    except (DamagedFileError, OSError) as error:
         LOG.warning("A prepared model in %s is made anew: %s", path.parent, error)
     made = make()
     try:
@@ -97,26 +96,12 @@ def _write(path: Path, made: object) -> None:
     pickled = pickle.dumps(made, protocol=5, buffer_callback=buffers.append)
     arrays = [buffer.raw() for buffer in buffers]
     head = pickle.dumps((pickled, [array.nbytes for array in arrays]))
-    path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-    with tempfile.NamedTemporaryFile(dir=path.parent, suffix=".new", delete=False) as file:
-        try:
-            _write_parts(file, [len(head).to_bytes(_LENGTH_BYTES), head, *arrays])
-            file.flush()
-            os.fsync(file.fileno())
-            Path(file.name).replace(path)
-        except OSError:
-            Path(file.name).unlink()
-            raise
-
-
-def _write_parts(file: IO[bytes], parts: Sequence[bytes | memoryview]) -> None:
-    for part in parts:
-        file.write(part)
-        file.write(bytes(-file.tell() % _ALIGNED))
+    write_checked(path, [len(head).to_bytes(_LENGTH_BYTES), head, *arrays])
 
 
 def _read(path: Path) -> Any:
     with path.open("rb") as file:
+        check(file)
         # Private and not read-only: kernels are compiled for arrays that can be written.
         mapped = memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_COPY))
     parts = _Parts(mapped)
@@ -133,22 +118,13 @@ class _Parts:
 
     def __init__(self, mapped: memoryview) -> None:
         self._mapped = mapped
-        self._at = 0
+        self._at = ALIGNED
 
     def taken(self, length: int) -> memoryview:
-        """The next part.
-
-        Raises
-        ------
-        EOFError
-            If the file ends before it.
-        """
+        """The next part."""
         end = self._at + length
-        if end > len(self._mapped):
-            message = f"it has {len(self._mapped)} bytes in place of {end} or more"
-            raise EOFError(message)
         part = self._mapped[self._at : end]
-        self._at = end + -end % _ALIGNED
+        self._at = end + -end % ALIGNED
         return part
 
 

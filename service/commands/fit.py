@@ -17,11 +17,12 @@ from service.commands.local_work import UNUSABLE_INPUT, told, write_files
 from service.commands.terminal import print_result, stage_bars
 from service.demo_data.sample import load_sample
 from service.jobs.inputs import PERSON
-from service.process.caches import keep_what_is_costly
+from service.process.caches import settle_folders
 from service.settings import Settings
 from service.submissions.refusal import RefusedError
 from service.submissions.submission import check_fit
 from service.worker.artifacts import with_result_document
+from service.worker.kernel_cache import kept_kernels
 from service.worker.pipeline_port import (
     DerivationInput,
     PipelineInput,
@@ -157,10 +158,10 @@ def _fit(
     models: Path | None,
     pipeline: str,
 ) -> PipelineOutput:
-    keep_what_is_costly()
+    settle_folders()
     settings = Settings()
     checked = check_fit(request=request, image=image, mask=mask, max_pixels=settings.max_pixels)
-    with stage_bars(console) as bars:
+    with kept_kernels(), stage_bars(console) as bars:
         output = load_pipeline(pipeline).run(
             PipelineInput(
                 options=checked.options,

@@ -14,12 +14,13 @@ from service.commands.fit import PIPELINE, values_from_file
 from service.commands.local_work import UNUSABLE_INPUT, told, write_files
 from service.commands.terminal import print_scan, stage_bars
 from service.jobs.inputs import SentPicture
-from service.process.caches import keep_what_is_costly
+from service.process.caches import settle_folders
 from service.settings import Settings
 from service.submissions.detector import check_detector
 from service.submissions.submission import check_submission
 from service.submissions.validation import parsed
 from service.worker.artifacts import with_result_document
+from service.worker.kernel_cache import kept_kernels
 from service.worker.pipeline_port import ScanInput, ScanOutput, ScanPicture, load_pipeline
 
 VIEWS: Final = (ViewKind.FRONT, ViewKind.SIDE)
@@ -62,7 +63,7 @@ def scan_locally(arguments: ScanArguments, *, pipeline: str = PIPELINE) -> int:
 
 
 def _scan(console: Console, arguments: ScanArguments, *, pipeline: str) -> ScanOutput:
-    keep_what_is_costly()
+    settle_folders()
     settings = Settings()
     asked = parsed(ScanRequest, _request(arguments), whole="request", called="what is asked for")
     images = [path.read_bytes() for path in arguments.images]
@@ -70,7 +71,7 @@ def _scan(console: Console, arguments: ScanArguments, *, pipeline: str) -> ScanO
         asked, [SentPicture(image, None) for image in images], max_pixels=settings.max_pixels
     )
     check_detector(checked.options, settings.detector_dir)
-    with stage_bars(console, whole="whole scan") as bars:
+    with kept_kernels(), stage_bars(console, whole="whole scan") as bars:
         output = load_pipeline(pipeline).scan(
             ScanInput(
                 options=checked.options,

@@ -29,7 +29,6 @@ from service.estimates.messages import (
     RefusalAnswer,
 )
 from service.estimates.port import NoDetectorError
-from service.process.caches import keep_what_is_costly
 from service.process.heap import give_back
 from service.settings import Settings
 from service.worker.body_models.asking import unusable_models
@@ -75,7 +74,6 @@ def run_estimator(
         answers = SANDBOX_ANSWERS if settings.sandbox else ANSWERS_MODULE
     for variable in THREAD_LIMITS:
         os.environ.setdefault(variable, "1")
-    keep_what_is_costly()
     limit = settings.child_memory_mb * 1024 * 1024
     resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))

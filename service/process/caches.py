@@ -6,17 +6,25 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Final
 
-from service.process.kernels import keep_kernels
+from service.process.work_folder import make_work_folder
 
 VARIABLE: Final = "FITTER_CACHE_DIR"
+KERNELS: Final = "NUMBA_CACHE_DIR"
 
 
-def keep_what_is_costly() -> None:
-    """Settle both folders before the numerics are loaded, unless the environment names them."""
-    keep_kernels()
+def settle_folders() -> Path:
+    """Settle all folders before the numerics are loaded; return the one for temporary files.
+
+    Numba gets a folder that ends with this process, whatever the environment names: what is kept
+    of it is kept by :mod:`service.worker.kernel_cache`. Everything else is kept in the user's
+    folder unless the environment names another.
+    """
+    work = make_work_folder()
+    os.environ[KERNELS] = str(work / "kernels")
     if VARIABLE not in os.environ:
         # No name: models are prepared by every process that needs them.
         os.environ[VARIABLE] = str(users_folder() or "")
+    return work
 
 
 def users_folder() -> Path | None:

@@ -51,6 +51,9 @@ WATCHDOG_S: Final = 1.0
 JOIN_S: Final = 1.0
 """How long the exit code of a child that has closed its pipe is waited for."""
 
+CRASHES: Final = 2
+"""In a row, after which the fork server is replaced; a job has three attempts by default."""
+
 STOPPED: Final = {
     Directive.CANCELED: AttemptResult(ending=Ending.CANCELED),
     Directive.SUPERSEDED: AttemptResult(ending=Ending.SUPERSEDED),
@@ -76,11 +79,14 @@ class ChildRunner:
         self._pipeline = pipeline
         self._processes = processes
         self._kept = KeptChildren(jobs=settings.child_jobs)
+        self._crashes = 0
 
     def run(self, attempt: Attempt) -> AttemptResult:
         """Run one attempt to its end: done, failed, canceled, out of time or crashed."""
         try:
-            return self._run(attempt)
+            result = self._run(attempt)
+            self._suspect_server(result)
+            return result
         except BlobMissingError:
             LOG.warning("The input of the job is gone.")
             return AttemptResult(ending=Ending.FAILED, problem=input_gone())
@@ -90,6 +96,17 @@ class ChildRunner:
         except NoProcessError as error:
             LOG.error("No process can be started (%s).", error)
             return AttemptResult(ending=Ending.FAILED, problem=no_process())
+
+    def _suspect_server(self, result: AttemptResult) -> None:
+        """Replace the fork server when processes crash in a row: what it shares may be damaged.
+
+        A file that it has mapped may have been truncated since, over which every process would die.
+        """
+        self._crashes = self._crashes + 1 if result.ending is Ending.CRASHED else 0
+        if self._crashes >= CRASHES:
+            LOG.warning("Processes of jobs crash in a row: the fork server is replaced.")
+            self._crashes = 0
+            self._processes.replace_server()
 
     def _run(self, attempt: Attempt) -> AttemptResult:
         deadline = time.monotonic() + self._settings.job_time_limit_s

@@ -2,12 +2,13 @@
 
 import logging
 import os
+import shutil
 import signal
 from collections.abc import Sequence
 from typing import Final
 
 from service.blobs import open_blob_store, setting_of_storage
-from service.process.caches import keep_what_is_costly
+from service.process.caches import settle_folders
 from service.process.data_folder import prepare_data_folder
 from service.process.disk import open_disk
 from service.process.heap import KEPT
@@ -25,6 +26,7 @@ LOG: Final = logging.getLogger(__name__)
 
 PIPELINE: Final = "service.worker.pipeline"
 SANDBOX_PIPELINE: Final = "service.worker.sandbox"
+SECRETLESS: Final = "service.worker.secretless"
 PRELOAD: Final = "service.worker.preload"
 LENT: Final = "service.estimates.lent"
 
@@ -46,6 +48,7 @@ def run_worker(
     *,
     follow_stdin: bool,
     pipeline: str | None = None,
+    secretless: str = SECRETLESS,
     preload: str = PRELOAD,
     lent: str = LENT,
     models_command: Sequence[str] = MODELS_COMMAND,
@@ -53,6 +56,7 @@ def run_worker(
     """Work until SIGTERM or SIGINT, or until standard input ends if that is to be followed.
 
     ``pipeline`` is by default the real one, or the sandbox's where that is set.
+    ``secretless`` is what its fork server imports first, ``preload`` what last.
     ``lent`` is what runs in processes forked for whoever started this one.
     ``models_command`` starts the process that says which body models there are.
     """
@@ -67,11 +71,11 @@ def run_worker(
         os.environ.setdefault(variable, value)
     # The fork server and its resource tracker are started by `python -c`.
     os.environ[SAFE_PATH_VARIABLE] = "1"
-    keep_what_is_costly()
+    work = settle_folders()
     prepare_data_folder(settings)
     check_detector(settings)
     blobs = open_blob_store(settings)
-    processes = ForkedProcesses(*((lent,) if follow_stdin else ()), preload)
+    processes = ForkedProcesses(secretless, *((lent,) if follow_stdin else ()), preload)
     if follow_stdin:
         follow_starter(processes, lent=lent, ended=stop.ask)
     runner = ChildRunner(settings, blobs, processes, pipeline=pipeline)
@@ -114,5 +118,6 @@ def run_worker(
     engine.stop(drain_s=settings.drain_s)
     tracing.stop()
     logging.shutdown()
+    shutil.rmtree(work, ignore_errors=True)
     # Not a return: threads of fits that were handed back may still be there.
     os._exit(0)

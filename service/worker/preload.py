@@ -1,12 +1,18 @@
 """Imported once by the fork server: what is loaded here is shared by every process it forks."""
 
 import gc
+import os
 from contextlib import suppress
 
+from service.process.caches import KERNELS, settle_folders
+from service.process.confinement import write_only_below
 from service.process.heap import give_back, give_back_files
 
 
 def _load() -> None:
+    if not os.environ.get(KERNELS):
+        # Imported by another than a worker, who has done it.
+        settle_folders()
     # Imported here: nothing is looked through for cycles meanwhile.
     from fitter.errors import ModelFileError
     from fitter.fits.prepared_model import prepared_model
@@ -33,3 +39,6 @@ gc.freeze()
 gc.enable()
 give_back()
 give_back_files()
+
+# From here on pictures are decoded, in what is forked: what it may write ends with the worker.
+write_only_below(os.environ["TMPDIR"])

@@ -12,11 +12,10 @@ from PIL import Image
 from fitter.detection.detector import installed_detector
 from fitter.errors import DetectorUnavailableError, ModelFileError
 from service.demo_data.sample import Sample, load_sample
-from service.process.apart import succeeds_apart
 from service.submissions.submission import check_fit
 from service.worker import pipeline
 from service.worker.artifacts import with_result_document
-from service.worker.compiled_kernels import load_compiled_kernels
+from service.worker.kernel_cache import keep_kernels, make_kernels_ready, restore_kernels
 from service.worker.pipeline_port import PipelineInput
 
 LOG: Final = logging.getLogger(__name__)
@@ -27,15 +26,11 @@ SMALLER: Final = 4
 MAX_PIXELS: Final = 1_000_000
 
 
-COMPILED: Final = 0.9
-"""Share of the kernels that are compiled where a fit, some time, has been made."""
-
-
 def make_ready(models: Path | None, detector: Path | None = None) -> None:
     """Have everything in memory that fits need beside the models.
 
-    A second of processor where the kernels are compiled; else the sample is fitted in a child,
-    which compiles them, and here too if no cache can keep them.
+    A second of processor where the kernels are compiled; else the sample is fitted, which compiles
+    them.
 
     Raises
     ------
@@ -45,12 +40,7 @@ def make_ready(models: Path | None, detector: Path | None = None) -> None:
     # Without one, whoever needs it is told.
     with suppress(DetectorUnavailableError):
         installed_detector(detector)
-    if load_compiled_kernels() >= COMPILED:
-        return
-    # What compiles takes a gigabyte. It ends with a child, which leaves the kernels in their cache.
-    succeeds_apart(lambda: rehearse(models, detector))
-    if load_compiled_kernels() < COMPILED:
-        rehearse(models, detector)
+    make_kernels_ready(lambda: rehearse(models, detector))
 
 
 def rehearse(models: Path | None, detector: Path | None = None) -> None:
@@ -100,8 +90,11 @@ def rehearse_sandbox(models: Path | None, detector: Path | None = None) -> None:
     # Imported here: no other worker needs what derives.
     from service.worker.sandbox_rehearsal import derive_all
 
+    kept = restore_kernels()
     try:
         derive_all(models, detector)
+        if kept is None or not kept.is_current():
+            keep_kernels()
     except ModelFileError:
         raise
     except Exception:

@@ -127,13 +127,13 @@ def start(
 
 def fit_first(client: Client, worker: Container) -> None:
     """Check that the first fit compiles nothing."""
-    begun = time.monotonic()
+    begun, unpacked = time.monotonic(), worker.kernels()
     result = client.result(client.ended(client.submit(cues="SES")))
     taken = ", ".join(f"{stage} {value:.1f} s" for stage, value in result["stage_seconds"].items())
     print(f"first fit: {time.monotonic() - begun:.1f} s over HTTP; {taken}")
-    linked, compiled = worker.kernels()
-    print(f"kernels: {linked} from the image, {compiled} compiled anew")
-    expect("the first fit compiles nothing", linked > 0 and compiled == 0)
+    compiled = worker.kernels() - unpacked
+    print(f"kernels: {unpacked} from the image, {compiled} compiled anew")
+    expect("the first fit compiles nothing", unpacked > 0 and compiled == 0)
 
 
 def look_at_confinement(worker: Container) -> None:
@@ -147,7 +147,7 @@ def look_at_confinement(worker: Container) -> None:
     expect("not as root", fields["Uid"].split() == [str(worker.image.user[0])] * 4)
     expect("without capabilities", int(fields["CapEff"], 16) == int(fields["CapBnd"], 16) == 0)
     expect("and no way to gain some", fields["NoNewPrivs"] == "1")
-    for folder in ("/", "/data", "/opt/maquette/kernels", "/usr/local/bin"):
+    for folder in ("/", "/data", "/opt/maquette", "/usr/local/bin"):
         told = worker.execute("touch", f"{folder}/new").stderr
         expect(f"{folder} is read-only", "Read-only file system" in told)
 

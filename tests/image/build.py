@@ -77,5 +77,5 @@ def open_image() -> Image:
         container=container,
         environment=dict(pair.split("=", 1) for pair in config["Env"]),
         user=(user, group),
-        entrypoint=tuple(config["Entrypoint"]),
+        entrypoint=tuple(config.get("Entrypoint", ())),
     )

@@ -6,6 +6,7 @@ from pathlib import Path
 
 FAKE = "tests.integration.service.fake_pipeline"
 FAKE_LENT = "tests.integration.service.fake_lent"
+FAKE_SECRETLESS = "tests.integration.service.fake_secretless"
 FAKE_PRELOAD = "tests.integration.service.fake_preload"
 FAKE_MODELS = (sys.executable, "-m", "tests.integration.service.fake_models")
 
@@ -24,6 +25,7 @@ def main() -> None:
         settings,
         follow_stdin=True,
         pipeline=FAKE,
+        secretless=FAKE_SECRETLESS,
         preload=FAKE_PRELOAD,
         lent=FAKE_LENT,
         models_command=FAKE_MODELS,

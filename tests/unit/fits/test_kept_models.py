@@ -1,6 +1,7 @@
 """Prepared models that are kept in files."""
 
 import logging
+import os
 import stat
 from dataclasses import dataclass
 from pathlib import Path
@@ -83,15 +84,62 @@ def overwritten(path: Path) -> None:
     path.write_bytes(bytes(range(256)) * 8)
 
 
-@pytest.mark.parametrize("damage", [cut_short, emptied, overwritten])
+def zeroed(path: Path) -> None:
+    path.write_bytes(bytes(path.stat().st_size))
+
+
+def flipped(path: Path) -> None:
+    content = bytearray(path.read_bytes())
+    content[-80] ^= 1
+    path.write_bytes(content)
+
+
+def replaced_by_a_folder(path: Path) -> None:
+    path.unlink()
+    path.mkdir()
+
+
+@pytest.mark.parametrize("damage", [cut_short, emptied, overwritten, zeroed, flipped])
 def test_a_damaged_file_is_told_of_and_made_anew(folder, source, caplog, damage):
     kept(source, made)
     (path,) = folder.iterdir()
     damage(path)
     with caplog.at_level(logging.WARNING):
         assert kept(source, made).names == ("a", "b")
+    assert [record.levelname for record in caplog.records] == ["WARNING"]
     assert "is made anew" in caplog.text
     assert kept(source, not_made).names == ("a", "b")
+
+
+@pytest.mark.parametrize("bit", range(0, 8 * 300, 101))
+def test_every_flipped_bit_is_found(folder, source, bit):
+    kept(source, made)
+    (path,) = folder.iterdir()
+    content = bytearray(path.read_bytes())
+    content[64 + bit // 8] ^= 1 << bit % 8
+    path.write_bytes(content)
+    np.testing.assert_array_equal(kept(source, made).values, made().values)
+    assert path.read_bytes() != bytes(content)
+
+
+def test_what_cannot_be_read_is_made_and_told(folder, source, caplog):
+    kept(source, made)
+    (path,) = folder.iterdir()
+    replaced_by_a_folder(path)
+    with caplog.at_level(logging.WARNING):
+        assert kept(source, made).names == ("a", "b")
+    assert "is made anew" in caplog.text
+
+
+def test_what_a_process_left_unfinished_is_removed_by_the_next_that_writes(folder, source):
+    folder.mkdir(parents=True)
+    left, being_written = folder / "left.new", folder / "being_written.new"
+    for file in (left, being_written):
+        file.touch()
+    os.utime(left, (0.0, 0.0))
+    kept(source, made)
+    assert not left.exists()
+    assert being_written.exists()
 
 
 def test_without_a_folder_nothing_is_kept(tmp_path, source, monkeypatch):

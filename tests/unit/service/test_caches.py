@@ -4,7 +4,8 @@ import os
 
 import pytest
 
-from service.process.caches import VARIABLE, keep_what_is_costly, users_folder
+from service.process import caches as settled
+from service.process.caches import KERNELS, VARIABLE, settle_folders, users_folder
 
 
 @pytest.fixture
@@ -12,14 +13,15 @@ def caches(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     monkeypatch.delenv(VARIABLE, raising=False)
     # Put back at the end, whatever is set meanwhile.
-    monkeypatch.setenv("NUMBA_CACHE_DIR", os.environ.get("NUMBA_CACHE_DIR", ""))
+    monkeypatch.setenv(KERNELS, os.environ.get(KERNELS, ""))
+    monkeypatch.setattr(settled, "make_work_folder", lambda: tmp_path / "work")
     return tmp_path
 
 
 def test_models_are_kept_in_the_users_cache_and_nobody_else_reads_them(caches, monkeypatch):
     monkeypatch.setenv(VARIABLE, "")
     monkeypatch.delenv(VARIABLE)
-    keep_what_is_costly()
+    settle_folders()
     assert os.environ[VARIABLE] == str(caches / "maquette")
     assert (caches / "maquette").stat().st_mode & 0o777 == 0o700
 
@@ -27,9 +29,18 @@ def test_models_are_kept_in_the_users_cache_and_nobody_else_reads_them(caches, m
 @pytest.mark.parametrize("named", ["", "/elsewhere"])
 def test_a_folder_that_the_environment_names_stays(caches, monkeypatch, named):
     monkeypatch.setenv(VARIABLE, named)
-    keep_what_is_costly()
+    settle_folders()
     assert os.environ[VARIABLE] == named
     assert list(caches.iterdir()) == []
+
+
+@pytest.mark.parametrize("named", ["", "/elsewhere"])
+def test_numba_keeps_nothing_beyond_the_process_whatever_the_environment_names(
+    caches, monkeypatch, named
+):
+    monkeypatch.setenv(KERNELS, named)
+    assert settle_folders() == caches / "work"
+    assert os.environ[KERNELS] == str(caches / "work" / "kernels")
 
 
 def test_nothing_is_read_where_others_may_have_put_it(caches):

@@ -258,26 +258,3 @@ def test_a_package_of_the_lock_file_comes_with_what_it_needs():
     printed = runtime_requirements("--of", "cyclonedx-bom")
     assert {"cyclonedx-bom", "cyclonedx-python-lib", "jsonschema", "lxml"} <= printed.keys()
     assert "dbos" not in printed
-
-
-def test_the_entrypoint_links_the_kernels_and_becomes_the_command(tmp_path):
-    kernels, cache = tmp_path / "kernels", tmp_path / "cache"
-    (kernels / "body").mkdir(parents=True)
-    (kernels / "body" / "solve.nbi").write_text("compiled")
-    script = (DOCKER / "entrypoint.sh").read_text()
-    assert "/opt/maquette/kernels" in script
-    script = script.replace("/opt/maquette/kernels", str(kernels))
-    for _ in range(2):  # as when a container is started again
-        process = subprocess.Popen(
-            ["sh", "-c", script, "entrypoint", "sh", "-c", "echo $$"],
-            env={**os.environ, "NUMBA_CACHE_DIR": str(cache)},
-            stdout=subprocess.PIPE,
-            text=True,
-        )
-        printed, _ = process.communicate()
-        assert int(printed) == process.pid
-    link = cache / "body" / "solve.nbi"
-    assert link.is_symlink()
-    assert link.read_text() == "compiled"
-    (cache / "body" / "new").write_text("compiled later")
-    assert [path.name for path in (kernels / "body").iterdir()] == ["solve.nbi"]

@@ -14,7 +14,7 @@ from service.submissions.submission import check_fit
 from service.worker import pipeline, rehearsal
 from service.worker.main import THREAD_LIMITS
 from service.worker.pipeline_port import PipelineInput, PipelineOutput
-from service.worker.rehearsal import make_ready, rehearse
+from service.worker.rehearsal import rehearse
 from tests.submissions import small_submissions
 
 REPOSITORY = Path(__file__).parents[3]
@@ -81,31 +81,19 @@ def test_a_missing_model_is_an_error_of_its_own(tmp_path):
         rehearse(tmp_path)
 
 
-def test_a_fit_after_the_kernels_were_read_reads_and_compiles_no_other():
+def test_a_fit_after_the_kernels_were_read_compiles_no_other(tmp_path):
     program = """
+from service.process.caches import settle_folders
+settle_folders()
+from numba.core import event
 from fitter.fits.prepared_model import prepared_model
 from fitter.request import Gender
-from numba.core.caching import FunctionCache
 from service.worker.rehearsal import make_ready, rehearse
 for gender in Gender:
     prepared_model(gender)
 make_ready(None)
-read = []
-load = FunctionCache.load_overload
-FunctionCache.load_overload = lambda cache, *rest: read.append(cache) or load(cache, *rest)
-rehearse(None)
-print(len(read))
-"""
+with event.install_recorder("numba:compile") as compiled:
     rehearse(None)
+print(len(compiled.buffer))
+"""
     assert int(told(program)) == 0
-
-
-def test_what_is_not_compiled_is_compiled_by_a_fit(monkeypatch):
-    fitted: list[object] = []
-    monkeypatch.setattr(rehearsal, "rehearse", lambda *folders: fitted.append(folders))
-    monkeypatch.setattr(rehearsal, "load_compiled_kernels", lambda: rehearsal.COMPILED)
-    make_ready(None)
-    assert not fitted
-    monkeypatch.setattr(rehearsal, "load_compiled_kernels", lambda: 0.0)
-    make_ready(None)
-    assert fitted == [(None, None)]

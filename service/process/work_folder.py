@@ -1,0 +1,69 @@
+"""A process' own folder among the temporary files: private, and gone when the process is.
+
+Whatever it and its children write for the time being goes there. A process that is killed cannot
+remove its folder. The next one does: each holds a lock on a file in its own for as long as it runs.
+"""
+
+import atexit
+import fcntl
+import os
+import shutil
+import tempfile
+import time
+from contextlib import suppress
+from pathlib import Path
+from typing import Final
+
+PREFIX: Final = "maquette-"
+LOCK: Final = "lock"
+VARIABLE: Final = "TMPDIR"
+
+YOUNG_S: Final = 60.0
+"""A folder that has just been made may not be locked yet."""
+
+
+def make_work_folder() -> Path:
+    """Make the folder, and have this process and its children keep temporary files there."""
+    parent = Path(tempfile.gettempdir())
+    remove_abandoned(parent)
+    folder = Path(tempfile.mkdtemp(prefix=f"{PREFIX}{os.geteuid()}-", dir=parent))
+    # Open for as long as the process runs, and not in those that it starts.
+    _lock(folder)
+    atexit.register(remove_work_folder, folder, os.getpid())
+    tempfile.tempdir = str(folder)
+    os.environ[VARIABLE] = str(folder)
+    return folder
+
+
+def remove_work_folder(folder: Path, owner: int) -> None:
+    """Remove the folder, unless this is a fork of the process that it belongs to."""
+    if os.getpid() == owner:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def remove_abandoned(parent: Path) -> None:
+    """Remove the folders of processes of ours that run no more."""
+    for folder in parent.glob(f"{PREFIX}{os.geteuid()}-*"):
+        with suppress(OSError):
+            found = folder.lstat()
+            if found.st_uid == os.geteuid() and time.time() - found.st_mtime > YOUNG_S:
+                descriptor = _lock(folder)
+                shutil.rmtree(folder, ignore_errors=True)
+                os.close(descriptor)
+
+
+def _lock(folder: Path) -> int:
+    """Take the lock of a folder.
+
+    Raises
+    ------
+    OSError
+        If somebody else has it.
+    """
+    descriptor = os.open(folder / LOCK, os.O_CREAT | os.O_RDWR | os.O_NOFOLLOW, 0o600)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        os.close(descriptor)
+        raise
+    return descriptor

@@ -1,0 +1,172 @@
+"""Compiled kernels, kept in one file with a checksum from one process to the next.
+
+Numba keeps what it compiles in hundreds of files, and runs what it finds in them unseen: a
+truncated one ends the process, a changed one computes something else. So its own cache lasts only
+as long as the folder of a process and those that it forks (:mod:`service.process.work_folder`).
+What is in it after a rehearsal is kept in one file, beside the code or in the user's cache.
+That file is read as it was written or not at all, and whoever decodes pictures never writes it.
+"""
+
+import hashlib
+import importlib
+import logging
+import os
+import pickle
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any, Final
+
+import fitter
+from fitter.fits.kept_models import VARIABLE as USERS_CACHE
+from fitter.numerics.checked_file import DamagedFileError, check, write_checked
+from service.process.apart import succeeds_apart
+from service.process.caches import KERNELS
+
+LOG: Final = logging.getLogger(__name__)
+
+PACKAGE: Final = Path(next(iter(fitter.__path__)))
+SOURCES: Final = "_*_kernels.py"
+"""Where kernels are compiled from, by the convention of this package."""
+
+Signature = tuple[str, str, Any]
+"""A kernel's module and name, and the types that it is compiled for."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class KeptKernels:
+    """What is kept: the files of Numba's cache by name, and what is compiled in them.
+
+    ``sources`` are the stamps of the files that they were compiled from.
+    """
+
+    sources: Mapping[str, tuple[int, int]]
+    signatures: tuple[Signature, ...]
+    files: Mapping[str, bytes]
+
+    def is_current(self) -> bool:
+        """Whether nothing would have to be compiled anew."""
+        return self.sources == _sources()
+
+
+def make_kernels_ready(compile_all: Callable[[], object]) -> None:
+    """Have all kernels compiled in this process, by reading what is kept where it is current.
+
+    Where it is not, ``compile_all`` is run, and what it compiles is kept. Whatever it does should
+    not stay in memory: it is run in a child where the result can be kept, else here.
+    """
+    kept = restore_kernels()
+    if kept is None or not kept.is_current():
+        succeeds_apart(lambda: (compile_all(), keep_kernels()))
+        kept = read_kept()
+    if kept is None or not kept.is_current():
+        compile_all()
+        return
+    for module, name, types in kept.signatures:
+        getattr(importlib.import_module(module), name).compile(types)
+
+
+@contextmanager
+def kept_kernels() -> Iterator[None]:
+    """Restore the kernels for the work of a command, and keep what it had to compile."""
+    kept = restore_kernels()
+    yield
+    if kept is None or not kept.is_current():
+        keep_kernels()
+
+
+def restore_kernels() -> KeptKernels | None:
+    """Lay what is kept into the folder of Numba's cache, before the first kernel is called."""
+    kept = read_kept()
+    if kept is not None:
+        for name, content in kept.files.items():
+            path = _folder() / name
+            path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+            path.write_bytes(content)
+    return kept
+
+
+def keep_kernels() -> None:
+    """Keep what is compiled for this process, where that can be written."""
+    signatures = tuple(_signatures())
+    if not signatures:
+        return
+    files = {
+        str(path.relative_to(_folder())): path.read_bytes()
+        for pattern in ("*.nbi", "*.nbc")
+        for path in _folder().rglob(pattern)
+    }
+    kept = KeptKernels(sources=_sources(), signatures=signatures, files=files)
+    for path in _places():
+        try:
+            write_checked(path, [pickle.dumps(kept)])
+        except OSError as error:
+            LOG.debug("Compiled kernels cannot be kept in %s: %s", path.parent, error)
+        else:
+            return
+    LOG.warning("Compiled kernels cannot be kept: the next start compiles them again.")
+
+
+def read_kept() -> KeptKernels | None:
+    """Return what is kept for this processor and these versions; None if there is nothing."""
+    for path in _places():
+        try:
+            with path.open("rb") as file:
+                check(file)
+                return pickle.load(file)
+        except FileNotFoundError:
+            continue
+        except (DamagedFileError, OSError) as error:
+            LOG.warning("Compiled kernels in %s are made anew: %s", path.parent, error)
+    return None
+
+
+def _folder() -> Path:
+    return Path(os.environ[KERNELS])
+
+
+def _places() -> Iterator[Path]:
+    name = f"kernels-{_key()}.checked"
+    yield PACKAGE / "__pycache__" / name
+    if users := os.environ.get(USERS_CACHE):
+        yield Path(users) / name
+
+
+def _key() -> str:
+    # Imported here: whoever keeps nothing does not load it.
+    from llvmlite import binding
+
+    processor = os.environ.get("NUMBA_CPU_NAME") or binding.get_host_cpu_name()
+    features = os.environ.get("NUMBA_CPU_FEATURES")
+    if features is None:
+        with suppress(RuntimeError):
+            features = binding.get_host_cpu_features().flatten()
+    parts = (sys.version, version("numba"), version("llvmlite"), PACKAGE, processor, features)
+    return hashlib.sha256("\n".join(map(str, parts)).encode()).hexdigest()[:16]
+
+
+def _sources() -> dict[str, tuple[int, int]]:
+    """By path within the package, what Numba tells versions of a source by."""
+    stamps = {path: path.stat() for path in PACKAGE.rglob(SOURCES)}
+    return {
+        str(path.relative_to(PACKAGE)): (stamp.st_mtime_ns, stamp.st_size)
+        for path, stamp in stamps.items()
+    }
+
+
+def _signatures() -> Iterator[Signature]:
+    from numba.extending import is_jitted
+
+    kernels: dict[int, Any] = {
+        id(value): value
+        for name, module in sorted(sys.modules.items())
+        if name.startswith(f"{fitter.__name__}.")
+        for value in vars(module).values()
+        if is_jitted(value)
+    }
+    for kernel in kernels.values():
+        for types in kernel.signatures:
+            yield kernel.py_func.__module__, kernel.py_func.__name__, types

@@ -1,0 +1,147 @@
+"""Compiled kernels in one checked file: whatever happens to it costs no more than its remaking."""
+
+import os
+import subprocess
+import sys
+import textwrap
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+REPOSITORY = Path(__file__).parents[3]
+
+KERNELS = """
+from numba import njit
+
+@njit(cache=True, inline="never")
+def doubled(value):
+    return 2.0 * value
+
+@njit(cache=True)
+def quadrupled(value):
+    return doubled(doubled(value))
+"""
+
+PROGRAM = """
+import os, sys
+from pathlib import Path
+import fitter
+
+folder = Path(sys.argv[1])
+fitter.__path__.append(str(folder))
+from service.worker import kernel_cache
+
+kernel_cache.PACKAGE = folder
+from service.process.caches import KERNELS, settle_folders
+
+settle_folders()
+compiled = []
+
+def compile_all():
+    from fitter._some_kernels import quadrupled
+    quadrupled(1.0)
+    compiled.append(os.getpid())
+    (folder / "compiled").open("a").write("x")
+
+kernel_cache.make_kernels_ready(compile_all)
+from fitter._some_kernels import quadrupled
+print(quadrupled(3.0), sum(quadrupled.stats.cache_hits.values()), len(quadrupled.signatures))
+"""
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    """A folder with a module of two kernels, whose cache is full."""
+    (tmp_path / "_some_kernels.py").write_text(KERNELS)
+    assert ran(tmp_path).split() == ["12.0", "1", "1"]
+    assert compiled(tmp_path) == 1
+    return tmp_path
+
+
+def ran(package: Path, *, tells: str = "") -> str:
+    done = subprocess.run(
+        [sys.executable, "-c", textwrap.dedent(PROGRAM), str(package)],
+        cwd=REPOSITORY,
+        env=os.environ | {"FITTER_CACHE_DIR": "", "PYTHONDONTWRITEBYTECODE": "1"},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert tells in done.stderr
+    return done.stdout
+
+
+def compiled(package: Path) -> int:
+    return len((package / "compiled").read_text())
+
+
+def kept_file(package: Path) -> Path:
+    (path,) = (package / "__pycache__").glob("kernels-*")
+    return path
+
+
+def test_what_is_kept_is_read_and_not_compiled(package: Path):
+    assert ran(package).split() == ["12.0", "1", "1"]
+    assert compiled(package) == 1
+
+
+def truncated(path: Path) -> None:
+    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
+
+
+def emptied(path: Path) -> None:
+    path.write_bytes(b"")
+
+
+def zeroed(path: Path) -> None:
+    path.write_bytes(bytes(path.stat().st_size))
+
+
+def flipped(path: Path) -> None:
+    content = bytearray(path.read_bytes())
+    content[len(content) // 2] ^= 4
+    path.write_bytes(content)
+
+
+def replaced_by_a_folder(path: Path) -> None:
+    path.unlink()
+    path.mkdir()
+
+
+DAMAGES = [truncated, emptied, zeroed, flipped]
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_a_damaged_file_costs_its_remaking_and_one_line(package: Path, damage: Callable):
+    damage(kept_file(package))
+    assert ran(package, tells="are made anew").split() == ["12.0", "1", "1"]
+    assert compiled(package) == 2
+    assert ran(package).split() == ["12.0", "1", "1"]
+    assert compiled(package) == 2
+
+
+def test_a_missing_file_is_made_anew(package: Path):
+    kept_file(package).unlink()
+    assert ran(package).split() == ["12.0", "1", "1"]
+    assert compiled(package) == 2
+
+
+def test_where_nothing_can_be_read_or_kept_everything_is_compiled(package: Path):
+    replaced_by_a_folder(kept_file(package))
+    assert ran(package, tells="cannot be kept").split() == ["12.0", "1", "1"]
+    assert ran(package, tells="cannot be kept").split() == ["12.0", "1", "1"]
+
+
+def test_a_changed_source_is_compiled_anew(package: Path):
+    (package / "_some_kernels.py").write_text(KERNELS.replace("2.0", "3.0"))
+    assert ran(package).split() == ["27.0", "1", "1"]
+    assert compiled(package) == 2
+
+
+def test_another_processor_has_a_file_of_its_own(package: Path, monkeypatch):
+    monkeypatch.setenv("NUMBA_CPU_NAME", "generic")
+    monkeypatch.setenv("NUMBA_CPU_FEATURES", "")
+    assert ran(package).split() == ["12.0", "1", "1"]
+    assert compiled(package) == 2
+    assert len(list((package / "__pycache__").glob("kernels-*"))) == 2
