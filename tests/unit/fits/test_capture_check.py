@@ -9,7 +9,6 @@ from PIL import Image as PillowImage
 
 from fitter.capture.checking import check_capture
 from fitter.capture.finding import Code, Severity
-from fitter.capture.turning import Seen
 from fitter.detection.detector import installed_detector
 from fitter.errors import InvalidInputError
 from fitter.fits.capture_check import (
@@ -20,6 +19,7 @@ from fitter.fits.capture_check import (
 )
 from fitter.observation.observation import observe
 from fitter.request import Click, Cues, Gender, ViewKind
+from fitter.vocabulary.outcomes import SeenFrom
 from service.demo_data.sample import load_sample
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import read_case
@@ -152,7 +152,7 @@ def test_without_a_detector_points_tell_their_part():
         max_pixels=50_000_000,
     )
     assert codes(check) == ["other-view"]
-    assert (check.checked.seen, check.checked.box) == (Seen.FRONT, None)
+    assert (check.checked.seen, check.checked.box) == (SeenFrom.FRONT, None)
     assert check.checked.distance_m == pytest.approx(3.0, rel=0.05)
 
 
