@@ -136,16 +136,17 @@ def warm_up(*, pipeline: str = PIPELINE) -> int:
     if PERSON in output.artifacts:
         # A caricature asks where a surface runs through itself, which no fit does.
         settings = Settings()
-        load_pipeline(pipeline).derive(
-            DerivationInput(
-                options=CaricatureOptions(kind="caricature", factor=1.1),
-                inputs={PERSON: output.artifacts[PERSON]},
-                max_pixels=settings.max_pixels,
-                models=settings.models_dir,
-                detector=settings.detector_dir,
-            ),
-            lambda _: None,
-        )
+        with kept_kernels():
+            load_pipeline(pipeline).derive(
+                DerivationInput(
+                    options=CaricatureOptions(kind="caricature", factor=1.1),
+                    inputs={PERSON: output.artifacts[PERSON]},
+                    max_pixels=settings.max_pixels,
+                    models=settings.models_dir,
+                    detector=settings.detector_dir,
+                ),
+                lambda _: None,
+            )
     return 0
 
 

@@ -2,6 +2,7 @@
 
 import os
 import stat
+import sys
 from contextlib import suppress
 from pathlib import Path
 from typing import Final
@@ -16,11 +17,12 @@ def settle_folders() -> Path:
     """Settle all folders before the numerics are loaded; return the one for temporary files.
 
     Numba gets a folder that ends with this process, whatever the environment names: what is kept
-    of it is kept by :mod:`service.worker.kernel_cache`. Everything else is kept in the user's
-    folder unless the environment names another.
+    of it is kept by :mod:`service.worker.kernel_cache`. A process that has loaded it already has
+    its folder. Everything else is kept in the user's folder unless the environment names another.
     """
     work = make_work_folder()
-    os.environ[KERNELS] = str(work / "kernels")
+    if "numba" not in sys.modules:
+        os.environ[KERNELS] = str(work / "kernels")
     if VARIABLE not in os.environ:
         # No name: models are prepared by every process that needs them.
         os.environ[VARIABLE] = str(users_folder() or "")

@@ -13,7 +13,7 @@ import logging
 import os
 import pickle
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from importlib.metadata import version
@@ -52,15 +52,16 @@ class KeptKernels:
         return self.sources == _sources()
 
 
-def make_kernels_ready(compile_all: Callable[[], object]) -> None:
+def make_kernels_ready(compile_all: Callable[[], bool]) -> None:
     """Have all kernels compiled in this process, by reading what is kept where it is current.
 
-    Where it is not, ``compile_all`` is run, and what it compiles is kept. Whatever it does should
-    not stay in memory: it is run in a child where the result can be kept, else here.
+    Where it is not, ``compile_all`` is run and says whether it came to its end; only then what it
+    compiled is kept. Whatever it does should not stay in memory: it is run in a child where the
+    result can be kept, else here.
     """
     kept = restore_kernels()
     if kept is None or not kept.is_current():
-        succeeds_apart(lambda: (compile_all(), keep_kernels()))
+        succeeds_apart(lambda: keep_kernels() if compile_all() else None)
         kept = read_kept()
     if kept is None or not kept.is_current():
         compile_all()
@@ -71,11 +72,17 @@ def make_kernels_ready(compile_all: Callable[[], object]) -> None:
 
 @contextmanager
 def kept_kernels() -> Iterator[None]:
-    """Restore the kernels for the work of a command, and keep what it had to compile."""
+    """Restore the kernels for the work of a command, and keep what it had to compile.
+
+    Nothing of either where Numba was loaded before it had a folder for this process.
+    """
+    if not os.environ.get(KERNELS):
+        yield
+        return
     kept = restore_kernels()
     yield
-    if kept is None or not kept.is_current():
-        keep_kernels()
+    if kept is None or not kept.is_current() or set(_signatures()) - set(kept.signatures):
+        keep_kernels(also=() if kept is None else kept.signatures)
 
 
 def restore_kernels() -> KeptKernels | None:
@@ -89,11 +96,12 @@ def restore_kernels() -> KeptKernels | None:
     return kept
 
 
-def keep_kernels() -> None:
-    """Keep what is compiled for this process, where that can be written."""
+def keep_kernels(*, also: Iterable[Signature] = ()) -> None:
+    """Keep what is compiled for this process, where that can be written, and what others have."""
     signatures = tuple(_signatures())
     if not signatures:
         return
+    signatures = tuple(dict.fromkeys((*signatures, *filter(_is_there, also))))
     files = {
         str(path.relative_to(_folder())): path.read_bytes()
         for pattern in ("*.nbi", "*.nbc")
@@ -155,6 +163,13 @@ def _sources() -> dict[str, tuple[int, int]]:
         str(path.relative_to(PACKAGE)): (stamp.st_mtime_ns, stamp.st_size)
         for path, stamp in stamps.items()
     }
+
+
+def _is_there(signature: Signature) -> bool:
+    module, name, _ = signature
+    with suppress(ImportError):
+        return hasattr(importlib.import_module(module), name)
+    return False
 
 
 def _signatures() -> Iterator[Signature]:

@@ -40,11 +40,12 @@ def make_ready(models: Path | None, detector: Path | None = None) -> None:
     # Without one, whoever needs it is told.
     with suppress(DetectorUnavailableError):
         installed_detector(detector)
-    make_kernels_ready(lambda: rehearse(models, detector))
+    # With the packaged models, whose sample can be fitted: kernels are the same for all models.
+    make_kernels_ready(lambda: rehearse(None, detector))
 
 
-def rehearse(models: Path | None, detector: Path | None = None) -> None:
-    """Fit the sample, and forget the result.
+def rehearse(models: Path | None, detector: Path | None = None) -> bool:
+    """Fit the sample, and forget the result; say whether it could be fitted.
 
     A process that has fitted has its kernels compiled. Fits are functions of their requests:
     nothing of the sample is left for them.
@@ -75,6 +76,8 @@ def rehearse(models: Path | None, detector: Path | None = None) -> None:
         raise
     except Exception as error:
         LOG.warning("The sample could not be fitted (%s): every fit takes longer.", error)
+        return False
+    return True
 
 
 def rehearse_sandbox(models: Path | None, detector: Path | None = None) -> None:

@@ -1,6 +1,7 @@
 """Where compiled kernels and prepared models are kept."""
 
 import os
+import sys
 
 import pytest
 
@@ -39,6 +40,8 @@ def test_numba_keeps_nothing_beyond_the_process_whatever_the_environment_names(
     caches, monkeypatch, named
 ):
     monkeypatch.setenv(KERNELS, named)
+    # As in a process that has not loaded it yet.
+    monkeypatch.delitem(sys.modules, "numba", raising=False)
     assert settle_folders() == caches / "work"
     assert os.environ[KERNELS] == str(caches / "work" / "kernels")
 
@@ -61,3 +64,10 @@ def test_a_cache_is_never_looked_for_in_the_current_folder(caches, monkeypatch):
     monkeypatch.setenv("XDG_CACHE_HOME", "here")
     assert users_folder() is None
     assert list(caches.iterdir()) == []
+
+
+def test_where_numba_is_loaded_already_its_folder_stays(caches, monkeypatch):
+    monkeypatch.setenv(KERNELS, "")
+    monkeypatch.setitem(sys.modules, "numba", sys)
+    settle_folders()
+    assert os.environ[KERNELS] == ""

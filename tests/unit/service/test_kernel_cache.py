@@ -43,6 +43,7 @@ def compile_all():
     quadrupled(1.0)
     compiled.append(os.getpid())
     (folder / "compiled").open("a").write("x")
+    return "--fails" not in sys.argv
 
 kernel_cache.make_kernels_ready(compile_all)
 from fitter._some_kernels import quadrupled
@@ -59,9 +60,9 @@ def package(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def ran(package: Path, *, tells: str = "") -> str:
+def ran(package: Path, *arguments: str, tells: str = "") -> str:
     done = subprocess.run(
-        [sys.executable, "-c", textwrap.dedent(PROGRAM), str(package)],
+        [sys.executable, "-c", textwrap.dedent(PROGRAM), str(package), *arguments],
         cwd=REPOSITORY,
         env=os.environ | {"FITTER_CACHE_DIR": "", "PYTHONDONTWRITEBYTECODE": "1"},
         capture_output=True,
@@ -125,6 +126,12 @@ def test_a_missing_file_is_made_anew(package: Path):
     kept_file(package).unlink()
     assert ran(package).split() == ["12.0", "1", "1"]
     assert compiled(package) == 2
+
+
+def test_what_was_compiled_by_a_rehearsal_that_failed_is_not_kept(package: Path):
+    kept_file(package).unlink()
+    ran(package, "--fails")
+    assert not list((package / "__pycache__").glob("kernels-*"))
 
 
 def test_where_nothing_can_be_read_or_kept_everything_is_compiled(package: Path):
