@@ -3,5 +3,5 @@
 One module for each kind of check: a pure function of a :class:`~fitter.capture.capture.Capture`,
 which is a decoded picture with what a detector and the caller say of it.
 :mod:`~fitter.capture.checking` calls them all. Every threshold was chosen on the tuning half of the
-evaluation's pictures and degraded forms of them; DECISIONS.md has the figures.
+evaluation's pictures and degraded forms of them; ``service/docs/pictures.md`` has the figures.
 """

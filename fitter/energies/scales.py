@@ -87,7 +87,7 @@ _CLICK_PIXELS = 2.5
 
 # What Eq. 1 leaves unexplained, a sixteenth of the median brightness, is correlated over patches of
 # more than a hand's breadth. Chosen on the tuning halves of both makers' bodies together:
-# DECISIONS, "Shading that helps at home only".
+# DECISIONS.md, "Shading is believed less, and the prior is wider".
 _SHADING_NATS = 130.0
 
 # Chosen on the clothed pictures of the tuning half (4), where waists, without the common offset,
@@ -109,7 +109,7 @@ def scan_scales(scales: EnergyScales) -> EnergyScales:
     """Scales for a picture that is one of several of a person: its outline counts for more.
 
     Chosen on the tuning half of the suite's phone pairs and on the foreign pairs together
-    (DECISIONS.md).
+    (DECISIONS.md, "One search for all pictures of a person").
     """
     return replace(
         scales,

@@ -113,7 +113,7 @@ MEASURED_STANDING = StanceSpreads(
     knees=0.06,
 )
 """Who was asked to stand upright, straight and still: about half of what standing people leave to
-chance. Nobody follows to the centimetre; half of these spreads gained no more (DECISIONS.md)."""
+chance. Nobody follows to the centimetre; half of these spreads gained no more."""
 
 FORWARD_OF_ANKLES_M = 0.045
 """Where the centre of mass of quiet standing is: D. A. Winter, "Human balance and posture control

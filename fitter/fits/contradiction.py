@@ -1,8 +1,8 @@
 """When the evidence contradicts that a person was measured, and what it says.
 
-The bounds were chosen on the tuning halves of people and of nonsense (DECISIONS.md). No person may
-come near them, in the dark, in grain, behind a table or with careless clicks: a circle that is
-measured is laughed about, a person who is refused has no remedy.
+The bounds were chosen on the tuning halves of people and of nonsense (DECISIONS.md, "Nonsense is
+called nonsense"). No person may come near them, in the dark, in grain, behind a table or with
+careless clicks: a circle that is measured is laughed about, a person who is refused has no remedy.
 """
 
 from dataclasses import dataclass

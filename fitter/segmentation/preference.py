@@ -16,7 +16,7 @@ from fitter.segmentation.trimap import body_size
 WEIGHT: Final = 16.0
 """Nats of preference per unit of log-odds. Much, because the contrast between two neighbours of the
 same colour weighs gamma = 50 nats and errors of mask and body are shared by whole limbs. Chosen on
-tuning halves; DECISIONS has the figures."""
+tuning halves: DECISIONS.md, "GrabCut is told where the person is"."""
 
 BODY_BLUR_SHARE: Final = 0.006
 """Standard deviation of a fitted body's outline about the person's, as a share of the person's
