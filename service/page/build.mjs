@@ -91,7 +91,7 @@ const heavier = outputs
 const assets = [...weights.keys()].filter((name) => /\.(html|css|woff2|webp)$/.test(name));
 const WAYS = {
   "with one picture": ["src/panel/Workbench.tsx"],
-  "from front and side": ["src/measure/MeasureView.tsx", "src/measure/ScanView.tsx"],
+  "from front and side": ["src/measure/MeasureView.tsx"],
 };
 console.log(`${total(weights.keys())} bytes gzipped in all`);
 for (const [way, screens] of Object.entries(WAYS)) {

@@ -1,11 +1,11 @@
 // The frame of the page: its head, and what the address asks for.
 import { useSignal } from "@preact/signals";
-import { entries, jobs } from "./history/store";
+import type { FitRef } from "./api/fits";
+import { entries, fits } from "./history/store";
 import { FitView } from "./fit/FitView";
 import { isActive } from "./fit/watch";
 import { Start } from "./panel/Start";
-import { scans } from "./measure/watch";
-import { MEASURE_ADDRESS, START_ADDRESS, isMeasuring, isOnAccuracy, isPreparing, openFit, openPerson, openScan } from "./route";
+import { MEASURE_ADDRESS, START_ADDRESS, isMeasuring, isOnAccuracy, isPreparing, openFit, openPerson } from "./route";
 import { messages } from "./messages/language";
 import { isFull } from "./stage/full";
 import { announcement } from "./ui/announce";
@@ -21,15 +21,13 @@ const AccuracyView = later(() => import("./accuracy/AccuracyView").then((loaded)
 const HistoryPanel = later(() => import("./history/HistoryPanel").then((loaded) => loaded.HistoryPanel), null);
 const MeasureView = later(() => import("./measure/MeasureView").then((loaded) => loaded.MeasureView));
 const PersonView = later(() => import("./people/PersonView").then((loaded) => loaded.PersonView));
-const ScanView = later(() => import("./measure/ScanView").then((loaded) => loaded.ScanView));
 const Workbench = later(() => import("./panel/Workbench").then((loaded) => loaded.Workbench));
 
 export function App() {
   const { frame } = messages.value;
   const showsHistory = useSignal(false);
-  const id = openFit.value;
-  const scan = openScan.value;
-  const active = [...Object.values(jobs.value), ...Object.values(scans.value)].filter(isActive).length;
+  const fit = openFit.value;
+  const active = Object.values(fits.value).filter(isActive).length;
   return (
     <>
       <header class="head" inert={isFull.value}>
@@ -41,7 +39,7 @@ export function App() {
           <span class="brand-name">Maquette</span>
         </a>
         <nav>
-          {id && (
+          {fit?.kind === "fit" && (
             <a class="head-link" href={START_ADDRESS}>
               <Icon name="plus" />
               {frame.fresh}
@@ -64,7 +62,7 @@ export function App() {
         </nav>
       </header>
       <SandboxNote />
-      <Screen fit={id} scan={scan} />
+      <Screen fit={fit} />
       {showsHistory.value && <HistoryPanel onClose={() => (showsHistory.value = false)} />}
       <KeyDialog />
       <p class="unseen" role="status" aria-live="polite">
@@ -74,9 +72,8 @@ export function App() {
   );
 }
 
-function Screen({ fit, scan }: { fit: string | null; scan: string | null }) {
-  if (fit) return <FitView key={fit} id={fit} />;
-  if (scan) return <ScanView key={scan} id={scan} />;
+function Screen({ fit }: { fit: FitRef | null }) {
+  if (fit) return <FitView key={fit.id} which={fit} />;
   if (openPerson.value !== null) return <PersonView key={openPerson.value} label={openPerson.value} />;
   if (isOnAccuracy.value) return <AccuracyView />;
   if (isMeasuring.value) return <MeasureView />;

@@ -1,14 +1,16 @@
-// Where the page is, by the address's fragment: `#/` is its start, `#/prepare` prepares a fit, `#/fits/ID` shows one;
-// `#/measure` takes the pictures of a scan, `#/scans/ID` shows one; `#/people/LABEL` shows all of a person;
+// Where the page is, by the address's fragment: `#/` is its start, `#/prepare` prepares a fit of one picture, `#/measure`
+// takes the pictures of one of several; `#/fits/ID` and `#/scans/ID` show them; `#/people/LABEL` shows all of a person;
 // `#/accuracy` tells how good measurements are. `#/embed` is for frames of other sites.
 import { computed, signal } from "@preact/signals";
+import type { FitKind, FitRef } from "./api/fits";
 
 const fragment = signal(location.hash);
 addEventListener("hashchange", () => (fragment.value = location.hash));
 
-export const openFit = computed<string | null>(() => /^#\/fits\/([0-9a-f-]{36})$/.exec(fragment.value)?.[1] ?? null);
-
-export const openScan = computed<string | null>(() => /^#\/scans\/([0-9a-f-]{36})$/.exec(fragment.value)?.[1] ?? null);
+export const openFit = computed<FitRef | null>(() => {
+  const found = /^#\/(fit|scan)s\/([0-9a-f-]{36})$/.exec(fragment.value);
+  return found && { kind: found[1] as FitKind, id: found[2]! };
+});
 
 export const START_ADDRESS = "#/";
 
@@ -28,10 +30,6 @@ export const isOnAccuracy = computed(() => fragment.value === ACCURACY_ADDRESS);
 /** Whether the page was opened to be a part of another site's. */
 export const isEmbedded = location.hash === "#/embed";
 
-export function scanAddress(id: string): string {
-  return `#/scans/${id}`;
-}
-
 export function personAddress(label: string): string {
   return `#/people/${encodeURIComponent(label)}`;
 }
@@ -45,8 +43,13 @@ function decoded(written: string): string {
   }
 }
 
-export function fitAddress(id: string): string {
-  return `#/fits/${id}`;
+export function fitAddress({ kind, id }: FitRef): string {
+  return `#/${kind}s/${id}`;
+}
+
+/** Where another of its kind is begun. */
+export function beginning(kind: FitKind): string {
+  return kind === "fit" ? START_ADDRESS : MEASURE_ADDRESS;
 }
 
 export function go(address: string): void {

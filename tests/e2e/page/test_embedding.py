@@ -64,7 +64,7 @@ def test_measurements_of_pictures_that_the_site_gave_arrive_there(
         fits_into_its_frame(page)
         frame.get_by_role("button", name="Measure", exact=True).click()
         expect(page.locator("#told")).to_have_text(WAIST, timeout=FIT_WITHIN_MS)
-        expect(frame.locator('[data-scan][aria-busy="false"]')).to_be_attached()
+        expect(frame.locator('[data-fit][aria-busy="false"]')).to_be_attached()
         expect(frame.locator('[data-shows="overlay_1"]')).to_be_visible()
         assert serious_findings(own_frame(page), axe) == []
         fits_into_its_frame(page)
@@ -140,7 +140,7 @@ def test_an_expired_token_is_asked_for_anew_and_work_goes_on(
         expect(page.locator("#told")).to_have_text(WAIST, timeout=FIT_WITHIN_MS)
         assert renewed == [site.handed_out[2]]
         assert len(site.handed_out) == 4
-        expect(frame.locator('[data-scan][aria-busy="false"]')).to_be_attached()
+        expect(frame.locator('[data-fit][aria-busy="false"]')).to_be_attached()
 
 
 def test_a_site_whose_tokens_are_never_accepted_is_told_so(browser: Browser, embedding: Embedding):

@@ -1,4 +1,4 @@
-"""A scan's result: what it says of itself, what is made of it, and measuring by force."""
+"""The result of several pictures: how they agree, each by itself, what is made of it, and again."""
 
 import base64
 import json
@@ -40,7 +40,7 @@ def scan(service: httpx.Client) -> dict:
 
 def open_scan(visitor: Visitor, scan: dict) -> None:
     visitor.page.goto(f"{visitor.origin}/#/scans/{scan['id']}")
-    expect(visitor.page.locator('[data-scan][aria-busy="false"]')).to_be_attached()
+    expect(visitor.page.locator('[data-fit][aria-busy="false"]')).to_be_attached()
 
 
 def test_it_says_how_the_pictures_agree_and_that_points_were_proposed(
@@ -97,6 +97,93 @@ def test_on_a_phone_a_measurement_is_shown_on_the_body(
         page.get_by_role("button", name="Outseam").tap()
         expect(visitor.body).to_have_attribute("data-shows", "canonical clay SES outseam")
         expect(visitor.body).to_be_in_viewport(ratio=0.9)
+
+
+def test_each_picture_shows_the_body_as_it_stands_there_and_says_how_well_it_fits(
+    visitor: Visitor, scan: dict, axe: str
+):
+    page = visitor.page
+    open_scan(visitor, scan)
+    front = visitor.wait_until_drawn(placement="picture")
+    picture = page.get_by_alt_text("The picture")
+    first = picture.get_attribute("src")
+    visitor.choose("Side")
+    expect(page.locator('[data-fit][aria-busy="false"]')).to_be_attached()
+    visitor.wait_for_change(visitor.body, front, share=0.02)
+    expect(picture).not_to_have_attribute("src", first or "")
+    with page.expect_response(re.compile(r"/overlay_1\.png$")):
+        page.get_by_label("Outline and edges of the body").check()
+    with page.expect_response(re.compile(r"/segmentation_1\.png$")):
+        page.get_by_label("Silhouette of the picture").check()
+    for number, name in enumerate(("The front picture", "The side picture")):
+        of_picture = page.locator(f'[data-view="{number}"]')
+        if of_picture.get_attribute("open") is None:
+            of_picture.get_by_role("heading", name=name).click()
+        expect(of_picture).to_contain_text("Overlap with the silhouette")
+    assert serious_findings(page, axe) == []
+    # Upright, one body is that of every picture.
+    visitor.choose("Upright")
+    expect(page.get_by_role("radio", name="Side", exact=True)).to_have_count(0)
+
+
+def test_what_is_made_of_several_pictures_is_shown_on_the_stage(visitor: Visitor, scan: dict):
+    page = visitor.page
+    open_scan(visitor, scan)
+    visitor.choose("Other pose")
+    page.get_by_role("button", name="Make the other pose").click()
+    turned = page.get_by_role("img", name="The body in this pose; arrow keys turn it")
+    expect(turned).to_have_attribute("data-shows", "clay", timeout=FIT_WITHIN_MS)
+    page.get_by_role("button", name="Back to the body").click()
+    visitor.wait_until_drawn(placement="picture")
+
+
+def test_limbs_are_turned_in_each_picture_and_all_is_fitted_again(
+    visitor: Visitor, scan: dict, axe: str
+):
+    page = visitor.page
+    sent: list[dict] = []
+    slants = [
+        {
+            "limb": "left_forearm",
+            "facing": "away",
+            "source": "energy",
+            "ambiguous": True,
+            "alternative_energy": None,
+        }
+    ]
+
+    def slanted(route: Route) -> None:
+        found = route.fetch()
+        told = found.json()
+        told["views"] = [view | {"limb_facing": slants} for view in told["views"]]
+        route.fulfill(response=found, json=told)
+
+    def keep(route: Route) -> None:
+        sent.append(json.loads(route.request.post_data or "{}"))
+        route.fulfill(status=202, json=scan)
+
+    page.route(f"**{scan['links']['result']}", slanted)
+    page.route("**/v1/scans", keep)
+    open_scan(visitor, scan)
+    # The doubt about the side picture leads to it, and to the limb.
+    side = page.locator('[data-view="1"]')
+    side.get_by_role("button", name="If you see which, say so").click()
+    expect(page.get_by_role("radio", name="Side", exact=True)).to_be_checked()
+    forearm = page.locator("#limb-left_forearm")
+    expect(forearm).to_be_focused()
+    forearm.press("Enter")
+    expect(page.get_by_text("Side picture: left forearm toward you").last).to_be_visible()
+    visitor.choose("Front")
+    expect(forearm).to_have_attribute("aria-pressed", "false")
+    visitor.choose("Side")
+    expect(forearm).to_have_attribute("aria-pressed", "true")
+    assert serious_findings(page, axe) == []
+    page.get_by_role("button", name="Fit again", exact=True).click()
+    expect(page.get_by_role("button", name="Fit again", exact=True)).to_be_enabled()
+    (asked,) = sent
+    facings = [view.get("limb_facing") for view in asked["views"]]
+    assert facings == [{}, {"left_forearm": "toward"}]
+    assert [view["view"] for view in asked["views"]] == ["front", "side"]
 
 
 def test_measuring_by_force_sends_the_masks_again(visitor: Visitor, scan: dict):

@@ -64,7 +64,8 @@ PICTURE_IS_WHOLE = """(margin) => {
 }"""
 RESULT_IS_SHOWN = """() => {
   const shown = document.querySelector(".bench[data-fit]:has(.body-canvas)");
-  return shown !== null && location.hash === `#/fits/${shown.dataset.fit}`;
+  return shown !== null && /^#[/](fits|scans)[/]/.test(location.hash) &&
+    location.hash.endsWith(shown.dataset.fit);
 }"""
 
 

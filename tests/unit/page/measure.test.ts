@@ -9,7 +9,7 @@ import { de } from "../../../service/page/src/messages/de";
 import { en } from "../../../service/page/src/messages/en";
 import { speak } from "../../../service/page/src/messages/language";
 import { proposedOf, proposedText as onePictureText } from "../../../service/page/src/ui/proposed";
-import { qualityOf } from "../../../service/page/src/measure/quality";
+import { viewLabels, viewTitles } from "../../../service/page/src/measure/views";
 
 function problem(...errors: readonly { field: string; code: string }[]): Problem {
   return {
@@ -83,27 +83,10 @@ test("people who click nothing are told nothing of points", () => {
   assert.equal(plainly("faults", "image-damaged"), null);
 });
 
-type Judged = Parameters<typeof qualityOf>[0];
-const GOOD: Judged = { verdict: "plausible", agreement: 0.84, warnings: [], views: [{ findings: [] }, { findings: [] }] };
-
-test("pictures agree only where the result says so", () => {
-  assert.match(qualityOf(GOOD).text, /^Good.*they agree/);
-  assert.match(qualityOf(GOOD).agreement!, /in 84% of cases/);
-  assert.match(qualityOf({ ...GOOD, agreement: 1 }).agreement!, /nearly always/);
-  const others = qualityOf({ ...GOOD, agreement: 0.003, warnings: [{ code: "different-people" }] });
-  assert.ok(others.isBad);
-  assert.match(others.text, /contradict/);
-  assert.match(others.agreement!, /only 0\.3% of cases/);
-});
-
-test("findings say how good a scan is, and nothing of agreement", () => {
-  const fair = qualityOf({ ...GOOD, views: [{ findings: [{ severity: "harms" }] }] });
-  assert.match(fair.text, /^Fair/);
-  assert.doesNotMatch(fair.text, /agree/);
-  assert.match(qualityOf({ ...GOOD, views: [{ findings: [{ severity: "blocks" }] }] }).text, /^Poor/);
-  const nobody = qualityOf({ ...GOOD, verdict: "no_person" });
-  assert.ok(nobody.isBad);
-  assert.equal(nobody.agreement, null);
+test("pictures of the same side are told apart by numbers, others by their names alone", () => {
+  const seen = (["front", "side", "side"] as const).map((view) => ({ view }));
+  assert.deepEqual(viewLabels(seen), ["Front", "Side 1", "Side 2"]);
+  assert.deepEqual(viewTitles(seen), ["The front picture", "The side picture 1", "The side picture 2"]);
 });
 
 test("proposed points are counted, not named", () => {

@@ -1,7 +1,9 @@
 // The calls this page makes, one function each.
 import type { ServiceIndex } from "./service_index";
 import { jsonBody, request, requestJson } from "./client";
-import type { CaptureCheck, CheckOfImage, Derivation, DerivationPage, DerivationRequest, DerivationResult, FitOfImage, FitOptions, FitResult, InitialPose, InitialPoseRequest, Job, JobPage, LabelledPerson, PeoplePage, PointsOfImage, PointsProposal, Scan, ScanOfImages, ScanOptions, ScanPage, ScanResult, UploadedImage } from "./types";
+import { askedOfFit, fitOfJob, fitOfScan, pathOf, resultOfFit, resultOfScan } from "./fits";
+import type { Asked, Fit, FitKind, FitRef, Result } from "./fits";
+import type { CaptureCheck, CheckOfImage, Derivation, DerivationPage, DerivationRequest, DerivationResult, FitOfImage, FitOptions, FitResult, InitialPose, InitialPoseRequest, Job, JobPage, LabelledPerson, PeoplePage, PointsOfImage, PointsProposal, Scan, ScanOfImages, ScanPage, ScanResult, UploadedImage } from "./types";
 
 export function getIndex(): Promise<ServiceIndex> {
   return requestJson("/", { headers: { Accept: "application/json" } });
@@ -25,60 +27,46 @@ export function checkCapture(asked: CheckOfImage, signal: AbortSignal): Promise<
   return requestJson("/v1/checks", { ...jsonBody(asked), signal });
 }
 
-export function submitScan(asked: ScanOfImages): Promise<Scan> {
-  return requestJson("/v1/scans", jsonBody(asked));
+export async function submitFit(asked: FitOfImage): Promise<Fit> {
+  return fitOfJob(await requestJson("/v1/fits", jsonBody(asked)));
 }
 
-export function getScan(id: string): Promise<Scan> {
-  return requestJson(`/v1/scans/${id}`);
+export async function submitScan(asked: ScanOfImages): Promise<Fit> {
+  return fitOfScan(await requestJson("/v1/scans", jsonBody(asked)));
 }
 
-export function getScanResult({ links }: Scan): Promise<ScanResult> {
-  return requestJson(links.result ?? `${links.self}/result`);
+export async function getFit(which: FitRef): Promise<Fit> {
+  return fitOf(which.kind, await requestJson(pathOf(which)));
 }
 
-export function getScanRequest({ links }: Scan): Promise<ScanOptions> {
-  return requestJson(links.request);
+export async function cancelFit(which: FitRef): Promise<Fit> {
+  return fitOf(which.kind, await requestJson(`${pathOf(which)}/cancel`, { method: "POST" }));
 }
 
-export function cancelScan(id: string): Promise<Scan> {
-  return requestJson(`/v1/scans/${id}/cancel`, { method: "POST" });
+export async function eraseFit(which: FitRef): Promise<void> {
+  await request(pathOf(which), { method: "DELETE" });
 }
 
-export async function eraseScan(id: string): Promise<void> {
-  await request(`/v1/scans/${id}`, { method: "DELETE" });
+export async function getResult({ kind, links }: Fit): Promise<Result> {
+  const found = await requestJson<FitResult | ScanResult>(links.result ?? `${links.self}/result`);
+  return kind === "fit" ? resultOfFit(found as FitResult) : resultOfScan(found as ScanResult);
 }
 
-export function submitFit(asked: FitOfImage): Promise<Job> {
-  return requestJson("/v1/fits", jsonBody(asked));
+export async function getAsked({ kind, links }: Fit): Promise<Asked> {
+  const asked = await requestJson<FitOptions | Asked>(links.request);
+  return kind === "fit" ? askedOfFit(asked as FitOptions) : (asked as Asked);
 }
 
-export function getFit(id: string): Promise<Job> {
-  return requestJson(`/v1/fits/${id}`);
+function fitOf(kind: FitKind, told: Job | Scan): Fit {
+  return kind === "fit" ? fitOfJob(told as Job) : fitOfScan(told as Scan);
 }
 
-export function getResult(job: Job): Promise<FitResult> {
-  return requestJson(job.links.result ?? `/v1/fits/${job.id}/result`);
-}
-
-export function getRequest({ links }: Pick<Job | Scan, "links">): Promise<FitOptions> {
-  return requestJson(links.request);
-}
-
-export function cancelFit(id: string): Promise<Job> {
-  return requestJson(`/v1/fits/${id}/cancel`, { method: "POST" });
-}
-
-export async function eraseFit(id: string): Promise<void> {
-  await request(`/v1/fits/${id}`, { method: "DELETE" });
-}
-
-export async function listDerivations({ links }: Job | Scan): Promise<readonly Derivation[]> {
+export async function listDerivations({ links }: Fit): Promise<readonly Derivation[]> {
   return (await requestJson<DerivationPage>(`${links.self}/derivations`)).derivations;
 }
 
 /** Ask for a derivation; `part` is the file it goes by, under the name of its form part. */
-export function derive({ links }: Job | Scan, asked: DerivationRequest, part: { name: string; file: File } | null): Promise<Derivation> {
+export function derive({ links }: Fit, asked: DerivationRequest, part: { name: string; file: File } | null): Promise<Derivation> {
   const path = `${links.self}/derivations`;
   if (!part) return requestJson(path, jsonBody(asked));
   const form = new FormData();
@@ -127,16 +115,12 @@ export async function listPeople(): Promise<readonly LabelledPerson[]> {
   return pages.flatMap(({ people }) => people);
 }
 
-/** All fits of a person, newest first. */
-export async function listFits(label: string): Promise<readonly Job[]> {
-  const pages = await allPages<JobPage>(`/v1/fits?limit=${PAGE}&label=${encodeURIComponent(label)}`);
-  return pages.flatMap(({ jobs }) => jobs);
-}
-
-/** All scans of a person, newest first. */
-export async function listScans(label: string): Promise<readonly Scan[]> {
-  const pages = await allPages<ScanPage>(`/v1/scans?limit=${PAGE}&label=${encodeURIComponent(label)}`);
-  return pages.flatMap(({ scans }) => scans);
+/** All fits of a person, of however many pictures, newest first. */
+export async function listFits(label: string): Promise<readonly Fit[]> {
+  const asked = `limit=${PAGE}&label=${encodeURIComponent(label)}`;
+  const [fits, scans] = await Promise.all([allPages<JobPage>(`/v1/fits?${asked}`), allPages<ScanPage>(`/v1/scans?${asked}`)]);
+  const all = [...fits.flatMap(({ jobs }) => jobs.map(fitOfJob)), ...scans.flatMap((page) => page.scans.map(fitOfScan))];
+  return all.sort((one, other) => other.created_at.localeCompare(one.created_at));
 }
 
 const PAGE = 100;

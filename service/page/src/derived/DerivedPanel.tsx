@@ -1,6 +1,7 @@
-// What can be made of a finished fit or scan: asked for, followed, looked at and kept.
+// What can be made of a finished fit: asked for, followed, looked at and kept.
 import { useState } from "preact/hooks";
-import type { Derivation, Job, Scan } from "../api/types";
+import type { Fit } from "../api/fits";
+import type { Derivation } from "../api/types";
 import { messages } from "../messages/language";
 import { Choice } from "../ui/Choice";
 import { ProblemNote } from "../ui/ProblemNote";
@@ -10,19 +11,18 @@ import { DerivationCard } from "./DerivationCard";
 import { viewsOf } from "./views";
 
 interface Props {
-  readonly parent: Job | Scan;
-  /** In the order they are offered; `report` is chosen first. */
-  readonly kinds?: readonly OfferedKind[];
+  readonly parent: Fit;
   readonly hasLight: boolean;
   /** The id of what is shown large; null while it is the body itself. */
-  readonly onStage?: string | null;
-  /** Shows large what can be looked at; a scan offers no such kinds. */
-  readonly onShow?: (made: Derivation | null) => void;
+  readonly onStage: string | null;
+  /** Shows large what can be looked at. */
+  readonly onShow: (made: Derivation | null) => void;
 }
 
-const ALL_KINDS = Object.keys(KINDS) as OfferedKind[];
+/** In the order they are offered; `report` is chosen first. */
+const OFFERED = Object.keys(KINDS) as OfferedKind[];
 
-export function DerivedPanel({ parent, kinds = ALL_KINDS, hasLight, onStage = null, onShow = () => undefined }: Props) {
+export function DerivedPanel({ parent, hasLight, onStage, onShow }: Props) {
   const { derived } = messages.value;
   const { list, problem, start, retry, erase } = useDerivations(parent, (made) => viewsOf(made).length > 0 && onShow(made));
   const [kind, setKind] = useState<OfferedKind>("report");
@@ -38,7 +38,7 @@ export function DerivedPanel({ parent, kinds = ALL_KINDS, hasLight, onStage = nu
         name="derivation"
         legend={derived.what}
         quiet
-        options={kinds.map((value) => ({ value, label: kindLabel(value) }))}
+        options={OFFERED.filter((each) => parent.kind === "fit" || each !== "combined").map((value) => ({ value, label: kindLabel(value) }))}
         value={kind}
         onChange={setKind}
       />

@@ -1,10 +1,10 @@
 // The other fits of this browser that may be of the same person, to be ticked.
 import { useEffect, useState } from "preact/hooks";
-import { getFit, getRequest } from "../api/calls";
+import { getAsked, getFit } from "../api/calls";
 import { ProblemError } from "../api/client";
-import type { FitOptions, Job, Scan } from "../api/types";
+import type { Asked, Fit, FitRef } from "../api/fits";
 import { isActive } from "../fit/watch";
-import { entries, jobs, seen } from "../history/store";
+import { entries, fits, seen } from "../history/store";
 import type { Entry } from "../history/store";
 import { LIMITS } from "../api/limits";
 import { moment } from "../messages/figures";
@@ -12,7 +12,7 @@ import { messages } from "../messages/language";
 import { toldAlike } from "./sameperson";
 
 interface Props {
-  readonly fit: Job | Scan;
+  readonly fit: Fit;
   readonly chosen: readonly string[];
   readonly onChoose: (fits: readonly string[]) => void;
 }
@@ -47,18 +47,18 @@ export function OtherFits({ fit, chosen, onChoose }: Props) {
   );
 }
 
-/** Finished fits that were told the same gender and height, newest first; they come one by one. */
-function useOtherFits(fit: Job | Scan): { found: readonly Entry[]; searching: boolean } {
+/** Finished ones of its kind that were told the same gender and height, newest first; they come one by one. */
+function useOtherFits(fit: Fit): { found: readonly Entry[]; searching: boolean } {
   const [found, setFound] = useState<readonly Entry[]>([]);
   const [searching, setSearching] = useState(true);
   useEffect(() => {
     let gone = false;
     const search = async () => {
-      const own = await getRequest(fit);
+      const own = await getAsked(fit);
       for (const entry of entries.value) {
         if (gone) return;
-        if (entry.scan || entry.id === fit.id) continue;
-        const told = await toldOf(entry.id);
+        if (entry.kind !== fit.kind || entry.id === fit.id) continue;
+        const told = await toldOf(entry);
         if (!gone && told && toldAlike(own, told)) setFound((old) => [...old, entry]);
       }
     };
@@ -73,12 +73,12 @@ function useOtherFits(fit: Job | Scan): { found: readonly Entry[]; searching: bo
 }
 
 /** What a finished fit was told; null of one that has no result, or is gone. */
-async function toldOf(id: string): Promise<FitOptions | null> {
+async function toldOf(which: FitRef): Promise<Asked | null> {
   try {
-    const known = jobs.value[id];
-    const job = known && !isActive(known) ? known : await getFit(id);
-    if (job !== known) seen(job);
-    return job.state === "succeeded" ? await getRequest(job) : null;
+    const known = fits.value[which.id];
+    const fit = known && !isActive(known) ? known : await getFit(which);
+    if (fit !== known) seen(fit);
+    return fit.state === "succeeded" ? await getAsked(fit) : null;
   } catch (error) {
     if (error instanceof ProblemError) return null;
     throw error;

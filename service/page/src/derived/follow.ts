@@ -1,9 +1,10 @@
-// What is made of a fit or a scan, each followed to its end.
+// What is made of a fit, each followed to its end.
 import { useEffect, useState } from "preact/hooks";
 import { derive, eraseDerivation, getDerivation, listDerivations, retryDerivation } from "../api/calls";
 import { problemFrom } from "../api/client";
 import { jobEvents } from "../api/events";
-import type { Derivation, DerivationRequest, Job, Problem, Scan } from "../api/types";
+import type { Fit } from "../api/fits";
+import type { Derivation, DerivationRequest, Problem } from "../api/types";
 import { isActive } from "../fit/watch";
 import type { Part } from "./kinds/kind";
 
@@ -18,7 +19,7 @@ export interface Derived {
 }
 
 /** `onMade` hears of what was asked for here, once it has succeeded. */
-export function useDerivations(parent: Job | Scan, onMade: (made: Derivation) => void): Derived {
+export function useDerivations(parent: Fit, onMade: (made: Derivation) => void): Derived {
   const [list, setList] = useState<readonly Derivation[]>([]);
   const [problem, setProblem] = useState<Problem | null>(null);
   const [leaving] = useState(() => new AbortController());

@@ -1,8 +1,9 @@
-// What a frame shows: the Measure screen and its scan, without the page's head.
+// What a frame shows: the Measure screen and its fit, without the page's head.
+import type { FitRef } from "../api/fits";
+import { FitView } from "../fit/FitView";
 import { MeasureView } from "../measure/MeasureView";
-import { ScanView } from "../measure/ScanView";
 import { messages } from "../messages/language";
-import { openScan } from "../route";
+import { openFit } from "../route";
 import { announcement } from "../ui/announce";
 import { SandboxNote } from "../ui/SandboxNote";
 import { isFramed } from "./parent";
@@ -13,7 +14,7 @@ export function EmbedView() {
   return (
     <>
       <SandboxNote />
-      <Screen scan={openScan.value} />
+      <Screen fit={openFit.value} />
       <p class="unseen" role="status" aria-live="polite">
         {announcement.value}
       </p>
@@ -21,7 +22,7 @@ export function EmbedView() {
   );
 }
 
-function Screen({ scan }: { scan: string | null }) {
+function Screen({ fit }: { fit: FitRef | null }) {
   const { embed } = messages.value;
   if (!isStarted.value) {
     return (
@@ -31,5 +32,5 @@ function Screen({ scan }: { scan: string | null }) {
     );
   }
   if (isRepeating.value) return <main class="waiting" aria-busy="true" />;
-  return scan ? <ScanView key={scan} id={scan} /> : <MeasureView />;
+  return fit ? <FitView key={fit.id} which={fit} /> : <MeasureView />;
 }

@@ -1,38 +1,39 @@
-// What becomes of the scan, told to the site as it happens.
+// What becomes of the fit, told to the site as it happens.
 import { effect } from "@preact/signals";
-import { getScanResult } from "../api/calls";
+import { getResult } from "../api/calls";
 import { problemFrom } from "../api/client";
-import type { Problem, Scan } from "../api/types";
+import type { Fit } from "../api/fits";
+import type { Problem } from "../api/types";
 import { canPropose } from "../draft/proposing";
-import { isActive } from "../fit/watch";
+import { isActive, trouble } from "../fit/watch";
+import { fits } from "../history/store";
 import { NOT_INSTALLED } from "../measure/faults";
 import { scanProblem } from "../measure/send";
-import { scanTrouble, scans } from "../measure/watch";
-import { openScan } from "../route";
+import { openFit } from "../route";
 import { tell } from "./parent";
 import { resultFor } from "./result";
 
-/** Scans whose end was told. */
+/** Fits whose end was told, by id. */
 const ended = new Set<string>();
 
-/** Whether there is a scan whose end is still to be told. */
+/** Whether there is a fit whose end is still to be told. */
 export function isUnderWay(): boolean {
-  return openScan.value !== null && !ended.has(openScan.value);
+  return openFit.value !== null && !ended.has(openFit.value.id);
 }
 
 export function startTelling(): void {
   effect(() => {
-    const scan = openScan.value === null ? undefined : scans.value[openScan.value];
-    if (!scan || ended.has(scan.id)) return;
-    if (isActive(scan)) tell({ type: "maquette:progress", stage: scan.stage ?? scan.state, share: scan.progress });
-    else tellEnd(scan);
+    const fit = openFit.value === null ? undefined : fits.value[openFit.value.id];
+    if (!fit || ended.has(fit.id)) return;
+    if (isActive(fit)) tell({ type: "maquette:progress", stage: fit.stage ?? fit.state, share: fit.progress });
+    else tellEnd(fit);
   });
   effect(() => fail(scanProblem.value));
   effect(() => {
-    const id = openScan.value;
-    if (id === null || scanTrouble.value === null || ended.has(id)) return;
+    const id = openFit.value?.id ?? null;
+    if (id === null || trouble.value === null || ended.has(id)) return;
     ended.add(id);
-    fail(scanTrouble.value);
+    fail(trouble.value);
   });
   effect(() => {
     if (canPropose.value) return;
@@ -41,15 +42,15 @@ export function startTelling(): void {
   });
 }
 
-function tellEnd(scan: Scan): void {
-  ended.add(scan.id);
-  if (scan.state === "canceled") tell({ type: "maquette:cancelled" });
-  else if (scan.state === "succeeded") {
-    getScanResult(scan).then(
-      (result) => tell({ type: "maquette:result", ...resultFor(scan.id, result) }),
+function tellEnd(fit: Fit): void {
+  ended.add(fit.id);
+  if (fit.state === "canceled") tell({ type: "maquette:cancelled" });
+  else if (fit.state === "succeeded") {
+    getResult(fit).then(
+      (result) => tell({ type: "maquette:result", ...resultFor(fit.id, result) }),
       (error) => fail(problemFrom(error)),
     );
-  } else fail(scan.problem ?? null);
+  } else fail(fit.problem ?? null);
 }
 
 function fail(problem: Problem | null): void {

@@ -1,8 +1,8 @@
-// A scan's result as a site gets it.
-import type { ScanResult } from "../api/types";
+// A result as a site gets it.
+import type { Result } from "../api/fits";
 import { WITHIN_95 } from "../result/reading";
 
-export function resultFor(id: string, { measurements, verdict, warnings }: Pick<ScanResult, "measurements" | "verdict" | "warnings">): Maquette.Result {
+export function resultFor(id: string, { measurements, verdict, warnings }: Pick<Result, "measurements" | "verdict" | "warnings">): Maquette.Result {
   return {
     scan_id: id,
     measurements: measurements.map(({ name, value, unit, standard_error: error }) => {

@@ -1,90 +1,96 @@
 // One fit: on its way, ended without a result, or its result.
 import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { cancelFit, getPicture, getRequest } from "../api/calls";
+import { cancelFit, getAsked, getPicture } from "../api/calls";
 import { problemFrom } from "../api/client";
-import type { Job, Problem } from "../api/types";
-import { entries, forget, jobs, remember, seen, thumbnailOf } from "../history/store";
+import type { Fit, FitRef } from "../api/fits";
+import type { Problem } from "../api/types";
 import { person } from "../draft/draft";
 import { personInWords } from "../draft/person";
 import { shownPicture } from "../draft/picture";
 import type { Picture } from "../draft/picture";
+import { entries, fits, forget, remember, seen, thumbnailOf } from "../history/store";
+import { faultsOf } from "../measure/faults";
+import { PictureProblem } from "../measure/PictureProblem";
 import { wordFor } from "../messages/catalogue";
 import { messages } from "../messages/language";
-import { openAgain } from "../panel/open";
+import { changeAgain } from "../result/again";
 import { ResultView } from "../result/ResultView";
-import { START_ADDRESS, go } from "../route";
+import { beginning, go, isEmbedded } from "../route";
 import { ProblemNote } from "../ui/ProblemNote";
 import { Progress } from "./Progress";
-import { isActive, watch } from "./watch";
+import { isActive, trouble, watch } from "./watch";
 
-export function FitView({ id }: { id: string }) {
-  const problem = useSignal<Problem | null>(null);
-  const picture = useSignal<Picture | null>(null);
-  const job = jobs.value[id];
+export function FitView({ which }: { which: FitRef }) {
+  const pictures = useSignal<readonly Picture[]>([]);
+  const { id } = which;
+  const fit = fits.value[id];
+  const fail = (error: unknown) => (trouble.value = problemFrom(error));
 
   useEffect(() => {
+    trouble.value = null;
     const leaving = new AbortController();
-    problem.value = null;
-    watch(id, leaving.signal).catch((error) => (problem.value = problemFrom(error)));
-    return () => leaving.abort();
+    watch(which, leaving.signal).catch(fail);
+    return () => {
+      leaving.abort();
+      trouble.value = null;
+    };
   }, [id]);
 
-  const image = job?.links.image;
+  const isKnown = fit !== undefined;
   useEffect(() => {
-    if (!image) return undefined;
+    if (!fit) return undefined;
     let gone = false;
-    let opened: Picture | null = null;
-    Promise.all([getPicture(image), nameOf(job)])
-      .then(([file, name]) => shownPicture(file, name))
-      .then((shown) => {
-        opened = shown;
-        if (gone) return URL.revokeObjectURL(shown.url);
-        picture.value = shown;
+    let shown: readonly Picture[] = [];
+    const drop = () => shown.forEach(({ url }) => URL.revokeObjectURL(url));
+    openedPictures(fit)
+      .then((opened) => {
+        shown = opened;
+        if (gone) return drop();
+        pictures.value = opened;
+        const { name, element } = opened[0]!;
         // Opened by its link: from now on this browser knows it as well.
-        remember({ id, name: shown.name, startedAt: job.created_at, thumbnail: thumbnailOf(shown.element) });
+        remember({ kind: fit.kind, id, name, startedAt: fit.created_at, thumbnail: thumbnailOf(element) });
       })
-      .catch((error) => (problem.value = problemFrom(error)));
+      .catch(fail);
     return () => {
       gone = true;
-      picture.value = null;
-      if (opened) URL.revokeObjectURL(opened.url);
+      drop();
     };
-  }, [image]);
+  }, [id, isKnown]);
 
-  if (problem.value) return <Trouble id={id} problem={problem.value} />;
-  if (!job) return <main class="waiting" aria-busy="true" />;
-  if (job.state === "succeeded") return <ResultView job={job} picture={picture.value} />;
-  if (isActive(job)) {
-    return <Progress job={job} picture={picture.value} onCancel={() => void cancel(job, (found) => (problem.value = found))} />;
+  if (trouble.value) return <Trouble which={which} problem={trouble.value} />;
+  if (!fit) return <main class="waiting" aria-busy="true" />;
+  if (fit.state === "succeeded") return <ResultView fit={fit} pictures={pictures.value} />;
+  if (isActive(fit)) {
+    const cancel = () => cancelFit(fit).then(seen, fail);
+    return <Progress fit={fit} pictures={pictures.value} onCancel={() => void cancel()} />;
   }
-  return <Ended job={job} picture={picture.value} />;
+  return <Ended fit={fit} pictures={pictures.value} />;
+}
+
+async function openedPictures(fit: Fit): Promise<readonly Picture[]> {
+  const [name, ...files] = await Promise.all([nameOf(fit), ...fit.pictures.map(({ image }) => getPicture(image))]);
+  return Promise.all(files.map((file) => shownPicture(file, name)));
 }
 
 /** As this browser knows it; a fit opened by its link is named by whom it shows. */
-async function nameOf(job: Job): Promise<string> {
-  const known = entries.value.find((entry) => entry.id === job.id);
-  return known?.name ?? personInWords(await getRequest(job), person.value.units);
+async function nameOf(fit: Fit): Promise<string> {
+  const known = entries.value.find((entry) => entry.id === fit.id);
+  return known?.name ?? personInWords(await getAsked(fit), person.value.units);
 }
 
-async function cancel(job: Job, fail: (problem: Problem | null) => void): Promise<void> {
-  try {
-    seen(await cancelFit(job.id));
-  } catch (error) {
-    fail(problemFrom(error));
-  }
-}
-
-function Trouble({ id, problem }: { id: string; problem: Problem }) {
-  const { fit, frame } = messages.value;
+function Trouble({ which, problem }: { which: FitRef; problem: Problem }) {
+  const { fit: words, frame } = messages.value;
+  const { kind, id } = which;
   const gone = problem.status === 404 || problem.status === 410;
   return (
     <main class="ended">
-      <h1>{gone ? fit.gone : fit.notShown}</h1>
+      <h1>{gone ? words.of[kind].gone : words.of[kind].notShown}</h1>
       <ProblemNote problem={problem} />
       <div class="row">
-        <button class="button is-primary" type="button" onClick={() => go(START_ADDRESS)}>
-          {fit.startAnother}
+        <button class="button is-primary" type="button" onClick={() => go(beginning(kind))}>
+          {words.of[kind].another}
         </button>
         {gone ? (
           <button
@@ -92,40 +98,51 @@ function Trouble({ id, problem }: { id: string; problem: Problem }) {
             type="button"
             onClick={() => {
               forget(id);
-              go(START_ADDRESS);
+              go(beginning(kind));
             }}
           >
-            {fit.forget}
+            {words.forget}
           </button>
         ) : (
-          <button class="button" type="button" onClick={() => location.reload()}>
-            {frame.tryAgain}
-          </button>
+          // In a frame the site would have to begin again as well.
+          !isEmbedded && (
+            <button class="button" type="button" onClick={() => location.reload()}>
+              {frame.tryAgain}
+            </button>
+          )
         )}
       </div>
     </main>
   );
 }
 
-function Ended({ job, picture }: { job: Job; picture: Picture | null }) {
-  const { fit } = messages.value;
+function Ended({ fit, pictures }: { fit: Fit; pictures: readonly Picture[] }) {
+  const { of, picture: pictureWords } = messages.value.fit;
+  const words = of[fit.kind];
+  const fault = useSignal<Problem | null>(null);
+  const { views, rest } = fit.problem ? faultsOf(fit.problem) : { views: new Map<number, Problem>(), rest: null };
+  const change = () => changeAgain(fit, pictures).catch((error) => (fault.value = problemFrom(error)));
   return (
     <main class="ended">
-      {picture && <img class="ended-picture" src={picture.url} alt={fit.picture} />}
-      <h1>{wordFor(fit.endings, job.state)}</h1>
-      {job.problem && <ProblemNote problem={job.problem} />}
+      <h1>{wordFor(words.endings, fit.state)}</h1>
+      {rest && <ProblemNote problem={rest} />}
+      <ul class="ended-pictures">
+        {pictures.map(({ url }, number) => (
+          <li key={url}>
+            <img class="ended-picture" src={url} alt={pictureWords(number + 1)} />
+            {views.has(number) && <PictureProblem problem={views.get(number)!} />}
+          </li>
+        ))}
+      </ul>
+      {fault.value && <ProblemNote problem={fault.value} />}
       <div class="row">
-        {picture && (
-          <button
-            class="button is-primary"
-            type="button"
-            onClick={() => openAgain(picture, job)}
-          >
-            {fit.changeAndRetry}
+        {pictures.length > 0 && (
+          <button class="button is-primary" type="button" onClick={() => void change()}>
+            {words.change}
           </button>
         )}
-        <button class="button" type="button" onClick={() => go(START_ADDRESS)}>
-          {fit.startAnother}
+        <button class="button" type="button" onClick={() => go(beginning(fit.kind))}>
+          {words.another}
         </button>
       </div>
     </main>

@@ -1,52 +1,72 @@
-// A fit on its way: its stages, and its energies as they go down.
+// A fit on its way: its stages, which picture they are at, and its energies as they go down.
 import { useState } from "preact/hooks";
-import { getRequest } from "../api/calls";
-import type { Job } from "../api/types";
+import { getAsked } from "../api/calls";
+import type { Fit } from "../api/fits";
 import type { Picture } from "../draft/picture";
 import { assumed } from "../history/store";
 import { percent } from "../messages/figures";
 import { messages } from "../messages/language";
 import { AssumptionNotes } from "../ui/AssumptionNotes";
+import { Icon } from "../ui/Icon";
 import { useAsked } from "../ui/asked";
 import { EnergyChart } from "./EnergyChart";
 import { STAGES } from "./stages";
 import { readings } from "./watch";
 
 interface Props {
-  readonly job: Job;
-  readonly picture: Picture | null;
+  readonly fit: Fit;
+  readonly pictures: readonly Picture[];
   readonly onCancel: () => void;
 }
 
-export function Progress({ job, picture, onCancel }: Props) {
-  const { fit } = messages.value;
-  const [stopping, setStopping] = useState(job.cancel_requested);
-  const asked = useAsked(job.id, () => getRequest(job));
-  const list = readings.value[job.id] ?? [];
-  const at = STAGES.findIndex((stage) => stage === job.stage);
+export function Progress({ fit, pictures, onCancel }: Props) {
+  const { fit: words } = messages.value;
+  const [stopping, setStopping] = useState(fit.cancel_requested);
+  const asked = useAsked(fit.id, () => getAsked(fit));
+  const list = readings.value[fit.id] ?? [];
+  const at = STAGES.findIndex((stage) => stage === fit.stage);
+  const isOfSeveral = fit.pictures.length > 1;
   return (
     <main class="bench">
-      <div class="bench-stage is-quiet">{picture && <img class="whole-picture" src={picture.url} alt={fit.picture} />}</div>
+      <div class="bench-stage is-quiet">
+        {isOfSeveral ? (
+          <ul class="fit-pictures">
+            {pictures.map(({ url }, number) => (
+              <li key={url} class={fit.view === number ? "is-current" : ""}>
+                <img src={url} alt={words.picture(number + 1)} />
+                {isDone(fit, number) && <Icon name="check" />}
+              </li>
+            ))}
+          </ul>
+        ) : (
+          pictures.map(({ url }) => <img key={url} class="whole-picture" src={url} alt={words.onlyPicture} />)
+        )}
+      </div>
       <div class="panel">
         <div class="panel-scroll">
           <section class="section">
-            <h1 class="title">{job.state === "queued" ? fit.queued : fit.running}</h1>
-            <progress class="bar" max={1} value={job.progress} aria-label={fit.progress}>
-              {percent(job.progress)}
+            <h1 class="title">{fit.state === "queued" ? words.queued : words.of[fit.kind].running}</h1>
+            <progress class="bar" max={1} value={fit.progress} aria-label={words.of[fit.kind].progress}>
+              {percent(fit.progress)}
             </progress>
-            <AssumptionNotes assumptions={assumed.value[job.id] ?? []} asked={asked?.points ?? null} />
+            {isOfSeveral && fit.stage && (
+              <p class="fine" role="status">
+                {fit.view === null ? words.together : words.alone(fit.view + 1)}
+              </p>
+            )}
+            <AssumptionNotes assumptions={assumed.value[fit.id] ?? []} asked={asked?.views[0]?.points ?? null} />
             <ol class="stages">
               {STAGES.map((stage, i) => (
                 <li key={stage} class={i < at ? "is-done" : i === at ? "is-current" : ""} aria-current={i === at ? "step" : undefined}>
-                  <b>{fit.stages[stage].label}</b>
-                  <span>{fit.stages[stage].help}</span>
+                  <b>{words.stages[stage].label}</b>
+                  <span>{words.stages[stage].help}</span>
                 </li>
               ))}
             </ol>
           </section>
           <section class="section">
-            <h2>{fit.misfit.title}</h2>
-            <p class="fine">{fit.misfit.help}</p>
+            <h2>{words.misfit.title}</h2>
+            <p class="fine">{words.misfit.help}</p>
             <EnergyChart readings={list} />
           </section>
         </div>
@@ -60,10 +80,15 @@ export function Progress({ job, picture, onCancel }: Props) {
               onCancel();
             }}
           >
-            {stopping ? fit.stopping : fit.cancel}
+            {stopping ? words.stopping : words.cancel}
           </button>
         </div>
       </div>
     </main>
   );
+}
+
+/** Pictures are searched one after the other, before all together. */
+function isDone({ view, stage, progress }: Fit, number: number): boolean {
+  return view === null ? stage !== null && progress > 0.5 : number < view;
 }

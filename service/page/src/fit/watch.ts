@@ -1,8 +1,9 @@
-// Fits that are looked at: their jobs, and their energies as they go down.
+// Fits that are looked at: where each stands, and its energies as they go down.
 import { signal } from "@preact/signals";
 import { getFit } from "../api/calls";
 import { jobEvents } from "../api/events";
-import type { EventData, Job, JobState } from "../api/types";
+import type { FitRef } from "../api/fits";
+import type { EventData, JobState, Problem } from "../api/types";
 import { seen } from "../history/store";
 
 export interface Reading {
@@ -14,25 +15,28 @@ export interface Reading {
 
 const ACTIVE: readonly JobState[] = ["queued", "running"];
 
-export function isActive(job: Pick<Job, "state">): boolean {
-  return ACTIVE.includes(job.state);
+export function isActive({ state }: { readonly state: JobState }): boolean {
+  return ACTIVE.includes(state);
 }
 
 export const readings = signal<Readonly<Record<string, readonly Reading[]>>>({});
 
-/** Follow a job to its end; returns as soon as it has ended. */
-export async function watch(id: string, signal: AbortSignal): Promise<void> {
-  let job = await getFit(id);
-  seen(job);
-  if (!isActive(job)) return;
-  readings.value = { ...readings.value, [id]: [] };
-  for await (const data of jobEvents(job.links.events, signal)) {
-    job = { ...job, state: data.state, stage: data.stage, progress: data.progress };
-    // Of an ended job the links are needed as well, which events do not tell.
-    if (isActive(job)) seen(job);
-    note(id, data);
+/** Why the fit that is open cannot be followed or shown. */
+export const trouble = signal<Problem | null>(null);
+
+/** Follow a fit to its end; returns as soon as it has ended. */
+export async function watch(which: FitRef, signal: AbortSignal): Promise<void> {
+  let fit = await getFit(which);
+  seen(fit);
+  if (!isActive(fit)) return;
+  readings.value = { ...readings.value, [fit.id]: [] };
+  for await (const data of jobEvents(fit.links.events, signal)) {
+    fit = { ...fit, state: data.state, stage: data.stage, progress: data.progress, view: data.view ?? null };
+    // Of an ended fit the links are needed as well, which events do not tell.
+    if (isActive(fit)) seen(fit);
+    note(fit.id, data);
   }
-  seen(await getFit(id));
+  seen(await getFit(which));
 }
 
 function note(id: string, data: EventData): void {

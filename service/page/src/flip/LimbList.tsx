@@ -1,12 +1,16 @@
 // All limbs that can be turned, for whoever clicks none on the body.
-import type { Facing, FitResult } from "../api/types";
+import type { FittedView } from "../api/fits";
+import type { Facing } from "../api/types";
+import { pictureOf } from "../measure/views";
 import { capitalised } from "../messages/figures";
 import { messages } from "../messages/language";
 import { TURNED_LIMBS, facingsOf } from "./flips";
 import type { Flips, TurnedLimb } from "./flips";
 
 interface Props {
-  readonly result: FitResult;
+  readonly view: FittedView;
+  /** Whether the picture is one of several, and is to be named. */
+  readonly isOfSeveral: boolean;
   readonly flips: Flips;
   readonly pointedAt: TurnedLimb | null;
   readonly onPoint: (limb: TurnedLimb | null) => void;
@@ -15,10 +19,10 @@ interface Props {
 
 const LIST = "limbs";
 
-export function LimbList({ result, flips, pointedAt, onPoint, onFlip }: Props) {
-  const { limbs: words, points } = messages.value;
-  const found = facingsOf(result);
-  const open = new Set(result.limb_facing.filter(({ ambiguous }) => ambiguous).map(({ limb }) => limb));
+export function LimbList({ view, isOfSeveral, flips, pointedAt, onPoint, onFlip }: Props) {
+  const { frame, limbs: words, points } = messages.value;
+  const found = facingsOf(view);
+  const open = new Set(view.limb_facing.filter(({ ambiguous }) => ambiguous).map(({ limb }) => limb));
   const isKnown = (limb: TurnedLimb): limb is TurnedLimb => found[limb] !== undefined;
   const says = (limb: TurnedLimb, facing: Facing) => {
     if (flips[limb]) return words.now(words.facings[flips[limb]]);
@@ -27,7 +31,7 @@ export function LimbList({ result, flips, pointedAt, onPoint, onFlip }: Props) {
   return (
     <details class="section fold-section" id={LIST}>
       <summary>
-        <h2>{words.title}</h2>
+        <h2>{isOfSeveral && view.view ? frame.ofField(words.title, pictureOf(view.view)) : words.title}</h2>
       </summary>
       <p class="fine">{words.help}</p>
       <ul class="limb-list">

@@ -1,22 +1,22 @@
 // What is to become of limbs that were turned: a new fit, or nothing.
 import { useSignal } from "@preact/signals";
 import { problemFrom } from "../api/client";
-import type { Job, Problem } from "../api/types";
-import type { Picture } from "../draft/picture";
+import type { Fit, FittedView } from "../api/fits";
+import type { Problem } from "../api/types";
 import { messages } from "../messages/language";
 import { fitWithFlips } from "../result/again";
 import { ProblemNote } from "../ui/ProblemNote";
-import type { Flips } from "./flips";
+import type { FlipsOfViews } from "./flips";
 import { inWords } from "./words";
 
 interface Props {
-  readonly job: Job;
-  readonly picture: Picture | null;
-  readonly flips: Flips;
+  readonly fit: Fit;
+  readonly views: readonly FittedView[];
+  readonly flips: FlipsOfViews;
   readonly onTakeBack: () => void;
 }
 
-export function PreviewBar({ job, picture, flips, onTakeBack }: Props) {
+export function PreviewBar({ fit, views, flips, onTakeBack }: Props) {
   const { frame, limbs: words } = messages.value;
   const problem = useSignal<Problem | null>(null);
   const sending = useSignal(false);
@@ -24,7 +24,7 @@ export function PreviewBar({ job, picture, flips, onTakeBack }: Props) {
     sending.value = true;
     problem.value = null;
     try {
-      await fitWithFlips(picture!, job, flips);
+      await fitWithFlips(fit, flips);
     } catch (error) {
       problem.value = problemFrom(error);
     } finally {
@@ -34,12 +34,12 @@ export function PreviewBar({ job, picture, flips, onTakeBack }: Props) {
   return (
     <div class="submit is-preview">
       {problem.value && <ProblemNote problem={problem.value} />}
-      <p class="fine">{words.preview(inWords(flips))}</p>
+      <p class="fine">{words.preview(inWords(flips, views))}</p>
       <div class="submit-row">
         <button class="button" type="button" onClick={onTakeBack}>
           {words.takeBack}
         </button>
-        <button class="button is-primary grow" type="button" disabled={!picture || sending.value} onClick={send}>
+        <button class="button is-primary grow" type="button" disabled={sending.value} onClick={send}>
           {sending.value ? frame.sending : words.again}
         </button>
       </div>

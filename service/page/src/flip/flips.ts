@@ -1,5 +1,6 @@
 // Which limbs are turned the other way, as it is seen before it is fitted.
-import type { Facing, FitResult, Limb } from "../api/types";
+import type { FittedView } from "../api/fits";
+import type { Facing, Limb } from "../api/types";
 
 /** Upper before lower, as they hang together. */
 export const CHAINS = [
@@ -19,6 +20,9 @@ export type Flips = Readonly<Partial<Record<TurnedLimb, Facing>>>;
 
 export const NO_FLIPS: Flips = {};
 
+/** The same of each picture by its number. */
+export type FlipsOfViews = Readonly<Record<number, Flips>>;
+
 export function isTurnedLimb(limb: string): limb is TurnedLimb {
   return (TURNED_LIMBS as readonly string[]).includes(limb);
 }
@@ -27,8 +31,12 @@ export function isEmpty(flips: Flips): boolean {
   return Object.keys(flips).length === 0;
 }
 
-/** Which way each limb points by the fit. */
-export function facingsOf({ limb_facing }: Pick<FitResult, "limb_facing">): Readonly<Partial<Record<Limb, Facing>>> {
+export function areAllEmpty(flips: FlipsOfViews): boolean {
+  return Object.values(flips).every(isEmpty);
+}
+
+/** Which way each limb points in a picture, by the fit. */
+export function facingsOf({ limb_facing }: Pick<FittedView, "limb_facing">): Readonly<Partial<Record<Limb, Facing>>> {
   return Object.fromEntries(limb_facing.map(({ limb, facing }) => [limb, facing]));
 }
 

@@ -1,36 +1,42 @@
-// The limbs of a result that are seen turned the other way, and the one pointed at.
+// The limbs that are seen turned the other way, in each picture of a fit, and the one pointed at.
 import { useState } from "preact/hooks";
-import type { FitResult } from "../api/types";
+import type { FittedView } from "../api/fits";
 import { messages } from "../messages/language";
 import { announce } from "../ui/announce";
-import { NO_FLIPS, facingsOf, flipped, isEmpty } from "./flips";
-import type { Flips, TurnedLimb } from "./flips";
+import { NO_FLIPS, areAllEmpty, facingsOf, flipped } from "./flips";
+import type { Flips, FlipsOfViews, TurnedLimb } from "./flips";
 import { inWords } from "./words";
 
 export interface Turning {
+  /** Of the picture that is shown. */
   readonly flips: Flips;
+  readonly all: FlipsOfViews;
   readonly pointedAt: TurnedLimb | null;
   readonly point: (limb: TurnedLimb | null) => void;
   readonly flip: (limb: TurnedLimb) => void;
   readonly takeBack: () => void;
 }
 
-export function useFlips(result: FitResult | null): Turning {
-  const [flips, setFlips] = useState<Flips>(NO_FLIPS);
+/** `number` is that of the picture that is shown. */
+export function useFlips(views: readonly FittedView[], number: number): Turning {
+  const [all, setAll] = useState<FlipsOfViews>({});
   const [pointedAt, point] = useState<TurnedLimb | null>(null);
-  const change = (next: Flips) => {
+  const change = (next: FlipsOfViews) => {
     const { limbs: words } = messages.value;
-    setFlips(next);
-    announce(isEmpty(next) ? words.takenBack : words.preview(inWords(next)));
+    setAll(next);
+    announce(areAllEmpty(next) ? words.takenBack : words.preview(inWords(next, views)));
   };
+  const flips = all[number] ?? NO_FLIPS;
   return {
     flips,
+    all,
     pointedAt,
     point,
     flip: (limb) => {
-      const found = result && facingsOf(result)[limb];
-      if (found) change(flipped(flips, limb, found));
+      const view = views[number];
+      const found = view && facingsOf(view)[limb];
+      if (found) change({ ...all, [number]: flipped(flips, limb, found) });
     },
-    takeBack: () => change(NO_FLIPS),
+    takeBack: () => change({}),
   };
 }

@@ -1,11 +1,24 @@
 // Limbs that were turned, as they are told.
+import type { FittedView } from "../api/fits";
 import type { Facing } from "../api/types";
+import { pictureTitle } from "../measure/views";
 import { capitalised, listed } from "../messages/figures";
 import { messages } from "../messages/language";
-import type { Flips, TurnedLimb } from "./flips";
+import { isEmpty } from "./flips";
+import type { Flips, FlipsOfViews, TurnedLimb } from "./flips";
 
-/** Within a sentence. */
-export function inWords(flips: Flips): string {
+/** Within a sentence; of several pictures each with its name. */
+export function inWords(flips: FlipsOfViews, views: readonly Pick<FittedView, "view">[]): string {
+  const { ofField } = messages.value.frame;
+  const told = views.flatMap(({ view }, number) => {
+    const own = flips[number];
+    if (!own || isEmpty(own)) return [];
+    return [view && views.length > 1 ? ofField(pictureTitle(view), inWordsOfOne(own)) : inWordsOfOne(own)];
+  });
+  return told.join("; ");
+}
+
+function inWordsOfOne(flips: Flips): string {
   const { limbs: words, points } = messages.value;
   return listed(Object.entries(flips).map(([limb, facing]) => words.turned[facing](points.limbs[limb as TurnedLimb])));
 }

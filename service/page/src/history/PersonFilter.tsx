@@ -1,4 +1,4 @@
-// Whose fits and scans the list shows, and the way to all of that person.
+// Whose fits the list shows, and the way to all of that person.
 import { useEffect } from "preact/hooks";
 import { messages } from "../messages/language";
 import { knownLabels, lookForPeople } from "../people/known";

@@ -1,17 +1,14 @@
-// The fits and scans this browser has started or opened: ids and a thumbnail, nothing else.
+// The fits this browser has started or opened: ids and a thumbnail, nothing else.
 import { signal } from "@preact/signals";
-import type { Job } from "../api/types";
+import type { Fit, FitRef } from "../api/fits";
 import { keep as keepText, kept } from "../kept";
 import type { Assumptions } from "../ui/AssumptionNotes";
 
-export interface Entry {
-  readonly id: string;
+export interface Entry extends FitRef {
   readonly name: string;
   readonly startedAt: string;
   /** A small JPEG as a data address. */
   readonly thumbnail: string;
-  /** Whether it is a scan, not a fit. */
-  readonly scan?: true;
 }
 
 const PLACE = "maquette.fits";
@@ -20,8 +17,8 @@ const THUMBNAIL_PX = 96;
 
 export const entries = signal<readonly Entry[]>(load());
 
-/** Jobs as last seen, by id. */
-export const jobs = signal<Readonly<Record<string, Job>>>({});
+/** Fits as last seen, by id. */
+export const fits = signal<Readonly<Record<string, Fit>>>({});
 
 /** What was assumed of fits begun on this page, by id, as the initial body already told. */
 export const assumed = signal<Readonly<Record<string, Assumptions>>>({});
@@ -43,8 +40,8 @@ export function forget(id: string): void {
   keep(entries.value.filter((each) => each.id !== id));
 }
 
-export function seen(job: Job): void {
-  jobs.value = { ...jobs.value, [job.id]: job };
+export function seen(fit: Fit): void {
+  fits.value = { ...fits.value, [fit.id]: fit };
 }
 
 export function thumbnailOf(element: HTMLImageElement): string {
@@ -64,8 +61,15 @@ function keep(list: readonly Entry[]): void {
 function load(): readonly Entry[] {
   try {
     const list: unknown = JSON.parse(kept(PLACE) ?? "[]");
-    return Array.isArray(list) ? (list as Entry[]).filter((each) => typeof each?.id === "string") : [];
+    return Array.isArray(list) ? (list as Kept[]).filter((each) => typeof each?.id === "string").map(entryOf) : [];
   } catch {
     return [];
   }
+}
+
+/** Earlier versions of this page wrote no kind. */
+type Kept = Omit<Entry, "kind"> & { readonly kind?: Entry["kind"]; readonly scan?: true };
+
+function entryOf({ scan, ...entry }: Kept): Entry {
+  return { kind: scan ? "scan" : "fit", ...entry };
 }

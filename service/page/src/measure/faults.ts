@@ -1,10 +1,10 @@
-// What a problem of a scan says of its pictures.
+// What a problem of a fit says of its pictures.
 import type { Problem } from "../api/types";
 import type { PlaceName } from "./places";
 
 export const NOT_INSTALLED = "detector-not-installed";
 
-/** Of each picture by its place what is wrong with it; `rest` is of the scan as a whole, null if nothing is. */
+/** Of each picture by its place what is wrong with it; `rest` is of the fit as a whole, null if nothing is. */
 export interface Faults {
   readonly views: ReadonlyMap<number, Problem>;
   readonly rest: Problem | null;
@@ -30,7 +30,7 @@ export function faultsOf(problem: Problem): Faults {
   return { views, rest: others.length > 0 ? { ...problem, errors: others } : null };
 }
 
-/** The same by the places of this screen, whose views a scan has in this order; null for one that has no place here. */
+/** The same by the places of this screen, whose views a fit has in this order; null for one that has no place here. */
 export function faultsOfPlaces(problem: Problem, order: readonly (PlaceName | null)[]): FaultsOfPlaces {
   const { views, rest } = faultsOf(problem);
   const places = new Map<PlaceName, Problem>();
@@ -51,7 +51,7 @@ export function viewNamedFirst(message: string): number | null {
  * A message of the service with its views as people call them: `views.1` is the side picture. It stays English whatever
  * the page speaks, as the rest of the message does.
  */
-export function withViews(message: string, views: readonly { readonly view: string }[]): string {
+export function withViews(message: string, views: readonly { readonly view: string | null }[]): string {
   return message
     .replace(/(\. )?\bviews\.(\d+)\b/g, (whole, end: string | undefined, number: string, at: number) => {
       const view = views[Number(number)]?.view;

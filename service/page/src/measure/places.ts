@@ -63,7 +63,7 @@ export const measureTodo = computed<string | null>(() => {
 });
 
 /** Which place each view of a scan belongs to, null for those that have none here: a second side, or the back. */
-export function placesOf(views: readonly { readonly view: string }[]): readonly (PlaceName | null)[] {
+export function placesOf(views: readonly { readonly view?: string }[]): readonly (PlaceName | null)[] {
   return views.map(({ view }, number) => {
     const name = PLACE_NAMES.find((each) => each === view) ?? null;
     return name !== null && views.findIndex((other) => other.view === view) === number ? name : null;

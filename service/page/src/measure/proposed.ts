@@ -1,19 +1,19 @@
-// Of how many points of a scan's pictures nobody said where they are.
-import type { ScanOptions, ScanResult } from "../api/types";
+// Of how many points of several pictures nobody said where they are.
+import type { Asked, FittedView } from "../api/fits";
 import { messages } from "../messages/language";
 import { proposedOf } from "../ui/proposed";
 import { pictureOf } from "./views";
 
-type Viewed = Pick<ScanResult["views"][number], "number" | "view" | "assumptions">;
+type Viewed = Pick<FittedView, "number" | "view" | "assumptions">;
 
 /** Null where somebody clicked every point. */
-export function proposedText(views: readonly Viewed[], asked: Pick<ScanOptions, "views">): string | null {
+export function proposedText(views: readonly Viewed[], asked: Pick<Asked, "views">): string | null {
   const { frame, measure } = messages.value;
   const counts = views.map(({ number, view, assumptions }) => ({ view, proposed: proposedOf(assumptions, asked.views[number]?.points ?? {}) }));
   const told = counts.flatMap(({ view, proposed }) => {
     if (!proposed) return [];
     const { all, some } = measure.proposed;
-    return [proposed.isAll ? all(pictureOf(view)) : some(proposed.count, pictureOf(view))];
+    return [proposed.isAll ? all(pictureOf(view ?? "other")) : some(proposed.count, pictureOf(view ?? "other"))];
   });
   if (told.length === 0) return null;
   return counts.every(({ proposed }) => proposed?.isAll) ? frame.assumed.allPoints : frame.assumed.pointsOf(told);

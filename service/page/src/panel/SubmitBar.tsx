@@ -31,18 +31,18 @@ export function SubmitBar() {
       const kept = uploaded.value ?? (await upload(shown.file));
       const cutOut = await maskToSend();
       const cut = cutOut && (await upload(cutOut));
-      const job = await submitFit({
+      const fit = await submitFit({
         ...subject,
         image_id: kept.id,
         ...draftedChoices(),
         ...labelOf(person.value),
         ...(cut ? { mask_id: cut.id } : {}),
       });
-      seen(job);
-      assumed.value = { ...assumed.value, [job.id]: liveBody.value?.assumptions ?? [] };
-      remember({ id: job.id, name: shown.name, startedAt: job.created_at, thumbnail: thumbnailOf(shown.element) });
+      seen(fit);
+      assumed.value = { ...assumed.value, [fit.id]: liveBody.value?.assumptions ?? [] };
+      remember({ kind: fit.kind, id: fit.id, name: shown.name, startedAt: fit.created_at, thumbnail: thumbnailOf(shown.element) });
       // From here on the service has it: the next fit is another person's.
-      go(fitAddress(job.id));
+      go(fitAddress(fit));
       if (picture.value === shown) discard();
     } catch (error) {
       problem.value = problemFrom(error);

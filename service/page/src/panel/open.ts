@@ -1,7 +1,9 @@
 // How a picture gets in.
 import { batch, signal } from "@preact/signals";
-import { getFile, getRequest } from "../api/calls";
-import type { FitOptions, Job } from "../api/types";
+import { getAsked, getFile } from "../api/calls";
+import { askedOfView } from "../api/fits";
+import type { Fit } from "../api/fits";
+import type { FitOptions } from "../api/types";
 import { change, person, points, useMask, usePicture } from "../draft/draft";
 import { openPicture } from "../draft/chosen";
 import { shownPicture } from "../draft/picture";
@@ -51,18 +53,19 @@ export async function trySample(name: string, beginning: Beginning): Promise<voi
   });
 }
 
-/** A fit's picture, mask and request, to be changed and sent again. */
-export async function openAgain(picture: Picture, job: Job): Promise<void> {
+/** A fit's only picture, mask and request, to be changed and sent again. */
+export async function openAgain(fit: Fit, picture: Picture): Promise<void> {
+  const { mask: maskPath } = fit.pictures[0]!;
   const [asked, mask, opened] = await Promise.all([
-    getRequest(job),
-    job.links.mask ? getFile(job.links.mask).then((file) => shownPicture(file, messages.value.start.maskOfFit)) : null,
+    getAsked(fit),
+    maskPath ? getFile(maskPath).then((file) => shownPicture(file, messages.value.start.maskOfFit)) : null,
     // Its own: the fit's view lets go of the one it shows.
     shownPicture(picture.file, picture.name, picture.shown),
   ]);
   begin(() => {
     use(opened);
-    loadDraft(asked);
-    person.value = { ...person.value, label: job.label ?? "" };
+    loadDraft(askedOfView(asked, 0));
+    person.value = { ...person.value, label: fit.label ?? "" };
     useMask(mask);
     // The service proposed all of them.
     if (Object.keys(points.value.placed).length === 0) proposeFirst();

@@ -18,23 +18,23 @@ export function ChangeWords({ group }: { group: readonly PersonRecord[] }) {
   const { people: words } = messages.value;
   const [newest, ...earlier] = group as [PersonRecord, ...PersonRecord[]];
   const [sinceId, setSince] = useState<string | null>(null);
-  const since = earlier.find(({ job }) => job.id === sinceId) ?? earlier.at(-1)!;
+  const since = earlier.find(({ fit }) => fit.id === sinceId) ?? earlier.at(-1)!;
   const { result, problem } = useChange(newest, since);
   return (
     <section class="person-change" aria-labelledby="change-title" aria-busy={!result && !problem}>
       <h2 id="change-title">{words.changed}</h2>
       <div class="field">
-        <label for="change-since">{words.since(words.kinds[newest.kind], moment(newest.job.created_at))}</label>
-        <select id="change-since" value={since.job.id} onChange={(event) => setSince(event.currentTarget.value)}>
-          {earlier.map(({ job }) => (
-            <option key={job.id} value={job.id}>
-              {moment(job.created_at)}
+        <label for="change-since">{words.since(words.kinds[newest.fit.kind], moment(newest.fit.created_at))}</label>
+        <select id="change-since" value={since.fit.id} onChange={(event) => setSince(event.currentTarget.value)}>
+          {earlier.map(({ fit }) => (
+            <option key={fit.id} value={fit.id}>
+              {moment(fit.created_at)}
             </option>
           ))}
         </select>
       </div>
       {problem && <ProblemNote problem={problem} />}
-      {result && <Told result={result} since={day(since.job.created_at)} />}
+      {result && <Told result={result} since={day(since.fit.created_at)} />}
     </section>
   );
 }

@@ -1,10 +1,11 @@
-// All of a person: how their measurements went with time, and their fits and scans.
+// All of a person: how their measurements went with time, and their fits.
+import type { FitKind } from "../api/fits";
 import { person } from "../draft/draft";
 import { inUnits } from "../draft/person";
 import { entries } from "../history/store";
 import { decimal, moment } from "../messages/figures";
 import { messages } from "../messages/language";
-import { fitAddress, scanAddress } from "../route";
+import { fitAddress } from "../route";
 import { measureLabel } from "../result/reading";
 import { Choice } from "../ui/Choice";
 import { ProblemNote } from "../ui/ProblemNote";
@@ -37,8 +38,8 @@ export function PersonView({ label }: { label: string }) {
   );
 }
 
-function countOf(records: readonly PersonRecord[], kind: PersonRecord["kind"]): number {
-  return records.filter((each) => each.kind === kind).length;
+function countOf(records: readonly PersonRecord[], kind: FitKind): number {
+  return records.filter(({ fit }) => fit.kind === kind).length;
 }
 
 function OverTime({ records }: { records: readonly PersonRecord[] }) {
@@ -93,16 +94,16 @@ function Records({ records }: { records: readonly PersonRecord[] }) {
     <section aria-labelledby="records-title">
       <h2 id="records-title">{words.records}</h2>
       <ul class="history">
-        {records.map(({ kind, job }) => {
-          const thumbnail = entries.value.find(({ id }) => id === job.id)?.thumbnail;
+        {records.map(({ fit }) => {
+          const thumbnail = entries.value.find(({ id }) => id === fit.id)?.thumbnail;
           return (
-            <li key={job.id}>
-              <a href={kind === "scan" ? scanAddress(job.id) : fitAddress(job.id)}>
+            <li key={fit.id}>
+              <a href={fitAddress(fit)}>
                 {thumbnail && <img src={thumbnail} alt="" width="48" height="64" />}
                 <span>
-                  <b>{moment(job.created_at)}</b>
-                  <small>{words.kinds[kind]}</small>
-                  <small>{frame.list.states[job.state]}</small>
+                  <b>{moment(fit.created_at)}</b>
+                  <small>{words.kinds[fit.kind]}</small>
+                  <small>{frame.list.states[fit.state]}</small>
                 </span>
               </a>
             </li>

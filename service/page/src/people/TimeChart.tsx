@@ -19,15 +19,15 @@ const DOT = 4;
 export function TimeChart({ name, records }: { name: Compared; records: readonly PersonRecord[] }) {
   const { people: words, result } = messages.value;
   const { units } = person.value;
-  const rows = [...records].reverse().flatMap(({ kind, job, measurements }) => {
+  const rows = [...records].reverse().flatMap(({ fit, measurements }) => {
     const measurement = measurements.find((each) => each.name === name);
-    return measurement ? [{ kind, job, measurement }] : [];
+    return measurement ? [{ fit, measurement }] : [];
   });
   if (rows.length === 0) return null;
   const { factor, unit } = inUnit(rows[0]!.measurement.unit, units);
-  const points = rows.map(({ kind, job, measurement: { value, standard_error } }) => {
+  const points = rows.map(({ fit, measurement: { value, standard_error } }) => {
     const half = WITHIN_95 * (standard_error ?? 0);
-    return { kind, id: job.id, at: Date.parse(job.created_at), value: factor * value, low: factor * (value - half), high: factor * (value + half) };
+    return { fit, at: Date.parse(fit.created_at), value: factor * value, low: factor * (value - half), high: factor * (value + half) };
   });
   const scale = scaleOf(points.flatMap(({ low, high }) => [low, high]));
   const [first, last] = [points[0]!.at, points.at(-1)!.at];
@@ -49,18 +49,18 @@ export function TimeChart({ name, records }: { name: Compared; records: readonly
           </g>
         ))}
         <text x={first === last ? x(first) : LEFT} y={HEIGHT - 6} text-anchor={first === last ? "middle" : "start"}>
-          {day(rows[0]!.job.created_at)}
+          {day(rows[0]!.fit.created_at)}
         </text>
         {first !== last && (
           <text x={WIDTH - RIGHT} y={HEIGHT - 6} text-anchor="end">
-            {day(rows.at(-1)!.job.created_at)}
+            {day(rows.at(-1)!.fit.created_at)}
           </text>
         )}
         <polyline class="time-line" points={points.map((point) => `${x(point.at)},${y(point.value)}`).join(" ")} />
         {points.map((point) => (
-          <g key={point.id} class="time-point">
+          <g key={point.fit.id} class="time-point">
             <path d={`M${x(point.at)} ${y(point.low)}V${y(point.high)}`} />
-            {point.kind === "fit" ? (
+            {point.fit.kind === "fit" ? (
               <circle cx={x(point.at)} cy={y(point.value)} r={DOT} />
             ) : (
               <rect x={x(point.at) - DOT} y={y(point.value) - DOT} width={2 * DOT} height={2 * DOT} />
@@ -79,12 +79,12 @@ export function TimeChart({ name, records }: { name: Compared; records: readonly
           </tr>
         </thead>
         <tbody>
-          {rows.map(({ kind, job, measurement }) => {
+          {rows.map(({ fit, measurement }) => {
             const { value, interval } = shown(measurement, units);
             return (
-              <tr key={job.id}>
-                <th scope="row">{day(job.created_at)}</th>
-                <td>{words.kinds[kind]}</td>
+              <tr key={fit.id}>
+                <th scope="row">{day(fit.created_at)}</th>
+                <td>{words.kinds[fit.kind]}</td>
                 <td>
                   {value} {unit}
                 </td>

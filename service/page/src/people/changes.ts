@@ -16,7 +16,7 @@ interface Told {
 /** Records that the newest one can be compared with, newest first: the service compares like with like. */
 export function comparable(records: readonly PersonRecord[]): readonly PersonRecord[] {
   const measured = records.filter(({ measurements }) => measurements.length > 0);
-  const groups = measured.map((newest, place) => measured.slice(place).filter(({ kind, gender }) => kind === newest.kind && gender === newest.gender));
+  const groups = measured.map((newest, place) => measured.slice(place).filter(({ fit, gender }) => fit.kind === newest.fit.kind && gender === newest.gender));
   return groups.find((group) => group.length > 1) ?? [];
 }
 
@@ -30,18 +30,18 @@ export function useChange(after: PersonRecord, before: PersonRecord): Told {
       (error) => leaving.signal.aborted || setTold({ result: null, problem: problemFrom(error) }),
     );
     return () => leaving.abort();
-  }, [after.job.id, before.job.id]);
+  }, [after.fit.id, before.fit.id]);
   return told;
 }
 
 async function changeOf(after: PersonRecord, before: PersonRecord, signal: AbortSignal): Promise<ChangeResult | null> {
-  const made = (await listDerivations(after.job)).filter(({ kind, state }) => kind === "change" && state === "succeeded");
+  const made = (await listDerivations(after.fit)).filter(({ kind, state }) => kind === "change" && state === "succeeded");
   for (const each of made) {
     const result = await resultOf(each);
-    if (result?.since === before.job.id && isOfCompared(result)) return result;
+    if (result?.since === before.fit.id && isOfCompared(result)) return result;
   }
-  const asked = { kind: "change" as const, since: before.job.id, measurements: [...COMPARED] };
-  return resultOf(await ended(await derive(after.job, asked, null), signal));
+  const asked = { kind: "change" as const, since: before.fit.id, measurements: [...COMPARED] };
+  return resultOf(await ended(await derive(after.fit, asked, null), signal));
 }
 
 async function ended(begun: Derivation, signal: AbortSignal): Promise<Derivation> {

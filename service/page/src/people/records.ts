@@ -1,13 +1,13 @@
-// What the service keeps of a person: fits and scans, each with what it measured.
+// What the service keeps of a person: fits, each with what it measured.
 import { useEffect, useState } from "preact/hooks";
-import { eraseFit, eraseScan, getResult, getScanResult, listFits, listScans } from "../api/calls";
+import { eraseFit, getResult, listFits } from "../api/calls";
 import { problemFrom } from "../api/client";
-import type { Job, Measurement, Problem, Scan } from "../api/types";
+import type { Fit } from "../api/fits";
+import type { Measurement, Problem } from "../api/types";
 import { forget } from "../history/store";
 
 export interface PersonRecord {
-  readonly kind: "fit" | "scan";
-  readonly job: Job | Scan;
+  readonly fit: Fit;
   /** Of what has a result; empty where measurements are withheld, or the record is older than those compared. */
   readonly measurements: readonly Measurement[];
   readonly gender: string | null;
@@ -39,28 +39,20 @@ export function useRecords(label: string): Found {
 }
 
 async function recordsOf(label: string): Promise<readonly PersonRecord[]> {
-  const jobs = await jobsOf(label);
-  return Promise.all(jobs.map((each, place) => measured(each, place < MOST_COMPARED)));
+  const fits = await listFits(label);
+  return Promise.all(fits.map((each, place) => measured(each, place < MOST_COMPARED)));
 }
 
-type Known = Pick<PersonRecord, "kind" | "job">;
-
-async function jobsOf(label: string): Promise<readonly Known[]> {
-  const [fits, scans] = await Promise.all([listFits(label), listScans(label)]);
-  const all: Known[] = [...fits.map((job) => ({ kind: "fit" as const, job })), ...scans.map((job) => ({ kind: "scan" as const, job }))];
-  return all.sort((one, other) => other.job.created_at.localeCompare(one.job.created_at));
-}
-
-async function measured({ kind, job }: Known, isCompared: boolean): Promise<PersonRecord> {
-  if (!isCompared || job.state !== "succeeded") return { kind, job, measurements: [], gender: null };
-  const { measurements, gender } = kind === "scan" ? await getScanResult(job as Scan) : await getResult(job as Job);
-  return { kind, job, measurements, gender };
+async function measured(fit: Fit, isCompared: boolean): Promise<PersonRecord> {
+  if (!isCompared || fit.state !== "succeeded") return { fit, measurements: [], gender: null };
+  const { measurements, gender } = await getResult(fit);
+  return { fit, measurements, gender };
 }
 
 /** Erase all there is of a person by now, on the service and in this browser's list. */
 export async function erasePerson(label: string): Promise<void> {
-  for (const { kind, job } of await jobsOf(label)) {
-    await (kind === "scan" ? eraseScan : eraseFit)(job.id);
-    forget(job.id);
+  for (const fit of await listFits(label)) {
+    await eraseFit(fit);
+    forget(fit.id);
   }
 }

@@ -2,21 +2,23 @@
 import { useSignal } from "@preact/signals";
 import { eraseFit } from "../api/calls";
 import { problemFrom } from "../api/client";
-import type { Job, Problem } from "../api/types";
+import type { Fit } from "../api/fits";
+import type { Problem } from "../api/types";
 import type { Picture } from "../draft/picture";
 import { forget } from "../history/store";
 import { messages } from "../messages/language";
-import { openAgain } from "../panel/open";
-import { START_ADDRESS, go } from "../route";
+import { beginning, go, isEmbedded } from "../route";
 import { announce } from "../ui/announce";
 import { IconButton } from "../ui/IconButton";
 import { ProblemNote } from "../ui/ProblemNote";
 import { useQuestion } from "../ui/question";
+import { changeAgain } from "./again";
 
 const COPIED_MS = 2000;
 
-export function Actions({ job, picture }: { job: Job; picture: Picture | null }) {
-  const { result: words } = messages.value;
+export function Actions({ fit, pictures }: { fit: Fit; pictures: readonly Picture[] }) {
+  const { fit: { of }, result: words } = messages.value;
+  const own = of[fit.kind];
   const problem = useSignal<Problem | null>(null);
   const copied = useSignal(false);
   const question = useQuestion();
@@ -37,16 +39,16 @@ export function Actions({ job, picture }: { job: Job; picture: Picture | null })
     });
   const erase = () =>
     attempt(async () => {
-      await eraseFit(job.id);
-      forget(job.id);
-      go(START_ADDRESS);
+      await eraseFit(fit);
+      forget(fit.id);
+      go(beginning(fit.kind));
     });
   return (
     <div class="submit">
       {problem.value && <ProblemNote problem={problem.value} />}
       {question.isAsked ? (
-        <div class="submit-row" role="group" aria-label={words.eraseQuestion}>
-          <span class="grow">{words.erase}</span>
+        <div class="submit-row" role="group" aria-label={own.deleteQuestion}>
+          <span class="grow">{own.erase}</span>
           <button class="button" type="button" ref={question.refusal} onClick={question.leave}>
             {words.keep}
           </button>
@@ -59,13 +61,13 @@ export function Actions({ job, picture }: { job: Job; picture: Picture | null })
           <button
             class="button is-primary grow"
             type="button"
-            disabled={!picture}
-            onClick={() => attempt(async () => openAgain(picture!, job))}
+            disabled={pictures.length === 0}
+            onClick={() => attempt(() => changeAgain(fit, pictures))}
           >
-            {words.changeAndFit}
+            {own.again}
           </button>
-          <IconButton icon={copied.value ? "check" : "link"} label={copied.value ? words.copied : words.copy} onClick={copy} />
-          <IconButton icon="trash" label={words.deleteFit} onClick={question.ask} buttonRef={question.asker} />
+          {!isEmbedded && <IconButton icon={copied.value ? "check" : "link"} label={copied.value ? words.copied : own.copy} onClick={copy} />}
+          <IconButton icon="trash" label={own.delete} onClick={question.ask} buttonRef={question.asker} />
         </div>
       )}
     </div>

@@ -1,13 +1,13 @@
 // The files of a result.
-import type { FitResult, Job, Scan } from "../api/types";
+import type { Fit, Result } from "../api/fits";
 import { messages } from "../messages/language";
 import { FileButton } from "./FileButton";
 import { tableOf } from "./files";
 
-export function Downloads({ job, result }: { job: Job | Scan; result: Pick<FitResult, "artifacts" | "measurements"> }) {
+export function Downloads({ fit, result }: { fit: Fit; result: Pick<Result, "artifacts" | "measurements"> }) {
   const sizes = new Map((result.artifacts ?? []).map((artifact) => [artifact.name, artifact.size]));
-  const table = result.measurements.length > 0 ? [tableOf(job)] : [];
-  const links = [...Object.entries(job.links.artifacts ?? {}), ...table];
+  const table = result.measurements.length > 0 ? [tableOf(fit)] : [];
+  const links = [...Object.entries(fit.links.artifacts ?? {}), ...table];
   const order = Object.keys(messages.value.files.labels);
   const rank = (name: string) => (order.includes(name) ? order.indexOf(name) : order.length);
   return (

@@ -1,112 +1,70 @@
 // How the fit went, what was found, and what had to be assumed.
-import { getRequest } from "../api/calls";
-import type { FitResult, Job } from "../api/types";
+import { getAsked } from "../api/calls";
+import type { Fit, FittedView, Result } from "../api/fits";
 import { termLabel } from "../fit/stages";
-import { plainName, wordFor } from "../messages/catalogue";
-import { decimal, listed, measured, percent, seconds } from "../messages/figures";
+import { proposedText } from "../measure/proposed";
+import { decimal, seconds } from "../messages/figures";
 import { messages } from "../messages/language";
 import { AssumptionNotes } from "../ui/AssumptionNotes";
-import { fromHeight, fromSide } from "../ui/direction";
-import { Served } from "../ui/Served";
-import { answered } from "../ui/answered";
 import { useAsked } from "../ui/asked";
-import { gradeInWords, gradeOf } from "./grade";
-import { explanationOf, isContradicted } from "./outcome";
+import { OfPicture } from "./OfPicture";
+import { WarningNotes } from "./WarningNotes";
+import { qualityOf } from "./grade";
 
-/** Of limbs that may slant either way this page tells by itself, with what can be done. */
-const OPEN_FACING = "ambiguous-limb-facing";
-
-const NOTHING: Pick<FitResult, "light" | "reflectance"> = { light: null, reflectance: null };
-
-interface Props {
-  readonly job: Job;
-  readonly result: FitResult;
-  /** Say which way these limbs slant; null until the picture is there. */
-  readonly onSayWhich: ((limbs: readonly string[]) => void) | null;
+export interface FactsProps {
+  readonly fit: Fit;
+  readonly result: Result;
+  /** Say which way these limbs slant in a picture; null until it is there. */
+  readonly onSayWhich: ((limbs: readonly string[], number: number) => void) | null;
 }
 
-export function Facts({ job, result, onSayWhich }: Props) {
-  const asked = useAsked(job.id, () => getRequest(job));
-  const { points, result: words } = messages.value;
-  const explained = explanationOf(result) ?? <Served text={result.outcome_explanation} />;
-  const { image_camera: camera } = result;
-  // Of a body that is not the picture's, light and skin say nothing.
-  const { light, reflectance } = isContradicted(result) ? NOTHING : result;
-  const mm = (camera.focal_length_px * 43.27) / Math.hypot(camera.width, camera.height);
-  const warnings = (result.warnings ?? []).filter((warning) => warning.code !== OPEN_FACING);
-  const open = result.limb_facing.filter((limb) => limb.ambiguous);
+export function Facts({ fit, result, onSayWhich }: FactsProps) {
+  const asked = useAsked(fit.id, () => getAsked(fit));
+  const { views } = result;
+  const { grade, text, agreement } = qualityOf(result);
+  const isOfSeveral = views.length > 1;
+  const proposed = isOfSeveral && asked && proposedText(views, asked);
   return (
     <>
-      <p class={`quality is-${gradeOf(result)}`} data-grade={gradeOf(result)}>
-        {gradeInWords(result)}
+      <p class={`quality is-${grade}`} data-grade={grade}>
+        {text}
       </p>
-      {isContradicted(result) && <p class="note is-problem">{explained}</p>}
-      <p class="fine">
-        {result.outcome !== "converged" && !isContradicted(result) && <>{explained} </>}
-        {words.foundBy[result.cues]}
-      </p>
-      {warnings.map((warning) => (
-        <p class="note" key={warning.code}>
-          {answered("warnings", warning.code) ?? <Served text={warning.message} />}
-        </p>
-      ))}
-      {open.length > 0 && (
-        <p class="note">
-          {words.openFacing(listed(open.map(({ limb, facing }) => words.slants[facing](wordFor(points.limbs, limb) ?? plainName(limb)))))}
-          {onSayWhich && " "}
-          {onSayWhich && (
-            <button class="link" type="button" onClick={() => onSayWhich(open.map(({ limb }) => limb))}>
-              {words.sayWhich}
-            </button>
-          )}
-        </p>
-      )}
-      <AssumptionNotes assumptions={result.assumptions} asked={asked?.points ?? null} />
-      <dl class={gradeOf(result) === "poor" ? "facts is-unreliable" : "facts"}>
-        <dt>{words.overlap}</dt>
-        <dd>{percent(result.silhouette_overlap, 1)}</dd>
-        <dt>{words.lens}</dt>
-        <dd>
-          {words.lensOf(measured(mm, "millimeter"), words.sources[result.focal_length_source])}
-        </dd>
-        {light && (
-          <>
-            <dt>{words.light}</dt>
-            <dd>{lightWords(light)}</dd>
-          </>
-        )}
-        {reflectance && (
-          <>
-            <dt>{words.skin}</dt>
-            <dd>
-              {words.skinOf(percent(reflectance.mean_albedo), percent(reflectance.mean_specularity))}
-              {!light?.surroundings && `; ${words.ambient(decimal(reflectance.ambient, 2))}`}
-            </dd>
-          </>
-        )}
-      </dl>
-      <details class="fold">
-        <summary>{words.expert}</summary>
-        <dl class="facts">
-          {Object.entries(result.energies).map(([name, value]) => (
-            <>
-              <dt>{termLabel(name)}</dt>
-              <dd>{decimal(value, 1)}</dd>
-            </>
-          ))}
-          <dt>{words.evaluations}</dt>
-          <dd>{decimal(result.evaluations)}</dd>
-          <dt>{words.time}</dt>
-          <dd>{seconds(Object.values(result.stage_seconds).reduce((sum, each) => sum + each, 0), 1)}</dd>
-        </dl>
-      </details>
+      {agreement && <p class="fine">{agreement}</p>}
+      <p class="fine">{messages.value.result.foundBy[result.cues]}</p>
+      <WarningNotes warnings={withoutFound(result)} views={views} />
+      {proposed && <p class="fine">{proposed}</p>}
+      <AssumptionNotes assumptions={result.assumptions} asked={null} />
+      {!isOfSeveral && <OfPicture view={views[0]!} views={views} asked={asked?.views[0]?.points ?? null} onSayWhich={onSayWhich} />}
+      <ForExperts result={result} />
     </>
   );
 }
 
-function lightWords({ kind, azimuth_deg, elevation_deg, distance_m, surroundings }: NonNullable<FitResult["light"]>): string {
+/** What a check of a picture found is told with the picture, and what to do about it. */
+function withoutFound({ warnings, views }: Result): Result["warnings"] {
+  const found = new Set(views.flatMap(({ findings }: FittedView) => findings.map(({ code }) => code as string)));
+  return warnings.filter(({ code }) => !found.has(code));
+}
+
+function ForExperts({ result: { energies, evaluations, stage_seconds } }: { result: Result }) {
   const { result: words } = messages.value;
-  const away = kind === "point" && distance_m !== null ? words.lightAway(measured(distance_m, "meter", 1)) : words.lightFar;
-  const light = [fromSide(azimuth_deg), fromHeight(elevation_deg), away].join(", ");
-  return surroundings ? words.lightAround(light) : light;
+  // Earlier versions kept none of scans.
+  if (evaluations === 0) return null;
+  return (
+    <details class="fold">
+      <summary>{words.expert}</summary>
+      <dl class="facts">
+        {Object.entries(energies).map(([name, value]) => (
+          <>
+            <dt>{termLabel(name)}</dt>
+            <dd>{decimal(value, 1)}</dd>
+          </>
+        ))}
+        <dt>{words.evaluations}</dt>
+        <dd>{decimal(evaluations)}</dd>
+        <dt>{words.time}</dt>
+        <dd>{seconds(Object.values(stage_seconds).reduce((sum, each) => sum + each, 0), 1)}</dd>
+      </dl>
+    </details>
+  );
 }

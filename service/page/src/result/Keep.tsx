@@ -3,7 +3,9 @@ import { useSignal } from "@preact/signals";
 import { getFile } from "../api/calls";
 import { problemFrom } from "../api/client";
 import { apiKey } from "../api/key";
-import type { Job, Problem } from "../api/types";
+import { nameOfView } from "../api/fits";
+import type { Fit } from "../api/fits";
+import type { Problem } from "../api/types";
 import { messages } from "../messages/language";
 import { Icon } from "../ui/Icon";
 import { ProblemNote } from "../ui/ProblemNote";
@@ -14,7 +16,7 @@ import { roomLink, thisDevice } from "./room";
 const BODY = "body_canonical.glb";
 const MESHES = ["glb", "obj", "usdz"] as const;
 
-export function Keep({ job, hasTable }: { job: Job; hasTable: boolean }) {
+export function Keep({ fit, hasTable }: { fit: Fit; hasTable: boolean }) {
   const { keep: words } = messages.value.files;
   const problem = useSignal<Problem | null>(null);
   const save = async (name: string, path: string) => {
@@ -25,9 +27,9 @@ export function Keep({ job, hasTable }: { job: Job; hasTable: boolean }) {
       problem.value = problemFrom(error);
     }
   };
-  const body = job.links.artifacts?.[BODY];
+  const body = fit.links.artifacts?.[BODY];
   const room = body ? roomLink(body, thisDevice(apiKey.value !== null)) : null;
-  const [table, tablePath] = tableOf(job);
+  const [table, tablePath] = tableOf(fit);
   return (
     <section class="section" aria-labelledby="keep-title">
       <h2 id="keep-title">{words.title}</h2>
@@ -52,16 +54,16 @@ export function Keep({ job, hasTable }: { job: Job; hasTable: boolean }) {
             </button>
           ))}
       </div>
-      {room && <InRoom job={job} {...room} />}
+      {room && <InRoom fit={fit} {...room} />}
       {problem.value && <ProblemNote problem={problem.value} />}
     </section>
   );
 }
 
 /** iOS takes a link for one to a body in the room only if a picture is all it holds. */
-function InRoom({ job, href, rel }: { job: Job; href: string; rel?: "ar" }) {
+function InRoom({ fit, href, rel }: { fit: Fit; href: string; rel?: "ar" }) {
   const { keep: words } = messages.value.files;
-  const url = usePictureOf(job, "views.png", rel === "ar");
+  const url = usePictureOf(fit, nameOfView(fit, "views.png", 0), rel === "ar");
   return (
     <p class="in-room">
       <a href={href} rel={rel}>

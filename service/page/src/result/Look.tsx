@@ -1,12 +1,14 @@
 // The body over its picture, from every side, or upright; its surface lit as Eq. 1 has it or in parts.
 import { useSignal } from "@preact/signals";
 import { useState } from "preact/hooks";
-import type { Job } from "../api/types";
+import { nameOfView } from "../api/fits";
+import type { Fit, Result } from "../api/fits";
 import type { Picture } from "../draft/picture";
 import { facingsOf, isEmpty } from "../flip/flips";
 import type { TurnedLimb } from "../flip/flips";
 import type { Turning } from "../flip/useFlips";
 import { hoverWords } from "../flip/words";
+import { viewLabels } from "../measure/views";
 import { percent } from "../messages/figures";
 import { messages } from "../messages/language";
 import { Choice } from "../ui/Choice";
@@ -20,7 +22,7 @@ import type { TapeEnds } from "../viewer/Tapes";
 import type { Side } from "../viewer/Turntable";
 import { FromSides } from "./FromSides";
 import { TapeLabels } from "./TapeLabels";
-import { useBodiesBeforeShading, usePictureOf } from "./files";
+import { isComparable, useBodiesBeforeShading, usePictureOf } from "./files";
 import type { ResultFiles } from "./files";
 
 const PLACEMENTS = ["picture", "turned", "canonical"] as const;
@@ -28,21 +30,29 @@ const SURFACES = ["lit", "clay", "albedo", "specularity", "shading", "residual"]
 const BODIES = ["SES", "SE"] as const;
 
 interface Props {
-  readonly job: Job;
+  readonly fit: Fit;
+  readonly result: Result;
   readonly files: ResultFiles;
+  /** That of the files. */
   readonly picture: Picture;
+  /** The number of the picture that was chosen; it is shown once the body in it has come. */
+  readonly chosen: number;
+  readonly onChoose: (number: number) => void;
   /** While something else is on the stage: what was chosen here stays chosen. */
   readonly hidden: boolean;
   readonly placement: Placement;
   readonly onPlace: (placement: Placement) => void;
   readonly turning: Turning;
-  readonly onFlip: (limb: TurnedLimb) => void;
+  /** Null where nothing is known of how limbs slant. */
+  readonly onFlip: ((limb: TurnedLimb) => void) | null;
   readonly measure: string | null;
   readonly onPoint: (name: string | null) => void;
   readonly onMeasure: (name: string) => void;
 }
 
-export function Look({ job, files, picture, hidden, placement, onPlace, turning, onFlip, measure, onPoint, onMeasure }: Props) {
+export function Look(props: Props) {
+  const { fit, result, files, picture, chosen: wanted, onChoose, hidden, placement, onPlace, turning, onFlip, measure, onPoint, onMeasure } = props;
+  const { number } = files;
   const { limbs, look } = messages.value;
   const { flips, pointedAt } = turning;
   const hasSkin = files.posed.light !== null;
@@ -56,23 +66,33 @@ export function Look({ job, files, picture, hidden, placement, onPlace, turning,
   const body = isEmpty(flips) ? chosen : "SES";
   const [from, setFrom] = useState<{ readonly side: Side } | null>(null);
   const ends = useSignal<readonly TapeEnds[]>([]);
-  const comparable = job.links.artifacts?.["body_posed_se.glb"] !== undefined;
-  const outlined = useBodiesBeforeShading(job, comparable && (body === "SE" || surface === "change"));
+  const comparable = isComparable(fit);
+  const outlined = useBodiesBeforeShading(fit, number, comparable && (body === "SE" || surface === "change"));
   const surfaces: readonly Surface[] = !hasSkin || body === "SE" ? ["clay"] : comparable ? [...SURFACES, "change"] : SURFACES;
   const over = placement === "picture";
   const turns = placement !== "canonical" && body === "SES";
-  const found = pointedAt && facingsOf(files.result)[pointedAt];
-  const overlay = usePictureOf(job, "overlay.png", lines && over);
-  const segmentation = usePictureOf(job, "segmentation.png", mask && over);
+  const found = pointedAt && facingsOf(result.views[number]!)[pointedAt];
+  const overlay = usePictureOf(fit, nameOfView(fit, "overlay.png", number), (lines || failed) && over);
+  const segmentation = usePictureOf(fit, nameOfView(fit, "segmentation.png", number), mask && over);
   return (
     <div class="look" hidden={hidden} style={{ "--ratio": String(picture.width / picture.height) }}>
       <div class="look-bar">
         <Choice name="placement" legend={look.view} quiet options={PLACEMENTS.map((value) => ({ value, ...look.placements[value] }))} value={placement} onChange={onPlace} />
+        {placement !== "canonical" && result.views.length > 1 && (
+          <Choice
+            name="picture"
+            legend={look.whichPicture}
+            quiet
+            options={viewLabels(result.views).map((label, at) => ({ value: String(at), label }))}
+            value={String(wanted)}
+            onChange={(at) => onChoose(Number(at))}
+          />
+        )}
         {!over && <FromSides onLook={setFrom} />}
       </div>
       <div class="look-room">
         <div class={over ? "look-picture" : "look-free"}>
-          {over && <img src={lines && overlay ? overlay : picture.url} alt={look.picture} />}
+          {over && <img src={overlay ?? picture.url} alt={look.picture} />}
           {failed ? (
             <p class="note is-problem" role="alert">
               {look.noWebgl}
@@ -94,12 +114,12 @@ export function Look({ job, files, picture, hidden, placement, onPlace, turning,
               flips={flips}
               limb={pointedAt}
               onPointLimb={turning.point}
-              onFlip={onFlip}
+              onFlip={onFlip ?? undefined}
               onFailure={() => setFailed(true)}
             />
           )}
           {placement === "canonical" && !failed && (
-            <TapeLabels ends={ends} measurements={files.result.measurements} marked={measure} onPoint={onPoint} onShow={onMeasure} />
+            <TapeLabels ends={ends} measurements={result.measurements} marked={measure} onPoint={onPoint} onShow={onMeasure} />
           )}
           {over && mask && segmentation && <MaskOutline url={segmentation} label={look.silhouetteLabel} />}
         </div>

@@ -1,57 +1,73 @@
 // What came out: to look at on the left, to read on the right.
 import { useEffect, useRef, useState } from "preact/hooks";
-import type { Derivation, Job } from "../api/types";
+import type { Fit, Result } from "../api/fits";
+import type { Derivation } from "../api/types";
 import { DerivedPanel } from "../derived/DerivedPanelLater";
 import { ProductStage } from "../derived/ProductStage";
 import type { Picture } from "../draft/picture";
 import { LimbList, goToLimb, openList } from "../flip/LimbList";
 import { PreviewBar } from "../flip/PreviewBar";
-import { isEmpty, isTurnedLimb } from "../flip/flips";
+import { areAllEmpty, isTurnedLimb } from "../flip/flips";
+import type { TurnedLimb } from "../flip/flips";
 import { useFlips } from "../flip/useFlips";
 import { messages } from "../messages/language";
-import { openAgain } from "../panel/open";
 import { useEscape } from "../ui/escape";
 import { ProblemNote } from "../ui/ProblemNote";
+import type { Placement } from "../viewer/BodyScene";
 import { Actions } from "./Actions";
 import { Downloads } from "./Downloads";
 import { Facts } from "./Facts";
+import { OfPictures } from "./OfPictures";
 import { useResultFiles } from "./files";
 import { Keep } from "./Keep";
 import { Loading } from "./Loading";
 import { Look } from "./Look";
 import { Measures, rowOf } from "./Measures";
 import { Withheld } from "./Withheld";
-import { measureAnyway } from "./again";
+import { changeAgain, measureAnyway } from "./again";
 import { gradeOf } from "./grade";
 import { headingOf } from "./outcome";
-import { withoutShading } from "./reading";
-import type { Placement } from "../viewer/BodyScene";
 
-export function ResultView({ job, picture }: { job: Job; picture: Picture | null }) {
+const NO_VIEWS: Result["views"] = [];
+
+export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Picture[] }) {
   const { result: words } = messages.value;
-  const { result, files, loaded, problem } = useResultFiles(job);
+  const [wanted, want] = useState(0);
+  const { result, files, loaded, problem } = useResultFiles(fit, wanted);
   const [pointedAt, pointAt] = useState<string | null>(null);
   const [shown, show] = useState<string | null>(null);
   const [placement, setPlacement] = useState<Placement>("picture");
   const [product, setProduct] = useState<Derivation | null>(null);
-  const turning = useFlips(result);
+  const [sought, seek] = useState<TurnedLimb | null>(null);
+  const number = files?.number ?? wanted;
+  const views = result?.views ?? NO_VIEWS;
+  const view = views[number];
+  const picture = pictures[number] ?? null;
+  const turning = useFlips(views, number);
   const stage = useRef<HTMLDivElement>(null);
   const hasResult = result !== null;
   useEffect(() => {
     // Along with the bodies, not after them; if it fails, the canvas says so.
     if (hasResult) import("../viewer/BodyScene").catch(() => undefined);
   }, [hasResult]);
+  useEffect(() => {
+    // Its picture may have to be there first.
+    if (!sought || number !== wanted) return;
+    goToLimb(sought);
+    seek(null);
+  }, [sought, number]);
   // Where picture and text are stacked the stage may be out of sight.
   const toStage = () => stage.current?.scrollIntoView({ block: "nearest" });
   useEscape([
     [product !== null, () => setProduct(null)],
-    [!isEmpty(turning.flips), turning.takeBack],
+    [!areAllEmpty(turning.all), turning.takeBack],
     [shown !== null, () => show(null)],
   ]);
-  const sayWhich = (limbs: readonly string[]) => {
+  const sayWhich = (limbs: readonly string[], of: number) => {
     const limb = limbs.find(isTurnedLimb);
-    if (limb) goToLimb(limb);
-    else void openAgain(picture!, job);
+    if (!limb) return void changeAgain(fit, pictures);
+    want(of);
+    seek(limb);
   };
   if (problem) {
     return (
@@ -61,23 +77,30 @@ export function ResultView({ job, picture }: { job: Job; picture: Picture | null
       </main>
     );
   }
+  // Earlier versions told none of several pictures.
+  const knowsLimbs = view !== undefined && view.limb_facing.length > 0;
+  const flipOnBody = (limb: TurnedLimb) => {
+    openList();
+    turning.flip(limb);
+  };
+  const facts = result && { fit, result, onSayWhich: picture && sayWhich };
   return (
-    <main class="bench is-result" aria-busy={files === null} data-fit={job.id}>
+    <main class="bench is-result" aria-busy={files === null || number !== wanted} data-fit={fit.id}>
       <div class="bench-stage" ref={stage}>
         {product && <ProductStage key={product.id} made={product} onBack={() => setProduct(null)} />}
-        {files && picture ? (
+        {result && files && picture ? (
           <Look
-            job={job}
+            fit={fit}
+            result={result}
             files={files}
             picture={picture}
+            chosen={wanted}
+            onChoose={want}
             hidden={product !== null}
             placement={placement}
             onPlace={setPlacement}
             turning={turning}
-            onFlip={(limb) => {
-              openList();
-              turning.flip(limb);
-            }}
+            onFlip={knowsLimbs ? flipOnBody : null}
             measure={pointedAt ?? shown}
             onPoint={pointAt}
             onMeasure={(name) => {
@@ -93,11 +116,13 @@ export function ResultView({ job, picture }: { job: Job; picture: Picture | null
         <div class="panel-scroll">
           <section class="section">
             <h1 class="title">{result ? headingOf(result) : words.body}</h1>
-            {result ? <Facts job={job} result={result} onSayWhich={picture && sayWhich} /> : <p class="fine">{words.loading}</p>}
+            {facts ? <Facts {...facts} /> : <p class="fine">{words.loading}</p>}
           </section>
-          {result && (
+          {facts && views.length > 1 && <OfPictures {...facts} />}
+          {view && knowsLimbs && (
             <LimbList
-              result={result}
+              view={view}
+              isOfSeveral={views.length > 1}
               flips={turning.flips}
               pointedAt={turning.pointedAt}
               onPoint={turning.point}
@@ -110,12 +135,12 @@ export function ResultView({ job, picture }: { job: Job; picture: Picture | null
               }}
             />
           )}
-          {result && result.measurements.length === 0 && <Withheld onAnyway={picture && (() => measureAnyway(picture, job))} />}
+          {result && result.measurements.length === 0 && <Withheld onAnyway={() => measureAnyway(fit)} />}
           {result && result.measurements.length > 0 && (
             <Measures
               measurements={result.measurements}
-              before={withoutShading(result)}
-              reliable={gradeOf(result) !== "poor"}
+              before={result.outlined}
+              reliable={views.every((each) => gradeOf(each) !== "poor")}
               pointedAt={pointedAt ?? shown}
               onPoint={pointAt}
               onShow={(name) => {
@@ -126,11 +151,11 @@ export function ResultView({ job, picture }: { job: Job; picture: Picture | null
               }}
             />
           )}
-          {result && <Keep job={job} hasTable={result.measurements.length > 0} />}
+          {result && <Keep fit={fit} hasTable={result.measurements.length > 0} />}
           {result && (
             <DerivedPanel
-              parent={job}
-              hasLight={result.light !== null}
+              parent={fit}
+              hasLight={views[0]!.light !== null}
               onStage={product?.id ?? null}
               onShow={(made) => {
                 setProduct(made);
@@ -138,12 +163,12 @@ export function ResultView({ job, picture }: { job: Job; picture: Picture | null
               }}
             />
           )}
-          {result && <Downloads job={job} result={result} />}
+          {result && <Downloads fit={fit} result={result} />}
         </div>
-        {isEmpty(turning.flips) ? (
-          <Actions job={job} picture={picture} />
+        {areAllEmpty(turning.all) ? (
+          <Actions fit={fit} pictures={pictures} />
         ) : (
-          <PreviewBar job={job} picture={picture} flips={turning.flips} onTakeBack={turning.takeBack} />
+          <PreviewBar fit={fit} views={views} flips={turning.all} onTakeBack={turning.takeBack} />
         )}
       </div>
     </main>

@@ -1,37 +1,46 @@
-// A fit that is asked for once more, with a little of it changed; the first one stays.
-import { getFile, getRequest, submitFit, uploadImage } from "../api/calls";
-import type { FitOptions, Job } from "../api/types";
+// A fit that is asked for once more, with a little of it changed or by hand; the first one stays.
+import { getAsked, getFile, submitFit, submitScan, uploadImage } from "../api/calls";
+import { askedOfView } from "../api/fits";
+import type { Asked, AskedView, Fit } from "../api/fits";
+import type { ScanOfImages } from "../api/types";
 import type { Picture } from "../draft/picture";
-import type { Flips } from "../flip/flips";
-import { remember, seen, thumbnailOf } from "../history/store";
+import type { FlipsOfViews } from "../flip/flips";
+import { entries, remember, seen } from "../history/store";
+import { reopen } from "../measure/send";
+import { openAgain } from "../panel/open";
 import { fitAddress, go } from "../route";
 
+/** Take up what was asked for where it was prepared, to be changed and sent again. */
+export function changeAgain(fit: Fit, pictures: readonly Picture[]): Promise<void> {
+  return fit.kind === "fit" ? openAgain(fit, pictures[0]!) : reopen(fit);
+}
+
 /** Have the measurements in any case. */
-export function measureAnyway(picture: Picture, job: Job): Promise<void> {
-  return fitAgain(picture, job, () => ({ force: true }));
+export function measureAnyway(fit: Fit): Promise<void> {
+  return fitAgain(fit, (asked) => ({ ...asked, force: true }));
 }
 
 /** With limbs that point where it was said; what was said of others before holds. */
-export function fitWithFlips(picture: Picture, job: Job, flips: Flips): Promise<void> {
-  return fitAgain(picture, job, ({ limb_facing }) => ({ limb_facing: { ...limb_facing, ...flips } }));
+export function fitWithFlips(fit: Fit, flips: FlipsOfViews): Promise<void> {
+  const turned = (view: AskedView, number: number) => ({ ...view, limb_facing: { ...view.limb_facing, ...flips[number] } });
+  return fitAgain(fit, (asked) => ({ ...asked, views: asked.views.map(turned) }));
 }
 
-/** Fit the same picture again, with its points and its mask, and go there. */
-async function fitAgain(picture: Picture, job: Job, changed: (asked: FitOptions) => Partial<FitOptions>): Promise<void> {
-  const upload = (file: Blob) => uploadImage(file, new AbortController().signal);
-  const [asked, image, mask] = await Promise.all([
-    getRequest(job),
-    upload(picture.file),
-    job.links.mask ? getFile(job.links.mask).then(upload) : null,
-  ]);
-  const begun = await submitFit({
-    ...asked,
-    ...changed(asked),
-    image_id: image.id,
-    ...(mask ? { mask_id: mask.id } : {}),
-    ...(job.label ? { label: job.label } : {}),
-  });
+/** Fit the same pictures again, with their points and masks, and go there. */
+async function fitAgain(fit: Fit, changed: (asked: Asked) => Asked): Promise<void> {
+  const copy = async (path: string) => (await uploadImage(await getFile(path), new AbortController().signal)).id;
+  const sent = async ({ image, mask }: Fit["pictures"][number]) => ({ image_id: await copy(image), ...(mask ? { mask_id: await copy(mask) } : {}) });
+  const [asked, images] = await Promise.all([getAsked(fit).then(changed), Promise.all(fit.pictures.map(sent))]);
+  const begun = await submitted(fit, asked, images);
   seen(begun);
-  remember({ id: begun.id, name: picture.name, startedAt: begun.created_at, thumbnail: thumbnailOf(picture.element) });
-  go(fitAddress(begun.id));
+  const known = entries.value.find(({ id }) => id === fit.id);
+  if (known) remember({ ...known, id: begun.id, startedAt: begun.created_at });
+  go(fitAddress(begun));
+}
+
+function submitted({ kind, label }: Fit, asked: Asked, images: readonly { image_id: string; mask_id?: string }[]): Promise<Fit> {
+  const whole = label ? { label } : {};
+  if (kind === "fit") return submitFit({ ...askedOfView(asked, 0), ...whole, ...images[0]! });
+  const views = asked.views.map((view, number) => ({ ...view, ...images[number]! }));
+  return submitScan({ ...asked, ...whole, views: views as ScanOfImages["views"] });
 }

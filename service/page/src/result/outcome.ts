@@ -1,25 +1,29 @@
 // How a fit ended, as a person reads it.
-import type { FitResult } from "../api/types";
+import type { FittedView, Result } from "../api/fits";
+import { plainly } from "../measure/plainly";
 import { wordFor } from "../messages/catalogue";
 import { percent } from "../messages/figures";
 import { messages } from "../messages/language";
 import { answered } from "../ui/answered";
 
 /** Whether the picture contradicts that a person was measured. */
-export function isContradicted({ verdict }: Pick<FitResult, "verdict">): boolean {
-  // Fits of earlier versions have no verdict.
-  return (verdict ?? "plausible") !== "plausible";
+export function isContradicted({ verdict }: Pick<FittedView, "verdict">): boolean {
+  return verdict !== "plausible";
 }
 
-export function headingOf(result: Pick<FitResult, "outcome" | "verdict">): string {
+type Headed = Pick<Result, "verdict"> & { readonly views: readonly Pick<FittedView, "outcome">[] };
+
+export function headingOf({ verdict, views }: Headed): string {
   const { result: words } = messages.value;
-  return wordFor(words.verdicts, result.verdict ?? "") ?? (result.outcome === "poor_fit" ? words.poorFit : words.body);
+  const isPoor = views.some(({ outcome }) => outcome === "poor_fit");
+  return wordFor(words.verdicts, verdict) ?? (isPoor ? words.poorFit : words.body);
 }
 
 /** What an outcome other than convergence means, and what to do; null where the service says it better. */
-export function explanationOf(result: Pick<FitResult, "outcome" | "verdict" | "silhouette_overlap">): string | null {
+export function explanationOf(view: Pick<FittedView, "outcome" | "verdict" | "silhouette_overlap">, isOfSeveral: boolean): string | null {
   const { result: words } = messages.value;
-  if (!isContradicted(result)) return wordFor(words.explained, result.outcome);
-  const said = answered("verdicts", result.verdict!);
-  return said && `${said} ${words.overlapIs(percent(result.silhouette_overlap))}`;
+  if (!isContradicted(view)) return wordFor(words.explained, view.outcome);
+  if (isOfSeveral) return plainly("verdicts", view.verdict);
+  const said = answered("verdicts", view.verdict);
+  return said && `${said} ${words.overlapIs(percent(view.silhouette_overlap))}`;
 }

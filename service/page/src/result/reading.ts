@@ -1,6 +1,6 @@
 // Measurements as a person reads them.
 import { MEASUREMENTS } from "../api/limits";
-import type { FitResult, Measurement } from "../api/types";
+import type { Measurement } from "../api/types";
 import { feetAndInches } from "../draft/feet";
 import type { Person } from "../draft/person";
 import { plainName, wordFor } from "../messages/catalogue";
@@ -78,12 +78,6 @@ export function difference(measurement: Measurement, other: Measurement, units: 
   const { factor } = inUnit(measurement.unit, units);
   const by = (measurement.value - other.value) * factor;
   return Math.abs(by) < 0.05 ? decimal(0, 1) : `${by > 0 ? "+" : "−"}${decimal(Math.abs(by), 1)}`;
-}
-
-/** The same measurements by silhouette and edges alone; null where shading was not used. */
-export function withoutShading(result: FitResult): readonly Measurement[] | null {
-  if (result.cues !== "SES") return null;
-  return result.stages.find((stage) => stage.name === "SE")?.measurements ?? null;
 }
 
 export function inUnit(unit: string, units: Person["units"]): { factor: number; unit: string } {

@@ -1,11 +1,11 @@
 // What was announced on one screen is not said on the next.
 import { effect } from "@preact/signals";
-import { isMeasuring, isOnAccuracy, openFit, openScan } from "../route";
+import { isMeasuring, isOnAccuracy, openFit } from "../route";
 import { announce } from "./announce";
 
 export function startForgetting(): void {
   effect(() => {
-    void [openFit.value, openScan.value, isMeasuring.value, isOnAccuracy.value];
+    void [openFit.value, isMeasuring.value, isOnAccuracy.value];
     announce("");
   });
 }

@@ -1,6 +1,7 @@
 // All that the page knows of a kind of derivation.
 import type { ComponentChildren, JSX } from "preact";
-import type { DerivationRequest, DerivationResult, Job, Scan } from "../../api/types";
+import type { Fit } from "../../api/fits";
+import type { DerivationRequest, DerivationResult } from "../../api/types";
 
 /** A picture that shows what came out. */
 export interface Shows {
@@ -29,7 +30,7 @@ export interface Turns {
 
 /** What is asked of a person who chooses this kind. */
 export interface OptionProps<Wishes> {
-  readonly parent: Job | Scan;
+  readonly parent: Fit;
   /** Whether the fit found the light, so that it can be taken out of the picture. */
   readonly hasLight: boolean;
   readonly wishes: Wishes;

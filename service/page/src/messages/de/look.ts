@@ -8,6 +8,7 @@ export const look: Messages["look"] = {
     turned: { label: "Drehen", title: "Ziehen dreht, Mausrad oder zwei Finger holen näher" },
     canonical: { label: "Aufrecht", title: "In der Haltung, in der gemessen wird" },
   },
+  whichPicture: "Bild",
   from: "Ansehen",
   sides: { front: "Von vorn", side: "Von der Seite", back: "Von hinten" },
   side: "Von der Seite",

@@ -35,6 +35,7 @@ export const measure: Messages["measure"] = {
     other: { label: "Aus anderer Richtung", picture: "Bild aus anderer Richtung" },
   },
   ofPicture: (picture) => `Das ${picture}`,
+  viewNumber: (view, number) => `${view} ${number}`,
   place: {
     stances: {
       front: "Sehen Sie in die Kamera. Die Füße schulterbreit auseinander, die Arme deutlich vom Körper weg.",
@@ -93,40 +94,6 @@ export const measure: Messages["measure"] = {
     right: "Drehen Sie das Telefon nach rechts",
     down: "Die Kamera sieht nach oben: Neigen Sie sie nach unten",
     up: "Die Kamera sieht nach unten: Neigen Sie sie nach oben",
-  },
-  progress: {
-    queued: "Der Scan wartet",
-    running: "Es wird gemessen",
-    label: "Fortschritt des Scans",
-    sent: "Die Bilder sind beim Dienst.",
-    beginning: "Beginnt …",
-    picture: (number) => `Bild ${number}`,
-    alone: (number) => `Bild ${number} für sich`,
-    together: "Alle Bilder zusammen",
-    stage: (what, stage) => `${what}: ${stage}`,
-  },
-  ended: {
-    gone: "Diesen Scan gibt es nicht mehr",
-    notShown: "Dieser Scan lässt sich nicht zeigen",
-    somebody: "Jemanden messen",
-    picture: (number) => `Bild ${number} dieses Scans`,
-    change: "Bilder ändern und neu messen",
-    states: {
-      failed: "Es konnte niemand gemessen werden",
-      canceled: "Der Scan wurde abgebrochen",
-      timed_out: "Der Scan dauerte zu lange",
-    },
-  },
-  result: {
-    shown: {
-      pictures: { label: "Über den Bildern", title: "Der Umriss des Körpers über jedem Bild" },
-      upright: { label: "Drehen", title: "In der Haltung, in der gemessen wird; Ziehen dreht" },
-    },
-    overlay: (picture) => `Der Umriss des Körpers: ${picture}`,
-    change: "Ändern und neu messen",
-    delete: "Diesen Scan löschen",
-    deleteQuestion: "Diesen Scan löschen?",
-    erase: "Diesen Scan mit seinen Bildern löschen?",
   },
   quality: {
     contradicted: "Ein Bild zeigt keine Person, wie es soll: Nehmen Sie es neu auf.",

@@ -52,12 +52,7 @@ export const result: Messages["result"] = {
   withheld: "Sie werden zurückgehalten: Es wären die eines Körpers, den niemand im Bild hat.",
   measureAnyway: "Trotzdem messen",
   copied: "Kopiert",
-  copy: "Link zu dieser Auswertung kopieren",
   linkCopied: "Der Link ist kopiert.",
-  eraseQuestion: "Diese Auswertung löschen?",
-  erase: "Diese Auswertung mit ihrem Bild löschen?",
   keep: "Behalten",
   delete: "Löschen",
-  deleteFit: "Diese Auswertung löschen",
-  changeAndFit: "Ändern und neu auswerten",
 };

@@ -6,6 +6,7 @@ export const look = {
     turned: { label: "Turn", title: "Drag to turn, wheel or pinch to come nearer" },
     canonical: { label: "Upright", title: "In the pose it is measured in" },
   },
+  whichPicture: "Picture",
   from: "Look at it",
   sides: { front: "From the front", side: "From the side", back: "From the back" },
   side: "From the side",

@@ -35,6 +35,8 @@ export const measure = {
     other: { label: "Other", picture: "other picture" },
   },
   ofPicture: (picture: string) => `The ${picture}`,
+  /** One of several pictures of the same kind. */
+  viewNumber: (view: string, number: number) => `${view} ${number}`,
   place: {
     stances: {
       front: "Face the camera. Feet apart as wide as the shoulders, arms well away from the body.",
@@ -93,36 +95,6 @@ export const measure = {
     right: "Turn the phone to the right",
     down: "The camera looks up: tilt it down",
     up: "The camera looks down: tilt it up",
-  },
-  progress: {
-    queued: "Waiting for its turn",
-    running: "Measuring",
-    label: "Progress of the scan",
-    sent: "The pictures are with the service.",
-    beginning: "Beginning …",
-    picture: (number: number) => `Picture ${number}`,
-    alone: (number: number) => `Picture ${number} by itself`,
-    together: "All pictures together",
-    stage: (what: string, stage: string) => `${what}: ${stage.toLowerCase()}`,
-  },
-  ended: {
-    gone: "This scan is gone",
-    notShown: "This scan cannot be shown",
-    somebody: "Measure somebody",
-    picture: (number: number) => `Picture ${number} of this scan`,
-    change: "Change the pictures and measure again",
-    states: { failed: "Nobody could be measured", canceled: "The scan was canceled", timed_out: "The scan took too long" },
-  },
-  result: {
-    shown: {
-      pictures: { label: "Over the pictures", title: "The body’s outline over each picture" },
-      upright: { label: "Turn", title: "In the pose it is measured in; drag to turn" },
-    },
-    overlay: (picture: string) => `The body’s outline over the ${picture}`,
-    change: "Change and measure again",
-    delete: "Delete this scan",
-    deleteQuestion: "Delete this scan?",
-    erase: "Erase this scan with its pictures?",
   },
   quality: {
     contradicted: "A picture does not show a person as it should: take it again.",

@@ -51,12 +51,7 @@ export const result = {
   withheld: "They are withheld: they would be those of a body that nobody in the picture has.",
   measureAnyway: "Measure anyway",
   copied: "Copied",
-  copy: "Copy the link to this fit",
   linkCopied: "The link is copied.",
-  eraseQuestion: "Delete this fit?",
-  erase: "Erase this fit with its picture?",
   keep: "Keep",
   delete: "Delete",
-  deleteFit: "Delete this fit",
-  changeAndFit: "Change and fit again",
 } as const;

@@ -1,1 +1,0 @@
-import{V as e,t}from"/page/chunk.P3KUDBRG.js";import{k as r}from"/page/chunk.FYEOZON2.js";var i=r([]);async function m(){try{i.value=(await e()).map(({label:o})=>o)}catch(o){if(!(o instanceof t))throw o}}export{i as a,m as b};
