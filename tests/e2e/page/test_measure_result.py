@@ -186,6 +186,40 @@ def test_limbs_are_turned_in_each_picture_and_all_is_fitted_again(
     assert [view["view"] for view in asked["views"]] == ["front", "side"]
 
 
+def test_points_of_one_picture_are_corrected_and_all_are_measured_again(
+    visitor: Visitor, scan: dict, service: httpx.Client
+):
+    page = visitor.page
+    before = service.get(scan["links"]["request"]).raise_for_status().json()["views"]
+    sent: list[dict] = []
+
+    def keep(route: Route) -> None:
+        sent.append(json.loads(route.request.post_data or "{}"))
+        route.fulfill(status=202, json=scan)
+
+    page.route("**/v1/scans", keep)
+    open_scan(visitor, scan)
+    side = page.locator('[data-view="1"]')
+    if side.get_attribute("open") is None:
+        side.get_by_role("heading", name="The side picture").click()
+    side.get_by_role("button", name="Correct its points").click()
+    visitor.wait_for_stage()
+    expect(page.get_by_role("button", name="Fit the body")).to_be_enabled()
+    # Whose picture it is outlives the page, as the rest of a draft does.
+    page.reload()
+    visitor.wait_for_stage()
+    expect(page.get_by_text("One of several pictures")).to_be_visible()
+    page.get_by_label("Height", exact=True).fill("156")
+    page.get_by_role("button", name="Fit the body").click()
+    expect(page).to_have_url(re.compile(r"#/scans/[0-9a-f-]{36}$"))
+    (asked,) = sent
+    assert asked["height_m"] == 1.56
+    front, corrected = asked["views"]
+    assert (front["view"], corrected["view"]) == ("front", "side")
+    assert (front["points"], "mask_id" in front) == (before[0]["points"], True)
+    assert "left_wrist" in corrected["points"]
+
+
 def test_measuring_by_force_sends_the_masks_again(visitor: Visitor, scan: dict):
     page = visitor.page
     sent: list[dict] = []

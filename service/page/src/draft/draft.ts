@@ -1,5 +1,6 @@
 // The fit that is being prepared: a few signals, and what follows from them.
 import { batch, computed, signal } from "@preact/signals";
+import type { FitRef } from "../api/fits";
 import type { Clothing, Cues, Facing, Limb, LightGuess, Surroundings, UploadedImage } from "../api/types";
 import { messages } from "../messages/language";
 import type { PointName } from "../points/catalogue";
@@ -11,6 +12,8 @@ import type { Person } from "./person";
 import type { Picture } from "./picture";
 
 export const picture = signal<Picture | null>(null);
+/** The fit of several pictures that this is one of, and which; null of a picture that is fitted alone. */
+export const oneOf = signal<(FitRef & { readonly number: number }) | null>(null);
 /** Of an earlier visit, and nobody has gone on with it yet: nothing of it is sent. */
 export const isAsleep = signal(false);
 export const uploaded = signal<UploadedImage | null>(null);
@@ -56,6 +59,7 @@ export function usePicture(next: Picture | null): void {
   batch(() => {
     if (picture.value) URL.revokeObjectURL(picture.value.url);
     picture.value = next;
+    oneOf.value = null;
     isAsleep.value = false;
     uploaded.value = null;
     timeline.value = begin<Points>(NO_POINTS);

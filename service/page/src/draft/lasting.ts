@@ -18,6 +18,7 @@ import type { StoredDraft, StoredRest } from "./storage";
 export const isRestoring = signal(true);
 
 interface Rest {
+  readonly oneOf: typeof draft.oneOf.value;
   readonly points: Points;
   readonly person: Person;
   readonly focalLength: typeof draft.focalLength.value;
@@ -34,6 +35,7 @@ interface Rest {
 }
 
 const rest = computed<Rest>(() => ({
+  oneOf: draft.oneOf.value,
   points: draft.points.value,
   person: draft.person.value,
   focalLength: draft.focalLength.value,
@@ -107,6 +109,8 @@ async function restored({ picture, rest: said }: StoredDraft): Promise<Picture |
   if (draft.picture.value !== null) return null;
   batch(() => {
     draft.usePicture(opened);
+    // Earlier versions of this page kept none.
+    draft.oneOf.value = rest.oneOf ?? null;
     draft.timeline.value = begin(rest.points);
     draft.person.value = rest.person;
     draft.focalLength.value = rest.focalLength;

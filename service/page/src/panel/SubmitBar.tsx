@@ -4,7 +4,7 @@ import { submitFit, uploadImage } from "../api/calls";
 import { problemFrom } from "../api/client";
 import { UNREACHABLE, isCutOff } from "../api/connection";
 import type { Problem } from "../api/types";
-import { person, picture, todo, uploaded } from "../draft/draft";
+import { oneOf, person, picture, todo, uploaded } from "../draft/draft";
 import { liveBody } from "../draft/live";
 import { labelOf } from "../draft/person";
 import { draftedChoices, draftedSubject } from "../draft/request";
@@ -12,6 +12,7 @@ import { uploadProblem } from "../draft/uploading";
 import { assumed, remember, seen, thumbnailOf } from "../history/store";
 import { maskToSend } from "../mask/edits";
 import { messages } from "../messages/language";
+import { fitWithPicture } from "../result/again";
 import { fitAddress, go } from "../route";
 import { ProblemNote } from "../ui/ProblemNote";
 import { discard } from "./open";
@@ -31,18 +32,18 @@ export function SubmitBar() {
       const kept = uploaded.value ?? (await upload(shown.file));
       const cutOut = await maskToSend();
       const cut = cutOut && (await upload(cutOut));
-      const fit = await submitFit({
-        ...subject,
-        image_id: kept.id,
-        ...draftedChoices(),
-        ...labelOf(person.value),
-        ...(cut ? { mask_id: cut.id } : {}),
-      });
-      seen(fit);
-      assumed.value = { ...assumed.value, [fit.id]: liveBody.value?.assumptions ?? [] };
-      remember({ kind: fit.kind, id: fit.id, name: shown.name, startedAt: fit.created_at, thumbnail: thumbnailOf(shown.element) });
+      const asked = { ...subject, ...draftedChoices() };
+      const called = labelOf(person.value);
+      if (oneOf.value) {
+        await fitWithPicture(oneOf.value, asked, called.label, cut?.id ?? null);
+      } else {
+        const fit = await submitFit({ ...asked, image_id: kept.id, ...called, ...(cut ? { mask_id: cut.id } : {}) });
+        seen(fit);
+        assumed.value = { ...assumed.value, [fit.id]: liveBody.value?.assumptions ?? [] };
+        remember({ kind: fit.kind, id: fit.id, name: shown.name, startedAt: fit.created_at, thumbnail: thumbnailOf(shown.element) });
+        go(fitAddress(fit));
+      }
       // From here on the service has it: the next fit is another person's.
-      go(fitAddress(fit));
       if (picture.value === shown) discard();
     } catch (error) {
       problem.value = problemFrom(error);
@@ -62,6 +63,7 @@ export function SubmitBar() {
         </p>
       )}
       {fault && <ProblemNote problem={fault} />}
+      {oneOf.value && <p class="fine">{panel.oneOfSeveral}</p>}
       <button class="button is-primary is-wide" type="button" disabled={todo.value !== null || sending.value} onClick={send}>
         {sending.value ? frame.sending : (todo.value ?? panel.submit)}
       </button>

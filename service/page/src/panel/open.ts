@@ -4,7 +4,7 @@ import { getAsked, getFile } from "../api/calls";
 import { askedOfView } from "../api/fits";
 import type { Fit } from "../api/fits";
 import type { FitOptions } from "../api/types";
-import { change, person, points, useMask, usePicture } from "../draft/draft";
+import { change, oneOf, person, points, useMask, usePicture } from "../draft/draft";
 import { openPicture } from "../draft/chosen";
 import { shownPicture } from "../draft/picture";
 import type { Picture } from "../draft/picture";
@@ -53,9 +53,9 @@ export async function trySample(name: string, beginning: Beginning): Promise<voi
   });
 }
 
-/** A fit's only picture, mask and request, to be changed and sent again. */
-export async function openAgain(fit: Fit, picture: Picture): Promise<void> {
-  const { mask: maskPath } = fit.pictures[0]!;
+/** One of a fit's pictures with its mask and what was asked of it, to be changed and sent again. */
+export async function openAgain(fit: Fit, number: number, picture: Picture): Promise<void> {
+  const { mask: maskPath } = fit.pictures[number]!;
   const [asked, mask, opened] = await Promise.all([
     getAsked(fit),
     maskPath ? getFile(maskPath).then((file) => shownPicture(file, messages.value.start.maskOfFit)) : null,
@@ -64,7 +64,8 @@ export async function openAgain(fit: Fit, picture: Picture): Promise<void> {
   ]);
   begin(() => {
     use(opened);
-    loadDraft(askedOfView(asked, 0));
+    oneOf.value = fit.pictures.length > 1 ? { kind: fit.kind, id: fit.id, number } : null;
+    loadDraft(askedOfView(asked, number));
     person.value = { ...person.value, label: fit.label ?? "" };
     useMask(mask);
     // The service proposed all of them.

@@ -1,9 +1,15 @@
 // What there is to say of each of several pictures; folded where it is good.
 import { viewTitles } from "../measure/views";
+import { messages } from "../messages/language";
 import type { FactsProps } from "./Facts";
 import { OfPicture, hasNotes } from "./OfPicture";
 
-export function OfPictures({ result: { views }, onSayWhich }: FactsProps) {
+interface Props extends FactsProps {
+  /** Correct the points of a picture; null until it is there, and where they cannot be. */
+  readonly onCorrect: ((number: number) => void) | null;
+}
+
+export function OfPictures({ result: { views }, onSayWhich, onCorrect }: Props) {
   const titles = viewTitles(views);
   return (
     <>
@@ -14,6 +20,11 @@ export function OfPictures({ result: { views }, onSayWhich }: FactsProps) {
           </summary>
           <div class="of-picture">
             <OfPicture view={view} views={views} asked={null} onSayWhich={onSayWhich} />
+            {onCorrect && (
+              <button class="button is-small" type="button" onClick={() => onCorrect(view.number)}>
+                {messages.value.result.correct}
+              </button>
+            )}
           </div>
         </details>
       ))}

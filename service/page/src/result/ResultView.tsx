@@ -11,6 +11,8 @@ import { areAllEmpty, isTurnedLimb } from "../flip/flips";
 import type { TurnedLimb } from "../flip/flips";
 import { useFlips } from "../flip/useFlips";
 import { messages } from "../messages/language";
+import { openAgain } from "../panel/open";
+import { isEmbedded } from "../route";
 import { useEscape } from "../ui/escape";
 import { ProblemNote } from "../ui/ProblemNote";
 import type { Placement } from "../viewer/BodyScene";
@@ -63,9 +65,11 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
     [!areAllEmpty(turning.all), turning.takeBack],
     [shown !== null, () => show(null)],
   ]);
+  // In a frame there is no bench to correct them on.
+  const correct = picture && !isEmbedded ? (of: number) => void openAgain(fit, of, pictures[of]!) : null;
   const sayWhich = (limbs: readonly string[], of: number) => {
     const limb = limbs.find(isTurnedLimb);
-    if (!limb) return void changeAgain(fit, pictures);
+    if (!limb) return void (correct ? correct(of) : changeAgain(fit, pictures));
     want(of);
     seek(limb);
   };
@@ -118,7 +122,7 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
             <h1 class="title">{result ? headingOf(result) : words.body}</h1>
             {facts ? <Facts {...facts} /> : <p class="fine">{words.loading}</p>}
           </section>
-          {facts && views.length > 1 && <OfPictures {...facts} />}
+          {facts && views.length > 1 && <OfPictures {...facts} onCorrect={correct} />}
           {view && knowsLimbs && (
             <LimbList
               view={view}

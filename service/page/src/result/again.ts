@@ -1,8 +1,8 @@
 // A fit that is asked for once more, with a little of it changed or by hand; the first one stays.
-import { getAsked, getFile, submitFit, submitScan, uploadImage } from "../api/calls";
-import { askedOfView } from "../api/fits";
-import type { Asked, AskedView, Fit } from "../api/fits";
-import type { ScanOfImages } from "../api/types";
+import { getAsked, getFile, getFit, submitFit, submitScan, uploadImage } from "../api/calls";
+import { askedOfFit, askedOfView } from "../api/fits";
+import type { Asked, AskedView, Fit, FitRef } from "../api/fits";
+import type { FitOptions, ScanOfImages } from "../api/types";
 import type { Picture } from "../draft/picture";
 import type { FlipsOfViews } from "../flip/flips";
 import { entries, remember, seen } from "../history/store";
@@ -12,7 +12,7 @@ import { fitAddress, go } from "../route";
 
 /** Take up what was asked for where it was prepared, to be changed and sent again. */
 export function changeAgain(fit: Fit, pictures: readonly Picture[]): Promise<void> {
-  return fit.kind === "fit" ? openAgain(fit, pictures[0]!) : reopen(fit);
+  return fit.kind === "fit" ? openAgain(fit, 0, pictures[0]!) : reopen(fit);
 }
 
 /** Have the measurements in any case. */
@@ -24,6 +24,15 @@ export function measureAnyway(fit: Fit): Promise<void> {
 export function fitWithFlips(fit: Fit, flips: FlipsOfViews): Promise<void> {
   const turned = (view: AskedView, number: number) => ({ ...view, limb_facing: { ...view.limb_facing, ...flips[number] } });
   return fitAgain(fit, (asked) => ({ ...asked, views: asked.views.map(turned) }));
+}
+
+/** With the person and one of several pictures as they were prepared anew. */
+export async function fitWithPicture({ number, ...which }: FitRef & { readonly number: number }, prepared: FitOptions, label: string | undefined, maskId: string | null): Promise<void> {
+  const fit = await getFit(which);
+  const { views, ...whole } = askedOfFit(prepared);
+  const pictures = fit.pictures.map(({ image, mask }, at) => (at === number ? { image } : { image, mask }));
+  const corrected = (view: AskedView, at: number) => (at === number ? { view: view.view, ...views[0]!, ...(maskId ? { mask_id: maskId } : {}) } : view);
+  await fitAgain({ ...fit, label: label ?? null, pictures }, (asked) => ({ ...asked, ...whole, views: asked.views.map(corrected) }));
 }
 
 /** Fit the same pictures again, with their points and masks, and go there. */

@@ -5,6 +5,7 @@ import { plural } from "../figures";
 export const panel: Messages["panel"] = {
   title: "Auswertung vorbereiten",
   submit: "Körper bestimmen",
+  oneOfSeveral: "Eines von mehreren Bildern: Alle werden mit dem, was Sie hier ändern, neu gemessen.",
   cutOff: "Keine Verbindung zum Dienst. Sie können weiter klicken; es wird von selbst erneut versucht.",
   picture: "Bild",
   replace: "Ersetzen",

@@ -27,6 +27,7 @@ export const result: Messages["result"] = {
     away: (limb) => `${limb} auf Sie zu geneigt`,
   },
   sayWhich: "Wenn Sie es sehen, geben Sie es an und werten Sie erneut aus",
+  correct: "Punkte dieses Bildes berichtigen",
   overlap: "Überdeckung mit dem Umriss",
   lens: "Objektiv",
   lensOf: (length, source) => `${length}, ${source}`,

@@ -4,6 +4,7 @@ import { plural } from "../figures";
 export const panel = {
   title: "Prepare a fit",
   submit: "Fit the body",
+  oneOfSeveral: "One of several pictures: all are measured again with what you change here.",
   cutOff: "No connection to the service. You can go on clicking; it is tried again by itself.",
   picture: "Picture",
   replace: "Replace",

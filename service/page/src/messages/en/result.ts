@@ -26,6 +26,7 @@ export const result = {
     away: (limb: string) => `the ${limb} slanting toward you`,
   },
   sayWhich: "If you see which, say so and fit again",
+  correct: "Correct its points",
   overlap: "Overlap with the silhouette",
   lens: "Lens",
   lensOf: (length: string, source: string) => `${length}, ${source}`,

@@ -1,1 +1,0 @@
-import{F as n,v as t}from"/page/chunk.HM6OPBQ3.js";function f(r){let{light:o}=n.value.panel,e=t(Math.abs(r));return r>0?o.fromRight(e):o.fromLeft(e)}function g(r){let{light:o}=n.value.panel,e=t(Math.abs(r));return r>0?o.fromAbove(e):o.fromBelow(e)}export{f as a,g as b};
