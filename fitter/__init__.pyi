@@ -4,12 +4,13 @@ from .errors import FitterError as FitterError
 from .errors import InvalidInputError as InvalidInputError
 from .errors import ModelFileError as ModelFileError
 from .errors import NumericalError as NumericalError
-from .fits.pipeline import fit as fit
 from .fits.progress import Progress as Progress
 from .fits.progress import Stage as Stage
+from .library import Fitter as Fitter
 from .library import body_vertices as body_vertices
 from .library import estimate_body as estimate_body
 from .library import files_of as files_of
+from .library import fit as fit
 from .library import measure as measure
 from .measurement.quantity import Measurement as Measurement
 from .parameters import BodyParameters as BodyParameters
@@ -21,6 +22,7 @@ from .population.body_estimate import BodyEstimate as BodyEstimate
 from .remarks import Assumption as Assumption
 from .remarks import FitWarning as FitWarning
 from .render.camera import Camera as Camera
+from .request import Choices as Choices
 from .request import Click as Click
 from .request import Clothing as Clothing
 from .request import Cues as Cues
@@ -31,8 +33,14 @@ from .request import KnownMeasurement as KnownMeasurement
 from .request import LightGuess as LightGuess
 from .request import OptimizerKind as OptimizerKind
 from .request import OutlineKind as OutlineKind
+from .request import Person as Person
+from .request import StartingBody as StartingBody
 from .request import SurroundingsKind as SurroundingsKind
+from .request import View as View
+from .request import ViewKind as ViewKind
 from .result import FitResult as FitResult
+from .result import FitStage as FitStage
+from .result import FittedView as FittedView
 from .result import LimbFacing as LimbFacing
 from .result import Outcome as Outcome
 from .result import PictureFit as PictureFit
@@ -44,14 +52,18 @@ __all__ = [
     "BodyEstimate",
     "BodyParameters",
     "Camera",
+    "Choices",
     "Click",
     "Clothing",
     "Cues",
     "Facing",
     "FitRequest",
     "FitResult",
+    "FitStage",
     "FitWarning",
     "FittedPerson",
+    "FittedView",
+    "Fitter",
     "FitterError",
     "Gender",
     "InvalidInputError",
@@ -66,13 +78,17 @@ __all__ = [
     "OptimizerKind",
     "Outcome",
     "OutlineKind",
+    "Person",
     "PictureFit",
     "Progress",
     "Reflectance",
     "Stage",
     "StageBody",
+    "StartingBody",
     "SurroundingsKind",
     "Verdict",
+    "View",
+    "ViewKind",
     "body_vertices",
     "estimate_body",
     "files_of",

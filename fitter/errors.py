@@ -48,6 +48,16 @@ class InvalidInputError(FitterError):
     def __str__(self) -> str:
         return f"{self.field}: {self.reason} {self.remedy}"
 
+    def within(self, place: str) -> "InvalidInputError":
+        """The same fault of something that lies at ``place`` of the request, e.g. ``views.1``."""
+        return InvalidInputError(
+            code=self.code,
+            field=f"{place}.{self.field}",
+            reason=self.reason,
+            remedy=self.remedy,
+            largest=self.largest,
+        )
+
 
 class ModelFileError(FitterError):
     """A body model file that cannot be loaded.

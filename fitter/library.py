@@ -1,29 +1,123 @@
-"""The fitter for notebooks: functions that load the body model for the person's gender.
+"""The fitter for notebooks: an object that holds body models and detector, and functions without.
 
-:func:`fitter.fits.pipeline.fit` fits a picture. These work on its result, or without a picture at
-all. ``models`` is always the folder with the body models, None for those of the package.
+A :class:`Fitter` works with the body models and the detector of its folders. The functions of the
+same names work with those of the packages.
 """
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Final
 
 from fitter.arrays import Triangles, Vertices
 from fitter.export import artifacts
-from fitter.fits.prepared_model import prepared_model
+from fitter.fits import pipeline
+from fitter.fits.equipment import Equipment
+from fitter.fits.progress import Observer, ignore_progress
 from fitter.measurement.anthropometry import measure as measure_shape
 from fitter.measurement.quantity import Measurement
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson, require_model
 from fitter.population import body_estimate
 from fitter.population.body_estimate import BodyEstimate
-from fitter.request import Gender, KnownMeasurement
+from fitter.request import FitRequest, Gender, KnownMeasurement
 from fitter.result import FitResult
 
 
-def measure(person: FittedPerson, *, models: Path | None = None) -> tuple[Measurement, ...]:
+class Fitter:
+    """Fits people to pictures; body models and detector are loaded once, when first needed.
+
+    Parameters
+    ----------
+    models
+        Folder of the body models; None for those of the package.
+    detector_weights
+        Folder of the detector's weights; None for those of their package.
+
+    Examples
+    --------
+    >>> from fitter import Fitter, Gender
+    >>> fitter = Fitter()
+    >>> estimate = fitter.estimate_body(Gender.FEMALE, {"stature": 170.0})
+    >>> len(estimate.measurements) > 20
+    True
+    """
+
+    def __init__(self, *, models: Path | None = None, detector_weights: Path | None = None) -> None:
+        self.equipment = Equipment(models=models, detector_weights=detector_weights)
+
+    def fit(self, request: FitRequest, *, observer: Observer = ignore_progress) -> FitResult:
+        """Fit a body to one to six pictures; see :func:`fitter.fits.pipeline.fit`."""
+        return pipeline.fit(request, self.equipment, observer=observer)
+
+    def measure(self, person: FittedPerson) -> tuple[Measurement, ...]:
+        """All measurements of a fitted person; see :func:`measure`."""
+        prepared = self.equipment.model(person.gender)
+        require_model(person, prepared.operators.model)
+        return measure_shape(
+            prepared.measuring, person.body.shape, shape_covariance=person.shape_covariance
+        )
+
+    def estimate_body(
+        self, gender: Gender, known: Mapping[str, float | KnownMeasurement]
+    ) -> BodyEstimate:
+        """The most probable body with known measurements; see :func:`estimate_body`."""
+        exactly = {
+            name: value if isinstance(value, KnownMeasurement) else KnownMeasurement(value=value)
+            for name, value in known.items()
+        }
+        return body_estimate.estimate_body(self.equipment.model(gender).population, exactly)
+
+    def body_vertices(self, gender: Gender, body: BodyParameters) -> tuple[Vertices, Triangles]:
+        """A body in its pose; see :func:`body_vertices`."""
+        operators = self.equipment.model(gender).operators
+        return operators.evaluator.vertices(body), operators.model.triangles
+
+    def files_of(self, result: FitResult, *images: bytes) -> dict[str, bytes]:
+        """Every file of a fit by name; see :func:`files_of`."""
+        model = self.equipment.model(result.person.gender).operators.model
+        return artifacts(result, model=model, images=images)
+
+
+_PACKAGED: Final = Fitter()
+
+
+def fit(request: FitRequest, *, observer: Observer = ignore_progress) -> FitResult:
+    """Fit a body to one to six pictures of a person.
+
+    ``observer`` receives the progress. :class:`Fitter` does so with other body models.
+
+    Raises
+    ------
+    InvalidInputError
+        If the request cannot be used; the message names the field and the remedy. Of several
+        pictures, what is at fault in one has a field that begins with ``views.NUMBER``.
+    ModelFileError
+        If the body model is missing or damaged, or lacks something a fit needs.
+    DetectorUnavailableError
+        If points are to be proposed and the detector is not installed.
+
+    Examples
+    --------
+    >>> from fitter import Click, FitRequest, Gender, Person, View, fit
+    >>> points = {name: Click(x=x, y=y) for name, (x, y) in clicks.items()}
+    >>> person = Person(gender=Gender(gender), height_m=height_m)
+    >>> result = fit(FitRequest(person=person, views=(View(image=picture, clicks=points),)))
+    >>> result.found.outcome.value, result.found.silhouette_overlap > 0.9
+    ('converged', True)
+    >>> waist = {each.name: each for each in result.measurements}["waist_girth_navel"]
+    >>> waist.unit.value, 60.0 < waist.value < 120.0
+    ('cm', True)
+    >>> result.canonical_vertices.shape[1], result.triangles.shape[1]
+    (3, 3)
+    """
+    return _PACKAGED.fit(request, observer=observer)
+
+
+def measure(person: FittedPerson) -> tuple[Measurement, ...]:
     """All measurements of a fitted person, with standard errors where the fit has a covariance.
 
-    Those of :class:`~fitter.result.FitResult` also know which ones the caller gave.
+    For people read from ``person.npz``: those of :class:`~fitter.result.FitResult` are there
+    already, and know which ones the caller gave.
 
     Raises
     ------
@@ -39,16 +133,10 @@ def measure(person: FittedPerson, *, models: Path | None = None) -> tuple[Measur
     >>> waist.unit.value, 60.0 < waist.value < 120.0
     ('cm', True)
     """
-    prepared = prepared_model(person.gender, models=models)
-    require_model(person, prepared.operators.model)
-    return measure_shape(
-        prepared.measuring, person.body.shape, shape_covariance=person.shape_covariance
-    )
+    return _PACKAGED.measure(person)
 
 
-def estimate_body(
-    gender: Gender, known: Mapping[str, float | KnownMeasurement], *, models: Path | None = None
-) -> BodyEstimate:
+def estimate_body(gender: Gender, known: Mapping[str, float | KnownMeasurement]) -> BodyEstimate:
     """The most probable body with known measurements, without a picture.
 
     Parameters
@@ -57,8 +145,6 @@ def estimate_body(
         Whose population.
     known
         By measurement name, in its unit (``stature`` in cm, ``weight`` in kg); none to all.
-    models
-        Folder of the body models.
 
     Raises
     ------
@@ -73,17 +159,13 @@ def estimate_body(
     >>> round(heights["stature"], 3)
     170.0
     """
-    exactly = {
-        name: value if isinstance(value, KnownMeasurement) else KnownMeasurement(value=value)
-        for name, value in known.items()
-    }
-    return body_estimate.estimate_body(prepared_model(gender, models=models).population, exactly)
+    return _PACKAGED.estimate_body(gender, known)
 
 
-def body_vertices(
-    gender: Gender, body: BodyParameters, *, models: Path | None = None
-) -> tuple[Vertices, Triangles]:
+def body_vertices(gender: Gender, body: BodyParameters) -> tuple[Vertices, Triangles]:
     """A body in its pose (SCAPE, section 3), before the camera.
+
+    For bodies that are posed or shaped otherwise: a fit's own are in its result.
 
     Returns
     -------
@@ -103,12 +185,14 @@ def body_vertices(
     >>> bool(np.abs(vertices - result.found.posed_vertices).max() < 1e-9)
     True
     """
-    operators = prepared_model(gender, models=models).operators
-    return operators.evaluator.vertices(body), operators.model.triangles
+    return _PACKAGED.body_vertices(gender, body)
 
 
-def files_of(result: FitResult, image: bytes, *, models: Path | None = None) -> dict[str, bytes]:
-    """Every file of a fit by name: GLB meshes and pictures drawn over the encoded ``image``.
+def files_of(result: FitResult, *images: bytes) -> dict[str, bytes]:
+    """Every file of a fit by name: GLB meshes, and pictures drawn over the encoded ``images``.
+
+    Of several pictures, ``images`` are in the order of the request, and what belongs to one has
+    its number in its name (``overlay_0.png``).
 
     Raises
     ------
@@ -121,5 +205,4 @@ def files_of(result: FitResult, image: bytes, *, models: Path | None = None) -> 
     >>> files_of(result, picture)["body_posed.glb"][:4]
     b'glTF'
     """
-    model = prepared_model(result.person.gender, models=models).operators.model
-    return artifacts(result, model=model, image=image)
+    return _PACKAGED.files_of(result, *images)

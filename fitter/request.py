@@ -1,4 +1,4 @@
-"""What a fit is asked to do: the caller's picture, points, person and choices."""
+"""What a fit is asked to do: the person, the pictures of them and the caller's choices."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -13,7 +13,6 @@ from fitter.vocabulary.choices import (
     LightKind,
     OptimizerKind,
     OutlineKind,
-    Posture,
     SegmentationKind,
     SurroundingsKind,
     ViewKind,
@@ -171,55 +170,8 @@ class Choices:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class FitRequest:
-    """One job.
+    """One person and the pictures of them: one to six, or more that were fitted before."""
 
-    Attributes
-    ----------
-    image
-        The encoded picture (JPEG, PNG, WebP or HEIC).
-    clicks
-        By canonical name: COCO-17 (``left_shoulder`` ...), ``neck``, ``head_top``, ``chin``,
-        ``left_toe``, ``left_heel`` ...; left and right are the person's own.
-    height_m
-        Stature in metres; None means the mean of the gender, or the most probable height of people
-        with the known measurements, which is then reported as assumed.
-    measurements
-        What else is known of the person, by measurement name.
-    focal_length_px, focal_length_35mm
-        At most one; pixels of the upright picture, or the 35 mm equivalent.
-    limb_facing
-        The caller's word by limb name (``left_forearm`` ...).
-    complete_clicks
-        Whether the detector proposes the points that were not clicked.
-    slant_hints
-        Whether the detector says how limbs slant in depth.
-    mask
-        An encoded grey picture of the same size; above half is foreground. Replaces GrabCut.
-    force
-        Whether measurements are given even if the evidence contradicts a person.
-    max_pixels
-        Largest picture accepted, checked before decoding.
-    """
-
-    image: bytes
-    clicks: Mapping[str, Click]
-    gender: Gender
-    height_m: float | None
-    measurements: Mapping[str, KnownMeasurement] = field(
-        default_factory=dict[str, KnownMeasurement]
-    )
-    focal_length_px: float | None = None
-    focal_length_35mm: float | None = None
-    cues: Cues = Cues.SES
-    optimizer: OptimizerKind = OptimizerKind.GAUSS_NEWTON
-    outline: OutlineKind = OutlineKind.LINES
-    clothing: Clothing = Clothing.TIGHT
-    posture: Posture = Posture.ANY
-    light: LightGuess = field(default_factory=LightGuess)
-    limb_facing: Mapping[str, Facing] = field(default_factory=dict[str, Facing])
-    complete_clicks: bool = False
-    segmentation: SegmentationKind = SegmentationKind.SEEDED_GRABCUT
-    slant_hints: bool = True
-    mask: bytes | None = None
-    force: bool = False
-    max_pixels: int = 50_000_000
+    person: Person
+    views: tuple[View, ...]
+    choices: Choices = field(default_factory=Choices)

@@ -3,11 +3,12 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from fitter.arrays import Image, Mask, Vertices
+from fitter.arrays import Image, Mask, Shape, ShapeCovariance, Triangles, Vertices
 from fitter.capture.finding import Finding
 from fitter.measurement.quantity import Measurement
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
+from fitter.person.several_pictures import CombinedShape
 from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera, FocalLengthSource
 from fitter.request import Cues, Facing, OptimizerKind, ViewKind
@@ -56,18 +57,11 @@ class LimbFacing:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class StageBody:
-    """The body at the end of a stage: ``initial``, ``SE`` or ``SES``.
+    """The body in one picture at the end of a stage; vertices in the camera frame, metres."""
 
-    Vertices are in the camera frame (posed) and the body frame (canonical), metres.
-    """
-
-    name: str
     body: BodyParameters
     posed_vertices: Vertices
-    canonical_vertices: Vertices
-    energies: Mapping[str, float]
     silhouette_overlap: float
-    measurements: tuple[Measurement, ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -167,63 +161,93 @@ class FitStage:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class FitResult:
-    """The whole result of a fit.
+    """One person, and how they stand in each picture.
 
-    ``given`` names the measurements the request gave, its height as stature. ``camera`` refers to
-    the working picture. ``canonical_vertices`` are in the body frame, metres. ``stage_seconds`` is
-    wall time by stage name. ``measurements``, and those of stages, are empty where a person is
-    contradicted and the request does not insist.
+    Attributes
+    ----------
+    views
+        The pictures in the order of the request.
+    shape, shape_covariance
+        (n,), (n, n) the shape that the bodies in all pictures have, and how certain it is.
+    canonical_vertices, triangles
+        The body in the canonical pose, body frame, metres; the triangles of its vertices.
+    measurements
+        Empty where a picture contradicts that it shows a person and the request does not insist.
+    given
+        Names of the measurements the request gave, its height as stature.
+    energies
+        By term, of all pictures together.
+    evaluations
+        True energies computed, of one picture or of all together.
+    stages
+        How the body came about.
+    alone
+        What several pictures say of the shape, each by itself; None of one picture.
+    assumptions, warnings
+        What was assumed of the person, and what to look at in the fit as a whole.
+    stage_seconds
+        Wall time by stage name.
     """
 
-    found: PictureFit
+    views: tuple[FittedView, ...]
+    shape: Shape
+    shape_covariance: ShapeCovariance
+    canonical_vertices: Vertices
+    triangles: Triangles
+    measurements: tuple[Measurement, ...]
     given: tuple[str, ...]
     optimizer: OptimizerKind
-    camera: Camera
-    focal_length_source: FocalLengthSource
-    canonical_vertices: Vertices
     energies: Mapping[str, float]
     evaluations: int
-    stages: tuple[StageBody, ...]
-    measurements: tuple[Measurement, ...]
-    limb_facing: tuple[LimbFacing, ...]
+    stages: tuple[FitStage, ...]
+    alone: CombinedShape | None
     assumptions: tuple[Assumption, ...]
     warnings: tuple[FitWarning, ...]
     stage_seconds: Mapping[str, float]
-    pictures: Pictures
+
+    @property
+    def found(self) -> PictureFit:
+        """The person in the first picture, or the only one."""
+        return self.views[0].found
 
     @property
     def person(self) -> FittedPerson:
-        """Who was found."""
+        """Who was found, as they stand in the first picture."""
         return self.found.person
 
 
 def before_shading(result: FitResult) -> FitResult | None:
-    """The same fit as silhouette and edges left it, before shading moved the body (E1, not E2).
+    """The same fit as silhouette and edges left it, before shading moved the bodies (E1, not E2).
 
-    None where shading was not used, so that this is the result itself. What is not of the body
+    None where shading was not used, so that this is the result itself. What is not of the bodies
     (evaluations, times, warnings) stays that of the whole fit.
     """
-    if result.person.reflectance is None:
-        return None
     stage = next((stage for stage in result.stages if stage.name == "SE"), None)
-    if stage is None:
+    if stage is None or stage is result.stages[-1]:
         return None
     return replace(
         result,
-        found=replace(
-            result.found,
-            person=replace(
-                result.person,
-                body=stage.body,
-                light=None,
-                reflectance=None,
-                albedo_rgb=None,
-                shape_covariance=None,
-            ),
-            cues=Cues.SE,
-            posed_vertices=stage.posed_vertices,
-            silhouette_overlap=stage.silhouette_overlap,
+        views=tuple(
+            replace(
+                view,
+                found=replace(
+                    view.found,
+                    person=replace(
+                        view.found.person,
+                        body=each.body,
+                        light=None,
+                        reflectance=None,
+                        albedo_rgb=None,
+                        shape_covariance=None,
+                    ),
+                    cues=Cues.SE,
+                    posed_vertices=each.posed_vertices,
+                    silhouette_overlap=each.silhouette_overlap,
+                ),
+            )
+            for view, each in zip(result.views, stage.bodies, strict=True)
         ),
+        shape=stage.bodies[0].body.shape,
         canonical_vertices=stage.canonical_vertices,
         energies=stage.energies,
         measurements=stage.measurements,

@@ -27,18 +27,19 @@ class Submission:
 
 def submission(request: FitRequest) -> Submission:
     """Write a request of the fitter as a caller of the service would."""
+    (view,) = request.views
     options: dict[str, object] = {
-        "gender": request.gender.value,
-        "height_m": request.height_m,
-        "cues": request.cues.value,
+        "gender": request.person.gender.value,
+        "height_m": request.person.height_m,
+        "cues": view.cues.value,
         "points": {
             name: {"x": click.x, "y": click.y, "visibility": 1 if click.occluded else 2}
-            for name, click in request.clicks.items()
+            for name, click in view.clicks.items()
         },
     }
-    if request.focal_length_px is not None:
-        options["focal_length_px"] = request.focal_length_px
-    return Submission(image=request.image, request=json.dumps(options))
+    if view.focal_length_px is not None:
+        options["focal_length_px"] = view.focal_length_px
+    return Submission(image=view.image, request=json.dumps(options))
 
 
 def small_submissions(count: int) -> list[Submission]:

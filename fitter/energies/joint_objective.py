@@ -1,21 +1,20 @@
-"""The energy of one person in several pictures, as a function of a body in each.
+"""The energy of one person in one or several pictures, as a function of a body in each.
 
 With one shape β, a pose and place θ_k in picture k, and E_k what that picture says (E1 or E2 with
-the priors on pose and stance, but without any on the shape),
+the priors on pose and stance, :mod:`fitter.energies.objective`),
 
     E(β, θ_1 ... θ_K) = w Σ_k E_k(β, θ_k) + prior(β) + known(β).
 
-What is known of the shape counts once, however many pictures there are. The weight w is less than
-one where the pictures share part of their errors.
+What is known of the shape counts once, however many pictures there are. Held attributes have no
+term: a search stays among the bodies that have them. The weight w is one for one picture, and less
+where several share part of their errors.
 """
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from fitter.arrays import Shape
-from fitter.energies.attributes import NOTHING_KNOWN, KnownAttributes, attribute_energy
+from fitter.energies.attributes import KnownAttributes, attribute_energy
 from fitter.energies.objective import Body, Candidate, Objective
 from fitter.energies.priors import ShapePrior
 from fitter.parameters import BodyParameters
@@ -55,7 +54,7 @@ class JointObjective:
     Attributes
     ----------
     views
-        What each picture says; see :func:`without_knowledge`.
+        What each picture says.
     weight
         w.
     shape_prior, attributes
@@ -86,20 +85,6 @@ class JointObjective:
             energies["attributes"] = attribute_energy(self.attributes, shape)
         return JointCandidate(views=tuple(found), energies=energies)
 
-    def with_knowledge(self, view: Objective) -> Objective:
-        """A picture with what is known of the shape: the energy of this picture alone."""
-        return replace(view, shape_prior=self.shape_prior, attributes=self.attributes)
-
     def with_views(self, views: Sequence[Objective]) -> "JointObjective":
         """The same with other evidence."""
         return replace(self, views=tuple(views))
-
-
-def without_knowledge(objective: Objective) -> Objective:
-    """What a picture says by itself, without what is known of the shape."""
-    n = len(objective.shape_prior.mean)
-    return replace(
-        objective,
-        shape_prior=ShapePrior(mean=np.zeros(n), precision=np.zeros((n, n))),
-        attributes=NOTHING_KNOWN,
-    )

@@ -1,8 +1,9 @@
 """The energies E1 and E2 of one picture, as functions of the body (section 6).
 
-E1 = E_Si + E_Eg + E_Pn and E2 = E1 + E_Sh. Clicks and priors on shape and pose are added to both:
-the paper's simplex starts near the solution and stays there, while a fit from arbitrary clicks
-needs to know what is plausible.
+E1 = E_Si + E_Eg + E_Pn and E2 = E1 + E_Sh. Clicks and a prior on the pose are added to both: the
+paper's simplex starts near the solution and stays there, while a fit from arbitrary clicks needs to
+know what is plausible. What is known of the shape is the person's, whatever the pictures
+(:mod:`fitter.energies.joint_objective`).
 """
 
 from collections.abc import Callable, Mapping
@@ -14,14 +15,12 @@ from jaxtyping import Float
 from fitter.arrays import PerVertex, Points3D, Vertices
 from fitter.body.pose_prior import prior_residuals
 from fitter.body.skeleton import regress
-from fitter.energies.attributes import NOTHING_KNOWN, KnownAttributes, attribute_energy
 from fitter.energies.clicks import ClickEvidence, click_energy
 from fitter.energies.correspondence_lines import line_energy
 from fitter.energies.edges import edge_energy
 from fitter.energies.fitting_operators import FittingOperators
 from fitter.energies.limb_slants import SlantEvidence, slant_energy
 from fitter.energies.penetration import penetration_energy, sphere_positions
-from fitter.energies.priors import ShapePrior
 from fitter.energies.scales import EnergyScales
 from fitter.energies.shading import ShadingEvidence, shading_energy
 from fitter.energies.silhouette import silhouette_energy, silhouette_overlap
@@ -35,7 +34,7 @@ from fitter.parameters import BodyParameters
 from fitter.render.camera import Camera
 from fitter.render.contours import ModelEdges, model_edges
 from fitter.render.rasterizer import Rendering, render
-from fitter.request import Posture
+from fitter.vocabulary.choices import Posture
 
 EnergyObserver = Callable[[Mapping[str, float]], None]
 """Receives energies by term as a search goes on."""
@@ -113,17 +112,14 @@ Body = BodyParameters | SeenBody
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Objective:
-    """An energy as a function of the body: operators, evidence, scales and what is known are fixed.
+    """What one picture says, as a function of the body: operators, evidence and scales are fixed.
 
-    Held attributes have no energy term: a search stays among the bodies that have them.
-    ``shape_prior`` is that of the population; ``posture`` what is known of how the person stands.
+    ``posture`` is what is known of how the person stands.
     """
 
     operators: FittingOperators
     evidence: PictureEvidence
     scales: EnergyScales
-    shape_prior: ShapePrior
-    attributes: KnownAttributes = NOTHING_KNOWN
     posture: Posture = Posture.ANY
 
     def see(self, body: Body) -> SeenBody:
@@ -171,13 +167,10 @@ class Objective:
                 seen.spheres, seen.radii, operators.penetration, scales
             ),
             "clicks": click_energy(seen.landmarks, evidence.clicks, evidence.camera, scales),
-            "shape_prior": self.shape_prior.energy(parameters.shape),
             "pose_prior": 0.5
             * float((prior_residuals(operators.pose_prior, parameters.pose) ** 2).sum()),
             "stance": seen.tilt.energy,
         }
-        if len(self.attributes.standard_errors):
-            energies["attributes"] = attribute_energy(self.attributes, parameters.shape)
         if evidence.slants is not None:
             energies["limb_slants"] = slant_energy(seen.landmarks, evidence.slants)
         if evidence.shading is not None:

@@ -30,7 +30,7 @@ from fitter.energies import _stance_kernels as kernels
 from fitter.energies.rows import PositionRows
 from fitter.numerics.damped_descent import Offer, Step, damped_steps, descend
 from fitter.parameters import StanceKind
-from fitter.request import Posture
+from fitter.vocabulary.choices import Posture
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

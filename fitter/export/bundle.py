@@ -1,8 +1,9 @@
 """Every file a fit gives back but the result itself."""
 
+from collections.abc import Sequence
 from functools import lru_cache
 
-from fitter.arrays import PerVertex
+from fitter.arrays import PerVertex, Vertices
 from fitter.body.model import BodyModel
 from fitter.export.antialiasing import render_finely, vertex_pictures
 from fitter.export.display import png
@@ -19,16 +20,18 @@ from fitter.export.views import views_picture
 from fitter.numerics.mesh_topology import MeshTopology, mesh_topology
 from fitter.observation.decoding import decode_picture
 from fitter.render.reflectance import shading_terms
-from fitter.result import FitResult, PictureFit, before_shading
+from fitter.result import FitResult, FittedView, PictureFit, before_shading
 
 
-def artifacts(result: FitResult, *, model: BodyModel, image: bytes) -> dict[str, bytes]:
+def artifacts(result: FitResult, *, model: BodyModel, images: Sequence[bytes]) -> dict[str, bytes]:
     """Files by name.
 
-    Always ``body_posed.glb``, ``body_canonical.glb``, ``segmentation.png``, ``overlay.png`` and
-    ``views.png``; ``trimap.png`` where the caller sent no mask; ``albedo.png``, ``shading.png``
-    and ``shading_lambertian.png`` where shading was used (Fig. 7), and then the bodies before it,
-    ``body_posed_se.glb`` and ``body_canonical_se.glb``, to compare SE with SES (section 6).
+    Always ``body_canonical.glb``, and of each picture ``body_posed.glb``, ``segmentation.png``,
+    ``overlay.png`` and ``views.png``; ``trimap.png`` where the caller sent no mask; ``albedo.png``,
+    ``shading.png`` and ``shading_lambertian.png`` where shading was used (Fig. 7), and then the
+    bodies before it, ``body_posed_se.glb`` and ``body_canonical_se.glb``, to compare SE with SES
+    (section 6). Where there are several pictures, what belongs to one has its number in its name:
+    ``overlay_0.png``.
 
     Parameters
     ----------
@@ -36,35 +39,54 @@ def artifacts(result: FitResult, *, model: BodyModel, image: bytes) -> dict[str,
         Of the fit.
     model
         The body model it was fitted with.
-    image
-        The caller's encoded picture.
+    images
+        The caller's encoded pictures, in the order of the request.
     """
-    triangles = model.triangles
-    camera = drawing_camera(result.person.camera)
-    lit = lit_vertices(result.found, model)
+    files = {"body_canonical.glb": body_canonical_glb(result, model)}
+    outlined = before_shading(result)
+    if outlined is not None:
+        files["body_canonical_se.glb"] = body_canonical_glb(outlined, model)
+    several = len(result.views) > 1
+    for number, (view, image) in enumerate(zip(result.views, images, strict=True)):
+        of_view = _files_of(view, result.canonical_vertices, model, image)
+        if outlined is not None:
+            of_view["body_posed_se.glb"] = body_posed_glb(outlined.views[number].found, model)
+        files |= {
+            numbered(name, number) if several else name: content
+            for name, content in of_view.items()
+        }
+    return files
+
+
+def numbered(name: str, number: int) -> str:
+    """The name of a file of one of several pictures: ``overlay_1.png``."""
+    stem, point, ending = name.partition(".")
+    return f"{stem}_{number}{point}{ending}"
+
+
+def _files_of(
+    view: FittedView, canonical_vertices: Vertices, model: BodyModel, image: bytes
+) -> dict[str, bytes]:
+    found, person = view.found, view.found.person
+    camera = drawing_camera(person.camera)
+    lit = lit_vertices(found, model)
     files = {
-        "body_posed.glb": body_posed_glb(result.found, model, lit=lit),
-        "body_canonical.glb": body_canonical_glb(result, model),
-        "segmentation.png": png(mask_levels(result.pictures.segmentation, result.camera, camera)),
-        "overlay.png": overlay_png(result.found, model=model, image=image),
+        "body_posed.glb": body_posed_glb(found, model, lit=lit),
+        "segmentation.png": png(mask_levels(view.pictures.segmentation, view.camera, camera)),
+        "overlay.png": overlay_png(found, model=model, image=image),
         "views.png": png(
             views_picture(
-                posed_vertices=result.found.posed_vertices,
-                root=result.person.body.translation,
-                tilt=result.person.tilt,
-                canonical_vertices=result.canonical_vertices,
-                triangles=triangles,
+                posed_vertices=found.posed_vertices,
+                root=person.body.translation,
+                tilt=person.tilt,
+                canonical_vertices=canonical_vertices,
+                triangles=model.triangles,
             )
         ),
     }
-    if result.pictures.trimap is not None:
-        files["trimap.png"] = png(trimap_levels(result.pictures.trimap, result.camera, camera))
-    files |= _reflectance_pictures(result.found, model, lit)
-    outlined = before_shading(result)
-    if outlined is not None:
-        files["body_posed_se.glb"] = body_posed_glb(outlined.found, model)
-        files["body_canonical_se.glb"] = body_canonical_glb(outlined, model)
-    return files
+    if view.pictures.trimap is not None:
+        files["trimap.png"] = png(trimap_levels(view.pictures.trimap, view.camera, camera))
+    return files | _reflectance_pictures(found, model, lit)
 
 
 def overlay_png(found: PictureFit, *, model: BodyModel, image: bytes) -> bytes:

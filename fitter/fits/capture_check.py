@@ -21,7 +21,7 @@ from fitter.observation.resampling import (
 from fitter.observation.subject import MEAN_HEIGHT_M, check_height
 from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import FocalLengthSource
-from fitter.request import Click, FitRequest, Gender, ViewKind
+from fitter.request import Click, Gender, Person, View, ViewKind
 
 ASSUMED_HEIGHT_M = 1.7
 """Of people whose gender is not known either."""
@@ -128,10 +128,10 @@ def capture_of(
     )
 
 
-def capture_of_view(observation: Observation, request: FitRequest, view: ViewKind) -> Capture:
+def capture_of_view(observation: Observation, view: View, person: Person) -> Capture:
     """What there is to check of a picture that was read to be fitted."""
     known = observation.focal_length_source is not FocalLengthSource.ASSUMED
-    points = scaled_clicks(request.clicks, observation.scale)
+    points = scaled_clicks(view.clicks, observation.scale)
     return Capture(
         picture=bytes_of_display(observation.display),
         width=observation.image_camera.width,
@@ -141,9 +141,9 @@ def capture_of_view(observation: Observation, request: FitRequest, view: ViewKin
         body=_meant(observation.bodies or (), None, points),
         points=points,
         is_chosen=bool(points),
-        view=view,
+        view=view.kind,
         focal_length_px=observation.camera.focal_length_px if known else None,
-        height_m=_height_m(request),
+        height_m=_height_m(person),
     )
 
 
@@ -156,7 +156,7 @@ def _meant(
     return None if chosen is None else bodies[chosen]
 
 
-def _height_m(question: CaptureQuestion | FitRequest) -> float:
+def _height_m(question: CaptureQuestion | Person) -> float:
     if question.height_m is not None:
         return question.height_m
     return ASSUMED_HEIGHT_M if question.gender is None else MEAN_HEIGHT_M[question.gender]

@@ -6,6 +6,7 @@ import numpy as np
 
 from fitter.energies.attributes import NOTHING_KNOWN
 from fitter.energies.joint_objective import JointCandidate, JointObjective
+from fitter.optimizer.free_space import free_space
 from fitter.optimizer.joint_equations import joint_equations
 from fitter.population.known_person import KnownPerson
 from fitter.vocabulary.measurements import STATURE
@@ -38,7 +39,8 @@ def foretold(
     if not names:
         return ()
     shape = candidate.shape
-    equations = joint_equations(replace(objective, attributes=NOTHING_KNOWN), candidate)
+    without = replace(objective, attributes=NOTHING_KNOWN)
+    equations = joint_equations(without, candidate, free_space(NOTHING_KNOWN.held, shape))
     both = (told.held, told.uncertain)
     slopes = np.concatenate([each.jacobian(shape) for each in both]) @ equations.directions
     values = np.concatenate([each.measure(shape) for each in both])

@@ -14,7 +14,7 @@ from fitter.observation.clicks import check_clicks, side_warnings
 from fitter.observation.exif import ExifTags
 from fitter.observation.focal_length import focal_length
 from fitter.observation.resampling import working_size
-from fitter.observation.subject import check_subject
+from fitter.observation.subject import check_person
 from fitter.parameters import BodyParameters
 from fitter.population.known_person import known_person
 from fitter.pose_init.initial_pose import PoseHypothesis, initialize_pose
@@ -23,7 +23,7 @@ from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera, FocalLengthSource
 from fitter.render.outline import outline_loops
 from fitter.render.rasterizer import render
-from fitter.request import Facing, FitRequest
+from fitter.request import Facing, Person, View
 from fitter.vocabulary.points import POINT_NAMES
 
 
@@ -80,7 +80,8 @@ class InitialBody:
 
 
 def initial_body(
-    request: FitRequest,
+    person: Person,
+    view: View,
     prepared: PreparedModel,
     *,
     width: int,
@@ -91,10 +92,10 @@ def initial_body(
 
     Parameters
     ----------
-    request
-        As for a fit; its picture is not used and may be empty.
-    body
-        The body model of the gender, prepared.
+    person, view
+        As for a fit; the picture itself is not used and may be empty.
+    prepared
+        The body model of the gender.
     width, height
         Size of the upright picture, pixels.
     exif_focal_length_35mm
@@ -105,10 +106,10 @@ def initial_body(
     InvalidInputError
         If clicks, height, measurements or focal length cannot be used.
     """
-    check_subject(request)
-    check_clicks(request.clicks, width=width, height=height)
+    check_person(person)
+    check_clicks(view.clicks, width=width, height=height)
     focal = focal_length(
-        request,
+        view,
         ExifTags(focal_length_35mm=exif_focal_length_35mm),
         width=width,
         height=height,
@@ -122,13 +123,13 @@ def initial_body(
         height=height,
     )
     evaluator = prepared.operators.evaluator
-    person = known_person(request, prepared.population, evaluator)
+    known = known_person(person, prepared.population, evaluator)
     initial = initialize_pose(
         evaluator,
         camera=camera,
-        clicks=clicked_points(request.clicks),
-        shape=person.shape,
-        limb_facing=request.limb_facing,
+        clicks=clicked_points(view.clicks),
+        shape=known.shape,
+        limb_facing=view.limb_facing,
     )
     vertices = evaluator.vertices(initial.parameters)
     landmarks = prepared.operators.model.landmarks
@@ -136,17 +137,17 @@ def initial_body(
         zip(landmarks.names, camera.project(regress(landmarks, vertices)), strict=True)
     )
     return InitialBody(
-        height_m=person.height_m,
+        height_m=known.height_m,
         camera=camera,
         focal_length_source=focal.source,
         body=initial.parameters,
         vertices=vertices,
         outline=_outline(vertices, prepared, camera),
         landmarks={name: projected[name] for name in POINT_NAMES},
-        limbs=limb_readings(initial.hypotheses, request.limb_facing),
+        limbs=limb_readings(initial.hypotheses, view.limb_facing),
         residual_px=initial.residual_px,
-        assumptions=focal.assumptions + person.assumptions,
-        warnings=side_warnings(request.clicks) + person.warnings,
+        assumptions=focal.assumptions + known.assumptions,
+        warnings=side_warnings(view.clicks) + known.warnings,
     )
 
 

@@ -1,101 +1,124 @@
-"""One picture by itself, to the minimum of E1 or near it: what every fit and scan begins with."""
+"""One picture by itself, to a body near its outline: what every fit begins with."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 
-from fitter.energies.objective import Objective
+from fitter.arrays import Image, Shape
+from fitter.detection.detector import Detector
+from fitter.energies.objective import Body, Objective, SeenBody
 from fitter.energies.scales import FAR_BOUNDARY_ETA_M, NEAR_BOUNDARY_ETA_M, scales_at
-from fitter.fits.descents import Descents, descents
-from fitter.fits.detecting import detector_for
-from fitter.fits.picture_objective import segmented, silhouette_and_edges, with_silhouette
-from fitter.fits.prepared_model import PreparedModel, prepared_model
+from fitter.fits.picture_objective import (
+    of_person,
+    segmented,
+    silhouette_and_edges,
+    with_silhouette,
+)
+from fitter.fits.prepared_model import PreparedModel
 from fitter.fits.progress import Stage
-from fitter.fits.stage_clock import StageClock
+from fitter.fits.reporting import limb_facings
+from fitter.fits.stage_clock import ViewClock
 from fitter.observation.observation import Observation, observe
-from fitter.optimizer.gauss_newton import Minimum
-from fitter.optimizer.hypotheses import TriedHypotheses, try_hypotheses
-from fitter.population.known_person import KnownPerson, known_person
-from fitter.pose_init.initial_pose import PoseHypothesis, initialize_pose
+from fitter.optimizer.hypotheses import try_hypotheses
+from fitter.optimizer.renewed_lines import with_lines_about
+from fitter.optimizer.search import body_search, limits_of
+from fitter.parameters import BodyParameters
+from fitter.population.known_person import KnownPerson
+from fitter.pose_init.initial_pose import initialize_pose
 from fitter.pose_init.points import clicked_points
-from fitter.request import FitRequest
+from fitter.request import Choices, OutlineKind, View
+from fitter.result import LimbFacing
 from fitter.segmentation.grabcut import Segmentation
 from fitter.segmentation.trimap import Trimap
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Subject:
+    """Whom the pictures show: the body model, and what the caller knows of the person."""
+
+    prepared: PreparedModel
+    known: KnownPerson
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Outlined:
-    """A picture with the body that its points, silhouette and edges tell.
+    """A picture with a body near the minimum of E1.
 
     Attributes
     ----------
-    request, observation
+    view, observation
         What was asked, and the picture as it was read.
-    prepared, known
-        The body model, and what the caller knows of the person.
-    searches
-        How this picture is searched.
-    hypotheses, tried
-        The readings of the clicks that were tried, and how they ended.
     trimap, segmentation
-        Of the second cut; no tri-map where the caller sent a mask.
-    objective, minimum
-        E1 and its minimum, or a body near that for one of several pictures.
+        Of the last cut; no tri-map where the caller sent a mask.
+    objective
+        E1 of this picture.
+    initial, body
+        Where the search began, and a body near the person.
+    limb_facing
+        How each limb's depth ambiguity was resolved; empty where a body was there to begin with.
+    lines_on
+        (h, w, 3) the display values on which the outline is found again about each body; None where
+        it stays that of the segmentation.
     evaluations
         True energies computed so far.
     """
 
-    request: FitRequest
+    view: View
     observation: Observation
-    prepared: PreparedModel
-    known: KnownPerson
-    searches: Descents
-    hypotheses: Sequence[PoseHypothesis]
-    tried: TriedHypotheses
     trimap: Trimap | None
     segmentation: Segmentation
     objective: Objective
-    minimum: Minimum
+    initial: BodyParameters
+    body: SeenBody
+    limb_facing: tuple[LimbFacing, ...]
+    lines_on: Image | None
     evaluations: int
+
+    def with_shape(self, shape: Shape) -> Body:
+        """The body with another shape; as it was seen where that is its own."""
+        own = self.body.parameters
+        return self.body if shape is own.shape else replace(own, shape=shape)
+
+    def about(self, objective: Objective, body: Body) -> Objective:
+        """An objective of this picture with the outline that a body there is to meet."""
+        return (
+            objective if self.lines_on is None else with_lines_about(objective, body, self.lines_on)
+        )
 
 
 def outlined(
-    request: FitRequest,
-    clock: StageClock,
+    view: View,
+    subject: Subject,
+    choices: Choices,
+    detector: Detector | None,
+    clock: ViewClock,
     *,
-    models: Path | None = None,
-    detector_weights: Path | None = None,
-    one_of_several: bool = False,
+    is_only: bool,
 ) -> Outlined:
-    """Sections 3.1 to 3.3: pose from points, the person cut out twice, the minimum of E1.
+    """Sections 3.1 to 3.3: pose from points, the person cut out twice, first steps towards E1.
 
-    ``one_of_several`` says that a search of several pictures goes on from here, so that a few steps
-    towards the minimum are enough.
+    ``is_only`` says that there is no other picture.
 
     Raises
     ------
     InvalidInputError
-        If the request cannot be used; the message names the field and the remedy.
-    ModelFileError
-        If the body model is missing or damaged, or lacks something a fit needs.
-    DetectorUnavailableError
-        If points are to be proposed and the detector is not installed.
+        If the picture cannot be used; the message names the field and the remedy.
     """
+    prepared, known = subject.prepared, subject.known
     with clock.stage(Stage.OBSERVATION):
-        observation = observe(request, detector_for(request, detector_weights))
-        prepared = prepared_model(request.gender, models=models)
-        known = known_person(request, prepared.population, prepared.operators.evaluator)
+        observation = observe(view, max_pixels=choices.max_pixels, detector=detector)
+    lines_on = _lines_on(observation, choices)
+    if view.start is not None:
+        return _started(view, observation, prepared, view.start.body, lines_on)
     with clock.stage(Stage.INITIAL_POSE):
         initial = initialize_pose(
             prepared.searched.evaluator,
             camera=observation.camera,
             clicks=clicked_points(observation.clicks),
             shape=known.shape,
-            limb_facing=request.limb_facing,
+            limb_facing=view.limb_facing,
             slants=observation.slants,
         )
-    searches = descents(request, observation)
-    limits = searches.limits
+    kind = choices.optimizer
+    limits = limits_of(kind)
     with clock.stage(Stage.SEGMENTATION) as report:
         _, segmentation = segmented(observation, prepared, initial.parameters, fitted=False)
         coarse = silhouette_and_edges(
@@ -103,47 +126,86 @@ def outlined(
             prepared,
             initial.parameters,
             segmentation,
-            known.attributes,
             boundary_eta_m=FAR_BOUNDARY_ETA_M,
         )
-        nearer = searches.search(limits.first, report)(coarse, initial.parameters)
-        labels, segmentation = segmented(
-            observation, prepared, nearer.candidate.parameters, fitted=True
-        )
+        first = body_search(kind, limits.first, report)
+        nearer = first(of_person(known, [coarse]), [initial.parameters])
+        (near,) = nearer.candidate.views
+        labels, segmentation = segmented(observation, prepared, near.parameters, fitted=True)
     with clock.stage(Stage.SILHOUETTE_AND_EDGES) as report:
         hypotheses = initial.hypotheses[: limits.hypotheses]
-        far = with_silhouette(
-            coarse, segmentation, observation, prepared, nearer.candidate.parameters
-        )
+        far = with_silhouette(coarse, segmentation, observation, prepared, near.parameters)
         objective = replace(
             far,
             scales=scales_at(
                 observation.camera, initial.root_depth_m, boundary_eta_m=NEAR_BOUNDARY_ETA_M
             ),
         )
+        contest = body_search(kind, limits.contest, report)
         tried = try_hypotheses(
-            far,
-            objective,
+            of_person(known, [far]),
+            of_person(known, [objective]),
             # The first reading goes on from where the first search ended.
-            [nearer.candidate, *(each.parameters for each in hypotheses[1:])],
-            trial=searches.search(limits.trial, report),
+            [near, *(each.parameters for each in hypotheses[1:])],
+            trial=body_search(kind, limits.trial, report),
             contenders=limits.contenders,
             hopeless_nats=limits.hopeless_nats,
-            contest=searches.search(limits.contest, report),
+            contest=contest,
         )
-        descend = searches.first_steps if one_of_several else searches.silhouette_and_edges
-        minimum = descend(objective, tried.winner, report)
+        body: SeenBody = tried.winner
+        evaluations = nearer.evaluations + tried.evaluations
+        # Against a region that stays as it is, one search is enough.
+        if lines_on is not None or not is_only:
+            lined = _about(objective, body, lines_on)
+            steps = contest(of_person(known, [lined]), [body])
+            (body,) = steps.candidate.views
+            evaluations += steps.evaluations
     return Outlined(
-        request=request,
+        view=view,
         observation=observation,
-        prepared=prepared,
-        known=known,
-        searches=searches,
-        hypotheses=hypotheses,
-        tried=tried,
         trimap=labels,
         segmentation=segmentation,
         objective=objective,
-        minimum=minimum,
-        evaluations=nearer.evaluations + tried.evaluations + minimum.evaluations,
+        initial=hypotheses[0].parameters,
+        body=body,
+        limb_facing=limb_facings(hypotheses, tried, view.limb_facing),
+        lines_on=lines_on,
+        evaluations=evaluations,
     )
+
+
+def _started(
+    view: View,
+    observation: Observation,
+    prepared: PreparedModel,
+    body: BodyParameters,
+    lines_on: Image | None,
+) -> Outlined:
+    """A picture in which a body was found before."""
+    labels, segmentation = segmented(observation, prepared, body, fitted=True)
+    objective = silhouette_and_edges(
+        observation, prepared, body, segmentation, boundary_eta_m=NEAR_BOUNDARY_ETA_M
+    )
+    return Outlined(
+        view=view,
+        observation=observation,
+        trimap=labels,
+        segmentation=segmentation,
+        objective=objective,
+        initial=body,
+        body=objective.see(body),
+        limb_facing=(),
+        lines_on=lines_on,
+        evaluations=0,
+    )
+
+
+def _about(objective: Objective, body: Body, lines_on: Image | None) -> Objective:
+    return objective if lines_on is None else with_lines_about(objective, body, lines_on)
+
+
+def _lines_on(observation: Observation, choices: Choices) -> Image | None:
+    """A mask that the caller sent is met as it is."""
+    if choices.outline is not OutlineKind.LINES or observation.mask is not None:
+        return None
+    return observation.display

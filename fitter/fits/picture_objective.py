@@ -1,13 +1,14 @@
-"""The person cut out around a body, and E1 of a picture, given a body near the person."""
+"""The person cut out around a body, and E1 of pictures, given a body near the person."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from fitter.arrays import GreyImage
 from fitter.body.skeleton import regress
-from fitter.energies.attributes import KnownAttributes
 from fitter.energies.clicks import click_evidence
+from fitter.energies.joint_objective import JointObjective
 from fitter.energies.objective import Objective, PictureEvidence
 from fitter.energies.priors import population_prior
 from fitter.energies.scales import scales_at
@@ -19,6 +20,8 @@ from fitter.fits.prepared_model import PreparedModel
 from fitter.fits.slant_evidence import limb_slants
 from fitter.observation.observation import Observation
 from fitter.parameters import BodyParameters
+from fitter.person.several_pictures import counted_as
+from fitter.population.known_person import KnownPerson
 from fitter.render.rasterizer import render
 from fitter.request import Clothing
 from fitter.segmentation.bones import clicked_bones, foot_bones
@@ -44,6 +47,11 @@ _DOUBTFUL_MARGIN_M = 0.05
 
 _EDGE_THRESHOLD_M = 0.03
 """How far from a model edge an image edge may lie and still attract it."""
+
+SHARED_ERROR = 0.2
+"""Correlation of the errors of two pictures that are searched together. It is less than that of
+whole fits of one picture (:data:`fitter.person.several_pictures.SHARED_ERROR`), because what a
+prior about depth makes them err in alike, another view tells."""
 
 
 def segmented(
@@ -85,7 +93,6 @@ def silhouette_and_edges(
     prepared: PreparedModel,
     near: BodyParameters,
     segmentation: Segmentation,
-    attributes: KnownAttributes,
     *,
     boundary_eta_m: float,
 ) -> Objective:
@@ -110,11 +117,19 @@ def silhouette_and_edges(
             shading=None,
         ),
         scales=scales_at(observation.camera, depth, boundary_eta_m=boundary_eta_m),
-        shape_prior=population_prior(len(near.shape)),
-        attributes=attributes,
         posture=observation.posture,
     )
     return dressed(objective, observation, prepared, near)
+
+
+def of_person(known: KnownPerson, pictures: Sequence[Objective]) -> JointObjective:
+    """The energy of a person in one or several pictures: what is known of them counts once."""
+    return JointObjective(
+        views=tuple(pictures),
+        weight=counted_as(len(pictures), shared=SHARED_ERROR) / len(pictures),
+        shape_prior=population_prior(len(known.shape)),
+        attributes=known.attributes,
+    )
 
 
 def with_silhouette(

@@ -1,158 +1,275 @@
-"""The paper on one page: from a picture and clicks to a measured, posed and lit body."""
+"""The paper on one page: from pictures and clicks to a measured, posed and lit body."""
 
+from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
+from typing import Final
 
-from fitter.arrays import Vertices
-from fitter.energies.objective import Candidate
+from fitter.capture.checking import check_capture
+from fitter.capture.finding import Finding
+from fitter.energies.joint_objective import JointCandidate
+from fitter.errors import InvalidInputError
+from fitter.fits.capture_check import capture_of_view
 from fitter.fits.clothing import clothing_remarks
-from fitter.fits.outlined import outlined
+from fitter.fits.equipment import Equipment
+from fitter.fits.foretold import foretold
+from fitter.fits.outlined import Outlined, Subject, outlined
+from fitter.fits.picture_objective import of_person
 from fitter.fits.progress import Observer, Stage, ignore_progress
-from fitter.fits.reporting import (
-    fit_warnings,
-    insistence_warnings,
-    limb_facings,
-    shading_warnings,
-)
-from fitter.fits.settling import compared_with, settle, shade
-from fitter.fits.stage_clock import StageClock
+from fitter.fits.reporting import fit_warnings, insistence_warnings, shading_warnings
+from fitter.fits.scan_remarks import person_warnings
+from fitter.fits.search import Found, search
+from fitter.fits.settling import settle
+from fitter.fits.stage_clock import StageClock, ViewClock
 from fitter.measurement.anthropometry import measure
 from fitter.measurement.quantity import Measurement
-from fitter.optimizer.uncertainty import certainty
+from fitter.observation.subject import check_person
+from fitter.optimizer.free_space import held_shape
+from fitter.optimizer.uncertainty import certainty, shape_covariance
+from fitter.person.fitted_person import FittedPerson
+from fitter.person.several_pictures import MOST_PICTURES, CombinedShape, combined_shape
+from fitter.population.known_person import known_person
 from fitter.request import FitRequest
-from fitter.result import FitResult, Pictures, StageBody
+from fitter.result import FitResult, FitStage, FittedView, PictureFit, Pictures, StageBody
+
+MOST_VIEWS: Final = 6
+"""Pictures of one fit; those in which a body was found before are searched faster, and may be
+:data:`fitter.person.several_pictures.MOST_PICTURES`."""
+
+PACKAGED: Final = Equipment()
 
 
 def fit(
     request: FitRequest,
+    equipment: Equipment = PACKAGED,
     *,
-    models: Path | None = None,
-    detector_weights: Path | None = None,
     observer: Observer = ignore_progress,
 ) -> FitResult:
-    """Fit a body to one picture.
-
-    The body models and the detector's weights come from their packages unless a folder is given.
+    """Fit one body to all pictures of a person: each by itself until near its outline, then all.
 
     Raises
     ------
     InvalidInputError
-        If the request cannot be used; the message names the field and the remedy.
+        If the request cannot be used; the message names the field and the remedy. Of several
+        pictures, what is at fault in one has a field that begins with ``views.NUMBER``.
     ModelFileError
         If the body model is missing or damaged, or lacks something a fit needs.
     DetectorUnavailableError
         If points are to be proposed and the detector is not installed.
-
-    Examples
-    --------
-    >>> from fitter import Click, FitRequest, Gender, fit
-    >>> points = {name: Click(x=x, y=y) for name, (x, y) in clicks.items()}
-    >>> asked = FitRequest(image=picture, clicks=points, gender=Gender(gender), height_m=height_m)
-    >>> result = fit(asked)
-    >>> result.found.outcome.value, result.found.silhouette_overlap > 0.9
-    ('converged', True)
     """
-    clock = StageClock(observer)
-    view = outlined(request, clock, models=models, detector_weights=detector_weights)
-    observation, known, prepared, se = view.observation, view.known, view.prepared, view.minimum
-    with clock.stage(Stage.SHADING) as report:
-        shaded = shade(
-            request, observation, view.segmentation, view.searches, view.objective, se, report
-        )
-    final = shaded.minimum.candidate
+    _check(request)
+    clock = StageClock(observer, len(request.views))
+    with clock.stage(Stage.OBSERVATION):
+        subject = _subject(request, equipment)
+    pictures = _outlined(request, subject, equipment, clock)
+    known, held = subject.known, subject.known.attributes.held
+    alone = _alone(request, subject, pictures)
+    start = pictures[0].body.parameters.shape if alone is None else alone.shape
+    found = search(pictures, known, held_shape(held, start), request.choices, clock)
     with clock.stage(Stage.MEASUREMENT):
-        objective = compared_with(view.searches, shaded)
-        found = settle(
-            request,
-            observation,
-            prepared.operators.model,
-            shaded,
-            certainty(shaded.with_shading(objective), final),
-            height_m=known.height_m,
-            height_variance=known.height_variance,
-        )
+        people = settle(request.person.gender, subject, pictures, found)
+        shape, covariance = found.minimum.candidate.shape, people[0].person.shape_covariance
+        assert covariance is not None
         measurements = measure(
-            prepared.measuring,
-            final.parameters.shape,
-            shape_covariance=found.person.shape_covariance,
+            subject.prepared.measuring,
+            shape,
+            shape_covariance=covariance,
             given=known.given,
             held=known.held,
         )
-        canonical = prepared.measuring.canonical.at(final.parameters.shape)
-        before = {"initial": objective.evaluate(view.hypotheses[0].parameters)}
-        if shaded.shading is not None:
-            before["SE"] = se.candidate
-        stages = [
-            _stage(
-                name,
-                candidate,
-                prepared.operators.evaluator.vertices(candidate.parameters),
-                prepared.measuring.canonical.at(candidate.parameters.shape),
-                silhouette_overlap=objective.overlap(candidate),
-                measurements=measure(prepared.measuring, candidate.parameters.shape),
-            )
-            for name, candidate in before.items()
-        ]
-        stages.append(
-            _stage(
-                "SE" if shaded.shading is None else "SES",
-                final,
-                found.posed_vertices,
-                canonical,
-                silhouette_overlap=found.silhouette_overlap,
-                measurements=tuple(replace(each, standard_error=None) for each in measurements),
-            )
+        stages = _stages(subject, pictures, found, people, measurements)
+        population = subject.prepared.population
+        warnings = person_warnings(
+            alone,
+            foretold(found.energy, found.minimum.candidate, known),
+            dict(zip(population.names, population.units, strict=True)),
+            [view.kind for view in request.views],
+            [each.person.body for each in people],
         )
-    if not (found.is_plausible or request.force):
+        views = _views(request, pictures, found, people)
+    if not (request.choices.force or all(each.is_plausible for each in people)):
         measurements = ()
         stages = [replace(stage, measurements=()) for stage in stages]
-    facings = limb_facings(view.hypotheses, view.tried, request.limb_facing)
-    clothing_assumptions, clothing_warnings = clothing_remarks(objective)
     return FitResult(
-        found=found,
+        views=views,
+        shape=shape,
+        shape_covariance=covariance,
+        canonical_vertices=stages[-1].canonical_vertices,
+        triangles=subject.prepared.operators.model.triangles,
+        measurements=measurements,
         given=known.given,
-        optimizer=request.optimizer,
-        camera=observation.camera,
-        focal_length_source=observation.focal_length_source,
-        canonical_vertices=canonical,
-        energies=final.energies,
-        evaluations=view.evaluations
-        + (0 if shaded.shading is None else shaded.shading.evaluations),
+        optimizer=request.choices.optimizer,
+        energies=found.minimum.candidate.energies,
+        evaluations=found.evaluations + sum(each.evaluations for each in pictures),
         stages=tuple(stages),
-        measurements=measurements,
-        limb_facing=facings,
-        assumptions=observation.assumptions + known.assumptions + clothing_assumptions,
-        warnings=observation.warnings
-        + known.warnings
-        + view.segmentation.warnings
-        + clothing_warnings
-        + fit_warnings(found.silhouette_overlap, facings)
-        + shading_warnings(request, found)
-        + insistence_warnings(request, found),
+        alone=alone,
+        assumptions=known.assumptions,
+        warnings=known.warnings + warnings,
         stage_seconds=clock.seconds,
-        pictures=Pictures(
-            image=observation.display,
-            trimap=view.trimap,
-            segmentation=view.segmentation.mask,
-        ),
     )
 
 
-def _stage(
-    name: str,
-    candidate: Candidate,
-    posed_vertices: Vertices,
-    canonical_vertices: Vertices,
-    *,
-    silhouette_overlap: float,
-    measurements: tuple[Measurement, ...],
-) -> StageBody:
-    return StageBody(
+def _check(request: FitRequest) -> None:
+    begun = bool(request.views) and all(view.start is not None for view in request.views)
+    most = MOST_PICTURES if begun else MOST_VIEWS
+    if not 1 <= len(request.views) <= most:
+        raise InvalidInputError(
+            code="views-count",
+            field="views",
+            reason=f"A fit has 1 to {most} pictures, not {len(request.views)}.",
+            remedy="Send the person from the front and from the side, and more if there are.",
+        )
+    check_person(request.person)
+
+
+def _subject(request: FitRequest, equipment: Equipment) -> Subject:
+    prepared = equipment.model(request.person.gender)
+    known = known_person(request.person, prepared.population, prepared.operators.evaluator)
+    return Subject(prepared=prepared, known=known)
+
+
+def _outlined(
+    request: FitRequest, subject: Subject, equipment: Equipment, clock: StageClock
+) -> list[Outlined]:
+    """Every picture by itself; a fault of the only one needs no place."""
+    is_only = len(request.views) == 1
+    pictures: list[Outlined] = []
+    for number, view in enumerate(request.views):
+        detector = equipment.detector_for(view)
+        of_view = ViewClock(clock=clock, view=number)
+        try:
+            pictures.append(
+                outlined(view, subject, request.choices, detector, of_view, is_only=is_only)
+            )
+        except InvalidInputError as error:
+            if is_only:
+                raise
+            place = f"views.{number}"
+            raise error.within(place) from error
+    return pictures
+
+
+def _alone(
+    request: FitRequest, subject: Subject, pictures: Sequence[Outlined]
+) -> CombinedShape | None:
+    """What several pictures say of the shape, each by itself."""
+    if len(pictures) == 1:
+        return None
+    return combined_shape([_person_alone(request, subject, picture) for picture in pictures])
+
+
+def _person_alone(request: FitRequest, subject: Subject, picture: Outlined) -> FittedPerson:
+    """The person as an earlier fit, or the outline, of one picture tells them."""
+    start = picture.view.start
+    if start is not None:
+        body, covariance = start.body, start.shape_covariance
+    else:
+        about = of_person(subject.known, [picture.about(picture.objective, picture.body)])
+        seen = about.evaluate([picture.body])
+        (certain,) = certainty(about, seen)
+        body = picture.body.parameters
+        covariance = shape_covariance(certain, height_variance=subject.known.height_variance)
+    return FittedPerson(
+        gender=request.person.gender,
+        model_checksum=subject.prepared.operators.model.checksum,
+        body=body,
+        camera=picture.observation.image_camera,
+        light=None,
+        reflectance=None,
+        albedo_rgb=None,
+        shape_covariance=covariance,
+    )
+
+
+def _stages(
+    subject: Subject,
+    pictures: Sequence[Outlined],
+    found: Found,
+    people: Sequence[PictureFit],
+    measurements: Sequence[Measurement],
+) -> list[FitStage]:
+    """How the body came about: before any search, after E1, and after E2 if there was shading."""
+    shape = pictures[0].initial.shape
+    initial = [replace(each.initial, shape=shape) for each in pictures]
+    before = {"initial": found.objective.evaluate(initial)}
+    if found.is_lit:
+        before["SE"] = found.outline.candidate
+    stages = [_stage(subject, found, name, candidate) for name, candidate in before.items()]
+    final = found.minimum.candidate
+    stages.append(
+        FitStage(
+            name="SES" if found.is_lit else "SE",
+            bodies=tuple(
+                StageBody(
+                    body=each.person.body,
+                    posed_vertices=each.posed_vertices,
+                    silhouette_overlap=each.silhouette_overlap,
+                )
+                for each in people
+            ),
+            canonical_vertices=subject.prepared.measuring.canonical.at(final.shape),
+            energies=final.energies,
+            measurements=tuple(replace(each, standard_error=None) for each in measurements),
+        )
+    )
+    return stages
+
+
+def _stage(subject: Subject, found: Found, name: str, candidate: JointCandidate) -> FitStage:
+    prepared = subject.prepared
+    return FitStage(
         name=name,
-        body=candidate.parameters,
-        posed_vertices=posed_vertices,
-        canonical_vertices=canonical_vertices,
+        bodies=tuple(
+            StageBody(
+                body=each.parameters,
+                posed_vertices=prepared.operators.evaluator.vertices(each.parameters),
+                silhouette_overlap=view.overlap(each),
+            )
+            for view, each in zip(found.objective.views, candidate.views, strict=True)
+        ),
+        canonical_vertices=prepared.measuring.canonical.at(candidate.shape),
         energies=candidate.energies,
-        silhouette_overlap=silhouette_overlap,
-        measurements=measurements,
+        measurements=measure(prepared.measuring, candidate.shape),
     )
+
+
+def _views(
+    request: FitRequest,
+    pictures: Sequence[Outlined],
+    found: Found,
+    people: Sequence[PictureFit],
+) -> tuple[FittedView, ...]:
+    views: list[FittedView] = []
+    for picture, objective, each in zip(pictures, found.objective.views, people, strict=True):
+        observation, view = picture.observation, picture.view
+        clothing_assumptions, clothing_warnings = clothing_remarks(objective)
+        views.append(
+            FittedView(
+                kind=view.kind,
+                found=each,
+                camera=observation.camera,
+                focal_length_source=observation.focal_length_source,
+                limb_facing=picture.limb_facing,
+                findings=_findings(request, picture),
+                assumptions=observation.assumptions + clothing_assumptions,
+                warnings=observation.warnings
+                + picture.segmentation.warnings
+                + clothing_warnings
+                + fit_warnings(each.silhouette_overlap, picture.limb_facing)
+                + shading_warnings(view, each)
+                + insistence_warnings(request.choices, each),
+                pictures=Pictures(
+                    image=observation.display,
+                    trimap=picture.trimap,
+                    segmentation=picture.segmentation.mask,
+                ),
+            )
+        )
+    return tuple(views)
+
+
+def _findings(request: FitRequest, picture: Outlined) -> tuple[Finding, ...]:
+    """What is wrong with a picture that was taken to be measured; it is fitted all the same."""
+    if picture.view.kind is None:
+        return ()
+    capture = capture_of_view(picture.observation, picture.view, request.person)
+    return check_capture(capture).findings

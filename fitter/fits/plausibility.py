@@ -57,15 +57,23 @@ class Plausibility:
 
 
 def plausibility(
-    observation: Observation, objective: Objective, candidate: Candidate, overlap: float
+    observation: Observation,
+    objective: Objective,
+    candidate: Candidate,
+    overlap: float,
+    *,
+    shape_nats: float,
 ) -> Plausibility:
-    """Compare the body at the end of a search with the evidence of its objective."""
+    """Compare the body at the end of a search with the evidence of its objective.
+
+    ``shape_nats`` is what the shape costs under its prior.
+    """
     return Plausibility(
         overlap=overlap,
         boundary=_clear_boundary(observation, objective, candidate),
         beyond=_beyond(objective, candidate),
         click_deviations=_click_deviations(objective, candidate),
-        strain=candidate.energies["pose_prior"] + candidate.energies["shape_prior"],
+        strain=candidate.energies["pose_prior"] + shape_nats,
         detected=observation.detected,
     )
 

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from fitter.optimizer.hypotheses import TriedHypotheses
 from fitter.pose_init.initial_pose import PoseHypothesis
 from fitter.remarks import FitWarning
-from fitter.request import Cues, Facing, FitRequest, SurroundingsKind
+from fitter.request import Choices, Cues, Facing, SurroundingsKind, View
 from fitter.result import FacingSource, LimbFacing, Outcome, PictureFit, Verdict
 
 POOR_OVERLAP = 0.85
@@ -30,12 +30,12 @@ def limb_facings(
 ) -> tuple[LimbFacing, ...]:
     """How each limb's depth ambiguity was resolved (section 3.1)."""
     chosen = hypotheses[tried.best]
-    energy = tried.ends[tried.best].total
+    energy = tried.totals[tried.best]
     facings: list[LimbFacing] = []
     for limb, facing in chosen.facing.items():
         others = [
-            end.total
-            for hypothesis, end in zip(hypotheses, tried.ends, strict=True)
+            total
+            for hypothesis, total in zip(hypotheses, tried.totals, strict=True)
             if hypothesis.facing.get(limb) not in (None, facing)
         ]
         source = FacingSource.ENERGY if others else FacingSource.PRIOR
@@ -80,9 +80,9 @@ def fit_warnings(overlap: float, facings: Sequence[LimbFacing]) -> tuple[FitWarn
     return tuple(warnings)
 
 
-def insistence_warnings(request: FitRequest, found: PictureFit) -> tuple[FitWarning, ...]:
+def insistence_warnings(choices: Choices, found: PictureFit) -> tuple[FitWarning, ...]:
     """What measurements are worth that are given because the request insists."""
-    if found.is_plausible or not request.force:
+    if found.is_plausible or not choices.force:
         return ()
     return (
         FitWarning(
@@ -95,14 +95,14 @@ def insistence_warnings(request: FitRequest, found: PictureFit) -> tuple[FitWarn
     )
 
 
-def shading_warnings(request: FitRequest, found: PictureFit) -> tuple[FitWarning, ...]:
+def shading_warnings(view: View, found: PictureFit) -> tuple[FitWarning, ...]:
     """What was asked for about the light but could not be found."""
-    if request.cues is not Cues.SES:
+    if view.cues is not Cues.SES:
         return ()
     light = found.person.light
     if light is None:
         return (_SHADING_NOT_USED,)
-    wanted = request.light.surroundings is SurroundingsKind.SPHERICAL_HARMONICS
+    wanted = view.light.surroundings is SurroundingsKind.SPHERICAL_HARMONICS
     return (_SURROUNDINGS_NOT_FOUND,) if wanted and light.surroundings is None else ()
 
 

@@ -1,4 +1,4 @@
-"""What a scan says about itself: pictures of different people, from other sides, and wrong words.
+"""What a fit says about itself: pictures of different people, from other sides, and wrong words.
 
 Each is found by a residual: what one picture says of the shape against the others, how a fitted
 body is turned against the view that was announced, and what all pictures say of a measurement
@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from fitter.fits.joint_search import Foretold
+from fitter.fits.foretold import Foretold
 from fitter.numerics.rotations import rotation_matrices
 from fitter.parameters import BodyParameters
 from fitter.person.several_pictures import CombinedShape
@@ -26,21 +26,26 @@ _ANNOUNCED_DEG = {ViewKind.FRONT: 0.0, ViewKind.SIDE: 90.0, ViewKind.BACK: 180.0
 _SAID = {ViewKind.FRONT: "the front", ViewKind.SIDE: "the side", ViewKind.BACK: "behind"}
 
 
-def scan_warnings(
-    alone: CombinedShape,
+def person_warnings(
+    alone: CombinedShape | None,
     foretold: Sequence[Foretold],
     units: Mapping[str, str],
-    views: Sequence[ViewKind],
+    views: Sequence[ViewKind | None],
     bodies: Sequence[BodyParameters],
 ) -> tuple[FitWarning, ...]:
-    """What the caller should look at, in the scan as a whole; ``units`` are by measurement."""
+    """What the caller should look at, in the fit as a whole.
+
+    ``alone`` is what several pictures say of the shape, each by itself; ``units`` are by
+    measurement. A warning about one of several pictures names it by its place.
+    """
+    several = len(views) > 1
     warnings = [
         warning
         for number, (view, body) in enumerate(zip(views, bodies, strict=True))
-        if (warning := _other_view(number, view, body))
+        if (warning := _other_view(f"views.{number}" if several else "The picture", view, body))
     ]
     warnings += [warning for each in foretold if (warning := _contradicted(each, units[each.name]))]
-    if alone.doubtful:
+    if alone is not None and alone.doubtful:
         warnings.append(_different_people(alone))
     return tuple(warnings)
 
@@ -51,8 +56,8 @@ def turned_deg(body: BodyParameters) -> float:
     return float(np.degrees(np.arctan2(np.hypot(forward[0], forward[1]), forward[2])))
 
 
-def _other_view(number: int, view: ViewKind, body: BodyParameters) -> FitWarning | None:
-    if view is ViewKind.OTHER:
+def _other_view(place: str, view: ViewKind | None, body: BodyParameters) -> FitWarning | None:
+    if view in (None, ViewKind.OTHER):
         return None
     found = turned_deg(body)
     if abs(found - _ANNOUNCED_DEG[view]) <= MOST_TURNED_DEG:
@@ -60,7 +65,7 @@ def _other_view(number: int, view: ViewKind, body: BodyParameters) -> FitWarning
     return FitWarning(
         code="other-view",
         message=(
-            f"views.{number} is said to be from {_SAID[view]}, but the body found in it is turned "
+            f"{place} is said to be from {_SAID[view]}, but the body found in it is turned "
             f"by {found:.0f} degrees from facing the camera. Check the view, whether left and "
             "right are the person's own, and whether the picture is mirrored."
         ),

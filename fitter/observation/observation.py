@@ -27,15 +27,16 @@ from fitter.observation.resampling import (
     linear_working_picture,
     working_size,
 )
-from fitter.observation.subject import check_subject
+from fitter.observation.subject import check_light
 from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera, FocalLengthSource
-from fitter.request import Click, Clothing, FitRequest, Posture, SegmentationKind
+from fitter.request import Click, View
+from fitter.vocabulary.choices import Clothing, Posture, SegmentationKind, ViewKind
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Observation:
-    """One request, decoded and checked, at the working size (h, w).
+    """One picture of a request, decoded and checked, at the working size (h, w).
 
     Attributes
     ----------
@@ -56,7 +57,7 @@ class Observation:
     clothing
         How the caller says the clothes lie.
     posture
-        What the caller knows of how the person stands.
+        What is known of how the person stands.
     seed
         (h, w) probability that a pixel shows the person, by the detector; None if segmentation
         does not use it.
@@ -87,36 +88,34 @@ class Observation:
     warnings: tuple[FitWarning, ...]
 
 
-def observe(request: FitRequest, detector: Detector | None = None) -> Observation:
-    """Decode and check a request, and run the detector, if any.
+def observe(view: View, *, max_pixels: int, detector: Detector | None = None) -> Observation:
+    """Decode and check a picture, and run the detector, if any.
 
     Raises
     ------
     InvalidInputError
-        If the picture, the mask, the points, the focal length or the person's data cannot be used.
+        If the picture, the mask, the points, the focal length or the light cannot be used.
     """
-    check_subject(request)
-    picture = decode_picture(request.image, field="image", max_pixels=request.max_pixels)
+    check_light(view.light)
+    picture = decode_picture(view.image, field="image", max_pixels=max_pixels)
     height, width = picture.pixels.shape[:2]
-    if request.complete_clicks:
-        check_places(request.clicks, width=width, height=height)
+    if view.complete_clicks:
+        check_places(view.clicks, width=width, height=height)
     else:
-        check_clicks(request.clicks, width=width, height=height)
+        check_clicks(view.clicks, width=width, height=height)
     focal = focal_length(
-        request, picture.exif, width=width, height=height, stored_width=picture.stored_width
+        view, picture.exif, width=width, height=height, stored_width=picture.stored_width
     )
     size = working_size(width=width, height=height)
     mask = None
-    if request.mask is not None:
-        mask = decode_mask(
-            request.mask, width=width, height=height, size=size, max_pixels=request.max_pixels
-        )
+    if view.mask is not None:
+        mask = decode_mask(view.mask, width=width, height=height, size=size, max_pixels=max_pixels)
     linear_rgb = linear_working_picture(picture.pixels, size)
     display = display_working_picture(linear_rgb)
-    given = clicks = scaled_clicks(request.clicks, size.scale)
+    given = clicks = scaled_clicks(view.clicks, size.scale)
     bodies = () if detector is None else detector.bodies(bytes_of_display(display))
     detected = body_of_clicks(bodies, clicks)
-    if request.complete_clicks:
+    if view.complete_clicks:
         clicks = completed_clicks(given, detected)
         # Up to one working pixel may be left out at the right and lower border of the original.
         check_clicks(clicks, width=size.width + 1, height=size.height + 1)
@@ -137,18 +136,23 @@ def observe(request: FitRequest, detector: Detector | None = None) -> Observatio
         scale=size.scale,
         clicks=clicks,
         mask=mask,
-        clothing=request.clothing,
-        posture=request.posture,
-        seed=detected.mask if detected is not None and _is_seeded(request) else None,
-        slants=detected.slants if detected is not None and request.slant_hints else None,
+        clothing=view.clothing,
+        posture=_posture(view.kind),
+        seed=detected.mask if detected is not None and _is_seeded(view) else None,
+        slants=detected.slants if detected is not None and view.slant_hints else None,
         detected=None if detector is None else is_somebody_at(bodies, given),
         bodies=None if detector is None else tuple(bodies),
         assumptions=focal.assumptions + proposal_assumptions(given, clicks),
         warnings=picture.warnings
         + side_warnings(clicks)
-        + (crowd_warnings(given, len(bodies)) if request.complete_clicks else ()),
+        + (crowd_warnings(given, len(bodies)) if view.complete_clicks else ()),
     )
 
 
-def _is_seeded(request: FitRequest) -> bool:
-    return request.mask is None and request.segmentation is SegmentationKind.SEEDED_GRABCUT
+def _posture(kind: ViewKind | None) -> Posture:
+    """Who is measured stands as asked; in other pictures people do as they like."""
+    return Posture.ANY if kind in (None, ViewKind.OTHER) else Posture.MEASURED
+
+
+def _is_seeded(view: View) -> bool:
+    return view.mask is None and view.segmentation is SegmentationKind.SEEDED_GRABCUT

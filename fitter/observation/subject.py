@@ -5,30 +5,30 @@ from collections.abc import Mapping
 
 from fitter.errors import InvalidInputError
 from fitter.remarks import Assumption
-from fitter.request import FitRequest, Gender
+from fitter.request import Gender, LightGuess, Person
 from fitter.vocabulary.measurements import LEAST_HEIGHT_M, MOST_HEIGHT_M, STATURE
 
 MEAN_HEIGHT_M: Mapping[Gender, float] = {Gender.FEMALE: 1.65, Gender.MALE: 1.82}
 """Section 4: the heights assumed for people whose height is not known, as in paintings."""
 
 
-def check_subject(request: FitRequest) -> None:
-    """Refuse an impossible height, measurement or first light.
+def check_person(person: Person) -> None:
+    """Refuse an impossible height or measurement.
 
     Raises
     ------
     InvalidInputError
-        ``out-of-range``, ``two-heights``, ``measurement-invalid`` or ``light-invalid``.
+        ``out-of-range``, ``two-heights`` or ``measurement-invalid``.
     """
-    check_height(request.height_m)
-    if request.height_m is not None and STATURE in request.measurements:
+    check_height(person.height_m)
+    if person.height_m is not None and STATURE in person.measurements:
         raise InvalidInputError(
             code="two-heights",
             field="height_m",
             reason=f"Both height_m and measurements.{STATURE} are given.",
             remedy="Send one of the two.",
         )
-    for name, known in request.measurements.items():
+    for name, known in person.measurements.items():
         if not (0.0 < known.value < math.inf and 0.0 <= known.standard_error < math.inf):
             raise InvalidInputError(
                 code="measurement-invalid",
@@ -36,7 +36,16 @@ def check_subject(request: FitRequest) -> None:
                 reason="A value is positive and finite, a standard error finite and not negative.",
                 remedy="Correct it, or leave the measurement out.",
             )
-    guess = request.light
+
+
+def check_light(guess: LightGuess) -> None:
+    """Refuse an impossible first light.
+
+    Raises
+    ------
+    InvalidInputError
+        ``light-invalid``.
+    """
     for name, value in (
         ("azimuth", guess.azimuth),
         ("elevation", guess.elevation),
@@ -77,14 +86,14 @@ def check_height(height_m: float | None) -> None:
         )
 
 
-def subject_height(request: FitRequest) -> tuple[float, tuple[Assumption, ...]]:
+def subject_height(person: Person) -> tuple[float, tuple[Assumption, ...]]:
     """The caller's height, or the mean of the gender together with the assumption."""
-    if request.height_m is not None:
-        return request.height_m, ()
-    mean = MEAN_HEIGHT_M[request.gender]
+    if person.height_m is not None:
+        return person.height_m, ()
+    mean = MEAN_HEIGHT_M[person.gender]
     assumed = Assumption(
         quantity="height_m",
         value=mean,
-        reason=f"No height was given; the mean of the gender ({request.gender.value}) was taken.",
+        reason=f"No height was given; the mean of the gender ({person.gender.value}) was taken.",
     )
     return mean, (assumed,)

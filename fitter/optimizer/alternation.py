@@ -1,22 +1,23 @@
-"""Body shape from shading (section 5): light, reflectance and body in turn.
+"""Body shape from shading (section 5): light and reflectance of every picture, and bodies, in turn.
 
 The smoothness of albedo and specularity starts high and is lowered round by round, so that at first
 it is the shape that has to change to make the predicted brightness match.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float, Integer
 
 from fitter.arrays import Vertices
-from fitter.energies.objective import Body, Candidate, Objective
+from fitter.energies.joint_objective import JointCandidate, JointObjective
+from fitter.energies.objective import Candidate, Objective
 from fitter.energies.shading import ShadingEvidence, explained_vertices, seen_vertices
 from fitter.evidence.intensity import IntensityMap
 from fitter.numerics.mesh_parts import grown, mesh_part
 from fitter.numerics.surface_sample import SurfaceSample
-from fitter.optimizer.gauss_newton import NEARLY_SETTLED_NATS, SETTLED_NATS, Minimum
+from fitter.optimizer.gauss_newton import Minimum
 from fitter.optimizer.hidden_reflectance import HiddenVertices
 from fitter.optimizer.light_step import (
     darkest,
@@ -31,6 +32,7 @@ from fitter.optimizer.reflectance_solve import (
     ReflectanceProblem,
     ReflectanceSolver,
 )
+from fitter.optimizer.search import BodySearch
 from fitter.optimizer.whole_body import on_whole_body
 from fitter.parameters import Light, Reflectance
 from fitter.render.reflectance import shading_terms
@@ -41,11 +43,6 @@ SMOOTHNESS_SCHEDULE = (40.0, 14.0, 5.0)
 between two neighbours costs as much as this many vertices left wholly unexplained. With a lower
 last value (0.3) the albedo absorbs what the shape should explain; chosen on the evaluation's tuning
 half."""
-
-ROUNDS = len(SMOOTHNESS_SCHEDULE)
-
-ROUND_TOLERANCES = (*(NEARLY_SETTLED_NATS,) * (ROUNDS - 1), SETTLED_NATS)
-"""Gain, nats, below which each round's search for the body ends."""
 
 SHADOW_ROUNDS = 1
 """Times that light and reflectance are found with the shadows, for a light with surroundings."""
@@ -76,47 +73,58 @@ _LEAST_USABLE = 200
 _LEAST_FOR_SURROUNDINGS = 150
 # Sampled vertices: 70 are seen of a face alone, 300 or more of a body in loose clothes.
 
-BodySearch = Callable[[Objective, Body], Minimum]
+Round = tuple[float, BodySearch]
+"""λ₁ = λ₂, and the search for the bodies."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class ShadedFit:
-    """What the alternation found.
+class Alternated:
+    """Where the alternation ended.
 
     Attributes
     ----------
     minimum
-        The body and the energies that were minimised, those of ``evidence``.
+        Of E2.
+    states
+        The shading term of each picture in the last round; None where it has none.
+    evaluations
+        True energies computed.
+    """
+
+    minimum: Minimum
+    states: tuple[ShadingEvidence | None, ...]
+    evaluations: int
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class ShadedFit:
+    """What the alternation found in one picture.
+
+    Attributes
+    ----------
     body
-        The same body on all of its vertices: what light and reflectance are reported on.
+        The final body on all of its vertices: what light and reflectance are reported on.
     light, reflectance
         In coordinates about the final body's centre, where the light's intensity is 1.
     hidden
         The vertices whose reflectance was not observed but filled in.
     evidence
         The shading term of the last round; its reflectance is smoother than the one reported.
-    evaluations
-        True energies computed.
     """
 
-    minimum: Minimum
     body: Candidate
     light: Light
     reflectance: Reflectance
     hidden: HiddenVertices
     evidence: ShadingEvidence
-    evaluations: int
 
 
 def fit_shading(
-    objective: Objective,
-    start: Candidate,
-    intensity: IntensityMap,
-    lights: tuple[Light, ...],
-    *,
-    searches: Sequence[BodySearch],
-    surroundings: SurroundingsKind = SurroundingsKind.UNIFORM,
-) -> ShadedFit | None:
+    objective: JointObjective,
+    start: JointCandidate,
+    states: Sequence[ShadingEvidence | None],
+    rounds: Sequence[Round],
+) -> Alternated:
     """Minimise E2 from the minimum of E1.
 
     Parameters
@@ -125,32 +133,37 @@ def fit_shading(
         E1, without shading.
     start
         Its minimum.
-    intensity
-        The person's luminance.
-    lights
-        First guesses: one from the caller, or several.
-    searches
-        Of each round: minimises an objective over the body from given parameters, the third step.
-    surroundings
-        See :func:`first_shading`.
-
-    Returns
-    -------
-    None if too few vertices are visible and trusted for shading to tell anything.
+    states
+        The first light in each picture (:func:`first_shading`); None where shading takes no part.
+    rounds
+        One at least: light and reflectance of every picture, then the bodies.
     """
-    state = first_shading(objective, start, intensity, lights, surroundings)
-    if state is None:
-        return None
+    now, evaluations = start, 0
     minimum: Minimum | None = None
-    evaluations = 0
-    now = start
-    for round_index, search in enumerate(searches):
-        state = next_shading(objective, now, state, round_index)
-        minimum = search(objective.with_shading(state), now)
+    for number, (smoothness, search) in enumerate(rounds):
+        states = [
+            None
+            if state is None
+            else next_shading(view, seen, state, smoothness=smoothness, light_is_new=number == 0)
+            for view, seen, state in zip(objective.views, now.views, states, strict=True)
+        ]
+        minimum = search(with_shading(objective, states), now.views)
         evaluations += minimum.evaluations
         now = minimum.candidate
     assert minimum is not None
-    return shaded_fit(objective, minimum, state, evaluations=evaluations)
+    return Alternated(minimum=minimum, states=tuple(states), evaluations=evaluations)
+
+
+def with_shading(
+    objective: JointObjective, states: Sequence[ShadingEvidence | None]
+) -> JointObjective:
+    """E1 with the shading term of each picture that has one: E2."""
+    return objective.with_views(
+        [
+            view if state is None else view.with_shading(state)
+            for view, state in zip(objective.views, states, strict=True)
+        ]
+    )
 
 
 def first_shading(
@@ -176,28 +189,30 @@ def first_shading(
 
 
 def next_shading(
-    objective: Objective, now: Candidate, state: ShadingEvidence, round_index: int
+    objective: Objective,
+    now: Candidate,
+    state: ShadingEvidence,
+    *,
+    smoothness: float,
+    light_is_new: bool,
 ) -> ShadingEvidence:
     """Light, shadows and reflectance of a body: what a round does before the body moves."""
     state = state.about(now.parameters.translation)
-    if round_index > 0:
+    if not light_is_new:
         state = with_new_light(now, state)
     state = with_new_shadows(objective, now, state)
-    smoothness = SMOOTHNESS_SCHEDULE[round_index]
     return _with_new_reflectance(
-        objective, now, state, smoothness, REFINEMENT if round_index else GRADUATION
+        objective, now, state, smoothness, GRADUATION if light_is_new else REFINEMENT
     )
 
 
-def shaded_fit(
-    objective: Objective, minimum: Minimum, state: ShadingEvidence, *, evaluations: int
-) -> ShadedFit:
-    """What is reported once the body no longer moves.
+def shaded_fit(objective: Objective, final: Candidate, state: ShadingEvidence) -> ShadedFit:
+    """What is reported of a picture once the body no longer moves.
 
     The reflectance is found again for the final body, so that what is drawn is what was found.
     """
-    state = state.about(minimum.candidate.parameters.translation)
-    objective, now, reported = on_whole_body(objective, minimum.candidate, state)
+    state = state.about(final.parameters.translation)
+    objective, now, reported = on_whole_body(objective, final, state)
     if state.light.surroundings is not None:
         reported = _with_shadows_explained(objective, now, reported)
     reported = _with_new_reflectance(
@@ -210,13 +225,11 @@ def shaded_fit(
         specularity=hidden.filled(reported.reflectance.specularity),
     )
     return ShadedFit(
-        minimum=minimum,
         body=now,
         light=reported.light,
         reflectance=reflectance,
         hidden=hidden,
         evidence=state,
-        evaluations=evaluations,
     )
 
 

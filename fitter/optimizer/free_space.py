@@ -8,6 +8,7 @@ directions changes an attribute in second order only, and is then projected back
     β⁺ = β + J⁺ (y - m(β)).
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -32,57 +33,65 @@ two measurements that say the same hold the body once."""
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class FreeSpace:
-    """The space of permitted steps from one body.
+    """The space of permitted changes of one shape.
 
     Attributes
     ----------
     directions
-        Orthonormal increments of the parameter vector, in columns; none changes the height
-        coefficient.
+        (n, free) orthonormal changes of the shape, in columns; none changes the height coefficient.
     height_response
         (n,) smallest change of shape per unit of the height coefficient that keeps what is held.
     held
         The attributes every body has.
     slopes
-        (r, n - 1) J at the body.
+        (r, n - 1) J at the shape.
     """
 
-    directions: Float[np.ndarray, "columns free"]
+    directions: Float[np.ndarray, "n free"]
     height_response: Shape
     held: Attributes
     slopes: Float[np.ndarray, "r rest"]
 
     def moved(
-        self, parameters: BodyParameters, step: Float[np.ndarray, " columns"]
-    ) -> BodyParameters | None:
-        """Apply increments and project the shape back to what is held; None if that is too far."""
-        reached = moved(parameters, step)
-        shape = _brought_back(self.held, reached.shape, self.slopes)
-        return None if shape is None else replace(reached, shape=shape)
+        self,
+        bodies: Sequence[BodyParameters],
+        own: Sequence[Float[np.ndarray, " own"]],
+        change: Shape,
+    ) -> list[BodyParameters] | None:
+        """Move bodies of one shape, and project the shape back to what is held.
+
+        Parameters
+        ----------
+        bodies
+            One in each picture.
+        own
+            The increments of pose and place in each picture.
+        change
+            What the shape changes, along the directions.
+
+        Returns
+        -------
+        None if the shape ends too far from what is held.
+        """
+        reached = [
+            moved(body, np.concatenate([step, change]))
+            for body, step in zip(bodies, own, strict=True)
+        ]
+        kept = _brought_back(self.held, reached[0].shape, self.slopes)
+        return None if kept is None else [replace(body, shape=kept) for body in reached]
 
 
-def free_space(held: Attributes, parameters: BodyParameters) -> FreeSpace:
-    """The space of steps from a body that has what is held."""
-    n = len(parameters.shape)
-    jacobian = held.jacobian(parameters.shape)
+def free_space(held: Attributes, shape: Shape) -> FreeSpace:
+    """The space of changes of a shape that has what is held."""
+    jacobian = held.jacobian(shape)
     slopes = jacobian[:, 1:]
-    shapes = _kept_directions(slopes)
-    others = parameters.pose.size + 3
-    directions = np.zeros((others + n, others + shapes.shape[1]))
-    directions[:others, :others] = np.eye(others)
-    directions[others + 1 :, others:] = shapes
+    kept = _kept_directions(slopes)
     return FreeSpace(
-        directions=directions,
+        directions=np.concatenate([np.zeros((1, kept.shape[1])), kept]),
         height_response=np.concatenate([[1.0], -_inverse(slopes) @ jacobian[:, 0]]),
         held=held,
         slopes=slopes,
     )
-
-
-def kept_directions(held: Attributes, shape: Shape) -> Float[np.ndarray, "n free"]:
-    """Orthonormal changes of a shape that keep its height and what is held, in columns."""
-    kept = _kept_directions(held.jacobian(shape)[:, 1:])
-    return np.concatenate([np.zeros((1, kept.shape[1])), kept])
 
 
 def held_shape(held: Attributes, shape: Shape) -> Shape:

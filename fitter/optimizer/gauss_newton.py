@@ -1,18 +1,21 @@
 """The default optimiser: damped Gauss-Newton on E1 or E2, accepted on the true energy.
 
 Rows from the contour, the edges, the clicks, the spheres and the shading give a 74 x 74 normal
-matrix; the gradient is exact, by the reverse mode of the body. The loop is
-:mod:`fitter.numerics.damped_descent`.
+matrix of each picture; the gradient is exact, by the reverse mode of the body. Pictures meet in the
+shape (:mod:`fitter.optimizer.joint_equations`). The loop is :mod:`fitter.numerics.damped_descent`.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from fitter.energies.objective import Body, Candidate, EnergyObserver, Objective
-from fitter.numerics.damped_descent import Offer, Step, damped_steps, descend
+import numpy as np
+
+from fitter.energies.joint_objective import JointCandidate, JointObjective
+from fitter.energies.objective import Body, EnergyObserver
+from fitter.numerics.damped_descent import Offer, descend
 from fitter.optimizer.free_space import free_space
-from fitter.optimizer.normal_equations import normal_equations
-from fitter.optimizer.parameter_vector import limited
+from fitter.optimizer.joint_equations import joint_equations
+from fitter.optimizer.parameter_vector import excess
 
 SETTLED_NATS = 0.05
 """A step that promises less is not tried, and two in a row that gain less end the search. A tenth
@@ -22,25 +25,23 @@ rough."""
 NEARLY_SETTLED_NATS = 0.2
 """The same of a search that another follows, about other evidence."""
 
-_FLOOR = 1e-9
-"""Keeps the matrix regular."""
-
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Minimum:
     """Where a search ended.
 
-    ``converged`` is False if it ran out of evaluations; ``evaluations`` counts true energies.
+    ``converged`` is False if it ran out of evaluations; ``evaluations`` counts true energies, of
+    all pictures together.
     """
 
-    candidate: Candidate
+    candidate: JointCandidate
     converged: bool
     evaluations: int
 
 
 def minimize_gauss_newton(
-    objective: Objective,
-    start: Body,
+    objective: JointObjective,
+    start: Sequence[Body],
     *,
     max_evaluations: int,
     on_energies: EnergyObserver,
@@ -48,24 +49,29 @@ def minimize_gauss_newton(
 ) -> Minimum:
     """Minimise from ``start`` until steps gain less than ``settled_nats`` or no damping helps.
 
-    ``start`` has the attributes the objective holds.
+    ``start`` holds a body for each picture, all of one shape that has what the objective holds.
     """
 
-    def paraboloid(now: Candidate) -> Callable[[float], Offer[Candidate]]:
-        matrix, gradient = normal_equations(objective, now)
-        space = free_space(objective.attributes.held, now.parameters)
+    def paraboloid(now: JointCandidate) -> Callable[[float], Offer[JointCandidate]]:
+        space = free_space(objective.attributes.held, now.shape)
+        equations = joint_equations(objective, now, space)
 
-        def taken(step: Step) -> Candidate | None:
-            whole = limited(now.parameters, space.directions @ step)
-            reached = space.moved(now.parameters, whole)
-            return None if reached is None else objective.evaluate(reached)
+        def offer(damping: float) -> Offer[JointCandidate]:
+            step = equations.step(damping)
 
-        return damped_steps(
-            space.directions.T @ matrix @ space.directions,
-            gradient @ space.directions,
-            taken,
-            floor=_FLOOR,
-        )
+            def taken() -> JointCandidate | None:
+                change = space.directions @ step.shape
+                longest = max(
+                    excess(body, np.concatenate([own, change]))
+                    for body, own in zip(now.bodies, step.own, strict=True)
+                )
+                share = 1.0 / max(longest, 1.0)
+                reached = space.moved(now.bodies, [share * own for own in step.own], share * change)
+                return None if reached is None else objective.evaluate(reached)
+
+            return Offer(promised=step.promised, taken=taken)
+
+        return offer
 
     found = descend(
         objective.evaluate(start),

@@ -3,39 +3,36 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from fitter.energies.objective import Body, Candidate, Objective
-from fitter.optimizer.alternation import BodySearch
-from fitter.parameters import BodyParameters
+from fitter.energies.joint_objective import JointObjective
+from fitter.energies.objective import Body, Candidate
+from fitter.optimizer.search import BodySearch
 
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class JudgedEnd:
-    """Where a search ended, and its energy under the objective used for comparison, nats.
-
-    The rendering is not kept: it would take 3 MB per reading for the rest of the fit.
-    """
-
-    parameters: BodyParameters
-    total: float
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class TriedHypotheses:
     """Where the searches ended, in the order of the hypotheses, compared under one objective.
 
-    ``best`` is the index of the best among those searched further, and ``winner`` where its search
-    ended; ``evaluations`` counts true energies.
+    Attributes
+    ----------
+    totals
+        The energy of each end, nats. The bodies are not kept: a rendering takes 3 MB.
+    best
+        Index of the best among those searched further.
+    winner
+        Where its search ended.
+    evaluations
+        True energies computed.
     """
 
-    ends: tuple[JudgedEnd, ...]
+    totals: tuple[float, ...]
     best: int
     winner: Candidate
     evaluations: int
 
 
 def try_hypotheses(
-    wide: Objective,
-    sharp: Objective,
+    wide: JointObjective,
+    sharp: JointObjective,
     starts: Sequence[Body],
     *,
     trial: BodySearch,
@@ -43,7 +40,7 @@ def try_hypotheses(
     hopeless_nats: float,
     contest: BodySearch,
 ) -> TriedHypotheses:
-    """Search from each start, search further from the best results, and compare.
+    """Search one picture from each start, search further from the best results, and compare.
 
     Parameters
     ----------
@@ -60,26 +57,18 @@ def try_hypotheses(
     contest
         The search from those, where there are several.
     """
-    found = [trial(wide, start) for start in starts]
+    found = [trial(wide, [start]) for start in starts]
     evaluations = sum(minimum.evaluations for minimum in found)
     by_energy = sorted(range(len(found)), key=lambda index: found[index].candidate.total)
     bound = found[by_energy[0]].candidate.total + hopeless_nats
     contending = [index for index in by_energy[:contenders] if found[index].candidate.total < bound]
     # One alone has nothing to win: whoever searches on from it does so with a sharper objective.
     for index in contending if len(contending) > 1 else ():
-        found[index] = contest(wide, found[index].candidate)
+        found[index] = contest(wide, found[index].candidate.views)
         evaluations += found[index].evaluations
-    ends = tuple(
-        JudgedEnd(
-            parameters=minimum.candidate.parameters,
-            total=sharp.evaluate(minimum.candidate).total,
-        )
-        for minimum in found
-    )
-    best = min(contending, key=lambda index: ends[index].total)
+    totals = tuple(sharp.evaluate(minimum.candidate.views).total for minimum in found)
+    best = min(contending, key=lambda index: totals[index])
+    (winner,) = found[best].candidate.views
     return TriedHypotheses(
-        ends=ends,
-        best=best,
-        winner=found[best].candidate,
-        evaluations=evaluations + len(ends),
+        totals=totals, best=best, winner=winner, evaluations=evaluations + len(totals)
     )

@@ -1,4 +1,4 @@
-"""The normal equations of one shape in several pictures, solved by its Schur complement.
+"""The normal equations of one shape in one or several pictures, solved by its Schur complement.
 
 The unknowns are the shape β, along the directions that keep what is held, and the pose and place
 θ_k in each picture. Pictures meet in the shape alone, so the matrix is
@@ -17,7 +17,7 @@ from jaxtyping import Float
 
 from fitter.energies.attributes import attribute_residuals, attribute_slopes
 from fitter.energies.joint_objective import JointCandidate, JointObjective
-from fitter.optimizer.free_space import kept_directions
+from fitter.optimizer.free_space import FreeSpace
 from fitter.optimizer.normal_equations import normal_equations
 
 _LEAST_CURVATURE = 1e-9
@@ -94,10 +94,14 @@ class JointStep:
     promised: float
 
 
-def joint_equations(objective: JointObjective, candidate: JointCandidate) -> JointEquations:
-    """Matrix and gradient of the joint energy at bodies of one shape, in nats."""
-    shape = candidate.shape
-    directions = kept_directions(objective.attributes.held, shape)
+def joint_equations(
+    objective: JointObjective, candidate: JointCandidate, space: FreeSpace
+) -> JointEquations:
+    """Matrix and gradient of the joint energy at bodies of one shape, in nats.
+
+    ``space`` is what may change of the shape.
+    """
+    shape, directions = candidate.shape, space.directions
     slopes = attribute_slopes(objective.attributes, shape)
     residuals = attribute_residuals(objective.attributes, shape)
     shared = objective.shape_prior.precision + slopes.T @ slopes

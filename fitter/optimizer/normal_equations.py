@@ -1,4 +1,4 @@
-"""The Gauss-Newton normal equations of an objective at a candidate.
+"""The Gauss-Newton normal equations of one picture's objective at a candidate.
 
 The gradient is exact for the rows: their derivatives by vertex positions and normals are pulled
 back through the body by its reverse mode. The matrix uses the linear-blend tangent and only some of
@@ -14,7 +14,6 @@ from fitter.arrays import Vertices
 from fitter.body.model import SparseRows
 from fitter.body.pose_prior import prior_terms
 from fitter.body.tangent import Attachments, linearise
-from fitter.energies.attributes import attribute_residuals, attribute_slopes
 from fitter.energies.clicks import click_rows
 from fitter.energies.correspondence_lines import line_rows
 from fitter.energies.edges import edge_rows
@@ -107,7 +106,7 @@ def normal_equations(
     matrix = every.T @ every
     derivative = operators.evaluator.derivative(parameters, pull)
     gradient = as_vector(replace(derivative, translation=derivative.translation + by_centre))
-    _add_priors(objective, candidate, matrix, gradient)
+    _add_pose_prior(objective, candidate, matrix, gradient)
     return matrix, gradient
 
 
@@ -129,10 +128,10 @@ def _attachments_of(operators: FittingOperators, names: tuple[str, ...]) -> Atta
     )
 
 
-def _add_priors(
+def _add_pose_prior(
     objective: Objective, candidate: Candidate, matrix: Matrix, gradient: Vector
 ) -> None:
-    """Add the quadratic forms of the priors and of what the caller knows, in place."""
+    """Add the quadratic form of the prior on the pose, in place."""
     parameters = candidate.parameters
     pose_size = parameters.pose.size
     terms = prior_terms(objective.operators.pose_prior, parameters.pose)
@@ -141,12 +140,6 @@ def _add_priors(
         span = slice(3 * part, 3 * part + 3)
         matrix[span, span] += block
     gradient[:pose_size] += np.einsum("pra,pr->pa", terms.jacobian, terms.residuals).ravel()
-    shape = slice(pose_size + 3, None)
-    matrix[shape, shape] += objective.shape_prior.precision
-    gradient[shape] += objective.shape_prior.slope(parameters.shape)
-    slopes = attribute_slopes(objective.attributes, parameters.shape)
-    matrix[shape, shape] += slopes.T @ slopes
-    gradient[shape] += slopes.T @ attribute_residuals(objective.attributes, parameters.shape)
 
 
 def _scatter_through(rows: PositionRows, support: SparseRows, count: int, pull: Vertices) -> None:

@@ -23,13 +23,6 @@ def as_vector(derivative: BodyDerivative) -> Float[np.ndarray, " columns"]:
     return np.concatenate([derivative.pose.ravel(), derivative.translation, derivative.shape])
 
 
-def limited(
-    parameters: BodyParameters, step: Float[np.ndarray, " columns"]
-) -> Float[np.ndarray, " columns"]:
-    """The step, scaled down if necessary to where its linearisation still holds."""
-    return step / max(excess(parameters, step), 1.0)
-
-
 def excess(parameters: BodyParameters, step: Float[np.ndarray, " columns"]) -> float:
     """The length of a step as a share of the longest whose linearisation still holds."""
     pose, translation, shape = _split(parameters, step)

@@ -1,14 +1,17 @@
 """Which optimiser is used, and for how long."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from fitter.energies.objective import EnergyObserver
-from fitter.optimizer.alternation import BodySearch
-from fitter.optimizer.gauss_newton import SETTLED_NATS, minimize_gauss_newton
+from fitter.energies.joint_objective import JointObjective
+from fitter.energies.objective import Body, EnergyObserver
+from fitter.optimizer.gauss_newton import SETTLED_NATS, Minimum, minimize_gauss_newton
 from fitter.optimizer.simplex import minimize_simplex
 from fitter.request import OptimizerKind
+
+BodySearch = Callable[[JointObjective, Sequence[Body]], Minimum]
+"""From a body in each picture to a minimum."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -78,7 +81,7 @@ def body_search(
     on_energies: EnergyObserver,
     settled_nats: float = SETTLED_NATS,
 ) -> BodySearch:
-    """A search over the body with everything fixed but the objective and the start.
+    """A search over the bodies with everything fixed but the objective and the start.
 
     ``settled_nats`` is the gain below which steps end a search that follows the gradient.
     """

@@ -1,8 +1,11 @@
 """The paper's optimiser: Nelder and Mead's simplex search on the same energy (section 3)."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from fitter.energies.objective import Body, Candidate, EnergyObserver, Objective
+from fitter.energies.joint_objective import JointObjective
+from fitter.energies.objective import Body, EnergyObserver
 from fitter.optimizer.free_space import free_space
 from fitter.optimizer.gauss_newton import Minimum
 
@@ -14,35 +17,33 @@ _REPORT_EVERY = 50
 
 
 def minimize_simplex(
-    objective: Objective,
-    start: Body,
+    objective: JointObjective,
+    start: Sequence[Body],
     *,
     max_evaluations: int,
     on_energies: EnergyObserver,
 ) -> Minimum:
-    """Nelder and Mead's search with coefficients adapted to the dimension (Gao and Han 2012)."""
+    """Nelder and Mead's search with coefficients adapted to the dimension (Gao and Han 2012).
+
+    ``start`` holds a body for each picture, as in :func:`minimize_gauss_newton`.
+    """
     best = objective.evaluate(start)
-    first = best.parameters
-    space = free_space(objective.attributes.held, first)
-    spread = np.concatenate(
-        [
-            np.full(first.pose.size, _FIRST_TURN),
-            np.full(3, _FIRST_MOVE_M),
-            np.full(len(first.shape), _FIRST_SHAPE),
-        ]
-    )
+    first = best.bodies
+    space = free_space(objective.attributes.held, best.shape)
+    spread = np.concatenate([np.full(first[0].pose.size, _FIRST_TURN), np.full(3, _FIRST_MOVE_M)])
     evaluations = 1
     on_energies(best.energies)
 
     def energy(step: np.ndarray) -> float:
         nonlocal best, evaluations
+        *own, shape = np.split(step, len(spread) * np.arange(1, len(first) + 1))
         # The spread is the same for all shape coefficients, since the directions mix them.
-        whole = spread * (space.directions @ step)
-        reached = space.moved(first, whole)
+        change = _FIRST_SHAPE * (space.directions @ shape)
+        reached = space.moved(first, [spread * each for each in own], change)
         evaluations += 1
         if reached is None:
             return np.inf
-        candidate: Candidate = objective.evaluate(reached)
+        candidate = objective.evaluate(reached)
         if candidate.total < best.total:
             best = candidate
         if evaluations % _REPORT_EVERY == 0:
@@ -52,7 +53,7 @@ def minimize_simplex(
     # Loaded by those who ask for it: three megabytes, and a tenth of a second.
     from scipy.optimize import minimize
 
-    dimension = space.directions.shape[1]
+    dimension = len(first) * len(spread) + space.directions.shape[1]
     corners = np.vstack([np.zeros(dimension), np.eye(dimension)])
     outcome = minimize(
         energy,

@@ -1,4 +1,9 @@
-"""How certain shape and tilt are: the Laplace approximation at the final body."""
+"""How certain shape and tilt are: the Laplace approximation at the final bodies.
+
+Energies are negative log-likelihoods, so the inverse of the Gauss-Newton matrix is the covariance
+of all parameters near the minimum. The albedo of each vertex is held, as is everything else the
+objective fixes. What is held exactly does not vary.
+"""
 
 from dataclasses import dataclass
 
@@ -7,9 +12,11 @@ from jaxtyping import Float
 
 from fitter.arrays import Shape
 from fitter.energies.attributes import attribute_slopes
+from fitter.energies.fitting_operators import FittingOperators
+from fitter.energies.joint_objective import JointCandidate, JointObjective
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.priors import height_extrapolation
-from fitter.optimizer.free_space import FreeSpace, free_space, kept_directions
+from fitter.optimizer.free_space import FreeSpace, free_space
 from fitter.optimizer.light_freedom import information_lost_to_light
 from fitter.optimizer.normal_equations import normal_equations
 from fitter.optimizer.tilt_freedom import tilt_covariance
@@ -18,47 +25,71 @@ from fitter.parameters import CameraTilt, StanceKind
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Certainty:
-    """The covariance of all body parameters at a minimum, with light and ease marginalised.
+    """How certain the body in one picture is, given all, with light and ease marginalised.
 
     Attributes
     ----------
-    objective, candidate
-        Whose minimum.
-    space
-        The steps that keep what is held.
+    operators, candidate
+        Whose.
     covariance
-        Of all parameters within that space, (columns, columns).
+        Of all its parameters, (columns, columns); the height does not vary.
+    height_response
+        (n,) how the most probable shape changes with the height coefficient.
     """
 
-    objective: Objective
+    operators: FittingOperators
     candidate: Candidate
-    space: FreeSpace
     covariance: Float[np.ndarray, "columns columns"]
+    height_response: Shape
 
 
-def certainty(objective: Objective, candidate: Candidate) -> Certainty:
-    """How certain the body is.
+def certainty(objective: JointObjective, candidate: JointCandidate) -> tuple[Certainty, ...]:
+    """How certain each picture's body is, given all pictures.
 
-    The albedo of each vertex is held, as is everything else the objective fixes. Energies are
-    negative log-likelihoods, so the inverse of the Gauss-Newton matrix is the covariance of all
-    parameters near the minimum. What is held exactly does not vary.
+    The information about the shape is what every picture says of it once its own pose and place
+    are eliminated, weighted, and what was known; the shape's covariance is its inverse Σ. With a
+    picture's own blocks A and B of :mod:`fitter.optimizer.joint_equations`, the covariance of its
+    pose and place is A⁻¹ + G Σ Gᵀ and that with the shape G Σ, where G = -A⁻¹ B.
     """
-    matrix = body_information(objective, candidate)
-    space = free_space(objective.attributes.held, candidate.parameters)
-    inner = space.directions.T @ matrix @ space.directions
-    inverse = np.linalg.inv(inner + 1e-9 * np.eye(len(inner)))
-    return Certainty(
-        objective=objective,
-        candidate=candidate,
-        space=space,
-        covariance=space.directions @ inverse @ space.directions.T,
-    )
+    shape = candidate.shape
+    n = len(shape)
+    space = free_space(objective.attributes.held, shape)
+    directions = space.directions
+    known = _known_precision(objective, shape)
+    matrix = directions.T @ known @ directions
+    inverses: list[Float[np.ndarray, "own own"]] = []
+    responses: list[Float[np.ndarray, "own free"]] = []
+    for view, seen in zip(objective.views, candidate.views, strict=True):
+        own = objective.weight * body_information(view, seen)
+        inverse = np.linalg.inv(own[:-n, :-n])
+        border = own[:-n, -n:] @ directions
+        matrix = matrix + directions.T @ own[-n:, -n:] @ directions - border.T @ inverse @ border
+        inverses.append(inverse)
+        responses.append(-inverse @ border)
+    free = np.linalg.inv(matrix)
+    by_height = _height_response(space, known)
+    certain: list[Certainty] = []
+    for view, seen, inverse, response in zip(
+        objective.views, candidate.views, inverses, responses, strict=True
+    ):
+        spread = np.concatenate([response, directions])
+        covariance = spread @ free @ spread.T
+        covariance[:-n, :-n] += inverse
+        certain.append(
+            Certainty(
+                operators=view.operators,
+                candidate=seen,
+                covariance=covariance,
+                height_response=by_height,
+            )
+        )
+    return tuple(certain)
 
 
 def body_information(
     objective: Objective, candidate: Candidate
 ) -> Float[np.ndarray, "columns columns"]:
-    """The Gauss-Newton matrix of all body parameters, with light and ease marginalised."""
+    """What a picture says of all its body's parameters, with light and ease marginalised."""
     matrix, _ = normal_equations(objective, candidate, marginal=True)
     if objective.evidence.shading is not None:
         matrix -= information_lost_to_light(objective, candidate, objective.evidence.shading)
@@ -72,34 +103,34 @@ def shape_covariance(certain: Certainty, *, height_variance: float) -> Float[np.
     what is known, in its coefficient's unit; zero for a height that is known. Beyond usual heights
     all is wider (:func:`fitter.energies.priors.height_extrapolation`).
     """
-    shape = certain.candidate.parameters.shape
-    n = len(shape)
-    response = _height_response(certain.objective, certain.candidate, certain.space)
+    response = certain.height_response
+    n = len(response)
     covariance = certain.covariance[-n:, -n:] + height_variance * np.outer(response, response)
-    return height_extrapolation(float(shape[0])) * covariance
+    return height_extrapolation(float(certain.candidate.parameters.shape[0])) * covariance
 
 
 def camera_tilt(certain: Certainty) -> CameraTilt:
     """The camera's tilt, as the body tells it, with its covariance."""
-    candidate = certain.candidate
-    tilt = candidate.tilt
+    tilt = certain.candidate.tilt
     return CameraTilt(
         pitch=tilt.pitch,
         roll=tilt.roll,
-        covariance=tilt_covariance(certain.objective.operators, candidate, certain.covariance),
+        covariance=tilt_covariance(certain.operators, certain.candidate, certain.covariance),
         stances=dict(zip(StanceKind, tilt.shares.tolist(), strict=True)),
     )
 
 
-def _height_response(objective: Objective, candidate: Candidate, space: FreeSpace) -> Shape:
+def _known_precision(objective: JointObjective, shape: Shape) -> Float[np.ndarray, "n n"]:
+    """Q = P + SᵀS, from the prior's precision and the slopes of the uncertain attributes."""
+    slopes = attribute_slopes(objective.attributes, shape)
+    return objective.shape_prior.precision + slopes.T @ slopes
+
+
+def _height_response(space: FreeSpace, known: Float[np.ndarray, "n n"]) -> Shape:
     """How the most probable shape changes with the height coefficient.
 
-    What is held is kept. With Q = P + SᵀS, from the prior's precision and the slopes of the
-    uncertain attributes, the response e that keeps what is held and the free directions B, it is
-    e - B (BᵀQB)⁻¹ BᵀQ e.
+    What is held is kept. With the precision Q of what is known, the response e that keeps what is
+    held and the free directions B, it is e - B (BᵀQB)⁻¹ BᵀQ e.
     """
-    held, shape = space.height_response, candidate.parameters.shape
-    shapes = kept_directions(objective.attributes.held, shape)
-    slopes = attribute_slopes(objective.attributes, shape)
-    known = objective.shape_prior.precision + slopes.T @ slopes
+    held, shapes = space.height_response, space.directions
     return held - shapes @ np.linalg.solve(shapes.T @ known @ shapes, shapes.T @ known @ held)

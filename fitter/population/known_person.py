@@ -15,7 +15,7 @@ from fitter.population.known import conditioned_population
 from fitter.population.measured_population import MeasuredPopulation
 from fitter.population.unusual_height import height_warnings
 from fitter.remarks import Assumption, FitWarning
-from fitter.request import FitRequest, KnownMeasurement
+from fitter.request import KnownMeasurement, Person
 from fitter.vocabulary.measurements import STATURE
 
 CENTIMETRES_PER_METRE = 100.0
@@ -56,7 +56,7 @@ class KnownPerson:
 
 
 def known_person(
-    request: FitRequest, population: MeasuredPopulation, evaluator: ScapeEvaluator
+    person: Person, population: MeasuredPopulation, evaluator: ScapeEvaluator
 ) -> KnownPerson:
     """Find the most probable person with this gender, height and measurements.
 
@@ -69,8 +69,8 @@ def known_person(
     InvalidInputError
         If a name is not measured, or nobody has such measurements; the problem names them.
     """
-    if not request.measurements:
-        height_m, assumptions = subject_height(request)
+    if not person.measurements:
+        height_m, assumptions = subject_height(person)
         given = () if assumptions else (STATURE,)
         return KnownPerson(
             height_m=height_m,
@@ -82,7 +82,7 @@ def known_person(
             assumptions=assumptions,
             warnings=height_warnings(population, height_m),
         )
-    known = _height_of(request) | dict(request.measurements)
+    known = _height_of(person) | dict(person.measurements)
     conditioned = conditioned_population(population, known)
     height_m, assumptions = _height(known, height_of_shape(evaluator, conditioned.shape))
     attributes = _attributes(population, known)
@@ -99,10 +99,10 @@ def known_person(
     )
 
 
-def _height_of(request: FitRequest) -> dict[str, KnownMeasurement]:
-    if request.height_m is None:
+def _height_of(person: Person) -> dict[str, KnownMeasurement]:
+    if person.height_m is None:
         return {}
-    stature_cm = CENTIMETRES_PER_METRE * request.height_m
+    stature_cm = CENTIMETRES_PER_METRE * person.height_m
     return {STATURE: KnownMeasurement(value=stature_cm, field="height_m")}
 
 

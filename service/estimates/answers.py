@@ -33,7 +33,7 @@ from service.estimates.messages import (
 from service.estimates.port import EstimatedBody, NoDetectorError, ProposedPoints
 from service.submissions.submission import check_fit
 from service.worker.pipeline_port import UnusableInputError
-from service.worker.translate import field_problem, known_measurements
+from service.worker.translate import field_problem, known_measurements, person
 
 CENTIMETRES_PER_METRE = 100.0
 SAMPLE_PIXELS = 1_000_000
@@ -110,11 +110,12 @@ def body(task: BodyTask, models: Path | None) -> EstimatedBody:
 
 def initial_pose(task: InitialPoseTask, models: Path | None) -> InitialPose:
     """Pose the mean person to match clicks."""
-    request = translate.subject_request(task.subject)
-    fittable = prepared_model(request.gender, models=models)
+    asked = person(task.subject)
+    fittable = prepared_model(asked.gender, models=models)
     try:
         initial = initial_body(
-            request,
+            asked,
+            translate.subject_view(task.subject),
             fittable,
             width=task.width,
             height=task.height,
@@ -122,7 +123,7 @@ def initial_pose(task: InitialPoseTask, models: Path | None) -> InitialPose:
         )
     except InvalidInputError as error:
         raise UnusableInputError(field_problem(error)) from error
-    return translate.initial_pose(initial, request, fittable.operators.model.part_names)
+    return translate.initial_pose(initial, asked.gender, fittable.operators.model.part_names)
 
 
 def points(

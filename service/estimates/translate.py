@@ -20,7 +20,8 @@ from fitter.fits.capture_check import CaptureCheck, CaptureQuestion
 from fitter.fits.initial_body import InitialBody
 from fitter.fits.proposal import Proposal, ProposedPoint
 from fitter.population.body_estimate import BodyEstimate
-from fitter.request import FitRequest
+from fitter.request import View
+from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.measurements import STATURE
 from fitter.vocabulary.points import PointName
 from service.worker.findings import finding_results, rounded_box
@@ -29,7 +30,6 @@ from service.worker.translate import (
     body_result,
     camera_result,
     clicks,
-    known_measurements,
     warning_results,
 )
 
@@ -37,14 +37,11 @@ JPEG_QUALITY = 90
 """Nothing is measured in these pictures; they are for the eye."""
 
 
-def subject_request(subject: wire_request.SubjectOptions) -> FitRequest:
-    """Translate a subject whose points are named; there is no picture."""
-    return FitRequest(
+def subject_view(subject: wire_request.SubjectOptions) -> View:
+    """Translate what is said of a picture that is not there; its points are named."""
+    return View(
         image=b"",
         clicks=clicks(subject.points),
-        gender=subject.gender,
-        height_m=subject.height_m,
-        measurements=known_measurements(subject),
         focal_length_px=subject.focal_length_px,
         focal_length_35mm=subject.focal_length_35mm,
         limb_facing={limb.value: facing for limb, facing in subject.limb_facing.items()},
@@ -52,11 +49,11 @@ def subject_request(subject: wire_request.SubjectOptions) -> FitRequest:
 
 
 def initial_pose(
-    initial: InitialBody, request: FitRequest, part_names: Sequence[str]
+    initial: InitialBody, gender: Gender, part_names: Sequence[str]
 ) -> wire_poses.InitialPose:
     """Translate an initial body."""
     return wire_poses.InitialPose(
-        gender=request.gender,
+        gender=gender,
         height_m=initial.height_m,
         camera=camera_result(initial.camera),
         focal_length_source=initial.focal_length_source,

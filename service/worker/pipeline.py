@@ -6,8 +6,8 @@ from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivation_kinds.base import DerivedFiles
 from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.export import artifacts, tapes_json
+from fitter.fits.equipment import Equipment
 from fitter.fits.pipeline import fit
-from fitter.fits.prepared_model import prepared_model
 from service.engine.port import Report
 from service.worker import translate
 from service.worker.derivers import load_deriver
@@ -28,16 +28,14 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
     request = translate.fit_request(
         job.options, image=job.image, mask=job.mask, max_pixels=job.max_pixels
     )
+    equipment = Equipment(models=job.models, detector_weights=job.detector)
     try:
         result = fit(
-            request,
-            models=job.models,
-            detector_weights=job.detector,
-            observer=lambda progress: observe(translate.report(progress)),
+            request, equipment, observer=lambda progress: observe(translate.report(progress))
         )
-        prepared = prepared_model(result.person.gender, models=job.models)
+        prepared = equipment.model(result.person.gender)
         model = prepared.operators.model
-        files = artifacts(result, model=model, image=job.image)
+        files = artifacts(result, model=model, images=[job.image])
         files["person.npz"] = result.person.to_bytes()
         files["tapes.json"] = tapes_json(result, prepared.measuring)
     except InvalidInputError as error:

@@ -1,7 +1,6 @@
 """A scan between two translations: pictures and what is asked of them, one body and its files."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 
 from api_schemas import requests as wire_request
 from api_schemas import results as wire
@@ -16,24 +15,21 @@ from fitter.export.gltf import body_posed_glb
 from fitter.export.gltf_document import Frame
 from fitter.export.pictures import drawing_camera, mask_levels
 from fitter.export.plain_gltf import plain_glb
-from fitter.fits.prepared_model import PreparedModel, prepared_model
+from fitter.fits.equipment import Equipment
+from fitter.fits.pipeline import fit
+from fitter.fits.prepared_model import PreparedModel
 from fitter.fits.progress import Stage
-from fitter.fits.scan import (
-    ScannedView,
-    ScanProgress,
-    ScanResult,
-    ScanView,
-    scan,
-)
-from fitter.request import Gender, ViewKind
-from fitter.result import Verdict
+from fitter.request import FitRequest
+from fitter.result import FitResult, FittedView
+from fitter.vocabulary.choices import ViewKind
+from fitter.vocabulary.outcomes import Verdict
 from service.engine.port import Report
 from service.jobs.inputs import BODY_POSED, OVERLAY, PERSON, SEGMENTATION, file_of
 from service.worker import translate
 from service.worker.findings import finding_results
 from service.worker.pipeline_port import ScanInput, ScanOutput, ScanPicture, UnusableInputError
 
-_FITTED = 0.95
+_FITTED = 0.96
 """Share of the work that is done once the body is found, before its files are made."""
 
 _SEEN_FROM = (("front", 0.0), ("side", 90.0), ("back", 180.0))
@@ -44,51 +40,33 @@ _WORSE = (Verdict.PLAUSIBLE, Verdict.IMPLAUSIBLE, Verdict.NO_PERSON)
 
 def scanned(job: ScanInput, observe: Callable[[Report], None]) -> ScanOutput:
     """Measure; see :class:`service.worker.pipeline_port.Pipeline`."""
-    gender = Gender(job.options.gender)
+    equipment = Equipment(models=job.models, detector_weights=job.detector)
     try:
-        found = scan(
-            _views(job),
-            models=job.models,
-            detector_weights=job.detector,
-            observe=lambda progress: observe(_report(progress)),
+        found = fit(
+            _request(job),
+            equipment,
+            observer=lambda progress: observe(translate.report(progress)),
         )
         observe(Report(stage=Stage.EXPORT.value, progress=_FITTED))
-        prepared = prepared_model(gender, models=job.models)
+        prepared = equipment.model(found.person.gender)
         files = _files(found, prepared, job.pictures)
     except InvalidInputError as error:
-        raise UnusableInputError(_of_the_person(translate.field_problem(error))) from error
+        raise UnusableInputError(translate.field_problem(error)) from error
     except DetectorUnavailableError as error:
         raise UnusableInputError(_undetected(job, error)) from error
     return ScanOutput(result=_result(job, found, prepared.operators.model), artifacts=files)
 
 
-def _views(job: ScanInput) -> list[ScanView]:
-    return [
-        ScanView(
-            kind=ViewKind(view.view),
-            request=translate.fit_request(
-                job.options.of_view(number),
-                image=picture.image,
-                mask=picture.mask,
-                max_pixels=job.max_pixels,
-            ),
-        )
-        for number, (view, picture) in enumerate(zip(job.options.views, job.pictures, strict=True))
-    ]
-
-
-def _report(progress: ScanProgress) -> Report:
-    return Report(
-        stage=progress.stage.value, progress=_FITTED * progress.fraction, view=progress.view
+def _request(job: ScanInput) -> FitRequest:
+    asked = [job.options.of_view(number) for number in range(len(job.pictures))]
+    return FitRequest(
+        person=translate.person(job.options),
+        views=tuple(
+            translate.view(each, image=picture.image, mask=picture.mask, kind=said.view)
+            for each, said, picture in zip(asked, job.options.views, job.pictures, strict=True)
+        ),
+        choices=translate.choices(asked[0], max_pixels=job.max_pixels),
     )
-
-
-def _of_the_person(error: FieldProblem) -> FieldProblem:
-    """A view's fault that is the scan's, for what is said of the person is said once."""
-    view, _, field = error.field.removeprefix("views.").partition(".")
-    if not view.isdigit() or field.partition(".")[0] not in wire_scan.ScanChoices.model_fields:
-        return error
-    return error.model_copy(update={"field": field})
 
 
 def _undetected(job: ScanInput, error: DetectorUnavailableError) -> FieldProblem:
@@ -98,7 +76,8 @@ def _undetected(job: ScanInput, error: DetectorUnavailableError) -> FieldProblem
     return told.model_copy(update={"field": f"views.{number}.{told.field}"})
 
 
-def _result(job: ScanInput, found: ScanResult, model: BodyModel) -> wire_scan.ScanResult:
+def _result(job: ScanInput, found: FitResult, model: BodyModel) -> wire_scan.ScanResult:
+    assert found.alone is not None
     first = found.views[0].found
     worst = max((view.found for view in found.views), key=lambda each: _WORSE.index(each.verdict))
     return wire_scan.ScanResult(
@@ -117,11 +96,11 @@ def _result(job: ScanInput, found: ScanResult, model: BodyModel) -> wire_scan.Sc
     )
 
 
-def _view(number: int, view: ScannedView, model: BodyModel) -> wire_scan.ScannedView:
+def _view(number: int, view: FittedView, model: BodyModel) -> wire_scan.ScannedView:
     found = view.found
     return wire_scan.ScannedView(
         number=number,
-        view=wire_scan.ViewKind(view.kind.value),
+        view=view.kind or ViewKind.OTHER,
         outcome_explanation=found.outcome_explanation,
         verdict=wire.Verdict(found.verdict.value),
         camera=translate.fitted_camera(view.camera, found.person.tilt),
@@ -135,7 +114,7 @@ def _view(number: int, view: ScannedView, model: BodyModel) -> wire_scan.Scanned
 
 
 def _files(
-    found: ScanResult, prepared: PreparedModel, pictures: Sequence[ScanPicture]
+    found: FitResult, prepared: PreparedModel, pictures: Sequence[ScanPicture]
 ) -> dict[str, bytes]:
     model = prepared.operators.model
     person = found.views[0].found.person
@@ -160,7 +139,7 @@ def _files(
             )
         ),
         "tapes.json": tapes_of(body, found.shape, prepared.measuring),
-        PERSON: replace(person, shape_covariance=found.covariance).to_bytes(),
+        PERSON: person.to_bytes(),
     }
     for number, (view, picture) in enumerate(zip(found.views, pictures, strict=True)):
         camera = drawing_camera(view.found.person.camera)

@@ -29,6 +29,7 @@ from fitter.person.fitted_person import FittedPerson
 from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera
 from fitter.request import (
+    Choices,
     Click,
     Clothing,
     Cues,
@@ -38,10 +39,13 @@ from fitter.request import (
     KnownMeasurement,
     LightGuess,
     OptimizerKind,
+    Person,
     SegmentationKind,
     SurroundingsKind,
+    View,
+    ViewKind,
 )
-from fitter.result import FitResult, LimbFacing, PictureFit, StageBody
+from fitter.result import FitResult, FitStage, LimbFacing, PictureFit
 from service.engine.port import Report
 from service.submissions.detector import DETECTOR_MISSING
 
@@ -55,18 +59,46 @@ def fit_request(
     mask: bytes | None,
     max_pixels: int,
 ) -> FitRequest:
-    """Translate a request whose points are named."""
+    """Translate a request of one picture whose points are named."""
     return FitRequest(
-        image=image,
-        mask=mask,
-        clicks=clicks(options.points),
+        person=person(options),
+        views=(view(options, image=image, mask=mask),),
+        choices=choices(options, max_pixels=max_pixels),
+    )
+
+
+def person(options: wire_request.Person) -> Person:
+    """Translate what is said of the person."""
+    return Person(
         gender=Gender(options.gender),
         height_m=options.height_m,
         measurements=known_measurements(options),
+    )
+
+
+def choices(options: wire_request.FitOptions, *, max_pixels: int) -> Choices:
+    """Translate what is to be done, whatever the pictures."""
+    return Choices(
+        optimizer=OptimizerKind(options.optimizer), force=options.force, max_pixels=max_pixels
+    )
+
+
+def view(
+    options: wire_request.FitOptions,
+    *,
+    image: bytes,
+    mask: bytes | None,
+    kind: ViewKind | None = None,
+) -> View:
+    """Translate what is said of one picture."""
+    return View(
+        image=image,
+        mask=mask,
+        kind=kind,
+        clicks=clicks(options.points),
         focal_length_px=options.focal_length_px,
         focal_length_35mm=options.focal_length_35mm,
         cues=Cues(options.cues),
-        optimizer=OptimizerKind(options.optimizer),
         clothing=Clothing(options.clothing),
         complete_clicks=options.complete_points,
         segmentation=SegmentationKind(options.segmentation),
@@ -79,8 +111,6 @@ def fit_request(
             surroundings=SurroundingsKind(options.light.surroundings),
         ),
         limb_facing={limb.value: Facing(facing) for limb, facing in options.limb_facing.items()},
-        force=options.force,
-        max_pixels=max_pixels,
     )
 
 
@@ -109,6 +139,7 @@ def report(progress: Progress) -> Report:
     return Report(
         stage=progress.stage.value,
         progress=progress.fraction,
+        view=progress.view,
         energies=dict(progress.energies),
     )
 
@@ -132,8 +163,9 @@ def detector_problem(error: DetectorUnavailableError) -> FieldProblem:
 
 
 def fit_result(result: FitResult, *, part_names: Sequence[str]) -> wire.FitResult:
-    """Translate a result; its files are listed later, once they exist."""
-    found, person = result.found, result.person
+    """Translate the result of one picture; its files are listed later, once they exist."""
+    (view,) = result.views
+    found, person = view.found, view.found.person
     return wire.FitResult(
         gender=wire_request.Gender(person.gender.value),
         height_m=found.height_m,
@@ -142,9 +174,9 @@ def fit_result(result: FitResult, *, part_names: Sequence[str]) -> wire.FitResul
         outcome=wire.Outcome(found.outcome.value),
         verdict=wire.Verdict(found.verdict.value),
         outcome_explanation=found.outcome_explanation,
-        camera=fitted_camera(result.camera, person.tilt),
+        camera=fitted_camera(view.camera, person.tilt),
         image_camera=fitted_camera(person.camera, person.tilt),
-        focal_length_source=wire.FocalLengthSource(result.focal_length_source.value),
+        focal_length_source=wire.FocalLengthSource(view.focal_length_source.value),
         body=body_result(person.body, part_names),
         stance=stance_result(person),
         light=None if person.light is None else _light(person.light),
@@ -154,9 +186,9 @@ def fit_result(result: FitResult, *, part_names: Sequence[str]) -> wire.FitResul
         silhouette_overlap=found.silhouette_overlap,
         measurements=measurement_results(result.measurements, result.given),
         stages=tuple(_stage(stage, part_names, result.given) for stage in result.stages),
-        limb_facing=tuple(_limb_facing(facing) for facing in result.limb_facing),
-        assumptions=assumption_results(result.assumptions),
-        warnings=warning_results(result.warnings),
+        limb_facing=tuple(_limb_facing(facing) for facing in view.limb_facing),
+        assumptions=assumption_results(view.assumptions + result.assumptions),
+        warnings=warning_results(view.warnings + result.warnings),
         stage_seconds=dict(result.stage_seconds),
         artifacts=(),
     )
@@ -311,12 +343,13 @@ def measurement_results(
     )
 
 
-def _stage(stage: StageBody, part_names: Sequence[str], given: Sequence[str]) -> wire.Stage:
+def _stage(stage: FitStage, part_names: Sequence[str], given: Sequence[str]) -> wire.Stage:
+    (body,) = stage.bodies
     return wire.Stage(
         name=stage.name,
         energies=dict(stage.energies),
-        silhouette_overlap=stage.silhouette_overlap,
-        body=body_result(stage.body, part_names),
+        silhouette_overlap=body.silhouette_overlap,
+        body=body_result(body.body, part_names),
         measurements=tuple(
             wire.StageMeasurement(**each.model_dump())
             for each in measurement_results(stage.measurements, given)

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
-from fitter.fits.scan import ScanView, scan
-from fitter.request import Cues, ViewKind
+from fitter.fits.pipeline import fit
+from fitter.request import Cues, FitRequest, ViewKind
 from tests.benchmarks import upload
 from tests.benchmarks.requests import suite_requests, warm_up
 from tests.benchmarks.spent import timed, timed_fit
@@ -21,6 +21,7 @@ from tests.e2e.service import running_service
 from tests.evaluation.files import read_case
 from tests.evaluation.phone_cases import PHONE_PAIRS, PhonePair
 from tests.evaluation.suite import fit_request
+from tests.one_picture import changed, together
 
 SMALL, LARGE = (480, 640), (960, 1280)
 
@@ -56,23 +57,23 @@ def uploads(count: int) -> dict[str, float]:
 def scans(count: int) -> dict[str, float]:
     """Processor time of front and side as a share of one picture's."""
     warm_up()
-    shares = [scan_share(views_of(pair)) for pair in list(PHONE_PAIRS.values())[:count]]
+    shares = [scan_share(requests_of(pair)) for pair in list(PHONE_PAIRS.values())[:count]]
     return {"front and side over a single fit": float(np.median(shares))}
 
 
-def views_of(pair: PhonePair) -> list[ScanView]:
+def requests_of(pair: PhonePair) -> list[FitRequest]:
     """Front and side, by silhouette, edges and shading."""
     return [
-        ScanView(kind=kind, request=fit_request(read_case(case), Cues.SES))
+        changed(fit_request(read_case(case), Cues.SES), kind=kind)
         for case, kind in ((pair.front, ViewKind.FRONT), (pair.side, ViewKind.SIDE))
     ]
 
 
-def scan_share(views: Sequence[ScanView]) -> float:
+def scan_share(requests: Sequence[FitRequest]) -> float:
     """Processor time of a scan over that of a fit to one of its pictures, on average."""
-    _, together = timed(partial(scan, views))
-    single = [timed_fit(each.request).whole.processor_s for each in views]
-    return together.processor_s / float(np.mean(single))
+    _, both = timed(partial(fit, together(*requests)))
+    single = [timed_fit(each).whole.processor_s for each in requests]
+    return both.processor_s / float(np.mean(single))
 
 
 def _warm_up_with_files() -> None:

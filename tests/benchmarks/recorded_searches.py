@@ -1,14 +1,14 @@
 """What a fit searched: every objective with the start and the end of the search over it."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-from fitter.energies.objective import Body, EnergyObserver, Objective
-from fitter.fits import descents
-from fitter.optimizer.alternation import BodySearch
-from fitter.optimizer.gauss_newton import Minimum
-from fitter.optimizer.search import body_search
+from fitter.energies.joint_objective import JointObjective
+from fitter.energies.objective import Body, EnergyObserver
+from fitter.fits import outlined, search
+from fitter.optimizer.gauss_newton import SETTLED_NATS, Minimum
+from fitter.optimizer.search import BodySearch, body_search
 from fitter.request import OptimizerKind
 
 
@@ -16,8 +16,8 @@ from fitter.request import OptimizerKind
 class Search:
     """One search of a fit."""
 
-    objective: Objective
-    start: Body
+    objective: JointObjective
+    start: Sequence[Body]
     end: Minimum
 
 
@@ -30,19 +30,21 @@ def recorded_searches() -> Iterator[list[Search]]:
         kind: OptimizerKind,
         max_evaluations: int,
         on_energies: EnergyObserver,
-        settled_nats: float,
+        settled_nats: float = SETTLED_NATS,
     ) -> BodySearch:
-        search = body_search(kind, max_evaluations, on_energies, settled_nats)
+        made = body_search(kind, max_evaluations, on_energies, settled_nats)
 
-        def recorded(objective: Objective, start: Body) -> Minimum:
-            end = search(objective, start)
+        def recorded(objective: JointObjective, start: Sequence[Body]) -> Minimum:
+            end = made(objective, start)
             found.append(Search(objective=objective, start=start, end=end))
             return end
 
         return recorded
 
-    descents.body_search = recording
+    for module in (outlined, search):
+        module.body_search = recording
     try:
         yield found
     finally:
-        descents.body_search = body_search
+        for module in (outlined, search):
+            module.body_search = body_search

@@ -1,7 +1,6 @@
 """The evaluation suite's pictures at the sizes that are timed."""
 
 import io
-from dataclasses import replace
 
 from PIL import Image as PillowImage
 
@@ -10,6 +9,7 @@ from fitter.request import Click, Cues, FitRequest
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import read_case
 from tests.evaluation.suite import fit_request
+from tests.one_picture import changed
 
 _WARMING = 2
 """Fits before the clock starts: compiled code is loaded and memory is kept."""
@@ -30,19 +30,20 @@ def suite_requests(
 
 def resized(request: FitRequest, *, width: int, height: int) -> FitRequest:
     """The same request for the picture at another size of the same shape."""
-    with PillowImage.open(io.BytesIO(request.image)) as picture:
+    (view,) = request.views
+    with PillowImage.open(io.BytesIO(view.image)) as picture:
         factor = width / picture.width
         exif = picture.info.get("exif", b"")
         same_shape = picture.resize((width, height), PillowImage.Resampling.LANCZOS)
     stream = io.BytesIO()
     same_shape.save(stream, "JPEG", quality=_QUALITY, exif=exif)
-    focal = request.focal_length_px
-    return replace(
+    focal = view.focal_length_px
+    return changed(
         request,
         image=stream.getvalue(),
         clicks={
             name: Click(x=factor * click.x, y=factor * click.y, occluded=click.occluded)
-            for name, click in request.clicks.items()
+            for name, click in view.clicks.items()
         },
         focal_length_px=None if focal is None else factor * focal,
     )

@@ -55,7 +55,7 @@ def _by_picture(count: int) -> Iterator[str]:
     for width in WIDTHS:
         height = width * 4 // 3
         fits = [timed_fit(each) for each in suite_requests(count, width=width, height=height)]
-        camera = fits[0].result.camera
+        camera = fits[0].result.views[0].camera
         observed = [each.stages[Stage.OBSERVATION].processor_s for each in fits]
         rows.append(
             (

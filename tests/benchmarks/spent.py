@@ -71,7 +71,9 @@ def timed_fit(request: FitRequest) -> TimedFit:
     end = now()
     ends = [*list(begins.values())[1:], end]
     model = prepared_model(result.person.gender).operators.model
-    _, export = timed(lambda: artifacts(result, model=model, image=request.image))
+    _, export = timed(
+        lambda: artifacts(result, model=model, images=[view.image for view in request.views])
+    )
     return TimedFit(
         result=result,
         whole=end - began,

@@ -15,7 +15,7 @@ def lines(count: int) -> Iterator[str]:
     warm_up()
     for width, height in SIZES:
         fits = [timed_fit(each) for each in suite_requests(count, width=width, height=height)]
-        camera = fits[0].result.camera
+        camera = fits[0].result.views[0].camera
         yield from table_lines(
             f"{count} fits with silhouette, edges and shading, {width}x{height} "
             f"(worked on at {camera.width}x{camera.height}), seconds",

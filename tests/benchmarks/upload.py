@@ -31,7 +31,7 @@ def lines(count: int) -> Iterator[str]:
         for name in names
         if (values := [each[name] for each in posted if name in each])
     ]
-    size = sum(len(request.image) for request in requests) / len(requests) / 1e6
+    size = sum(len(request.views[0].image) for request in requests) / len(requests) / 1e6
     yield from table_lines(
         f"`maquette serve` on loopback, {count} photographs of {SIZE[0]}x{SIZE[1]} "
         f"({size:.1f} MB JPEG), wall seconds",

@@ -15,7 +15,7 @@ import numpy as np
 
 from fitter.errors import FitterError
 from fitter.fits.capture_check import CaptureQuestion
-from fitter.fits.scan import ScanView, scan
+from fitter.fits.pipeline import fit
 from fitter.observation.decoding import decode_picture
 from fitter.request import FitRequest, KnownMeasurement, ViewKind
 from tests.evaluation.capture_forms import (
@@ -39,6 +39,7 @@ from tests.evaluation.staging import camera_of
 from tests.evaluation.table import MEASUREMENTS
 from tests.evaluation.true_picture import TruePicture
 from tests.evaluation.truth import true_body
+from tests.one_picture import changed, together
 
 MAX_PIXELS = 50_000_000
 QUALITY = 92
@@ -88,7 +89,7 @@ def costs_of(person: str) -> list[Cost]:
             Kind.PHONE,
             name,
             person,
-            [replace(view, request=typed(view.request, truth)) for view in plain],
+            [typed(each, truth) for each in plain],
         )
         for name, typed in TYPED.items()
     ]
@@ -150,10 +151,10 @@ TYPED: Mapping[str, Change] = {
     "weight given 3 kg too high": lambda request, truth: _with_weight(
         request, truth["weight"] + 3.0
     ),
-    "height 3 cm too high": lambda request, truth: replace(
-        request, height_m=round((request.height_m or 0.0) + 0.03, 3)
+    "height 3 cm too high": lambda request, truth: changed(
+        request, height_m=round((request.person.height_m or 0.0) + 0.03, 3)
     ),
-    "lens not known": lambda request, truth: replace(request, focal_length_px=None),
+    "lens not known": lambda request, truth: changed(request, focal_length_px=None),
 }
 """What is typed in otherwise, of the pictures as they are."""
 
@@ -175,9 +176,9 @@ RESTAGED: Mapping[str, Restage] = {
 """How people stand and from where they are seen."""
 
 
-def _cost(kind: Kind, fault: str, person: str, views: Sequence[ScanView]) -> Cost:
+def _cost(kind: Kind, fault: str, person: str, requests: Sequence[FitRequest]) -> Cost:
     try:
-        measured = {each.name: each.value for each in scan(views).measurements}
+        measured = {each.name: each.value for each in fit(together(*requests)).measurements}
     except FitterError:
         return Cost(kind=kind, fault=fault, person=person, errors=None)
     truth = _truth(person)
@@ -185,8 +186,10 @@ def _cost(kind: Kind, fault: str, person: str, views: Sequence[ScanView]) -> Cos
     return Cost(kind=kind, fault=fault, person=person, errors=errors)
 
 
-def _spoilt(kind: ViewKind, picture: TruePicture, spoil: Spoil) -> ScanView:
-    pixels = decode_picture(picture.request.image, field="image", max_pixels=MAX_PIXELS).pixels
+def _spoilt(kind: ViewKind, picture: TruePicture, spoil: Spoil) -> FitRequest:
+    pixels = decode_picture(
+        picture.request.views[0].image, field="image", max_pixels=MAX_PIXELS
+    ).pixels
     source = Source(picture=pixels, mask=picture.person_mask, question=CaptureQuestion())
     spoilt = spoil(source)
     return _view(kind, picture, spoilt, picture.focal_length_px * _zoom(source, spoil))
@@ -204,31 +207,31 @@ def _zoom(source: Source, spoil: Spoil) -> float:
 
 def _rendered(
     pair: PhonePair, restaged: Restage, pictures: Mapping[ViewKind, TruePicture]
-) -> list[ScanView]:
-    views: list[ScanView] = []
+) -> list[FitRequest]:
+    requests: list[FitRequest] = []
     for kind, case in ((ViewKind.FRONT, pair.front), (ViewKind.SIDE, pair.side)):
         placed = restaged(_seen(case, distance_m=2.2, height_m=1.1))
         shown = plain_picture(placed, turned_deg=0.0)
-        views.append(_view(kind, pictures[kind], shown, camera_of(placed.view).focal_length_px))
-    return views
+        requests.append(_view(kind, pictures[kind], shown, camera_of(placed.view).focal_length_px))
+    return requests
 
 
-def _view(kind: ViewKind, picture: TruePicture, shown: Picture, focal_length_px: float) -> ScanView:
+def _view(
+    kind: ViewKind, picture: TruePicture, shown: Picture, focal_length_px: float
+) -> FitRequest:
     made, coded = cv2.imencode(
         ".jpg", np.ascontiguousarray(shown[:, :, ::-1]), (cv2.IMWRITE_JPEG_QUALITY, QUALITY)
     )
     if not made:
         message = "OpenCV could not encode a picture."
         raise RuntimeError(message)
-    return ScanView(
+    return changed(
+        picture.request,
         kind=kind,
-        request=replace(
-            picture.request,
-            image=coded.tobytes(),
-            clicks={},
-            complete_clicks=True,
-            focal_length_px=focal_length_px,
-        ),
+        image=coded.tobytes(),
+        clicks={},
+        complete_clicks=True,
+        focal_length_px=focal_length_px,
     )
 
 
@@ -237,7 +240,7 @@ def _truth(person: str) -> Mapping[str, float]:
 
 
 def _with_weight(request: FitRequest, weight_kg: float) -> FitRequest:
-    return replace(request, measurements={"weight": KnownMeasurement(value=weight_kg)})
+    return changed(request, measurements={"weight": KnownMeasurement(value=weight_kg)})
 
 
 def _seen(

@@ -104,15 +104,15 @@ def _too_near(title: str, name: str) -> Example:
 
 def _source(name: str) -> Source:
     picture = picture_of(name)
-    decoded = decode_picture(picture.request.image, field="image", max_pixels=MAX_PIXELS)
+    decoded = decode_picture(picture.request.views[0].image, field="image", max_pixels=MAX_PIXELS)
     view = ViewKind.SIDE if name.endswith("_side") else ViewKind.FRONT
     return Source(
         picture=decoded.pixels,
         mask=picture.person_mask,
         question=CaptureQuestion(
             view=view,
-            gender=picture.request.gender,
-            height_m=picture.request.height_m,
+            gender=picture.request.person.gender,
+            height_m=picture.request.person.height_m,
             focal_length_px=picture.focal_length_px,
         ),
     )

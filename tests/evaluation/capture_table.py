@@ -80,10 +80,10 @@ def judged_by(judgement: Judgement) -> list[JudgedFinding]:
     if judgement.name is None:
         return _judged_nobody(judgement.half)
     name, picture = judgement.name, picture_of(judgement.name)
-    decoded = _decoded(picture.request.image)
+    decoded = _decoded(picture.request.views[0].image)
     question = CaptureQuestion(
-        gender=picture.request.gender,
-        height_m=picture.request.height_m,
+        gender=picture.request.person.gender,
+        height_m=picture.request.person.height_m,
         focal_length_px=picture.focal_length_px,
     )
     capture = capture_of(decoded, question, detector=installed_detector())
@@ -93,7 +93,7 @@ def judged_by(judgement: Judgement) -> list[JudgedFinding]:
         judged += _judged(name, form, found, truth)
     if judgement.other is not None:
         source = Source(picture=decoded.pixels, mask=picture.person_mask, question=question)
-        other = _decoded(picture_of(judgement.other).request.image)
+        other = _decoded(picture_of(judgement.other).request.views[0].image)
         for form in spoilt_forms(source, other.pixels):
             judged += _judged(name, form.name, _found(form), form.truth)
     if name in CASES and judgement.other is not None:

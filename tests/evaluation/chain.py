@@ -73,7 +73,7 @@ def mesh_rung(count: int) -> str:
 
 
 def _on_mesh(picture: TruePicture, count: int, fitted: MeshFit) -> Link:
-    prepared, truth = prepared_model(picture.request.gender), picture.truth
+    prepared, truth = prepared_model(picture.request.person.gender), picture.truth
     shape = fitted.parameters.shape
     found = {each.name: each.value for each in measure(prepared.measuring, shape)}
     model = prepared.operators.model

@@ -10,6 +10,7 @@ from fitter.request import Cues, FitRequest, SegmentationKind
 from tests.evaluation.runs import picture_of
 from tests.evaluation.scoring import Scored, fit_picture, score
 from tests.evaluation.true_picture import Told
+from tests.one_picture import changed
 
 DEVIATIONS_95 = 1.96
 
@@ -56,13 +57,13 @@ def hinted_fits(name: str) -> list[HintedFit]:
 def hinted(request: FitRequest, hints: Hints) -> FitRequest:
     """The request with so much of the detector."""
     seeded = hints not in (Hints.NONE, Hints.SLANTS)
-    request = replace(
+    request = changed(
         request,
         segmentation=SegmentationKind.SEEDED_GRABCUT if seeded else SegmentationKind.GRABCUT,
         slant_hints=hints not in (Hints.NONE, Hints.MASK),
     )
     if hints is Hints.PROPOSED:
-        return replace(request, clicks={}, complete_clicks=True)
+        return changed(request, clicks={}, complete_clicks=True)
     return request
 
 

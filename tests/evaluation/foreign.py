@@ -22,6 +22,7 @@ from tests.evaluation.scene import Half, Series
 from tests.evaluation.suite import VISIBLE
 from tests.evaluation.true_picture import TruePicture
 from tests.evaluation.truth import TrueBody, light_toward
+from tests.one_picture import one_picture
 from tests.shared_data import NOT_SHIPPED, SHARED_DATA
 
 FOLDER = SHARED_DATA / "foreign"
@@ -59,7 +60,7 @@ def foreign_picture(name: str, folder: Path = FOLDER) -> TruePicture:
     request = _request(
         (files / "image.jpg").read_bytes(), json.loads((files / "request.json").read_text())
     )
-    joints = _joints(truth["joints_camera_m"], request.gender)
+    joints = _joints(truth["joints_camera_m"], request.person.gender)
     with np.load(files / "bodies.npz", allow_pickle=False) as bodies:
         body = TrueBody(
             canonical=bodies["rest_m"].astype(np.float64),
@@ -90,7 +91,7 @@ def foreign_mesh(name: str, folder: Path = FOLDER) -> PosedMesh:
     picture = foreign_picture(name, folder)
     with np.load(folder / name / "bodies.npz", allow_pickle=False) as bodies:
         return PosedMesh(
-            gender=picture.request.gender,
+            gender=picture.request.person.gender,
             vertices=bodies["posed_camera_m"].astype(np.float64),
             triangles=bodies["faces"],
             joints=picture.joints,
@@ -98,7 +99,7 @@ def foreign_mesh(name: str, folder: Path = FOLDER) -> PosedMesh:
 
 
 def _request(image: bytes, options: Mapping[str, Any]) -> FitRequest:
-    return FitRequest(
+    return one_picture(
         image=image,
         clicks={name: _click(each) for name, each in options["points"].items()},
         gender=Gender(options["gender"]),

@@ -17,12 +17,11 @@ from scipy.spatial.transform import Rotation
 
 from fitter.arrays import Pose
 from fitter.body.pose_prior import PosePrior, joint_angles
-from fitter.energies.attributes import Attributes
-from fitter.fits import outlined
+from fitter.energies.objective import Candidate, Objective
+from fitter.fits import equipment, outlined
 from fitter.fits.prepared_model import PreparedModel
-from fitter.optimizer import gauss_newton, uncertainty
-from fitter.optimizer.free_space import FreeSpace, free_space
-from fitter.parameters import BodyParameters
+from fitter.optimizer import joint_equations, uncertainty
+from fitter.optimizer.normal_equations import Matrix, Vector, normal_equations
 from fitter.pose_init.initial_pose import InitialPose, PoseHypothesis
 from tests.evaluation.people import load_person
 from tests.evaluation.people_table import PEOPLE
@@ -31,6 +30,9 @@ from tests.evaluation.staging import Staged, stage
 from tests.evaluation.truth import true_joints
 
 HELD_WITHIN_RADIANS = np.radians(0.5)
+
+HELD_PLACE = 1e12
+"""Nats per square metre: a place known to a thousandth of a millimetre."""
 
 _BODY_TO_CAMERA_AXES = np.diag([1.0, -1.0, -1.0])
 
@@ -65,7 +67,7 @@ def held_body_of(case: Case) -> HeldBody:
 def held_at(held: HeldBody) -> Iterator[None]:
     """Within it, :func:`fitter.fits.pipeline.fit` holds this pose."""
     pose, place = held.pose, held.place
-    find_body, find_pose = outlined.prepared_model, outlined.initialize_pose
+    find_body, find_pose = equipment.prepared_model, outlined.initialize_pose
 
     def body(*arguments: Any, **options: Any) -> PreparedModel:
         found = find_body(*arguments, **options)
@@ -81,19 +83,24 @@ def held_at(held: HeldBody) -> Iterator[None]:
         )
 
     with ExitStack() as patched:
-        patched.enter_context(patch.object(outlined, "prepared_model", body))
+        patched.enter_context(patch.object(equipment, "prepared_model", body))
         patched.enter_context(patch.object(outlined, "initialize_pose", initial))
         if held.place_held:
-            for module in (gauss_newton, uncertainty):
-                patched.enter_context(patch.object(module, "free_space", _without_moves))
+            for module in (joint_equations, uncertainty):
+                patched.enter_context(patch.object(module, "normal_equations", without_moves))
         yield
 
 
-def _without_moves(held: Attributes, parameters: BodyParameters) -> FreeSpace:
-    """The space of steps that leave the root joint where it is."""
-    space = free_space(held, parameters)
-    first = parameters.pose.size
-    return replace(space, directions=np.delete(space.directions, range(first, first + 3), axis=1))
+def without_moves(
+    objective: Objective, candidate: Candidate, *, marginal: bool = False
+) -> tuple[Matrix, Vector]:
+    """Normal equations whose steps leave the root joint where it is: nothing else moves with it."""
+    matrix, gradient = normal_equations(objective, candidate, marginal=marginal)
+    first = candidate.parameters.pose.size
+    place = np.arange(first, first + 3)
+    matrix[place], matrix[:, place], gradient[place] = 0.0, 0.0, 0.0
+    matrix[place, place] = HELD_PLACE
+    return matrix, gradient
 
 
 def narrowed(prior: PosePrior, pose: Pose) -> PosePrior:

@@ -73,12 +73,12 @@ def light_figures(result: FitResult) -> LightFigures:
     assert reflectance is not None
     operators = prepared_model(result.person.gender).operators
     model, areas = operators.model, operators.shaded.areas
-    display = result.pictures.image
+    display = result.views[0].pictures.image
     intensity = intensity_map(
-        luminance_of(linear_from_display(display)), display, result.pictures.segmentation
+        luminance_of(linear_from_display(display)), display, result.views[0].pictures.segmentation
     )
     vertices = result.found.posed_vertices
-    rendering = render(vertices, model.triangles, result.camera)
+    rendering = render(vertices, model.triangles, result.views[0].camera)
     centre = result.person.body.translation
     shadow = cast_shadow(vertices, model.triangles, light=light, body_centre=centre)
     predicted = shade(

@@ -20,7 +20,7 @@ from fitter.body.skeleton import regress
 from fitter.body.tangent import attached_rows, linearise, point_jacobian
 from fitter.energies.fitting_operators import FittingOperators
 from fitter.fits.prepared_model import prepared_model
-from fitter.optimizer.parameter_vector import limited, moved
+from fitter.optimizer.parameter_vector import excess, moved
 from fitter.parameters import BodyParameters
 from fitter.request import Gender
 from fitter.training.articulation.part_tree import part_index
@@ -243,7 +243,7 @@ def _stepped(
     damped = inner + np.diag(damping * inner.diagonal())
     step = np.zeros(len(pull))
     step[free] = np.linalg.solve(damped, -pull[free])
-    return moved(parameters, limited(parameters, step))
+    return moved(parameters, step / max(excess(parameters, step), 1.0))
 
 
 def _nearest_part(

@@ -14,6 +14,7 @@ from fitter.result import FitResult
 from tests.evaluation.runs import picture_of
 from tests.evaluation.table import MEASUREMENTS
 from tests.evaluation.true_picture import TruePicture
+from tests.one_picture import changed
 
 MOVED_M = 0.02
 """How far every point is moved, metres on the body."""
@@ -57,12 +58,12 @@ def moved_fits(name: str) -> list[MovedFit]:
 
 def moved(request: FitRequest, move: Move, pixels: float) -> FitRequest:
     """The request with every point so many pixels away from where it was."""
-    middle = float(np.mean([click.x for click in request.clicks.values()]))
+    middle = float(np.mean([click.x for click in request.views[0].clicks.values()]))
     clicks = {
         name: _shifted(click, pixels * _direction(name, click, move, middle))
-        for name, click in request.clicks.items()
+        for name, click in request.views[0].clicks.items()
     }
-    return replace(request, clicks=clicks)
+    return changed(request, clicks=clicks)
 
 
 def moved_lines(fits: Sequence[MovedFit]) -> list[str]:

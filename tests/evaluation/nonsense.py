@@ -31,6 +31,7 @@ from tests.evaluation.drawn_pictures import (
 from tests.evaluation.files import CaseFiles, encoded_mask, read_case
 from tests.evaluation.scene import Half
 from tests.evaluation.suite import fit_request
+from tests.one_picture import changed
 
 DONORS: Mapping[Half, tuple[str, ...]] = {
     Half.TUNING: (
@@ -101,7 +102,7 @@ def _circle(_: CaseFiles, __: CaseFiles, request: FitRequest, rng: Rng) -> FitRe
 
 def _circle_mask(_: CaseFiles, __: CaseFiles, request: FitRequest, rng: Rng) -> FitRequest:
     picture, box, shape = one_shape(rng, disc)
-    return replace(_drawn(picture, request, box), mask=encoded_mask(shape))
+    return changed(_drawn(picture, request, box), mask=encoded_mask(shape))
 
 
 def _rectangle(_: CaseFiles, __: CaseFiles, request: FitRequest, rng: Rng) -> FitRequest:
@@ -120,7 +121,7 @@ def _dog(_: CaseFiles, __: CaseFiles, request: FitRequest, rng: Rng) -> FitReque
 def _dog_jointed(_: CaseFiles, __: CaseFiles, request: FitRequest, rng: Rng) -> FitRequest:
     """Points on the dog's own joints: forelegs for arms, hind legs for legs."""
     picture, points, _shape = dog_picture(rng)
-    return replace(request, image=_encoded(picture), clicks=_clicks(points), focal_length_px=None)
+    return changed(request, image=_encoded(picture), clicks=_clicks(points), focal_length_px=None)
 
 
 def _dog_mask(_: CaseFiles, __: CaseFiles, request: FitRequest, rng: Rng) -> FitRequest:
@@ -140,14 +141,14 @@ def _mask_of_a_dog(files: CaseFiles, _: CaseFiles, request: FitRequest, rng: Rng
     _dog_drawn, _points, shape = dog_picture(rng)
     size = picture.shape[1], picture.shape[0]
     mask = cv2.resize(shape.astype(np.uint8), size, interpolation=cv2.INTER_NEAREST) > 0
-    return replace(request, mask=encoded_mask(mask))
+    return changed(request, mask=encoded_mask(mask))
 
 
 def _mask_of_a_box(files: CaseFiles, _: CaseFiles, request: FitRequest, rng: Rng) -> FitRequest:
     mask = np.zeros_like(files.person_mask)
     rows, columns = np.nonzero(files.person_mask)
     mask[rows.min() : rows.max() + 1, columns.min() : columns.max() + 1] = True
-    return replace(request, mask=encoded_mask(mask))
+    return changed(request, mask=encoded_mask(mask))
 
 
 def _two_in_one_mask(
@@ -155,20 +156,20 @@ def _two_in_one_mask(
 ) -> FitRequest:
     """Two people side by side, both in the mask; points of the left one."""
     beside, masks = side_by_side(files, other, apart=float(rng.uniform(0.45, 1.0)))
-    return replace(request, image=beside, mask=encoded_mask(masks[0] | masks[1]))
+    return changed(request, image=beside, mask=encoded_mask(masks[0] | masks[1]))
 
 
 def _upside_down(files: CaseFiles, _: CaseFiles, request: FitRequest, rng: Rng) -> FitRequest:
-    return replace(request, image=_encoded(_decoded(files.image)[::-1]))
+    return changed(request, image=_encoded(_decoded(files.image)[::-1]))
 
 
 def _mirrored(files: CaseFiles, _: CaseFiles, request: FitRequest, rng: Rng) -> FitRequest:
-    return replace(request, image=_encoded(_decoded(files.image)[:, ::-1]))
+    return changed(request, image=_encoded(_decoded(files.image)[:, ::-1]))
 
 
 def _shifted(files: CaseFiles, _: CaseFiles, request: FitRequest, rng: Rng) -> FitRequest:
     picture = _decoded(files.image)
-    return replace(request, image=_encoded(np.roll(picture, picture.shape[1] // 2, axis=1)))
+    return changed(request, image=_encoded(np.roll(picture, picture.shape[1] // 2, axis=1)))
 
 
 def _of_another(_: CaseFiles, other: CaseFiles, request: FitRequest, rng: Rng) -> FitRequest:
@@ -184,16 +185,17 @@ def _cluster(_: CaseFiles, __: CaseFiles, request: FitRequest, rng: Rng) -> FitR
     return replace(
         request,
         clicks=placed(
-            request.clicks, _scaled((left, top, left + 0.08, top + 0.1), _decoded(request.image))
+            request.views[0].clicks,
+            _scaled((left, top, left + 0.08, top + 0.1), _decoded(request.views[0].image)),
         ),
     )
 
 
 def _permuted(_: CaseFiles, __: CaseFiles, request: FitRequest, rng: Rng) -> FitRequest:
     """The right places under each other's names."""
-    names = list(request.clicks)
-    places = [request.clicks[names[index]] for index in rng.permutation(len(names))]
-    return replace(request, clicks=dict(zip(names, places, strict=True)))
+    names = list(request.views[0].clicks)
+    places = [request.views[0].clicks[names[index]] for index in rng.permutation(len(names))]
+    return changed(request, clicks=dict(zip(names, places, strict=True)))
 
 
 Maker = Callable[[CaseFiles, CaseFiles, FitRequest, Rng], FitRequest]
@@ -262,7 +264,7 @@ def placed(clicks: Mapping[str, Click], box: Box) -> dict[str, Click]:
 
 def _drawn(picture: Picture, request: FitRequest, box: Box | None) -> FitRequest:
     """The request with another picture: points over a box, pixels or shares; None leaves them."""
-    clicks = request.clicks
+    clicks = request.views[0].clicks
     if box is not None:
         clicks = placed(clicks, box if box[2] > 1.0 else _scaled(box, picture))
     height, width = picture.shape[:2]
@@ -270,7 +272,7 @@ def _drawn(picture: Picture, request: FitRequest, box: Box | None) -> FitRequest
         name: replace(click, x=min(click.x, float(width)), y=min(click.y, float(height)))
         for name, click in clicks.items()
     }
-    return replace(request, image=_encoded(picture), clicks=clicks, focal_length_px=None)
+    return changed(request, image=_encoded(picture), clicks=clicks, focal_length_px=None)
 
 
 def _scaled(box: Box, picture: Picture) -> Box:

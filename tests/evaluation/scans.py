@@ -7,9 +7,10 @@ from enum import StrEnum
 import numpy as np
 
 from fitter.body.skeleton import regress
-from fitter.fits.scan import ScanView
+from fitter.fits.pipeline import fit
 from fitter.render.rasterizer import render
 from fitter.request import Cues, ViewKind
+from fitter.result import FitResult
 from tests.evaluation.cases import CASES
 from tests.evaluation.foreign import foreign_half, foreign_names
 from tests.evaluation.joint_figures import joint_error_mm
@@ -17,11 +18,11 @@ from tests.evaluation.landmark_points import packaged_model
 from tests.evaluation.people_table import PEOPLE
 from tests.evaluation.phone_cases import PHONE_PAIRS, REPEATED_PAIRS, PhonePair
 from tests.evaluation.runs import picture_of
-from tests.evaluation.scan_fit import ScanFit, scan_fit
 from tests.evaluation.scene import Half, Series
 from tests.evaluation.scoring import overlap
 from tests.evaluation.stance_kinds import Kind
 from tests.evaluation.true_picture import Told, TruePicture, told_request
+from tests.one_picture import changed, together
 
 OTHER_KINDS = (Kind.STANDING, Kind.TURNED)
 """The suite's pictures of a person that make a pair four."""
@@ -129,14 +130,12 @@ def scanned(pair: Pair) -> list[Scanned]:
 
 
 def _by_all_views(pair: Pair, pictures: Mapping[str, TruePicture], told: Told) -> Iterator[Scanned]:
-    scan_views = {
-        name: ScanView(
-            kind=kind, request=replace(told_request(pictures[name], told), cues=Cues.SES)
-        )
+    requests = {
+        name: changed(told_request(pictures[name], told), kind=kind, cues=Cues.SES)
         for name, kind in pair.kinds.items()
     }
     for views, names in pair.pictures_by_views.items():
-        found = scan_fit([scan_views[name] for name in names])
+        found = fit(together(*(requests[name] for name in names)))
         yield _scanned(pair, views, [pictures[name] for name in names], found)
 
 
@@ -150,14 +149,16 @@ def _pair(pair: PhonePair) -> Pair:
     )
 
 
-def _scanned(pair: Pair, views: Views, pictures: Sequence[TruePicture], found: ScanFit) -> Scanned:
+def _scanned(
+    pair: Pair, views: Views, pictures: Sequence[TruePicture], found: FitResult
+) -> Scanned:
     measured = {each.name: each for each in found.measurements}
     truth = pictures[0].truth.measurements
-    model = packaged_model(pictures[0].request.gender)
+    model = packaged_model(pictures[0].request.person.gender)
     joints, overlaps = [], []
-    for picture, seen in zip(pictures, found.pictures, strict=True):
-        posed = seen.posed_vertices
-        shown = render(posed, model.triangles, seen.person.camera).silhouette
+    for picture, seen in zip(pictures, found.views, strict=True):
+        posed = seen.found.posed_vertices
+        shown = render(posed, model.triangles, seen.found.person.camera).silhouette
         joints.append(joint_error_mm(regress(model.joint_regressor, posed), picture.joints))
         overlaps.append(overlap(shown, picture.body_mask))
     return Scanned(

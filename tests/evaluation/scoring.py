@@ -3,7 +3,7 @@
 import time
 from collections.abc import Mapping
 from contextlib import nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
@@ -25,6 +25,7 @@ from tests.evaluation.scene import Half, Series
 from tests.evaluation.true_picture import Told, TruePicture, told_request
 from tests.evaluation.trunk_sections import TrunkSections, trunk_sections
 from tests.evaluation.truth import TrueBody
+from tests.one_picture import changed
 
 MILLIMETRES = 1000.0
 
@@ -107,7 +108,7 @@ def fit_picture(
     picture: TruePicture, cues: Cues, told: Told, *, held: HeldBody | None = None
 ) -> Fitted:
     """Fit one picture with some cues; ``held`` is what is held of the body's pose and place."""
-    request = replace(told_request(picture, told), cues=cues)
+    request = changed(told_request(picture, told), cues=cues)
     with nullcontext() if held is None else held_at(held):
         started = time.perf_counter()
         result = fit(request)
@@ -122,7 +123,9 @@ def score(fitted: Fitted) -> Scored:
     found = {each.name: each for each in result.measurements}
     joints = regress(model.joint_regressor, result.found.posed_vertices)
     shown = render(result.found.posed_vertices, model.triangles, result.person.camera).silhouette
-    cut = resampled(result.pictures.segmentation, working_scale(result), picture.person_mask.shape)
+    cut = resampled(
+        result.views[0].pictures.segmentation, working_scale(result), picture.person_mask.shape
+    )
     return Scored(
         name=picture.name,
         person=picture.person,
@@ -143,7 +146,7 @@ def score(fitted: Fitted) -> Scored:
         mask_overlap=overlap(cut, picture.person_mask),
         light_degrees=light_error(result.person.light, picture.light),
         wrong_limbs=wrong_limbs(joints, picture.joints),
-        focal_length_known=result.focal_length_source is not FocalLengthSource.ASSUMED,
+        focal_length_known=result.views[0].focal_length_source is not FocalLengthSource.ASSUMED,
         distances_m=distance_errors_m(joints, picture.joints),
         trunk=trunk_sections(result.canonical_vertices, model.triangles)
         - trunk_sections(truth.canonical, truth.triangles),
@@ -161,7 +164,7 @@ def _vertex_error_mm(found: Float[np.ndarray, "m 3"], truth: TrueBody) -> float 
 
 def working_scale(result: FitResult) -> float:
     """Working pixels a pixel of the picture as it was sent."""
-    return result.camera.focal_length_px / result.person.camera.focal_length_px
+    return result.views[0].camera.focal_length_px / result.person.camera.focal_length_px
 
 
 def resampled(mask: Mask, scale: float, shape: tuple[int, ...]) -> Mask:

@@ -6,12 +6,11 @@ from itertools import combinations
 
 from fitter.arrays import Vertices
 from fitter.body.skeleton import regress
-from fitter.fits.joint_fit import JointFit, joint_fit
-from fitter.fits.prepared_model import prepared_model
-from fitter.measurement.anthropometry import measure
+from fitter.fits.pipeline import fit
 from fitter.measurement.quantity import Measurement
 from fitter.person.fitted_person import FittedPerson
-from fitter.request import Cues, FitRequest
+from fitter.person.several_pictures import known_covariance
+from fitter.request import Cues, FitRequest, StartingBody
 from tests.evaluation.joint_figures import joint_error_mm
 from tests.evaluation.landmark_points import packaged_model
 from tests.evaluation.limbs_in_depth import wrong_limbs
@@ -20,6 +19,7 @@ from tests.evaluation.scoring import fit_picture
 from tests.evaluation.suite import case_picture
 from tests.evaluation.true_picture import Told
 from tests.evaluation.truth import TrueBody
+from tests.one_picture import changed, together
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -50,7 +50,6 @@ class _Fitted:
     person: FittedPerson
     request: FitRequest
     measurements: tuple[Measurement, ...]
-    given: tuple[str, ...]
     truth: TrueBody
     true_joints: Vertices
     posed: Posed
@@ -72,16 +71,12 @@ def several_pictures(cases: Sequence[Case], names: Sequence[str]) -> Iterator[Se
             yield _compared([each], each.measurements, (each.posed,), names)
         for count in range(2, len(fits) + 1):
             for chosen in combinations(fits, count):
-                found = joint_fit(
-                    [each.person for each in chosen],
-                    [each.request for each in chosen],
-                    observe=lambda _: None,
-                )
+                found = fit(together(*(_begun(each) for each in chosen)))
                 after = [
-                    _posed(picture.posed_vertices, each.true_joints, each.person)
-                    for picture, each in zip(found.pictures, chosen, strict=True)
+                    _posed(view.found.posed_vertices, each.true_joints, each.person)
+                    for view, each in zip(found.views, chosen, strict=True)
                 ]
-                yield _compared(chosen, _measured(found, chosen[0]), after, names)
+                yield _compared(chosen, found.measurements, after, names)
 
 
 def _fitted(case: Case) -> _Fitted:
@@ -92,11 +87,17 @@ def _fitted(case: Case) -> _Fitted:
         person=person,
         request=picture.request,
         measurements=result.measurements,
-        given=result.given,
         truth=picture.truth,
         true_joints=picture.joints,
         posed=_posed(result.found.posed_vertices, picture.joints, person),
     )
+
+
+def _begun(fitted: _Fitted) -> FitRequest:
+    """The picture again, from the body that its fit found."""
+    person = fitted.person
+    start = StartingBody(body=person.body, shape_covariance=known_covariance(person))
+    return changed(fitted.request, start=start)
 
 
 def _posed(vertices: Vertices, true_joints: Vertices, person: FittedPerson) -> Posed:
@@ -104,16 +105,6 @@ def _posed(vertices: Vertices, true_joints: Vertices, person: FittedPerson) -> P
     return Posed(
         joint_mm=joint_error_mm(joints, true_joints),
         wrong_limbs=len(wrong_limbs(joints, true_joints)),
-    )
-
-
-def _measured(found: JointFit, first: _Fitted) -> tuple[Measurement, ...]:
-    return measure(
-        prepared_model(first.person.gender).measuring,
-        found.shape,
-        shape_covariance=found.covariance,
-        given=first.given,
-        held=first.given,
     )
 
 

@@ -54,7 +54,7 @@ def panel_name(case: str, number: int) -> str:
 def _panels(se: Fitted, ses: Fitted) -> Iterator[Picture]:
     evaluator = prepared_model(se.result.person.gender).operators.evaluator
     yield _at_height(_image(se))
-    yield _outlines(se, evaluator.vertices(se.result.stages[0].body))
+    yield _outlines(se, evaluator.vertices(se.result.stages[0].bodies[0].body))
     for fitted in (se, ses):
         yield _outlines(fitted, fitted.result.found.posed_vertices)
     truth, triangles = se.picture.truth, packaged_model(se.result.person.gender).triangles
@@ -73,13 +73,13 @@ def _in_camera_axes(body: Vertices) -> Vertices:
 
 
 def _image(fitted: Fitted) -> Picture:
-    return (255.0 * fitted.result.pictures.image).astype(np.uint8)
+    return (255.0 * fitted.result.views[0].pictures.image).astype(np.uint8)
 
 
 def _outlines(fitted: Fitted, vertices: Vertices) -> Picture:
     """The true body's outline and a found one's on the picture."""
     result = fitted.result
-    camera = result.camera
+    camera = result.views[0].camera
     true = resampled(
         fitted.picture.body_mask, 1.0 / working_scale(result), (camera.height, camera.width)
     )

@@ -1,18 +1,19 @@
 """How often a scan tells that its pictures show different people, and how often in vain."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
-from fitter.fits.scan import ScanView, scan
+from fitter.fits.pipeline import fit
 from fitter.person.several_pictures import SAME_PERSON_PROBABILITY
 from fitter.request import Cues, ViewKind
 from tests.evaluation.runs import picture_of
 from tests.evaluation.scans import Pair, foreign_pairs, own_pairs, repeated_pairs
 from tests.evaluation.scene import Half
 from tests.evaluation.true_picture import Told, told_request
+from tests.one_picture import changed, together
 
 TRUNK = ("chest_girth", "waist_girth_smallest", "hip_girth")
 
@@ -66,21 +67,20 @@ def _of_two(half: Half) -> Iterator[Pictures]:
 
 
 def _gender(pair: Pair) -> object:
-    return picture_of(pair.front).request.gender
+    return picture_of(pair.front).request.person.gender
 
 
 def agreement_of(pictures: Pictures) -> Agreement:
     """Scan the two."""
     front, other = picture_of(pictures.front), picture_of(pictures.other)
-    height_m = front.request.height_m
+    height_m = front.request.person.height_m
     assert height_m is not None
-    views = [
-        ScanView(
-            kind=kind,
-            request=replace(told_request(picture, Told()), cues=Cues.SE, height_m=height_m),
-        )
+    requests = [
+        changed(told_request(picture, Told()), kind=kind, cues=Cues.SE, height_m=height_m)
         for picture, kind in ((front, ViewKind.FRONT), (other, pictures.kind))
     ]
+    found = fit(together(*requests)).alone
+    assert found is not None
     taller = front.truth.stature_m / other.truth.stature_m
     return Agreement(
         pictures=pictures,
@@ -88,7 +88,7 @@ def agreement_of(pictures: Pictures) -> Agreement:
             abs(front.truth.measurements[name] - taller * other.truth.measurements[name])
             for name in TRUNK
         ),
-        agreement=scan(views).alone.agreement,
+        agreement=found.agreement,
     )
 
 

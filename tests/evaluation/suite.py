@@ -9,6 +9,7 @@ from tests.evaluation.people_table import PEOPLE
 from tests.evaluation.scene import Case
 from tests.evaluation.true_picture import TruePicture
 from tests.evaluation.truth import true_body
+from tests.one_picture import one_picture
 
 VISIBLE = 2
 
@@ -34,7 +35,7 @@ def case_picture(case: Case) -> TruePicture:
 def fit_request(files: CaseFiles, cues: Cues) -> FitRequest:
     """The request a case's file holds."""
     options = files.request
-    return FitRequest(
+    return one_picture(
         image=files.image,
         clicks={
             name: Click(x=point["x"], y=point["y"], occluded=point["visibility"] < VISIBLE)

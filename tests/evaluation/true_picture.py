@@ -18,6 +18,7 @@ from fitter.request import (
 from tests.evaluation.files import encoded_mask
 from tests.evaluation.scene import Half, Series
 from tests.evaluation.truth import TrueBody
+from tests.one_picture import changed
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -77,17 +78,17 @@ class TruePicture:
 
 def told_request(picture: TruePicture, told: Told) -> FitRequest:
     """The picture's request with what is told beside."""
-    request = replace(picture.request, clothing=told.clothing)
+    request = changed(picture.request, clothing=told.clothing)
     if told.mask:
-        request = replace(request, mask=encoded_mask(picture.person_mask))
+        request = changed(request, mask=encoded_mask(picture.person_mask))
     if told.outline is not None:
-        request = replace(request, outline=told.outline)
+        request = changed(request, outline=told.outline)
     if told.focal_length:
-        request = replace(request, focal_length_px=picture.focal_length_px, focal_length_35mm=None)
+        request = changed(request, focal_length_px=picture.focal_length_px, focal_length_35mm=None)
     if told.measurements:
         true = picture.truth.measurements
         known = {name: KnownMeasurement(value=true[name]) for name in told.measurements}
-        request = replace(request, measurements=known)
+        request = changed(request, measurements=known)
     light = picture.light
     if told.light and light is not None:
         guess = LightGuess(
@@ -96,5 +97,5 @@ def told_request(picture: TruePicture, told: Told) -> FitRequest:
             elevation=light.elevation,
             distance=light.distance,
         )
-        request = replace(request, light=guess)
-    return replace(request, light=replace(request.light, surroundings=told.surroundings))
+        request = changed(request, light=guess)
+    return changed(request, light=replace(request.views[0].light, surroundings=told.surroundings))

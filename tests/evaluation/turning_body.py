@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 from jaxtyping import UInt8
 
-from fitter import Click, FitRequest, FitResult, Gender, body_vertices, fit
+from fitter import Click, FitResult, Gender, body_vertices, fit
 from fitter.arrays import Triangles, Vertices
 from fitter.body.scape import CAMERA_AXES
 from fitter.export.display import block_means, to_levels
@@ -26,6 +26,7 @@ from fitter.render.interpolation import shade_image
 from fitter.render.rasterizer import render
 from fitter.training.report.body_sheets import CLAY, DISTANCE_M, FILL_LIGHT, TO_LIGHT
 from service.demo_data.sample import load_sample
+from tests.one_picture import one_picture
 
 FILE = Path(__file__).parents[2] / "service" / "page" / "src" / "start" / "turning.webp"
 
@@ -49,7 +50,7 @@ def sample_fit() -> FitResult:
     sample = load_sample()
     asked = json.loads(sample.request)
     return fit(
-        FitRequest(
+        one_picture(
             image=sample.image,
             clicks={name: Click(x=at["x"], y=at["y"]) for name, at in asked["points"].items()},
             gender=Gender(asked["gender"]),

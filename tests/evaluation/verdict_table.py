@@ -1,7 +1,7 @@
 """How many people and how much nonsense each verdict is given to, with a detector and without."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from fitter.errors import InvalidInputError
 from fitter.fits.pipeline import fit
@@ -10,6 +10,7 @@ from fitter.result import Verdict
 from tests.evaluation.detector_figures import Hints, hinted
 from tests.evaluation.nonsense import Nonsense
 from tests.evaluation.runs import picture_of
+from tests.one_picture import changed
 
 ASKED = (Hints.NONE, Hints.ALL)
 
@@ -27,7 +28,7 @@ class Judged:
 def judged_picture(name: str) -> list[Judged]:
     """A picture of the suite's own or a foreign one, by the name of its set."""
     picture = picture_of(name)
-    return _judged(picture.series.value, name, replace(picture.request, cues=Cues.SES))
+    return _judged(picture.series.value, name, changed(picture.request, cues=Cues.SES))
 
 
 def judged_nonsense(made: Nonsense) -> list[Judged]:
@@ -54,7 +55,7 @@ def _judged(kind: str, name: str, request: FitRequest) -> list[Judged]:
             kind=kind,
             name=name,
             hints=hints,
-            verdict=_verdict(hinted(replace(request, force=True), hints)),
+            verdict=_verdict(hinted(changed(request, force=True), hints)),
         )
         for hints in ASKED
     ]

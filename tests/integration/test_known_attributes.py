@@ -7,10 +7,11 @@ import pytest
 from fitter.errors import InvalidInputError
 from fitter.fits.pipeline import fit
 from fitter.request import Cues, FitRequest, KnownMeasurement
-from fitter.result import FitResult, StageBody
+from fitter.result import FitResult, FitStage
 from service.demo_data.sample import load_sample
 from service.submissions.submission import check_fit
 from service.worker.translate import fit_request
+from tests.one_picture import changed
 
 SAMPLE = load_sample()
 MOST_PIXELS = 50_000_000
@@ -22,7 +23,7 @@ def sample_request(**known: float | tuple[float, float]) -> FitRequest:
         request=SAMPLE.request, image=SAMPLE.image, mask=None, max_pixels=MOST_PIXELS
     )
     request = fit_request(checked.options, image=SAMPLE.image, mask=None, max_pixels=MOST_PIXELS)
-    return replace(
+    return changed(
         request,
         cues=Cues.SE,
         measurements={
@@ -34,7 +35,7 @@ def sample_request(**known: float | tuple[float, float]) -> FitRequest:
     )
 
 
-def values(found: FitResult | StageBody) -> dict[str, float]:
+def values(found: FitResult | FitStage) -> dict[str, float]:
     return {each.name: each.value for each in found.measurements}
 
 

@@ -1,7 +1,5 @@
 """Fits of one person of the evaluation suite in loose clothes, said to be tight and loose."""
 
-from dataclasses import replace
-
 import pytest
 
 from fitter.fits.pipeline import fit
@@ -10,6 +8,7 @@ from fitter.result import FitResult
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import CaseFiles, read_case
 from tests.evaluation.suite import fit_request
+from tests.one_picture import changed
 
 WAIST = "waist_girth_navel"
 
@@ -24,13 +23,17 @@ def files() -> CaseFiles:
 @pytest.fixture(scope="module")
 def fits(files: CaseFiles) -> dict[Clothing, FitResult]:
     request = fit_request(files, Cues.SES)
-    return {clothing: fit(replace(request, clothing=clothing)) for clothing in Clothing}
+    return {clothing: fit(changed(request, clothing=clothing)) for clothing in Clothing}
 
 
 def waist(result: FitResult) -> tuple[float, float]:
     (found,) = [each for each in result.measurements if each.name == WAIST]
     assert found.standard_error is not None
     return found.value, found.standard_error
+
+
+def warned(result: FitResult) -> set[str]:
+    return {each.code for view in result.views for each in view.warnings}
 
 
 def test_the_waist_within_loose_clothes_is_nearer_to_the_truth_and_less_certain(files, fits):
@@ -42,7 +45,7 @@ def test_the_waist_within_loose_clothes_is_nearer_to_the_truth_and_less_certain(
 
 def test_the_result_says_how_the_outline_was_taken(fits):
     assumed = {
-        clothing: {each.quantity: each for each in result.assumptions}
+        clothing: {each.quantity: each for each in result.views[0].assumptions}
         for clothing, result in fits.items()
     }
     assert "outline" not in assumed[Clothing.TIGHT]
@@ -54,11 +57,15 @@ def test_a_body_within_loose_clothes_is_no_poor_fit(fits):
     result = fits[Clothing.LOOSE]
     assert result.found.outcome.value == "converged"
     assert result.found.silhouette_overlap > 0.9
-    assert not [warning for warning in result.warnings if warning.code == "low-silhouette-overlap"]
+    assert not [
+        warning for warning in result.views[0].warnings if warning.code == "low-silhouette-overlap"
+    ]
 
 
 def test_saying_loose_of_underwear_is_questioned_and_of_loose_clothes_is_not(fits):
     request = fit_request(read_case(CASES["man_old_heavy_turned"]), Cues.SE)
-    doubted = fit(replace(request, clothing=Clothing.LOOSE))
-    said = [[each.code for each in result.warnings] for result in (doubted, *fits.values())]
+    doubted = fit(changed(request, clothing=Clothing.LOOSE))
+    said = [
+        [each.code for each in result.views[0].warnings] for result in (doubted, *fits.values())
+    ]
     assert ["clothes-not-loose" in codes for codes in said] == [True, False, False]

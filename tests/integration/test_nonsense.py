@@ -1,7 +1,5 @@
 """Fits of pictures without a person to measure: what is told, and what is withheld."""
 
-from dataclasses import replace
-
 import pytest
 
 from fitter.fits.pipeline import fit
@@ -12,13 +10,14 @@ from tests.evaluation.files import read_case
 from tests.evaluation.nonsense import DONORS, NAMED_KINDS, nonsense
 from tests.evaluation.scene import Half
 from tests.evaluation.suite import fit_request
+from tests.one_picture import changed
 
 MADE = {each.kind: each.request for each in nonsense(Half.TUNING, Cues.SE) if each.number == 0}
 
 
 def fitted(kind: str, *, with_detector: bool = False, force: bool = False) -> FitResult:
     return fit(
-        replace(
+        changed(
             MADE[kind],
             force=force,
             segmentation=SegmentationKind.SEEDED_GRABCUT
@@ -47,14 +46,14 @@ def test_who_insists_gets_measurements_and_a_warning():
     result = fitted("landscape", force=True)
     assert result.found.verdict is Verdict.NO_PERSON
     assert len(result.measurements) > 10
-    (warning,) = [each for each in result.warnings if each.code == "no-person"]
+    (warning,) = [each for each in result.views[0].warnings if each.code == "no-person"]
     assert result.found.outcome_explanation in warning.message
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", DONORS[Half.TUNING])
 def test_the_people_whose_points_these_are_get_theirs(name):
-    request = replace(fit_request(read_case(CASES[name]), Cues.SE), force=False)
+    request = changed(fit_request(read_case(CASES[name]), Cues.SE), force=False)
     result = fit(request)
     assert result.found.is_plausible
     assert len(result.measurements) > 10

@@ -20,7 +20,7 @@ from fitter.body.storage import load_body_model
 from fitter.fits.initial_body import initial_body
 from fitter.fits.prepared_model import prepared_model
 from fitter.parameters import BodyParameters
-from fitter.request import Click, FitRequest, Gender
+from fitter.request import Click, Gender, Person, View
 from fitter.training.__main__ import main
 from fitter.training.own_bodies.command import GUIDE
 from fitter.training.own_bodies.folder import read_own_bodies
@@ -144,14 +144,13 @@ def test_clicks_on_a_person_give_their_body_in_the_users_own_model(models):
     joints = regress(model.landmarks, evaluator.vertices(truth))
     pixels = 900.0 * joints[:, :2] / joints[:, 2:] + [360.0, 480.0]
     places = dict(zip(model.landmarks.names, pixels.tolist(), strict=True))
-    request = FitRequest(
+    view = View(
         image=b"",
         clicks={name: Click(x=places[name][0], y=places[name][1]) for name in POINT_NAMES},
-        gender=Gender.FEMALE,
-        height_m=1.7,
         focal_length_px=900.0,
     )
-    found = initial_body(request, body, width=720, height=960, exif_focal_length_35mm=None)
+    person = Person(gender=Gender.FEMALE, height_m=1.7)
+    found = initial_body(person, view, body, width=720, height=960, exif_focal_length_35mm=None)
     placed = regress(model.landmarks, evaluator.vertices(found.body))
     assert np.linalg.norm(placed - joints, axis=1).mean() < 0.1
     standing = BodyParameters(

@@ -58,7 +58,7 @@ def test_result_and_files_tell_the_surroundings(surrounded):
     assert document.light.surroundings is not None
     coefficients = np.array(document.light.surroundings.coefficients)
     np.testing.assert_allclose(coefficients, surrounded.person.light.surroundings)
-    files = artifacts(surrounded, model=model, image=FILES.image)
+    files = artifacts(surrounded, model=model, images=[FILES.image])
     lit = read_glb(files["body_posed.glb"]).attribute("_LIT")
     assert set(np.unique(lit)) == {0.0, 1.0}
     person = FittedPerson.from_bytes(surrounded.person.to_bytes())

@@ -7,7 +7,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from PIL import Image
 
-from fitter import Click, FitRequest, Gender
+from fitter import Click, FitRequest, Gender, Person, View
 from fitter.arrays import Triangles, Vertices
 from fitter.training.report.body_sheets import FRONT, SIDE, Panel, scale_for, sheet
 from service.demo_data.sample import FOLDER
@@ -19,12 +19,12 @@ DPI = 100
 def sample_request(name: str = "sample", points: str = "request") -> FitRequest:
     """The request of one of the packaged samples, with its clicks."""
     asked = json.loads((FOLDER / f"{points}.json").read_text())
-    return FitRequest(
+    view = View(
         image=(FOLDER / f"{name}.jpg").read_bytes(),
         clicks={key: Click(x=at["x"], y=at["y"]) for key, at in asked["points"].items()},
-        gender=Gender(asked["gender"]),
-        height_m=asked["height_m"],
     )
+    person = Person(gender=Gender(asked["gender"]), height_m=asked["height_m"])
+    return FitRequest(person=person, views=(view,))
 
 
 def show(*pictures: bytes | np.ndarray, titles: tuple[str, ...] = ()) -> None:

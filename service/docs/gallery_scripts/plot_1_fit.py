@@ -12,7 +12,7 @@ from fitter import files_of, fit
 
 request = sample_request()
 result = fit(request)
-files = files_of(result, request.image)
+files = files_of(result, request.views[0].image)
 show(files["overlay.png"], titles=("the outline over the picture",))
 
 # %%

@@ -12,9 +12,7 @@ import json
 import matplotlib.pyplot as plt
 from _extensions.drawing import show
 
-from fitter import Click, FitRequest, Gender, fit
-from fitter.fits.scan import ScanView, scan
-from fitter.request import ViewKind
+from fitter import Click, FitRequest, Gender, Person, View, ViewKind, fit
 from service.demo_data.sample import load_scan_sample
 
 sample = load_scan_sample()
@@ -23,22 +21,22 @@ show(*sample.images, titles=("front", "side"))
 
 # %%
 
-views = [
-    ScanView(
+person = Person(gender=Gender(asked["gender"]), height_m=asked["height_m"])
+front, side = (
+    View(
+        image=image,
         kind=ViewKind(view["view"]),
-        request=FitRequest(
-            image=image,
-            clicks={name: Click(x=x, y=y) for name, (x, y, seen) in view["points"].items() if seen},
-            gender=Gender(asked["gender"]),
-            height_m=asked["height_m"],
-        ),
+        clicks={name: Click(x=x, y=y) for name, (x, y, seen) in view["points"].items() if seen},
     )
     for view, image in zip(asked["views"], sample.images, strict=True)
-]
+)
 found = {
-    "front": fit(views[0].request).measurements,
-    "side": fit(views[1].request).measurements,
-    "front and side": scan(views).measurements,
+    name: fit(FitRequest(person=person, views=views)).measurements
+    for name, views in {
+        "front": (front,),
+        "side": (side,),
+        "front and side": (front, side),
+    }.items()
 }
 
 # %%

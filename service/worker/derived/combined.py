@@ -1,9 +1,10 @@
 """One person from several of their pictures: one shape, and pose and light in each picture."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 
 from api_schemas.derivation_kinds.combined import CombinedOptions, CombinedResult
-from api_schemas.requests import FitOptions, OptimizerKind
+from api_schemas.requests import FitOptions
 from api_schemas.results import FitResult, FitWarning
 from fitter.applications.previews import View, preview
 from fitter.arrays import Vertices
@@ -14,17 +15,28 @@ from fitter.export.display import png
 from fitter.export.gltf import body_posed_glb
 from fitter.export.gltf_document import Frame
 from fitter.export.plain_gltf import plain_glb
-from fitter.fits.joint_fit import joint_fit
-from fitter.fits.prepared_model import prepared_model
-from fitter.measurement.anthropometry import measure
+from fitter.fits.equipment import Equipment
+from fitter.fits.pipeline import fit
 from fitter.person.fitted_person import FittedPerson
-from fitter.person.several_pictures import CombinedShape
-from fitter.request import FitRequest
-from fitter.result import PictureFit
+from fitter.person.several_pictures import (
+    CombinedShape,
+    combined_shape,
+    known_covariance,
+    told_differently,
+)
+from fitter.request import Choices, FitRequest, StartingBody
+from fitter.result import FittedView
+from fitter.vocabulary.measurements import STATURE
 from service.jobs.inputs import IMAGE, MASK, PERSON, REQUEST, RESULT
 from service.worker.derived.person import person_and_operators
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
-from service.worker.translate import combined_picture, fit_request, measurement_results
+from service.worker.translate import (
+    combined_picture,
+    known_measurements,
+    measurement_results,
+    person,
+    view,
+)
 
 _FITTED = 0.95
 """Share of the work that is done once the pictures are fitted, before their files are made."""
@@ -40,41 +52,34 @@ def derive(
     options = job.options
     pictures = [job.inputs, *job.others]
     _require_measurements(pictures)
-    fit = FitResult.model_validate_json(job.inputs[RESULT])
     first, operators = person_and_operators(job.inputs[PERSON], job.models)
     people = [first, *(FittedPerson.from_bytes(each[PERSON]) for each in pictures[1:])]
-    found = joint_fit(
-        people,
-        [_request(each, job.max_pixels) for each in pictures],
-        models=job.models,
-        detector_weights=job.detector,
-        observe=lambda share: observe(_FITTED * share),
+    fused = combined_shape(people)
+    equipment = Equipment(models=job.models, detector_weights=job.detector)
+    found = fit(
+        _request(pictures, people, job.max_pixels),
+        equipment,
+        observer=lambda progress: observe(_FITTED * progress.fraction),
     )
     model = operators.model
-    measuring = prepared_model(first.gender, models=job.models).measuring
-    given = [each.name for each in fit.measurements if each.given]
-    measurements = measure(
-        measuring,
-        found.shape,
-        shape_covariance=found.covariance,
-        given=given,
-        held=[each.name for each in fit.measurements if each.given and each.standard_error == 0.0],
-    )
-    body = measuring.canonical.at(found.shape)
+    measuring = equipment.model(first.gender).measuring
+    body = found.canonical_vertices
     assert job.fit_id is not None
     return DerivationOutput(
         result=CombinedResult(
             pictures=len(people),
             shape=tuple(found.shape.tolist()),
             bodies=tuple(
-                combined_picture(each, number=number, fit_id=fit_id, part_names=model.part_names)
+                combined_picture(
+                    each.found, number=number, fit_id=fit_id, part_names=model.part_names
+                )
                 for number, (each, fit_id) in enumerate(
-                    zip(found.pictures, (job.fit_id, *options.fits), strict=True), start=1
+                    zip(found.views, (job.fit_id, *options.fits), strict=True), start=1
                 )
             ),
-            measurements=measurement_results(measurements, given),
-            agreement=found.fused.agreement,
-            warnings=_warnings(found.fused, options),
+            measurements=measurement_results(found.measurements, found.given),
+            agreement=fused.agreement,
+            warnings=_warnings(fused, options),
             artifacts=(),
         ),
         artifacts={
@@ -84,8 +89,8 @@ def derive(
                 name="body_combined",
                 frame=Frame.STANDING,
                 extras={"pictures": len(people)},
-                reflectance=found.pictures[0].person.reflectance,
-                albedo_rgb=found.pictures[0].person.albedo_rgb,
+                reflectance=found.person.reflectance,
+                albedo_rgb=found.person.albedo_rgb,
             ),
             "combined.png": png(
                 preview(
@@ -97,7 +102,7 @@ def derive(
                 )
             ),
         }
-        | _files_of_pictures(found.pictures, model, [each[IMAGE] for each in pictures]),
+        | _files_of_pictures(found.views, model, [each[IMAGE] for each in pictures]),
     )
 
 
@@ -123,24 +128,51 @@ def _require_measurements(pictures: Sequence[Mapping[str, bytes]]) -> None:
             )
 
 
-def _request(inputs: Mapping[str, bytes], max_pixels: int) -> FitRequest:
-    """What the fit was asked for, without direct search: it starts where the fit ended."""
-    options = FitOptions.model_validate_json(inputs[REQUEST])
-    return fit_request(
-        options.model_copy(update={"optimizer": OptimizerKind.GAUSS_NEWTON}),
-        image=inputs[IMAGE],
-        mask=inputs.get(MASK),
-        max_pixels=max_pixels,
+def _request(
+    pictures: Sequence[Mapping[str, bytes]], people: Sequence[FittedPerson], max_pixels: int
+) -> FitRequest:
+    """What the fits were asked for, each beginning with the body it ended with.
+
+    Without direct search, for the searches are near their end.
+
+    Raises
+    ------
+    InvalidInputError
+        ``fits-unusable``, if the fits were told different things of the person.
+    """
+    asked = [FitOptions.model_validate_json(each[REQUEST]) for each in pictures]
+    for number, each in enumerate(asked):
+        if _told(each) != _told(asked[0]):
+            raise told_differently(number)
+    return FitRequest(
+        person=person(asked[0]),
+        views=tuple(
+            replace(
+                view(options, image=inputs[IMAGE], mask=inputs.get(MASK)),
+                start=StartingBody(body=before.body, shape_covariance=known_covariance(before)),
+            )
+            for options, inputs, before in zip(asked, pictures, people, strict=True)
+        ),
+        choices=Choices(force=True, max_pixels=max_pixels),
     )
 
 
+def _told(options: FitOptions) -> dict[str, tuple[float, float]]:
+    """The height and what else was said of the person, with its standard error."""
+    told = {
+        name: (known.value, known.standard_error)
+        for name, known in known_measurements(options).items()
+    }
+    return told if options.height_m is None else {STATURE: (options.height_m, 0.0), **told}
+
+
 def _files_of_pictures(
-    bodies: Sequence[PictureFit], model: BodyModel, images: Sequence[bytes]
+    views: Sequence[FittedView], model: BodyModel, images: Sequence[bytes]
 ) -> dict[str, bytes]:
     files: dict[str, bytes] = {}
-    for number, (body, image) in enumerate(zip(bodies, images, strict=True), start=1):
-        files[f"body_posed_{number}.glb"] = body_posed_glb(body, model)
-        files[f"overlay_{number}.png"] = overlay_png(body, model=model, image=image)
+    for number, (each, image) in enumerate(zip(views, images, strict=True), start=1):
+        files[f"body_posed_{number}.glb"] = body_posed_glb(each.found, model)
+        files[f"overlay_{number}.png"] = overlay_png(each.found, model=model, image=image)
     return files
 
 

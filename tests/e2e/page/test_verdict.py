@@ -16,13 +16,14 @@ from tests.evaluation.scene import Half
 @pytest.fixture(scope="module")
 def fit_of_hills(service: httpx.Client) -> dict:
     asked = nonsense(Half.TUNING, Cues.SES, count=1)[0].request
+    (view,) = asked.views
     request = {
-        "gender": asked.gender,
-        "height_m": asked.height_m,
-        "points": {name: {"x": each.x, "y": each.y} for name, each in asked.clicks.items()},
+        "gender": asked.person.gender,
+        "height_m": asked.person.height_m,
+        "points": {name: {"x": each.x, "y": each.y} for name, each in view.clicks.items()},
     }
     files = {
-        "image": ("hills.jpg", asked.image, "image/jpeg"),
+        "image": ("hills.jpg", view.image, "image/jpeg"),
         "request": ("request.json", json.dumps(request), "application/json"),
     }
     return ended_job(service, service.post("/v1/fits", files=files))

@@ -53,11 +53,11 @@ def test_who_is_turned_in_profile_is_turned_toward_the_camera():
 def test_only_what_is_said_to_be_typed_wrongly_is():
     truth = {"weight": 90.0}
     too_tall = TYPED["height 3 cm too high"](request(), truth)
-    assert too_tall.height_m == pytest.approx((request().height_m or 0.0) + 0.03)
-    assert too_tall.measurements == request().measurements
+    assert too_tall.person.height_m == pytest.approx((request().person.height_m or 0.0) + 0.03)
+    assert too_tall.person.measurements == request().person.measurements
     heavy = TYPED["weight given 3 kg too high"](request(), truth)
-    assert heavy.measurements["weight"].value == 93.0
-    assert heavy.height_m == request().height_m
+    assert heavy.person.measurements["weight"].value == 93.0
+    assert heavy.person.height_m == request().person.height_m
 
 
 def test_refused_scans_are_counted_and_left_out_of_the_means():

@@ -7,7 +7,8 @@ from fitter.body.pose_prior import prior_residuals
 from fitter.energies.attributes import NOTHING_KNOWN
 from fitter.energies.fitting_operators import fitting_operators
 from fitter.fits.prepared_model import prepared_model
-from fitter.optimizer import gauss_newton
+from fitter.optimizer.free_space import free_space
+from fitter.optimizer.joint_equations import joint_equations
 from fitter.parameters import BodyParameters
 from tests.evaluation.cases import CASES, DEMO
 from tests.evaluation.held_pose import HELD_WITHIN_RADIANS, HeldBody, held_at, narrowed, true_pose
@@ -15,6 +16,7 @@ from tests.evaluation.people import load_person
 from tests.evaluation.people_table import PEOPLE
 from tests.evaluation.shape_limit import nearest_shape
 from tests.evaluation.staging import root_joint, stage
+from tests.unit.optimizer.rendered_scene import rendered_scene
 from tests.unit.training.makehuman_data import needs_makehuman
 
 pytestmark = needs_makehuman
@@ -47,18 +49,16 @@ def test_a_narrowed_prior_expects_one_pose_of_every_joint():
 
 
 def test_a_held_place_leaves_pose_and_shape_free():
-    model = prepared_model(PEOPLE[DEMO.person].gender).operators.model
-    body = BodyParameters(
-        pose=model.canonical_pose,
-        translation=np.array([0.0, 0.0, 3.0]),
-        shape=np.zeros(len(model.shape_basis)),
-    )
-    pose = HeldBody(pose=body.pose, place=body.translation)
-    with held_at(pose):
-        free = gauss_newton.free_space(NOTHING_KNOWN.held, body).directions
-    with held_at(replace(pose, place_held=True)):
-        held = gauss_newton.free_space(NOTHING_KNOWN.held, body).directions
-    moves = slice(body.pose.size, body.pose.size + 3)
-    assert free.shape[1] - held.shape[1] == 3
-    assert not held[moves].any()
-    assert (np.abs(held[: body.pose.size]).max(axis=1) == 1.0).all()
+    scene = rendered_scene(0)
+    candidate = scene.person.evaluate([scene.start])
+    space = free_space(NOTHING_KNOWN.held, candidate.shape)
+    pose = HeldBody(pose=scene.start.pose, place=scene.start.translation)
+    steps = []
+    for held in (pose, replace(pose, place_held=True)):
+        with held_at(held):
+            steps.append(joint_equations(scene.person, candidate, space).step(0.01))
+    (free,), (kept,) = (step.own for step in steps)
+    assert np.abs(free[-3:]).max() > 1e-3
+    assert np.abs(kept[-3:]).max() < 1e-9
+    assert np.abs(kept[:-3]).max() > 1e-2
+    assert np.abs(steps[1].shape).max() > 1e-2

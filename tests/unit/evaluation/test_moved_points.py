@@ -1,19 +1,20 @@
 import numpy as np
 
-from fitter.request import Click, FitRequest, Gender
+from fitter.request import Click, Gender
 from tests.evaluation.moved_points import Move, MovedFit, moved, moved_lines
 from tests.evaluation.table import MEASUREMENTS
+from tests.one_picture import one_picture
 
 CLICKS = {
     "nose": Click(x=100.0, y=20.0),
     "left_hip": Click(x=120.0, y=200.0, occluded=True),
     "right_hip": Click(x=80.0, y=200.0),
 }
-REQUEST = FitRequest(image=b"", clicks=CLICKS, gender=Gender.FEMALE, height_m=1.7)
+REQUEST = one_picture(image=b"", clicks=CLICKS, gender=Gender.FEMALE, height_m=1.7)
 
 
 def shifts(move: Move) -> dict[str, tuple[float, float]]:
-    clicks = moved(REQUEST, move, 5.0).clicks
+    clicks = moved(REQUEST, move, 5.0).views[0].clicks
     assert clicks["left_hip"].occluded
     return {
         name: (clicks[name].x - CLICKS[name].x, clicks[name].y - CLICKS[name].y) for name in CLICKS

@@ -3,10 +3,11 @@ from dataclasses import asdict, replace
 import numpy as np
 
 from fitter.parameters import Light, LightKind
-from fitter.request import Clothing, FitRequest, Gender, KnownMeasurement, OutlineKind
+from fitter.request import Clothing, Gender, KnownMeasurement, OutlineKind
 from tests.evaluation.scene import Half, Series
 from tests.evaluation.true_picture import Told, TruePicture, told_request
 from tests.evaluation.truth import TrueBody
+from tests.one_picture import one_picture
 
 MASK = np.zeros((4, 3), dtype=np.bool_)
 
@@ -15,7 +16,7 @@ PICTURE = TruePicture(
     person="somebody",
     series=Series.FOREIGN,
     half=Half.TUNING,
-    request=FitRequest(
+    request=one_picture(
         image=b"", clicks={}, gender=Gender.MALE, height_m=1.8, focal_length_35mm=50.0
     ),
     body_mask=MASK,
@@ -38,22 +39,25 @@ def test_who_is_told_nothing_is_asked_as_the_service_would_be():
 
 def test_a_focal_length_in_pixels_takes_the_place_of_another():
     asked = told_request(PICTURE, Told(focal_length=True))
-    assert (asked.focal_length_px, asked.focal_length_35mm) == (900.0, None)
+    (view,) = asked.views
+    assert (view.focal_length_px, view.focal_length_35mm) == (900.0, None)
 
 
 def test_what_is_given_are_true_measurements():
     asked = told_request(PICTURE, Told(measurements=("weight",)))
-    assert asked.measurements == {"weight": KnownMeasurement(value=81.0)}
+    assert asked.person.measurements == {"weight": KnownMeasurement(value=81.0)}
 
 
 def test_mask_outline_clothing_and_light_are_told():
     told = Told(mask=True, outline=OutlineKind.GRABCUT, clothing=Clothing.LOOSE, light=True)
     asked = told_request(PICTURE, told)
-    assert asked.mask is not None
-    assert (asked.outline, asked.clothing) == (OutlineKind.GRABCUT, Clothing.LOOSE)
-    assert (asked.light.azimuth, asked.light.distance) == (0.5, 2.0)
+    (view,) = asked.views
+    assert view.mask is not None
+    assert (asked.choices.outline, view.clothing) == (OutlineKind.GRABCUT, Clothing.LOOSE)
+    assert (view.light.azimuth, view.light.distance) == (0.5, 2.0)
     unlit = replace(PICTURE, light=None)
-    assert told_request(unlit, Told(light=True)).light == PICTURE.request.light
+    (unlit_view,) = told_request(unlit, Told(light=True)).views
+    assert unlit_view.light == PICTURE.request.views[0].light
 
 
 def test_the_index_of_body_mass_is_of_the_true_body():

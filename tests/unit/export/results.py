@@ -1,5 +1,7 @@
 """Whole results of a small body, without fitting."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from fitter.body.model import BodyModel
@@ -7,7 +9,15 @@ from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
 from fitter.person.fitted_person import FittedPerson
 from fitter.render.camera import Camera, FocalLengthSource
 from fitter.request import Cues, Gender, OptimizerKind
-from fitter.result import FitResult, Outcome, PictureFit, Pictures, StageBody
+from fitter.result import (
+    FitResult,
+    FitStage,
+    FittedView,
+    Outcome,
+    PictureFit,
+    Pictures,
+    StageBody,
+)
 from fitter.segmentation.trimap import TrimapLabel
 
 CAMERA = Camera(focal_length_px=700.0, centre_x=250.0, centre_y=200.0, width=480, height=400)
@@ -31,23 +41,24 @@ def result_of(
     light: Light | None = POINT_LIGHT,
     reflectance: Reflectance | None = None,
     albedo_rgb: np.ndarray | None = None,
+    count: int = 1,
 ) -> FitResult:
-    """A body before the camera; SE when ``light`` is None.
+    """A body before the camera, in so many pictures; SE when ``light`` is None.
 
     Before shading it stood 5 cm farther off and was 2 % narrower.
     """
     translation = np.array([0.1, 0.5, 3.0])
     posed = model.mean_vertices * [1.0, -1.0, -1.0] + translation
     body = BodyParameters(pose=np.zeros((3, 3)), translation=translation, shape=np.zeros(2))
-    outlined = StageBody(
+    farther = StageBody(body=body, posed_vertices=posed + [0.0, 0.0, 0.05], silhouette_overlap=0.88)
+    outlined = FitStage(
         name="SE",
-        body=body,
-        posed_vertices=posed + [0.0, 0.0, 0.05],
+        bodies=(farther,) * count,
         canonical_vertices=model.mean_vertices * [0.98, 1.0, 1.0],
         energies={},
-        silhouette_overlap=0.88,
         measurements=(),
     )
+    shaded = replace(outlined, name="SES")
     working = CAMERA.scaled(0.5, width=240, height=200)
     height, width = working.height, working.width
     segmentation = np.zeros((height, width), dtype=bool)
@@ -66,7 +77,8 @@ def result_of(
         albedo_rgb=None if light is None else albedo_rgb,
         shape_covariance=np.diag([0.0, 0.04]),
     )
-    return FitResult(
+    view = FittedView(
+        kind=None,
         found=PictureFit(
             person=person,
             height_m=1.3,
@@ -75,22 +87,32 @@ def result_of(
             posed_vertices=posed,
             silhouette_overlap=0.9,
         ),
-        given=("stature",),
-        optimizer=OptimizerKind.GAUSS_NEWTON,
         camera=working,
         focal_length_source=FocalLengthSource.CALLER,
-        canonical_vertices=model.mean_vertices,
-        energies={},
-        evaluations=1,
-        stages=(outlined,),
-        measurements=(),
         limb_facing=(),
+        findings=(),
         assumptions=(),
         warnings=(),
-        stage_seconds={},
         pictures=Pictures(
             image=np.zeros((height, width, 3)),
             trimap=trimap.astype(np.uint8),
             segmentation=segmentation,
         ),
+    )
+    return FitResult(
+        views=(view,) * count,
+        shape=body.shape,
+        shape_covariance=np.diag([0.0, 0.04]),
+        canonical_vertices=model.mean_vertices,
+        triangles=model.triangles,
+        measurements=(),
+        given=("stature",),
+        optimizer=OptimizerKind.GAUSS_NEWTON,
+        energies={},
+        evaluations=1,
+        stages=(outlined,) if light is None else (outlined, shaded),
+        alone=None,
+        assumptions=(),
+        warnings=(),
+        stage_seconds={},
     )

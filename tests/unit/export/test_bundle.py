@@ -34,7 +34,7 @@ def image():
 
 @pytest.fixture(scope="module")
 def files(model, image):
-    return artifacts(result_of(model), model=model, image=image)
+    return artifacts(result_of(model), model=model, images=[image])
 
 
 def levels(content):
@@ -46,7 +46,7 @@ def test_a_fit_with_shading_gives_every_file(files):
 
 
 def test_a_fit_without_shading_gives_no_reflectance_pictures(model, image):
-    assert set(artifacts(result_of(model, light=None), model=model, image=image)) == ALWAYS
+    assert set(artifacts(result_of(model, light=None), model=model, images=[image])) == ALWAYS
 
 
 def test_pictures_lie_on_the_originals_pixels(files):
@@ -81,4 +81,4 @@ def test_the_highlight_is_what_distinguishes_blinn_phong_from_lambert(files):
 
 
 def test_the_same_result_gives_the_same_bytes(files, model, image):
-    assert artifacts(result_of(model), model=model, image=image) == files
+    assert artifacts(result_of(model), model=model, images=[image]) == files

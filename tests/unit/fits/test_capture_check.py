@@ -24,6 +24,7 @@ from service.demo_data.sample import load_sample
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import read_case
 from tests.evaluation.suite import fit_request
+from tests.one_picture import changed
 from tests.unit.observation.pictures import encode, noise
 
 ROLLED_DEG = 15.0
@@ -173,16 +174,18 @@ def test_what_cannot_be_is_refused(said, code):
 
 def test_a_picture_that_was_read_for_a_fit_is_checked_alike():
     files = read_case(CASES["phone_woman_old_middling_side"])
-    request = fit_request(files, Cues.SE)
+    request = changed(fit_request(files, Cues.SE), kind=ViewKind.FRONT)
     detector = installed_detector()
-    view = check_capture(capture_of_view(observe(request, detector), request, ViewKind.FRONT))
+    (asked,), person = request.views, request.person
+    observation = observe(asked, max_pixels=1_000_000, detector=detector)
+    view = check_capture(capture_of_view(observation, asked, person))
     question = CaptureQuestion(
         view=ViewKind.FRONT,
-        points=request.clicks,
-        gender=request.gender,
-        height_m=request.height_m,
-        focal_length_px=request.focal_length_px,
-        focal_length_35mm=request.focal_length_35mm,
+        points=asked.clicks,
+        gender=person.gender,
+        height_m=person.height_m,
+        focal_length_px=asked.focal_length_px,
+        focal_length_35mm=asked.focal_length_35mm,
     )
     alone = check_picture(files.image, question, detector=detector, max_pixels=1_000_000)
     assert view == alone.checked

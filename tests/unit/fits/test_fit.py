@@ -1,57 +1,309 @@
-"""A fit of one to six pictures of a person: one shape, and a body in every picture."""
+"""A fit of one to six pictures of a person: one shape, a body in each, and faults by name."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from fitter.errors import InvalidInputError
-from fitter.fits.fit import FitRequest, fit
-from fitter.request import Cues, Person, View, ViewKind
+from fitter.fits.pipeline import fit
+from fitter.fits.progress import Progress, Stage
+from fitter.request import (
+    Cues,
+    FitRequest,
+    KnownMeasurement,
+    OptimizerKind,
+    StartingBody,
+    View,
+    ViewKind,
+)
+from fitter.result import FitResult, before_shading
 from tests.benchmarks.requests import resized
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import read_case
 from tests.evaluation.suite import fit_request
+from tests.one_picture import changed, together
 
 STANDING, TURNED = "woman_young_heavy_standing", "woman_young_heavy_turned"
+SOMEBODY_ELSE = "woman_young_thin_turned"
 
 
-def asked(*names: str, kind: ViewKind | None = None) -> FitRequest:
-    pictures = [
-        resized(fit_request(read_case(CASES[name]), Cues.SE), width=300, height=400)
-        for name in names
-    ]
-    return FitRequest(
-        person=Person(gender=pictures[0].gender, height_m=pictures[0].height_m),
-        views=tuple(
-            View(image=each.image, clicks=each.clicks, cues=each.cues, kind=kind)
-            for each in pictures
-        ),
-    )
+def asked(
+    name: str,
+    kind: ViewKind | None = None,
+    cues: Cues = Cues.SE,
+    size: tuple[int, int] = (300, 400),
+) -> FitRequest:
+    width, height = size
+    request = resized(fit_request(read_case(CASES[name]), cues), width=width, height=height)
+    return changed(request, kind=kind, force=False)
 
 
-@pytest.mark.parametrize("names", [(STANDING,), (STANDING, TURNED)])
-def test_every_picture_shows_the_one_shape(names):
-    result = fit(asked(*names))
-    assert len(result.views) == len(names)
-    for view in result.views:
-        np.testing.assert_array_equal(view.found.person.body.shape, result.shape)
-        assert view.found.silhouette_overlap > 0.9
-    assert {each.name: each.value for each in result.measurements}["stature"] == pytest.approx(
-        100.0 * result.found.height_m, abs=0.1
-    )
+def warned(result: FitResult) -> list[str]:
+    """What the whole fit warns of."""
+    return [each.code for each in result.warnings]
 
 
-def test_a_fault_of_one_of_several_pictures_is_named_by_its_place():
-    request = asked(STANDING, TURNED)
-    broken = FitRequest(
-        person=request.person,
-        views=(request.views[0], View(image=b"", clicks=request.views[1].clicks)),
-    )
+@pytest.fixture(scope="module")
+def of_two() -> tuple[FitResult, list[Progress]]:
+    reports: list[Progress] = []
+    request = together(asked(STANDING, ViewKind.FRONT), asked(TURNED, cues=Cues.SES))
+    return fit(request, observer=reports.append), reports
+
+
+@pytest.fixture(scope="module")
+def of_one() -> tuple[FitResult, list[Progress]]:
+    reports: list[Progress] = []
+    return fit(asked(STANDING, ViewKind.FRONT), observer=reports.append), reports
+
+
+def test_all_views_show_one_shape_in_poses_of_their_own(of_two):
+    result, _ = of_two
+    assert [each.kind for each in result.views] == [ViewKind.FRONT, None]
+    for each in result.views:
+        person = each.found.person
+        np.testing.assert_array_equal(person.body.shape, result.shape)
+        np.testing.assert_allclose(person.shape_covariance, result.shape_covariance, atol=1e-9)
+        assert each.found.silhouette_overlap > 0.9
+        assert each.found.is_plausible
+        assert each.limb_facing
+    one, other = (each.found.person.body.pose for each in result.views)
+    assert np.abs(one - other).max() > 0.1
+
+
+def test_one_picture_is_the_same_kind_of_result(of_one):
+    result, _ = of_one
+    (view,) = result.views
+    assert result.found is view.found
+    assert result.alone is None
+    assert view.found.silhouette_overlap > 0.9
+    assert result.canonical_vertices.shape == view.found.posed_vertices.shape
+    assert result.triangles.max() == len(result.canonical_vertices) - 1
+    measured = {each.name: each.value for each in result.measurements}
+    assert measured["stature"] == pytest.approx(100.0 * view.found.height_m, abs=0.1)
+
+
+def test_light_is_found_in_the_views_that_ask_for_it(of_two):
+    result, _ = of_two
+    lights = [each.found.person.light for each in result.views]
+    assert lights[0] is None
+    assert lights[1] is not None
+    assert result.views[1].found.person.albedo_rgb is not None
+
+
+def test_stages_hold_a_body_of_one_shape_in_every_picture(of_one, of_two):
+    assert [stage.name for stage in of_one[0].stages] == ["initial", "SE"]
+    result, _ = of_two
+    assert [stage.name for stage in result.stages] == ["initial", "SE", "SES"]
+    for stage in result.stages:
+        one, other = stage.bodies
+        np.testing.assert_array_equal(one.body.shape, other.body.shape)
+        assert stage.energies["silhouette"] > 0.0
+        assert {each.name for each in stage.measurements} >= {"stature", "weight"}
+    first, _, last = result.stages
+    for before, after in zip(first.bodies, last.bodies, strict=True):
+        assert before.silhouette_overlap < after.silhouette_overlap
+    assert sum(last.energies.values()) == pytest.approx(sum(result.energies.values()))
+
+
+def test_before_shading_every_view_is_as_its_outline_left_it(of_one, of_two):
+    assert before_shading(of_one[0]) is None
+    result, _ = of_two
+    before = before_shading(result)
+    assert before is not None
+    stage = result.stages[1]
+    np.testing.assert_array_equal(before.shape, stage.bodies[0].body.shape)
+    for view, body in zip(before.views, stage.bodies, strict=True):
+        assert view.found.cues is Cues.SE
+        assert view.found.person.light is None
+        np.testing.assert_array_equal(view.found.posed_vertices, body.posed_vertices)
+
+
+def test_pictures_are_checked_where_they_were_taken_to_be_measured(of_two):
+    turned = fit(asked(STANDING, ViewKind.SIDE))
+    assert "other-view" in {each.code for each in turned.views[0].findings}
+    assert of_two[0].views[1].findings == ()
+
+
+def test_the_measurements_are_more_certain_than_those_of_one_picture(of_one, of_two):
+    alone = {each.name: each for each in of_one[0].measurements}
+    for each in of_two[0].measurements:
+        if each.name in ("waist_girth_navel", "chest_girth", "hip_girth", "weight"):
+            assert each.standard_error < alone[each.name].standard_error
+    assert "stature" in of_two[0].given
+
+
+def test_progress_names_the_view_and_never_goes_back(of_two):
+    result, reports = of_two
+    assert (np.diff([each.fraction for each in reports]) >= 0.0).all()
+    numbers = [each.view for each in reports if each.stage is not Stage.OBSERVATION]
+    assert list(dict.fromkeys(numbers)) == [0, 1, None]
+    assert {Stage.OBSERVATION, Stage.SILHOUETTE_AND_EDGES} <= {
+        each.stage for each in reports if each.view == 1
+    }
+    assert result.stage_seconds.keys() == {each.stage.value for each in reports}
+
+
+def test_a_fit_of_one_picture_never_speaks_of_its_place(of_one):
+    result, reports = of_one
+    assert {each.view for each in reports} == {None}
+    assert (np.diff([each.fraction for each in reports]) >= 0.0).all()
+    turned = fit(asked(STANDING, ViewKind.SIDE))
+    (warning,) = turned.warnings
+    assert warning.code == "other-view"
+    assert warning.message.startswith("The picture is said to be from the side")
+    said = [each.message for each in (*result.warnings, *turned.warnings)]
+    said += [each.message for view in turned.views for each in view.warnings]
+    assert not any("views" in each for each in said)
+
+
+@pytest.mark.parametrize(("count", "begun", "most"), [(0, False, 6), (7, False, 6), (13, True, 12)])
+def test_too_few_and_too_many_views_are_refused(count, begun, most):
+    (view,) = asked(STANDING).views
+    body = StartingBody(body=fit_body(), shape_covariance=np.eye(20)) if begun else None
+    views = (replace(view, start=body),) * count
+    with pytest.raises(InvalidInputError, match=f"1 to {most}") as caught:
+        fit(replace(asked(STANDING), views=views))
+    assert (caught.value.code, caught.value.field) == ("views-count", "views")
+
+
+def fit_body():
+    from fitter.parameters import BodyParameters
+
+    return BodyParameters(pose=np.zeros((17, 3)), translation=np.zeros(3), shape=np.zeros(20))
+
+
+def broken(request: FitRequest) -> View:
+    (view,) = request.views
+    return replace(view, image=view.image[:2000])
+
+
+def test_a_view_that_cannot_be_used_is_named():
+    sound, other = asked(STANDING), asked(TURNED)
     with pytest.raises(InvalidInputError) as caught:
-        fit(broken)
+        fit(replace(sound, views=(*sound.views, broken(other))))
     assert caught.value.field == "views.1.image"
+    assert caught.value.code.startswith("image-")
 
 
 def test_a_fault_of_the_only_picture_has_no_place():
+    request = asked(STANDING)
     with pytest.raises(InvalidInputError) as caught:
-        fit(FitRequest(person=asked(STANDING).person, views=(View(image=b"", clicks={}),)))
+        fit(replace(request, views=(broken(request),)))
     assert caught.value.field == "image"
+
+
+@pytest.mark.parametrize("count", [1, 2])
+@pytest.mark.parametrize(
+    ("said", "field"),
+    [
+        ({"height_m": 3.0}, "height_m"),
+        ({"measurements": {"weight": KnownMeasurement(value=-1.0)}}, "measurements.weight"),
+        ({"measurements": {"weight": KnownMeasurement(value=900.0)}}, "measurements.weight"),
+    ],
+)
+def test_a_fault_of_the_person_is_nobody_elses(count, said, field):
+    request = changed(together(*[asked(STANDING)] * count), **said)
+    with pytest.raises(InvalidInputError) as caught:
+        fit(request)
+    assert caught.value.field == field
+
+
+def test_views_of_different_people_are_told():
+    result = fit(together(asked(STANDING), asked(SOMEBODY_ELSE)))
+    assert warned(result) == ["different-people"]
+    assert result.alone is not None
+    assert result.alone.doubtful
+
+
+@pytest.mark.parametrize("names", [(STANDING,), (STANDING, TURNED)])
+def test_a_weight_that_was_given_is_held(names):
+    known = {"weight": KnownMeasurement(value=78.0)}
+    result = fit(changed(together(*map(asked, names)), measurements=known))
+    assert warned(result) == []
+    weight = next(each for each in result.measurements if each.name == "weight")
+    assert weight.value == pytest.approx(78.0, abs=0.01)
+    assert weight.standard_error == 0.0
+
+
+@pytest.mark.parametrize("names", [(STANDING,), (STANDING, TURNED)])
+def test_a_weight_that_the_pictures_contradict_is_named(names):
+    known = {"weight": KnownMeasurement(value=45.0)}
+    result = fit(changed(together(*map(asked, names)), measurements=known))
+    (warning,) = result.warnings
+    assert warning.code == "given-contradicted"
+    assert warning.message.startswith("weight was given as 45.0 kg, but")
+
+
+def test_a_view_from_another_side_than_announced_is_named():
+    result = fit(together(asked(STANDING, ViewKind.SIDE), asked(TURNED, ViewKind.OTHER)))
+    assert warned(result) == ["other-view"]
+    assert "views.0 is said to be from the side" in result.warnings[0].message
+    assert "other-view" in {each.code for each in result.views[0].findings}
+
+
+def test_left_and_right_of_a_mirrored_picture_are_doubted():
+    request = asked(STANDING, ViewKind.FRONT)
+    swapped = {
+        name.replace("left", "?").replace("right", "left").replace("?", "right"): click
+        for name, click in request.views[0].clicks.items()
+    }
+    result = fit(together(changed(request, clicks=swapped), asked(TURNED)))
+    assert "other-view" in warned(result)
+
+
+def test_the_simplex_searches_several_pictures_too(monkeypatch):
+    from fitter.optimizer import search
+
+    few = replace(
+        search.limits_of(OptimizerKind.SIMPLEX), first=20, trial=20, contest=20,
+        silhouette_and_edges=200,
+    )  # fmt: skip
+    monkeypatch.setitem(search._LIMITS, OptimizerKind.SIMPLEX, few)
+    request = together(asked(STANDING, size=(150, 200)), asked(TURNED, size=(150, 200)))
+    result = fit(changed(request, optimizer=OptimizerKind.SIMPLEX))
+    assert result.optimizer is OptimizerKind.SIMPLEX
+    assert 400 < result.evaluations < 700
+    first, *_, last = result.stages
+    assert sum(last.energies.values()) < sum(first.energies.values())
+    one, other = (each.found.person.body.shape for each in result.views)
+    np.testing.assert_array_equal(one, other)
+
+
+@pytest.fixture(scope="module")
+def fits() -> list[FitResult]:
+    return [fit(asked(name)) for name in (STANDING, TURNED)]
+
+
+def again(fits: list[FitResult], **said: object) -> FitRequest:
+    """The pictures again, each from the body that its own fit found."""
+    requests = [
+        changed(
+            asked(name),
+            start=StartingBody(body=found.person.body, shape_covariance=found.shape_covariance),
+        )
+        for name, found in zip((STANDING, TURNED), fits, strict=True)
+    ]
+    return changed(together(*requests), **said)
+
+
+def test_pictures_that_were_fitted_are_searched_on_from_their_bodies(fits):
+    result = fit(again(fits))
+    assert result.alone is not None
+    # In standard deviations, over twenty axes: the pictures are searched again.
+    away = np.linalg.norm(result.shape - result.alone.shape)
+    assert away < 0.5 * np.sqrt(len(result.shape))
+    assert result.shape[0] == fits[0].shape[0]
+    assert not result.shape_covariance[0].any()
+    for view, before in zip(result.views, fits, strict=True):
+        assert np.trace(result.shape_covariance) < np.trace(before.shape_covariance)
+        moved = view.found.person.body.translation - before.person.body.translation
+        assert np.linalg.norm(moved) < 0.1 * before.person.body.translation[2]
+        assert view.found.silhouette_overlap > 0.9
+        assert view.limb_facing == ()
+
+
+def test_an_unknown_height_leaves_the_shape_less_certain(fits):
+    known, unsure = fit(again(fits)), fit(again(fits, height_m=None))
+    assert unsure.shape_covariance[0, 0] > 0.1
+    assert np.trace(unsure.shape_covariance) > np.trace(known.shape_covariance)

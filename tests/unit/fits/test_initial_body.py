@@ -1,7 +1,5 @@
 """The body before any picture is looked at, on the shipped models."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -18,6 +16,7 @@ from fitter.render.camera import Camera, FocalLengthSource
 from fitter.render.rasterizer import render
 from fitter.request import Click, Facing, FitRequest, Gender, KnownMeasurement
 from fitter.vocabulary.points import POINT_NAMES
+from tests.one_picture import changed, one_picture
 
 CAMERA = Camera(focal_length_px=900.0, centre_x=360.0, centre_y=480.0, width=720, height=960)
 HEIGHT_M = 1.7
@@ -41,7 +40,7 @@ def request_of_standing_person() -> FitRequest:
     landmarks = evaluator.model.landmarks
     places = CAMERA.project(regress(landmarks, evaluator.vertices(parameters)))
     found = dict(zip(landmarks.names, places.tolist(), strict=True))
-    return FitRequest(
+    return one_picture(
         image=b"",
         clicks={name: Click(x=found[name][0], y=found[name][1]) for name in POINT_NAMES},
         gender=Gender.FEMALE,
@@ -52,7 +51,9 @@ def request_of_standing_person() -> FitRequest:
 
 def found(request: FitRequest, **changes):
     arguments = {"width": 720, "height": 960, "exif_focal_length_35mm": None} | changes
-    return initial_body(request, prepared_model(request.gender), **arguments)
+    (view,) = request.views
+    model = prepared_model(request.person.gender)
+    return initial_body(request.person, view, model, **arguments)
 
 
 def test_the_outline_is_that_of_the_person_the_clicks_were_taken_from(request_of_standing_person):
@@ -70,7 +71,7 @@ def test_the_outline_is_that_of_the_person_the_clicks_were_taken_from(request_of
 
 def test_landmarks_lie_where_they_were_clicked(request_of_standing_person):
     initial = found(request_of_standing_person)
-    for name, click in request_of_standing_person.clicks.items():
+    for name, click in request_of_standing_person.views[0].clicks.items():
         assert initial.landmarks[name] == pytest.approx([click.x, click.y], abs=6.0), name
         off = np.hypot(*(initial.landmarks[name] - [click.x, click.y]))
         assert initial.residual_px[name] == pytest.approx(off, abs=1e-6)
@@ -89,14 +90,14 @@ def test_what_the_caller_says_of_a_limb_is_obeyed_and_not_called_ambiguous(
     request_of_standing_person,
 ):
     for facing in Facing:
-        request = replace(request_of_standing_person, limb_facing={"left_thigh": facing})
+        request = changed(request_of_standing_person, limb_facing={"left_thigh": facing})
         (reading,) = [r for r in found(request).limbs if r.limb == "left_thigh"]
         assert reading.facing is facing
         assert not reading.ambiguous
 
 
 def test_the_focal_length_is_the_callers_else_the_pictures_else_assumed(request_of_standing_person):
-    unknown = replace(request_of_standing_person, focal_length_px=None)
+    unknown = changed(request_of_standing_person, focal_length_px=None)
     for request, exif, source in (
         (request_of_standing_person, 28.0, FocalLengthSource.CALLER),
         (unknown, 28.0, FocalLengthSource.EXIF_35MM),
@@ -108,15 +109,16 @@ def test_the_focal_length_is_the_callers_else_the_pictures_else_assumed(request_
 
 
 def test_an_unknown_height_is_assumed_and_said_so(request_of_standing_person):
-    initial = found(replace(request_of_standing_person, height_m=None))
+    initial = found(changed(request_of_standing_person, height_m=None))
     assert initial.height_m == 1.65
     assert "height_m" in {assumption.quantity for assumption in initial.assumptions}
 
 
 def test_a_head_alone_is_refused(request_of_standing_person):
-    head = {n: c for n, c in request_of_standing_person.clicks.items() if n in ("nose", "neck")}
+    (view,) = request_of_standing_person.views
+    head = {n: c for n, c in view.clicks.items() if n in ("nose", "neck")}
     with pytest.raises(InvalidInputError) as caught:
-        found(replace(request_of_standing_person, clicks=head))
+        found(changed(request_of_standing_person, clicks=head))
     assert caught.value.code == "too-few-points"
 
 
@@ -139,7 +141,7 @@ def test_a_limb_is_ambiguous_where_a_reading_nearly_as_good_says_otherwise():
 
 def test_the_initial_body_has_the_measurements_that_are_known(request_of_standing_person):
     known = {name: KnownMeasurement(value=value) for name, value in KNOWN.items()}
-    initial = found(replace(request_of_standing_person, measurements=known))
+    initial = found(changed(request_of_standing_person, measurements=known))
     values = {
         each.name: each.value
         for each in measure(prepared_model(Gender.FEMALE).measuring, initial.body.shape)

@@ -8,7 +8,6 @@ from fitter.detection.detector import installed_detector
 from fitter.errors import InvalidInputError
 from fitter.fits.proposal import Proposal, propose
 from fitter.observation.observation import observe
-from fitter.request import FitRequest, Gender
 from service.demo_data.sample import load_sample
 from tests.evaluation.files import PICTURES_FOLDER
 from tests.unit.observation.pictures import encode, noise
@@ -46,8 +45,9 @@ def codes(proposal: Proposal) -> list[str]:
 def test_the_points_are_those_a_fit_proposes_to_itself():
     large = encode(PillowImage.open(PICTURES_FOLDER / f"{CASE}.jpg").resize((1501, 2003)))
     observation = observe(
-        FitRequest(image=large, clicks={}, gender=Gender.MALE, height_m=1.8, complete_clicks=True),
-        installed_detector(),
+        View(image=large, clicks={}, complete_clicks=True),
+        max_pixels=10_000_000,
+        detector=installed_detector(),
     )
     points = proposed(large).points
     assert points.keys() == observation.clicks.keys()

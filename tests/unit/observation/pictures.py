@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 from PIL import Image as PillowImage
 
-from fitter.request import Click, FitRequest, Gender
+from fitter.observation.observation import Observation, observe
+from fitter.request import Click, View
 
 WIDTH, HEIGHT = 120, 160
 
@@ -43,8 +44,10 @@ def standing_clicks() -> dict[str, Click]:
     return clicks
 
 
-def request(image: bytes, **changes: Any) -> FitRequest:
-    defaults: dict[str, Any] = {
-        "clicks": standing_clicks(), "gender": Gender.FEMALE, "height_m": 1.7
-    }  # fmt: skip
-    return FitRequest(image=image, **(defaults | changes))
+def view(image: bytes, **changes: Any) -> View:
+    return View(**({"image": image, "clicks": standing_clicks()} | changes))
+
+
+def read(view: View) -> Observation:
+    """The picture as a fit reads it that allows ten million pixels."""
+    return observe(view, max_pixels=10_000_000)

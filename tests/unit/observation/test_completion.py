@@ -1,6 +1,7 @@
 """Points that the detector proposes where nobody clicked."""
 
 import json
+from typing import Any
 
 import numpy as np
 import pytest
@@ -9,22 +10,15 @@ from PIL import Image as PillowImage
 from fitter.detection.detector import installed_detector
 from fitter.errors import InvalidInputError
 from fitter.observation.observation import Observation, observe
-from fitter.request import Click, FitRequest, Gender, SegmentationKind
+from fitter.request import Click, SegmentationKind, View
 from tests.evaluation.files import PICTURES_FOLDER
 from tests.unit.observation.pictures import encode, noise
 
 CASE = "man_young_thin_standing"
 
 
-def completed(image: bytes, clicks: dict[str, Click], **changes: object) -> FitRequest:
-    return FitRequest(
-        image=image,
-        clicks=clicks,
-        gender=Gender.MALE,
-        height_m=1.8,
-        complete_clicks=True,
-        **changes,
-    )
+def completed(image: bytes, clicks: dict[str, Click], **changes: Any) -> View:
+    return View(image=image, clicks=clicks, complete_clicks=True, **changes)
 
 
 def picture() -> bytes:
@@ -36,8 +30,8 @@ def clicks() -> dict[str, Click]:
     return {name: Click(x=each["x"], y=each["y"]) for name, each in points.items()}
 
 
-def observed(request: FitRequest) -> Observation:
-    return observe(request, installed_detector())
+def observed(view: View) -> Observation:
+    return observe(view, max_pixels=10_000_000, detector=installed_detector())
 
 
 def test_without_a_click_all_points_are_proposed_and_said_to_be():
@@ -85,17 +79,14 @@ def test_clicks_beside_everybody_are_not_completed_by_somebody_else():
 
 
 def test_seed_and_slants_can_be_switched_off():
-    asked = FitRequest(image=picture(), clicks=clicks(), gender=Gender.MALE, height_m=1.8)
-    both = observed(asked)
+    both = observed(View(image=picture(), clicks=clicks()))
     assert both.seed is not None
     assert both.seed.shape == (both.camera.height, both.camera.width)
     assert both.slants is not None
     neither = observed(
-        FitRequest(
+        View(
             image=picture(),
             clicks=clicks(),
-            gender=Gender.MALE,
-            height_m=1.8,
             segmentation=SegmentationKind.GRABCUT,
             slant_hints=False,
         )

@@ -6,12 +6,12 @@ from fitter.errors import InvalidInputError
 from fitter.observation.exif import ExifTags
 from fitter.observation.focal_length import FocalLength, focal_length
 from fitter.render.camera import FocalLengthSource
-from tests.unit.observation.pictures import request
+from tests.unit.observation.pictures import view
 
 
 def resolve(exif: ExifTags, *, stored_width: int = 4000, **changes: Any) -> FocalLength:
     return focal_length(
-        request(b"", **changes), exif, width=3000, height=4000, stored_width=stored_width
+        view(b"", **changes), exif, width=3000, height=4000, stored_width=stored_width
     )
 
 

@@ -6,7 +6,6 @@ from PIL import Image as PillowImage
 
 from fitter.errors import InvalidInputError
 from fitter.observation.colour import display_from_linear, linear_from_display, luminance_of
-from fitter.observation.observation import observe
 from fitter.observation.resampling import (
     WORKING_PIXELS,
     WorkingSize,
@@ -14,16 +13,25 @@ from fitter.observation.resampling import (
     working_coverage,
     working_size,
 )
+from fitter.observation.subject import check_height
 from fitter.render.camera import FocalLengthSource
 from fitter.request import LightGuess
-from tests.unit.observation.pictures import HEIGHT, WIDTH, encode, noise, request, standing_clicks
+from tests.unit.observation.pictures import (
+    HEIGHT,
+    WIDTH,
+    encode,
+    noise,
+    read,
+    standing_clicks,
+    view,
+)
 
 PICTURE = encode(PillowImage.fromarray(noise()))
 
 
 def problem_of(**changes: object) -> InvalidInputError:
     with pytest.raises(InvalidInputError) as caught:
-        observe(request(PICTURE, **changes))
+        read(view(PICTURE, **changes))
     return caught.value
 
 
@@ -38,7 +46,7 @@ def test_luminance_of_white_is_one():
 
 
 def test_a_small_picture_is_taken_as_it_is():
-    observation = observe(request(PICTURE))
+    observation = read(view(PICTURE))
     assert observation.scale == 1.0
     assert observation.camera == observation.image_camera
     np.testing.assert_allclose(observation.display, noise() / 255, atol=1e-6)
@@ -111,8 +119,8 @@ def test_a_large_picture_is_scaled_with_its_camera_and_points():
     pixels = np.zeros((1600, 1200, 3), dtype=np.uint8)
     # A white square whose centre is a point to find again.
     pixels[900:940, 500:540] = 255
-    observation = observe(
-        request(encode(PillowImage.fromarray(pixels)), clicks=clicks, focal_length_px=1500.0)
+    observation = read(
+        view(encode(PillowImage.fromarray(pixels)), clicks=clicks, focal_length_px=1500.0)
     )
     height, width = observation.luminance.shape
     assert height * width <= WORKING_PIXELS
@@ -142,9 +150,7 @@ def test_a_mask_is_averaged_and_thresholded_at_half():
         for name, click in standing_clicks().items()
     }
     picture = encode(PillowImage.new("RGB", (1200, 1600)))
-    observation = observe(
-        request(picture, clicks=clicks, mask=encode(PillowImage.fromarray(pixels)))
-    )
+    observation = read(view(picture, clicks=clicks, mask=encode(PillowImage.fromarray(pixels))))
     assert observation.mask is not None
     assert observation.mask.shape == observation.luminance.shape
     assert observation.mask.mean() == pytest.approx(0.25, rel=0.01)
@@ -167,13 +173,14 @@ def test_an_unusable_mask_is_refused(mask: np.ndarray, code: str):
 
 @pytest.mark.parametrize("height_m", [1.19, 2.31, 0.0, -1.7, 170.0, float("nan")])
 def test_an_impossible_height_is_refused(height_m: float):
-    problem = problem_of(height_m=height_m)
-    assert (problem.code, problem.field) == ("out-of-range", "height_m")
+    with pytest.raises(InvalidInputError) as caught:
+        check_height(height_m)
+    assert (caught.value.code, caught.value.field) == ("out-of-range", "height_m")
 
 
 @pytest.mark.parametrize("height_m", [None, 1.2, 2.3])
 def test_a_plausible_or_unknown_height_is_accepted(height_m: float | None):
-    observe(request(PICTURE, height_m=height_m))
+    check_height(height_m)
 
 
 @pytest.mark.parametrize(
@@ -187,7 +194,7 @@ def test_warnings_of_all_parts_come_together():
     clicks = standing_clicks()
     clicks["left_hip"], clicks["right_hip"] = clicks["right_hip"], clicks["left_hip"]
     translucent = np.dstack([noise(), np.full((HEIGHT, WIDTH), 128, dtype=np.uint8)])
-    observation = observe(request(encode(PillowImage.fromarray(translucent)), clicks=clicks))
+    observation = read(view(encode(PillowImage.fromarray(translucent)), clicks=clicks))
     assert [warning.code for warning in observation.warnings] == [
         "transparency-over-white",
         "shoulders-and-hips-disagree",

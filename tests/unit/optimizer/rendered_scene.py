@@ -12,9 +12,11 @@ from fitter.arrays import Image
 from fitter.body.pose_prior import mean_pose
 from fitter.body.scape import increment
 from fitter.body.skeleton import regress
+from fitter.energies.attributes import NOTHING_KNOWN, KnownAttributes
 from fitter.energies.clicks import click_evidence
 from fitter.energies.fitting_operators import FittingOperators
-from fitter.energies.objective import Objective, PictureEvidence
+from fitter.energies.joint_objective import JointObjective
+from fitter.energies.objective import Candidate, Objective, PictureEvidence
 from fitter.energies.priors import population_prior
 from fitter.energies.scales import NEAR_BOUNDARY_ETA_M, scales_at
 from fitter.evidence.edge_cost import edge_cost_map
@@ -23,13 +25,21 @@ from fitter.evidence.silhouette_evidence import silhouette_evidence
 from fitter.fits.prepared_model import prepared_model
 from fitter.numerics.rotations import compose
 from fitter.observation.colour import display_from_linear
+from fitter.optimizer.alternation import (
+    SMOOTHNESS_SCHEDULE,
+    ShadedFit,
+    first_shading,
+    fit_shading,
+    shaded_fit,
+)
+from fitter.optimizer.search import BodySearch
 from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
 from fitter.render.camera import Camera
 from fitter.render.interpolation import shade_image
 from fitter.render.rasterizer import render
 from fitter.render.reflectance import shade
 from fitter.render.shadow import lamp_seen
-from fitter.request import Click, Gender
+from fitter.request import Click, Gender, SurroundingsKind
 
 CAMERA = Camera(focal_length_px=700.0, centre_x=180.0, centre_y=240.0, width=360, height=480)
 LIGHT = Light(kind=LightKind.POINT, azimuth=0.7, elevation=0.5, distance=2.5)
@@ -52,6 +62,11 @@ class RenderedScene:
     intensity: IntensityMap
     display: Image
 
+    @property
+    def person(self) -> JointObjective:
+        """The energy of the man in this picture alone."""
+        return of_person(self.objective)
+
     def posed_error_mm(self, parameters: BodyParameters) -> float:
         """Mean distance of vertices from the truth, with the depth of the whole body left out."""
         evaluator = self.operators.evaluator
@@ -63,6 +78,16 @@ class RenderedScene:
         basis = self.operators.model.shape_basis
         difference = np.tensordot(parameters.shape - self.truth.shape, basis, axes=1)
         return 1000 * float(np.linalg.norm(difference - difference.mean(axis=0), axis=1).mean())
+
+
+def of_person(
+    *objectives: Objective, weight: float = 1.0, attributes: KnownAttributes = NOTHING_KNOWN
+) -> JointObjective:
+    """The energy of one person in these pictures."""
+    n = len(objectives[0].operators.model.shape_basis)
+    return JointObjective(
+        views=objectives, weight=weight, shape_prior=population_prior(n), attributes=attributes
+    )
 
 
 def rendered_scene(
@@ -123,7 +148,6 @@ def rendered_scene(
             shading=None,
         ),
         scales=scales_at(CAMERA, DEPTH_M, boundary_eta_m=2 * NEAR_BOUNDARY_ETA_M),
-        shape_prior=population_prior(n),
     )
     return RenderedScene(
         truth=truth,
@@ -133,3 +157,24 @@ def rendered_scene(
         intensity=intensity_map(luminance.astype(np.float32), display, mask),
         display=display,
     )
+
+
+def lit_fit(
+    scene: RenderedScene,
+    start: Candidate,
+    search: BodySearch,
+    lights: tuple[Light, ...],
+    surroundings: SurroundingsKind = SurroundingsKind.UNIFORM,
+    intensity: IntensityMap | None = None,
+) -> tuple[Candidate, ShadedFit] | None:
+    """Section 5 from a body: the final one, and its light; None where shading tells nothing."""
+    seen = scene.intensity if intensity is None else intensity
+    state = first_shading(scene.objective, start, seen, lights, surroundings)
+    if state is None:
+        return None
+    begun = scene.person.evaluate([start])
+    rounds = [(smoothness, search) for smoothness in SMOOTHNESS_SCHEDULE]
+    found = fit_shading(scene.person, begun, [state], rounds)
+    (final,), (last,) = found.minimum.candidate.views, found.states
+    assert last is not None
+    return final, shaded_fit(scene.objective, final, last)

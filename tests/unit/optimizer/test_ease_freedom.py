@@ -14,7 +14,7 @@ from fitter.optimizer.renewed_lines import with_lines_about
 from fitter.optimizer.row_jacobians import position_row_jacobian
 from fitter.optimizer.uncertainty import certainty, shape_covariance
 from fitter.render.rasterizer import render
-from tests.unit.optimizer.rendered_scene import rendered_scene
+from tests.unit.optimizer.rendered_scene import of_person, rendered_scene
 
 
 def _dressed(cloth: float | None, *, lines: bool = False) -> tuple[Objective, Candidate]:
@@ -90,12 +90,14 @@ def test_lines_push_as_the_slope_of_an_energy_whose_offset_follows():
 @pytest.mark.parametrize("lines", [False, True])
 def test_a_shape_is_less_certain_under_an_ease_that_is_not_known(lines, monkeypatch):
     objective, candidate = _dressed(1.0, lines=lines)
-    free = shape_covariance(certainty(objective, candidate), height_variance=0.0)
+    person = of_person(objective)
+    seen = person.evaluate([candidate])
+    free = shape_covariance(*certainty(person, seen), height_variance=0.0)
     monkeypatch.setattr(
         "fitter.optimizer.normal_equations.with_free_ease",
         lambda eases, _: np.concatenate([jacobian for jacobian, _ in eases]),
     )
-    held = shape_covariance(certainty(objective, candidate), height_variance=0.0)
+    held = shape_covariance(*certainty(person, seen), height_variance=0.0)
     gain = np.linalg.eigvalsh((free - held)[1:, 1:])
     assert gain.min() > -1e-9
     assert gain.max() > 0.002

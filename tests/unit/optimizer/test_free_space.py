@@ -11,20 +11,20 @@ from fitter.energies.attributes import (
     attribute_residuals,
     attribute_slopes,
 )
-from fitter.energies.objective import Candidate, Objective
+from fitter.energies.joint_objective import JointCandidate, JointObjective
 from fitter.energies.priors import height_extrapolation
 from fitter.errors import NumericalError
 from fitter.fits.prepared_model import PreparedModel, prepared_model
 from fitter.measurement.anthropometry import measure
 from fitter.optimizer.free_space import HELD_WITHIN, free_space, held_shape
 from fitter.optimizer.gauss_newton import minimize_gauss_newton
-from fitter.optimizer.normal_equations import normal_equations
+from fitter.optimizer.joint_equations import joint_equations
 from fitter.optimizer.simplex import minimize_simplex
 from fitter.optimizer.uncertainty import certainty, shape_covariance
 from fitter.parameters import BodyParameters
 from fitter.population.known_person import KnownPerson, known_person
-from fitter.request import FitRequest, Gender, KnownMeasurement
-from tests.unit.optimizer.rendered_scene import RenderedScene, rendered_scene
+from fitter.request import Gender, KnownMeasurement, Person
+from tests.unit.optimizer.rendered_scene import RenderedScene, of_person, rendered_scene
 
 HELD = ("weight", "waist_girth_navel", "inseam")
 
@@ -46,11 +46,14 @@ def measured(shape: np.ndarray) -> dict[str, float]:
     return {each.name: each.value for each in measure(body().measuring, shape)}
 
 
-def spreads(objective: Objective, candidate: Candidate, height_variance: float) -> dict[str, float]:
+def spreads(
+    objective: JointObjective, candidate: JointCandidate, height_variance: float
+) -> dict[str, float]:
     """Standard errors of the body's own measurements: how certain the fit is."""
-    shape = candidate.parameters.shape
+    shape = candidate.shape
     measuring = replace(body().measuring, unexplained=np.zeros_like(body().measuring.unexplained))
-    covariance = shape_covariance(certainty(objective, candidate), height_variance=height_variance)
+    (certain,) = certainty(objective, candidate)
+    covariance = shape_covariance(certain, height_variance=height_variance)
     return {
         each.name: each.standard_error or 0.0
         for each in measure(measuring, shape, shape_covariance=covariance)
@@ -60,9 +63,7 @@ def spreads(objective: Objective, candidate: Candidate, height_variance: float) 
 def person(scene: RenderedScene, standard_errors: dict[str, float]) -> KnownPerson:
     """What a caller says who knows the truth of the stature and of these."""
     truth = measured(scene.truth.shape)
-    request = FitRequest(
-        image=b"",
-        clicks={},
+    told = Person(
         gender=Gender.MALE,
         height_m=truth["stature"] / 100.0,
         measurements={
@@ -70,34 +71,31 @@ def person(scene: RenderedScene, standard_errors: dict[str, float]) -> KnownPers
             for name, error in standard_errors.items()
         },
     )
-    return known_person(request, body().population, body().operators.evaluator)
+    return known_person(told, body().population, body().operators.evaluator)
 
 
-def begun(scene: RenderedScene, known: KnownPerson) -> tuple[Objective, BodyParameters]:
-    return replace(scene.objective, attributes=known.attributes), replace(
-        scene.start, shape=known.shape
-    )
+def begun(scene: RenderedScene, known: KnownPerson) -> tuple[JointObjective, list[BodyParameters]]:
+    objective = of_person(scene.objective, attributes=known.attributes)
+    return objective, [replace(scene.start, shape=known.shape)]
 
 
 def test_with_nothing_known_all_but_the_height_is_free(scene):
-    space = free_space(NOTHING_KNOWN.held, scene.start)
-    columns, free = space.directions.shape
-    assert free == columns - 1
-    held = scene.start.pose.size + 3
-    assert not space.directions[held].any()
-    np.testing.assert_array_equal(np.delete(space.directions, held, axis=0), np.eye(free))
+    space = free_space(NOTHING_KNOWN.held, scene.start.shape)
+    n, free = space.directions.shape
+    assert free == n - 1
+    assert not space.directions[0].any()
+    np.testing.assert_array_equal(space.directions[1:], np.eye(free))
     assert space.height_response.tolist() == [1.0] + [0.0] * (len(scene.start.shape) - 1)
 
 
 def test_along_the_free_directions_held_attributes_stand_still(scene):
     known = person(scene, dict.fromkeys(HELD, 0.0))
-    parameters = replace(scene.start, shape=known.shape)
-    space = free_space(known.attributes.held, parameters)
-    columns, free = space.directions.shape
-    assert free == columns - 1 - len(HELD)
+    space = free_space(known.attributes.held, known.shape)
+    n, free = space.directions.shape
+    assert free == n - 1 - len(HELD)
     np.testing.assert_allclose(space.directions.T @ space.directions, np.eye(free), atol=1e-12)
     before, step = measured(known.shape), 1e-3
-    for direction in space.directions[-len(known.shape) :].T[-4:]:
+    for direction in space.directions.T[-4:]:
         after = measured(known.shape + step * direction)
         for name in ("stature", *HELD):
             assert after[name] == pytest.approx(before[name], abs=2e-5)
@@ -107,7 +105,7 @@ def test_along_the_free_directions_held_attributes_stand_still(scene):
 
 def test_the_height_may_change_and_what_else_is_held_stays(scene):
     known = person(scene, dict.fromkeys(HELD, 0.0))
-    space = free_space(known.attributes.held, replace(scene.start, shape=known.shape))
+    space = free_space(known.attributes.held, known.shape)
     assert space.height_response[0] == 1.0
     before = measured(known.shape)
     after = measured(known.shape + 0.01 * space.height_response)
@@ -120,13 +118,17 @@ def test_the_height_may_change_and_what_else_is_held_stays(scene):
 def test_a_step_ends_on_a_body_that_has_what_is_held(scene, size):
     known = person(scene, dict.fromkeys(HELD, 0.0))
     parameters = replace(scene.start, shape=known.shape)
-    space = free_space(known.attributes.held, parameters)
+    space = free_space(known.attributes.held, known.shape)
     rng = np.random.default_rng(4)
-    step = np.zeros(len(space.directions))
-    step[-len(known.shape) :] = size * rng.standard_normal(len(known.shape))
-    step = space.directions @ (space.directions.T @ step)
-    reached = space.moved(parameters, step)
-    assert reached is not None
+    own = 0.1 * rng.standard_normal(parameters.pose.size + 3)
+    change = size * rng.standard_normal(len(known.shape))
+    change = space.directions @ (space.directions.T @ change)
+    both = space.moved([parameters, scene.start], [own, 0.0 * own], change)
+    assert both is not None
+    reached, other = both
+    np.testing.assert_array_equal(reached.shape, other.shape)
+    np.testing.assert_array_equal(other.translation, scene.start.translation)
+    np.testing.assert_allclose(reached.translation - parameters.translation, own[-3:])
     assert np.linalg.norm(reached.shape - parameters.shape) > size
     assert reached.shape[0] == parameters.shape[0]
     found, wanted = measured(reached.shape), measured(scene.truth.shape)
@@ -142,9 +144,8 @@ def test_two_attributes_that_say_the_same_hold_the_body_once(scene):
         jacobian=lambda shape: np.tile(once.jacobian(shape), (2, 1)),
         values=np.tile(once.values, 2),
     )
-    assert free_space(twice, scene.start).directions.shape == (
-        free_space(once, scene.start).directions.shape
-    )
+    shape = scene.start.shape
+    assert free_space(twice, shape).directions.shape == free_space(once, shape).directions.shape
     np.testing.assert_allclose(
         held_shape(twice, scene.start.shape), held_shape(once, scene.start.shape), atol=1e-6
     )
@@ -158,8 +159,9 @@ def test_what_no_body_nearby_has_is_an_error_and_not_an_endless_search(scene):
 
 def test_a_step_that_cannot_be_brought_back_is_none(scene):
     held = person(scene, {"waist_girth_navel": 0.0}).attributes.held
-    space = free_space(replace(held, values=np.array([-10.0])), scene.start)
-    assert space.moved(scene.start, np.zeros(len(space.directions))) is None
+    space = free_space(replace(held, values=np.array([-10.0])), scene.start.shape)
+    still = np.zeros(scene.start.pose.size + 3), np.zeros(len(scene.start.shape))
+    assert space.moved([scene.start], [still[0]], still[1]) is None
 
 
 def test_with_everything_known_the_pose_is_still_searched(scene):
@@ -167,7 +169,7 @@ def test_with_everything_known_the_pose_is_still_searched(scene):
     objective, start = begun(scene, person(scene, dict.fromkeys(others, 0.0)))
     found = minimize_gauss_newton(objective, start, max_evaluations=60, on_energies=ignore)
     assert found.candidate.total < 0.5 * objective.evaluate(start).total
-    values = measured(found.candidate.parameters.shape)
+    values = measured(found.candidate.shape)
     assert values == pytest.approx(measured(scene.truth.shape), abs=0.02)
 
 
@@ -190,11 +192,12 @@ def test_the_slopes_of_attributes_agree_with_finite_differences(scene):
         axis=1,
     )
     np.testing.assert_allclose(attribute_slopes(known, shape), numeric, atol=2e-3)
-    # The normal equations have its gradient beside that of everything else.
-    objective = replace(scene.objective, attributes=known)
-    parameters = replace(scene.truth, shape=shape)
-    _, with_attributes = normal_equations(objective, objective.evaluate(parameters))
-    _, without = normal_equations(scene.objective, objective.evaluate(parameters))
+    # The equations have its gradient beside that of everything else, along all but the height.
+    space = free_space(NOTHING_KNOWN.held, shape)
+    with_attributes, without = (
+        joint_equations(each, each.evaluate([replace(scene.truth, shape=shape)]), space)
+        for each in (of_person(scene.objective, attributes=known), scene.person)
+    )
     along = np.array(
         [
             (attribute_energy(known, shape + e) - attribute_energy(known, shape - e)) / (2.0 * step)
@@ -202,7 +205,7 @@ def test_the_slopes_of_attributes_agree_with_finite_differences(scene):
         ]
     )
     np.testing.assert_allclose(
-        (with_attributes - without)[-len(shape) :], along, rtol=1e-2, atol=1e-2
+        with_attributes.shared_gradient - without.shared_gradient, along[1:], rtol=1e-2, atol=1e-2
     )
 
 
@@ -215,11 +218,11 @@ def held_fit(scene):
 
 
 def test_a_fit_has_the_height_and_the_attributes_it_was_given(scene, held_fit):
-    objective, minimum = held_fit
-    found, wanted = measured(minimum.candidate.parameters.shape), measured(scene.truth.shape)
+    _, minimum = held_fit
+    found, wanted = measured(minimum.candidate.shape), measured(scene.truth.shape)
     assert minimum.converged
     assert "attributes" not in minimum.candidate.energies
-    assert objective.overlap(minimum.candidate) > 0.96
+    assert scene.objective.overlap(minimum.candidate.views[0]) > 0.96
     for name in ("stature", *HELD):
         assert found[name] == pytest.approx(wanted[name], abs=0.01)
 
@@ -227,7 +230,7 @@ def test_a_fit_has_the_height_and_the_attributes_it_was_given(scene, held_fit):
 def test_what_is_given_is_certain_and_makes_the_rest_more_certain(scene, held_fit):
     objective, minimum = held_fit
     errors = spreads(objective, minimum.candidate, 0.0)
-    free = spreads(scene.objective, minimum.candidate, 0.0)
+    free = spreads(scene.person, minimum.candidate, 0.0)
     for name in ("stature", *HELD):
         assert errors[name] < 1e-3
     for name in ("hip_girth", "chest_girth", "thigh_girth"):
@@ -238,7 +241,7 @@ def test_an_uncertain_attribute_is_met_within_its_tolerance(scene):
     known = person(scene, {"weight": 1.0, "waist_girth_navel": 0.5})
     objective, start = begun(scene, known)
     found = minimize_gauss_newton(objective, start, max_evaluations=100, on_energies=ignore)
-    values, wanted = measured(found.candidate.parameters.shape), measured(scene.truth.shape)
+    values, wanted = measured(found.candidate.shape), measured(scene.truth.shape)
     assert values["weight"] == pytest.approx(wanted["weight"], abs=1.0)
     assert values["waist_girth_navel"] == pytest.approx(wanted["waist_girth_navel"], abs=0.5)
     assert found.candidate.energies["attributes"] < 1.0
@@ -254,7 +257,7 @@ def test_a_given_weight_corrects_the_body_the_picture_alone_gives(scene):
     for errors in ({}, {"weight": 0.0}):
         objective, start = begun(scene, person(scene, errors))
         found = minimize_gauss_newton(objective, start, max_evaluations=100, on_energies=ignore)
-        values = measured(found.candidate.parameters.shape)
+        values = measured(found.candidate.shape)
         off.append(sum(abs(values[name] - wanted[name]) for name in ("hip_girth", "chest_girth")))
     assert off[1] < 0.6 * off[0]
 
@@ -263,15 +266,16 @@ def test_the_simplex_holds_attributes_as_well(scene):
     objective, start = begun(scene, person(scene, dict.fromkeys(HELD, 0.0)))
     found = minimize_simplex(objective, start, max_evaluations=200, on_energies=ignore)
     assert found.candidate.total < objective.evaluate(start).total
-    values, wanted = measured(found.candidate.parameters.shape), measured(scene.truth.shape)
-    assert not np.array_equal(found.candidate.parameters.shape, start.shape)
+    values, wanted = measured(found.candidate.shape), measured(scene.truth.shape)
+    assert not np.array_equal(found.candidate.shape, start[0].shape)
     for name in ("stature", *HELD):
         assert values[name] == pytest.approx(wanted[name], abs=0.01)
 
 
 def test_an_unknown_height_spreads_all_but_what_is_held(scene, held_fit):
     objective, minimum = held_fit
-    covariance = shape_covariance(certainty(objective, minimum.candidate), height_variance=0.4)
+    (certain,) = certainty(objective, minimum.candidate)
+    covariance = shape_covariance(certain, height_variance=0.4)
     assert covariance[0, 0] == pytest.approx(0.4)
     errors = spreads(objective, minimum.candidate, 0.4)
     assert errors["stature"] > 3.0
@@ -280,7 +284,7 @@ def test_an_unknown_height_spreads_all_but_what_is_held(scene, held_fit):
 
 
 def test_a_fit_of_somebody_of_an_unusual_height_is_less_certain(held_fit):
-    certain = certainty(held_fit[0], held_fit[1].candidate)
+    (certain,) = certainty(held_fit[0], held_fit[1].candidate)
     body = certain.candidate.parameters
     tall = replace(body, shape=body.shape + (7.0 - body.shape[0]) * np.eye(len(body.shape))[0])
     unusual = replace(certain, candidate=replace(certain.candidate, parameters=tall))

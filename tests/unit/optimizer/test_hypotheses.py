@@ -16,9 +16,9 @@ def numbers_for_bodies(monkeypatch):
 class Bowl:
     """An energy with its least value at 0; ``evaluate`` gives what a search would end with."""
 
-    def evaluate(self, body: float | SimpleNamespace) -> SimpleNamespace:
-        where = place(body)
-        return SimpleNamespace(parameters=where, total=where**2)
+    def evaluate(self, bodies: list[float | SimpleNamespace]) -> SimpleNamespace:
+        where = place(*bodies)
+        return SimpleNamespace(views=[SimpleNamespace(parameters=where)], total=where**2)
 
 
 def place(body: float | SimpleNamespace) -> float:
@@ -27,9 +27,10 @@ def place(body: float | SimpleNamespace) -> float:
 
 
 def nearer(factor: float, visited: list[float]):
-    def search(objective: Bowl, start: float | SimpleNamespace) -> SimpleNamespace:
-        visited.append(place(start))
-        return SimpleNamespace(candidate=objective.evaluate(factor * place(start)), evaluations=3)
+    def search(objective: Bowl, start: list[float | SimpleNamespace]) -> SimpleNamespace:
+        visited.append(place(*start))
+        end = objective.evaluate([factor * place(*start)])
+        return SimpleNamespace(candidate=end, evaluations=3)
 
     return search
 
@@ -48,7 +49,7 @@ def test_only_the_best_ends_are_searched_on_and_the_best_of_those_wins():
     )
     assert first == [8.0, 2.0, 4.0, 16.0]
     assert second == [1.0, 2.0]
-    assert [end.parameters for end in tried.ends] == [4.0, 0.25, 0.5, 8.0]
+    assert tried.totals == (16.0, 0.0625, 0.25, 64.0)
     assert tried.best == 1
     assert tried.winner.parameters == 0.25
     assert tried.evaluations == 3 * 4 + 3 * 2 + 4
@@ -66,7 +67,8 @@ def test_one_start_alone_is_the_best_and_not_searched_on():
         contest=nearer(0.5, second),
     )
     assert tried.best == 0
-    assert tried.winner.parameters == tried.ends[0].parameters == 1.5
+    assert tried.winner.parameters == 1.5
+    assert tried.totals == (2.25,)
     assert second == []
 
 
@@ -82,5 +84,5 @@ def test_what_ends_far_above_the_best_is_not_searched_on():
         contest=nearer(0.5, second),
     )
     assert second == [1.0, 1.5]
-    assert [end.parameters for end in tried.ends] == [4.0, 0.5, 0.75]
+    assert tried.totals == (16.0, 0.25, 0.5625)
     assert tried.best == 1

@@ -10,7 +10,7 @@ from fitter.optimizer.normal_equations import normal_equations
 from fitter.optimizer.uncertainty import certainty, shape_covariance
 from fitter.parameters import Light, LightKind, Reflectance
 from fitter.render.reflectance import shade
-from tests.unit.optimizer.rendered_scene import LIGHT, rendered_scene
+from tests.unit.optimizer.rendered_scene import LIGHT, of_person, rendered_scene
 
 DIRECTIONAL = replace(LIGHT, kind=LightKind.DIRECTIONAL, distance=float("inf"))
 SURROUNDED = replace(
@@ -128,11 +128,15 @@ def test_a_free_light_takes_information_and_never_more_than_there_is(light):
 
 def test_a_shape_is_less_certain_under_a_light_that_is_not_known():
     objective, candidate, evidence = _lit(LIGHT)
+    person = of_person(objective)
     held, _ = normal_equations(objective, candidate)
+    n = len(candidate.parameters.shape)
+    held[-n:, -n:] += person.shape_prior.precision
     shape = slice(len(held) - len(candidate.parameters.shape) + 1, None)
     free = np.delete(np.arange(len(held)), shape.start - 1)
     known = np.linalg.inv(held[np.ix_(free, free)])[shape.start - 1 :, shape.start - 1 :]
-    found = shape_covariance(certainty(objective, candidate), height_variance=0.0)[1:, 1:]
+    (certain,) = certainty(person, person.evaluate([candidate]))
+    found = shape_covariance(certain, height_variance=0.0)[1:, 1:]
     gain = np.linalg.eigvalsh(found - known)
     assert gain.min() > -1e-6
     assert gain.max() > 0.005

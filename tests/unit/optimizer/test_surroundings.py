@@ -1,14 +1,17 @@
 """Light from all round is found beside the lamp, and neither passes for the other."""
 
+from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
 
-from fitter.energies.objective import Body, Objective
+from fitter.energies.joint_objective import JointObjective
+from fitter.energies.objective import Body, Candidate
 from fitter.energies.shading import explained_vertices, seen_vertices, usable_vertices
 from fitter.evidence.intensity import IntensityMap
-from fitter.optimizer.alternation import ROUNDS, ShadedFit, fit_shading
+from fitter.optimizer.alternation import ShadedFit
 from fitter.optimizer.gauss_newton import Minimum, minimize_gauss_newton
 from fitter.optimizer.light_solve import (
     estimate_light,
@@ -23,7 +26,7 @@ from fitter.render.reflectance import shade
 from fitter.render.shadow import cast_shadow, lamp_seen
 from fitter.render.surroundings import irradiance, mean_irradiance, uniform_surroundings
 from fitter.request import LightGuess, SurroundingsKind
-from tests.unit.optimizer.rendered_scene import LIGHT, RenderedScene, rendered_scene
+from tests.unit.optimizer.rendered_scene import LIGHT, RenderedScene, lit_fit, rendered_scene
 from tests.unit.render.shapes import sphere
 
 # Brighter from above and from the left, in a room.
@@ -110,27 +113,28 @@ def scene() -> RenderedScene:
 
 
 @pytest.fixture(scope="module")
-def shaded(scene) -> ShadedFit:
-    def search(objective, parameters):
-        return minimize_gauss_newton(
-            objective, parameters, max_evaluations=20, on_energies=lambda _: None
-        )
-
-    found = fit_shading(
-        scene.objective,
+def lit(scene) -> tuple[Candidate, ShadedFit]:
+    found = lit_fit(
+        scene,
         scene.objective.evaluate(scene.truth),
-        scene.intensity,
+        partial(minimize_gauss_newton, max_evaluations=20, on_energies=lambda _: None),
         guessed_lights(LightGuess()),
-        searches=[search] * ROUNDS,
-        surroundings=SurroundingsKind.SPHERICAL_HARMONICS,
+        SurroundingsKind.SPHERICAL_HARMONICS,
     )
     assert found is not None
     return found
 
 
-def known_and_shadow(scene: RenderedScene, shaded: ShadedFit) -> tuple[np.ndarray, np.ndarray]:
+@pytest.fixture(scope="module")
+def shaded(lit) -> ShadedFit:
+    return lit[1]
+
+
+def known_and_shadow(
+    scene: RenderedScene, lit: tuple[Candidate, ShadedFit]
+) -> tuple[np.ndarray, np.ndarray]:
     """Vertices whose reflectance was seen, and those of them that lie in a shadow."""
-    final = shaded.minimum.candidate
+    final, shaded = lit
     shown = with_explained_shadows(scene.objective, final, shaded.evidence)
     known = explained_vertices(final.rendering, shown)
     return known, known & ~usable_vertices(final.rendering, shown)
@@ -152,34 +156,34 @@ def test_lamp_and_surroundings_of_a_body_are_found(shaded):
     assert above > below
 
 
-def test_what_is_found_explains_the_picture_in_shadows_too(scene, shaded):
-    final = shaded.minimum.candidate
-    lit = lamp_seen(
+def test_what_is_found_explains_the_picture_in_shadows_too(scene, lit):
+    final, shaded = lit
+    seen = lamp_seen(
         final.vertices,
         scene.operators.model.triangles,
         light=shaded.light,
         body_centre=final.parameters.translation,
     )
-    assert lit is not None
+    assert seen is not None
     predicted = shade(
         final.vertices,
         final.rendering.vertex_normals,
         light=shaded.light,
         body_centre=final.parameters.translation,
         reflectance=shaded.reflectance,
-        lit=lit,
+        lit=seen,
     )
-    known, shadow = known_and_shadow(scene, shaded)
+    known, shadow = known_and_shadow(scene, lit)
     assert shadow.sum() > 30, "this lamp casts a shadow that is seen"
-    for chosen in (known & ~shadow, shadow & (lit == 0.0)):
+    for chosen in (known & ~shadow, shadow & (seen == 0.0)):
         observed = scene.intensity.at(final.rendering.projected[chosen])
         missed = np.median(np.abs(predicted[chosen] - observed))
         assert missed < 0.05 * np.median(observed)
 
 
-def test_albedo_in_a_shadow_is_that_of_the_light(scene, shaded):
+def test_albedo_in_a_shadow_is_that_of_the_light(scene, lit, shaded):
     """The whole body has one albedo: the shadow must not look like another skin."""
-    known, shadow = known_and_shadow(scene, shaded)
+    known, shadow = known_and_shadow(scene, lit)
     albedo = shaded.reflectance.albedo
     assert np.median(albedo[shadow]) == pytest.approx(np.median(albedo[known]), rel=0.15)
 
@@ -187,30 +191,25 @@ def test_albedo_in_a_shadow_is_that_of_the_light(scene, shaded):
 def test_surroundings_leave_equation_1_as_it_was():
     """What no caller asked for must not be felt: no field of the evidence is set."""
     plain = rendered_scene(0)
-    found = fit_shading(
-        plain.objective,
+    lit = lit_fit(
+        plain,
         plain.objective.evaluate(plain.truth),
-        plain.intensity,
+        partial(minimize_gauss_newton, max_evaluations=2, on_energies=lambda _: None),
         guessed_lights(LightGuess()),
-        searches=[
-            lambda objective, parameters: minimize_gauss_newton(
-                objective, parameters, max_evaluations=2, on_energies=lambda _: None
-            )
-        ]
-        * ROUNDS,
     )
-    assert found is not None
+    assert lit is not None
+    final, found = lit
     assert found.light.surroundings is None
     assert found.evidence.lit is None
     np.testing.assert_array_equal(
-        explained_vertices(found.minimum.candidate.rendering, found.evidence),
-        usable_vertices(found.minimum.candidate.rendering, found.evidence),
+        explained_vertices(final.rendering, found.evidence),
+        usable_vertices(final.rendering, found.evidence),
     )
 
 
-def as_it_is(objective: Objective, body: Body) -> Minimum:
+def as_it_is(objective: JointObjective, bodies: Sequence[Body]) -> Minimum:
     """A search that finds nothing better."""
-    return Minimum(candidate=objective.evaluate(body), converged=True, evaluations=1)
+    return Minimum(candidate=objective.evaluate(bodies), converged=True, evaluations=1)
 
 
 def seeing_only(scene: RenderedScene, chosen: np.ndarray) -> IntensityMap:
@@ -239,15 +238,8 @@ def test_a_light_whose_shadows_hide_all_there_is_to_see_is_not_believed():
     kept = with_new_shadows(dark.objective, candidate, lit)
     assert explained_vertices(candidate.rendering, kept).any()
     for kind in SurroundingsKind:
-        found = fit_shading(
-            dark.objective,
-            candidate,
-            intensity,
-            (high,),
-            searches=[as_it_is] * ROUNDS,
-            surroundings=kind,
-        )
-        assert found is None or np.isfinite(found.reflectance.albedo).all()
+        found = lit_fit(dark, candidate, as_it_is, (high,), kind, intensity)
+        assert found is None or np.isfinite(found[1].reflectance.albedo).all()
 
 
 def test_half_a_face_does_not_tell_surroundings_from_the_lamp():
@@ -258,14 +250,15 @@ def test_half_a_face_does_not_tell_surroundings_from_the_lamp():
     head[np.unique(triangles)] = True
     columns = candidate.rendering.projected[:, 0]
     intensity = seeing_only(plain, head & (columns < np.median(columns[head])))
-    found = fit_shading(
-        plain.objective,
+    lit = lit_fit(
+        plain,
         candidate,
-        intensity,
+        as_it_is,
         guessed_lights(LightGuess()),
-        searches=[as_it_is] * ROUNDS,
-        surroundings=SurroundingsKind.SPHERICAL_HARMONICS,
+        SurroundingsKind.SPHERICAL_HARMONICS,
+        intensity,
     )
-    assert found is not None
+    assert lit is not None
+    _, found = lit
     assert found.light.surroundings is None
     assert degrees_between(found.light, LIGHT) < 10.0

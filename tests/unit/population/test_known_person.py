@@ -7,18 +7,16 @@ from fitter.body.shape_space import height_of_shape, shape_for_height
 from fitter.errors import InvalidInputError
 from fitter.fits.prepared_model import prepared_model
 from fitter.measurement.anthropometry import measure
-from fitter.observation.subject import MEAN_HEIGHT_M, check_subject
+from fitter.observation.subject import MEAN_HEIGHT_M, check_person
 from fitter.population.body_estimate import estimate_body
 from fitter.population.known_person import KnownPerson, known_person
-from fitter.request import FitRequest, Gender, KnownMeasurement
+from fitter.request import Gender, KnownMeasurement, Person
 
 GENDERS = pytest.mark.parametrize("gender", list(Gender))
 
 
-def request(gender: Gender, height_m: float | None, **known: float | tuple[float, float]):
-    return FitRequest(
-        image=b"",
-        clicks={},
+def told(gender: Gender, height_m: float | None, **known: float | tuple[float, float]):
+    return Person(
         gender=gender,
         height_m=height_m,
         measurements={
@@ -32,7 +30,7 @@ def request(gender: Gender, height_m: float | None, **known: float | tuple[float
 
 def person(gender: Gender, height_m: float | None, **known) -> KnownPerson:
     body = prepared_model(gender)
-    asked = request(gender, height_m, **known)
+    asked = told(gender, height_m, **known)
     return known_person(asked, body.population, body.operators.evaluator)
 
 
@@ -127,7 +125,7 @@ def test_an_uncertain_stature_is_drawn_toward_and_stays_uncertain(gender):
 def test_it_is_the_body_that_measurements_alone_give(gender):
     truth = typical(gender, 0.3, -0.6, 0.9)
     known = {"weight": (truth["weight"], 2.0), "hip_girth": truth["hip_girth"]}
-    asked = request(gender, None, stature=truth["stature"], **known)
+    asked = told(gender, None, stature=truth["stature"], **known)
     alone = estimate_body(prepared_model(gender).population, asked.measurements)
     found = person(gender, truth["stature"] / 100, **known)
     np.testing.assert_allclose(found.shape, alone.shape, atol=5e-3)
@@ -156,9 +154,7 @@ def test_what_nobody_is_is_refused_by_its_field(height_m, known, field, code):
 
 def test_a_field_of_its_own_is_named():
     body = prepared_model(Gender.MALE)
-    asked = FitRequest(
-        image=b"",
-        clicks={},
+    asked = Person(
         gender=Gender.MALE,
         height_m=1.8,
         measurements={"weight": KnownMeasurement(value=900.0, field="weight_kg")},
@@ -171,11 +167,11 @@ def test_a_field_of_its_own_is_named():
 @pytest.mark.parametrize("value", [0.0, -70.0, float("nan"), float("inf")])
 def test_a_value_that_is_none_is_refused(value):
     with pytest.raises(InvalidInputError) as caught:
-        check_subject(request(Gender.MALE, 1.8, weight=value))
+        check_person(told(Gender.MALE, 1.8, weight=value))
     assert (caught.value.code, caught.value.field) == ("measurement-invalid", "measurements.weight")
 
 
 def test_a_height_said_twice_is_refused():
     with pytest.raises(InvalidInputError) as caught:
-        check_subject(request(Gender.MALE, 1.8, stature=180.0))
+        check_person(told(Gender.MALE, 1.8, stature=180.0))
     assert (caught.value.code, caught.value.field) == ("two-heights", "height_m")

@@ -15,7 +15,7 @@ PLACES = np.linspace(0.0, 1.0, 100)[:, None]
 @pytest.mark.parametrize("name", CASES)
 def test_bones_run_inside_slim_and_heavy_people_but_for_the_clicks_own_error(name):
     files = read_case(CASES[name])
-    clicks = fit_request(files, Cues.SE).clicks
+    clicks = fit_request(files, Cues.SE).views[0].clicks
     outside_px = cv2.distanceTransform((~files.person_mask).astype(np.uint8), cv2.DIST_L2, 5)
     for bone in BONES:
         if not all(point in clicks and not clicks[point].occluded for point in bone):

@@ -2,7 +2,6 @@
 
 import io
 import json
-from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -156,16 +155,19 @@ def test_pictures_are_searched_by_gauss_newton_however_their_fits_were(monkeypat
 
     asked: list[FitRequest] = []
 
-    def noted(_: object, requests: Sequence[FitRequest], **__: object) -> None:
-        asked.extend(requests)
+    def noted(request: FitRequest, *_: object, **__: object) -> None:
+        asked.append(request)
         raise EnoughError
 
-    monkeypatch.setattr(combined, "joint_fit", noted)
+    monkeypatch.setattr(combined, "fit", noted)
     simplex = json.loads(sample_inputs()[REQUEST]) | {"optimizer": "simplex"}
     told = json.dumps(simplex).encode()
     with pytest.raises(EnoughError):
         derived(files={REQUEST: told, of_other(REQUEST, 0): told}, kind="combined", fits=FITS[:1])
-    assert [each.optimizer for each in asked] == [OptimizerKind.GAUSS_NEWTON] * 2
+    (request,) = asked
+    assert request.choices.optimizer is OptimizerKind.GAUSS_NEWTON
+    assert len(request.views) == 2
+    assert all(view.start is not None for view in request.views)
 
 
 def test_a_texture_with_its_light_divided_out_needs_a_fit_with_shading():

@@ -1,7 +1,7 @@
 """A scan's request and its faults say the same in both languages."""
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -10,8 +10,8 @@ from api_schemas.points import Point
 from api_schemas.scans import ScanOptions
 from fitter import request as fitter_request
 from fitter.errors import DetectorUnavailableError, InvalidInputError
-from fitter.fits.progress import Stage
-from fitter.fits.scan import ScanProgress, ScanView, ViewKind
+from fitter.fits.progress import Progress, Stage
+from fitter.vocabulary.choices import ViewKind
 from service.engine.port import Report
 from service.worker import scanning
 from service.worker.pipeline_port import ScanInput, ScanPicture, UnusableInputError
@@ -39,65 +39,55 @@ def job() -> ScanInput:
     return ScanInput(options=options, pictures=pictures, max_pixels=7)
 
 
-def asked(monkeypatch: pytest.MonkeyPatch, fault: Exception) -> Sequence[ScanView]:
+def asked(monkeypatch: pytest.MonkeyPatch, fault: Exception) -> fitter_request.FitRequest:
     """What the fitter is asked for by a scan that ends in this fault."""
-    views: list[ScanView] = []
+    requests: list[fitter_request.FitRequest] = []
 
-    def scan(given: Sequence[ScanView], **_: object) -> None:
-        views.extend(given)
+    def fit(given: fitter_request.FitRequest, *_: object, **__: object) -> None:
+        requests.append(given)
         raise fault
 
-    monkeypatch.setattr(scanning, "scan", scan)
+    monkeypatch.setattr(scanning, "fit", fit)
     with pytest.raises((EndedError, UnusableInputError)):
         scanning.scanned(job(), lambda _: None)
-    return views
+    (request,) = requests
+    return request
 
 
-def test_the_fitter_is_asked_the_same_of_the_person_in_every_view(monkeypatch):
-    front, side = asked(monkeypatch, EndedError())
+def test_the_fitter_is_asked_of_the_person_once_and_of_every_view(monkeypatch):
+    request = asked(monkeypatch, EndedError())
+    person, choices, (front, side) = request.person, request.choices, request.views
     assert (front.kind, side.kind) == (ViewKind.FRONT, ViewKind.SIDE)
     for number, view in enumerate((front, side)):
-        request = view.request
-        assert (request.image, request.mask, request.max_pixels) == (bytes([number]), None, 7)
-        assert (request.gender, request.height_m) == (fitter_request.Gender.FEMALE, 1.65)
-        assert request.measurements["weight"].value == 60.5
-        assert (request.cues, request.force) == (fitter_request.Cues.SE, True)
-        assert request.optimizer is fitter_request.OptimizerKind.GAUSS_NEWTON
+        assert (view.image, view.mask) == (bytes([number]), None)
+        assert view.cues is fitter_request.Cues.SE
+    assert (person.gender, person.height_m) == (fitter_request.Gender.FEMALE, 1.65)
+    assert person.measurements["weight"].value == 60.5
+    assert (choices.force, choices.max_pixels) == (True, 7)
+    assert choices.optimizer is fitter_request.OptimizerKind.GAUSS_NEWTON
     point = Point(x=10.0, y=20.0)
-    assert (front.request.clicks["nose"].x, front.request.clicks["nose"].y) == (point.x, point.y)
-    assert front.request.clothing is fitter_request.Clothing.LOOSE
-    assert side.request.clothing is fitter_request.Clothing.TIGHT
-    assert (front.request.complete_clicks, side.request.complete_clicks) == (False, True)
-    assert (front.request.focal_length_35mm, side.request.focal_length_35mm) == (None, 26.0)
+    assert (front.clicks["nose"].x, front.clicks["nose"].y) == (point.x, point.y)
+    assert front.clothing is fitter_request.Clothing.LOOSE
+    assert side.clothing is fitter_request.Clothing.TIGHT
+    assert (front.complete_clicks, side.complete_clicks) == (False, True)
+    assert (front.focal_length_35mm, side.focal_length_35mm) == (None, 26.0)
 
 
 def told(monkeypatch: pytest.MonkeyPatch, fault: Exception) -> UnusableInputError:
-    def scan(*_: object, **__: object) -> None:
+    def fit(*_: object, **__: object) -> None:
         raise fault
 
-    monkeypatch.setattr(scanning, "scan", scan)
+    monkeypatch.setattr(scanning, "fit", fit)
     with pytest.raises(UnusableInputError) as caught:
         scanning.scanned(job(), lambda _: None)
     return caught.value
 
 
-@pytest.mark.parametrize(
-    ("field", "expected"),
-    [
-        ("views.1.image", "views.1.image"),
-        ("views.1.points.left_knee", "views.1.points.left_knee"),
-        ("views.0.focal_length_px", "views.0.focal_length_px"),
-        ("views.0.height_m", "height_m"),
-        ("views.1.measurements.hip_girth", "measurements.hip_girth"),
-        ("views.0.weight_kg", "weight_kg"),
-        ("views", "views"),
-        ("measurements", "measurements"),
-    ],
-)
-def test_faults_of_the_person_are_the_scans_and_others_their_views(monkeypatch, field, expected):
+@pytest.mark.parametrize("field", ["views.1.points.left_knee", "weight_kg"])
+def test_faults_keep_the_fields_that_the_fitter_names(monkeypatch, field):
     fault = InvalidInputError(code="a-code", field=field, reason="Why.", remedy="What.")
     error = told(monkeypatch, fault).error
-    assert (error.field, error.code) == (expected, "a-code")
+    assert (error.field, error.code) == (field, "a-code")
     assert (error.reason, error.remedy) == ("Why.", "What.")
 
 
@@ -109,12 +99,12 @@ def test_a_detector_that_is_missing_is_told_of_the_first_view_that_needs_it(monk
 def test_progress_names_the_view_it_is_of(monkeypatch):
     reports: list[Report] = []
 
-    def scan(*_: object, observe: Callable[[ScanProgress], None], **__: object) -> None:
-        observe(ScanProgress(view=1, stage=Stage.SEGMENTATION, fraction=0.4))
-        observe(ScanProgress(view=None, stage=Stage.SHADING, fraction=1.0))
+    def fit(*_: object, observer: Callable[[Progress], None], **__: object) -> None:
+        observer(Progress(stage=Stage.SEGMENTATION, fraction=0.4, view=1))
+        observer(Progress(stage=Stage.SHADING, fraction=0.9))
         raise EndedError
 
-    monkeypatch.setattr(scanning, "scan", scan)
+    monkeypatch.setattr(scanning, "fit", fit)
     with pytest.raises(EndedError):
         scanning.scanned(job(), reports.append)
     first, last = reports

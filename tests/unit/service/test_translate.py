@@ -1,5 +1,6 @@
 import json
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -50,23 +51,25 @@ def fit_request() -> fitter_request.FitRequest:
 
 def test_a_request_says_the_same_in_both_languages():
     request = fit_request()
-    assert request.image == b"image"
-    assert request.mask == b"mask"
-    assert request.max_pixels == 7
-    assert request.gender is fitter_request.Gender.FEMALE
-    assert request.height_m == 1.65
-    assert request.focal_length_px is None
-    assert request.focal_length_35mm == 35.0
-    assert request.cues is fitter_request.Cues.SE
-    assert request.optimizer is fitter_request.OptimizerKind.SIMPLEX
-    assert request.clothing is fitter_request.Clothing.LOOSE
-    assert request.limb_facing == {"left_forearm": fitter_request.Facing.TOWARD}
+    (view,) = request.views
+    assert view.image == b"image"
+    assert view.mask == b"mask"
+    assert view.kind is None
+    assert request.choices.max_pixels == 7
+    assert request.person.gender is fitter_request.Gender.FEMALE
+    assert request.person.height_m == 1.65
+    assert view.focal_length_px is None
+    assert view.focal_length_35mm == 35.0
+    assert view.cues is fitter_request.Cues.SE
+    assert request.choices.optimizer is fitter_request.OptimizerKind.SIMPLEX
+    assert view.clothing is fitter_request.Clothing.LOOSE
+    assert view.limb_facing == {"left_forearm": fitter_request.Facing.TOWARD}
 
 
 def known(**fields: object) -> dict[str, fitter_request.KnownMeasurement]:
     options = FitOptions.model_validate_json(json.dumps(json.loads(REQUEST) | fields))
     request = translate.fit_request(options, image=b"", mask=None, max_pixels=7)
-    return dict(request.measurements)
+    return dict(request.person.measurements)
 
 
 def test_what_is_known_of_the_person_is_said_by_name_and_place():
@@ -90,7 +93,7 @@ def test_a_result_says_which_measurements_were_given():
 
 
 def test_a_guessed_point_is_occluded_and_an_absent_one_is_left_out():
-    assert fit_request().clicks == {
+    assert fit_request().views[0].clicks == {
         "nose": fitter_request.Click(x=10.0, y=20.0),
         "left_knee": fitter_request.Click(x=30.0, y=40.0, occluded=True),
     }
@@ -101,19 +104,23 @@ def translated(**fields: object) -> fitter_request.FitRequest:
     return translate.fit_request(options, image=b"", mask=None, max_pixels=7)
 
 
+def clicks_of(**fields: object) -> Mapping[str, fitter_request.Click]:
+    return translated(**fields).views[0].clicks
+
+
 def test_a_proposed_point_has_the_spread_of_proposals_of_its_name():
     def sent(**more: object) -> dict[str, object]:
         return {"x": 1.0, "y": 2.0} | more
 
     proposal = {"source": "proposal", "confidence": 0.9, "expected_error_px": 7.5}
-    clicks = translated(
+    clicks = clicks_of(
         points={
             "left_hip": sent(**proposal),
             "left_wrist": sent(source="proposal", visibility=1),
             "right_hip": sent(source="click"),
             "neck": sent(source="proposal"),
         }
-    ).clicks
+    )
     assert clicks["left_hip"].spread_m == spread_m("left_hip", 0.9)
     assert clicks["left_wrist"].spread_m == pytest.approx(
         3.0 * spread_m("left_wrist", 1.0), rel=0.01
@@ -144,18 +151,18 @@ def test_a_detectors_point_binds_less_the_less_sure_it_is(layout, count, elbow):
 
 
 def test_what_the_detector_is_to_do_is_said_in_both_languages():
-    usual = fit_request()
+    (usual,) = fit_request().views
     assert not usual.complete_clicks
     assert usual.slant_hints
     assert usual.segmentation is fitter_request.SegmentationKind.SEEDED_GRABCUT
-    other = translated(complete_points=True, slant_hints=False, segmentation="grabcut")
+    (other,) = translated(complete_points=True, slant_hints=False, segmentation="grabcut").views
     assert other.complete_clicks
     assert not other.slant_hints
     assert other.segmentation is fitter_request.SegmentationKind.GRABCUT
 
 
 def test_degrees_become_radians():
-    light = fit_request().light
+    light = fit_request().views[0].light
     assert light.kind is LightKind.DIRECTIONAL
     assert light.azimuth == pytest.approx(math.pi / 2)
     assert light.elevation == pytest.approx(-math.pi / 4)
@@ -166,10 +173,11 @@ def test_degrees_become_radians():
 def test_what_the_caller_leaves_open_stays_open():
     options = FitOptions.model_validate_json('{"gender": "male", "points": {"nose": [1, 1]}}')
     request = translate.fit_request(options, image=b"", mask=None, max_pixels=1)
-    assert request.height_m is None
-    assert request.focal_length_px is None
-    assert request.light == fitter_request.LightGuess()
-    assert request.limb_facing == {}
+    (view,) = request.views
+    assert request.person.height_m is None
+    assert view.focal_length_px is None
+    assert view.light == fitter_request.LightGuess()
+    assert view.limb_facing == {}
 
 
 def test_every_point_is_a_landmark_of_the_models():
@@ -231,7 +239,8 @@ def result(*, light: Light | None) -> fitter_result.FitResult:
         albedo_rgb=None,
         shape_covariance=None,
     )
-    return fitter_result.FitResult(
+    view = fitter_result.FittedView(
+        kind=None,
         found=fitter_result.PictureFit(
             person=person,
             height_m=1.65,
@@ -240,25 +249,9 @@ def result(*, light: Light | None) -> fitter_result.FitResult:
             posed_vertices=np.zeros((3, 3)),
             silhouette_overlap=0.93,
         ),
-        given=("weight",),
-        optimizer=fitter_request.OptimizerKind.GAUSS_NEWTON,
         camera=camera,
         focal_length_source=FocalLengthSource.ASSUMED,
-        canonical_vertices=np.zeros((3, 3)),
-        energies={"silhouette": 1.5},
-        evaluations=12,
-        stages=(
-            fitter_result.StageBody(
-                name="SE",
-                body=body,
-                posed_vertices=np.zeros((3, 3)),
-                canonical_vertices=np.zeros((3, 3)),
-                energies={"silhouette": 2.5},
-                silhouette_overlap=0.9,
-                measurements=(measurement,),
-            ),
-        ),
-        measurements=(measurement,),
+        findings=(),
         limb_facing=(
             fitter_result.LimbFacing(
                 limb="left_shin",
@@ -270,11 +263,45 @@ def result(*, light: Light | None) -> fitter_result.FitResult:
         ),
         assumptions=(Assumption(quantity="focal_length_35mm", value=50.0, reason="Unknown."),),
         warnings=(FitWarning(code="a-warning", message="Look."),),
-        stage_seconds={"shading": 1.0},
         pictures=fitter_result.Pictures(
             image=np.zeros((48, 64, 3)), trimap=None, segmentation=np.zeros((48, 64), bool)
         ),
     )
+    stage = fitter_result.FitStage(
+        name="SE",
+        bodies=(
+            fitter_result.StageBody(
+                body=body, posed_vertices=np.zeros((3, 3)), silhouette_overlap=0.9
+            ),
+        ),
+        canonical_vertices=np.zeros((3, 3)),
+        energies={"silhouette": 2.5},
+        measurements=(measurement,),
+    )
+    return fitter_result.FitResult(
+        views=(view,),
+        shape=body.shape,
+        shape_covariance=np.eye(2),
+        canonical_vertices=np.zeros((3, 3)),
+        triangles=np.array([[0, 1, 2]]),
+        measurements=(measurement,),
+        given=("weight",),
+        optimizer=fitter_request.OptimizerKind.GAUSS_NEWTON,
+        energies={"silhouette": 1.5},
+        evaluations=12,
+        stages=(stage,),
+        alone=None,
+        assumptions=(Assumption(quantity="height_m", value=1.65, reason="Unknown."),),
+        warnings=(FitWarning(code="of-the-fit", message="Look twice."),),
+        stage_seconds={"shading": 1.0},
+    )
+
+
+def found_otherwise(
+    given: fitter_result.FitResult, found: fitter_result.PictureFit
+) -> fitter_result.FitResult:
+    (view,) = given.views
+    return replace(given, views=(replace(view, found=found),))
 
 
 POINT_LIGHT = Light(kind=LightKind.POINT, azimuth=math.pi / 6, elevation=0.0, distance=2.0)
@@ -303,15 +330,15 @@ def test_a_result_says_the_same_in_both_languages():
     assert translated.outcome_explanation == "The energy stopped decreasing."
     assert translated.stages[0].energies == {"silhouette": 2.5}
     assert translated.limb_facing[0].facing == wire_request.Facing.AWAY
-    assert translated.assumptions[0].value == 50.0
-    assert translated.warnings[0].code == "a-warning"
+    assert [each.value for each in translated.assumptions] == [50.0, 1.65]
+    assert [each.code for each in translated.warnings] == ["a-warning", "of-the-fit"]
 
 
 @pytest.mark.parametrize("verdict", fitter_result.VERDICT_EXPLANATIONS)
 def test_where_a_person_is_contradicted_the_outcome_is_explained_by_it(verdict):
     ended = result(light=None)
     found = replace(ended.found, verdict=verdict, contradictions=("It is a circle.",))
-    translated = translate.fit_result(replace(ended, found=found), part_names=PARTS)
+    translated = translate.fit_result(found_otherwise(ended, found), part_names=PARTS)
     assert translated.verdict == verdict.value
     explained = fitter_result.VERDICT_EXPLANATIONS[verdict]
     assert translated.outcome_explanation == f"{explained} It is a circle."
@@ -327,8 +354,8 @@ def test_results_of_earlier_versions_have_no_verdict_and_are_read():
 
 
 def test_who_insists_says_so_in_both_languages():
-    assert not fit_request().force
-    assert translated(force=True).force
+    assert not fit_request().choices.force
+    assert translated(force=True).choices.force
 
 
 def test_the_tilt_is_told_with_both_cameras_and_the_stance():
@@ -340,7 +367,7 @@ def test_the_tilt_is_told_with_both_cameras_and_the_stance():
     )
     fitted = result(light=None)
     found = replace(fitted.found, person=replace(fitted.person, tilt=tilt))
-    translated = translate.fit_result(replace(fitted, found=found), part_names=PARTS)
+    translated = translate.fit_result(found_otherwise(fitted, found), part_names=PARTS)
     for camera in (translated.camera, translated.image_camera):
         assert camera.pitch_deg == pytest.approx(-8.0)
         assert camera.pitch_standard_error_deg == pytest.approx(2.0)
