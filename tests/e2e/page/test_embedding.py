@@ -65,7 +65,7 @@ def test_measurements_of_pictures_that_the_site_gave_arrive_there(
         frame.get_by_role("button", name="Measure", exact=True).click()
         expect(page.locator("#told")).to_have_text(WAIST, timeout=FIT_WITHIN_MS)
         expect(frame.locator('[data-fit][aria-busy="false"]')).to_be_attached()
-        expect(frame.locator('[data-shows="overlay_1"]')).to_be_visible()
+        expect(frame.locator('.body-canvas[data-shows^="picture clay"]')).to_be_visible()
         assert serious_findings(own_frame(page), axe) == []
         fits_into_its_frame(page)
         scan = embedding.service.get("/v1/scans").raise_for_status().json()["scans"][0]

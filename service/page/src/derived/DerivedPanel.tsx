@@ -38,7 +38,7 @@ export function DerivedPanel({ parent, hasLight, onStage, onShow }: Props) {
         name="derivation"
         legend={derived.what}
         quiet
-        options={OFFERED.filter((each) => parent.kind === "fit" || each !== "combined").map((value) => ({ value, label: kindLabel(value) }))}
+        options={OFFERED.map((value) => ({ value, label: kindLabel(value) }))}
         value={kind}
         onChange={setKind}
       />
