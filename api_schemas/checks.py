@@ -11,13 +11,10 @@ from api_schemas.lens import Lens
 from api_schemas.points import NamedPoint, Points, PointsFormat
 from api_schemas.proposals import PictureSize
 from api_schemas.requests import Gender
-from api_schemas.results import Assumption, FitWarning
+from api_schemas.results import Assumption, Box, Finding, FitWarning
 from fitter.vocabulary.choices import ViewKind
-from fitter.vocabulary.outcomes import SeenFrom, Severity
+from fitter.vocabulary.outcomes import SeenFrom
 from fitter.vocabulary.points import PointName
-
-Box = tuple[float, float, float, float]
-
 
 _POINTS_DESCRIPTION: Final = (
     "Points that are known, pixels of the picture as a browser shows it. They say who of several "
@@ -50,21 +47,6 @@ class CheckOfImage(CheckRequest):
     """The same of a picture that was uploaded before."""
 
     image_id: ImageId
-
-
-class Finding(WireModel):
-    """Something that is wrong with the picture.
-
-    ``reason`` has the figure that was measured, ``remedy`` says what to do; ``points`` and ``box``
-    (left, top, right, bottom) say where it is, if at one place.
-    """
-
-    code: str
-    severity: Severity
-    reason: str
-    remedy: str
-    points: tuple[PointName, ...]
-    box: Box | None
 
 
 class NotChecked(WireModel):

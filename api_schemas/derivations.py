@@ -9,7 +9,7 @@ from pydantic import ConfigDict, Discriminator, Field, RootModel
 
 from api_schemas.base import WireModel
 from api_schemas.derivation_kinds import AnyDerivationOptions, AnyDerivationResult, DerivationKind
-from api_schemas.jobs import JobStanding
+from api_schemas.jobs import JobStanding, ResourceLinks
 
 
 def _kind(value: Any) -> str | None:
@@ -44,17 +44,10 @@ class DerivationResult(RootModel[Annotated[AnyDerivationResult, BY_KIND]]):
     model_config = ConfigDict(frozen=True, strict=True)
 
 
-class DerivationLinks(WireModel):
+class DerivationLinks(ResourceLinks):
     """Paths of a derivation's resources below this service's root; absent ones are not (yet)."""
 
-    self: str
     fit: str = Field(description="The fit it is derived from.")
-    events: str
-    request: str = Field(description="What was asked for.")
-    cancel: str | None = Field(default=None, description="While the job has not ended.")
-    retry: str | None = Field(default=None, description="Once it has ended.")
-    result: str | None = None
-    artifacts: dict[str, str] = Field(default_factory=dict[str, str])
 
 
 class Derivation(JobStanding):

@@ -21,21 +21,26 @@ class JobState(StrEnum):
     TIMED_OUT = "timed_out"
 
 
-class JobLinks(WireModel):
+class ResourceLinks(WireModel):
     """Paths of a job's resources below this service's root; absent ones do not exist (yet)."""
 
     self: str
     events: str
-    image: str = Field(description="The picture it was made of.")
-    mask: str | None = Field(default=None, description="The mask that was sent, if one was.")
     request: str = Field(description="What was asked for.")
-    derivations: str | None = Field(
-        default=None, description="What was derived from the fit; once it has succeeded."
-    )
     cancel: str | None = Field(default=None, description="While the job has not ended.")
     retry: str | None = Field(default=None, description="Once the job has ended.")
     result: str | None = None
     artifacts: dict[str, str] = Field(default_factory=dict[str, str])
+
+
+class JobLinks(ResourceLinks):
+    """Paths of a fit's resources below this service's root; absent ones do not exist (yet)."""
+
+    image: str = Field(description="The picture it was made of.")
+    mask: str | None = Field(default=None, description="The mask that was sent, if one was.")
+    derivations: str | None = Field(
+        default=None, description="What was derived from the fit; once it has succeeded."
+    )
 
 
 class WebhookState(StrEnum):

@@ -22,6 +22,7 @@ from fitter.vocabulary.choices import (
     OptimizerKind,
     SegmentationKind,
     SurroundingsKind,
+    ViewKind,
 )
 from fitter.vocabulary.points import PointName
 
@@ -84,11 +85,7 @@ class PictureFacts(Lens):
     limb_facing: dict[Limb, Facing] = Field(default_factory=dict[Limb, Facing])
 
 
-class Subject(PictureFacts, Person):
-    """Who is in the picture, and through which lens it was taken."""
-
-
-class SubjectOptions(Subject):
+class SubjectOptions(PictureFacts, Person):
     """Who is in the picture, where the joints are, and through which lens it was taken.
 
     The body has the height, the weight and the measurements that are given. ``height_m`` left out
@@ -148,12 +145,27 @@ Force = Annotated[
 ]
 
 
-class FitChoices(PictureChoices, Subject):
-    """The subject, and what to do."""
+class PersonChoices(Person):
+    """Who is in the pictures, and what to do."""
 
     cues: Cues = Cues.SES
     optimizer: OptimizerKind = OptimizerKind.GAUSS_NEWTON
     force: Force = False
+
+
+class FitChoices(PictureChoices, PictureFacts, PersonChoices):
+    """Who is in the picture, how it is read, and what to do."""
+
+    # What is stored for a worker of an earlier version says nothing that it does not know.
+    view: ViewKind | None = Field(
+        default=None,
+        exclude_if=lambda view: view is None,
+        description=(
+            "From where the picture shows the person, if it was taken to be measured: who is so "
+            "pictured stands upright and still, and `findings` of the result say what is wrong "
+            "with the picture. Nothing is presumed of other pictures, where it is left out."
+        ),
+    )
 
 
 class FitOptions(FitChoices, SubjectOptions):

@@ -4,9 +4,20 @@ from pydantic import Field
 
 from api_schemas.base import WireModel
 from api_schemas.requests import Cues, Facing, Gender, LightKind, OptimizerKind
-from fitter.vocabulary.outcomes import FacingSource, FocalLengthSource, Outcome, StanceKind, Verdict
+from fitter.vocabulary.choices import ViewKind
+from fitter.vocabulary.outcomes import (
+    FacingSource,
+    FocalLengthSource,
+    Outcome,
+    Severity,
+    StanceKind,
+    Verdict,
+)
+from fitter.vocabulary.points import PointName
 
 Vector = tuple[float, float, float]
+Box = tuple[float, float, float, float]
+"""Left, top, right and bottom, pixels of the picture as a browser shows it."""
 
 
 class CameraResult(WireModel):
@@ -124,14 +135,23 @@ class StageMeasurement(WireModel):
     source: str = Field(json_schema_extra={"deprecated": True})
 
 
-class Stage(WireModel):
-    """The body at the end of a stage of the fit."""
+class StageResult(WireModel):
+    """What is the same in all pictures at the end of a stage."""
 
     name: str
     energies: dict[str, float]
+    measurements: tuple[StageMeasurement, ...]
+
+
+class StageBody(WireModel):
+    """The body in a picture at the end of a stage."""
+
     silhouette_overlap: float
     body: BodyResult
-    measurements: tuple[StageMeasurement, ...]
+
+
+class Stage(StageBody, StageResult):
+    """The body at the end of a stage of the fit."""
 
 
 class LimbFacing(WireModel):
@@ -182,42 +202,78 @@ class PictureResult(WireModel):
     silhouette_overlap: float = Field(description="Intersection over union of body and silhouette.")
 
 
-class FitResult(WireModel):
-    """The whole result of a fit.
+class Finding(WireModel):
+    """Something that is wrong with the picture.
 
-    ``camera`` belongs to the working picture the fit was made on, ``image_camera`` to the upright
-    original. ``light`` and ``reflectance`` are null for SE, which does not estimate them.
+    ``reason`` has the figure that was measured, ``remedy`` says what to do; ``points`` and ``box``
+    (left, top, right, bottom) say where it is, if at one place.
     """
+
+    code: str
+    severity: Severity
+    reason: str
+    remedy: str
+    points: tuple[PointName, ...]
+    box: Box | None
+
+
+class ViewResult(PictureResult):
+    """What a fit finds in one picture."""
+
+    outcome_explanation: str
+    verdict: Verdict
+    camera: FittedCameraResult
+    focal_length_source: FocalLengthSource
+    stance: StanceResult | None
+    limb_facing: tuple[LimbFacing, ...]
+    findings: tuple[Finding, ...] = Field(
+        description="What `POST /v1/checks` says of the picture; it was measured all the same."
+    )
+
+
+class PersonResult(WireModel):
+    """What a fit finds out about the person in its pictures."""
 
     gender: Gender
     height_m: float
     cues: Cues
     optimizer: OptimizerKind
-    outcome: Outcome
-    outcome_explanation: str
-    # Earlier versions wrote none.
-    verdict: Verdict = Verdict.PLAUSIBLE
-    camera: FittedCameraResult
-    image_camera: FittedCameraResult
-    focal_length_source: FocalLengthSource
-    body: BodyResult
-    stance: StanceResult | None = Field(
-        default=None, description="Null in results that were made before it was estimated."
-    )
-    light: LightResult | None
-    reflectance: ReflectanceResult | None
     energies: dict[str, float]
     evaluations: int
-    silhouette_overlap: float = Field(description="Intersection over union of body and silhouette.")
     measurements: tuple[Measurement, ...] = Field(
         description=(
             "Empty, as in the stages, where the verdict is `implausible` or `no_person` and the "
             "request did not `force` them."
         )
     )
-    stages: tuple[Stage, ...]
-    limb_facing: tuple[LimbFacing, ...]
     assumptions: tuple[Assumption, ...]
     warnings: tuple[FitWarning, ...]
     stage_seconds: dict[str, float]
     artifacts: tuple[Artifact, ...]
+
+
+class FitResult(ViewResult, PersonResult):
+    """The whole result of a fit.
+
+    ``camera`` belongs to the working picture the fit was made on, ``image_camera`` to the upright
+    original. ``light`` and ``reflectance`` are null for SE, which does not estimate them.
+    """
+
+    # What has a default was not written by some earlier version; and of the last two an earlier
+    # version's worker, which refuses what it does not know, is told only what is there to tell.
+    verdict: Verdict = Verdict.PLAUSIBLE
+    stance: StanceResult | None = Field(
+        default=None, description="Null in results that were made before it was estimated."
+    )
+    view: ViewKind | None = Field(
+        default=None,
+        exclude_if=lambda view: view is None,
+        description="From where the request said that the picture shows the person.",
+    )
+    findings: tuple[Finding, ...] = Field(
+        default=(),
+        exclude_if=lambda findings: not findings,
+        description="What `POST /v1/checks` says of a picture whose `view` was said; it was "
+        "measured all the same.",
+    )
+    stages: tuple[Stage, ...]

@@ -9,37 +9,31 @@ from uuid import UUID
 from pydantic import AfterValidator, Field
 
 from api_schemas.base import WireModel, refusal
-from api_schemas.checks import Finding
 from api_schemas.derivation_kinds import DerivationKind
 from api_schemas.derivations import DerivationEventType
 from api_schemas.images import ImageId
-from api_schemas.jobs import JobStanding
+from api_schemas.jobs import JobStanding, ResourceLinks
 from api_schemas.labels import LABEL_OF_JOB, Label
 from api_schemas.points import AUTO, Point, Points
 from api_schemas.requests import (
     AskedPicture,
     AskedPoints,
-    Cues,
-    FitOptions,
-    Force,
-    Gender,
-    Person,
+    PersonChoices,
     PictureChoices,
     PictureFacts,
 )
 from api_schemas.results import (
-    Artifact,
     Assumption,
-    FittedCameraResult,
     FitWarning,
-    FocalLengthSource,
-    Measurement,
-    PictureResult,
-    StanceResult,
-    Verdict,
+    LimbFacing,
+    PersonResult,
+    StageBody,
+    StageResult,
+    ViewResult,
 )
 from api_schemas.webhooks import WebhookTarget
-from fitter.vocabulary.choices import ViewKind
+from fitter.vocabulary.choices import OptimizerKind, ViewKind
+from fitter.vocabulary.outcomes import Verdict
 from fitter.vocabulary.points import PointName
 
 LEAST_VIEWS: Final = 2
@@ -48,13 +42,6 @@ MOST_VIEWS: Final = 6
 
 SEEN_ONCE: Final = (ViewKind.FRONT, ViewKind.BACK)
 """Views of which a scan has one at most: people have two sides, but one front."""
-
-
-class ScanChoices(Person):
-    """The person, of whom all pictures are, and what to do."""
-
-    cues: Cues = Cues.SES
-    force: Force = False
 
 
 class View(WireModel):
@@ -90,23 +77,20 @@ class ScanViewOfImage(ScanViewRequest):
     )
 
 
-class ScanOptions(ScanChoices):
+class ScanOptions(PersonChoices):
     """One scan, as it was understood."""
 
+    # What is stored for a worker of an earlier version says nothing that it does not know.
+    optimizer: OptimizerKind = Field(
+        default=OptimizerKind.GAUSS_NEWTON,
+        exclude_if=lambda optimizer: optimizer is OptimizerKind.GAUSS_NEWTON,
+    )
     views: tuple[ScanViewOptions, ...]
 
     @property
     def pictures(self) -> tuple[ScanViewOptions, ...]:
         """What is asked of each of its pictures."""
         return self.views
-
-    def of_view(self, number: int) -> FitOptions:
-        """What is asked of one of the pictures, as of a fit."""
-        view = self.views[number]
-        values: dict[str, Any] = {name: getattr(self, name) for name in ScanChoices.model_fields}
-        values |= {name: getattr(view, name) for name in ScanViewOptions.model_fields}
-        del values["view"]
-        return FitOptions(**values)
 
 
 def _usable_together(views: tuple[ScanViewRequest, ...]) -> tuple[ScanViewRequest, ...]:
@@ -139,7 +123,7 @@ _VIEWS: Final[dict[str, Any]] = {
 }
 
 
-class ScanRequest(ScanChoices):
+class ScanRequest(PersonChoices):
     """The JSON part ``request`` of a submission; `image_0` is the picture of its first view."""
 
     views: Annotated[tuple[ScanViewRequest, ...], AfterValidator(_usable_together), Field(**_VIEWS)]
@@ -159,7 +143,7 @@ class ScanRequest(ScanChoices):
         points
             Those of every picture, by their names.
         """
-        values = {name: getattr(self, name) for name in ScanChoices.model_fields}
+        values = {name: getattr(self, name) for name in PersonChoices.model_fields}
         views = tuple(view.options(each) for view, each in zip(self.views, points, strict=True))
         return ScanOptions.model_construct(**values, views=views)
 
@@ -184,20 +168,13 @@ class ScanViewLinks(WireModel):
     mask: str | None = Field(default=None, description="The mask, if one was sent.")
 
 
-class ScanLinks(WireModel):
+class ScanLinks(ResourceLinks):
     """Paths of a scan's resources below this service's root; absent ones do not exist (yet)."""
 
-    self: str
-    events: str
     views: tuple[ScanViewLinks, ...]
-    request: str = Field(description="What was asked for.")
     derivations: str | None = Field(
         default=None, description="What was derived from the scan; once it has succeeded."
     )
-    cancel: str | None = Field(default=None, description="While the job has not ended.")
-    retry: str | None = Field(default=None, description="Once the job has ended.")
-    result: str | None = None
-    artifacts: dict[str, str] = Field(default_factory=dict[str, str])
 
 
 class Scan(JobStanding):
@@ -220,48 +197,48 @@ class ScanPage(WireModel):
     next: str | None
 
 
-class ScannedView(PictureResult):
+class ScannedView(ViewResult):
     """The person in one of the pictures.
 
     ``camera`` belongs to the working picture, ``image_camera`` to the upright original. The
-    picture's files are ``body_posed_N.glb``, ``overlay_N.png`` and ``segmentation_N.png`` with
-    ``number`` for N.
+    picture's files have ``number`` in their names, ``body_posed_N.glb``, ``overlay_N.png`` and so
+    on, with ``number`` for N.
     """
 
     number: int = Field(ge=0, description="Its place in the request, from 0 on.")
     view: ViewKind
-    outcome_explanation: str
-    verdict: Verdict
-    camera: FittedCameraResult
-    focal_length_source: FocalLengthSource
-    stance: StanceResult | None
-    findings: tuple[Finding, ...] = Field(
-        description="What `POST /v1/checks` says of the picture; it was measured all the same."
+    limb_facing: tuple[LimbFacing, ...] = Field(
+        default=(), description="Empty in results of earlier versions."
     )
     assumptions: tuple[Assumption, ...]
     warnings: tuple[FitWarning, ...]
 
 
-class ScanResult(WireModel):
+class ScanStage(StageResult):
+    """One person at the end of a stage of a scan, and how they then stand in each picture."""
+
+    views: tuple[StageBody, ...]
+
+
+class ScanResult(PersonResult):
     """``result.json`` of a scan: one body, and how it stands in each picture.
 
     ``assumptions`` and ``warnings`` are of the person and of the scan as a whole; those of a
-    picture are with it in ``views``.
+    picture are with it in ``views``. Earlier versions wrote neither ``optimizer`` nor ``energies``,
+    ``evaluations``, ``stages`` and ``stage_seconds``.
     """
 
-    gender: Gender
-    height_m: float
-    cues: Cues
+    optimizer: OptimizerKind = OptimizerKind.GAUSS_NEWTON
+    energies: dict[str, float] = Field(default_factory=dict[str, float])
+    evaluations: int = Field(
+        default=0, description="Of each picture by itself and of all together; 0 is not known."
+    )
+    stages: tuple[ScanStage, ...] = ()
+    stage_seconds: dict[str, float] = Field(default_factory=dict[str, float])
     verdict: Verdict = Field(description="The worst of the views'.")
     outcome_explanation: str = Field(description="Of the view whose verdict is the worst.")
     shape: tuple[float, ...]
     views: tuple[ScannedView, ...]
-    measurements: tuple[Measurement, ...] = Field(
-        description=(
-            "Empty where the verdict is `implausible` or `no_person` and the request did not "
-            "`force` them."
-        )
-    )
     agreement: float = Field(
         ge=0.0,
         le=1.0,
@@ -270,9 +247,6 @@ class ScanResult(WireModel):
             "these do; below 0.1 a warning names the view that differs most."
         ),
     )
-    assumptions: tuple[Assumption, ...]
-    warnings: tuple[FitWarning, ...]
-    artifacts: tuple[Artifact, ...]
 
 
 class ScanEventType(StrEnum):
@@ -296,17 +270,10 @@ class ScanEvent(WireModel):
     data: Scan
 
 
-class ScanDerivationLinks(WireModel):
+class ScanDerivationLinks(ResourceLinks):
     """Paths of a derivation's resources below this service's root; absent ones are not (yet)."""
 
-    self: str
     scan: str = Field(description="The scan it is derived from.")
-    events: str
-    request: str = Field(description="What was asked for.")
-    cancel: str | None = Field(default=None, description="While the job has not ended.")
-    retry: str | None = Field(default=None, description="Once it has ended.")
-    result: str | None = None
-    artifacts: dict[str, str] = Field(default_factory=dict[str, str])
 
 
 class ScanDerivation(JobStanding):

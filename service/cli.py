@@ -213,6 +213,7 @@ def _fit(parsed: argparse.Namespace) -> int:
                 "focal_length_35mm",
                 "cues",
                 "optimizer",
+                "view",
             )
             | {name: True for name in ("complete_points", "force") if getattr(parsed, name)},
         )
@@ -232,7 +233,7 @@ def _scan(parsed: argparse.Namespace) -> int:
             models=parsed.models,
             output=parsed.output,
             formats=parsed.formats,
-            overrides=_given(parsed, "gender", "height_m", "weight_kg", "cues")
+            overrides=_given(parsed, "gender", "height_m", "weight_kg", "cues", "optimizer")
             | ({"force": True} if parsed.force else {}),
             of_all_views=_given(parsed, "focal_length_35mm"),
         )

@@ -42,6 +42,20 @@ def submission(request: FitRequest) -> Submission:
     return Submission(image=view.image, request=json.dumps(options))
 
 
+def scan_files(sent: Submission) -> dict[str, tuple[str, bytes | str, str]]:
+    """The parts of a scan of one picture seen twice, first from the front."""
+    asked = json.loads(sent.request)
+    seen = {name: asked.pop(name) for name in ("points", "focal_length_px") if name in asked}
+    views = [{"view": kind, **seen} for kind in ("front", "other")]
+    picture = sent.files["image"]
+    request = json.dumps(asked | {"views": views})
+    return {
+        "image_0": picture,
+        "image_1": picture,
+        "request": ("request.json", request, "application/json"),
+    }
+
+
 def small_submissions(count: int) -> list[Submission]:
     """Real fits that cost little: small pictures of the suite, by silhouette and edges alone."""
     from tests.benchmarks.requests import suite_requests

@@ -7,7 +7,7 @@ from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.jobs import JobState
 from api_schemas.problems import FieldProblem
 from service.api.artifacts import no_result
-from service.api.derivation_kinds import KINDS, needs_of
+from service.api.derivation_kinds import needs_of
 from service.api.job_inputs import Copy, File, Inputs
 from service.api.problems import ProblemError
 from service.engine.port import SCAN, JobExpiredError, JobRecord, StoredBlob, TenantJobs
@@ -17,6 +17,7 @@ from service.jobs.inputs import (
     PERSON,
     REQUEST,
     of_other,
+    pictures_of,
 )
 from service.submissions.refusal import RefusedError, refused
 
@@ -31,17 +32,15 @@ def derivation_inputs(
     Raises
     ------
     ProblemError, RefusedError
-        If that has no result, the kind is not made of scans, or another one that is named is not
-        the caller's or has not succeeded.
+        If that has no result, or another one that is named is not the caller's or has not
+        succeeded.
     """
     if parent.state is not JobState.SUCCEEDED:
         raise ProblemError(no_result(parent))
-    if parent.root == SCAN:
-        _require_of_scan(options)
     needs = needs_of(options)
     copies = _copies_of(parent, needs.of_fit)
     if needs.other_fits:
-        _require(_always_kept(needs.of_others), copies, parent, field="kind")
+        _require(needs.of_others, copies, parent, field="kind")
     for index, (field, other) in enumerate(needs.other_fits.items()):
         of_another = _of_another(jobs, other, needs.of_others, field=field, than=parent)
         copies |= {of_other(name, index): copy for name, copy in of_another.items()}
@@ -54,20 +53,6 @@ def derivation_inputs(
     )
 
 
-def _require_of_scan(options: AnyDerivationOptions) -> None:
-    if KINDS[options.kind].of_scans:
-        return
-    there_are = ", ".join(kind for kind, each in KINDS.items() if each.of_scans)
-    raise refused(
-        FieldProblem(
-            field="kind",
-            code="not-of-scans",
-            reason=f"Nothing of kind {options.kind} is made of a scan.",
-            remedy=f"Of a scan there are: {there_are}.",
-        )
-    )
-
-
 def _copies_of(parent: JobRecord, needed: Collection[str]) -> dict[str, Copy]:
     """Copies of those inputs and files that a fit has; of a scan its first picture's."""
     kept = dict(parent.inputs) | {REQUEST: parent.options}
@@ -76,7 +61,12 @@ def _copies_of(parent: JobRecord, needed: Collection[str]) -> dict[str, Copy]:
         for artifact in parent.artifacts
     }
     if parent.root == SCAN:
-        kept |= {name: kept[first] for name, first in OF_FIRST_VIEW.items() if first in kept}
+        # Who needs every picture needs none that stands for them.
+        kept |= {
+            name: kept[first]
+            for name, first in OF_FIRST_VIEW.items()
+            if first in kept and first not in needed
+        }
     return {name: Copy(scope=parent.id, blob=kept[name]) for name in needed if name in kept}
 
 
@@ -94,20 +84,17 @@ def _of_another(
     if record is None or record.state is not JobState.SUCCEEDED:
         raise _unusable(field, f"{named} has not succeeded here.", than.root)
     copies = _copies_of(record, needed)
-    _require(_always_kept(needed), copies, record, field=field)
+    _require(needed, copies, record, field=field)
     return copies
 
 
-def _always_kept(needed: Collection[str]) -> tuple[str, ...]:
-    """What a fit is of no use without, if it is needed at all."""
-    return tuple(name for name in (PERSON, IMAGE) if name in needed)
-
-
 def _require(
-    names: Collection[str], copies: Mapping[str, Copy], of: JobRecord, *, field: str
+    needed: Collection[str], copies: Mapping[str, Copy], of: JobRecord, *, field: str
 ) -> None:
-    """Refuse a fit made by an earlier version, which kept less."""
-    missing = [name for name in names if name not in copies]
+    """Refuse a fit made by an earlier version, which kept less than is of any use."""
+    missing = [PERSON] if PERSON in needed and PERSON not in copies else []
+    if IMAGE in needed and not pictures_of(copies):
+        missing.append(IMAGE)
     if missing:
         raise refused(
             FieldProblem(

@@ -55,8 +55,8 @@ from service.api.operation_examples import (
     SCAN_NOTICE,
     Examples,
 )
+from service.api.operation_links import LINKS
 from service.api.problems import documented
-from service.representation.links import LINKS
 
 _ANSWERED_EVERYWHERE = {
     str(status): answer

@@ -9,6 +9,7 @@ from typing import Any, Final
 
 from service.api.derivation_kinds import KINDS
 from service.api.examples import derivations, estimates, jobs, results, scans, whole_service
+from service.api.job_resources import FITS, OF_FITS, OF_SCANS, SCANS, JobResource
 
 Examples = Mapping[str, Any]
 """Values by their names."""
@@ -16,13 +17,6 @@ Examples = Mapping[str, Any]
 _DERIVATIONS: Final[Examples] = {
     name: request for kind in KINDS.values() for name, request in kind.requests.items()
 } | {"told-of-its-end": derivations.TOLD_OF_ITS_END}
-
-_OF_SCANS: Final[Examples] = {
-    name: request
-    for kind in KINDS.values()
-    if kind.of_scans
-    for name, request in kind.requests.items()
-}
 
 _SHOWN: Final = ("report", "caricature", "pose", "combined", "figure", "texture", "animation")
 """The order of the first results in the document; those of other kinds follow."""
@@ -36,56 +30,99 @@ REQUESTS: Final[Mapping[str, Examples]] = {
     "derive": _DERIVATIONS,
     "submit_scan": scans.SUBMISSIONS,
     "make_token": {"for-one-customer": {"jobs": 2, "label": "customer-4711"}},
-    "derive_of_scan": _OF_SCANS,
+    "derive_of_scan": _DERIVATIONS,
     "initial_pose": estimates.INITIAL_POSE_REQUESTS,
     "estimate_body": estimates.BODY_REQUESTS,
     "propose_points": estimates.POINTS_REQUESTS,
     "check_capture": estimates.CHECK_REQUESTS,
 }
 
+
+def _of_jobs(
+    of: JobResource,
+    *,
+    accepted: Examples,
+    ended: Examples,
+    under_way: Examples,
+    page: Examples,
+    canceled: Any,
+    stopping: Any,
+    events: Examples,
+    request: Examples,
+    results: Examples,
+) -> dict[str, Mapping[int, Examples]]:
+    """Answers about fits, about scans or about what is derived from one of them."""
+    return {
+        of.operations[operation]: answers
+        for operation, answers in {
+            "submit": {200: ended, 202: accepted},
+            "retry": {200: ended, 202: accepted},
+            "list": {200: page},
+            "get": {200: {**accepted, **under_way, **ended}},
+            "cancel": {200: {"canceled": canceled}, 202: {"stopping": stopping}},
+            "follow": {200: events},
+            "request": {200: request},
+            "result": {200: results},
+            "artifact": {200: {"result.json": next(iter(results.values()))}},
+        }.items()
+    }
+
+
+_FITS: Final = _of_jobs(
+    FITS,
+    accepted=jobs.ACCEPTED,
+    ended=jobs.ENDED,
+    under_way=jobs.RUNNING,
+    page={"first-page": jobs.PAGE},
+    canceled=jobs.CANCELED,
+    stopping=jobs.STOPPING,
+    events={"short-fit": jobs.EVENTS},
+    request={"as-understood": jobs.OPTIONS},
+    results={"man-by-point-light": results.RESULT},
+)
+_SCANS: Final = _of_jobs(
+    SCANS,
+    accepted=scans.ACCEPTED,
+    ended=scans.ENDED,
+    under_way=scans.UNDER_WAY,
+    page={"first-page": scans.PAGE},
+    canceled=scans.CANCELED,
+    stopping=scans.STOPPING,
+    events={"short-scan": scans.EVENTS},
+    request={"as-understood": scans.OPTIONS},
+    results={"front-and-side": scans.RESULT},
+)
+_DERIVATIONS_OF_FITS: Final = _of_jobs(
+    OF_FITS,
+    accepted=derivations.ACCEPTED,
+    ended=derivations.ENDED,
+    under_way={},
+    page={"only-page": derivations.PAGE},
+    canceled=derivations.CANCELED,
+    stopping=derivations.STOPPING,
+    events={"report": jobs.EVENTS},
+    request=derivations.UNDERSTOOD,
+    results=_DERIVED,
+)
+_DERIVATIONS_OF_SCANS: Final = _of_jobs(
+    OF_SCANS,
+    accepted=scans.DERIVATION_ACCEPTED,
+    ended=scans.DERIVATION_ENDED,
+    under_way={},
+    page={"only-page": scans.DERIVATION_PAGE},
+    canceled=scans.DERIVATION_CANCELED,
+    stopping=scans.DERIVATION_STOPPING,
+    events={"caricature": jobs.EVENTS},
+    request=derivations.UNDERSTOOD,
+    results={"caricature": _DERIVED["caricature"]},
+)
+
 ANSWERS: Final[Mapping[str, Mapping[int, Examples]]] = {
-    "submit": {200: jobs.ENDED, 202: jobs.ACCEPTED},
-    "retry": {200: jobs.ENDED, 202: jobs.ACCEPTED},
-    "list_fits": {200: {"first-page": jobs.PAGE}},
-    "get_fit": {200: jobs.ACCEPTED | jobs.RUNNING | jobs.ENDED},
-    "cancel": {200: {"canceled": jobs.CANCELED}, 202: {"stopping": jobs.STOPPING}},
-    "follow": {200: {"short-fit": jobs.EVENTS}},
-    "fit_request": {200: {"as-understood": jobs.OPTIONS}},
-    "result": {200: {"man-by-point-light": results.RESULT}},
-    "artifact": {200: {"result.json": results.RESULT}},
-    "derive": {200: derivations.ENDED, 202: derivations.ACCEPTED},
-    "retry_derivation": {200: derivations.ENDED, 202: derivations.ACCEPTED},
-    "list_derivations": {200: {"only-page": derivations.PAGE}},
-    "get_derivation": {200: derivations.ACCEPTED | derivations.ENDED},
-    "cancel_derivation": {
-        200: {"canceled": derivations.CANCELED},
-        202: {"stopping": derivations.STOPPING},
-    },
-    "follow_derivation": {200: {"report": jobs.EVENTS}},
-    "derivation_request": {200: derivations.UNDERSTOOD},
-    "derivation_result": {200: _DERIVED},
-    "derivation_artifact": {200: {"result.json": _DERIVED["report"]}},
-    "submit_scan": {200: scans.ENDED, 202: scans.ACCEPTED, 422: scans.REFUSED},
-    "retry_scan": {200: scans.ENDED, 202: scans.ACCEPTED},
-    "list_scans": {200: {"first-page": scans.PAGE}},
-    "get_scan": {200: scans.ACCEPTED | scans.UNDER_WAY | scans.ENDED},
-    "cancel_scan": {200: {"canceled": scans.CANCELED}, 202: {"stopping": scans.STOPPING}},
-    "follow_scan": {200: {"short-scan": scans.EVENTS}},
-    "scan_request": {200: {"as-understood": scans.OPTIONS}},
-    "scan_result": {200: {"front-and-side": scans.RESULT}},
-    "scan_artifact": {200: {"result.json": scans.RESULT}},
-    "derive_of_scan": {200: scans.DERIVATION_ENDED, 202: scans.DERIVATION_ACCEPTED},
-    "retry_derivation_of_scan": {200: scans.DERIVATION_ENDED, 202: scans.DERIVATION_ACCEPTED},
-    "list_derivations_of_scan": {200: {"only-page": scans.DERIVATION_PAGE}},
-    "get_derivation_of_scan": {200: scans.DERIVATION_ACCEPTED | scans.DERIVATION_ENDED},
-    "cancel_derivation_of_scan": {
-        200: {"canceled": scans.DERIVATION_CANCELED},
-        202: {"stopping": scans.DERIVATION_STOPPING},
-    },
-    "follow_derivation_of_scan": {200: {"caricature": jobs.EVENTS}},
-    "derivation_request_of_scan": {200: _OF_SCANS},
-    "derivation_result_of_scan": {200: {"caricature": _DERIVED["caricature"]}},
-    "derivation_artifact_of_scan": {200: {"result.json": _DERIVED["caricature"]}},
+    **_FITS,
+    **_SCANS,
+    **_DERIVATIONS_OF_FITS,
+    **_DERIVATIONS_OF_SCANS,
+    "submit_scan": {**_SCANS["submit_scan"], 422: scans.REFUSED},
     "make_token": {201: {"for-a-quarter-of-an-hour": jobs.TOKEN}},
     "list_tokens": {200: {"only-page": jobs.TOKENS}},
     "get_token": {200: {"one-job-left": jobs.STANDING_TOKEN}},

@@ -12,23 +12,15 @@ from rich.console import Console
 from api_schemas.derivation_kinds.caricature import CaricatureOptions
 from api_schemas.points import AUTO
 from api_schemas.problems import Problem, problem
-from api_schemas.requests import FitOptions
-from service.commands.local_work import UNUSABLE_INPUT, told, write_files
-from service.commands.terminal import print_result, stage_bars
+from api_schemas.requests import FitOptions, FitRequest
+from service.commands.local_work import UNUSABLE_INPUT, fitted, told, write_result
 from service.demo_data.sample import load_sample
-from service.jobs.inputs import PERSON
-from service.process.caches import settle_folders
+from service.jobs.inputs import PERSON, SentPicture
 from service.settings import Settings
 from service.submissions.refusal import RefusedError
-from service.submissions.submission import check_fit
-from service.worker.artifacts import with_result_document
+from service.submissions.validation import parsed
 from service.worker.kernel_cache import kept_kernels
-from service.worker.pipeline_port import (
-    DerivationInput,
-    PipelineInput,
-    PipelineOutput,
-    load_pipeline,
-)
+from service.worker.pipeline_port import DerivationInput, PipelineOutput, load_pipeline
 
 PIPELINE: Final = "service.worker.pipeline"
 COMPILING: Final = (
@@ -89,29 +81,18 @@ def values_from_file(text: str) -> dict[str, Any]:
 def fit_locally(arguments: FitArguments, *, pipeline: str = PIPELINE) -> int:
     """Fit, write all files to the output folder, print the measurements; return the exit status."""
     console = Console()
-    output = told(console, lambda: _fit_arguments(console, arguments, pipeline=pipeline))
+    output = told(console, lambda: _fit(console, arguments, pipeline=pipeline))
     if output is None:
         return UNUSABLE_INPUT
-    count = write_files(
-        arguments.output,
-        with_result_document(output.result, output.artifacts),
-        output.result.measurements,
-        formats=arguments.formats,
-    )
-    print_result(console, output.result)
-    console.print(f"{count} files lie in {arguments.output}.", highlight=False)
+    write_result(console, output, arguments.output, formats=arguments.formats)
     return 0
 
 
-def _fit_arguments(console: Console, arguments: FitArguments, *, pipeline: str) -> PipelineOutput:
-    return _fit(
-        console,
-        request=_request(arguments),
-        image=arguments.image.read_bytes(),
-        mask=None if arguments.mask is None else arguments.mask.read_bytes(),
-        models=arguments.models,
-        pipeline=pipeline,
-    )
+def _fit(console: Console, arguments: FitArguments, *, pipeline: str) -> PipelineOutput:
+    asked = parsed(FitRequest, _request(arguments), whole="request", called="what is asked for")
+    mask = None if arguments.mask is None else arguments.mask.read_bytes()
+    picture = SentPicture(arguments.image.read_bytes(), mask)
+    return fitted(console, asked, [picture], models=arguments.models, pipeline=pipeline)
 
 
 def _request(arguments: FitArguments) -> bytes:
@@ -125,14 +106,9 @@ def warm_up(*, pipeline: str = PIPELINE) -> int:
     console = Console()
     console.print(COMPILING, highlight=False)
     sample = load_sample()
-    output = _fit(
-        console,
-        request=sample.request,
-        image=sample.image,
-        mask=None,
-        models=None,
-        pipeline=pipeline,
-    )
+    asked = FitRequest.model_validate_json(sample.request)
+    picture = SentPicture(sample.image, None)
+    output = fitted(console, asked, [picture], models=None, pipeline=pipeline)
     if PERSON in output.artifacts:
         # A caricature asks where a surface runs through itself, which no fit does.
         settings = Settings()
@@ -148,34 +124,6 @@ def warm_up(*, pipeline: str = PIPELINE) -> int:
                 lambda _: None,
             )
     return 0
-
-
-def _fit(
-    console: Console,
-    *,
-    request: bytes,
-    image: bytes,
-    mask: bytes | None,
-    models: Path | None,
-    pipeline: str,
-) -> PipelineOutput:
-    settle_folders()
-    settings = Settings()
-    checked = check_fit(request=request, image=image, mask=mask, max_pixels=settings.max_pixels)
-    with kept_kernels(), stage_bars(console) as bars:
-        output = load_pipeline(pipeline).run(
-            PipelineInput(
-                options=checked.options,
-                image=image,
-                mask=mask,
-                max_pixels=settings.max_pixels,
-                models=models or settings.models_dir,
-                detector=settings.detector_dir,
-            ),
-            lambda report: bars.show(report.stage, report.progress),
-        )
-        bars.finish()
-    return output
 
 
 def _unreadable(why: str) -> Problem:

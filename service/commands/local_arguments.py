@@ -26,6 +26,11 @@ def add_fit_arguments(fit: argparse.ArgumentParser) -> None:
     fit.add_argument("--focal-length-35mm", type=float, metavar="MM")
     fit.add_argument("--cues", choices=("SE", "SES"))
     fit.add_argument("--optimizer", choices=("gauss_newton", "simplex"))
+    fit.add_argument(
+        "--view",
+        choices=("front", "side", "back", "other"),
+        help="from where the picture shows the person, if it was taken to be measured",
+    )
     fit.add_argument("--mask", type=Path, metavar="IMAGE", help="replaces the segmentation")
     _add_common(fit, output="maquette-fit")
 
@@ -60,6 +65,7 @@ def add_scan_arguments(scan: argparse.ArgumentParser) -> None:
     scan.add_argument("--weight-kg", type=float, metavar="KILOGRAMS")
     scan.add_argument("--focal-length-35mm", type=float, metavar="MM", help="of all pictures")
     scan.add_argument("--cues", choices=("SE", "SES"))
+    scan.add_argument("--optimizer", choices=("gauss_newton", "simplex"))
     _add_common(scan, output="maquette-scan")
 
 

@@ -9,19 +9,13 @@ from typing import Any, Final
 from rich.console import Console
 
 from api_schemas.points import AUTO
-from api_schemas.scans import ScanChoices, ScanRequest, ScanViewRequest, ViewKind
+from api_schemas.requests import PersonChoices
+from api_schemas.scans import ScanRequest, ScanViewRequest, ViewKind
 from service.commands.fit import PIPELINE, values_from_file
-from service.commands.local_work import UNUSABLE_INPUT, told, write_files
-from service.commands.terminal import print_scan, stage_bars
+from service.commands.local_work import UNUSABLE_INPUT, fitted, told, write_result
 from service.jobs.inputs import SentPicture
-from service.process.caches import settle_folders
-from service.settings import Settings
-from service.submissions.detector import check_detector
-from service.submissions.submission import check_submission
 from service.submissions.validation import parsed
-from service.worker.artifacts import with_result_document
-from service.worker.kernel_cache import kept_kernels
-from service.worker.pipeline_port import ScanInput, ScanOutput, ScanPicture, load_pipeline
+from service.worker.pipeline_port import PipelineOutput
 
 VIEWS: Final = (ViewKind.FRONT, ViewKind.SIDE)
 """What the first pictures show unless it is said; those after them are ``other``."""
@@ -51,50 +45,21 @@ def scan_locally(arguments: ScanArguments, *, pipeline: str = PIPELINE) -> int:
     output = told(console, lambda: _scan(console, arguments, pipeline=pipeline))
     if output is None:
         return UNUSABLE_INPUT
-    count = write_files(
-        arguments.output,
-        with_result_document(output.result, output.artifacts),
-        output.result.measurements,
-        formats=arguments.formats,
-    )
-    print_scan(console, output.result)
-    console.print(f"{count} files lie in {arguments.output}.", highlight=False)
+    write_result(console, output, arguments.output, formats=arguments.formats)
     return 0
 
 
-def _scan(console: Console, arguments: ScanArguments, *, pipeline: str) -> ScanOutput:
-    settle_folders()
-    settings = Settings()
+def _scan(console: Console, arguments: ScanArguments, *, pipeline: str) -> PipelineOutput:
     asked = parsed(ScanRequest, _request(arguments), whole="request", called="what is asked for")
-    images = [path.read_bytes() for path in arguments.images]
-    checked = check_submission(
-        asked, [SentPicture(image, None) for image in images], max_pixels=settings.max_pixels
-    )
-    check_detector(checked.options, settings.detector_dir)
-    with kept_kernels(), stage_bars(console, whole="whole scan") as bars:
-        output = load_pipeline(pipeline).scan(
-            ScanInput(
-                options=checked.options,
-                pictures=tuple(ScanPicture(image=image, mask=None) for image in images),
-                max_pixels=settings.max_pixels,
-                models=arguments.models or settings.models_dir,
-                detector=settings.detector_dir,
-            ),
-            lambda report: bars.show(_stage(report.stage, report.view), report.progress),
-        )
-        bars.finish()
-    return output
-
-
-def _stage(stage: str, view: int | None) -> str:
-    return stage if view is None else f"view {view}: {stage}"
+    pictures = [SentPicture(path.read_bytes(), None) for path in arguments.images]
+    return fitted(console, asked, pictures, models=arguments.models, pipeline=pipeline)
 
 
 def _request(arguments: ScanArguments) -> bytes:
     """The request that the arguments and the points files make together."""
     pictures = range(len(arguments.images))
     said = [_said_of(arguments.points, number) for number in pictures]
-    person = {name: each for name, each in said[0].items() if name in ScanChoices.model_fields}
+    person = {name: each for name, each in said[0].items() if name in PersonChoices.model_fields}
     kinds = [*arguments.views, *VIEWS[len(arguments.views) :]]
     views = [
         {name: each for name, each in said[number].items() if name in _OF_A_VIEW}

@@ -9,7 +9,7 @@ from rich.progress import BarColumn, Progress, SpinnerColumn, TaskID, TextColumn
 from rich.table import Table
 
 from api_schemas.problems import Problem
-from api_schemas.results import Assumption, FitResult, FitWarning, Measurement
+from api_schemas.results import Assumption, FitResult, FitWarning, Measurement, ViewResult
 from api_schemas.scans import ScanResult
 from fitter.vocabulary.measurements import group_of
 
@@ -21,9 +21,9 @@ WITHHELD: Final = "[bold]Measurements are withheld;[/] with --force they are giv
 class StageBars:
     """One bar per stage, running from its first report to the next stage's, and one for all."""
 
-    def __init__(self, progress: Progress, whole: str) -> None:
+    def __init__(self, progress: Progress) -> None:
         self._progress = progress
-        self._whole = progress.add_task(whole, total=1.0)
+        self._whole = progress.add_task("whole fit", total=1.0)
         self._stage: str | None = None
         self._bar: TaskID | None = None
 
@@ -47,8 +47,8 @@ class StageBars:
 
 
 @contextmanager
-def stage_bars(console: Console, *, whole: str = "whole fit") -> Iterator[StageBars]:
-    """Show the bars of one fit or scan while the context lasts."""
+def stage_bars(console: Console) -> Iterator[StageBars]:
+    """Show the bars of one fit while the context lasts."""
     with Progress(
         SpinnerColumn(),
         TextColumn("{task.description}"),
@@ -56,7 +56,7 @@ def stage_bars(console: Console, *, whole: str = "whole fit") -> Iterator[StageB
         TimeElapsedColumn(),
         console=console,
     ) as progress:
-        yield StageBars(progress, whole)
+        yield StageBars(progress)
 
 
 def print_problem(console: Console, problem: Problem) -> None:
@@ -69,46 +69,35 @@ def print_problem(console: Console, problem: Problem) -> None:
 
 
 def print_result(
-    console: Console, result: FitResult, *, truth: Mapping[str, float] | None = None
+    console: Console,
+    result: FitResult | ScanResult,
+    *,
+    truth: Mapping[str, float] | None = None,
 ) -> None:
     """Print the measurements of SE and SES, next to the truth if there is one, and remarks."""
     if result.measurements:
         console.print(_measurements(result, truth or {}))
     else:
         console.print(WITHHELD)
+    if isinstance(result, FitResult):
+        console.print(f"Outcome: {_ended(result)}", highlight=False)
+    else:
+        for view in result.views:
+            console.print(f"View {view.number}, {view.view}: {_ended(view)}", highlight=False)
+            _print_remarks(console, view.assumptions, view.warnings)
+        console.print(f"Agreement of the views {result.agreement:.2f}.", highlight=False)
     console.print(
-        f"Outcome: {result.outcome}, {result.verdict} ({result.outcome_explanation}) "
-        f"Silhouette overlap {result.silhouette_overlap:.3f}, {result.evaluations} evaluations, "
-        f"{sum(result.stage_seconds.values()):.1f} s.",
+        f"{result.evaluations} evaluations, {sum(result.stage_seconds.values()):.1f} s.",
         highlight=False,
     )
     _print_remarks(console, result.assumptions, result.warnings)
 
 
-def print_scan(console: Console, result: ScanResult) -> None:
-    """Print the measurements of a scan, how it ended in every view, and remarks."""
-    if result.measurements:
-        table = Table(title=f"Measurements, {result.gender}, {result.height_m:.3f} m")
-        table.add_column("measurement")
-        table.add_column("unit")
-        for column in ("value", "± (1 sd)"):
-            table.add_column(column, justify="right")
-        for each in result.measurements:
-            table.add_row(
-                each.name.replace("_", " "), each.unit, f"{each.value:.1f}", _spread(each)
-            )
-        console.print(table)
-    else:
-        console.print(WITHHELD)
-    for view in result.views:
-        console.print(
-            f"View {view.number}, {view.view}: {view.outcome}, {view.verdict} "
-            f"({view.outcome_explanation}) Silhouette overlap {view.silhouette_overlap:.3f}.",
-            highlight=False,
-        )
-        _print_remarks(console, view.assumptions, view.warnings)
-    console.print(f"Agreement of the views {result.agreement:.2f}.", highlight=False)
-    _print_remarks(console, result.assumptions, result.warnings)
+def _ended(view: ViewResult) -> str:
+    return (
+        f"{view.outcome}, {view.verdict} ({view.outcome_explanation}) "
+        f"Silhouette overlap {view.silhouette_overlap:.3f}."
+    )
 
 
 def _print_remarks(
@@ -130,7 +119,7 @@ def _spread(measurement: Measurement) -> str:
     return "given" if measurement.given and shown == "0.0" else shown
 
 
-def _measurements(result: FitResult, truth: Mapping[str, float]) -> Table:
+def _measurements(result: FitResult | ScanResult, truth: Mapping[str, float]) -> Table:
     unshaded = next(
         (
             {each.name: each.value for each in stage.measurements}

@@ -24,14 +24,14 @@ from fitter.request import View
 from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.measurements import STATURE
 from fitter.vocabulary.points import PointName
-from service.worker.findings import finding_results, rounded_box
-from service.worker.translate import (
-    SEEN,
+from service.worker.fit_results import (
     body_result,
     camera_result,
-    clicks,
+    finding_results,
+    rounded_box,
     warning_results,
 )
+from service.worker.translate import SEEN, clicks
 
 JPEG_QUALITY = 90
 """Nothing is measured in these pictures; they are for the eye."""

@@ -20,6 +20,8 @@ PERSON: Final = "person.npz"
 SEGMENTATION: Final = "segmentation.png"
 OVERLAY: Final = "overlay.png"
 BODY_POSED: Final = "body_posed.glb"
+ALBEDO: Final = "albedo.png"
+SHADING: Final = "shading.png"
 TAPES: Final = "tapes.json"
 SANDBOX: Final = "sandbox"
 """What a sandbox was asked to make of the job (:mod:`service.jobs.sandbox`)."""
@@ -32,9 +34,6 @@ TEXTURE: Final = "texture"
 
 CHART: Final = "chart"
 """A size chart sent with the request, as CSV."""
-
-OF_EACH_PICTURE: Final = (PERSON, IMAGE, MASK, REQUEST, RESULT)
-"""What a combined body has copies of, of every fit; a mask is there if it was sent."""
 
 
 def image_of(number: int) -> str:
@@ -95,14 +94,17 @@ def file_of(name: str, number: int) -> str:
     return f"{stem}_{number}{point}{ending}"
 
 
+OF_EACH_FIT: Final = (
+    *(PERSON, REQUEST, RESULT, IMAGE, MASK),
+    *(name for names in picture_names(MOST_VIEWS) for name in names),
+)
+"""What a combined body has copies of, of every fit or scan, so far as it is there."""
+
 OTHER_OVERLAYS: Final = tuple(file_of(OVERLAY, number) for number in range(1, MOST_VIEWS))
 """Those of a scan's views besides the first; no fit has any."""
 
-OF_FIRST_VIEW: Final[Mapping[str, str]] = {
-    IMAGE: image_of(0),
-    MASK: mask_of(0),
-    OVERLAY: file_of(OVERLAY, 0),
-    SEGMENTATION: file_of(SEGMENTATION, 0),
+OF_FIRST_VIEW: Final[Mapping[str, str]] = {IMAGE: image_of(0), MASK: mask_of(0)} | {
+    name: file_of(name, 0) for name in (OVERLAY, SEGMENTATION, ALBEDO, SHADING)
 }
 """What a scan has where a fit has its picture and what was made of it; the person of ``person.npz``
 stands in the first one too."""
@@ -124,6 +126,6 @@ def own_and_others(
     own = dict(inputs)
     others: list[dict[str, Content]] = []
     while of_other(PERSON, len(others)) in own:
-        names = {of_other(name, len(others)): name for name in OF_EACH_PICTURE}
+        names = {of_other(name, len(others)): name for name in OF_EACH_FIT}
         others.append({name: own.pop(stored) for stored, name in names.items() if stored in own})
     return own, tuple(others)

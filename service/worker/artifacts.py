@@ -3,7 +3,7 @@
 import hashlib
 from collections.abc import Mapping
 from pathlib import PurePath
-from typing import Final, TypeVar
+from typing import Final
 
 from api_schemas.derivation_kinds.base import DerivedFiles
 from api_schemas.results import Artifact, FitResult
@@ -22,8 +22,6 @@ MEDIA_TYPES: Final[Mapping[str, str]] = {
     ".webp": "image/webp",
 }
 
-Result = TypeVar("Result", FitResult, ScanResult, DerivedFiles)
-
 
 def describe_artifact(name: str, content: bytes, *, digest: str | None = None) -> Artifact:
     """Describe a file by name, kind, size and content, whose digest may be known."""
@@ -35,7 +33,9 @@ def describe_artifact(name: str, content: bytes, *, digest: str | None = None) -
     )
 
 
-def with_result_document(result: Result, artifacts: Mapping[str, bytes]) -> dict[str, bytes]:
+def with_result_document(
+    result: FitResult | ScanResult | DerivedFiles, artifacts: Mapping[str, bytes]
+) -> dict[str, bytes]:
     """Add ``result.json``, which lists all the other files."""
     listed = result.model_copy(
         update={

@@ -19,13 +19,14 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from queue import SimpleQueue
 from typing import Final
+from uuid import UUID
 
 from api_schemas.problems import field_problem
-from service.engine.port import FIT, SCAN, Report
+from service.engine.port import Report
 from service.process.logs import configure_logging, log_context
 from service.process.naming import call_process
 from service.worker.artifacts import with_result_document
-from service.worker.child_inputs import derivation_input, fit_input, scan_input
+from service.worker.child_inputs import derivation_input, fit_input
 from service.worker.child_tasks import ChildSetup, GivenTask, take
 from service.worker.endings import fault, out_of_memory
 from service.worker.messages import (
@@ -89,17 +90,13 @@ def _done(
     given: GivenTask, setup: ChildSetup, connection: Connection, pipeline: Pipeline
 ) -> DoneMessage:
     observe = _telling(connection)
-    kind = given.task.kind
-    if kind == SCAN:
-        scanned = pipeline.scan(scan_input(setup, given), observe)
-        files = with_result_document(scanned.result, scanned.artifacts)
-        stage_seconds = {}
-    elif kind == FIT:
+    made_of = given.task.derived_from
+    if made_of is None:
         fitted = pipeline.run(fit_input(setup, given), observe)
         files = with_result_document(fitted.result, fitted.artifacts)
         stage_seconds = fitted.result.stage_seconds
     else:
-        derived = pipeline.derive(derivation_input(setup, given), observe)
+        derived = pipeline.derive(derivation_input(setup, given, UUID(made_of)), observe)
         files = with_result_document(derived.result, derived.artifacts)
         stage_seconds = {}
     for name, content in files.items():

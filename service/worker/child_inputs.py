@@ -1,23 +1,30 @@
 """What a child was given, as the pipeline takes it."""
 
 from collections.abc import Mapping
+from typing import Final
 from uuid import UUID
 
 from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivations import DerivationRequest
 from api_schemas.requests import FitOptions
 from api_schemas.scans import ScanOptions
-from service.jobs.inputs import IMAGE, MASK, SANDBOX, image_of, mask_of, own_and_others
+from service.engine.port import FIT, SCAN
+from service.jobs.inputs import SANDBOX, own_and_others, pictures_of
 from service.worker.child_tasks import ChildSetup, GivenTask
-from service.worker.pipeline_port import DerivationInput, PipelineInput, ScanInput, ScanPicture
+from service.worker.pipeline_port import DerivationInput, PipelineInput
+
+OPTIONS: Final[Mapping[str, type[FitOptions] | type[ScanOptions]]] = {
+    FIT: FitOptions,
+    SCAN: ScanOptions,
+}
+"""What is asked for, by the kind of a job that is no derivation."""
 
 
 def fit_input(setup: ChildSetup, given: GivenTask) -> PipelineInput:
-    """One picture."""
+    """The pictures of one person."""
     return PipelineInput(
-        options=FitOptions.model_validate_json(given.options),
-        image=given.inputs[IMAGE],
-        mask=given.inputs.get(MASK),
+        options=OPTIONS[given.task.kind].model_validate_json(given.options),
+        pictures=pictures_of(given.inputs),
         max_pixels=setup.max_pixels,
         models=setup.models,
         detector=setup.detector,
@@ -25,28 +32,11 @@ def fit_input(setup: ChildSetup, given: GivenTask) -> PipelineInput:
     )
 
 
-def scan_input(setup: ChildSetup, given: GivenTask) -> ScanInput:
-    """Several pictures of one person."""
-    asked = ScanOptions.model_validate_json(given.options)
-    return ScanInput(
-        options=asked,
-        pictures=tuple(
-            ScanPicture(
-                image=given.inputs[image_of(number)], mask=given.inputs.get(mask_of(number))
-            )
-            for number in range(len(asked.views))
-        ),
-        max_pixels=setup.max_pixels,
-        models=setup.models,
-        detector=setup.detector,
-        ending=_ending(given.inputs),
-    )
-
-
-def derivation_input(setup: ChildSetup, given: GivenTask) -> DerivationInput[AnyDerivationOptions]:
+def derivation_input(
+    setup: ChildSetup, given: GivenTask, made_of: UUID
+) -> DerivationInput[AnyDerivationOptions]:
     """What a fit left, and what came with the request."""
     own, others = own_and_others(given.inputs)
-    fit_id = given.task.fit_id
     return DerivationInput(
         options=DerivationRequest.model_validate_json(given.options).root,
         inputs=own,
@@ -54,7 +44,7 @@ def derivation_input(setup: ChildSetup, given: GivenTask) -> DerivationInput[Any
         max_pixels=setup.max_pixels,
         models=setup.models,
         detector=setup.detector,
-        fit_id=None if fit_id is None else UUID(fit_id),
+        fit_id=made_of,
         ending=_ending(given.inputs),
     )
 

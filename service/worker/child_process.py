@@ -233,7 +233,7 @@ def _task(job: JobRecord) -> ChildTask:
         kind=job.kind,
         inputs=tuple(job.inputs),
         log_context=dict(current_log_context()),
-        fit_id=job.parent,
+        derived_from=job.parent,
     )
 
 

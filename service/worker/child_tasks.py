@@ -25,13 +25,13 @@ class ChildSetup:
 class ChildTask:
     """A job; its options and named inputs follow as bytes.
 
-    ``fit_id`` is that of the fit a job derives from, None for a fit.
+    ``derived_from`` is the fit or scan a job derives from, None for one of these.
     """
 
     kind: str
     inputs: tuple[str, ...]
     log_context: LogContext
-    fit_id: str | None = None
+    derived_from: str | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,55 +1,61 @@
 """The pipeline of the service: the fitter between two translations."""
 
 from collections.abc import Callable
+from typing import Final
 
 from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivation_kinds.base import DerivedFiles
+from fitter.applications.previews import View, preview
 from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.export import artifacts, tapes_json
+from fitter.export.display import png
 from fitter.fits.equipment import Equipment
 from fitter.fits.pipeline import fit
+from fitter.result import FitResult
 from service.engine.port import Report
+from service.jobs.inputs import PERSON, TAPES
 from service.worker import translate
 from service.worker.derivers import load_deriver
+from service.worker.fit_results import result_of
 from service.worker.pipeline_port import (
     DerivationInput,
     DerivationOutput,
     PipelineInput,
     PipelineOutput,
-    ScanInput,
-    ScanOutput,
     UnusableInputError,
 )
-from service.worker.scanning import scanned
+
+_SEEN_FROM: Final = (("front", 0.0), ("side", 90.0), ("back", 180.0))
+"""What ``scan.png`` shows, and how far the onlooker has walked round, degrees."""
 
 
 def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput:
-    """Fit one picture; see :class:`service.worker.pipeline_port.Pipeline`."""
-    request = translate.fit_request(
-        job.options, image=job.image, mask=job.mask, max_pixels=job.max_pixels
-    )
+    """Fit one body to all pictures; see :class:`service.worker.pipeline_port.Pipeline`."""
+    request = translate.fit_request(job.options, job.pictures, max_pixels=job.max_pixels)
     equipment = Equipment(models=job.models, detector_weights=job.detector)
     try:
-        result = fit(
+        found = fit(
             request, equipment, observer=lambda progress: observe(translate.report(progress))
         )
-        prepared = equipment.model(result.person.gender)
+        prepared = equipment.model(found.person.gender)
         model = prepared.operators.model
-        files = artifacts(result, model=model, images=[job.image])
-        files["person.npz"] = result.person.to_bytes()
-        files["tapes.json"] = tapes_json(result, prepared.measuring)
+        files = artifacts(found, model=model, images=[each.image for each in job.pictures])
     except InvalidInputError as error:
         raise UnusableInputError(translate.field_problem(error)) from error
     except DetectorUnavailableError as error:
-        raise UnusableInputError(translate.detector_problem(error)) from error
-    return PipelineOutput(
-        result=translate.fit_result(result, part_names=model.part_names), artifacts=files
-    )
+        field = translate.proposed_field(job.options)
+        raise UnusableInputError(translate.detector_problem(error, field=field)) from error
+    files[PERSON] = found.person.to_bytes()
+    files[TAPES] = tapes_json(found, prepared.measuring)
+    if len(job.pictures) > 1:
+        files["scan.png"] = _from_all_round(found)
+    return PipelineOutput(result=result_of(job.options, found, model.part_names), artifacts=files)
 
 
-def scan(job: ScanInput, observe: Callable[[Report], None]) -> ScanOutput:
-    """Measure one person; see :class:`service.worker.pipeline_port.Pipeline`."""
-    return scanned(job, observe)
+def _from_all_round(found: FitResult) -> bytes:
+    body = found.canonical_vertices
+    views = [View(label=label, vertices=body, degrees=degrees) for label, degrees in _SEEN_FROM]
+    return png(preview(views, found.triangles))
 
 
 def derive(

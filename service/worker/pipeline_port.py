@@ -1,6 +1,6 @@
 """What a child process runs: a pipeline from a request to a result and its files.
 
-A fit goes through ``run``, a scan through ``scan``, what is derived from one through ``derive``.
+A fit of one or several pictures goes through ``run``, what is derived from one through ``derive``.
 
 The real one is :mod:`service.worker.pipeline`. It is handed around by its dotted name, because it
 is imported in the child process only: the worker itself loads no numerics.
@@ -20,6 +20,11 @@ from api_schemas.requests import FitOptions
 from api_schemas.results import FitResult
 from api_schemas.scans import ScanOptions, ScanResult
 from service.engine.port import Report
+from service.jobs.inputs import SentPicture
+
+AnyFitOptions = FitOptions | ScanOptions
+AnyFitResult = FitResult | ScanResult
+"""Of one picture, or of several."""
 
 Options_co = TypeVar("Options_co", bound=AnyDerivationOptions, covariant=True)
 Result_co = TypeVar("Result_co", bound=DerivedFiles, covariant=True)
@@ -27,16 +32,15 @@ Result_co = TypeVar("Result_co", bound=DerivedFiles, covariant=True)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PipelineInput:
-    """A request as it reaches the pipeline: options with named points, encoded pictures.
+    """A fit as it reaches the pipeline: options with named points, encoded pictures in their order.
 
     ``models`` is the folder of the body models, None for those shipped with the package;
     ``detector`` that of the detector's weights, None for those of their package. ``ending`` is how
     a sandbox is asked to let it end (:mod:`service.jobs.sandbox`), None everywhere else.
     """
 
-    options: FitOptions
-    image: bytes
-    mask: bytes | None
+    options: AnyFitOptions
+    pictures: tuple[SentPicture[bytes], ...]
     max_pixels: int
     models: Path | None = None
     detector: Path | None = None
@@ -47,35 +51,7 @@ class PipelineInput:
 class PipelineOutput:
     """The result, whose list of artifacts is still empty, and the artifacts by file name."""
 
-    result: FitResult
-    artifacts: Mapping[str, bytes]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ScanPicture:
-    """The encoded picture of one view of a scan, and its mask if one was sent."""
-
-    image: bytes
-    mask: bytes | None
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ScanInput:
-    """A scan as it reaches the pipeline: options with named points, pictures in their order."""
-
-    options: ScanOptions
-    pictures: tuple[ScanPicture, ...]
-    max_pixels: int
-    models: Path | None = None
-    detector: Path | None = None
-    ending: str | None = None
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ScanOutput:
-    """The result, whose list of artifacts is still empty, and the artifacts by file name."""
-
-    result: ScanResult
+    result: AnyFitResult
     artifacts: Mapping[str, bytes]
 
 
@@ -122,7 +98,7 @@ class ProblemError(Exception):
 
 
 class Pipeline(Protocol):
-    """A module with these three functions."""
+    """A module with these two functions."""
 
     def run(self, job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput:
         """Fit.
@@ -132,10 +108,6 @@ class Pipeline(Protocol):
         UnusableInputError
             If the input is at fault.
         """
-        ...
-
-    def scan(self, job: ScanInput, observe: Callable[[Report], None]) -> ScanOutput:
-        """Measure one person from several pictures; raises as ``run`` does."""
         ...
 
     def derive(

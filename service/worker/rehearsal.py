@@ -12,6 +12,7 @@ from PIL import Image
 from fitter.detection.detector import installed_detector
 from fitter.errors import DetectorUnavailableError, ModelFileError
 from service.demo_data.sample import Sample, load_sample
+from service.jobs.inputs import SentPicture
 from service.submissions.submission import check_fit
 from service.worker import pipeline
 from service.worker.artifacts import with_result_document
@@ -63,8 +64,7 @@ def rehearse(models: Path | None, detector: Path | None = None) -> bool:
         output = pipeline.run(
             PipelineInput(
                 options=checked.options,
-                image=image,
-                mask=None,
+                pictures=(SentPicture(image, None),),
                 max_pixels=MAX_PIXELS,
                 models=models,
                 detector=detector,

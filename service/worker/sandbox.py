@@ -11,39 +11,29 @@ from typing import cast
 from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivation_kinds.base import DerivedFiles
 from api_schemas.derivation_kinds.combined import CombinedOptions, CombinedResult
+from api_schemas.scans import ScanOptions
 from service.engine.port import Report
-from service.jobs.inputs import IMAGE, OVERLAY, PERSON
+from service.jobs.inputs import IMAGE, OVERLAY, PERSON, pictures_of
 from service.worker import pipeline
 from service.worker.pipeline_port import (
     DerivationInput,
     DerivationOutput,
     PipelineInput,
     PipelineOutput,
-    ScanInput,
-    ScanOutput,
-    UnusableInputError,
 )
-from service.worker.sandbox_endings import end_as_asked, judged_fit, judged_scan, of_first_view
+from service.worker.sandbox_endings import end_as_asked, judged
 from service.worker.sandbox_forms import combined_of_fits, scan_of_views
 from service.worker.sandbox_results import CannedResults, canned_results
 
 
 def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput:
-    """Give the fit of the sample of that gender."""
-    fit = canned_results(job.models, job.detector).fits[job.options.gender]
-    end_as_asked(job.ending, fit.reports, observe)
-    return replace(fit.output, result=judged_fit(fit.output.result, job.ending))
-
-
-def scan(job: ScanInput, observe: Callable[[Report], None]) -> ScanOutput:
-    """Give the scan of the sample, with the views that were asked for."""
-    canned = canned_results(job.models, job.detector).scan
-    try:
-        end_as_asked(job.ending, canned.reports, observe)
-    except UnusableInputError as error:
-        raise of_first_view(error) from None
-    output = scan_of_views(canned.output, job.options)
-    return replace(output, result=judged_scan(output.result, job.ending))
+    """Give the fit of the sample of that gender, or its scan with the views that were asked for."""
+    canned = canned_results(job.models, job.detector)
+    asked = job.options
+    fit = canned.scan if isinstance(asked, ScanOptions) else canned.fits[asked.gender]
+    end_as_asked(job.ending, fit.reports, observe, pictures=len(job.pictures))
+    output = scan_of_views(fit.output, asked) if isinstance(asked, ScanOptions) else fit.output
+    return replace(output, result=judged(output.result, job.ending))
 
 
 def derive(
@@ -57,7 +47,8 @@ def derive(
     if isinstance(job.options, CombinedOptions):
         assert job.fit_id is not None
         kept = cast("DerivationOutput[CombinedResult]", canned.derived[kind])
-        return combined_of_fits(kept, (job.fit_id, *job.options.fits))
+        fits = zip((job.fit_id, *job.options.fits), (job.inputs, *job.others), strict=True)
+        return combined_of_fits(kept, [fit for fit, own in fits for _ in pictures_of(own)])
     if kind in canned.derived:
         return canned.derived[kind]
     return pipeline.derive(_with_sample(job, canned), observe)

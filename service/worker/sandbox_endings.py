@@ -4,11 +4,10 @@ import os
 import signal
 import time
 from collections.abc import Callable, Sequence
-from typing import Final, NoReturn, TypeVar
+from typing import Final, NoReturn
 
 from api_schemas.problems import FieldProblem
 from api_schemas.results import FitResult, FitWarning, Outcome
-from api_schemas.scans import ScanResult
 from service.blobs import BlobsUnavailableError, StorageFullError
 from service.engine.port import Report
 from service.jobs.sandbox import (
@@ -22,7 +21,7 @@ from service.jobs.sandbox import (
 )
 from service.settings import Settings
 from service.worker.endings import input_gone, no_process, no_storage, too_slow
-from service.worker.pipeline_port import ProblemError, UnusableInputError
+from service.worker.pipeline_port import AnyFitResult, ProblemError, UnusableInputError
 
 _ASKED: Final = "The sandbox was asked for this."
 _REMEDY: Final = "Post it again without `sandbox:` in the label, or retry the job."
@@ -39,9 +38,15 @@ WARNINGS_OF_A_SCAN: Final = ("different-people", "given-contradicted")
 
 
 def end_as_asked(
-    ending: str | None, reports: Sequence[Report], observe: Callable[[Report], None]
+    ending: str | None,
+    reports: Sequence[Report],
+    observe: Callable[[Report], None],
+    *,
+    pictures: int = 1,
 ) -> None:
     """Take as long as is asked for, reporting meanwhile, or end the job without a result.
+
+    What is said of one of several ``pictures`` is said of the first.
 
     Returns where it is to succeed, also with a result that :func:`judged` makes another.
 
@@ -62,54 +67,28 @@ def end_as_asked(
     if ending in BY_ACCIDENT:
         _fail(ending)
     field = {**UNUSABLE_PICTURES, **UNUSABLE_FOR_DERIVATIONS}[ending]
+    if pictures > 1 and field in OF_A_VIEW:
+        field = f"views.0.{field}"
     raise UnusableInputError(FieldProblem(field=field, code=ending, reason=_ASKED, remedy=_REMEDY))
 
 
-def of_first_view(error: UnusableInputError) -> UnusableInputError:
-    """The same of a scan: what is said of a picture is said of its first."""
-    if error.error.field not in OF_A_VIEW:
-        return error
-    named = error.error.model_copy(update={"field": f"views.0.{error.error.field}"})
-    return UnusableInputError(named)
-
-
-def judged_fit(result: FitResult, ending: str | None) -> FitResult:
-    """The result with the verdict or the warnings that are asked for."""
-    result = _warned(result, ending, WARNINGS_OF_A_FIT)
-    if ending is None or ending not in VERDICTS:
-        return result
-    return result.model_copy(
-        update={
-            "verdict": VERDICTS[ending],
-            "outcome": Outcome.POOR_FIT,
-            "outcome_explanation": _ASKED,
-            "measurements": (),
-            "stages": tuple(
-                stage.model_copy(update={"measurements": ()}) for stage in result.stages
-            ),
-        }
-    )
-
-
-def judged_scan(result: ScanResult, ending: str | None) -> ScanResult:
-    """The same of a scan; its first view is the one to blame."""
-    result = _warned(result, ending, WARNINGS_OF_A_SCAN)
+def judged(result: AnyFitResult, ending: str | None) -> AnyFitResult:
+    """The result with the verdict or warnings that are asked for; its first view is to blame."""
+    if ending == WARNINGS:
+        codes = WARNINGS_OF_A_FIT if isinstance(result, FitResult) else WARNINGS_OF_A_SCAN
+        asked = tuple(FitWarning(code=code, message=_ASKED) for code in codes)
+        return result.model_copy(update={"warnings": (*result.warnings, *asked)})
     if ending is None or ending not in VERDICTS:
         return result
     verdict = {"verdict": VERDICTS[ending], "outcome_explanation": _ASKED}
+    blamed = verdict | {"outcome": Outcome.POOR_FIT}
+    nothing = {"measurements": ()}
+    whole = nothing | {"stages": tuple(stage.model_copy(update=nothing) for stage in result.stages)}
+    if isinstance(result, FitResult):
+        return result.model_copy(update=whole | blamed)
     first, *others = result.views
-    blamed = first.model_copy(update={**verdict, "outcome": Outcome.POOR_FIT})
-    return result.model_copy(update={**verdict, "measurements": (), "views": (blamed, *others)})
-
-
-Result = TypeVar("Result", FitResult, ScanResult)
-
-
-def _warned(result: Result, ending: str | None, codes: Sequence[str]) -> Result:
-    if ending != WARNINGS:
-        return result
-    asked = tuple(FitWarning(code=code, message=_ASKED) for code in codes)
-    return result.model_copy(update={"warnings": (*result.warnings, *asked)})
+    views = (first.model_copy(update=blamed), *others)
+    return result.model_copy(update=whole | verdict | {"views": views})
 
 
 def _fail(ending: str) -> NoReturn:

@@ -5,36 +5,46 @@ from dataclasses import replace
 from uuid import UUID
 
 from api_schemas.derivation_kinds.combined import CombinedResult
-from api_schemas.scans import ScannedView, ScanOptions
+from api_schemas.scans import ScanOptions, ScanResult
 from fitter.vocabulary.choices import ViewKind
-from service.jobs.inputs import BODY_POSED, OVERLAY, SEGMENTATION, file_of
-from service.worker.pipeline_port import DerivationOutput, ScanOutput
+from service.jobs.inputs import BODY_POSED, OVERLAY, file_of
+from service.worker.pipeline_port import DerivationOutput, PipelineOutput
 
-_OF_A_VIEW = (BODY_POSED, OVERLAY, SEGMENTATION)
 _OF_A_FIT = (BODY_POSED, OVERLAY)
 
 FRONT, SIDE = 0, 1
 """Places of the sample's views."""
 
 
-def scan_of_views(output: ScanOutput, asked: ScanOptions) -> ScanOutput:
+def scan_of_views(output: PipelineOutput, asked: ScanOptions) -> PipelineOutput:
     """A scan of as many views as were asked for; any but one from the side is that of the front."""
+    result = output.result
+    assert isinstance(result, ScanResult)
     places = [SIDE if each.view is ViewKind.SIDE else FRONT for each in asked.views]
     views = tuple(
-        _renumbered(output.result.views[place], number, view.view)
-        for number, (place, view) in enumerate(zip(places, asked.views, strict=True))
+        result.views[place].model_copy(update={"number": number, "view": each.view})
+        for number, (place, each) in enumerate(zip(places, asked.views, strict=True))
     )
+    stages = tuple(
+        stage.model_copy(update={"views": tuple(stage.views[place] for place in places)})
+        for stage in result.stages
+    )
+    of_a_view = [
+        name.replace("_0.", ".")
+        for name in output.artifacts
+        if name == file_of(name.replace("_0.", "."), FRONT)
+    ]
     return replace(
         output,
-        result=output.result.model_copy(update={"views": views}),
-        artifacts=_spread(output.artifacts, _OF_A_VIEW, places, first=0),
+        result=result.model_copy(update={"views": views, "stages": stages}),
+        artifacts=_spread(output.artifacts, of_a_view, places, first=0),
     )
 
 
 def combined_of_fits(
     output: DerivationOutput[CombinedResult], fits: Sequence[UUID]
 ) -> DerivationOutput[CombinedResult]:
-    """A combined body of these fits, which is in all but the first what it is in the second."""
+    """A combined body of pictures of these fits, in all but the first what it is in the second."""
     places = [min(at, 1) for at in range(len(fits))]
     bodies = tuple(
         output.result.bodies[place].model_copy(update={"number": number, "fit_id": fit})
@@ -45,10 +55,6 @@ def combined_of_fits(
         result=output.result.model_copy(update={"pictures": len(fits), "bodies": bodies}),
         artifacts=_spread(output.artifacts, _OF_A_FIT, places, first=1),
     )
-
-
-def _renumbered(view: ScannedView, number: int, kind: ViewKind) -> ScannedView:
-    return view.model_copy(update={"number": number, "view": kind})
 
 
 def _spread(

@@ -1,39 +1,34 @@
 """The results of a sandbox: those of the packaged samples, made once by the real pipeline."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
-from typing import Any, Final, TypeVar
+from typing import Any, Final
 from uuid import UUID
 
 from api_schemas.derivation_kinds.base import DerivedFiles
 from api_schemas.derivations import DerivationRequest
-from api_schemas.requests import FitOptions, Gender
-from api_schemas.results import FitResult, FitWarning
-from api_schemas.scans import ScanRequest, ScanResult
+from api_schemas.requests import FitRequest, Gender
+from api_schemas.results import FitWarning
+from api_schemas.scans import ScanRequest
 from service.demo_data.sample import (
-    PictureSample,
-    Sample,
-    ScanSample,
     load_sample,
     load_scan_sample,
     load_woman,
 )
 from service.engine.port import Report
-from service.jobs.inputs import IMAGE, PERSON, REQUEST, SentPicture
-from service.submissions.submission import check_fit, check_submission
+from service.jobs.inputs import PERSON, REQUEST, SentPicture, named_pictures
+from service.submissions.submission import check_submission
 from service.worker import pipeline
 from service.worker.artifacts import with_result_document
 from service.worker.pipeline_port import (
+    AnyFitOptions,
     DerivationInput,
     DerivationOutput,
     PipelineInput,
     PipelineOutput,
-    ScanInput,
-    ScanOutput,
-    ScanPicture,
 )
 
 MAX_PIXELS: Final = 1_000_000
@@ -59,26 +54,19 @@ _KEPT: Final[tuple[Mapping[str, Any], ...]] = (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CannedFit:
-    """The fit of a sample, with its picture, its request and what it reported."""
+    """The fit of a sample, with its pictures, its request and what it reported."""
 
     output: PipelineOutput
-    image: bytes
-    options: FitOptions
+    pictures: tuple[SentPicture[bytes], ...]
+    options: AnyFitOptions
     reports: tuple[Report, ...]
 
     @property
     def derivation_inputs(self) -> dict[str, bytes]:
         """What any derivation of it can need."""
         files = with_result_document(self.output.result, self.output.artifacts)
-        return files | {IMAGE: self.image, REQUEST: self.options.model_dump_json().encode()}
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class CannedScan:
-    """The scan of the sample from the front and the side, and what it reported."""
-
-    output: ScanOutput
-    reports: tuple[Report, ...]
+        request = self.options.model_dump_json().encode()
+        return files | named_pictures(self.pictures) | {REQUEST: request}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -86,7 +74,7 @@ class CannedResults:
     """All of them; ``pictures`` has the picture each ``person.npz`` was fitted to."""
 
     fits: Mapping[Gender, CannedFit]
-    scan: CannedScan
+    scan: CannedFit
     derived: Mapping[str, DerivationOutput[DerivedFiles]]
     pictures: Mapping[bytes, bytes]
 
@@ -105,18 +93,18 @@ def canned_results(models: Path | None, detector: Path | None) -> CannedResults:
         If a model is missing or damaged.
     """
     folders = _Folders(models=models, detector=detector)
-    samples = (load_sample(), load_woman())
-    fits = {fit.options.gender: fit for fit in (_fit(each, folders) for each in samples)}
-    first, *_ = fits.values()
-    sample = load_scan_sample()
-    scan = _scan(sample, folders)
+    men_and_women = [
+        _fit(FitRequest.model_validate_json(each.request), [each.image], folders)
+        for each in (load_sample(), load_woman())
+    ]
+    both = load_scan_sample()
+    scan = _fit(ScanRequest.model_validate_json(both.request), both.images, folders)
     return CannedResults(
-        fits=fits,
+        fits={fit.options.gender: fit for fit in men_and_women},
         scan=scan,
-        derived=_derived(first.derivation_inputs, folders),
+        derived=_derived(men_and_women[0].derivation_inputs, folders),
         pictures={
-            **{fit.output.artifacts[PERSON]: fit.image for fit in fits.values()},
-            scan.output.artifacts[PERSON]: sample.images[0],
+            fit.output.artifacts[PERSON]: fit.pictures[0].image for fit in (*men_and_women, scan)
         },
     )
 
@@ -127,49 +115,25 @@ class _Folders:
     detector: Path | None
 
 
-def _fit(sample: Sample | PictureSample, folders: _Folders) -> CannedFit:
-    checked = check_fit(
-        request=sample.request, image=sample.image, mask=None, max_pixels=MAX_PIXELS
-    )
+def _fit(asked: FitRequest | ScanRequest, images: Sequence[bytes], folders: _Folders) -> CannedFit:
+    pictures = tuple(SentPicture(image, None) for image in images)
+    checked = check_submission(asked, pictures, max_pixels=MAX_PIXELS)
     reports: list[Report] = []
     output = pipeline.run(
         PipelineInput(
             options=checked.options,
-            image=sample.image,
-            mask=None,
+            pictures=pictures,
             max_pixels=MAX_PIXELS,
             models=folders.models,
             detector=folders.detector,
         ),
         reports.append,
     )
+    said = output.result.model_copy(update={"warnings": (CANNED, *output.result.warnings)})
     return CannedFit(
-        output=replace(output, result=_said(output.result)),
-        image=sample.image,
+        output=replace(output, result=said),
+        pictures=pictures,
         options=checked.options,
-        reports=tuple(reports),
-    )
-
-
-def _scan(sample: ScanSample, folders: _Folders) -> CannedScan:
-    checked = check_submission(
-        ScanRequest.model_validate_json(sample.request),
-        [SentPicture(image, None) for image in sample.images],
-        max_pixels=MAX_PIXELS,
-    )
-    reports: list[Report] = []
-    output = pipeline.scan(
-        ScanInput(
-            options=checked.options,
-            pictures=tuple(ScanPicture(image=image, mask=None) for image in sample.images),
-            max_pixels=MAX_PIXELS,
-            models=folders.models,
-            detector=folders.detector,
-        ),
-        reports.append,
-    )
-    return CannedScan(
-        output=replace(output, result=_said(output.result)),
         reports=tuple(reports),
     )
 
@@ -193,10 +157,3 @@ def _derived(
         )
         for options in asked
     }
-
-
-Result = TypeVar("Result", FitResult, ScanResult)
-
-
-def _said(result: Result) -> Result:
-    return result.model_copy(update={"warnings": (CANNED, *result.warnings)})

@@ -126,6 +126,7 @@ def _used(deployment: Deployment) -> list[float]:
 
 def _loop(answer: Connection) -> None:
     from api_schemas.requests import FitOptions
+    from service.jobs.inputs import SentPicture
     from service.submissions.submission import check_fit
     from service.worker import pipeline
     from service.worker.artifacts import with_result_document
@@ -140,7 +141,10 @@ def _loop(answer: Connection) -> None:
             options = FitOptions.model_validate_json(checked.options.model_dump_json())
             output = pipeline.run(
                 PipelineInput(
-                    options=options, image=each.image, mask=None, max_pixels=10**7, models=None
+                    options=options,
+                    pictures=(SentPicture(each.image, None),),
+                    max_pixels=10**7,
+                    models=None,
                 ),
                 lambda _: None,
             )

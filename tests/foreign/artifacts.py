@@ -16,7 +16,7 @@ from service.api.derivation_kinds import needs_of
 from service.demo_data.sample import load_sample, load_scan_sample
 from service.jobs.inputs import (
     IMAGE,
-    OF_EACH_PICTURE,
+    OF_EACH_FIT,
     OF_FIRST_VIEW,
     REQUEST,
     SentPicture,
@@ -24,12 +24,10 @@ from service.jobs.inputs import (
 )
 from service.submissions.submission import check_fit, check_submission
 from service.worker.artifacts import with_result_document
-from service.worker.pipeline import derive, run, scan
+from service.worker.pipeline import derive, run
 from service.worker.pipeline_port import (
     DerivationInput,
     PipelineInput,
-    ScanInput,
-    ScanPicture,
 )
 
 MAX_PIXELS = 2_000_000
@@ -67,8 +65,11 @@ GLB_FILES = (
     "combined/body_posed_1.glb",
     "combined/body_posed_2.glb",
     "scan/body_canonical.glb",
+    "scan/body_canonical_se.glb",
     "scan/body_posed_0.glb",
     "scan/body_posed_1.glb",
+    "scan/body_posed_se_0.glb",
+    "scan/body_posed_se_1.glb",
     "scan_texture/body_textured.glb",
     "scan_albedo_texture/body_textured.glb",
     "scan_pose/body_reposed.glb",
@@ -112,7 +113,9 @@ def _of_fit() -> dict[str, bytes]:
         request=sample.request, image=sample.image, mask=None, max_pixels=MAX_PIXELS
     ).options
     output = run(
-        PipelineInput(options=options, image=sample.image, mask=None, max_pixels=MAX_PIXELS),
+        PipelineInput(
+            options=options, pictures=(SentPicture(sample.image, None),), max_pixels=MAX_PIXELS
+        ),
         lambda _: None,
     )
     files = dict(with_result_document(output.result, output.artifacts))
@@ -122,14 +125,12 @@ def _of_fit() -> dict[str, bytes]:
 def _of_scan() -> dict[str, bytes]:
     """A scan's files, its pictures and its request."""
     sample = load_scan_sample()
+    pictures = tuple(SentPicture(image, None) for image in sample.images)
     checked = check_submission(
-        ScanRequest.model_validate_json(sample.request),
-        [SentPicture(image, None) for image in sample.images],
-        max_pixels=MAX_PIXELS,
+        ScanRequest.model_validate_json(sample.request), pictures, max_pixels=MAX_PIXELS
     )
-    pictures = tuple(ScanPicture(image=image, mask=None) for image in sample.images)
-    output = scan(
-        ScanInput(options=checked.options, pictures=pictures, max_pixels=MAX_PIXELS),
+    output = run(
+        PipelineInput(options=checked.options, pictures=pictures, max_pixels=MAX_PIXELS),
         lambda _: None,
     )
     files = dict(with_result_document(output.result, output.artifacts))
@@ -147,7 +148,7 @@ def _derived(
             DerivationInput(
                 options=request.root,
                 inputs=_copies(there, needs.of_fit),
-                others=tuple(_copies(there, OF_EACH_PICTURE) for _ in needs.other_fits),
+                others=tuple(_copies(there, OF_EACH_FIT) for _ in needs.other_fits),
                 max_pixels=MAX_PIXELS,
                 fit_id=UUID(FIT),
             ),

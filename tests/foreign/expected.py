@@ -4,7 +4,7 @@ Axes of the file, metres. Of an animation the body is the exact SCAPE body of th
 """
 
 import json
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -80,8 +80,12 @@ class _Results:
     def derived(self, name: str) -> Mapping[str, Any]:
         return self.of(f"scan_{name}" if self._job == "scan" else name)
 
-    def stage(self, name: str) -> Mapping[str, Any]:
-        return next(each for each in self.of("fit")["stages"] if each["name"] == name)["body"]
+    def before_shading(self) -> Sequence[Mapping[str, Any]]:
+        """The body in each picture as silhouette and edges left it."""
+        stages = self.of(self._job)["stages"]
+        stage = next(each for each in stages if each["name"] == "SE")
+        bodies = stage["views"] if self._job == "scan" else [stage]
+        return [each["body"] for each in bodies]
 
     def shown(self, *frames: Vertices, **more: Any) -> Shown:
         counts = {"vertices": len(self.model.mean_vertices), "triangles": len(self.model.triangles)}
@@ -104,6 +108,10 @@ class _Results:
     def in_view(self, number: int) -> Shown:
         view = self.of("scan")["views"][number]
         return self.posed(view["body"], view["image_camera"], lights=1)
+
+    def in_view_before_shading(self, number: int) -> Shown:
+        camera = self.of("scan")["views"][number]["image_camera"]
+        return self.posed(self.before_shading()[number], camera)
 
     def textured(self, **more: Any) -> Shown:
         corners = len(self.model.uv)
@@ -177,15 +185,18 @@ _OF_EITHER: Mapping[str, Callable[[_Results], Shown]] = {
 
 _SHOWN: Mapping[str, Callable[[_Results], Shown]] = {
     "fit/body_canonical.glb": lambda r: r.canonical(r.of("fit")["body"]["shape"]),
-    "fit/body_canonical_se.glb": lambda r: r.canonical(r.stage("SE")["shape"]),
+    "fit/body_canonical_se.glb": lambda r: r.canonical(r.before_shading()[0]["shape"]),
     "fit/body_posed.glb": lambda r: r.posed(r.of("fit")["body"], lights=1),
-    "fit/body_posed_se.glb": lambda r: r.posed(r.stage("SE")),
+    "fit/body_posed_se.glb": lambda r: r.posed(r.before_shading()[0]),
     **_OF_EITHER,
     **{f"scan_{name}": shown for name, shown in _OF_EITHER.items()},
     "combined/body_combined.glb": lambda r: r.canonical(r.of("combined")["shape"]),
     "combined/body_posed_1.glb": lambda r: r.combined(1),
     "combined/body_posed_2.glb": lambda r: r.combined(2),
     "scan/body_canonical.glb": lambda r: r.canonical(r.of("scan")["shape"]),
+    "scan/body_canonical_se.glb": lambda r: r.canonical(r.before_shading()[0]["shape"]),
     "scan/body_posed_0.glb": lambda r: r.in_view(0),
     "scan/body_posed_1.glb": lambda r: r.in_view(1),
+    "scan/body_posed_se_0.glb": lambda r: r.in_view_before_shading(0),
+    "scan/body_posed_se_1.glb": lambda r: r.in_view_before_shading(1),
 }

@@ -1,8 +1,9 @@
 """``python -m tests.upgrade REVISION``: from a released version to the work tree, and back.
 
-Real fits are submitted all the while, on Postgres (a database of its own on 127.0.0.1:5432), as
-service/docs/operate/upgrade.md has it. Where the tables are others, the new version must say so
-and change nothing. Exits with 1 if a request was refused, a job was lost or ended otherwise.
+Real fits and scans are submitted all the while, on Postgres (a database of its own on
+127.0.0.1:5432), as service/docs/operate/upgrade.md has it. Where the tables are others, the new
+version must say so and change nothing. Exits with 1 if a request was refused, a job was lost or
+ended otherwise.
 """
 
 import argparse
@@ -22,7 +23,7 @@ from tests.chaos.caller import Caller
 from tests.chaos.reference import Outcome, outcome
 from tests.installation import Installation
 from tests.postgres import fresh_database
-from tests.submissions import small_submissions
+from tests.submissions import scan_files, small_submissions
 from tests.upgrade.site import Site, running_site
 from tests.upgrade.versions import following, released, version_of
 
@@ -35,7 +36,7 @@ ENDED_WITHIN_S = 300.0
 
 @dataclass
 class Traffic:
-    """Fits that are submitted one after the other until it is enough."""
+    """Fits and scans that are submitted one after the other until it is enough."""
 
     site: Site
     paths: list[tuple[int, str]] = field(default_factory=list[tuple[int, str]])
@@ -45,12 +46,13 @@ class Traffic:
     def flow(self) -> None:
         """Submit, without asking again where that fails; an answer must always come."""
         pictures = small_submissions(PICTURES)
+        forms = [("/v1/fits", each.files) for each in pictures]
+        forms.append(("/v1/scans", scan_files(pictures[0])))
         while not self.is_enough:
-            which = len(self.paths) % PICTURES
+            which = len(self.paths) % len(forms)
+            path, files = forms[which]
             try:
-                answer = httpx.post(
-                    f"{self.site.address}/v1/fits", files=pictures[which].files, timeout=60.0
-                )
+                answer = httpx.post(f"{self.site.address}{path}", files=files, timeout=60.0)
             except httpx.TransportError as error:
                 self.refused.append(repr(error))
                 continue

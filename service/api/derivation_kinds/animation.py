@@ -60,7 +60,6 @@ KIND: Final = DerivationKindDefinition(
         part_is_for="`joints` and `up` are about" if options.joints or options.up else None,
     ),
     part=BVH,
-    of_scans=True,
     requests={
         "walk": {"kind": "animation"},
         "own names": {

@@ -16,7 +16,6 @@ KIND: Final = DerivationKindDefinition(
     options=BodyCompositionOptions,
     result=BodyCompositionResult,
     needs=lambda _: Needs(of_fit=(PERSON, RESULT)),
-    of_scans=True,
     requests={"body-composition": {"kind": "body_composition", "age_years": 34}},
     answer={
         "artifacts": files(body_composition__csv=742),

@@ -13,7 +13,6 @@ KIND: Final = DerivationKindDefinition(
     options=CaricatureOptions,
     result=CaricatureResult,
     needs=lambda _: Needs(of_fit=(PERSON,)),
-    of_scans=True,
     requests={
         "caricature": {"kind": "caricature", "factor": 2.5},
         "looks": {"kind": "caricature", "factor": 2.0, "exaggerated": "looks"},

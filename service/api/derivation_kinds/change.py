@@ -18,7 +18,6 @@ KIND: Final = DerivationKindDefinition(
     needs=lambda options: Needs(
         of_fit=_MEASURED, other_fits={"since": options.since}, of_others=_MEASURED
     ),
-    of_scans=True,
     requests={
         "change": {
             "kind": "change",

@@ -8,7 +8,7 @@ from service.api.derivation_kinds.definition import DerivationKindDefinition, Ne
 from service.api.examples.files import files
 from service.api.examples.jobs import FIT_ID
 from service.api.examples.results import RESULT as RESULT_OF_A_FIT
-from service.jobs.inputs import OF_EACH_PICTURE
+from service.jobs.inputs import OF_EACH_FIT
 
 OTHER_FIT_ID: Final = "0d3c1b6e-52a4-4f0e-9e37-0a4f6c2f7d10"
 
@@ -24,9 +24,9 @@ KIND: Final = DerivationKindDefinition(
     options=CombinedOptions,
     result=CombinedResult,
     needs=lambda options: Needs(
-        of_fit=OF_EACH_PICTURE,
+        of_fit=OF_EACH_FIT,
         other_fits={f"fits.{place}": fit for place, fit in enumerate(options.fits)},
-        of_others=OF_EACH_PICTURE,
+        of_others=OF_EACH_FIT,
     ),
     requests={"combined": {"kind": "combined", "fits": [OTHER_FIT_ID]}},
     answer={

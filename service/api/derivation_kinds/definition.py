@@ -50,9 +50,9 @@ class Needs:
 class DerivationKindDefinition(Generic[Options, Result]):
     """A kind of derivation, as its module of :mod:`service.api.derivation_kinds` declares it.
 
-    ``part`` is what comes along with some of its requests. What is made ``of_scans`` too needs the
-    person of a fit, and else only what :data:`service.jobs.inputs.OF_FIRST_VIEW` names. The
-    examples are those of the OpenAPI document: requests by name, and a result.
+    ``part`` is what comes along with some of its requests. What needs a picture of a scan and names
+    none in particular gets its first (:data:`service.jobs.inputs.OF_FIRST_VIEW`). The examples are
+    those of the OpenAPI document: requests by name, and a result.
     """
 
     kind: DerivationKind
@@ -60,7 +60,6 @@ class DerivationKindDefinition(Generic[Options, Result]):
     result: type[Result]
     needs: Callable[[Options], Needs]
     part: FormPart | None = None
-    of_scans: bool = False
     requests: Mapping[str, Any]
     answer: Mapping[str, Any]
 

@@ -13,7 +13,6 @@ KIND: Final = DerivationKindDefinition(
     options=FigureOptions,
     result=FigureResult,
     needs=lambda _: Needs(of_fit=(PERSON, IMAGE, OVERLAY)),
-    of_scans=True,
     requests={"figure": {"kind": "figure", "pose": "arms_raised", "degrees": 30}},
     answer={
         "artifacts": files(figure__png=912000),

@@ -13,7 +13,6 @@ KIND: Final = DerivationKindDefinition(
     options=PoseOptions,
     result=PoseResult,
     needs=lambda _: Needs(of_fit=(PERSON,)),
-    of_scans=True,
     requests={
         "pose": {
             "kind": "pose",

@@ -64,7 +64,6 @@ KIND: Final = DerivationKindDefinition(
     result=SizeResult,
     needs=_needs,
     part=TABLE,
-    of_scans=True,
     requests={
         "size": {
             "kind": "size",

@@ -66,7 +66,6 @@ KIND: Final = DerivationKindDefinition(
     result=TextureResult,
     needs=_needs,
     part=ATLAS,
-    of_scans=True,
     requests={"texture": {"kind": "texture", "colours": "albedo", "size": 2048}},
     answer={
         "artifacts": files(

@@ -163,20 +163,28 @@ def _view(number: int, view: str) -> dict[str, Any]:
     same = (
         *("outcome", "outcome_explanation", "verdict", "camera", "image_camera"),
         *("focal_length_source", "body", "stance", "light", "reflectance"),
-        *("silhouette_overlap", "assumptions", "warnings"),
+        *("silhouette_overlap", "limb_facing", "assumptions", "warnings"),
     )
     return {"number": number, "view": view, "findings": []} | {
         name: RESULT_OF_A_FIT[name] for name in same
     }
 
 
+def _stage(of_a_fit: dict[str, Any]) -> dict[str, Any]:
+    """The same stage, of two pictures."""
+    in_a_picture = ("silhouette_overlap", "body")
+    same = {name: value for name, value in of_a_fit.items() if name not in in_a_picture}
+    return same | {"views": [{name: of_a_fit[name] for name in in_a_picture}] * 2}
+
+
 RESULT: Final[dict[str, Any]] = {
     name: RESULT_OF_A_FIT[name]
     for name in (
-        *("gender", "height_m", "cues", "verdict", "outcome_explanation"),
-        "measurements",
+        *("gender", "height_m", "cues", "optimizer", "verdict", "outcome_explanation"),
+        *("energies", "evaluations", "measurements", "stage_seconds"),
     )
 } | {
+    "stages": [_stage(each) for each in RESULT_OF_A_FIT["stages"]],
     "shape": [0.8131, -1.3443, 0.2107],
     "views": [_view(0, "front"), _view(1, "side")],
     "agreement": 0.84,

@@ -15,8 +15,8 @@ from fitter.export.gltf_document import Frame
 from fitter.export.plain_gltf import plain_glb
 from fitter.parameters import BodyParameters
 from service.jobs.inputs import PERSON
-from service.worker import translate
 from service.worker.derived.person import person_and_operators
+from service.worker.fit_results import body_result
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 
 
@@ -44,7 +44,7 @@ def derive(
         for label, degrees in (("front", 0.0), ("side", 90.0))
     ]
     return DerivationOutput(
-        result=PoseResult(pose=translate.body_result(body, model.part_names).pose, artifacts=()),
+        result=PoseResult(pose=body_result(body, model.part_names).pose, artifacts=()),
         artifacts={
             "body_reposed.glb": plain_glb(
                 vertices,

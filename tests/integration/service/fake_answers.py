@@ -10,7 +10,7 @@ import time
 from pathlib import Path
 
 from api_schemas.bodies import BodyEstimate, EstimatedMeasurement
-from api_schemas.checks import CaptureCheck, Finding, SeenFrom, Severity
+from api_schemas.checks import CaptureCheck, Finding, SeenFrom
 from api_schemas.initial_poses import InitialPose, LimbReading
 from api_schemas.points import PointSource
 from api_schemas.problems import FieldProblem
@@ -23,6 +23,7 @@ from api_schemas.results import (
     FocalLengthSource,
     PartRotation,
 )
+from fitter.vocabulary.outcomes import Severity
 from service.estimates.messages import (
     BodyTask,
     CheckTask,

@@ -14,10 +14,8 @@ from api_schemas.derivation_kinds.texture import TextureColours, TextureOptions,
 from api_schemas.derivations import DerivationResult
 from api_schemas.problems import FieldProblem
 from api_schemas.requests import FitOptions
-from api_schemas.results import (
-    FitResult,
-)
-from api_schemas.scans import ScanResult
+from api_schemas.results import FitResult, PictureResult
+from api_schemas.scans import ScanOptions, ScanResult
 from service.api.derivation_kinds import KINDS
 from service.jobs.inputs import (
     CLIP,
@@ -26,6 +24,7 @@ from service.jobs.inputs import (
     REQUEST,
     RESULT,
     TEXTURE,
+    pictures_of,
 )
 from service.worker.pipeline_port import (
     DerivationInput,
@@ -72,30 +71,29 @@ def derived_output(job: DerivationInput[AnyDerivationOptions]) -> DerivationOutp
         )
         files = {"body_caricature.glb": b"glTF", "caricature.png": b"PNG"}
     elif isinstance(options, CombinedOptions):
-        fit = FitResult.model_validate_json(job.inputs[RESULT])
         assert job.fit_id is not None
-        FitOptions.model_validate_json(job.inputs[REQUEST])
-        assert len(job.others) == len(options.fits)
-        for other in job.others:
-            assert other[IMAGE] == other[PERSON]
-            FitOptions.model_validate_json(other[REQUEST])
+        bodies = []
+        for fit_id, inputs in zip(
+            (job.fit_id, *options.fits), (job.inputs, *job.others), strict=True
+        ):
+            fit, pictures = RESULTS.validate_json(inputs[RESULT]), pictures_of(inputs)
+            assert pictures[0].image == inputs[PERSON]
+            asked = ScanOptions if isinstance(fit, ScanResult) else FitOptions
+            assert len(asked.model_validate_json(inputs[REQUEST]).pictures) == len(pictures)
+            found = fit.views if isinstance(fit, ScanResult) else (fit,)
+            bodies += [(fit_id, view) for view in found]
         result = CombinedResult(
-            pictures=1 + len(options.fits),
+            pictures=len(bodies),
             shape=(0.0, 0.5),
             bodies=tuple(
                 CombinedPicture(
                     number=number,
                     fit_id=fit_id,
-                    outcome=fit.outcome,
-                    image_camera=fit.image_camera,
-                    body=fit.body,
-                    light=None,
-                    reflectance=None,
-                    silhouette_overlap=0.9,
+                    **{name: getattr(view, name) for name in PictureResult.model_fields},
                 )
-                for number, fit_id in enumerate((job.fit_id, *options.fits), start=1)
+                for number, (fit_id, view) in enumerate(bodies, start=1)
             ),
-            measurements=fit.measurements,
+            measurements=RESULTS.validate_json(job.inputs[RESULT]).measurements,
             agreement=0.5,
             warnings=(),
             artifacts=(),

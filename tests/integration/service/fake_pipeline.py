@@ -19,21 +19,18 @@ from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivation_kinds.base import DerivedFiles
 from api_schemas.problems import FieldProblem
 from api_schemas.requests import Gender
+from api_schemas.scans import ScanOptions
 from service.engine.port import Report
-from service.jobs.inputs import (
-    PERSON,
-)
+from service.jobs.inputs import PERSON, SentPicture
 from service.worker.pipeline_port import (
     DerivationInput,
     DerivationOutput,
     PipelineInput,
     PipelineOutput,
-    ScanInput,
-    ScanOutput,
     UnusableInputError,
 )
 from tests.integration.service.fake_derived import derived_output
-from tests.integration.service.fake_results import fit_result, scan_output
+from tests.integration.service.fake_results import fit_result, scan_files, scan_result
 
 STAGES = ("observation", "initial_pose", "segmentation", "silhouette_and_edges", "measurement")
 SCRIPT_MARK = b"#script:"
@@ -57,7 +54,10 @@ def scripted_image(
 
 
 def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput:
-    script = json.loads(job.image.partition(SCRIPT_MARK)[2])
+    if isinstance(job.options, ScanOptions):
+        return _scan(job, job.options, observe)
+    (picture,) = job.pictures
+    script = _script(picture)
     _begin(script)
     for step, stage in enumerate(STAGES):
         observe(Report(stage=stage, progress=step / len(STAGES), energies={"total": 10.0 - step}))
@@ -82,18 +82,20 @@ def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput
         )
     _go_on(script | {"seconds": 0.0})
     return PipelineOutput(
-        result=fit_result(job),
+        result=fit_result(job.options),
         artifacts={
             "body_posed.glb": b"glTF" + bytes(range(256)),
-            "overlay.png": job.image,
+            "overlay.png": picture.image,
         }
-        | ({} if script.get("old") else {"person.npz": job.image}),
+        | ({} if script.get("old") else {"person.npz": picture.image}),
     )
 
 
-def scan(job: ScanInput, observe: Callable[[Report], None]) -> ScanOutput:
+def _scan(
+    job: PipelineInput, options: ScanOptions, observe: Callable[[Report], None]
+) -> PipelineOutput:
     """Do what each picture says, one after the other, and what the first says in the end."""
-    scripts = [json.loads(each.image.partition(SCRIPT_MARK)[2]) for each in job.pictures]
+    scripts = [_script(each) for each in job.pictures]
     _begin(scripts[0])
     for view, script in enumerate(scripts):
         observe(Report(stage=STAGES[0], progress=0.5 * view / len(scripts), view=view))
@@ -108,18 +110,13 @@ def scan(job: ScanInput, observe: Callable[[Report], None]) -> ScanOutput:
             )
         _go_on(script)
     observe(Report(stage="shading", progress=0.5))
-    fits = [
-        fit_result(
-            PipelineInput(
-                options=job.options.of_view(view),
-                image=each.image,
-                mask=each.mask,
-                max_pixels=job.max_pixels,
-            )
-        )
-        for view, each in enumerate(job.pictures)
-    ]
-    return scan_output(job, fits)
+    return PipelineOutput(
+        result=scan_result(options), artifacts=scan_files([each.image for each in job.pictures])
+    )
+
+
+def _script(picture: SentPicture[bytes]) -> dict[str, Any]:
+    return json.loads(picture.image.partition(SCRIPT_MARK)[2])
 
 
 def derive(

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import httpx
+import pytest
 
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import POINTS, Service
@@ -42,6 +43,26 @@ def post_scan(
         data={"request": json.dumps(request)},
         headers=headers,
     )
+
+
+def posted(
+    service: Service, resource: str, script: Script | None = None, **headers: str
+) -> httpx.Response:
+    """Post a picture as a fit, or with another as a scan, that does what the script says."""
+    if resource == "fits":
+        return service.post(script, headers=headers)
+    return post_scan(service, script or {}, {"n": 1}, **headers)
+
+
+def submitted(service: Service, resource: str, script: Script | None = None) -> str:
+    """Post so, and return the job's path."""
+    answer = posted(service, resource, script)
+    assert answer.status_code == 202, answer.text
+    return answer.headers["Location"]
+
+
+of_either = pytest.mark.parametrize("resource", ["fits", "scans"])
+"""What holds for fits and scans alike is tested of both."""
 
 
 def submit_scan(service: Service, *scripts: Script, **options: Any) -> str:

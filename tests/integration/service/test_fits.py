@@ -21,6 +21,9 @@ from tests.integration.service.harness import (
     pids_noted,
     running_service,
 )
+from tests.integration.service.scanning import of_either, posted, submitted
+
+PICTURE = {"fits": "image", "scans": "views/0/image"}
 
 
 def test_a_picture_goes_in_and_a_result_with_its_files_comes_out(either: Service):
@@ -114,8 +117,9 @@ def test_two_listeners_hear_the_same(service: Service):
     assert heard[0] == heard[1]
 
 
-def test_a_job_is_not_sent_again_while_it_is_unchanged(service: Service):
-    path = service.submit()
+@of_either
+def test_a_job_is_not_sent_again_while_it_is_unchanged(service: Service, resource: str):
+    path = submitted(service, resource)
     service.ended(path)
     tag = service.client.get(path).headers["ETag"]
     assert service.client.get(path, headers={"If-None-Match": tag}).status_code == 304
@@ -169,18 +173,19 @@ def test_a_part_of_another_file_than_was_begun_is_the_whole(service: Service):
             assert "Content-Range" not in answer.headers
 
 
-def test_jobs_are_listed_newest_first_in_pages(service: Service):
-    paths = [service.submit() for _ in range(5)]
-    failed = service.submit({"unusable": True})
+@of_either
+def test_jobs_are_listed_newest_first_in_pages(service: Service, resource: str):
+    paths = [submitted(service, resource) for _ in range(5)]
+    failed = submitted(service, resource, {"unusable": True})
     for path in (*paths, failed):
         service.ended(path)
-    pages = list(_pages(service, "/v1/fits?limit=2"))
+    pages = list(_pages(service, f"/v1/{resource}?limit=2"))
     assert {len(page) for page in pages[:-1]} == {2}
     listed = [job["links"]["self"] for page in pages for job in page]
     assert listed[:6] == [failed, *paths[::-1]]
     assert len(set(listed)) == len(listed)
     for state in ("failed", "succeeded"):
-        jobs = [job for page in _pages(service, f"/v1/fits?state={state}") for job in page]
+        jobs = [job for page in _pages(service, f"/v1/{resource}?state={state}") for job in page]
         assert {job["state"] for job in jobs} == {state}
         named = {job["links"]["self"] for job in jobs}
         assert named & {*paths, failed} == ({failed} if state == "failed" else {*paths})
@@ -190,7 +195,7 @@ def _pages(service: Service, following: str | None) -> Iterator[list[dict[str, A
     """The jobs of a list, page by page to its end."""
     while following:
         page = service.client.get(following)
-        yield page.json()["jobs"]
+        yield page.json()["jobs" if "/fits" in following else "scans"]
         following = page.json()["next"]
         assert ("Link" in page.headers) == (following is not None)
 
@@ -208,9 +213,10 @@ def test_canceling_a_running_fit_kills_its_process(service: Service, tmp_path: P
     assert service.client.get(f"{path}/result").status_code == 409
 
 
-def test_canceling_a_waiting_job_ends_it_at_once(without_worker: Service):
+@of_either
+def test_canceling_a_waiting_job_ends_it_at_once(without_worker: Service, resource: str):
     service = without_worker
-    path = service.submit()
+    path = submitted(service, resource)
     response = service.client.post(f"{path}/cancel")
     assert response.status_code == 200
     assert response.json()["state"] == "canceled"
@@ -257,15 +263,16 @@ def test_erasing_a_running_fit_kills_its_process_and_keeps_no_files(
     eventually(lambda: not list(blobs.rglob(Path(path).name)), what="its files are gone")
 
 
-def test_the_same_idempotency_key_gives_the_same_job(service: Service):
-    headers = {"Idempotency-Key": "key-1"}
-    first = service.post({"n": 1}, headers=headers)
-    again = service.post({"n": 1}, headers=headers)
+@of_either
+def test_the_same_idempotency_key_gives_the_same_job(service: Service, resource: str):
+    key = {"Idempotency-Key": f"{resource}-1"}
+    first = posted(service, resource, {"n": 1}, **key)
+    again = posted(service, resource, {"n": 1}, **key)
     assert again.headers["Location"] == first.headers["Location"]
-    other = service.post({"n": 2}, headers=headers)
+    other = posted(service, resource, {"n": 2}, **key)
     assert other.status_code == 422
     assert other.json()["type"] == "/problems/idempotency-key-reused"
-    assert service.post({"n": 1}).headers["Location"] != first.headers["Location"]
+    assert posted(service, resource, {"n": 1}).headers["Location"] != first.headers["Location"]
 
 
 def test_twenty_requests_with_one_new_key_make_one_job(service: Service):
@@ -284,12 +291,13 @@ def test_twenty_requests_with_one_new_key_make_one_job(service: Service):
     assert len(set(locations)) == 1
 
 
-def test_a_caller_may_wait_for_the_end(service: Service):
-    done = service.post({"seconds": 0.3}, headers={"Prefer": "wait=60"})
+@of_either
+def test_a_caller_may_wait_for_the_end(service: Service, resource: str):
+    done = posted(service, resource, {"seconds": 0.3}, Prefer="wait=60")
     assert done.status_code == 200
     assert done.json()["state"] == "succeeded"
     assert done.headers["Preference-Applied"] == "wait=60"
-    pending = service.post({"seconds": 3600}, headers={"Prefer": "respond-async, wait=1"})
+    pending = posted(service, resource, {"seconds": 3600}, Prefer="respond-async, wait=1")
     assert pending.status_code == 202
     assert pending.json()["state"] in ("queued", "running")
     service.client.delete(pending.headers["Location"])
@@ -322,10 +330,11 @@ def test_health_tells_whether_a_worker_is_alive(without_worker: Service):
     assert client.get("/v1/body-models").status_code == 503
 
 
-def test_a_job_that_has_ended_is_retried_on_the_same_input(either: Service):
+@of_either
+def test_a_job_that_has_ended_is_retried_on_the_same_input(either: Service, resource: str):
     service = either
     script: dict[str, object] = {"seconds": 3600}
-    first = service.submit(script)
+    first = submitted(service, resource, script)
     refused = service.client.post(f"{first}/retry")
     assert (refused.status_code, refused.json()["code"]) == (409, "not-ended")
     assert service.job(first)["links"]["retry"] is None
@@ -333,22 +342,23 @@ def test_a_job_that_has_ended_is_retried_on_the_same_input(either: Service):
     link = service.ended(first)["links"]["retry"]
 
     answers = [
-        service.client.post(link, headers={"Idempotency-Key": key}) for key in ("a", "a", "b")
+        service.client.post(link, headers={"Idempotency-Key": f"{resource}-{key}"}) for key in "aab"
     ]
     assert [answer.status_code for answer in answers] == [202] * 3
     again, same, other = (answer.headers["Location"] for answer in answers)
     assert again == same
     assert len({first, again, other}) == 3
     assert service.client.delete(first).status_code == 204
-    assert service.client.get(f"{again}/image").content == scripted_image(script)
+    assert service.client.get(f"{again}/{PICTURE[resource]}").content == scripted_image(script)
     assert service.client.get(f"{again}/request").json()["height_m"] == REQUEST["height_m"]
     assert service.client.post(link).status_code == 404
     for running in (again, other):
         assert service.client.delete(running).status_code == 204
 
 
-def test_a_retry_is_waited_for_if_the_caller_prefers(service: Service):
-    first = service.submit({"unusable": True})
+@of_either
+def test_a_retry_is_waited_for_if_the_caller_prefers(service: Service, resource: str):
+    first = submitted(service, resource, {"unusable": True})
     service.ended(first)
     answer = service.client.post(f"{first}/retry", headers={"Prefer": "wait=60"})
     assert (answer.status_code, answer.json()["state"]) == (200, "failed")

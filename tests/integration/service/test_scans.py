@@ -1,8 +1,6 @@
 """Several pictures of one person are one job, with all that a fit has."""
 
 import hashlib
-import os
-import signal
 import time
 from pathlib import Path
 from uuid import uuid4
@@ -17,7 +15,6 @@ from tests.integration.service.harness import (
     Machine,
     Service,
     eventually,
-    pids_noted,
     running_service,
 )
 from tests.integration.service.receiver import SECRET, Receiver
@@ -146,34 +143,12 @@ def test_a_scan_is_repeated_with_copies_of_all_pictures(service: Service):
     assert service.client.get(links[2]["mask"]).content == images[0]
 
 
-def test_the_same_key_with_the_same_pictures_is_the_same_scan(service: Service):
-    key = {"Idempotency-Key": f"scan-{uuid4()}"}
-    first = post_scan(service, **key)
-    assert post_scan(service, **key).json()["id"] == first.json()["id"]
-    other = post_scan(service, {}, {"n": "another"}, **key)
-    assert (other.status_code, other.json()["code"]) == (422, "idempotency-key-reused")
-    service.ended(first.headers["Location"])
-
-
 def test_whom_a_scan_names_is_told_of_its_end(service: Service, receiver: Receiver):
     webhook = {"url": receiver.url("/scan"), "secret": SECRET}
     path = scanned(service, request=SCAN | {"webhook": webhook})
     eventually(lambda: service.job(path)["webhook"]["state"] == "delivered", what="delivered")
     event = ScanEvent.model_validate_json(receiver.notices[-1].body)
     assert (event.type, event.data.links.self) == ("scan.succeeded", path)
-
-
-def test_a_scan_whose_process_is_killed_is_made_again(embedded: Machine, tmp_path: Path):
-    note, gate = tmp_path / "pids", tmp_path / "gate"
-    with running_service(embedded) as service:
-        script = {"note_pid": str(note), "gate": str(gate)}
-        path = submit_scan(service, script, {})
-        (pid,) = eventually(lambda: pids_noted(note), what="a process")
-        os.kill(pid, signal.SIGKILL)
-        eventually(lambda: len(pids_noted(note)) == 2, what="another process")
-        gate.touch()
-        job = service.ended(path)
-        assert (job["state"], job["attempt"]) == ("succeeded", 2)
 
 
 def test_a_scan_waits_as_so_many_jobs_as_it_has_pictures(tmp_path: Path):
@@ -221,6 +196,9 @@ def test_erasing_a_scan_erases_every_view_and_what_was_derived(tmp_path: Path):
         assert service.client.get(derived.headers["Location"]).status_code == 404
 
 
+THREE = SCAN | {"views": [FRONT, SIDE, {"view": "other", "points": FRONT["points"]}]}
+
+
 @pytest.mark.parametrize(
     "asked",
     [
@@ -251,12 +229,17 @@ def test_of_a_scan_is_derived_what_the_person_is_enough_for(service: Service, as
     assert service.client.get(fits).status_code == 404
 
 
-def test_what_is_made_of_fits_alone_is_not_made_of_a_scan(service: Service):
-    path = scanned(service)
-    asked = {"kind": "combined", "fits": [str(uuid4())]}
-    answer = service.client.post(f"{path}/derivations", json=asked)
-    assert (answer.status_code, answer.json()["code"]) == (422, "not-of-scans")
-    assert answer.json()["field"] == "kind"
+def test_scans_are_combined_picture_by_picture(service: Service):
+    first, second = scanned(service), scanned(service, {"n": 3}, {"n": 4}, {"n": 5}, request=THREE)
+    other = second.rpartition("/")[2]
+    answer = service.client.post(f"{first}/derivations", json={"kind": "combined", "fits": [other]})
+    assert answer.status_code == 202, answer.text
+    job = service.ended(answer.headers["Location"])
+    assert job["state"] == "succeeded", job
+    result = service.client.get(job["links"]["result"]).json()
+    assert result["pictures"] == 5
+    own = first.rpartition("/")[2]
+    assert [each["fit_id"] for each in result["bodies"]] == [own] * 2 + [other] * 3
 
 
 def test_two_scans_are_compared_and_the_comparison_goes_with_either(service: Service):

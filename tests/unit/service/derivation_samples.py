@@ -26,6 +26,7 @@ from service.jobs.inputs import (
     REQUEST,
     RESULT,
     SEGMENTATION,
+    SentPicture,
     of_other,
     own_and_others,
 )
@@ -99,7 +100,9 @@ def sample_inputs() -> dict[str, bytes]:
     asked = json.dumps(json.loads(sample.request) | {"cues": "SE"}).encode()
     options = check_fit(request=asked, image=sample.image, mask=None, max_pixels=1_000_000).options
     output = run(
-        PipelineInput(options=options, image=sample.image, mask=None, max_pixels=1_000_000),
+        PipelineInput(
+            options=options, pictures=(SentPicture(sample.image, None),), max_pixels=1_000_000
+        ),
         lambda _: None,
     )
     own = {

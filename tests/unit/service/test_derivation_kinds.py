@@ -17,7 +17,7 @@ from api_schemas.derivations import DerivationRequest, DerivationResult
 from service.api.derivation_kinds import KINDS, needs_of
 from service.api.derivation_kinds.definition import DerivationKindDefinition
 from service.api.operation_examples import ANSWERS, REQUESTS
-from service.jobs.inputs import OF_EACH_PICTURE, PERSON
+from service.jobs.inputs import OF_EACH_FIT, PERSON
 from service.worker.derivers import load_deriver
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 
@@ -78,7 +78,7 @@ def test_what_a_request_needs_is_of_the_person_and_no_other_part_than_the_declar
         assert PERSON in needs.of_fit
         assert needs.part in (None, kind.part)
         # What is needed of others is needed of the fit itself, and told apart by its names.
-        assert set(needs.of_others) <= set(needs.of_fit) & set(OF_EACH_PICTURE)
+        assert set(needs.of_others) <= set(needs.of_fit) & set(OF_EACH_FIT)
         assert bool(needs.other_fits) is bool(needs.of_others)
 
 

@@ -7,6 +7,7 @@ import pytest
 from api_schemas.requests import FitOptions
 from fitter.detection import weights
 from service.demo_data.sample import load_sample
+from service.jobs.inputs import SentPicture
 from service.setting_types import DETECTOR_FILES
 from service.settings import SettingError, Settings
 from service.submissions.detector import detector_is_installed
@@ -28,8 +29,7 @@ def test_a_worker_without_it_ends_a_fit_that_wants_points_proposed(tmp_path: Pat
     )
     job = PipelineInput(
         options=options,
-        image=load_sample().image,
-        mask=None,
+        pictures=(SentPicture(load_sample().image, None),),
         max_pixels=1_000_000,
         detector=tmp_path,
     )

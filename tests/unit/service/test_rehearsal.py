@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from fitter.errors import ModelFileError
+from service.jobs.inputs import SentPicture
 from service.submissions.submission import check_fit
 from service.worker import pipeline, rehearsal
 from service.worker.main import THREAD_LIMITS
@@ -28,8 +29,7 @@ def fitted() -> PipelineOutput:
     return pipeline.run(
         PipelineInput(
             options=checked.options,
-            image=submission.image,
-            mask=None,
+            pictures=(SentPicture(submission.image, None),),
             max_pixels=10**6,
             models=None,
         ),

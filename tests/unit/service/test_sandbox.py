@@ -25,7 +25,7 @@ from service.submissions.refusal import RefusedError
 from service.submissions.sandbox_labels import asked_ending
 from service.worker.endings import ending_by, input_gone, too_slow
 from service.worker.pipeline_port import DerivationOutput, ProblemError, UnusableInputError
-from service.worker.sandbox_endings import end_as_asked, of_first_view
+from service.worker.sandbox_endings import end_as_asked
 from service.worker.sandbox_forms import combined_of_fits
 
 REPORTS = (Report(stage="first", progress=0.1), Report(stage="last", progress=0.9))
@@ -91,14 +91,14 @@ def test_accidents_are_faults_of_the_service():
         assert PROBLEM_TYPES[code].status >= 500
 
 
-def test_what_is_said_of_a_picture_is_said_of_the_first_view():
+def test_of_several_pictures_the_first_is_at_fault():
     for ending, field in (
         ("person-not-found", "views.0.image"),
         ("contradictory-measurements", "weight_kg"),
     ):
         with pytest.raises(UnusableInputError) as raised:
-            end_as_asked(ending, REPORTS, lambda _: None)
-        assert of_first_view(raised.value).error.field == field
+            end_as_asked(ending, REPORTS, lambda _: None, pictures=2)
+        assert raised.value.error.field == field
 
 
 def test_only_the_time_limit_times_out():

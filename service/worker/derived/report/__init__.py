@@ -1,14 +1,11 @@
 """The report of a fit or scan: one page for people to read, as HTML and as PDF."""
 
 from collections.abc import Callable
-from typing import Final
-
-from pydantic import TypeAdapter
 
 from api_schemas.derivation_kinds.report import ReportOptions, ReportResult
-from api_schemas.results import FitResult
 from api_schemas.scans import ScanResult
 from service.jobs.inputs import RESULT
+from service.worker.derived.person import read_result
 from service.worker.derived.report.content import NO_NUMBERS, report_content
 from service.worker.derived.report.page_html import report_html
 from service.worker.derived.report.page_pdf import report_pdf
@@ -17,14 +14,12 @@ from service.worker.derived.report.scan_content import scan_content
 from service.worker.derived.report.tape_drawing import tape_drawing
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 
-RESULTS: Final[TypeAdapter[FitResult | ScanResult]] = TypeAdapter(FitResult | ScanResult)
-
 
 def derive(
     job: DerivationInput[ReportOptions], observe: Callable[[float], None]
 ) -> DerivationOutput[ReportResult]:
     """Write the report; see :class:`service.worker.derivers.Deriver`."""
-    result = RESULTS.validate_json(job.inputs[RESULT])
+    result = read_result(job.inputs[RESULT])
     drawing = tape_drawing(job.inputs, models=job.models) if result.measurements else None
     numbers = NO_NUMBERS if drawing is None else drawing.numbers
     content = (

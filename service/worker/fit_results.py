@@ -1,0 +1,302 @@
+"""What a fit has found, translated to the wire."""
+
+import math
+from collections.abc import Sequence
+from typing import Any, cast
+from uuid import UUID
+
+import numpy as np
+
+from api_schemas import results as wire
+from api_schemas import scans as wire_scan
+from api_schemas.derivation_kinds.combined import CombinedPicture
+from api_schemas.requests import FitOptions
+from fitter.capture.finding import Box, Finding
+from fitter.measurement.quantity import Measurement
+from fitter.parameters import (
+    BodyParameters,
+    CameraTilt,
+    Light,
+    Reflectance,
+    Surroundings,
+)
+from fitter.person.fitted_person import FittedPerson
+from fitter.remarks import Assumption, FitWarning
+from fitter.render.camera import Camera
+from fitter.result import FitResult, FitStage, FittedView, LimbFacing, PictureFit, StageBody
+from fitter.vocabulary.choices import LightKind, ViewKind
+from fitter.vocabulary.outcomes import Verdict
+from fitter.vocabulary.points import PointName
+
+_WORSE = (Verdict.PLAUSIBLE, Verdict.IMPLAUSIBLE, Verdict.NO_PERSON)
+
+
+def result_of(
+    options: FitOptions | wire_scan.ScanOptions, found: FitResult, part_names: Sequence[str]
+) -> wire.FitResult | wire_scan.ScanResult:
+    """Translate a result as what was asked for; its files are listed later, once they exist."""
+    if isinstance(options, FitOptions):
+        return fit_result(found, part_names=part_names)
+    return scan_result(found, part_names=part_names)
+
+
+def fit_result(result: FitResult, *, part_names: Sequence[str]) -> wire.FitResult:
+    """Translate the result of one picture."""
+    (view,) = result.views
+    return wire.FitResult(
+        **_person(result),
+        **_view(view, part_names),
+        view=view.kind,
+        stages=tuple(
+            wire.Stage(**_stage(stage, result.given), **_stage_body(body, part_names))
+            for stage in result.stages
+            for body in stage.bodies
+        ),
+        assumptions=assumption_results(view.assumptions + result.assumptions),
+        warnings=warning_results(view.warnings + result.warnings),
+    )
+
+
+def scan_result(result: FitResult, *, part_names: Sequence[str]) -> wire_scan.ScanResult:
+    """Translate the result of several pictures."""
+    assert result.alone is not None
+    worst = max((view.found for view in result.views), key=lambda each: _WORSE.index(each.verdict))
+    return wire_scan.ScanResult(
+        **_person(result),
+        verdict=worst.verdict,
+        outcome_explanation=worst.outcome_explanation,
+        shape=tuple(result.shape.tolist()),
+        views=tuple(
+            wire_scan.ScannedView(
+                **_view(view, part_names),
+                number=number,
+                view=_announced(view),
+                assumptions=assumption_results(view.assumptions),
+                warnings=warning_results(view.warnings),
+            )
+            for number, view in enumerate(result.views)
+        ),
+        stages=tuple(
+            wire_scan.ScanStage(
+                **_stage(stage, result.given),
+                views=tuple(
+                    wire.StageBody(**_stage_body(body, part_names)) for body in stage.bodies
+                ),
+            )
+            for stage in result.stages
+        ),
+        agreement=result.alone.agreement,
+        assumptions=assumption_results(result.assumptions),
+        warnings=warning_results(result.warnings),
+    )
+
+
+def combined_picture(
+    found: PictureFit, *, number: int, fit_id: UUID, part_names: Sequence[str]
+) -> CombinedPicture:
+    """Translate the person as fitted in one of several pictures."""
+    return CombinedPicture(number=number, fit_id=fit_id, **_in_picture(found, part_names))
+
+
+def _person(result: FitResult) -> dict[str, Any]:
+    """The fields of a :class:`api_schemas.results.PersonResult` that say one thing of all."""
+    return {
+        "gender": result.person.gender,
+        "height_m": result.found.height_m,
+        "cues": result.found.cues,
+        "optimizer": result.optimizer,
+        "energies": dict(result.energies),
+        "evaluations": result.evaluations,
+        "measurements": measurement_results(result.measurements, result.given),
+        "stage_seconds": dict(result.stage_seconds),
+        "artifacts": (),
+    }
+
+
+def _view(view: FittedView, part_names: Sequence[str]) -> dict[str, Any]:
+    """The fields of a :class:`api_schemas.results.ViewResult`."""
+    found = view.found
+    return _in_picture(found, part_names) | {
+        "outcome_explanation": found.outcome_explanation,
+        "verdict": found.verdict,
+        "camera": fitted_camera(view.camera, found.person.tilt),
+        "focal_length_source": view.focal_length_source,
+        "stance": _stance(found.person),
+        "limb_facing": tuple(_limb_facing(facing) for facing in view.limb_facing),
+        "findings": finding_results(view.findings),
+    }
+
+
+def _in_picture(found: PictureFit, part_names: Sequence[str]) -> dict[str, Any]:
+    """The fields of a :class:`api_schemas.results.PictureResult`."""
+    person = found.person
+    return {
+        "outcome": found.outcome,
+        "image_camera": fitted_camera(person.camera, person.tilt),
+        "body": body_result(person.body, part_names),
+        "light": None if person.light is None else _light(person.light),
+        "reflectance": None if person.reflectance is None else _reflectance(person.reflectance),
+        "silhouette_overlap": found.silhouette_overlap,
+    }
+
+
+def _announced(view: FittedView) -> ViewKind:
+    assert view.kind is not None
+    return view.kind
+
+
+def _stage(stage: FitStage, given: Sequence[str]) -> dict[str, Any]:
+    """The fields of a :class:`api_schemas.results.StageResult`."""
+    return {
+        "name": stage.name,
+        "energies": dict(stage.energies),
+        "measurements": tuple(
+            wire.StageMeasurement(**each.model_dump())
+            for each in measurement_results(stage.measurements, given)
+        ),
+    }
+
+
+def _stage_body(stage: StageBody, part_names: Sequence[str]) -> dict[str, Any]:
+    """The fields of a :class:`api_schemas.results.StageBody`."""
+    return {
+        "silhouette_overlap": stage.silhouette_overlap,
+        "body": body_result(stage.body, part_names),
+    }
+
+
+def assumption_results(assumptions: Sequence[Assumption]) -> tuple[wire.Assumption, ...]:
+    """Translate what was assumed."""
+    return tuple(
+        wire.Assumption(quantity=each.quantity, value=each.value, reason=each.reason)
+        for each in assumptions
+    )
+
+
+def warning_results(warnings: Sequence[FitWarning]) -> tuple[wire.FitWarning, ...]:
+    """Translate warnings."""
+    return tuple(wire.FitWarning(code=each.code, message=each.message) for each in warnings)
+
+
+def finding_results(findings: Sequence[Finding]) -> tuple[wire.Finding, ...]:
+    """Translate what was found; boxes to a hundredth of a pixel."""
+    return tuple(
+        wire.Finding(
+            code=found.code.value,
+            severity=found.severity,
+            reason=found.reason,
+            remedy=found.remedy,
+            points=tuple(cast("PointName", name) for name in found.points),
+            box=rounded_box(found.box),
+        )
+        for found in findings
+    )
+
+
+def rounded_box(box: Box | None) -> Box | None:
+    """A box to a hundredth of a pixel."""
+    if box is None:
+        return None
+    left, top, right, bottom = (round(each, 2) for each in box)
+    return left, top, right, bottom
+
+
+def camera_result(camera: Camera) -> wire.CameraResult:
+    """Translate a camera."""
+    return wire.CameraResult(
+        focal_length_px=float(camera.focal_length_px),
+        centre_x=float(camera.centre_x),
+        centre_y=float(camera.centre_y),
+        width=camera.width,
+        height=camera.height,
+    )
+
+
+def fitted_camera(camera: Camera, tilt: CameraTilt | None) -> wire.FittedCameraResult:
+    """Translate a camera with how it was held."""
+    plain = camera_result(camera).model_dump()
+    if tilt is None:
+        return wire.FittedCameraResult(**plain)
+    pitch_error, roll_error = tilt.standard_errors
+    return wire.FittedCameraResult(
+        **plain,
+        pitch_deg=math.degrees(tilt.pitch),
+        pitch_standard_error_deg=math.degrees(pitch_error),
+        roll_deg=math.degrees(tilt.roll),
+        roll_standard_error_deg=math.degrees(roll_error),
+    )
+
+
+def _stance(person: FittedPerson) -> wire.StanceResult | None:
+    if person.tilt is None:
+        return None
+    return wire.StanceResult(kind=person.tilt.stance, probabilities=dict(person.tilt.stances))
+
+
+def _vector(values: np.ndarray) -> wire.Vector:
+    x, y, z = (float(value) for value in values)
+    return (x, y, z)
+
+
+def body_result(body: BodyParameters, part_names: Sequence[str]) -> wire.BodyResult:
+    """Translate pose, position and shape."""
+    return wire.BodyResult(
+        pose=tuple(
+            wire.PartRotation(part=part, rotation=_vector(rotation))
+            for part, rotation in zip(part_names, body.pose, strict=True)
+        ),
+        translation_m=_vector(body.translation),
+        shape=tuple(float(coefficient) for coefficient in body.shape),
+    )
+
+
+def _light(light: Light) -> wire.LightResult:
+    return wire.LightResult(
+        kind=light.kind,
+        azimuth_deg=math.degrees(light.azimuth),
+        elevation_deg=math.degrees(light.elevation),
+        distance_m=None if light.kind is LightKind.DIRECTIONAL else light.distance,
+        surroundings=None if light.surroundings is None else _surroundings(light.surroundings),
+    )
+
+
+def _surroundings(surroundings: Surroundings) -> wire.SurroundingsResult:
+    e0, e1, e2, e3, e4, e5, e6, e7, e8 = surroundings.tolist()
+    return wire.SurroundingsResult(coefficients=(e0, e1, e2, e3, e4, e5, e6, e7, e8))
+
+
+def _reflectance(reflectance: Reflectance) -> wire.ReflectanceResult:
+    return wire.ReflectanceResult(
+        ambient=float(reflectance.ambient),
+        specular_exponent=float(reflectance.specular_exponent),
+        mean_albedo=float(reflectance.albedo.mean()),
+        mean_specularity=float(reflectance.specularity.mean()),
+    )
+
+
+def measurement_results(
+    measurements: Sequence[Measurement], given: Sequence[str]
+) -> tuple[wire.Measurement, ...]:
+    """Translate measurements; ``given`` names those that were in the request."""
+    return tuple(
+        wire.Measurement(
+            name=measurement.name,
+            value=measurement.value,
+            unit=measurement.unit,
+            standard_error=measurement.standard_error,
+            given=measurement.name in given,
+            definition=measurement.definition,
+            source=measurement.source,
+        )
+        for measurement in measurements
+    )
+
+
+def _limb_facing(facing: LimbFacing) -> wire.LimbFacing:
+    return wire.LimbFacing(
+        limb=facing.limb,
+        facing=facing.facing,
+        source=facing.source,
+        ambiguous=facing.ambiguous,
+        alternative_energy=facing.alternative_energy,
+    )

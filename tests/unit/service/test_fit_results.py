@@ -1,0 +1,326 @@
+"""What a fit has found is told in the words of the wire, of one picture as of several."""
+
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from api_schemas import requests as wire_request
+from api_schemas import results as wire
+from api_schemas.scans import ScanResult
+from fitter import request as fitter_request
+from fitter import result as fitter_result
+from fitter.capture.finding import Code, Finding, Severity
+from fitter.measurement.quantity import Measurement
+from fitter.parameters import (
+    BodyParameters,
+    CameraTilt,
+    Light,
+    LightKind,
+    Reflectance,
+    StanceKind,
+)
+from fitter.person.fitted_person import FittedPerson
+from fitter.person.several_pictures import CombinedShape
+from fitter.remarks import Assumption, FitWarning
+from fitter.render.camera import Camera, FocalLengthSource
+from fitter.vocabulary.choices import ViewKind
+from service.worker.derived.person import read_result
+from service.worker.fit_results import fit_result, scan_result
+
+PARTS = ("pelvis", "spine")
+
+
+def result(*, light: Light | None) -> fitter_result.FitResult:
+    body = BodyParameters(
+        pose=np.array([[0.1, 0.2, 0.3], [0.0, -0.5, 0.0]]),
+        translation=np.array([0.0, 0.1, 3.0]),
+        shape=np.array([1.0, -2.0]),
+    )
+    measurement = Measurement(
+        name="weight",
+        value=70.0,
+        unit="kg",
+        standard_error=None,
+        definition="Volume times density.",
+        source="ISO",
+    )
+    camera = Camera(focal_length_px=500.0, centre_x=32.0, centre_y=24.0, width=64, height=48)
+    person = FittedPerson(
+        gender=fitter_request.Gender.FEMALE,
+        model_checksum="",
+        body=body,
+        camera=camera.scaled(2.0, width=128, height=96),
+        light=light,
+        reflectance=None
+        if light is None
+        else Reflectance(
+            albedo=np.array([0.2, 0.4, 0.6]),
+            specularity=np.array([0.0, 0.1, 0.2]),
+            ambient=0.05,
+            specular_exponent=8.0,
+        ),
+        albedo_rgb=None,
+        shape_covariance=None,
+    )
+    view = fitter_result.FittedView(
+        kind=None,
+        found=fitter_result.PictureFit(
+            person=person,
+            height_m=1.65,
+            cues=fitter_request.Cues.SES,
+            outcome=fitter_result.Outcome.CONVERGED,
+            posed_vertices=np.zeros((3, 3)),
+            silhouette_overlap=0.93,
+        ),
+        camera=camera,
+        focal_length_source=FocalLengthSource.ASSUMED,
+        findings=(),
+        limb_facing=(
+            fitter_result.LimbFacing(
+                limb="left_shin",
+                facing=fitter_request.Facing.AWAY,
+                source=fitter_result.FacingSource.PRIOR,
+                ambiguous=True,
+                alternative_energy=1.6,
+            ),
+        ),
+        assumptions=(Assumption(quantity="focal_length_35mm", value=50.0, reason="Unknown."),),
+        warnings=(FitWarning(code="a-warning", message="Look."),),
+        pictures=fitter_result.Pictures(
+            image=np.zeros((48, 64, 3)), trimap=None, segmentation=np.zeros((48, 64), bool)
+        ),
+    )
+    stage = fitter_result.FitStage(
+        name="SE",
+        bodies=(
+            fitter_result.StageBody(
+                body=body, posed_vertices=np.zeros((3, 3)), silhouette_overlap=0.9
+            ),
+        ),
+        canonical_vertices=np.zeros((3, 3)),
+        energies={"silhouette": 2.5},
+        measurements=(measurement,),
+    )
+    return fitter_result.FitResult(
+        views=(view,),
+        shape=body.shape,
+        shape_covariance=np.eye(2),
+        canonical_vertices=np.zeros((3, 3)),
+        triangles=np.array([[0, 1, 2]]),
+        measurements=(measurement,),
+        given=("weight",),
+        optimizer=fitter_request.OptimizerKind.GAUSS_NEWTON,
+        energies={"silhouette": 1.5},
+        evaluations=12,
+        stages=(stage,),
+        alone=None,
+        assumptions=(Assumption(quantity="height_m", value=1.65, reason="Unknown."),),
+        warnings=(FitWarning(code="of-the-fit", message="Look twice."),),
+        stage_seconds={"shading": 1.0},
+    )
+
+
+def found_otherwise(
+    given: fitter_result.FitResult, found: fitter_result.PictureFit
+) -> fitter_result.FitResult:
+    (view,) = given.views
+    return replace(given, views=(replace(view, found=found),))
+
+
+POINT_LIGHT = Light(kind=LightKind.POINT, azimuth=math.pi / 6, elevation=0.0, distance=2.0)
+SUN = Light(kind=LightKind.DIRECTIONAL, azimuth=0.0, elevation=0.0, distance=math.inf)
+
+
+@pytest.mark.parametrize("light", [None, POINT_LIGHT, SUN], ids=["SE", "point", "directional"])
+def test_a_result_survives_the_wire(light):
+    translated = fit_result(result(light=light), part_names=PARTS)
+    assert wire.FitResult.model_validate_json(translated.model_dump_json()) == translated
+
+
+def test_a_result_says_the_same_in_both_languages():
+    translated = fit_result(result(light=POINT_LIGHT), part_names=PARTS)
+    assert [part.part for part in translated.body.pose] == list(PARTS)
+    assert translated.body.pose[1].rotation == (0.0, -0.5, 0.0)
+    assert translated.body.shape == (1.0, -2.0)
+    assert translated.body.translation_m == (0.0, 0.1, 3.0)
+    assert translated.image_camera.width == 128
+    assert translated.image_camera.focal_length_px == 1000.0
+    assert translated.light is not None
+    assert translated.light.azimuth_deg == pytest.approx(30.0)
+    assert translated.light.distance_m == 2.0
+    assert translated.reflectance is not None
+    assert translated.reflectance.mean_albedo == pytest.approx(0.4)
+    assert translated.outcome_explanation == "The energy stopped decreasing."
+    assert translated.stages[0].energies == {"silhouette": 2.5}
+    assert translated.limb_facing[0].facing == wire_request.Facing.AWAY
+    assert [each.value for each in translated.assumptions] == [50.0, 1.65]
+    assert [each.code for each in translated.warnings] == ["a-warning", "of-the-fit"]
+
+
+@pytest.mark.parametrize("verdict", fitter_result.VERDICT_EXPLANATIONS)
+def test_where_a_person_is_contradicted_the_outcome_is_explained_by_it(verdict):
+    ended = result(light=None)
+    found = replace(ended.found, verdict=verdict, contradictions=("It is a circle.",))
+    translated = fit_result(found_otherwise(ended, found), part_names=PARTS)
+    assert translated.verdict == verdict.value
+    explained = fitter_result.VERDICT_EXPLANATIONS[verdict]
+    assert translated.outcome_explanation == f"{explained} It is a circle."
+
+
+def test_results_of_earlier_versions_have_no_verdict_and_are_read():
+    document = json.loads(fit_result(result(light=None), part_names=PARTS).model_dump_json())
+    del document["verdict"]
+    read = wire.FitResult.model_validate_json(json.dumps(document))
+    assert read.verdict is wire.Verdict.PLAUSIBLE
+
+
+def test_a_result_says_which_measurements_were_given():
+    given = fit_result(result(light=None), part_names=PARTS)
+    assert [each.given for each in given.measurements] == [True]
+    assert [each.given for each in given.stages[0].measurements] == [True]
+    free = fit_result(replace(result(light=None), given=()), part_names=PARTS)
+    assert [each.given for each in free.measurements] == [False]
+
+
+def test_the_tilt_is_told_with_both_cameras_and_the_stance():
+    tilt = CameraTilt(
+        pitch=math.radians(-8.0),
+        roll=math.radians(1.5),
+        covariance=np.diag([math.radians(2.0) ** 2, math.radians(1.0) ** 2]),
+        stances={StanceKind.STANDING: 0.2, StanceKind.STRIDING: 0.7, StanceKind.OTHER: 0.1},
+    )
+    fitted = result(light=None)
+    found = replace(fitted.found, person=replace(fitted.person, tilt=tilt))
+    translated = fit_result(found_otherwise(fitted, found), part_names=PARTS)
+    for camera in (translated.camera, translated.image_camera):
+        assert camera.pitch_deg == pytest.approx(-8.0)
+        assert camera.pitch_standard_error_deg == pytest.approx(2.0)
+        assert camera.roll_deg == pytest.approx(1.5)
+        assert camera.roll_standard_error_deg == pytest.approx(1.0)
+    assert translated.stance is not None
+    assert translated.stance.kind is wire.StanceKind.STRIDING
+    assert translated.stance.probabilities[wire.StanceKind.STANDING] == 0.2
+    assert wire.FitResult.model_validate_json(translated.model_dump_json()) == translated
+
+
+def test_a_result_of_before_the_tilt_can_be_read():
+    old = fit_result(result(light=None), part_names=PARTS).model_dump(mode="json")
+    del old["stance"]
+    for camera in (old["camera"], old["image_camera"]):
+        for field in [name for name in camera if name.startswith(("pitch", "roll"))]:
+            del camera[field]
+    read = wire.FitResult.model_validate_json(json.dumps(old))
+    assert read.stance is None
+    assert read.camera.pitch_deg is None
+
+
+def test_surroundings_are_nine_coefficients_or_null():
+    uniform = fit_result(result(light=POINT_LIGHT), part_names=PARTS)
+    assert uniform.light is not None
+    assert uniform.light.surroundings is None
+    surroundings = np.linspace(1.0, -0.2, 9)
+    surrounded = replace(POINT_LIGHT, surroundings=surroundings)
+    translated = fit_result(result(light=surrounded), part_names=PARTS)
+    assert wire.FitResult.model_validate_json(translated.model_dump_json()) == translated
+    assert translated.light is not None
+    assert translated.light.surroundings is not None
+    np.testing.assert_allclose(translated.light.surroundings.coefficients, surroundings)
+
+
+def test_a_directional_light_has_no_distance():
+    translated = fit_result(result(light=SUN), part_names=PARTS)
+    assert translated.light is not None
+    assert translated.light.distance_m is None
+
+
+def test_a_pose_of_another_number_of_parts_is_not_passed_over():
+    with pytest.raises(ValueError, match="zip"):
+        fit_result(result(light=None), part_names=("pelvis",))
+
+
+def scanned(*, light: Light | None = POINT_LIGHT) -> fitter_result.FitResult:
+    """Two pictures, of which the second contradicts the person."""
+    one = result(light=light)
+    (front,), (stage,) = one.views, one.stages
+    doubtful = replace(
+        front.found,
+        verdict=fitter_result.Verdict.IMPLAUSIBLE,
+        contradictions=("It is a circle.",),
+        silhouette_overlap=0.4,
+    )
+    finding = Finding(
+        code=Code.BLURRED, severity=Severity.BLOCKS, reason="Blurred.", remedy="Hold it still."
+    )
+    views = (
+        replace(front, kind=ViewKind.FRONT),
+        replace(front, kind=ViewKind.SIDE, found=doubtful, findings=(finding,)),
+    )
+    alone = CombinedShape(shape=one.shape, covariance=np.eye(2), agreement=0.4, differing=1)
+    return replace(one, views=views, stages=(replace(stage, bodies=2 * stage.bodies),), alone=alone)
+
+
+def test_a_scan_says_of_every_picture_what_a_fit_says_of_its_own():
+    given = scanned()
+    translated = scan_result(given, part_names=PARTS)
+    assert ScanResult.model_validate_json(translated.model_dump_json()) == translated
+    alone = fit_result(result(light=POINT_LIGHT), part_names=PARTS)
+    first, second = translated.views
+    assert (first.number, first.view, second.number, second.view) == (0, "front", 1, "side")
+    for name in wire.ViewResult.model_fields:
+        assert getattr(first, name) == getattr(alone, name), name
+    assert second.silhouette_overlap == 0.4
+    assert [each.code for each in second.findings] == ["blurred"]
+    assert [each.code for each in second.warnings] == ["a-warning"]
+    assert [each.code for each in translated.warnings] == ["of-the-fit"]
+
+
+def test_a_scan_says_of_the_person_what_a_fit_says():
+    translated = scan_result(scanned(), part_names=PARTS)
+    alone = fit_result(result(light=POINT_LIGHT), part_names=PARTS)
+    for name in set(wire.PersonResult.model_fields) - {"assumptions", "warnings"}:
+        assert getattr(translated, name) == getattr(alone, name), name
+    (stage,), (of_fit,) = translated.stages, alone.stages
+    for name in wire.StageResult.model_fields:
+        assert getattr(stage, name) == getattr(of_fit, name), name
+    assert [each.body for each in stage.views] == [of_fit.body] * 2
+
+
+def test_the_worst_view_is_the_scans_verdict_with_its_reason():
+    translated = scan_result(scanned(), part_names=PARTS)
+    assert [each.verdict for each in translated.views] == ["plausible", "implausible"]
+    assert translated.verdict == "implausible"
+    assert translated.outcome_explanation == translated.views[1].outcome_explanation
+
+
+def test_a_scan_of_version_1_0_has_fewer_fields_and_is_read():
+    document = json.loads(scan_result(scanned(), part_names=PARTS).model_dump_json())
+    for name in ("optimizer", "energies", "evaluations", "stages", "stage_seconds"):
+        del document[name]
+    for view in document["views"]:
+        del view["limb_facing"]
+    read = read_result(json.dumps(document).encode())
+    assert isinstance(read, ScanResult)
+    assert (read.stages, read.views[0].limb_facing) == ((), ())
+
+
+def test_a_fit_of_no_announced_view_is_told_to_workers_of_version_1_0_in_their_words():
+    plain = json.loads(fit_result(result(light=None), part_names=PARTS).model_dump_json())
+    assert not {"view", "findings"} & plain.keys()
+    given = scanned(light=None)
+    announced = fit_result(
+        replace(given, views=given.views[1:], stages=(), alone=None), part_names=PARTS
+    )
+    assert (announced.view, announced.findings[0].code) == ("side", "blurred")
+    assert wire.FitResult.model_validate_json(announced.model_dump_json()) == announced
+
+
+def test_what_a_later_version_adds_to_a_result_is_passed_over():
+    document = json.loads(fit_result(result(light=None), part_names=PARTS).model_dump_json())
+    document["of_tomorrow"] = {"a": 1}
+    document["body"]["of_tomorrow"] = 2
+    assert read_result(json.dumps(document).encode()) == fit_result(
+        result(light=None), part_names=PARTS
+    )

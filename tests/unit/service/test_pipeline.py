@@ -1,0 +1,128 @@
+"""The pipeline hands the fitter what was asked of one or several pictures, and tells its faults."""
+
+import json
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from api_schemas.requests import FitOptions
+from api_schemas.scans import ScanOptions
+from fitter.errors import DetectorUnavailableError, InvalidInputError
+from fitter.fits.progress import Progress, Stage
+from fitter.request import Click, FitRequest, KnownMeasurement
+from fitter.vocabulary.choices import Clothing, Cues, Gender, OptimizerKind, ViewKind
+from service.engine.port import Report
+from service.jobs.inputs import SentPicture
+from service.worker import pipeline
+from service.worker.pipeline_port import PipelineInput, UnusableInputError
+
+PERSON: dict[str, Any] = {
+    "gender": "female",
+    "height_m": 1.65,
+    "weight_kg": 60.5,
+    "cues": "SE",
+    "optimizer": "simplex",
+    "force": True,
+}
+FRONT: dict[str, Any] = {"view": "front", "points": {"nose": [10, 20]}, "clothing": "loose"}
+SIDE: dict[str, Any] = {
+    "view": "side",
+    "points": {},
+    "complete_points": True,
+    "focal_length_35mm": 26,
+}
+FIT, SCAN = PERSON | FRONT, PERSON | {"views": [FRONT, SIDE]}
+
+
+def job(*, pictures: int = 2) -> PipelineInput:
+    kind, asked = (FitOptions, FIT) if pictures == 1 else (ScanOptions, SCAN)
+    return PipelineInput(
+        options=kind.model_validate_json(json.dumps(asked)),
+        pictures=tuple(SentPicture(bytes([number]), None) for number in range(pictures)),
+        max_pixels=7,
+    )
+
+
+class EndedError(Exception):
+    """Ends a fit once it has been asked for."""
+
+
+def asked(monkeypatch: pytest.MonkeyPatch, fault: Exception, *, pictures: int) -> FitRequest:
+    """What the fitter is asked for by a fit that ends in this fault."""
+    requests: list[FitRequest] = []
+
+    def fit(request: FitRequest, *_: object, **__: object) -> None:
+        requests.append(request)
+        raise fault
+
+    monkeypatch.setattr(pipeline, "fit", fit)
+    with pytest.raises((EndedError, UnusableInputError)):
+        pipeline.run(job(pictures=pictures), lambda _: None)
+    (request,) = requests
+    return request
+
+
+@pytest.mark.parametrize("pictures", [1, 2])
+def test_the_fitter_is_asked_for_one_person_in_all_pictures(monkeypatch, pictures):
+    request = asked(monkeypatch, EndedError(), pictures=pictures)
+    assert (request.person.gender, request.person.height_m) == (Gender.FEMALE, 1.65)
+    weight = KnownMeasurement(value=60.5, field="weight_kg")
+    assert request.person.measurements == {"weight": weight}
+    assert request.choices.optimizer is OptimizerKind.SIMPLEX
+    assert (request.choices.force, request.choices.max_pixels) == (True, 7)
+    assert [each.image for each in request.views] == [bytes([n]) for n in range(pictures)]
+    assert {each.mask for each in request.views} == {None}
+    assert {each.cues for each in request.views} == {Cues.SE}
+
+
+def test_of_every_picture_the_fitter_is_told_what_was_said_of_it(monkeypatch):
+    front, side = asked(monkeypatch, EndedError(), pictures=2).views
+    (alone,) = asked(monkeypatch, EndedError(), pictures=1).views
+    assert (front.kind, side.kind, alone.kind) == (ViewKind.FRONT, ViewKind.SIDE, ViewKind.FRONT)
+    assert front.clicks == alone.clicks == {"nose": Click(x=10.0, y=20.0)}
+    assert front.clothing is alone.clothing is Clothing.LOOSE
+    assert side.clothing is Clothing.TIGHT
+    assert (front.complete_clicks, side.complete_clicks) == (False, True)
+    assert (front.focal_length_35mm, side.focal_length_35mm) == (None, 26.0)
+
+
+def told(monkeypatch: pytest.MonkeyPatch, fault: Exception, given: PipelineInput) -> Any:
+    def fit(*_: object, **__: object) -> None:
+        raise fault
+
+    monkeypatch.setattr(pipeline, "fit", fit)
+    with pytest.raises(UnusableInputError) as caught:
+        pipeline.run(given, lambda _: None)
+    return caught.value.error
+
+
+def test_a_fault_keeps_its_words(monkeypatch):
+    fault = InvalidInputError(code="a-code", field="views.1.image", reason="Why.", remedy="What.")
+    error = told(monkeypatch, fault, job())
+    assert (error.field, error.code) == ("views.1.image", "a-code")
+    assert (error.reason, error.remedy) == ("Why.", "What.")
+
+
+def test_a_detector_that_is_missing_is_told_of_the_first_picture_that_needs_it(monkeypatch):
+    fault = DetectorUnavailableError(reason="None.", remedy="Click.")
+    error = told(monkeypatch, fault, job())
+    assert (error.field, error.code) == ("views.1.points", "detector-not-installed")
+    assert told(monkeypatch, fault, job(pictures=1)).field == "points"
+
+
+def test_progress_names_the_view_it_is_of(monkeypatch):
+    reports: list[Report] = []
+
+    def fit(*_: object, observer: Callable[[Progress], None], **__: object) -> None:
+        observer(Progress(view=1, stage=Stage.SEGMENTATION, fraction=0.4))
+        observer(Progress(stage=Stage.SHADING, fraction=0.9, energies={"edges": 2.0}))
+        raise EndedError
+
+    monkeypatch.setattr(pipeline, "fit", fit)
+    with pytest.raises(EndedError):
+        pipeline.run(job(), reports.append)
+    assert reports == [
+        Report(view=1, stage="segmentation", progress=0.4),
+        Report(stage="shading", progress=0.9, energies={"edges": 2.0}),
+    ]
