@@ -15,8 +15,12 @@ from fitter.fits.foretold import foretold
 from fitter.fits.outlined import Outlined, Subject, outlined
 from fitter.fits.picture_objective import of_person
 from fitter.fits.progress import Observer, Stage, ignore_progress
-from fitter.fits.reporting import fit_warnings, insistence_warnings, shading_warnings
-from fitter.fits.scan_remarks import person_warnings
+from fitter.fits.reporting import (
+    fit_warnings,
+    insistence_warnings,
+    person_warnings,
+    shading_warnings,
+)
 from fitter.fits.search import Found, search
 from fitter.fits.settling import settle
 from fitter.fits.stage_clock import StageClock, ViewClock

@@ -1,7 +1,5 @@
 """The sample's fit, told what is known of the person: the whole pipeline on a picture."""
 
-from dataclasses import replace
-
 import pytest
 
 from fitter.errors import InvalidInputError
@@ -63,7 +61,8 @@ def test_a_fit_has_what_it_was_given_from_its_first_body_to_its_last():
 
 def test_without_a_height_the_most_probable_one_is_held_and_said():
     truth = SAMPLE.truth
-    request = replace(sample_request(inseam=truth["inseam"], weight=truth["weight"]), height_m=None)
+    known = sample_request(inseam=truth["inseam"], weight=truth["weight"])
+    request = changed(known, height_m=None)
     result = fit(request)
     (height,) = (each for each in result.assumptions if each.quantity == "height_m")
     assert height.value == result.found.height_m

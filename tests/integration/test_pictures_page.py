@@ -10,7 +10,7 @@ import pytest
 from api_schemas import checks as wire
 from fitter.capture import arms, camera_place, clothes, exposure, framing, sharpness, turning
 from fitter.capture.finding import Code
-from fitter.fits import reporting, scan_remarks
+from fitter.fits import reporting
 from fitter.observation import decoding
 from fitter.person.several_pictures import SAME_PERSON_PROBABILITY
 from fitter.result import Verdict
@@ -149,8 +149,8 @@ def test_warnings_of_derivations_are_those_of_the_code():
 def test_the_figures_of_warnings_are_those_of_the_code():
     assert f"less than {reporting.POOR_OVERLAP} " in OF_FITS["low-silhouette-overlap"]
     assert f"within {reporting.AMBIGUOUS_NATS:g} nats" in OF_FITS["ambiguous-limb-facing"]
-    assert f"{scan_remarks.MOST_TURNED_DEG:g} degrees" in OF_FITS["other-view"]
-    assert f"{scan_remarks.MOST_DEVIATIONS:g} standard errors" in OF_FITS["given-contradicted"]
+    assert f"{reporting.MOST_TURNED_DEG:g} degrees" in OF_FITS["other-view"]
+    assert f"{reporting.MOST_DEVIATIONS:g} standard errors" in OF_FITS["given-contradicted"]
     assert f"{SAME_PERSON_PROBABILITY:.0%}".replace("%", " %") in OF_FITS["different-people"]
     assert f"{framing.LEAST_STATURE_PX:g} pixels" in OF_POINTS["person-too-small"]
     assert f"{decoding.LEAST_SIDE_PX} pixels" in REFUSALS["image-too-small"]
