@@ -118,6 +118,11 @@ def prior_residuals(
     return np.concatenate([departures, _beyond(angles, prior.lower, prior.upper)], axis=-1)
 
 
+def prior_energy(prior: PosePrior, pose: Pose) -> float:
+    """Half the sum of squared residuals, nats."""
+    return 0.5 * float((prior_residuals(prior, pose) ** 2).sum())
+
+
 def prior_terms(prior: PosePrior, pose: Float[np.ndarray, "... p 3"]) -> PriorTerms:
     """Residuals and Jacobian of the prior, for one pose or a batch of them."""
     residuals = prior_residuals(prior, pose)

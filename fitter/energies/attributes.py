@@ -15,6 +15,9 @@ from jaxtyping import Float
 
 from fitter.arrays import Shape
 
+ShapeEquations = tuple[Float[np.ndarray, "n n"], Float[np.ndarray, " n"]]
+"""Matrix and gradient of an energy of the shape, nats."""
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Attributes:
@@ -66,6 +69,12 @@ def attribute_energy(known: KnownAttributes, shape: Shape) -> float:
     """½ Σ ((m_k(β) - y_k) / σ_k)² over the uncertain attributes, nats."""
     residuals = attribute_residuals(known, shape)
     return 0.5 * float(residuals @ residuals)
+
+
+def attribute_equations(known: KnownAttributes, shape: Shape) -> ShapeEquations:
+    """Matrix and gradient of :func:`attribute_energy` over the shape."""
+    slopes = attribute_slopes(known, shape)
+    return slopes.T @ slopes, slopes.T @ attribute_residuals(known, shape)
 
 
 def attribute_residuals(known: KnownAttributes, shape: Shape) -> Float[np.ndarray, " r"]:

@@ -8,7 +8,7 @@ from jaxtyping import Float
 
 from fitter.arrays import Points2D, Points3D
 from fitter.body.model import SparseRows
-from fitter.energies.rows import PositionRows
+from fitter.energies.rows import PositionRows, Support
 from fitter.energies.scales import EnergyScales
 from fitter.numerics.robust import huber, huber_weights
 from fitter.observation.click_spread import BODY_CLICK_SPREAD_M
@@ -104,4 +104,5 @@ def click_rows(
         weights=np.repeat(weight, 2),
         points=np.repeat(np.arange(count), 2)[:, None],
         derivatives=derivatives.reshape(-1, 1, 3),
+        support=Support.LANDMARKS,
     )

@@ -14,7 +14,7 @@ it bounds the body from outside (:mod:`fitter.energies.ease`).
 import numpy as np
 from jaxtyping import Float
 
-from fitter.energies.ease import bound_share, common_offset, ease_loss, ease_weights
+from fitter.energies.ease import bound_share, common_ease, common_offset, ease_loss, ease_weights
 from fitter.energies.rows import PositionRows
 from fitter.energies.scales import EnergyScales
 from fitter.evidence.correspondence_lines import CorrespondenceLines
@@ -54,7 +54,7 @@ def line_rows(
         weights=lengths * ease_weights(residuals + offset, scales),
         points=lines.points,
         derivatives=derivatives,
-        of_ease=True,
+        nuisance=common_ease(len(residuals), scales),
     )
     return bound, ease
 

@@ -32,6 +32,7 @@ from typing import Final
 import numpy as np
 from jaxtyping import Float
 
+from fitter.energies.rows import Nuisance
 from fitter.energies.scales import EnergyScales
 from fitter.numerics.robust import boundary_loss, boundary_weights
 
@@ -66,3 +67,13 @@ def common_offset(residuals: Values, lengths: Values, scales: EnergyScales) -> f
         precision = float(weights.sum()) + 1.0 / scales.ease_common_spread**2
         offset = -float(weights @ (residuals + scales.ease_mean)) / precision
     return offset
+
+
+def common_ease(rows: int, scales: EnergyScales, *, held_in_search: bool = False) -> Nuisance:
+    """δ as the unknown that so many rows r + μ + δ share."""
+    return Nuisance(
+        name="ease",
+        slopes=np.ones((rows, 1)),
+        known=np.array([[1.0 / scales.ease_common_spread]]),
+        held_in_search=held_in_search,
+    )

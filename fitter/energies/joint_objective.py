@@ -13,10 +13,13 @@ where several share part of their errors.
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from fitter.arrays import Shape
-from fitter.energies.attributes import KnownAttributes, attribute_energy
+from fitter.energies.attributes import KnownAttributes, ShapeEquations
 from fitter.energies.objective import Body, Candidate, Objective
 from fitter.energies.priors import ShapePrior
+from fitter.energies.terms import ShapeTerm, shape_terms_of
 from fitter.parameters import BodyParameters
 
 
@@ -66,6 +69,20 @@ class JointObjective:
     shape_prior: ShapePrior
     attributes: KnownAttributes
 
+    @property
+    def shape_terms(self) -> tuple[ShapeTerm, ...]:
+        """What is known of the shape, as energies."""
+        return shape_terms_of(self.shape_prior, self.attributes)
+
+    def shape_equations(self, shape: Shape) -> ShapeEquations:
+        """Matrix and gradient of what is known of the shape."""
+        n = len(shape)
+        matrix, gradient = np.zeros((n, n)), np.zeros(n)
+        for term in self.shape_terms:
+            own, slope = term.equations(shape)
+            matrix, gradient = matrix + own, gradient + slope
+        return matrix, gradient
+
     def evaluate(self, bodies: Sequence[Body]) -> JointCandidate:
         """The true energy of bodies of one shape.
 
@@ -80,9 +97,7 @@ class JointObjective:
         for each in found:
             for name, energy in each.energies.items():
                 energies[name] = energies.get(name, 0.0) + self.weight * energy
-        energies["shape_prior"] = self.shape_prior.energy(shape)
-        if len(self.attributes.standard_errors):
-            energies["attributes"] = attribute_energy(self.attributes, shape)
+        energies |= {term.name: term.energy(shape) for term in self.shape_terms}
         return JointCandidate(views=tuple(found), energies=energies)
 
     def with_views(self, views: Sequence[Objective]) -> "JointObjective":

@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float, Integer
 
 from fitter.arrays import Points3D, Vector3
-from fitter.energies.rows import PositionRows
+from fitter.energies.rows import PositionRows, Support
 from fitter.numerics.robust import huber, huber_weights
 from fitter.pose_init.limb_reaches import TRUNCATION
 
@@ -52,6 +52,7 @@ def slant_rows(landmarks: Points3D, evidence: SlantEvidence) -> PositionRows:
         weights=weights / evidence.sigma_m**2,
         points=evidence.ends,
         derivatives=np.tile(along, (len(excess), 1, 1)),
+        support=Support.LANDMARKS,
     )
 
 

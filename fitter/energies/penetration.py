@@ -14,7 +14,7 @@ from scipy.spatial import KDTree
 from fitter.arrays import Vertices
 from fitter.body.model import BodyModel, SparseRows
 from fitter.energies._sphere_kernels import pair_overlaps, ring_spheres, squared_overlaps
-from fitter.energies.rows import PositionRows
+from fitter.energies.rows import PositionRows, Support
 from fitter.energies.scales import EnergyScales
 from fitter.numerics.meshes import vertex_areas
 
@@ -131,6 +131,7 @@ def penetration_rows(
         weights=np.full(len(pairs), 1.0 / scales.penetration_sigma_m**2),
         points=pairs,
         derivatives=np.stack([-apart, apart], axis=1),
+        support=Support.SPHERES,
     )
 
 

@@ -7,11 +7,46 @@ points of the body (and by a vertex normal, for shading). Robust functions enter
 """
 
 from dataclasses import dataclass, replace
+from enum import Enum, auto
 
 import numpy as np
 from jaxtyping import Float, Integer
 
 from fitter.arrays import Points3D
+from fitter.body.pose_prior import PriorTerms
+
+
+class Support(Enum):
+    """Which points of the body rows depend on."""
+
+    VERTICES = auto()
+    LANDMARKS = auto()
+    """Those that were clicked."""
+    SPHERES = auto()
+    """Of the penetration proxy."""
+    JOINTS = auto()
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Nuisance:
+    """Unknowns that rows have besides the body: the energy takes their most probable values.
+
+    Attributes
+    ----------
+    name
+        Rows whose nuisance has the same name share the unknowns.
+    slopes
+        (k, u) derivatives of the residuals by the unknowns.
+    known
+        (r, u) what is known of them besides: rows over their standard deviations.
+    held_in_search
+        Whether the energy holds them all the same, so that only certainty has to allow for them.
+    """
+
+    name: str
+    slopes: Float[np.ndarray, "k u"]
+    known: Float[np.ndarray, "r u"]
+    held_in_search: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -23,19 +58,21 @@ class PositionRows:
     residuals, weights
         (k,) each.
     points
-        (k, q) indices into the support: mesh vertices, landmarks or spheres.
+        (k, q) indices into the support.
     derivatives
         (k, q, 3) of the residual by each point's camera-frame position, per metre.
-    of_ease
-        Whether the residuals are deviations of the ease of loose clothes from its mean, in pixels
-        (:mod:`fitter.energies.ease`).
+    support
+        What the points are.
+    nuisance
+        Unknowns other than the body's, if the rows have any.
     """
 
     residuals: Float[np.ndarray, " k"]
     weights: Float[np.ndarray, " k"]
     points: Integer[np.ndarray, "k q"]
     derivatives: Float[np.ndarray, "k q 3"]
-    of_ease: bool = False
+    support: Support = Support.VERTICES
+    nuisance: Nuisance | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -62,16 +99,24 @@ class ShadingRows:
     centre_derivatives: Points3D
 
 
+Rows = PositionRows | ShadingRows | PriorTerms
+"""What a term passes on: rows by points, by vertices and their normals, or by the pose itself."""
+
+
 def thinned(rows: PositionRows, limit: int) -> PositionRows:
     """At most ``limit`` rows at even steps, reweighted to represent all: enough for the matrix."""
     step = -(-len(rows.residuals) // limit)
     if step <= 1:
         return rows
     chosen = slice(step // 2, None, step)
+    nuisance = rows.nuisance
+    if nuisance is not None:
+        nuisance = replace(nuisance, slopes=nuisance.slopes[chosen])
     return replace(
         rows,
         residuals=rows.residuals[chosen],
         weights=rows.weights[chosen] * step,
         points=rows.points[chosen],
         derivatives=rows.derivatives[chosen],
+        nuisance=nuisance,
     )

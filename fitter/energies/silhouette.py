@@ -20,7 +20,7 @@ from fitter.energies._silhouette_kernels import (
     nearest_within,
     robust_mismatch,
 )
-from fitter.energies.ease import bound_share, ease_weights
+from fitter.energies.ease import bound_share, common_ease, ease_weights
 from fitter.energies.rows import PositionRows
 from fitter.energies.scales import EnergyScales
 from fitter.evidence.loose_outline import FARTHEST_M
@@ -150,7 +150,7 @@ def _rows(
         weights=_SHARE * lengths * cloth * ease_weights(residuals, scales),
         points=points,
         derivatives=derivatives,
-        of_ease=True,
+        nuisance=common_ease(len(residuals), scales, held_in_search=True),
     )
     return bound, ease
 

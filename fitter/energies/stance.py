@@ -27,7 +27,7 @@ from jaxtyping import Float
 
 from fitter.arrays import Points3D
 from fitter.energies import _stance_kernels as kernels
-from fitter.energies.rows import PositionRows
+from fitter.energies.rows import Nuisance, PositionRows, Support
 from fitter.numerics.damped_descent import Offer, Step, damped_steps, descend
 from fitter.parameters import StanceKind
 from fitter.vocabulary.choices import Posture
@@ -169,17 +169,6 @@ class Tilt:
     posture: Posture
 
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class StanceRows:
-    """The energy at a body as rows, with the tilt as two more unknowns.
-
-    ``rows`` are over the joints; ``by_tilt`` (9, 2) are √w ∂r of the same rows by pitch and roll.
-    """
-
-    rows: PositionRows
-    by_tilt: Float[np.ndarray, "9 2"]
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class _Weighed:
     """A tilt with its energy."""
@@ -248,19 +237,23 @@ def most_probable_tilt(
     )
 
 
-def stance_rows(joints: Points3D, vectors: Float[np.ndarray, "9 p"], tilt: Tilt) -> StanceRows:
-    """The rows of the energy at its most probable tilt."""
+def stance_rows(joints: Points3D, vectors: Float[np.ndarray, "9 p"], tilt: Tilt) -> PositionRows:
+    """The energy at a body as rows over the joints, with pitch and roll as two more unknowns."""
     stance, place = vectors @ joints, np.array([tilt.pitch, tilt.roll])
     weighed = kernels.weigh(stance, place, KINDS[tilt.posture])
     by_vectors = kernels.slopes_by_vectors(stance, place)
-    return StanceRows(
-        rows=PositionRows(
-            residuals=weighed.departures,
-            weights=weighed.weights,
-            points=np.tile(np.arange(len(joints)), (9, 1)),
-            derivatives=np.einsum("kvc,vp->kpc", by_vectors, vectors),
+    return PositionRows(
+        residuals=weighed.departures,
+        weights=weighed.weights,
+        points=np.tile(np.arange(len(joints)), (9, 1)),
+        derivatives=np.einsum("kvc,vp->kpc", by_vectors, vectors),
+        support=Support.JOINTS,
+        nuisance=Nuisance(
+            name="tilt",
+            slopes=kernels.slopes_by_tilt(stance, place),
+            # The camera's usual roll and height are rows of their own.
+            known=np.zeros((0, 2)),
         ),
-        by_tilt=np.sqrt(weighed.weights)[:, None] * kernels.slopes_by_tilt(stance, place),
     )
 
 

@@ -4,7 +4,8 @@ from dataclasses import dataclass, replace
 
 from fitter.arrays import Image, Shape
 from fitter.detection.detector import Detector
-from fitter.energies.objective import Body, Objective, SeenBody
+from fitter.energies.objective import Body, Objective
+from fitter.energies.picture import SeenBody
 from fitter.energies.scales import FAR_BOUNDARY_ETA_M, NEAR_BOUNDARY_ETA_M, scales_at
 from fitter.fits.picture_objective import (
     of_person,

@@ -9,7 +9,8 @@ from fitter.arrays import GreyImage
 from fitter.body.skeleton import regress
 from fitter.energies.clicks import click_evidence
 from fitter.energies.joint_objective import JointObjective
-from fitter.energies.objective import Objective, PictureEvidence
+from fitter.energies.objective import Objective
+from fitter.energies.picture import PictureEvidence
 from fitter.energies.priors import population_prior
 from fitter.energies.scales import scales_at
 from fitter.evidence.edge_cost import edge_cost_map

@@ -15,7 +15,6 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from fitter.energies.attributes import attribute_residuals, attribute_slopes
 from fitter.energies.joint_objective import JointCandidate, JointObjective
 from fitter.optimizer.free_space import FreeSpace
 from fitter.optimizer.normal_equations import normal_equations
@@ -102,10 +101,7 @@ def joint_equations(
     ``space`` is what may change of the shape.
     """
     shape, directions = candidate.shape, space.directions
-    slopes = attribute_slopes(objective.attributes, shape)
-    residuals = attribute_residuals(objective.attributes, shape)
-    shared = objective.shape_prior.precision + slopes.T @ slopes
-    gradient = objective.shape_prior.slope(shape) + slopes.T @ residuals
+    shared, gradient = objective.shape_equations(shape)
     own: list[Float[np.ndarray, "own own"]] = []
     border: list[Float[np.ndarray, "own free"]] = []
     own_gradients: list[Float[np.ndarray, " own"]] = []

@@ -5,28 +5,22 @@ back through the body by its reverse mode. The matrix uses the linear-blend tang
 the rows: it merely shapes the step.
 """
 
-from dataclasses import replace
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
 
-from fitter.arrays import Vertices
+from fitter.arrays import Points3D, Vertices
 from fitter.body.model import SparseRows
-from fitter.body.pose_prior import prior_terms
+from fitter.body.pose_prior import PriorTerms
 from fitter.body.tangent import Attachments, linearise
-from fitter.energies.clicks import click_rows
-from fitter.energies.correspondence_lines import line_rows
-from fitter.energies.edges import edge_rows
 from fitter.energies.fitting_operators import FittingOperators
-from fitter.energies.limb_slants import slant_rows
 from fitter.energies.objective import Candidate, Objective
-from fitter.energies.penetration import penetration_rows
-from fitter.energies.rows import PositionRows, ShadingRows, thinned
-from fitter.energies.shading import shading_rows, thinned_shading
-from fitter.energies.silhouette import silhouette_rows
-from fitter.energies.stance import stance_rows
+from fitter.energies.rows import PositionRows, ShadingRows, Support, thinned
+from fitter.energies.shading import thinned_shading
 from fitter.numerics.normals import add_normal_derivative
-from fitter.optimizer.ease_freedom import with_free_ease
+from fitter.optimizer.nuisance import RowsWithNuisance, without_nuisance
 from fitter.optimizer.parameter_vector import as_vector
 from fitter.optimizer.row_jacobians import (
     RowJacobian,
@@ -35,7 +29,6 @@ from fitter.optimizer.row_jacobians import (
     scatter_sums,
     shading_row_jacobian,
 )
-from fitter.optimizer.tilt_freedom import stance_jacobian, with_free_tilt
 
 # At most this many rows of each kind enter the matrix; the gradient uses all of them.
 MATRIX_ROWS = 300
@@ -45,77 +38,93 @@ Matrix = Float[np.ndarray, "columns columns"]
 Vector = Float[np.ndarray, " columns"]
 
 
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class SupportPoints:
+    """Points that rows depend on.
+
+    Attributes
+    ----------
+    sums
+        Which weighted sums of vertices they are; None for the vertices themselves.
+    attachments
+        How they are attached to the body.
+    positions
+        Where they are, camera frame, metres.
+    """
+
+    sums: SparseRows | None
+    attachments: Attachments
+    positions: Points3D
+
+
 def normal_equations(
     objective: Objective, candidate: Candidate, *, marginal: bool = False
 ) -> tuple[Matrix, Vector]:
     """Matrix and gradient over the full parameter vector, in nats.
 
-    The matrix treats the ease that all loose clothes share as free wherever the energy takes its
-    most probable value, as that of lines does; with ``marginal``, also where the energy holds it.
+    The matrix treats what rows depend on besides the body as free, but for what the energy holds;
+    with ``marginal``, that too.
     """
-    operators, evidence, scales = objective.operators, objective.evidence, objective.scales
-    rendering, parameters = candidate.rendering, candidate.parameters
+    operators, parameters = objective.operators, candidate.parameters
     frame = linearise(operators.tangent, parameters)
+    points = support_points(objective, candidate)
     pull, by_centre = np.zeros_like(candidate.vertices), np.zeros(3)
     jacobians: list[RowJacobian] = []
-    eases: list[tuple[RowJacobian, PositionRows]] = []
-    for rows in (
-        *outline_rows(objective, candidate),
-        edge_rows(rendering, candidate.edges, evidence.edges, scales, evidence.bare),
-    ):
-        scatter(rows, pull)
-        few = thinned(rows, MATRIX_ROWS)
-        vertices = operators.tangent.vertices
-        jacobian = position_row_jacobian(few, frame, vertices, candidate.vertices)
-        if rows.of_ease and (marginal or evidence.lines is not None):
-            eases.append((jacobian, few))
-        else:
-            jacobians.append(jacobian)
-    if eases:
-        jacobians.append(with_free_ease(eases, scales))
-    on_landmarks = [click_rows(candidate.landmarks, evidence.clicks, evidence.camera, scales)]
-    if evidence.slants is not None:
-        on_landmarks.append(slant_rows(candidate.landmarks, evidence.slants))
-    landmark_attachments = _attachments_of(operators, evidence.clicks.landmarks.names)
-    for rows, support, attachments, positions in (
-        *(
-            (rows, evidence.clicks.landmarks, landmark_attachments, candidate.landmarks)
-            for rows in on_landmarks
-        ),
-        (
-            penetration_rows(candidate.spheres, candidate.radii, operators.penetration, scales),
-            operators.penetration.centres,
-            operators.sphere_attachments,
-            candidate.spheres,
-        ),
-    ):
-        if not len(rows.residuals):
-            continue
-        _scatter_through(rows, support, len(positions), pull)
-        jacobians.append(position_row_jacobian(rows, frame, attachments, positions))
-    stance = stance_rows(candidate.joints, operators.stance_vectors, candidate.tilt)
-    _scatter_through(stance.rows, operators.model.joint_regressor, len(candidate.joints), pull)
-    jacobians.append(with_free_tilt(stance_jacobian(stance, frame, operators, candidate), stance))
-    if evidence.shading is not None:
-        rows = shading_rows(rendering, evidence.shading.about(parameters.translation), scales)
-        by_centre += rows.centre_derivatives.T @ (rows.weights * rows.residuals)
-        _add_shading_pull(objective, candidate, rows, pull)
-        few = thinned_shading(rows, MATRIX_SHADING_ROWS)
-        jacobians.append(shading_row_jacobian(few, frame, operators, candidate))
+    with_nuisance: dict[str, list[RowsWithNuisance]] = {}
+    priors: list[PriorTerms] = []
+    for rows in (rows for term in objective.terms for rows in term.rows(candidate)):
+        if isinstance(rows, PriorTerms):
+            priors.append(rows)
+        elif isinstance(rows, ShadingRows):
+            by_centre += rows.centre_derivatives.T @ (rows.weights * rows.residuals)
+            _add_shading_pull(objective, candidate, rows, pull)
+            few = thinned_shading(rows, MATRIX_SHADING_ROWS)
+            jacobians.append(shading_row_jacobian(few, frame, operators, candidate))
+        elif len(rows.residuals):
+            on = points[rows.support]
+            _add_pull(rows, on, pull)
+            few = thinned(rows, MATRIX_ROWS)
+            jacobian = position_row_jacobian(few, frame, on.attachments, on.positions)
+            nuisance = few.nuisance
+            if nuisance is None or (nuisance.held_in_search and not marginal):
+                jacobians.append(jacobian)
+            else:
+                with_nuisance.setdefault(nuisance.name, []).append(
+                    RowsWithNuisance(by_body=jacobian, weights=few.weights, nuisance=nuisance)
+                )
+    jacobians += [without_nuisance(kinds) for kinds in with_nuisance.values()]
     every = np.concatenate(jacobians)
     matrix = every.T @ every
     derivative = operators.evaluator.derivative(parameters, pull)
     gradient = as_vector(replace(derivative, translation=derivative.translation + by_centre))
-    _add_pose_prior(objective, candidate, matrix, gradient)
+    for terms in priors:
+        _add_prior(terms, matrix, gradient)
     return matrix, gradient
 
 
-def outline_rows(objective: Objective, candidate: Candidate) -> tuple[PositionRows, ...]:
-    """Rows of the silhouette energy: those of its lines, or of the segmented region."""
-    evidence, scales = objective.evidence, objective.scales
-    if evidence.lines is not None:
-        return line_rows(candidate.rendering, evidence.lines, scales)
-    return silhouette_rows(candidate.rendering, candidate.edges, evidence.silhouette, scales)
+def support_points(objective: Objective, candidate: Candidate) -> Mapping[Support, SupportPoints]:
+    """The points that rows may depend on, at a candidate."""
+    operators, clicked = objective.operators, objective.evidence.clicks.landmarks
+    return {
+        Support.VERTICES: SupportPoints(
+            sums=None, attachments=operators.tangent.vertices, positions=candidate.vertices
+        ),
+        Support.LANDMARKS: SupportPoints(
+            sums=clicked,
+            attachments=_attachments_of(operators, clicked.names),
+            positions=candidate.landmarks,
+        ),
+        Support.SPHERES: SupportPoints(
+            sums=operators.penetration.centres,
+            attachments=operators.sphere_attachments,
+            positions=candidate.spheres,
+        ),
+        Support.JOINTS: SupportPoints(
+            sums=operators.model.joint_regressor,
+            attachments=operators.joint_attachments,
+            positions=candidate.joints,
+        ),
+    }
 
 
 def _attachments_of(operators: FittingOperators, names: tuple[str, ...]) -> Attachments:
@@ -128,25 +137,24 @@ def _attachments_of(operators: FittingOperators, names: tuple[str, ...]) -> Atta
     )
 
 
-def _add_pose_prior(
-    objective: Objective, candidate: Candidate, matrix: Matrix, gradient: Vector
-) -> None:
-    """Add the quadratic form of the prior on the pose, in place."""
-    parameters = candidate.parameters
-    pose_size = parameters.pose.size
-    terms = prior_terms(objective.operators.pose_prior, parameters.pose)
+def _add_prior(terms: PriorTerms, matrix: Matrix, gradient: Vector) -> None:
+    """Add the quadratic form of a prior on the pose, in place."""
     blocks = np.einsum("pra,prb->pab", terms.jacobian, terms.jacobian)
     for part, block in enumerate(blocks):
         span = slice(3 * part, 3 * part + 3)
         matrix[span, span] += block
-    gradient[:pose_size] += np.einsum("pra,pr->pa", terms.jacobian, terms.residuals).ravel()
+    pulls = np.einsum("pra,pr->pa", terms.jacobian, terms.residuals).ravel()
+    gradient[: len(pulls)] += pulls
 
 
-def _scatter_through(rows: PositionRows, support: SparseRows, count: int, pull: Vertices) -> None:
-    """:func:`scatter` for points that are weighted sums of vertices."""
-    on_points = np.zeros((count, 3))
+def _add_pull(rows: PositionRows, on: SupportPoints, pull: Vertices) -> None:
+    """Add w r ∂r to the derivative by the vertices, in place."""
+    if on.sums is None:
+        scatter(rows, pull)
+        return
+    on_points = np.zeros_like(on.positions)
     scatter(rows, on_points)
-    scatter_sums(on_points, support, pull)
+    scatter_sums(on_points, on.sums, pull)
 
 
 def _add_shading_pull(

@@ -11,15 +11,17 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Shape
-from fitter.energies.attributes import attribute_slopes
+from fitter.body.tangent import linearise
 from fitter.energies.fitting_operators import FittingOperators
 from fitter.energies.joint_objective import JointCandidate, JointObjective
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.priors import height_extrapolation
+from fitter.energies.stance import stance_rows
 from fitter.optimizer.free_space import FreeSpace, free_space
 from fitter.optimizer.light_freedom import information_lost_to_light
 from fitter.optimizer.normal_equations import normal_equations
-from fitter.optimizer.tilt_freedom import tilt_covariance
+from fitter.optimizer.nuisance import RowsWithNuisance, nuisance_covariance
+from fitter.optimizer.row_jacobians import position_row_jacobian
 from fitter.parameters import CameraTilt, StanceKind
 
 
@@ -55,7 +57,7 @@ def certainty(objective: JointObjective, candidate: JointCandidate) -> tuple[Cer
     n = len(shape)
     space = free_space(objective.attributes.held, shape)
     directions = space.directions
-    known = _known_precision(objective, shape)
+    known, _ = objective.shape_equations(shape)
     matrix = directions.T @ known @ directions
     inverses: list[Float[np.ndarray, "own own"]] = []
     responses: list[Float[np.ndarray, "own free"]] = []
@@ -111,19 +113,26 @@ def shape_covariance(certain: Certainty, *, height_variance: float) -> Float[np.
 
 def camera_tilt(certain: Certainty) -> CameraTilt:
     """The camera's tilt, as the body tells it, with its covariance."""
-    tilt = certain.candidate.tilt
+    operators, candidate = certain.operators, certain.candidate
+    tilt = candidate.tilt
+    rows = stance_rows(candidate.joints, operators.stance_vectors, tilt)
+    assert rows.nuisance is not None
+    stance = RowsWithNuisance(
+        by_body=position_row_jacobian(
+            rows,
+            linearise(operators.tangent, candidate.parameters),
+            operators.joint_attachments,
+            candidate.joints,
+        ),
+        weights=rows.weights,
+        nuisance=rows.nuisance,
+    )
     return CameraTilt(
         pitch=tilt.pitch,
         roll=tilt.roll,
-        covariance=tilt_covariance(certain.operators, certain.candidate, certain.covariance),
+        covariance=nuisance_covariance(stance, certain.covariance),
         stances=dict(zip(StanceKind, tilt.shares.tolist(), strict=True)),
     )
-
-
-def _known_precision(objective: JointObjective, shape: Shape) -> Float[np.ndarray, "n n"]:
-    """Q = P + SᵀS, from the prior's precision and the slopes of the uncertain attributes."""
-    slopes = attribute_slopes(objective.attributes, shape)
-    return objective.shape_prior.precision + slopes.T @ slopes
 
 
 def _height_response(space: FreeSpace, known: Float[np.ndarray, "n n"]) -> Shape:

@@ -16,8 +16,8 @@ from fitter.energies.stance import (
 from fitter.fits.prepared_model import prepared_model
 from fitter.parameters import BodyParameters, CameraTilt, StanceKind
 from fitter.person.upright import upright_rotation
-from fitter.request import Gender, Posture
 from fitter.training.articulation.part_tree import PART_NAMES, part_index
+from fitter.vocabulary.choices import Gender, Posture
 
 VECTORS = stance_vectors(PART_NAMES)
 ANKLE_M = stances.ANKLE_HEIGHT_M
@@ -154,7 +154,7 @@ def test_rows_are_the_energys_gradient():
     rng = np.random.default_rng(3)
     joints = seen(standing_joints(), tilted(-9.0, 2.0)) + 0.05 * rng.standard_normal((17, 3))
     tilt = most_probable_tilt(joints, VECTORS)
-    rows = stance_rows(joints, VECTORS, tilt).rows
+    rows = stance_rows(joints, VECTORS, tilt)
     gradient = np.einsum("k,kpc->pc", rows.weights * rows.residuals, rows.derivatives)
     for index in np.ndindex(joints.shape):
         step = np.zeros_like(joints)
@@ -167,8 +167,9 @@ def test_rows_are_the_energys_gradient():
 def test_at_the_most_probable_tilt_no_tilt_is_better():
     joints = seen(standing_joints(), tilted(-9.0, 2.0)) + 0.03
     tilt = most_probable_tilt(joints, VECTORS)
-    stance = stance_rows(joints, VECTORS, tilt)
-    pull = (np.sqrt(stance.rows.weights) * stance.rows.residuals) @ stance.by_tilt
+    rows = stance_rows(joints, VECTORS, tilt)
+    assert rows.nuisance is not None
+    pull = (rows.weights * rows.residuals) @ rows.nuisance.slopes
     np.testing.assert_allclose(pull, 0.0, atol=1e-3)
 
 

@@ -16,7 +16,8 @@ from fitter.energies.attributes import NOTHING_KNOWN, KnownAttributes
 from fitter.energies.clicks import click_evidence
 from fitter.energies.fitting_operators import FittingOperators
 from fitter.energies.joint_objective import JointObjective
-from fitter.energies.objective import Candidate, Objective, PictureEvidence
+from fitter.energies.objective import Candidate, Objective
+from fitter.energies.picture import PictureEvidence
 from fitter.energies.priors import population_prior
 from fitter.energies.scales import NEAR_BOUNDARY_ETA_M, scales_at
 from fitter.evidence.edge_cost import edge_cost_map

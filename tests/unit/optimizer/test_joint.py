@@ -167,7 +167,7 @@ def test_the_joint_minimum_is_lower_and_nearer_to_the_man_than_one_picture_s(sce
     found = minimize_gauss_newton(objective, begun, max_evaluations=60, on_energies=ignore)
     assert found.converged
     # Down to the truth's own energy it does not get on every machine: pixels make small minima.
-    assert found.candidate.total < 0.8 * objective.evaluate(begun).total
+    assert found.candidate.total < 0.9 * objective.evaluate(begun).total
     one, other = found.candidate.bodies
     np.testing.assert_array_equal(one.shape, other.shape)
     assert np.linalg.norm(one.pose[0] - other.pose[0]) > 1.0

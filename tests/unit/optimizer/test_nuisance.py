@@ -1,3 +1,5 @@
+"""Unknowns of rows besides the body, eliminated from the matrix of both, in closed form."""
+
 from dataclasses import replace
 
 import numpy as np
@@ -8,8 +10,8 @@ from fitter.energies.correspondence_lines import line_energy
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.rows import PositionRows, thinned
 from fitter.evidence.silhouette_evidence import silhouette_evidence
-from fitter.optimizer.ease_freedom import with_free_ease
-from fitter.optimizer.normal_equations import MATRIX_ROWS, normal_equations, outline_rows
+from fitter.optimizer.normal_equations import MATRIX_ROWS, normal_equations, support_points
+from fitter.optimizer.nuisance import RowsWithNuisance, nuisance_covariance, without_nuisance
 from fitter.optimizer.renewed_lines import with_lines_about
 from fitter.optimizer.row_jacobians import position_row_jacobian
 from fitter.optimizer.uncertainty import certainty, shape_covariance
@@ -33,37 +35,62 @@ def _dressed(cloth: float | None, *, lines: bool = False) -> tuple[Objective, Ca
     return objective, objective.evaluate(scene.truth)
 
 
-def _ease_rows(objective: Objective, candidate: Candidate) -> list[PositionRows]:
-    return [rows for rows in outline_rows(objective, candidate) if rows.of_ease]
+def _outline_rows(objective: Objective, candidate: Candidate) -> list[PositionRows]:
+    (outline,) = (term for term in objective.terms if term.name == "silhouette")
+    return [rows for rows in outline.rows(candidate) if isinstance(rows, PositionRows)]
 
 
-@pytest.mark.parametrize("lines", [False, True])
-def test_the_rows_are_those_of_body_and_offset_together_without_the_offset(lines):
-    objective, candidate = _dressed(0.8, lines=lines)
+def _with_nuisance(name: str, objective: Objective, candidate: Candidate) -> list[RowsWithNuisance]:
     frame = linearise(objective.operators.tangent, candidate.parameters)
-    vertices = objective.operators.tangent.vertices
-    kinds = [thinned(rows, MATRIX_ROWS) for rows in _ease_rows(objective, candidate)]
-    assert len(kinds) == (1 if lines else 2)
-    eases = [
-        (position_row_jacobian(rows, frame, vertices, candidate.vertices), rows) for rows in kinds
-    ]
-    body = np.vstack([jacobian for jacobian, _ in eases])
-    roots = np.sqrt(np.concatenate([rows.weights for rows in kinds]))
-    together = np.hstack([body, roots[:, None]])
-    joint = together.T @ together
-    joint[-1, -1] += objective.scales.ease_common_spread**-2
-    expected = joint[:-1, :-1] - np.outer(joint[:-1, -1], joint[-1, :-1]) / joint[-1, -1]
-    free = with_free_ease(eases, objective.scales)
-    np.testing.assert_allclose(free.T @ free, expected, rtol=1e-9, atol=1e-9 * expected.max())
+    points = support_points(objective, candidate)
+    found: list[RowsWithNuisance] = []
+    for rows in (rows for term in objective.terms for rows in term.rows(candidate)):
+        if isinstance(rows, PositionRows) and rows.nuisance and rows.nuisance.name == name:
+            few, on = thinned(rows, MATRIX_ROWS), points[rows.support]
+            assert few.nuisance is not None
+            jacobian = position_row_jacobian(few, frame, on.attachments, on.positions)
+            found.append(
+                RowsWithNuisance(by_body=jacobian, weights=few.weights, nuisance=few.nuisance)
+            )
+    return found
 
 
-def test_rows_without_weight_stay_as_they_are():
-    objective, candidate = _dressed(0.8, lines=True)
-    (rows,) = _ease_rows(objective, candidate)
-    nothing = replace(rows, weights=np.zeros_like(rows.weights))
-    jacobian = np.ones((len(rows.weights), 2))
-    found = with_free_ease([(jacobian, nothing)], objective.scales)
-    np.testing.assert_array_equal(found, jacobian)
+@pytest.mark.parametrize(
+    ("name", "lines", "kinds"), [("ease", False, 2), ("ease", True, 1), ("tilt", True, 1)]
+)
+def test_eliminating_other_unknowns_is_inverting_the_matrix_of_both(name, lines, kinds):
+    objective, candidate = _dressed(0.8, lines=lines)
+    found = _with_nuisance(name, objective, candidate)
+    assert len(found) == kinds
+    by_body = np.vstack([rows.by_body for rows in found])
+    columns = by_body.shape[1]
+    # Whatever else is known of the body.
+    root = np.random.default_rng(2).standard_normal((2 * columns, columns))
+    other = root.T @ root
+    both = np.hstack([by_body, np.vstack([rows.by_nuisance for rows in found])])
+    matrix = both.T @ both
+    matrix[:columns, :columns] += other
+    known = found[0].nuisance.known
+    matrix[columns:, columns:] += known.T @ known
+    expected = np.linalg.inv(matrix)
+    free = without_nuisance(found)
+    body = np.linalg.inv(other + free.T @ free)
+    np.testing.assert_allclose(body, expected[:columns, :columns], rtol=1e-6, atol=1e-9)
+    if kinds == 1:
+        np.testing.assert_allclose(
+            nuisance_covariance(found[0], body),
+            expected[columns:, columns:],
+            rtol=1e-6,
+            atol=1e-9,
+        )
+
+
+def test_rows_without_weight_say_nothing_of_other_unknowns():
+    (rows,) = _with_nuisance("ease", *_dressed(0.8, lines=True))
+    nothing = replace(
+        rows, weights=np.zeros_like(rows.weights), by_body=np.zeros_like(rows.by_body)
+    )
+    np.testing.assert_array_equal(without_nuisance([nothing]), 0.0)
 
 
 def test_lines_push_as_the_slope_of_an_energy_whose_offset_follows():
@@ -73,7 +100,7 @@ def test_lines_push_as_the_slope_of_an_energy_whose_offset_follows():
     wider = np.random.default_rng(0).normal(0.0, 1.0, candidate.vertices.shape)
     push = sum(
         float(((rows.weights * rows.residuals)[:, None] * along).sum())
-        for rows in outline_rows(objective, candidate)
+        for rows in _outline_rows(objective, candidate)
         for along in [np.einsum("kqi,kqi->kq", rows.derivatives, wider[rows.points])]
     )
     step = 1e-6
@@ -94,8 +121,12 @@ def test_a_shape_is_less_certain_under_an_ease_that_is_not_known(lines, monkeypa
     seen = person.evaluate([candidate])
     free = shape_covariance(*certainty(person, seen), height_variance=0.0)
     monkeypatch.setattr(
-        "fitter.optimizer.normal_equations.with_free_ease",
-        lambda eases, _: np.concatenate([jacobian for jacobian, _ in eases]),
+        "fitter.optimizer.normal_equations.without_nuisance",
+        lambda kinds: (
+            np.concatenate([rows.by_body for rows in kinds])
+            if kinds[0].nuisance.name == "ease"
+            else without_nuisance(kinds)
+        ),
     )
     held = shape_covariance(*certainty(person, seen), height_variance=0.0)
     gain = np.linalg.eigvalsh((free - held)[1:, 1:])
@@ -113,7 +144,7 @@ def test_only_lines_let_the_ease_go_while_a_body_is_searched_for():
 
 def test_tight_clothes_have_no_rows_of_ease():
     objective, candidate = _dressed(None)
-    assert not _ease_rows(objective, candidate)
+    assert not _with_nuisance("ease", objective, candidate)
     matrix, _ = normal_equations(objective, candidate)
     again, _ = normal_equations(objective, candidate, marginal=True)
     np.testing.assert_array_equal(matrix, again)
