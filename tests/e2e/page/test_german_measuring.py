@@ -54,7 +54,7 @@ def test_from_the_sample_pair_to_a_size_there_is_no_english(
             expect(page.get_by_alt_text("Bild 2")).to_be_visible()
             sound(page)
         expect(page.locator('[data-fit][aria-busy="false"]')).to_be_attached(timeout=FIT_WITHIN_MS)
-        expect(page.get_by_role("radio", name="Seite", exact=True)).to_be_attached()
+        expect(page.get_by_role("radio", name="Von der Seite", exact=True)).to_be_attached()
         expect(page.get_by_text("Alle Punkte hat die Erkennung vorgeschlagen")).to_be_visible()
         expect(page.get_by_role("row", name=re.compile("^Gewicht"))).to_contain_text(
             re.compile(r"\d,\d.*\d,\d – \d+,\d")
