@@ -26,6 +26,8 @@ NEEDED: Final = frozenset(
     f"{PREFIX}{name}"
     for name in (
         "CHILD_MEMORY_MB",
+        # By which an operator tells whose process it is.
+        "DATA_DIR",
         "DETECTOR_DIR",
         "LOG_FORMAT",
         "LOG_LEVEL",

@@ -33,5 +33,5 @@ def test_they_know_no_secrets_and_gain_no_privileges(service: httpx.Client, fini
     for process in processes:
         names = {each.partition("=")[0] for each in (process / "environ").read_text().split("\0")}
         assert {name for name in names if name.startswith(PREFIX)} <= NEEDED
-        assert f"{PREFIX}DATA_DIR" not in names
+        assert f"{PREFIX}PORT" not in names
         assert "NoNewPrivs:\t1" in (process / "status").read_text()
