@@ -10,13 +10,12 @@ from service.process.caches import settle_folders
 from service.process.confinement import forget_secrets, write_only_below
 from service.settings import Settings
 from service.startup.begin import begin, run_told
-from service.worker.rehearsal import make_ready
 
 
 def main() -> int:
     """Have the kernels ready, and answer."""
-    forget_secrets()
     settings = begin("estimator")
+    forget_secrets()
     connection = Connection(int(sys.argv[-1]))
     settle_folders()
     return run_told("estimator", lambda: run_estimator(settings, connection, prepare=prepare))
@@ -24,6 +23,9 @@ def main() -> int:
 
 def prepare(module: Answers, settings: Settings) -> None:
     """Prepare with kernels that are kept from one process to the next."""
+    # Imported here: Numba reads once where its cache is, which had to be settled before.
+    from service.worker.rehearsal import make_ready
+
     make_ready(settings.models_dir, settings.detector_dir)
     prepare_here(module, settings)
     write_only_below(os.environ["TMPDIR"])

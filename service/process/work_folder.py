@@ -4,19 +4,22 @@ Whatever it and its children write for the time being goes there. A process that
 remove its folder. The next one does: each holds a lock on a file in its own for as long as it runs.
 """
 
-import atexit
 import fcntl
 import os
 import shutil
 import tempfile
 import time
 from contextlib import suppress
+from multiprocessing.util import Finalize
 from pathlib import Path
 from typing import Final
 
 PREFIX: Final = "maquette-"
 LOCK: Final = "lock"
 VARIABLE: Final = "TMPDIR"
+
+AFTER_FORK_SERVER: Final = -200
+"""``multiprocessing`` removes the folder of its fork server, which lies in ours, at -100."""
 
 YOUNG_S: Final = 60.0
 """A folder that has just been made may not be locked yet."""
@@ -29,16 +32,10 @@ def make_work_folder() -> Path:
     folder = Path(tempfile.mkdtemp(prefix=f"{PREFIX}{os.geteuid()}-", dir=parent))
     # Open for as long as the process runs, and not in those that it starts.
     _lock(folder)
-    atexit.register(remove_work_folder, folder, os.getpid())
+    Finalize(None, shutil.rmtree, args=(folder, True), exitpriority=AFTER_FORK_SERVER)
     tempfile.tempdir = str(folder)
     os.environ[VARIABLE] = str(folder)
     return folder
-
-
-def remove_work_folder(folder: Path, owner: int) -> None:
-    """Remove the folder, unless this is a fork of the process that it belongs to."""
-    if os.getpid() == owner:
-        shutil.rmtree(folder, ignore_errors=True)
 
 
 def remove_abandoned(parent: Path) -> None:

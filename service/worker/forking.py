@@ -179,7 +179,9 @@ def _keep_main_to_ourselves() -> None:
 
 def _tell_parent(connection: Connection) -> None:
     """What a process does that is forked only to see that it can be."""
-    connection.send(os.getppid())
+    # The worker may have ended meanwhile.
+    with contextlib.suppress(OSError):
+        connection.send(os.getppid())
 
 
 def end(connection: Connection, process: ForkServerProcess) -> None:

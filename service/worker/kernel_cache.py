@@ -59,6 +59,10 @@ def make_kernels_ready(compile_all: Callable[[], bool]) -> None:
     compiled is kept. Whatever it does should not stay in memory: it is run in a child where the
     result can be kept, else here.
     """
+    if not os.environ.get(KERNELS):
+        # Numba was loaded before it had a folder for this process, and keeps its own.
+        compile_all()
+        return
     kept = restore_kernels()
     if kept is None or not kept.is_current():
         succeeds_apart(lambda: keep_kernels() if compile_all() else None)
