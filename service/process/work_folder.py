@@ -25,8 +25,18 @@ YOUNG_S: Final = 60.0
 """A folder that has just been made may not be locked yet."""
 
 
+_MADE: Final[dict[int, Path]] = {}
+"""The folders of this process and of those it was forked from, by their ids."""
+
+
 def make_work_folder() -> Path:
-    """Make the folder, and have this process and its children keep temporary files there."""
+    """Make the folder, and have this process and its children keep temporary files there.
+
+    A process that asks again is given the one it has: folders in folders would soon have names that
+    are too long for sockets.
+    """
+    if os.getpid() in _MADE:
+        return _MADE[os.getpid()]
     parent = Path(tempfile.gettempdir())
     remove_abandoned(parent)
     folder = Path(tempfile.mkdtemp(prefix=f"{PREFIX}{os.geteuid()}-", dir=parent))
@@ -35,6 +45,7 @@ def make_work_folder() -> Path:
     Finalize(None, shutil.rmtree, args=(folder, True), exitpriority=AFTER_FORK_SERVER)
     tempfile.tempdir = str(folder)
     os.environ[VARIABLE] = str(folder)
+    _MADE[os.getpid()] = folder
     return folder
 
 

@@ -13,7 +13,9 @@ from fitter.fits.prepared_model import prepared_model
 from fitter.person.fitted_person import FittedPerson
 from fitter.request import SurroundingsKind
 from fitter.result import FitResult
+from service.jobs.inputs import SentPicture
 from service.worker import translate
+from service.worker.fit_results import fit_result
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import light_from_document, read_case
 from tests.evaluation.light_figures import light_figures
@@ -26,7 +28,8 @@ FILES = read_case(CASES["light_two_lamps"])
 def fitted(kind: SurroundingsKind) -> FitResult:
     asked = FILES.request | {"light": {"surroundings": kind.value}}
     options = FitOptions.model_validate_json(json.dumps(asked))
-    return fit(translate.fit_request(options, image=FILES.image, mask=None, max_pixels=10_000_000))
+    pictures = (SentPicture(FILES.image, None),)
+    return fit(translate.fit_request(options, pictures, max_pixels=10_000_000))
 
 
 @pytest.fixture(scope="module")
@@ -52,7 +55,7 @@ def test_result_and_files_tell_the_surroundings(surrounded):
     assert surrounded.person.reflectance is not None
     assert surrounded.person.reflectance.ambient == 0.0
     model = prepared_model(surrounded.person.gender).operators.model
-    document = translate.fit_result(surrounded, part_names=model.part_names)
+    document = fit_result(surrounded, part_names=model.part_names)
     assert wire.FitResult.model_validate_json(document.model_dump_json()) == document
     assert document.light is not None
     assert document.light.surroundings is not None
@@ -69,6 +72,6 @@ def test_result_and_files_tell_the_surroundings(surrounded):
 def test_nobody_who_does_not_ask_gets_surroundings(uniform):
     assert uniform.person.light is not None
     assert uniform.person.light.surroundings is None
-    document = translate.fit_result(uniform, part_names=("part",) * len(uniform.person.body.pose))
+    document = fit_result(uniform, part_names=("part",) * len(uniform.person.body.pose))
     assert document.light is not None
     assert document.light.surroundings is None

@@ -22,6 +22,7 @@ from multiprocessing import forkserver
 from service.process.work_folder import make_work_folder
 
 folder = make_work_folder()
+assert make_work_folder() == folder
 assert tempfile.gettempdir() == os.environ["TMPDIR"] == str(folder)
 forkserver.ensure_running()
 print(folder, flush=True)
