@@ -26,7 +26,7 @@ from fitter.render.interpolation import shade_image
 from fitter.render.rasterizer import Rendering, render
 from fitter.render.reflectance import shade, shade_with_derivatives
 from fitter.render.shadow import cast_shadow
-from fitter.request import Click
+from fitter.request import Click, View
 from fitter.segmentation.grabcut import segment
 from fitter.segmentation.trimap import first_band, trimap
 

@@ -15,7 +15,7 @@ import trimesh
 from scipy import sparse
 
 from fitter.energies.fitting_operators import FittingOperators
-from fitter.fits import descents, outlined
+from fitter.fits import equipment, outlined
 from fitter.fits.prepared_model import PreparedModel, prepared_model
 from fitter.fits.progress import Stage
 from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
@@ -27,7 +27,7 @@ from fitter.render.contours import model_edges
 from fitter.render.rasterizer import render
 from fitter.request import Gender
 from fitter.training.report.text_tables import note_lines, table_lines
-from tests.benchmarks.probe import scan_share, views_of
+from tests.benchmarks.probe import requests_of, scan_share
 from tests.benchmarks.requests import suite_requests, warm_up
 from tests.benchmarks.spent import TimedFit, median, timed, timed_fit
 from tests.evaluation.phone_cases import REPEATED_PAIRS, PhonePair
@@ -100,18 +100,18 @@ def _by_starts(count: int) -> Iterator[str]:
 @contextmanager
 def _at_most(starts: int) -> Iterator[None]:
     """Fits in this context try so many readings of the clicks at most."""
-    descents.limits_of = lambda kind: replace(
+    outlined.limits_of = lambda kind: replace(
         limits_of(kind), hypotheses=starts, contenders=min(starts, limits_of(kind).contenders)
     )
     try:
         yield
     finally:
-        descents.limits_of = limits_of
+        outlined.limits_of = limits_of
 
 
 def _by_body(count: int) -> Iterator[str]:
     requests = suite_requests(count, width=480, height=640)
-    prepared = prepared_model(requests[0].gender)
+    prepared = prepared_model(requests[0].person.gender)
     lighter = [timed_fit(each) for each in requests]
     with _on_whole_body():
         # What the whole body alone has at first use.
@@ -143,11 +143,11 @@ def _on_whole_body() -> Iterator[None]:
         prepared = prepared_model(gender, models=models)
         return replace(prepared, searched=prepared.operators)
 
-    outlined.prepared_model = whole
+    equipment.prepared_model = whole
     try:
         yield
     finally:
-        outlined.prepared_model = prepared_model
+        equipment.prepared_model = prepared_model
 
 
 def _by_vertices() -> Iterator[str]:
@@ -164,7 +164,9 @@ def _by_vertices() -> Iterator[str]:
 
 
 def _by_views(count: int) -> Iterator[str]:
-    scans = [[*views_of(one), *views_of(other)] for one, other in _pairs_of_one_person()[:count]]
+    scans = [
+        [*requests_of(one), *requests_of(other)] for one, other in _pairs_of_one_person()[:count]
+    ]
     rows = [("1", "1.00", "1.00")]
     for views in VIEWS:
         share = median([scan_share(each[:views]) for each in scans])
