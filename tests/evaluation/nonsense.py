@@ -126,7 +126,7 @@ def _dog_jointed(_: CaseFiles, __: CaseFiles, request: FitRequest, rng: Rng) -> 
 
 def _dog_mask(_: CaseFiles, __: CaseFiles, request: FitRequest, rng: Rng) -> FitRequest:
     picture, points, shape = dog_picture(rng)
-    return replace(
+    return changed(
         request,
         image=_encoded(picture),
         clicks=_clicks(points),
@@ -182,7 +182,7 @@ def _of_another(_: CaseFiles, other: CaseFiles, request: FitRequest, rng: Rng) -
 def _cluster(_: CaseFiles, __: CaseFiles, request: FitRequest, rng: Rng) -> FitRequest:
     """All points within a tenth of the picture, somewhere in it."""
     left, top = rng.uniform(0.2, 0.7, 2)
-    return replace(
+    return changed(
         request,
         clicks=placed(
             request.views[0].clicks,

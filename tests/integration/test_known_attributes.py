@@ -7,6 +7,7 @@ from fitter.fits.pipeline import fit
 from fitter.request import Cues, FitRequest, KnownMeasurement
 from fitter.result import FitResult, FitStage
 from service.demo_data.sample import load_sample
+from service.jobs.inputs import SentPicture
 from service.submissions.submission import check_fit
 from service.worker.translate import fit_request
 from tests.one_picture import changed
@@ -20,7 +21,8 @@ def sample_request(**known: float | tuple[float, float]) -> FitRequest:
     checked = check_fit(
         request=SAMPLE.request, image=SAMPLE.image, mask=None, max_pixels=MOST_PIXELS
     )
-    request = fit_request(checked.options, image=SAMPLE.image, mask=None, max_pixels=MOST_PIXELS)
+    pictures = (SentPicture(image=SAMPLE.image, mask=None),)
+    request = fit_request(checked.options, pictures, max_pixels=MOST_PIXELS)
     return changed(
         request,
         cues=Cues.SE,
