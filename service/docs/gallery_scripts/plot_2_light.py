@@ -16,7 +16,7 @@ request = sample_request()
 result = fit(request)
 files = files_of(result, request.views[0].image)
 show(
-    request.image,
+    request.views[0].image,
     files["albedo.png"],
     files["shading_lambertian.png"],
     files["shading.png"],
