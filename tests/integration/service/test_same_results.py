@@ -27,6 +27,8 @@ SETUP = ChildSetup(
     log_format="text",
 )
 
+DERIVED_FROM = "11111111-1111-4111-8111-111111111111"
+
 Job = tuple[str, bytes, dict[str, bytes]]
 """Kind, options and inputs."""
 
@@ -71,7 +73,12 @@ def results(processes: ForkedProcesses, jobs: Sequence[Job]) -> Iterator[dict[st
     process = Child(*processes.start(child.work, SETUP))
     try:
         for kind, options, inputs in jobs:
-            task = ChildTask(kind=kind, inputs=tuple(inputs), log_context={})
+            task = ChildTask(
+                kind=kind,
+                inputs=tuple(inputs),
+                log_context={},
+                derived_from=None if kind == FIT else DERIVED_FROM,
+            )
             process.give(task, (options, *inputs.values()))
             yield _files(process)
     finally:
