@@ -61,7 +61,7 @@ class Container:
 
     def kernels(self) -> int:
         """How many compiled kernels its processes have, from the image or of their own."""
-        return len(list(Path(f"/proc/{self.pid}/root/tmp").rglob("*.nbc")))
+        return len(list((Path(f"/proc/{self.pid}/root") / "tmp").rglob("*.nbc")))
 
 
 @contextlib.contextmanager

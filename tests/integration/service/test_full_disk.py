@@ -13,6 +13,7 @@ import httpx
 import pytest
 
 from service.engine.ballast import WHOLE_BYTES
+from service.engine.storage_identity import SCOPE as STORAGE_SCOPE
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
     REPOSITORY,
@@ -65,9 +66,14 @@ def assert_no_room(answer: httpx.Response) -> None:
 
 
 def blobs_of(disk: SmallDisk) -> set[Path]:
-    """What lies there; folders may be erased meanwhile."""
+    """What lies there of jobs and pictures; folders may be erased meanwhile."""
     folders = os.walk(disk.folder / "data" / "blobs")
-    return {Path(folder) / name for folder, _, names in folders for name in names}
+    return {
+        Path(folder) / name
+        for folder, _, names in folders
+        if Path(folder).name != STORAGE_SCOPE
+        for name in names
+    }
 
 
 def test_short_of_room_everything_that_stores_is_refused_and_the_rest_works(disk: SmallDisk):
