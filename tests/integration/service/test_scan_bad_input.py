@@ -27,15 +27,18 @@ PICTURE = scripted_image()
 UNKNOWN_IMAGE = "0" * 64
 
 
+def kept(service: Service) -> tuple[list[Path], list[str]]:
+    """The files in a service's store, and the ids of the newest scans in its list."""
+    scans = service.client.get("/v1/scans").raise_for_status().json()["scans"]
+    return blobs_below(service.machine.data_dir), [scan["id"] for scan in scans]
+
+
 @pytest.fixture
 def nothing_is_kept(without_worker: Service) -> Iterator[Service]:
     """A service in whose store and list of scans a refused request leaves nothing."""
-    service = without_worker
-    folder = service.machine.data_dir
-    before = blobs_below(folder)
-    yield service
-    assert blobs_below(folder) == before
-    assert service.client.get("/v1/scans").json()["scans"] == []
+    before = kept(without_worker)
+    yield without_worker
+    assert kept(without_worker) == before
 
 
 @pytest.mark.parametrize(
@@ -129,7 +132,7 @@ def test_a_picture_sent_twice_and_a_form_of_many_parts_are_refused(nothing_is_ke
 def test_a_view_whose_uploaded_picture_is_not_there_is_refused(without_worker: Service):
     service = without_worker
     known = uploaded(service, PICTURE).id
-    before = blobs_below(service.machine.data_dir)
+    before = kept(service)
     for field, ids in (
         ("image_id", {"image_id": UNKNOWN_IMAGE}),
         ("mask_id", {"image_id": known, "mask_id": UNKNOWN_IMAGE}),
@@ -141,8 +144,7 @@ def test_a_view_whose_uploaded_picture_is_not_there_is_refused(without_worker: S
     views = [FRONT | {"image_id": known}, SIDE]
     problem = checked(service.client.post("/v1/scans", json=SCAN | {"views": views}), 422)
     assert (problem.field, problem.code) == ("views.1.image_id", "missing")
-    assert blobs_below(service.machine.data_dir) == before
-    assert service.client.get("/v1/scans").json()["scans"] == []
+    assert kept(service) == before
     service.client.delete(f"/v1/images/{known}")
 
 
