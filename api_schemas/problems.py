@@ -95,7 +95,7 @@ _TYPES: Final = (
         slug="request-timeout",
         title="The request came too slowly",
         status=408,
-        description="The head or the body of the request was not whole in time; see its code.",
+        description="The body of the request was not whole in time.",
     ),
     ProblemType(
         slug="no-result",

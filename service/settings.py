@@ -178,15 +178,9 @@ class Settings(BaseSettings):
         ge=1,
         le=100_000,
         description=(
-            "Connections open to one API process before further ones are refused (503); those that "
-            "ask nothing make room first. Each takes a file descriptor (`ulimit -n`)."
+            "Requests that one API process works on at the same time, event streams among them; "
+            "one more is refused (503). Each takes a file descriptor (`ulimit -n`)."
         ),
-    )
-    head_time_limit_s: float = Field(
-        default=20.0,
-        ge=SHORTEST_PACE_S,
-        le=3_600.0,
-        description="How long the head of a request may take (408).",
     )
     body_time_limit_s: float = Field(
         default=30.0,

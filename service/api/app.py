@@ -50,6 +50,7 @@ from service.api.rate_limit import RateLimit
 from service.api.readiness import Readiness
 from service.api.readiness import checks as readiness_checks
 from service.api.request_form import check_form
+from service.api.request_limit import RequestLimit
 from service.api.security_headers import SecurityHeaders
 from service.api.service_metrics import ServiceMetrics
 from service.blobs import BlobStore
@@ -186,6 +187,7 @@ def _surround(
         time_limit_s=settings.body_time_limit_s,
         bytes_per_s=settings.body_bytes_per_s,
     )
+    app.add_middleware(RequestLimit, most=settings.max_connections)
     app.add_middleware(SecurityHeaders, cross_origin=bool(settings.allowed_origins))
     app.add_middleware(Observation, metrics=metrics)
 

@@ -12,9 +12,9 @@ from starlette.requests import Request
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from api_schemas.problems import Problem, problem
-from service.api.farewell import CLOSE
 from service.api.problems import ProblemError, problem_response
 
+CLOSE: Final = {"Connection": "close"}
 NO_BODY: Final = ("", "0")
 LATE: Final = 408
 

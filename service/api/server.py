@@ -1,4 +1,10 @@
-"""Uvicorn as we run it: told to stop, it first reports not ready, then stops."""
+"""Uvicorn as we run it: told to stop, it first reports not ready, then stops.
+
+Uvicorn limits neither how long the head of a request takes nor how many connections there are: the
+proxy in front of it does (``service/docs/operate/proxy.md``). The application limits what uvicorn
+hands it: how long a body takes (:mod:`service.api.body_time`), and how many requests there are at
+the same time (:mod:`service.api.request_limit`).
+"""
 
 import threading
 from types import FrameType
@@ -7,10 +13,14 @@ from typing import Final
 import uvicorn
 from starlette.types import ASGIApp
 
-from service.api.connection_limits import ConnectionLimits, limited_protocol
-
 GRACE_S: Final = 5
 """How long open requests may take to end; event streams end at once."""
+
+IDLE_S: Final = 5
+"""How long a connection may stay open between two requests."""
+
+HEAD_BYTES: Final = 65_536
+"""The longest head of a request."""
 
 
 class ApiServer(uvicorn.Server):
@@ -20,7 +30,6 @@ class ApiServer(uvicorn.Server):
         self,
         app: ASGIApp,
         *,
-        limits: ConnectionLimits,
         log_level: str,
         draining: threading.Event,
         stop_delay_s: float,
@@ -28,14 +37,16 @@ class ApiServer(uvicorn.Server):
         super().__init__(
             uvicorn.Config(
                 app,
-                # Whatever else is installed: uvicorn's other implementations differ internally.
-                http=limited_protocol(limits),
+                # Whatever else is installed: only h11 keeps to the longest head.
+                http="h11",
+                h11_max_incomplete_event_size=HEAD_BYTES,
+                timeout_keep_alive=IDLE_S,
+                timeout_graceful_shutdown=GRACE_S,
                 ws="none",
                 log_config=None,
                 log_level=log_level.lower(),
                 # Requests are logged where their ids are known.
                 access_log=False,
-                timeout_graceful_shutdown=GRACE_S,
                 server_header=False,
             )
         )

@@ -95,7 +95,6 @@ def serve(
         )
     # Imported while the worker starts: each takes a good part of a second.
     from service.api.app import create_app
-    from service.api.connection_limits import ConnectionLimits
     from service.api.server import ApiServer
     from service.engine.browser_tokens import StoredBrowserTokens
     from service.engine.database import open_database, prepare_database
@@ -159,11 +158,6 @@ def serve(
     )
     server = ApiServer(
         app,
-        limits=ConnectionLimits(
-            max_connections=settings.max_connections,
-            head_time_limit_s=settings.head_time_limit_s,
-            unread_body_time_limit_s=settings.body_time_limit_s,
-        ),
         log_level=settings.log_level,
         draining=draining,
         stop_delay_s=settings.stop_delay_s,

@@ -1,26 +1,26 @@
 """Our server in this process, its limits the test's own, and callers that send as they like.
 
 The application does what the test tells it to. What is late is so by a limit that is short; what is
-not has hours. That a limit is over is known by another connection that it has ended.
+not has hours. That a limit is over is known by another body that it has ended.
 """
 
 import contextlib
 import http.client
-import math
 import socket
 import threading
-from collections.abc import Iterator
+from collections.abc import AsyncIterator, Iterator
 from dataclasses import dataclass, field
-from typing import Any, cast
+from typing import Any
 
 from anyio import to_thread
 from fastapi import FastAPI, Request
 from fastapi.responses import PlainTextResponse, Response, StreamingResponse
+from starlette.requests import ClientDisconnect
 
 from api_schemas.problems import PROBLEM_MEDIA_TYPE, Problem
 from service.api.body_time import BodyTimeLimit
-from service.api.connection_limits import ConnectionLimits, LimitedProtocol
 from service.api.problems import install_problem_handlers
+from service.api.request_limit import RequestLimit
 from service.api.server import ApiServer
 from tests.integration.service.harness import PATIENCE_S, eventually
 
@@ -43,21 +43,20 @@ class Served:
     released: threading.Event = field(default_factory=threading.Event)
 
     @property
-    def connections(self) -> list[LimitedProtocol]:
-        return cast("list[LimitedProtocol]", list(self.server.server_state.connections))
+    def connections(self) -> list[Any]:
+        return list(self.server.server_state.connections)
 
     def has_connections(self, number: int) -> None:
         eventually(lambda: len(self.connections) == number, what=f"{number} connections")
 
-    def has_begun_heads(self, number: int) -> None:
-        def begun() -> bool:
-            return sum(bool(each.conn.trailing_data[0]) for each in self.connections) == number
-
-        eventually(begun, what=f"{number} heads begun")
-
 
 def application(
-    entered: threading.Semaphore, released: threading.Event, *, body_s: float, bytes_per_s: int
+    entered: threading.Semaphore,
+    released: threading.Event,
+    *,
+    most: int,
+    body_s: float,
+    bytes_per_s: int,
 ) -> FastAPI:
     async def quick(_: Request) -> Response:
         return PlainTextResponse("quick")
@@ -68,7 +67,10 @@ def application(
         return PlainTextResponse("held")
 
     async def length(request: Request) -> Response:
-        return PlainTextResponse(str(len(await request.body())))
+        try:
+            return PlainTextResponse(str(len(await request.body())))
+        except ClientDisconnect:
+            return PlainTextResponse("for nobody")
 
     async def held_length(request: Request) -> Response:
         entered.release()
@@ -76,7 +78,7 @@ def application(
         return await length(request)
 
     async def stream(_: Request) -> Response:
-        async def events() -> Any:
+        async def events() -> AsyncIterator[str]:
             yield "first\n"
             await to_thread.run_sync(released.wait)
             yield "second\n"
@@ -86,6 +88,7 @@ def application(
     app = FastAPI()
     install_problem_handlers(app)
     app.add_middleware(BodyTimeLimit, time_limit_s=body_s, bytes_per_s=bytes_per_s)
+    app.add_middleware(RequestLimit, most=most)
     for resource in (quick, held, length, held_length, stream):
         path = f"/{resource.__name__.replace('_', '-')}"
         app.add_route(path, resource, methods=["GET", "POST"])
@@ -95,20 +98,14 @@ def application(
 @contextlib.contextmanager
 def serving(
     *,
-    max_connections: int = 100,
-    head_s: float = LONG_S,
+    most: int = 1_000,
     body_s: float = LONG_S,
     bytes_per_s: int = 10**9,
 ) -> Iterator[Served]:
     """Serve in a thread; the ends of answers are watched by the test, not by time."""
     entered, released = threading.Semaphore(0), threading.Event()
     server = ApiServer(
-        application(entered, released, body_s=body_s, bytes_per_s=bytes_per_s),
-        limits=ConnectionLimits(
-            max_connections=max_connections,
-            head_time_limit_s=head_s,
-            unread_body_time_limit_s=body_s,
-        ),
+        application(entered, released, most=most, body_s=body_s, bytes_per_s=bytes_per_s),
         log_level="WARNING",
         draining=threading.Event(),
         stop_delay_s=0.0,
@@ -171,23 +168,16 @@ class Caller:
         return self.socket.recv(1) == b""
 
     def problem(self, status: int) -> Problem:
-        """Read a problem, and that the connection ends with it."""
+        """Read a problem."""
         answer, body = self.answer()
         assert answer.status == status
         assert answer.headers["content-type"] == PROBLEM_MEDIA_TYPE
-        assert answer.headers["connection"] == "close"
-        assert self.is_ended()
         return Problem.model_validate_json(body)
 
 
-def let_a_head_be_late(served: Served) -> None:
-    """Return when a head that begins now is late."""
+def let_a_body_be_late(served: Served) -> None:
+    """Return when a body that begins now is late."""
     with Caller(served.port) as slow:
-        slow.send("GET /quick HTTP/1.1\r\nHo")
+        slow.ask("/length", method="POST", headers="Content-Length: 1\r\n")
         slow.problem(408)
-
-
-def let_pass(served: Served, seconds: float) -> None:
-    """Return when so long a limit is over, of a server whose heads have ``SHORT_S``."""
-    for _ in range(math.ceil(seconds / SHORT_S) + 1):
-        let_a_head_be_late(served)
+        assert slow.is_ended()

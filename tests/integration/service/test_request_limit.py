@@ -1,0 +1,103 @@
+"""More requests at the same time than there may be, and the service's own limits, by sockets."""
+
+import contextlib
+import json
+
+import pytest
+
+from tests.integration.service.harness import PATIENCE_S, Machine, eventually, running_service
+from tests.integration.service.limited_server import Caller, serving
+
+pytestmark = pytest.mark.usefixtures("no_fault_is_logged")
+
+
+def test_one_more_than_may_be_is_refused_until_another_ends():
+    with serving(most=2) as served, contextlib.ExitStack() as stack:
+        busy = [stack.enter_context(Caller(served.port)) for _ in range(2)]
+        for each in busy:
+            each.ask("/held")
+            assert served.entered.acquire(timeout=PATIENCE_S)
+        with Caller(served.port) as further:
+            for _ in range(3):
+                further.ask("/quick")
+                answer, body = further.answer()
+                assert answer.status == 503
+                assert int(answer.headers["retry-after"]) > 0
+                assert json.loads(body)["type"] == "/problems/too-many-connections"
+            served.released.set()
+            assert [each.status() for each in busy] == [200, 200]
+            further.ask("/quick")
+            assert further.status() == 200
+
+
+def test_an_event_stream_counts_as_long_as_it_is_followed():
+    with serving(most=1) as served, Caller(served.port) as other:
+        with Caller(served.port) as follower:
+            follower.followed("/stream")
+            other.ask("/quick")
+            assert other.problem(503).code == "too-many-connections"
+            served.released.set()
+
+        def is_answered() -> bool:
+            other.ask("/quick")
+            return other.status() == 200
+
+        eventually(is_answered, what="a place")
+
+
+def test_a_connection_that_asks_nothing_takes_no_place():
+    with serving(most=1) as served, Caller(served.port), Caller(served.port) as begun:
+        begun.send("GET /quick")
+        served.has_connections(2)
+        with Caller(served.port) as further:
+            further.ask("/quick")
+            assert further.status() == 200
+
+
+def test_who_sends_much_to_a_service_that_is_full_reads_why():
+    with serving(most=1) as served, Caller(served.port) as busy:
+        busy.ask("/held")
+        assert served.entered.acquire(timeout=PATIENCE_S)
+        with Caller(served.port) as sender:
+            sender.ask("/length", method="POST", headers="Content-Length: 5000000\r\n")
+            sender.send(bytes(5_000_000))
+            assert sender.problem(503).code == "too-many-connections"
+
+
+FORM = "Host: 127.0.0.1\r\nContent-Type: multipart/form-data; boundary=x\r\n"
+REFUSED_KIND = "Host: 127.0.0.1\r\nContent-Type: text/plain\r\n"
+REFUSED_HOST = "Host: elsewhere.example\r\nContent-Type: text/plain\r\n"
+
+
+def test_the_service_itself_holds_to_its_settings(embedded: Machine):
+    settings = {"max_connections": 5, "body_time_limit_s": 1.0}
+    machine = Machine(embedded.data_dir, settings=settings)
+    with running_service(machine, api_only=True) as service, contextlib.ExitStack() as stack:
+        port = service.client.base_url.port
+        assert port is not None
+        path = service.submit()
+        follower = stack.enter_context(Caller(port))
+        events = follower.followed(f"{path}/events")
+
+        slow = [stack.enter_context(Caller(port)) for _ in range(3)]
+        for body, headers in zip(slow, (FORM, REFUSED_KIND, REFUSED_HOST), strict=True):
+            body.send(f"POST /v1/images HTTP/1.1\r\n{headers}Content-Length: 9\r\n\r\n")
+        for body in slow:
+            answer, content = body.answer()
+            assert answer.status == 408
+            assert answer.headers["x-request-id"]
+            assert answer.headers["connection"] == "close"
+            assert json.loads(content)["code"] == "body-too-slow"
+            assert body.is_ended()
+
+        with contextlib.ExitStack() as crowd:
+            for _ in range(4):
+                crowd.enter_context(Caller(port)).followed(f"{path}/events")
+            with Caller(port) as further:
+                further.ask("/healthz/live")
+                refused, content = further.answer()
+                assert refused.status == 503
+                assert refused.headers["x-request-id"]
+                assert json.loads(content)["code"] == "too-many-connections"
+        eventually(lambda: service.client.post(f"{path}/cancel").is_success, what="canceled")
+        assert b"event: end" in events.read()
