@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from fitter.energies.attributes import NOTHING_KNOWN, Attributes, KnownAttributes
-from fitter.energies.joint_objective import JointObjective
+from fitter.energies.joint_objective import JointCandidate, JointObjective
 from fitter.energies.priors import population_prior
 from fitter.optimizer.free_space import free_space
 from fitter.optimizer.gauss_newton import minimize_gauss_newton
@@ -52,6 +52,12 @@ def a_sum(n: int, *, held: bool) -> KnownAttributes:
     if held:
         return replace(NOTHING_KNOWN, held=sums)
     return replace(NOTHING_KNOWN, uncertain=sums, standard_errors=np.array([0.1]))
+
+
+def newton_decrement(objective: JointObjective, candidate: JointCandidate) -> float:
+    """What an undamped step promises, nats: 0 where the gradient is."""
+    space = free_space(objective.attributes.held, candidate.shape)
+    return joint_equations(objective, candidate, space).step(0.0).promised
 
 
 def random_equations(seed: int) -> JointEquations:
@@ -154,27 +160,26 @@ def test_a_step_in_one_picture_is_that_of_its_whole_matrix(scenes):
     )
 
 
-def test_the_joint_minimum_is_lower_and_nearer_to_the_man_than_one_picture_s(scenes):
+def test_the_joint_minimum_is_level_below_the_truth_and_nearer_to_the_man_than_one_picture_s(
+    scenes,
+):
     objective = joint_of(scenes)
-    alone = [
-        minimize_gauss_newton(
-            scene.person, [scene.start], max_evaluations=60, on_energies=ignore
-        ).candidate.bodies[0]
-        for scene in scenes
-    ]
-    middle = np.mean([body.shape for body in alone], axis=0)
-    begun = [replace(body, shape=middle) for body in alone]
-    found = minimize_gauss_newton(objective, begun, max_evaluations=60, on_energies=ignore)
+    start = [scene.start for scene in scenes]
+    found = minimize_gauss_newton(objective, start, max_evaluations=60, on_energies=ignore)
     assert found.converged
-    # Down to the truth's own energy it does not get on every machine: pixels make small minima.
-    assert found.candidate.total < 0.9 * objective.evaluate(begun).total
+    assert found.candidate.total < objective.evaluate([scene.truth for scene in scenes]).total
+    # Level but for the roughness that pixels make: 226 and 0.07 nats are measured.
+    assert newton_decrement(objective, objective.evaluate(start)) > 100.0
+    assert newton_decrement(objective, found.candidate) < 0.5
     one, other = found.candidate.bodies
     np.testing.assert_array_equal(one.shape, other.shape)
     assert np.linalg.norm(one.pose[0] - other.pose[0]) > 1.0
-    joint_mm = scenes[0].shape_error_mm(one)
-    assert joint_mm < min(scenes[0].shape_error_mm(body) for body in alone)
     for scene, body in zip(scenes, found.candidate.bodies, strict=True):
         assert scene.objective.overlap(scene.objective.evaluate(body)) > 0.96
+        alone = minimize_gauss_newton(
+            scene.person, [scene.start], max_evaluations=60, on_energies=ignore
+        )
+        assert scene.shape_error_mm(body) < scene.shape_error_mm(alone.candidate.bodies[0])
 
 
 def test_the_order_of_pictures_changes_nothing(scenes):
