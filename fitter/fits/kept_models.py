@@ -72,7 +72,9 @@ def kept(source: Path, make: Callable[[], Made]) -> Made:
 
 
 def _key(source: Path) -> str:
-    digest = hashlib.sha256(source.read_bytes())
+    # By its name too: a man's file under a woman's name is at fault.
+    digest = hashlib.sha256(source.name.encode())
+    digest.update(source.read_bytes())
     digest.update(_code())
     return digest.hexdigest()
 

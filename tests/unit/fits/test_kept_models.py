@@ -62,11 +62,13 @@ def test_arrays_are_laid_out_as_they_were_and_writing_to_them_changes_no_file(fo
     np.testing.assert_array_equal(kept(source, not_made), columns)
 
 
-@pytest.mark.parametrize("changed", ["model", "code"])
-def test_another_model_and_other_code_are_prepared_anew(folder, source, monkeypatch, changed):
+@pytest.mark.parametrize("changed", ["model", "name", "code"])
+def test_another_model_name_or_code_is_prepared_anew(folder, source, monkeypatch, changed):
     kept(source, lambda: "before")
     if changed == "model":
         source.write_bytes(b"another model")
+    elif changed == "name":
+        source = source.rename(source.with_name("other.npz"))
     else:
         monkeypatch.setattr(kept_models, "_code", lambda: b"other code")
     assert kept(source, lambda: "after") == "after"
