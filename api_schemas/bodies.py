@@ -4,8 +4,8 @@ from pydantic import Field
 
 from api_schemas.base import WireModel
 from api_schemas.known import KnownMeasurements
-from api_schemas.requests import Gender
 from api_schemas.results import FitWarning
+from fitter.vocabulary.choices import Gender
 
 
 class BodyRequest(KnownMeasurements):

@@ -10,9 +10,8 @@ from api_schemas.known import HeightM
 from api_schemas.lens import Lens
 from api_schemas.points import NamedPoint, Points, PointsFormat
 from api_schemas.proposals import PictureSize
-from api_schemas.requests import Gender
 from api_schemas.results import Assumption, Box, Finding, FitWarning
-from fitter.vocabulary.choices import ViewKind
+from fitter.vocabulary.choices import Gender, ViewKind
 from fitter.vocabulary.outcomes import SeenFrom
 from fitter.vocabulary.points import PointName
 

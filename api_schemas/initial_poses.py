@@ -6,14 +6,10 @@ from pydantic import Field, model_validator
 
 from api_schemas.base import WholeNumber, WireModel, refusal
 from api_schemas.images import ImageId
-from api_schemas.requests import Facing, Gender, SubjectOptions
-from api_schemas.results import (
-    Assumption,
-    BodyResult,
-    CameraResult,
-    FitWarning,
-    FocalLengthSource,
-)
+from api_schemas.requests import SubjectOptions
+from api_schemas.results import Assumption, BodyResult, CameraResult, FitWarning
+from fitter.vocabulary.choices import Facing, Gender
+from fitter.vocabulary.outcomes import FocalLengthSource
 
 MAX_SIDE: Final = 100_000
 

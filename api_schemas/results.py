@@ -3,8 +3,7 @@
 from pydantic import Field
 
 from api_schemas.base import WireModel
-from api_schemas.requests import Cues, Facing, Gender, LightKind, OptimizerKind
-from fitter.vocabulary.choices import ViewKind
+from fitter.vocabulary.choices import Cues, Facing, Gender, LightKind, OptimizerKind, ViewKind
 from fitter.vocabulary.outcomes import (
     FacingSource,
     FocalLengthSource,

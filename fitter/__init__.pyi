@@ -15,7 +15,6 @@ from .library import measure as measure
 from .measurement.quantity import Measurement as Measurement
 from .parameters import BodyParameters as BodyParameters
 from .parameters import Light as Light
-from .parameters import LightKind as LightKind
 from .parameters import Reflectance as Reflectance
 from .person.fitted_person import FittedPerson as FittedPerson
 from .population.body_estimate import BodyEstimate as BodyEstimate
@@ -24,28 +23,29 @@ from .remarks import FitWarning as FitWarning
 from .render.camera import Camera as Camera
 from .request import Choices as Choices
 from .request import Click as Click
-from .request import Clothing as Clothing
-from .request import Cues as Cues
-from .request import Facing as Facing
 from .request import FitRequest as FitRequest
-from .request import Gender as Gender
 from .request import KnownMeasurement as KnownMeasurement
 from .request import LightGuess as LightGuess
-from .request import OptimizerKind as OptimizerKind
-from .request import OutlineKind as OutlineKind
 from .request import Person as Person
 from .request import StartingBody as StartingBody
-from .request import SurroundingsKind as SurroundingsKind
 from .request import View as View
-from .request import ViewKind as ViewKind
 from .result import FitResult as FitResult
 from .result import FitStage as FitStage
 from .result import FittedView as FittedView
 from .result import LimbFacing as LimbFacing
-from .result import Outcome as Outcome
 from .result import PictureFit as PictureFit
 from .result import StageBody as StageBody
-from .result import Verdict as Verdict
+from .vocabulary.choices import Clothing as Clothing
+from .vocabulary.choices import Cues as Cues
+from .vocabulary.choices import Facing as Facing
+from .vocabulary.choices import Gender as Gender
+from .vocabulary.choices import LightKind as LightKind
+from .vocabulary.choices import OptimizerKind as OptimizerKind
+from .vocabulary.choices import OutlineKind as OutlineKind
+from .vocabulary.choices import SurroundingsKind as SurroundingsKind
+from .vocabulary.choices import ViewKind as ViewKind
+from .vocabulary.outcomes import Outcome as Outcome
+from .vocabulary.outcomes import Verdict as Verdict
 
 __all__ = [
     "Assumption",

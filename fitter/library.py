@@ -19,8 +19,9 @@ from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson, require_model
 from fitter.population import body_estimate
 from fitter.population.body_estimate import BodyEstimate
-from fitter.request import FitRequest, Gender, KnownMeasurement
+from fitter.request import FitRequest, KnownMeasurement
 from fitter.result import FitResult
+from fitter.vocabulary.choices import Gender
 
 
 class Fitter:

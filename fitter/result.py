@@ -10,10 +10,10 @@ from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
 from fitter.person.several_pictures import CombinedShape
 from fitter.remarks import Assumption, FitWarning
-from fitter.render.camera import Camera, FocalLengthSource
-from fitter.request import Cues, Facing, OptimizerKind, ViewKind
+from fitter.render.camera import Camera
 from fitter.segmentation.trimap import Trimap
-from fitter.vocabulary.outcomes import FacingSource, Outcome, Verdict
+from fitter.vocabulary.choices import Cues, Facing, OptimizerKind, ViewKind
+from fitter.vocabulary.outcomes import FacingSource, FocalLengthSource, Outcome, Verdict
 
 OUTCOME_EXPLANATIONS: Mapping[Outcome, str] = {
     Outcome.CONVERGED: "The energy stopped decreasing.",

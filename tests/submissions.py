@@ -3,7 +3,8 @@
 import json
 from dataclasses import dataclass
 
-from fitter.request import Cues, FitRequest
+from fitter.request import FitRequest
+from fitter.vocabulary.choices import Cues
 
 SMALL = (120, 160)
 """Of so small a picture a fit by silhouette and edges takes less than a second."""

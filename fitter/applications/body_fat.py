@@ -27,7 +27,7 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.measurement.joint_measurements import JointMeasurements
-from fitter.request import Gender
+from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.measurements import STATURE
 
 WEIGHT = "weight"

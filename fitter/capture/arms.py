@@ -5,8 +5,9 @@ from jaxtyping import Bool, Float
 
 from fitter.arrays import Mask
 from fitter.capture.capture import Capture
-from fitter.capture.finding import Code, Finding, Remark, Severity, Unchecked
+from fitter.capture.finding import Code, Finding, Remark, Unchecked
 from fitter.capture.turning import is_broadside
+from fitter.vocabulary.outcomes import Severity
 
 LEAST_FREE = 0.3
 """Share of an arm below which it counts as lying against the trunk."""

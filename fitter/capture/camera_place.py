@@ -5,7 +5,8 @@ import math
 import numpy as np
 
 from fitter.capture.capture import Capture
-from fitter.capture.finding import Code, Finding, Remark, Severity, Unchecked
+from fitter.capture.finding import Code, Finding, Remark, Unchecked
+from fitter.vocabulary.outcomes import Severity
 
 MOST_ROLLED_DEG = 8.0
 """Of people who stand: their line from ankles to shoulders leans by at most 4.1 degrees on the

@@ -12,7 +12,8 @@ from fitter.arrays import Mask
 from fitter.capture.finding import Box
 from fitter.capture.joints import Joints, joints_of, middle, stature_px
 from fitter.detection.detector import DetectedBody
-from fitter.request import Click, ViewKind
+from fitter.request import Click
+from fitter.vocabulary.choices import ViewKind
 
 MASK_LEVEL = 0.5
 """Probability from which a pixel belongs to the person."""

@@ -8,12 +8,12 @@ from fitter.capture.camera_place import camera_distance_m, distance, lean_deg, r
 from fitter.capture.capture import Capture, box_of
 from fitter.capture.clothes import clothes
 from fitter.capture.exposure import brightness, darkness
-from fitter.capture.finding import Box, Code, Finding, Remark, Severity, Unchecked
+from fitter.capture.finding import Box, Code, Finding, Remark, Unchecked
 from fitter.capture.framing import picture_size, size, wholeness
 from fitter.capture.people import nobody_else, somebody
 from fitter.capture.sharpness import sharpness
 from fitter.capture.turning import announced_view, facing, seen_from
-from fitter.vocabulary.outcomes import SeenFrom
+from fitter.vocabulary.outcomes import SeenFrom, Severity
 
 Check = Callable[[Capture], Remark | None]
 

@@ -4,8 +4,9 @@ import numpy as np
 from jaxtyping import UInt8
 
 from fitter.capture.capture import Capture
-from fitter.capture.finding import Code, Finding, Remark, Severity
+from fitter.capture.finding import Code, Finding, Remark
 from fitter.observation.colour import LUMINANCE_WEIGHTS, linear_from_display
+from fitter.vocabulary.outcomes import Severity
 
 DARKEST = 0.025
 """Least 90th percentile of the person's luminance, linear, of 1. Of the tuning pictures it is 0.17

@@ -5,9 +5,10 @@ from jaxtyping import Float
 
 from fitter.arrays import Mask
 from fitter.capture.capture import Capture
-from fitter.capture.finding import Code, Finding, Remark, Severity, Unchecked
+from fitter.capture.finding import Code, Finding, Remark, Unchecked
 from fitter.capture.joints import Joints
 from fitter.detection.landmark_meanings import INDEX_OF_POINT
+from fitter.vocabulary.outcomes import Severity
 
 BORDER_PX = 1.0
 """What comes this close to the picture's border may continue beyond it."""

@@ -1,7 +1,8 @@
 """Whether one person is in the picture: neither nobody nor several."""
 
 from fitter.capture.capture import Capture, box_of
-from fitter.capture.finding import Code, Finding, Remark, Severity, Unchecked
+from fitter.capture.finding import Code, Finding, Remark, Unchecked
+from fitter.vocabulary.outcomes import Severity
 
 NO_DETECTOR = "No detector looked at the picture."
 

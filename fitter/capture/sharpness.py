@@ -13,7 +13,8 @@ from jaxtyping import Float
 
 from fitter.arrays import GreyImage, Mask
 from fitter.capture.capture import Capture
-from fitter.capture.finding import Code, Finding, Remark, Severity, Unchecked
+from fitter.capture.finding import Code, Finding, Remark, Unchecked
+from fitter.vocabulary.outcomes import Severity
 
 REBLUR_PX = 1.0
 """σ₀."""

@@ -10,9 +10,9 @@ import math
 import numpy as np
 
 from fitter.capture.capture import Capture
-from fitter.capture.finding import Code, Finding, Remark, Severity, Unchecked
-from fitter.request import ViewKind
-from fitter.vocabulary.outcomes import SeenFrom
+from fitter.capture.finding import Code, Finding, Remark, Unchecked
+from fitter.vocabulary.choices import ViewKind
+from fitter.vocabulary.outcomes import SeenFrom, Severity
 
 FRONTAL_BREADTHS = {"shoulder": 0.71, "hip": 0.40}
 """Breadth of the detector's joints facing the camera, of the trunk's length."""

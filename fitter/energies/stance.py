@@ -29,8 +29,8 @@ from fitter.arrays import Points3D
 from fitter.energies import _stance_kernels as kernels
 from fitter.energies.rows import Nuisance, PositionRows, Support
 from fitter.numerics.damped_descent import Offer, Step, damped_steps, descend
-from fitter.parameters import StanceKind
 from fitter.vocabulary.choices import Posture
+from fitter.vocabulary.outcomes import StanceKind
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

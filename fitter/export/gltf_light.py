@@ -8,9 +8,10 @@ from jaxtyping import Float
 from fitter.arrays import Vector3
 from fitter.body.scape import CAMERA_AXES
 from fitter.export.gltf_document import Node
-from fitter.parameters import Light, LightKind, Reflectance
+from fitter.parameters import Light, Reflectance
 from fitter.render.light import direction_to_light, light_position
 from fitter.render.surroundings import GLTF_SIGNS
+from fitter.vocabulary.choices import LightKind
 
 PUNCTUAL = "KHR_lights_punctual"
 

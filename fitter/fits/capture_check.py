@@ -20,8 +20,9 @@ from fitter.observation.resampling import (
 )
 from fitter.observation.subject import MEAN_HEIGHT_M, check_height
 from fitter.remarks import Assumption, FitWarning
-from fitter.render.camera import FocalLengthSource
-from fitter.request import Click, Gender, Person, View, ViewKind
+from fitter.request import Click, Person, View
+from fitter.vocabulary.choices import Gender, ViewKind
+from fitter.vocabulary.outcomes import FocalLengthSource
 
 ASSUMED_HEIGHT_M = 1.7
 """Of people whose gender is not known either."""

@@ -10,7 +10,7 @@ from typing import Final
 
 from fitter.fits.plausibility import Plausibility
 from fitter.fits.reporting import POOR_OVERLAP
-from fitter.result import Verdict
+from fitter.vocabulary.outcomes import Verdict
 
 BAD_OVERLAP: Final = 0.78
 ELSEWHERE_OVERLAP: Final = 0.3

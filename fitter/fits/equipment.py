@@ -6,7 +6,8 @@ from pathlib import Path
 from fitter.detection.detector import Detector, installed_detector
 from fitter.errors import DetectorUnavailableError
 from fitter.fits.prepared_model import PreparedModel, prepared_model
-from fitter.request import Gender, SegmentationKind, View
+from fitter.request import View
+from fitter.vocabulary.choices import Gender, SegmentationKind
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

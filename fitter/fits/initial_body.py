@@ -20,10 +20,12 @@ from fitter.population.known_person import known_person
 from fitter.pose_init.initial_pose import PoseHypothesis, initialize_pose
 from fitter.pose_init.points import clicked_points
 from fitter.remarks import Assumption, FitWarning
-from fitter.render.camera import Camera, FocalLengthSource
+from fitter.render.camera import Camera
 from fitter.render.outline import outline_loops
 from fitter.render.rasterizer import render
-from fitter.request import Facing, Person, View
+from fitter.request import Person, View
+from fitter.vocabulary.choices import Facing
+from fitter.vocabulary.outcomes import FocalLengthSource
 from fitter.vocabulary.points import POINT_NAMES
 
 

@@ -25,10 +25,11 @@ from fitter.parameters import BodyParameters
 from fitter.population.known_person import KnownPerson
 from fitter.pose_init.initial_pose import initialize_pose
 from fitter.pose_init.points import clicked_points
-from fitter.request import Choices, OutlineKind, View
+from fitter.request import Choices, View
 from fitter.result import LimbFacing
 from fitter.segmentation.grabcut import Segmentation
 from fitter.segmentation.trimap import Trimap
+from fitter.vocabulary.choices import OutlineKind
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -80,9 +81,7 @@ class Outlined:
 
     def about(self, objective: Objective, body: Body) -> Objective:
         """An objective of this picture with the outline that a body there is to meet."""
-        return (
-            objective if self.lines_on is None else with_lines_about(objective, body, self.lines_on)
-        )
+        return _about(objective, body, self.lines_on)
 
 
 def outlined(

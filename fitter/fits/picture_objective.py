@@ -24,7 +24,6 @@ from fitter.parameters import BodyParameters
 from fitter.person.several_pictures import counted_as
 from fitter.population.known_person import KnownPerson
 from fitter.render.rasterizer import render
-from fitter.request import Clothing
 from fitter.segmentation.bones import clicked_bones, foot_bones
 from fitter.segmentation.grabcut import Segmentation, border_warnings, segment
 from fitter.segmentation.preference import preference
@@ -35,6 +34,7 @@ from fitter.segmentation.trimap import (
     seeded_trimap,
     trimap,
 )
+from fitter.vocabulary.choices import Clothing
 
 RESEGMENTED_BAND = 0.5
 """Width of the second band as a share of the first. The picture is segmented again around the body

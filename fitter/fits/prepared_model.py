@@ -11,7 +11,7 @@ from fitter.fits.usable_model import model_path, usable_model
 from fitter.measurement.anthropometry import MeasuringBody, measuring_body
 from fitter.population.measured_population import MeasuredPopulation, measured_population
 from fitter.pose_init.landmark_rig import rig_space
-from fitter.request import Gender
+from fitter.vocabulary.choices import Gender
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -17,8 +17,10 @@ from fitter.parameters import BodyParameters
 from fitter.person.several_pictures import CombinedShape
 from fitter.pose_init.initial_pose import PoseHypothesis
 from fitter.remarks import FitWarning
-from fitter.request import Choices, Cues, Facing, SurroundingsKind, View, ViewKind
-from fitter.result import FacingSource, LimbFacing, Outcome, PictureFit, Verdict
+from fitter.request import Choices, View
+from fitter.result import LimbFacing, PictureFit
+from fitter.vocabulary.choices import Cues, Facing, SurroundingsKind, ViewKind
+from fitter.vocabulary.outcomes import FacingSource, Outcome, Verdict
 
 POOR_OVERLAP = 0.85
 """A fit with less intersection over union than this is called poor: half an arm is about 4 %."""

@@ -30,7 +30,8 @@ from fitter.optimizer.gauss_newton import NEARLY_SETTLED_NATS, SETTLED_NATS, Min
 from fitter.optimizer.light_solve import guessed_lights
 from fitter.optimizer.search import BodySearch, body_search, limits_of
 from fitter.population.known_person import KnownPerson
-from fitter.request import Choices, Cues
+from fitter.request import Choices
+from fitter.vocabulary.choices import Cues
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -12,8 +12,8 @@ from fitter.fits.search import Found, LitView
 from fitter.optimizer.albedo_colour import albedo_rgb
 from fitter.optimizer.uncertainty import Certainty, camera_tilt, certainty, shape_covariance
 from fitter.person.fitted_person import FittedPerson
-from fitter.request import Gender
 from fitter.result import PictureFit
+from fitter.vocabulary.choices import Gender
 
 
 def settle(

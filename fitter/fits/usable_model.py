@@ -12,7 +12,7 @@ from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.errors import ModelFileError
 from fitter.measurement.definition_file import load_definitions
 from fitter.measurement.definitions import JOINT_PREFIX, needed_points
-from fitter.request import Gender
+from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.points import POINT_NAMES
 
 _MIDDLE_PARTS = ("pelvis", "spine", "chest", "neck", "head")

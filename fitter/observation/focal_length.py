@@ -10,9 +10,9 @@ from fitter.remarks import Assumption
 from fitter.render.camera import (
     ASSUMED_FOCAL_LENGTH_MM,
     FULL_FRAME_DIAGONAL_MM,
-    FocalLengthSource,
     focal_length_px_from_35mm,
 )
+from fitter.vocabulary.outcomes import FocalLengthSource
 
 PLAUSIBLE_35MM = (5.0, 5000.0)
 """Range of real lenses in 35 mm equivalents: fisheyes start at 8, telescopes end at 3000."""

@@ -29,9 +29,10 @@ from fitter.observation.resampling import (
 )
 from fitter.observation.subject import check_light
 from fitter.remarks import Assumption, FitWarning
-from fitter.render.camera import Camera, FocalLengthSource
+from fitter.render.camera import Camera
 from fitter.request import Click, View
 from fitter.vocabulary.choices import Clothing, Posture, SegmentationKind, ViewKind
+from fitter.vocabulary.outcomes import FocalLengthSource
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

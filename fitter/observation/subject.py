@@ -5,7 +5,8 @@ from collections.abc import Mapping
 
 from fitter.errors import InvalidInputError
 from fitter.remarks import Assumption
-from fitter.request import Gender, LightGuess, Person
+from fitter.request import LightGuess, Person
+from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.measurements import LEAST_HEIGHT_M, MOST_HEIGHT_M, STATURE
 
 MEAN_HEIGHT_M: Mapping[Gender, float] = {Gender.FEMALE: 1.65, Gender.MALE: 1.82}

@@ -36,7 +36,7 @@ from fitter.optimizer.search import BodySearch
 from fitter.optimizer.whole_body import on_whole_body
 from fitter.parameters import Light, Reflectance
 from fitter.render.reflectance import shading_terms
-from fitter.request import SurroundingsKind
+from fitter.vocabulary.choices import SurroundingsKind
 
 SMOOTHNESS_SCHEDULE = (40.0, 14.0, 5.0)
 """λ₁ = λ₂ of each round, relative to data weights with a mean of one per vertex: a step of albedo

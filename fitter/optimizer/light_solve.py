@@ -18,7 +18,7 @@ from fitter.numerics.damped_descent import Offer, damped_steps, descend
 from fitter.numerics.robust import geman_mcclure_weights
 from fitter.optimizer.light_sums import LightSums
 from fitter.optimizer.lit_surface import LightEstimate, LitSurface
-from fitter.parameters import Light, LightKind, Surroundings
+from fitter.parameters import Light, Surroundings
 from fitter.render.reflectance import ShadingDerivatives, shading_terms
 from fitter.render.surroundings import (
     BAND_OF,
@@ -30,6 +30,7 @@ from fitter.render.surroundings import (
     without_negative_light,
 )
 from fitter.request import LightGuess
+from fitter.vocabulary.choices import LightKind
 
 # Only attenuation across the body tells a light's distance: a weak prior about 3 m, with a spread
 # of a factor of two, keeps it from ending inside the body or at infinity.

@@ -5,9 +5,9 @@ from jaxtyping import Float
 
 from fitter.optimizer import _light_kernels as kernels
 from fitter.optimizer.lit_surface import LightEstimate, LitSurface
-from fitter.parameters import LightKind
 from fitter.render.light import direction_derivatives, direction_to_light, light_position
 from fitter.render.surroundings import harmonics
+from fitter.vocabulary.choices import LightKind
 
 
 class LightSums:

@@ -8,7 +8,7 @@ from fitter.energies.joint_objective import JointObjective
 from fitter.energies.objective import Body, EnergyObserver
 from fitter.optimizer.gauss_newton import SETTLED_NATS, Minimum, minimize_gauss_newton
 from fitter.optimizer.simplex import minimize_simplex
-from fitter.request import OptimizerKind
+from fitter.vocabulary.choices import OptimizerKind
 
 BodySearch = Callable[[JointObjective, Sequence[Body]], Minimum]
 """From a body in each picture to a minimum."""

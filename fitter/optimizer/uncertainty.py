@@ -22,7 +22,8 @@ from fitter.optimizer.light_freedom import information_lost_to_light
 from fitter.optimizer.normal_equations import normal_equations
 from fitter.optimizer.nuisance import RowsWithNuisance, nuisance_covariance
 from fitter.optimizer.row_jacobians import position_row_jacobian
-from fitter.parameters import CameraTilt, StanceKind
+from fitter.parameters import CameraTilt
+from fitter.vocabulary.outcomes import StanceKind
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -31,17 +31,11 @@ from jaxtyping import Float
 from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
 from fitter.numerics.array_archive import write_arrays
-from fitter.parameters import (
-    BodyParameters,
-    CameraTilt,
-    Light,
-    LightKind,
-    Reflectance,
-    StanceKind,
-)
+from fitter.parameters import BodyParameters, CameraTilt, Light, Reflectance
 from fitter.person.person_checks import FORMAT_VERSION, checked_person, unusable_person
 from fitter.render.camera import Camera
-from fitter.request import Gender
+from fitter.vocabulary.choices import Gender, LightKind
+from fitter.vocabulary.outcomes import StanceKind
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

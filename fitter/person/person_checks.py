@@ -13,8 +13,7 @@ import numpy as np
 
 from fitter.errors import InvalidInputError
 from fitter.numerics.array_archive import read_arrays
-from fitter.parameters import LightKind
-from fitter.request import Gender
+from fitter.vocabulary.choices import Gender, LightKind
 
 FORMAT_VERSION = 1
 

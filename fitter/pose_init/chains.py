@@ -21,7 +21,7 @@ from fitter.pose_init.landmark_rig import LandmarkRig
 from fitter.pose_init.lifting import FAR, NEAR, Lifting, LimbEnds
 from fitter.pose_init.limbs import limb_direction_at_rest, limb_named
 from fitter.pose_init.trunk import Pixels
-from fitter.request import Facing
+from fitter.vocabulary.choices import Facing
 
 OVERREACH_SPREAD_M = 0.03
 """Standard deviation of how much too long a limb may appear: its length is only predicted."""

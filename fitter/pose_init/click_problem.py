@@ -24,7 +24,7 @@ from fitter.pose_init.limb_reaches import limb_reaches
 from fitter.pose_init.limbs import LIMBS, MIDDLES, limb_slant
 from fitter.pose_init.points import ClickedPoints
 from fitter.render.camera import Camera
-from fitter.request import Facing
+from fitter.vocabulary.choices import Facing
 
 TRUNK_LEAN_SPREAD = 0.2
 """Standard deviation of the trunk's long axis along the view, as a sine (about 12 degrees): the

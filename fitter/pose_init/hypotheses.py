@@ -13,7 +13,7 @@ from fitter.pose_init.lifting import Lifting
 from fitter.pose_init.limbs import LIMBS, limb_slant
 from fitter.pose_init.reference_limb import ReferenceLimb
 from fitter.pose_init.start_poses import start_poses
-from fitter.request import Facing
+from fitter.vocabulary.choices import Facing
 
 STARTS = 16
 """At most this many closed-form readings are refined."""

@@ -40,7 +40,7 @@ from fitter.pose_init.points import ClickedPoints
 from fitter.pose_init.reference_limb import ReferenceLimb, reference_limb
 from fitter.pose_init.trunk_points import TrunkPoints, trunk_points
 from fitter.render.camera import Camera
-from fitter.request import Facing
+from fitter.vocabulary.choices import Facing
 
 _SETTLING_ITERATIONS = 3
 

@@ -20,7 +20,7 @@ from fitter.pose_init.landmark_rig import LandmarkRig
 from fitter.pose_init.lifting import FAR, NEAR, Lifting
 from fitter.pose_init.limbs import CHAINS, PELVIS_MIDDLE, TORSO, Limb, limb_named, point_at_rest
 from fitter.pose_init.trunk import Pixels, TrunkReadings, trunk_readings
-from fitter.request import Facing
+from fitter.vocabulary.choices import Facing
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

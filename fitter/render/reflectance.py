@@ -23,10 +23,11 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Vector3
-from fitter.parameters import Light, LightKind, Reflectance
+from fitter.parameters import Light, Reflectance
 from fitter.render import _reflectance_kernels as kernels
 from fitter.render.light import direction_derivatives, direction_to_light, light_position
 from fitter.render.surroundings import irradiance, irradiance_by_normal
+from fitter.vocabulary.choices import LightKind
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -5,10 +5,11 @@ from jaxtyping import Bool, Integer
 
 from fitter.arrays import PerVertex, Triangles, Vector3, Vertices
 from fitter.numerics.mesh_parts import grown
-from fitter.parameters import Light, LightKind
+from fitter.parameters import Light
 from fitter.render.camera import Camera
 from fitter.render.light import direction_to_light, light_position
 from fitter.render.rasterizer import NEAR_PLANE_M, render
+from fitter.vocabulary.choices import LightKind
 
 SHADOW_MAP_SIZE_PX = 768
 """Side of the shadow map: 2.5 mm a texel on a standing person."""

@@ -10,7 +10,8 @@ from rich.console import Console
 
 from api_schemas.points import AUTO
 from api_schemas.requests import PersonChoices
-from api_schemas.scans import ScanRequest, ScanViewRequest, ViewKind
+from api_schemas.scans import ScanRequest, ScanViewRequest
+from fitter.vocabulary.choices import ViewKind
 from service.commands.fit import PIPELINE, values_from_file
 from service.commands.local_work import UNUSABLE_INPUT, fitted, told, write_result
 from service.jobs.inputs import SentPicture

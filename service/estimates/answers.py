@@ -19,7 +19,8 @@ from fitter.fits.prepared_model import prepared_model
 from fitter.fits.proposal import propose
 from fitter.observation.decoding import decode_picture
 from fitter.population.body_estimate import estimate_body
-from fitter.request import Gender, KnownMeasurement
+from fitter.request import KnownMeasurement
+from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.measurements import STATURE
 from service.demo_data.sample import load_sample
 from service.estimates import translate

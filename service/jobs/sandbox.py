@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from enum import StrEnum
 from typing import Final
 
-from api_schemas.results import Verdict
+from fitter.vocabulary.outcomes import Verdict
 
 MARK: Final = "sandbox:"
 """How a label begins that asks for something."""

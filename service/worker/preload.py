@@ -16,7 +16,7 @@ def _load() -> None:
     # Imported here: nothing is looked through for cycles meanwhile.
     from fitter.errors import ModelFileError
     from fitter.fits.prepared_model import prepared_model
-    from fitter.request import Gender
+    from fitter.vocabulary.choices import Gender
     from service.settings import Settings
     from service.worker.rehearsal import make_ready, rehearse_sandbox
 

@@ -7,7 +7,8 @@ from collections.abc import Callable, Sequence
 from typing import Final, NoReturn
 
 from api_schemas.problems import FieldProblem
-from api_schemas.results import FitResult, FitWarning, Outcome
+from api_schemas.results import FitResult, FitWarning
+from fitter.vocabulary.outcomes import Outcome
 from service.blobs import BlobsUnavailableError, StorageFullError
 from service.engine.port import Report
 from service.jobs.sandbox import (

@@ -10,9 +10,10 @@ from uuid import UUID
 
 from api_schemas.derivation_kinds.base import DerivedFiles
 from api_schemas.derivations import DerivationRequest
-from api_schemas.requests import FitRequest, Gender
+from api_schemas.requests import FitRequest
 from api_schemas.results import FitWarning
 from api_schemas.scans import ScanRequest
+from fitter.vocabulary.choices import Gender
 from service.demo_data.sample import (
     load_sample,
     load_scan_sample,

@@ -19,7 +19,7 @@ from fitter.evidence.silhouette_evidence import silhouette_evidence
 from fitter.numerics.mesh_topology import mesh_topology
 from fitter.observation.colour import linear_from_display, luminance_of
 from fitter.observation.observation import observe
-from fitter.parameters import Light, LightKind, Reflectance
+from fitter.parameters import Light, Reflectance
 from fitter.render.camera import Camera
 from fitter.render.contours import model_edges
 from fitter.render.interpolation import shade_image
@@ -29,6 +29,7 @@ from fitter.render.shadow import cast_shadow
 from fitter.request import Click, View
 from fitter.segmentation.grabcut import segment
 from fitter.segmentation.trimap import first_band, trimap
+from fitter.vocabulary.choices import LightKind
 
 PIXELS = 20_000_000
 CENTRE = np.array([0.0, 0.0, 3.2])

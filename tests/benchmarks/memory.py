@@ -102,7 +102,7 @@ def _imported(answer: Connection) -> None:
 
 def _prepared(answer: Connection) -> None:
     from fitter.fits.prepared_model import prepared_model
-    from fitter.request import Gender
+    from fitter.vocabulary.choices import Gender
 
     prepared_model(Gender.MALE)
     answer.send(_peak_mib())

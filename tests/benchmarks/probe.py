@@ -13,7 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from fitter.fits.pipeline import fit
-from fitter.request import Cues, FitRequest, ViewKind
+from fitter.request import FitRequest
+from fitter.vocabulary.choices import Cues, ViewKind
 from tests.benchmarks import upload
 from tests.benchmarks.requests import suite_requests, warm_up
 from tests.benchmarks.spent import timed, timed_fit

@@ -9,7 +9,7 @@ from fitter.energies.objective import Body, EnergyObserver
 from fitter.fits import outlined, search
 from fitter.optimizer.gauss_newton import SETTLED_NATS, Minimum
 from fitter.optimizer.search import BodySearch, body_search
-from fitter.request import OptimizerKind
+from fitter.vocabulary.choices import OptimizerKind
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

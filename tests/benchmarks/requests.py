@@ -5,7 +5,8 @@ import io
 from PIL import Image as PillowImage
 
 from fitter.fits.pipeline import fit
-from fitter.request import Click, Cues, FitRequest
+from fitter.request import Click, FitRequest
+from fitter.vocabulary.choices import Cues
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import read_case
 from tests.evaluation.suite import fit_request

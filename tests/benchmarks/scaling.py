@@ -25,8 +25,8 @@ from fitter.optimizer.search import limits_of
 from fitter.render.camera import Camera
 from fitter.render.contours import model_edges
 from fitter.render.rasterizer import render
-from fitter.request import Gender
 from fitter.training.report.text_tables import note_lines, table_lines
+from fitter.vocabulary.choices import Gender
 from tests.benchmarks.probe import requests_of, scan_share
 from tests.benchmarks.requests import suite_requests, warm_up
 from tests.benchmarks.spent import TimedFit, median, timed, timed_fit

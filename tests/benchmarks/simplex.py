@@ -7,8 +7,9 @@ from fitter.fits.pipeline import fit
 from fitter.optimizer.gauss_newton import Minimum, minimize_gauss_newton
 from fitter.optimizer.search import limits_of
 from fitter.optimizer.simplex import minimize_simplex
-from fitter.request import FitRequest, OptimizerKind, OutlineKind
+from fitter.request import FitRequest
 from fitter.training.report.text_tables import note_lines, table_lines
+from fitter.vocabulary.choices import OptimizerKind, OutlineKind
 from tests.benchmarks.recorded_searches import Search, recorded_searches
 from tests.benchmarks.requests import suite_requests, warm_up
 from tests.benchmarks.spent import Spent, median, timed

@@ -4,7 +4,7 @@ import argparse
 import sys
 from collections.abc import Sequence
 
-from fitter.request import Clothing, Cues, OutlineKind
+from fitter.vocabulary.choices import Clothing, Cues, OutlineKind
 from tests.evaluation.body_tables import bmi_lines, distance_lines, trunk_lines
 from tests.evaluation.cases import CASES, PEOPLE
 from tests.evaluation.command_line import parser

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from fitter.request import Cues
+from fitter.vocabulary.choices import Cues
 from tests.evaluation.joint_figures import PAIRS
 from tests.evaluation.scoring import Scored
 from tests.evaluation.table import MEASUREMENTS

@@ -17,7 +17,8 @@ from fitter.errors import FitterError
 from fitter.fits.capture_check import CaptureQuestion
 from fitter.fits.pipeline import fit
 from fitter.observation.decoding import decode_picture
-from fitter.request import FitRequest, KnownMeasurement, ViewKind
+from fitter.request import FitRequest, KnownMeasurement
+from fitter.vocabulary.choices import ViewKind
 from tests.evaluation.capture_forms import (
     ROLLED_SCALE,
     Picture,

@@ -11,7 +11,7 @@ from fitter.capture.arms import free_share
 from fitter.capture.camera_place import NEAREST_M
 from fitter.capture.capture import Capture
 from fitter.capture.finding import Code
-from fitter.request import ViewKind
+from fitter.vocabulary.choices import ViewKind
 from tests.evaluation.joint_figures import part_of_joint
 from tests.evaluation.scene import Series
 from tests.evaluation.true_picture import TruePicture

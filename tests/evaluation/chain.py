@@ -10,8 +10,8 @@ from fitter.body.skeleton import regress
 from fitter.fits.prepared_model import prepared_model
 from fitter.measurement.anthropometry import measure
 from fitter.measurement.taking import CENTIMETRES_PER_METRE
-from fitter.request import Cues
 from fitter.result import before_shading
+from fitter.vocabulary.choices import Cues
 from fitter.vocabulary.measurements import STATURE
 from tests.evaluation.foreign import foreign_mesh, foreign_picture
 from tests.evaluation.joint_figures import distance_errors_m, joint_error_mm

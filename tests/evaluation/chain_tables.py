@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float
 
-from fitter.request import Cues
+from fitter.vocabulary.choices import Cues
 from tests.evaluation.body_tables import CENTIMETRES
 from tests.evaluation.chain import Link
 from tests.evaluation.table import MEASUREMENTS

@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from fitter.request import Clothing, OutlineKind
+from fitter.vocabulary.choices import Clothing, OutlineKind
 from tests.evaluation.cases import CASES
 from tests.evaluation.foreign import foreign_names
 from tests.evaluation.scene import Half, Series

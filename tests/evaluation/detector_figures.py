@@ -6,7 +6,8 @@ from enum import StrEnum
 
 import numpy as np
 
-from fitter.request import Cues, FitRequest, SegmentationKind
+from fitter.request import FitRequest
+from fitter.vocabulary.choices import Cues, SegmentationKind
 from tests.evaluation.runs import picture_of
 from tests.evaluation.scoring import Scored, fit_picture, score
 from tests.evaluation.true_picture import Told

@@ -10,7 +10,8 @@ import numpy as np
 from PIL import Image as PillowImage
 
 from fitter.arrays import Mask
-from fitter.parameters import Light, LightKind
+from fitter.parameters import Light
+from fitter.vocabulary.choices import LightKind
 from tests.evaluation.clicks import hidden_points, noisy_clicks, rendering
 from tests.evaluation.photograph import photograph
 from tests.evaluation.scene import PAIRED_SERIES, Case, FocalLength

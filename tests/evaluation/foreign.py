@@ -13,8 +13,9 @@ import numpy as np
 from jaxtyping import Float
 from PIL import Image as PillowImage
 
-from fitter.parameters import Light, LightKind
-from fitter.request import Click, FitRequest, Gender
+from fitter.parameters import Light
+from fitter.request import Click, FitRequest
+from fitter.vocabulary.choices import Gender, LightKind
 from tests.evaluation.joint_figures import MOVED_PARTS, part_of_joint
 from tests.evaluation.landmark_points import packaged_model
 from tests.evaluation.mesh_fit import PosedMesh

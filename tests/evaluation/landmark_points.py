@@ -10,7 +10,7 @@ from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
 from fitter.body.skeleton import regress
 from fitter.body.storage import load_body_model, packaged_model_path
-from fitter.request import Gender
+from fitter.vocabulary.choices import Gender
 from tests.evaluation.people import Person, rig_of_people
 
 Points = Mapping[str, Float[np.ndarray, "3"]]

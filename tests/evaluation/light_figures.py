@@ -14,8 +14,8 @@ from fitter.observation.colour import linear_from_display, luminance_of
 from fitter.render.rasterizer import render
 from fitter.render.reflectance import shade
 from fitter.render.shadow import cast_shadow, lamp_seen
-from fitter.request import Cues, SurroundingsKind
 from fitter.result import FitResult
+from fitter.vocabulary.choices import Cues, SurroundingsKind
 from tests.evaluation.scene import Case
 from tests.evaluation.scoring import Scored, fit_picture, score
 from tests.evaluation.suite import case_picture

@@ -12,8 +12,8 @@ from jaxtyping import Float
 from PIL import Image as PillowImage
 
 from fitter.arrays import Vertices
-from fitter.request import Gender
 from fitter.training.makehuman.meshes import makehuman_folder
+from fitter.vocabulary.choices import Gender
 from tests.evaluation.noise import smooth_step, value_noise
 from tests.evaluation.scene import Hair, Look
 

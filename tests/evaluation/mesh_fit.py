@@ -22,8 +22,8 @@ from fitter.energies.fitting_operators import FittingOperators
 from fitter.fits.prepared_model import prepared_model
 from fitter.optimizer.parameter_vector import excess, moved
 from fitter.parameters import BodyParameters
-from fitter.request import Gender
 from fitter.training.articulation.part_tree import part_index
+from fitter.vocabulary.choices import Gender
 from tests.evaluation.closest_points import (
     SURFACE_SPREAD_M,
     Pairs,

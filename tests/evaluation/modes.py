@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from fitter.request import Cues, Gender
+from fitter.vocabulary.choices import Cues, Gender
 from tests.evaluation.capture_costs import cost_lines, costs_of, people_of
 from tests.evaluation.capture_table import capture_lines, judged_by, judgements
 from tests.evaluation.cases import PEOPLE

@@ -13,7 +13,8 @@ import numpy as np
 from PIL import Image as PillowImage
 
 from fitter.arrays import Mask
-from fitter.request import Click, Cues, FitRequest
+from fitter.request import Click, FitRequest
+from fitter.vocabulary.choices import Cues
 from tests.evaluation.cases import CASES
 from tests.evaluation.drawn_pictures import (
     SIZE,

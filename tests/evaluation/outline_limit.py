@@ -14,11 +14,11 @@ from jaxtyping import Bool, Float
 
 from fitter.body.model import BodyModel
 from fitter.measurement.definition_file import load_definitions
-from fitter.request import Gender
 from fitter.training.articulation.rigged_bodies import rigged_bodies
 from fitter.training.build import PACKAGED_SEED, read_materials, solved_population
 from fitter.training.makehuman.meshes import makehuman_folder
 from fitter.training.report.measured_people import measured_bodies
+from fitter.vocabulary.choices import Gender
 from tests.evaluation.landmark_points import packaged_model
 
 SUBJECTS, HELD_OUT = 1300, 200

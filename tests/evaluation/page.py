@@ -4,7 +4,7 @@ import html
 from collections.abc import Sequence
 from pathlib import Path
 
-from fitter.request import Cues
+from fitter.vocabulary.choices import Cues
 from tests.evaluation.scoring import Scored
 from tests.evaluation.sheets import FULL_SCALE_MM, PANELS, panel_name
 from tests.evaluation.table import case_lines, summary_lines

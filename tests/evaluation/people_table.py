@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from fitter.request import Gender
+from fitter.vocabulary.choices import Gender
 from tests.evaluation.scene import Hair, Half, Look, PersonSource, Rgb
 
 _PALE, _FAIR, _TANNED, _BROWN, _DARK = (

@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
-from fitter.request import Clothing, Cues
+from fitter.vocabulary.choices import Clothing, Cues
 from tests.evaluation.cases import CASES
 from tests.evaluation.foreign import foreign_mesh, foreign_picture
 from tests.evaluation.held_pose import HeldBody, held_body_of

@@ -9,8 +9,8 @@ import numpy as np
 from fitter.body.skeleton import regress
 from fitter.fits.pipeline import fit
 from fitter.render.rasterizer import render
-from fitter.request import Cues, ViewKind
 from fitter.result import FitResult
+from fitter.vocabulary.choices import Cues, ViewKind
 from tests.evaluation.cases import CASES
 from tests.evaluation.foreign import foreign_half, foreign_names
 from tests.evaluation.joint_figures import joint_error_mm

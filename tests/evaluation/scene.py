@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from enum import StrEnum
 
-from fitter.request import Gender
+from fitter.vocabulary.choices import Gender
 
 Rgb = tuple[float, float, float]
 """Linear light."""

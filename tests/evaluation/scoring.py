@@ -12,11 +12,11 @@ from fitter.arrays import Mask
 from fitter.body.skeleton import regress
 from fitter.fits.pipeline import fit
 from fitter.parameters import Light
-from fitter.render.camera import FocalLengthSource
 from fitter.render.light import direction_to_light
 from fitter.render.rasterizer import render
-from fitter.request import Cues
 from fitter.result import FitResult
+from fitter.vocabulary.choices import Cues
+from fitter.vocabulary.outcomes import FocalLengthSource
 from tests.evaluation.held_pose import HeldBody, held_at
 from tests.evaluation.joint_figures import distance_errors_m, joint_error_mm
 from tests.evaluation.landmark_points import packaged_model

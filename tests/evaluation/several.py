@@ -10,7 +10,8 @@ from fitter.fits.pipeline import fit
 from fitter.measurement.quantity import Measurement
 from fitter.person.fitted_person import FittedPerson
 from fitter.person.several_pictures import known_covariance
-from fitter.request import Cues, FitRequest, StartingBody
+from fitter.request import FitRequest, StartingBody
+from fitter.vocabulary.choices import Cues
 from tests.evaluation.joint_figures import joint_error_mm
 from tests.evaluation.landmark_points import packaged_model
 from tests.evaluation.limbs_in_depth import wrong_limbs

@@ -8,7 +8,7 @@ import numpy as np
 
 from fitter.fits.pipeline import fit
 from fitter.person.several_pictures import SAME_PERSON_PROBABILITY
-from fitter.request import Cues, ViewKind
+from fitter.vocabulary.choices import Cues, ViewKind
 from tests.evaluation.runs import picture_of
 from tests.evaluation.scans import Pair, foreign_pairs, own_pairs, repeated_pairs
 from tests.evaluation.scene import Half

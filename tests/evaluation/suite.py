@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from fitter.request import Click, Cues, FitRequest, Gender
+from fitter.request import Click, FitRequest
+from fitter.vocabulary.choices import Cues, Gender
 from tests.evaluation.files import CaseFiles, light_from_document, read_case
 from tests.evaluation.people import load_person
 from tests.evaluation.people_table import PEOPLE

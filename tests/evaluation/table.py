@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from fitter.request import Cues
+from fitter.vocabulary.choices import Cues
 from tests.evaluation.scoring import Scored
 
 MEASUREMENTS = (

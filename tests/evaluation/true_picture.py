@@ -7,14 +7,8 @@ from jaxtyping import Float
 
 from fitter.arrays import Mask
 from fitter.parameters import Light
-from fitter.request import (
-    Clothing,
-    FitRequest,
-    KnownMeasurement,
-    LightGuess,
-    OutlineKind,
-    SurroundingsKind,
-)
+from fitter.request import FitRequest, KnownMeasurement, LightGuess
+from fitter.vocabulary.choices import Clothing, OutlineKind, SurroundingsKind
 from tests.evaluation.files import encoded_mask
 from tests.evaluation.scene import Half, Series
 from tests.evaluation.truth import TrueBody

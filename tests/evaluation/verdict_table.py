@@ -5,8 +5,9 @@ from dataclasses import dataclass
 
 from fitter.errors import InvalidInputError
 from fitter.fits.pipeline import fit
-from fitter.request import Cues, FitRequest
-from fitter.result import Verdict
+from fitter.request import FitRequest
+from fitter.vocabulary.choices import Cues
+from fitter.vocabulary.outcomes import Verdict
 from tests.evaluation.detector_figures import Hints, hinted
 from tests.evaluation.nonsense import Nonsense
 from tests.evaluation.runs import picture_of

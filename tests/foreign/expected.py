@@ -20,7 +20,7 @@ from fitter.arrays import Vertices
 from fitter.fits.prepared_model import PreparedModel, prepared_model
 from fitter.parameters import BodyParameters, CameraTilt
 from fitter.person.upright import upright_frame, upright_turn
-from fitter.request import Gender
+from fitter.vocabulary.choices import Gender
 
 ROUNDING_M = 2e-5
 """Files hold single precision; parameters lie some metres from the origin."""

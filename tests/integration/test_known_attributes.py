@@ -4,8 +4,9 @@ import pytest
 
 from fitter.errors import InvalidInputError
 from fitter.fits.pipeline import fit
-from fitter.request import Cues, FitRequest, KnownMeasurement
+from fitter.request import FitRequest, KnownMeasurement
 from fitter.result import FitResult, FitStage
+from fitter.vocabulary.choices import Cues
 from service.demo_data.sample import load_sample
 from service.jobs.inputs import SentPicture
 from service.submissions.submission import check_fit

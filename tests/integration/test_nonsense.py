@@ -3,8 +3,9 @@
 import pytest
 
 from fitter.fits.pipeline import fit
-from fitter.request import Cues, SegmentationKind
-from fitter.result import FitResult, Outcome, Verdict
+from fitter.result import FitResult
+from fitter.vocabulary.choices import Cues, SegmentationKind
+from fitter.vocabulary.outcomes import Outcome, Verdict
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import read_case
 from tests.evaluation.nonsense import DONORS, NAMED_KINDS, nonsense

@@ -20,7 +20,7 @@ from fitter.body.storage import load_body_model
 from fitter.fits.initial_body import initial_body
 from fitter.fits.prepared_model import prepared_model
 from fitter.parameters import BodyParameters
-from fitter.request import Click, Gender, Person, View
+from fitter.request import Click, Person, View
 from fitter.training.__main__ import main
 from fitter.training.own_bodies.command import GUIDE
 from fitter.training.own_bodies.folder import read_own_bodies
@@ -28,6 +28,7 @@ from fitter.training.own_bodies.learning import OwnPlan, split_subjects
 from fitter.training.own_bodies.template import packaged_template
 from fitter.training.shapes.principal_shapes import project
 from fitter.training.shapes.surface import vertex_masses
+from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.points import POINT_NAMES
 from tests.unit.training.own_bodies.bodies_folder import (
     DECLARED,

@@ -13,7 +13,7 @@ from fitter.capture.finding import Code
 from fitter.fits import reporting
 from fitter.observation import decoding
 from fitter.person.several_pictures import SAME_PERSON_PROBABILITY
-from fitter.result import Verdict
+from fitter.vocabulary.outcomes import Verdict
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "service" / "docs" / "pictures.md").read_text()

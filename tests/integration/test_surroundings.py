@@ -11,8 +11,8 @@ from fitter.export import artifacts
 from fitter.fits.pipeline import fit
 from fitter.fits.prepared_model import prepared_model
 from fitter.person.fitted_person import FittedPerson
-from fitter.request import SurroundingsKind
 from fitter.result import FitResult
+from fitter.vocabulary.choices import SurroundingsKind
 from service.jobs.inputs import SentPicture
 from service.worker import translate
 from service.worker.fit_results import fit_result

@@ -4,10 +4,9 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from api_schemas.body_models import BodyModelInfo, BodyModels
-from api_schemas.requests import Gender
-from fitter import request as fitter_request
 from fitter.fits.usable_model import usable_model
 from fitter.observation.subject import MEAN_HEIGHT_M
+from fitter.vocabulary.choices import Gender
 
 
 def describe(models: Path | None) -> BodyModels:
@@ -22,12 +21,11 @@ def describe(models: Path | None) -> BodyModels:
 
 
 def _model_info(gender: Gender, models: Path | None) -> BodyModelInfo:
-    fitted = fitter_request.Gender(gender.value)
-    model = usable_model(fitted, models=models)
+    model = usable_model(gender, models=models)
     header = model.header
     return BodyModelInfo(
         gender=gender,
-        mean_height_m=MEAN_HEIGHT_M[fitted],
+        mean_height_m=MEAN_HEIGHT_M[gender],
         vertices=len(model.mean_vertices),
         triangles=len(model.triangles),
         shape_coefficients=len(model.shape_basis),

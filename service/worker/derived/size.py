@@ -4,7 +4,6 @@ from collections.abc import Callable, Mapping
 
 from api_schemas.derivation_kinds.size import (
     SizeChance,
-    SizedAs,
     SizedMeasurement,
     SizeOptions,
     SizeResult,
@@ -82,7 +81,7 @@ def _argument(said: size_arguments.SizedMeasurement) -> SizedMeasurement:
         ease=said.ease,
         low=said.low,
         high=said.high,
-        sized_as=SizedAs(said.sized_as.value),
+        sized_as=said.sized_as,
         off=said.off,
         cost=said.cost,
         within=said.within,

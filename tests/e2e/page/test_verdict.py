@@ -6,7 +6,7 @@ import httpx
 import pytest
 from playwright.sync_api import expect
 
-from fitter.request import Cues
+from fitter.vocabulary.choices import Cues
 from tests.e2e.page.visitor import FIT_WITHIN_MS, Visitor
 from tests.e2e.service import ended_job
 from tests.evaluation.nonsense import nonsense

@@ -10,20 +10,14 @@ import time
 from pathlib import Path
 
 from api_schemas.bodies import BodyEstimate, EstimatedMeasurement
-from api_schemas.checks import CaptureCheck, Finding, SeenFrom
+from api_schemas.checks import CaptureCheck, Finding
 from api_schemas.initial_poses import InitialPose, LimbReading
 from api_schemas.points import PointSource
 from api_schemas.problems import FieldProblem
 from api_schemas.proposals import FoundPerson, PictureSize, PointsProposal, ProposedPoint
-from api_schemas.requests import Facing
-from api_schemas.results import (
-    BodyResult,
-    CameraResult,
-    FitWarning,
-    FocalLengthSource,
-    PartRotation,
-)
-from fitter.vocabulary.outcomes import Severity
+from api_schemas.results import BodyResult, CameraResult, FitWarning, PartRotation
+from fitter.vocabulary.choices import Facing
+from fitter.vocabulary.outcomes import FocalLengthSource, SeenFrom, Severity
 from service.estimates.messages import (
     BodyTask,
     CheckTask,

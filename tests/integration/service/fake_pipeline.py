@@ -18,8 +18,8 @@ from api_schemas.body_models import BodyModelInfo, BodyModels
 from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivation_kinds.base import DerivedFiles
 from api_schemas.problems import FieldProblem
-from api_schemas.requests import Gender
 from api_schemas.scans import ScanOptions
+from fitter.vocabulary.choices import Gender
 from service.engine.port import Report
 from service.jobs.inputs import PERSON, SentPicture
 from service.worker.pipeline_port import (

@@ -10,13 +10,11 @@ from api_schemas.results import (
     BodyResult,
     FitResult,
     FittedCameraResult,
-    FocalLengthSource,
     Measurement,
-    Outcome,
     PartRotation,
-    Verdict,
 )
 from api_schemas.scans import ScannedView, ScanOptions, ScanResult
+from fitter.vocabulary.outcomes import FocalLengthSource, Outcome, Verdict
 from service.jobs.inputs import BODY_POSED, OVERLAY, PERSON, SEGMENTATION, file_of
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from api_schemas.bodies import BodyRequest
-from api_schemas.requests import Gender
+from fitter.vocabulary.choices import Gender
 from service.estimates import pool as pools
 from service.estimates import process as processes
 from service.estimates.messages import BodyTask, ConversionTask

@@ -7,8 +7,9 @@ import pytest
 from pydantic import ValidationError
 
 from api_schemas.points import AUTO
-from api_schemas.requests import FitRequest, OptimizerKind
-from api_schemas.scans import ScanOptions, ScanRequest, ViewKind
+from api_schemas.requests import FitRequest
+from api_schemas.scans import ScanOptions, ScanRequest
+from fitter.vocabulary.choices import OptimizerKind, ViewKind
 from service.submissions.validation import field_problems
 
 POINTS = {"nose": [1.0, 2.0]}

@@ -23,7 +23,7 @@ from fitter.applications.principal_frames import ERROR_GOAL_M, principal_frames
 from fitter.applications.walk import stride_of, walk
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
-from fitter.request import Gender
+from fitter.vocabulary.choices import Gender
 from tests.unit.applications.bodies import packaged
 from tests.unit.applications.bvh_files import MIXAMO, bvh_of
 from tests.unit.export.glb_reader import read_glb

@@ -5,7 +5,7 @@ import pytest
 
 from fitter.applications.body_fat import body_fat, body_mass_index, regressions
 from fitter.measurement.joint_measurements import JointMeasurements
-from fitter.request import Gender
+from fitter.vocabulary.choices import Gender
 
 BODY = {
     "stature": 178.0,

@@ -14,7 +14,7 @@ from fitter.person.fitted_person import FittedPerson
 from fitter.render.camera import Camera
 from fitter.render.interpolation import shade_image
 from fitter.render.rasterizer import render
-from fitter.request import Gender
+from fitter.vocabulary.choices import Gender
 from tests.unit.applications.bodies import packaged
 
 CAMERA = Camera(focal_length_px=1000.0, centre_x=300.0, centre_y=400.0, width=600, height=800)

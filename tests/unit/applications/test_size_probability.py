@@ -3,12 +3,12 @@ from math import erf, sqrt
 import numpy as np
 import pytest
 
-from fitter.applications.size_arguments import SizedAs
 from fitter.applications.size_chart import Tolerance, chart_remarks, costs, size_chart
 from fitter.applications.size_probability import size_answer
 from fitter.errors import InvalidInputError
 from fitter.measurement.joint_measurements import JointMeasurements
 from fitter.numerics.gaussian_points import gaussian_points
+from fitter.vocabulary.outcomes import SizedAs
 
 WAISTS = {
     "S": {"waist": (76.0, 80.0)},

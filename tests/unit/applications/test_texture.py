@@ -18,14 +18,14 @@ from fitter.applications.textured_glb import in_file_axes, textured_glb
 from fitter.errors import InvalidInputError
 from fitter.export.display import png
 from fitter.observation.colour import linear_from_display
-from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
+from fitter.parameters import BodyParameters, Light, Reflectance
 from fitter.person.fitted_person import FittedPerson
 from fitter.render.camera import Camera
 from fitter.render.interpolation import shade_image
 from fitter.render.rasterizer import render
 from fitter.render.reflectance import shade, shading_terms
 from fitter.render.shadow import cast_shadow, lamp_seen
-from fitter.request import Gender
+from fitter.vocabulary.choices import Gender, LightKind
 from tests.unit.applications.bodies import packaged
 from tests.unit.export.glb_reader import read_glb
 

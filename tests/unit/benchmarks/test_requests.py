@@ -5,8 +5,8 @@ import io
 import pytest
 from PIL import Image as PillowImage
 
-from fitter.render.camera import FocalLengthSource
-from fitter.request import Cues
+from fitter.vocabulary.choices import Cues
+from fitter.vocabulary.outcomes import FocalLengthSource
 from tests.benchmarks.requests import resized
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import read_case

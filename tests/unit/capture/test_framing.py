@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 import pytest
 
-from fitter.capture.finding import Code, Finding, Severity, Unchecked
+from fitter.capture.finding import Code, Finding, Unchecked
 from fitter.capture.framing import (
     BLOCKING_STATURE_PX,
     LEAST_STATURE_PX,
@@ -12,6 +12,7 @@ from fitter.capture.framing import (
     size,
     wholeness,
 )
+from fitter.vocabulary.outcomes import Severity
 from tests.unit.capture.made_up import STATURE_PX, by_points_alone, capture, person
 
 

@@ -2,9 +2,10 @@
 
 from dataclasses import replace
 
-from fitter.capture.finding import Code, Finding, Severity, Unchecked
+from fitter.capture.finding import Code, Finding, Unchecked
 from fitter.capture.people import nobody_else, somebody
 from fitter.request import Click
+from fitter.vocabulary.outcomes import Severity
 from tests.unit.capture.made_up import by_points_alone, capture, of_nobody, person
 
 

@@ -4,10 +4,10 @@ import math
 
 import pytest
 
-from fitter.capture.finding import Code, Finding, Severity, Unchecked
+from fitter.capture.finding import Code, Finding, Unchecked
 from fitter.capture.turning import announced_view, facing, seen_from
-from fitter.request import ViewKind
-from fitter.vocabulary.outcomes import SeenFrom
+from fitter.vocabulary.choices import ViewKind
+from fitter.vocabulary.outcomes import SeenFrom, Severity
 from tests.unit.capture.made_up import FRONT, by_points_alone, capture, person
 
 

@@ -12,8 +12,8 @@ from fitter.energies.priors import (
     population_prior,
 )
 from fitter.fits.prepared_model import prepared_model
-from fitter.request import Gender
 from fitter.training.surveys import survey_moments
+from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.measurements import STATURE
 from tests.shared_data import SHARED_DATA, needs_shared
 

@@ -14,10 +14,11 @@ from fitter.energies.stance import (
     stance_vectors,
 )
 from fitter.fits.prepared_model import prepared_model
-from fitter.parameters import BodyParameters, CameraTilt, StanceKind
+from fitter.parameters import BodyParameters, CameraTilt
 from fitter.person.upright import upright_rotation
 from fitter.training.articulation.part_tree import PART_NAMES, part_index
 from fitter.vocabulary.choices import Gender, Posture
+from fitter.vocabulary.outcomes import StanceKind
 
 VECTORS = stance_vectors(PART_NAMES)
 ANKLE_M = stances.ANKLE_HEIGHT_M

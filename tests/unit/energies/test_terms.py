@@ -33,11 +33,12 @@ from fitter.evidence.silhouette_evidence import silhouette_evidence
 from fitter.fits.prepared_model import prepared_model
 from fitter.numerics.mesh_topology import mesh_topology
 from fitter.numerics.normals import add_normal_derivative
-from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
+from fitter.parameters import BodyParameters, Light, Reflectance
 from fitter.render.camera import Camera
 from fitter.render.contours import model_edges
 from fitter.render.rasterizer import render
-from fitter.request import Click, Gender
+from fitter.request import Click
+from fitter.vocabulary.choices import Gender, LightKind
 
 CAMERA = Camera(focal_length_px=300.0, centre_x=100.0, centre_y=100.0, width=200, height=200)
 SCALES = scales_at(CAMERA, 3.0, boundary_eta_m=0.06)

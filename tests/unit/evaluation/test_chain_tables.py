@@ -2,7 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from fitter.request import Cues
+from fitter.vocabulary.choices import Cues
 from tests.evaluation.chain import Link
 from tests.evaluation.chain_tables import chain_case_lines, chain_lines
 from tests.evaluation.table import MEASUREMENTS

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image as PillowImage
 
-from fitter.request import Gender
+from fitter.vocabulary.choices import Gender
 from tests.evaluation.cases import CASES, DEMO, PEOPLE
 from tests.evaluation.files import PICTURES_FOLDER, document, read_case
 from tests.evaluation.generate import SAMPLE_FOLDER

@@ -4,7 +4,7 @@ import pytest
 from fitter.body.skeleton import regress
 from fitter.fits.prepared_model import prepared_model
 from fitter.parameters import BodyParameters
-from fitter.request import Gender
+from fitter.vocabulary.choices import Gender
 from tests.evaluation.closest_points import closest_pairs, distances_m, surface_of
 from tests.evaluation.joint_figures import distance_errors_m, joint_error_mm, part_of_joint
 from tests.evaluation.mesh_fit import PosedMesh, fit_mesh

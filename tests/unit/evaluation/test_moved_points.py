@@ -1,6 +1,7 @@
 import numpy as np
 
-from fitter.request import Click, Gender
+from fitter.request import Click
+from fitter.vocabulary.choices import Gender
 from tests.evaluation.moved_points import Move, MovedFit, moved, moved_lines
 from tests.evaluation.table import MEASUREMENTS
 from tests.one_picture import one_picture

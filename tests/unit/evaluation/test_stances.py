@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from fitter.body.skeleton import global_rotations
-from fitter.request import Gender
 from fitter.training.articulation.part_tree import PART_PARENT, part_index
+from fitter.vocabulary.choices import Gender
 from tests.evaluation.landmark_points import packaged_model
 from tests.evaluation.scene import Arm, Leg, Stance
 from tests.evaluation.stances import pose_of, standing_on_both_feet

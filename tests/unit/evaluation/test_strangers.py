@@ -1,6 +1,6 @@
 """The table of how often strangers in a scan are told."""
 
-from fitter.request import ViewKind
+from fitter.vocabulary.choices import ViewKind
 from tests.evaluation.scene import Half
 from tests.evaluation.strangers import Agreement, Pictures, asked_of, stranger_lines
 

@@ -2,7 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from fitter.request import Cues, SurroundingsKind
+from fitter.vocabulary.choices import Cues, SurroundingsKind
 from tests.evaluation.body_tables import bmi_class, bmi_lines, distance_lines, trunk_lines
 from tests.evaluation.cases import CASES, DEMO
 from tests.evaluation.joint_figures import PAIRS

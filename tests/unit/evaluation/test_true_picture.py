@@ -2,8 +2,9 @@ from dataclasses import asdict, replace
 
 import numpy as np
 
-from fitter.parameters import Light, LightKind
-from fitter.request import Clothing, Gender, KnownMeasurement, OutlineKind
+from fitter.parameters import Light
+from fitter.request import KnownMeasurement
+from fitter.vocabulary.choices import Clothing, Gender, LightKind, OutlineKind
 from tests.evaluation.scene import Half, Series
 from tests.evaluation.true_picture import Told, TruePicture, told_request
 from tests.evaluation.truth import TrueBody

@@ -5,20 +5,13 @@ from dataclasses import replace
 import numpy as np
 
 from fitter.body.model import BodyModel
-from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
+from fitter.parameters import BodyParameters, Light, Reflectance
 from fitter.person.fitted_person import FittedPerson
-from fitter.render.camera import Camera, FocalLengthSource
-from fitter.request import Cues, Gender, OptimizerKind
-from fitter.result import (
-    FitResult,
-    FitStage,
-    FittedView,
-    Outcome,
-    PictureFit,
-    Pictures,
-    StageBody,
-)
+from fitter.render.camera import Camera
+from fitter.result import FitResult, FitStage, FittedView, PictureFit, Pictures, StageBody
 from fitter.segmentation.trimap import TrimapLabel
+from fitter.vocabulary.choices import Cues, Gender, LightKind, OptimizerKind
+from fitter.vocabulary.outcomes import FocalLengthSource, Outcome
 
 CAMERA = Camera(focal_length_px=700.0, centre_x=250.0, centre_y=200.0, width=480, height=400)
 POINT_LIGHT = Light(kind=LightKind.POINT, azimuth=0.5, elevation=0.3, distance=2.5)

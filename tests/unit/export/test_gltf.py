@@ -8,10 +8,11 @@ from scipy.spatial.transform import Rotation
 
 from fitter.export.gltf import body_canonical_glb, body_posed_glb
 from fitter.export.gltf_light import quaternion_from_z_to
-from fitter.parameters import CameraTilt, StanceKind
+from fitter.parameters import CameraTilt
 from fitter.person.upright import upright_frame
 from fitter.render.shadow import cast_shadow
 from fitter.render.surroundings import irradiance
+from fitter.vocabulary.outcomes import StanceKind
 from tests.unit.body.synthetic_model import bar_model
 from tests.unit.export.glb_reader import read_glb
 from tests.unit.export.results import CAMERA, POINT_LIGHT, SUN, reflectance_of, result_of

@@ -10,7 +10,8 @@ from fitter.export.views import (
     under_level_camera,
     views_picture,
 )
-from fitter.parameters import CameraTilt, StanceKind
+from fitter.parameters import CameraTilt
+from fitter.vocabulary.outcomes import StanceKind
 from tests.unit.measurement.solids import sphere
 
 ROOT = np.array([0.2, -0.1, 3.0])

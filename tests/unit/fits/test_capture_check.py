@@ -8,7 +8,7 @@ import pytest
 from PIL import Image as PillowImage
 
 from fitter.capture.checking import check_capture
-from fitter.capture.finding import Code, Severity
+from fitter.capture.finding import Code
 from fitter.detection.detector import installed_detector
 from fitter.errors import InvalidInputError
 from fitter.fits.capture_check import (
@@ -18,8 +18,9 @@ from fitter.fits.capture_check import (
     check_picture,
 )
 from fitter.observation.observation import observe
-from fitter.request import Click, Cues, Gender, ViewKind
-from fitter.vocabulary.outcomes import SeenFrom
+from fitter.request import Click
+from fitter.vocabulary.choices import Cues, Gender, ViewKind
+from fitter.vocabulary.outcomes import SeenFrom, Severity
 from service.demo_data.sample import load_sample
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import read_case

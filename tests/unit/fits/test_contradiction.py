@@ -6,7 +6,8 @@ import pytest
 
 from fitter.fits.contradiction import contradiction
 from fitter.fits.plausibility import Plausibility
-from fitter.result import VERDICT_EXPLANATIONS, Verdict
+from fitter.result import VERDICT_EXPLANATIONS
+from fitter.vocabulary.outcomes import Verdict
 
 PERSON = Plausibility(
     overlap=0.94, boundary=0.93, beyond=0.0, click_deviations=0.6, strain=6.0, detected=None

@@ -8,16 +8,9 @@ import pytest
 from fitter.errors import InvalidInputError
 from fitter.fits.pipeline import fit
 from fitter.fits.progress import Progress, Stage
-from fitter.request import (
-    Cues,
-    FitRequest,
-    KnownMeasurement,
-    OptimizerKind,
-    StartingBody,
-    View,
-    ViewKind,
-)
+from fitter.request import FitRequest, KnownMeasurement, StartingBody, View
 from fitter.result import FitResult, before_shading
+from fitter.vocabulary.choices import Cues, OptimizerKind, ViewKind
 from tests.benchmarks.requests import resized
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import read_case

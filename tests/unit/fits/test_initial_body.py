@@ -12,9 +12,11 @@ from fitter.fits.prepared_model import prepared_model
 from fitter.measurement.anthropometry import measure
 from fitter.parameters import BodyParameters
 from fitter.pose_init.initial_pose import PoseHypothesis
-from fitter.render.camera import Camera, FocalLengthSource
+from fitter.render.camera import Camera
 from fitter.render.rasterizer import render
-from fitter.request import Click, Facing, FitRequest, Gender, KnownMeasurement
+from fitter.request import Click, FitRequest, KnownMeasurement
+from fitter.vocabulary.choices import Facing, Gender
+from fitter.vocabulary.outcomes import FocalLengthSource
 from fitter.vocabulary.points import POINT_NAMES
 from tests.one_picture import changed, one_picture
 

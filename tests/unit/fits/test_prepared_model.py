@@ -8,7 +8,7 @@ import pytest
 from fitter.body.storage import packaged_model_path
 from fitter.fits.kept_models import VARIABLE, kept
 from fitter.fits.prepared_model import PreparedModel, prepared_model
-from fitter.request import Gender
+from fitter.vocabulary.choices import Gender
 
 
 def parts(prepared: PreparedModel) -> tuple[bytes, list[memoryview]]:

@@ -6,7 +6,7 @@ from fitter.body.storage import packaged_model_path
 from fitter.errors import ModelFileError
 from fitter.fits.prepared_model import prepared_model
 from fitter.fits.usable_model import NEEDED_PARTS, needed_landmarks
-from fitter.request import Gender
+from fitter.vocabulary.choices import Gender
 from tests.changed_models import packaged, save, without
 
 

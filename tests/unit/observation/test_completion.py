@@ -10,7 +10,8 @@ from PIL import Image as PillowImage
 from fitter.detection.detector import installed_detector
 from fitter.errors import InvalidInputError
 from fitter.observation.observation import Observation, observe
-from fitter.request import Click, SegmentationKind, View
+from fitter.request import Click, View
+from fitter.vocabulary.choices import SegmentationKind
 from tests.evaluation.files import PICTURES_FOLDER
 from tests.unit.observation.pictures import encode, noise
 

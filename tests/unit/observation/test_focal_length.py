@@ -5,7 +5,7 @@ import pytest
 from fitter.errors import InvalidInputError
 from fitter.observation.exif import ExifTags
 from fitter.observation.focal_length import FocalLength, focal_length
-from fitter.render.camera import FocalLengthSource
+from fitter.vocabulary.outcomes import FocalLengthSource
 from tests.unit.observation.pictures import view
 
 

@@ -14,8 +14,8 @@ from fitter.observation.resampling import (
     working_size,
 )
 from fitter.observation.subject import check_height
-from fitter.render.camera import FocalLengthSource
 from fitter.request import LightGuess
+from fitter.vocabulary.outcomes import FocalLengthSource
 from tests.unit.observation.pictures import (
     HEIGHT,
     WIDTH,

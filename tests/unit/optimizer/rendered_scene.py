@@ -34,13 +34,14 @@ from fitter.optimizer.alternation import (
     shaded_fit,
 )
 from fitter.optimizer.search import BodySearch
-from fitter.parameters import BodyParameters, Light, LightKind, Reflectance
+from fitter.parameters import BodyParameters, Light, Reflectance
 from fitter.render.camera import Camera
 from fitter.render.interpolation import shade_image
 from fitter.render.rasterizer import render
 from fitter.render.reflectance import shade
 from fitter.render.shadow import lamp_seen
-from fitter.request import Click, Gender, SurroundingsKind
+from fitter.request import Click
+from fitter.vocabulary.choices import Gender, LightKind, SurroundingsKind
 
 CAMERA = Camera(focal_length_px=700.0, centre_x=180.0, centre_y=240.0, width=360, height=480)
 LIGHT = Light(kind=LightKind.POINT, azimuth=0.7, elevation=0.5, distance=2.5)

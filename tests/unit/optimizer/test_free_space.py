@@ -23,7 +23,8 @@ from fitter.optimizer.simplex import minimize_simplex
 from fitter.optimizer.uncertainty import certainty, shape_covariance
 from fitter.parameters import BodyParameters
 from fitter.population.known_person import KnownPerson, known_person
-from fitter.request import Gender, KnownMeasurement, Person
+from fitter.request import KnownMeasurement, Person
+from fitter.vocabulary.choices import Gender
 from tests.unit.optimizer.rendered_scene import RenderedScene, of_person, rendered_scene
 
 HELD = ("weight", "waist_girth_navel", "inseam")

@@ -8,8 +8,9 @@ from fitter.energies.shading import ShadingEvidence, usable_vertices
 from fitter.optimizer.light_freedom import information_lost_to_light, light_slopes
 from fitter.optimizer.normal_equations import normal_equations
 from fitter.optimizer.uncertainty import certainty, shape_covariance
-from fitter.parameters import Light, LightKind, Reflectance
+from fitter.parameters import Light, Reflectance
 from fitter.render.reflectance import shade
+from fitter.vocabulary.choices import LightKind
 from tests.unit.optimizer.rendered_scene import LIGHT, of_person, rendered_scene
 
 DIRECTIONAL = replace(LIGHT, kind=LightKind.DIRECTIONAL, distance=float("inf"))

@@ -7,8 +7,9 @@ from fitter.numerics.robust import geman_mcclure, geman_mcclure_weights
 from fitter.optimizer.light_solve import light_columns
 from fitter.optimizer.light_sums import LightSums
 from fitter.optimizer.lit_surface import LightEstimate, LitSurface
-from fitter.parameters import Light, LightKind, Reflectance
+from fitter.parameters import Light, Reflectance
 from fitter.render.reflectance import shade_with_derivatives
+from fitter.vocabulary.choices import LightKind
 
 
 @pytest.mark.parametrize("kind", list(LightKind))

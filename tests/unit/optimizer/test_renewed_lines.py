@@ -10,7 +10,7 @@ from fitter.energies.objective import Body, Candidate, Objective
 from fitter.evidence.silhouette_evidence import silhouette_evidence
 from fitter.optimizer.renewed_lines import with_lines_about
 from fitter.optimizer.search import body_search
-from fitter.request import OptimizerKind
+from fitter.vocabulary.choices import OptimizerKind
 from tests.unit.optimizer.rendered_scene import RenderedScene, of_person, rendered_scene
 
 WALL = np.array([0.15, 0.3, 0.45])

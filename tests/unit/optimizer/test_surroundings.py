@@ -20,12 +20,13 @@ from fitter.optimizer.light_solve import (
 )
 from fitter.optimizer.light_step import first_state, with_explained_shadows, with_new_shadows
 from fitter.optimizer.lit_surface import LightEstimate, LitSurface
-from fitter.parameters import Light, LightKind, Reflectance
+from fitter.parameters import Light, Reflectance
 from fitter.render.light import direction_to_light
 from fitter.render.reflectance import shade
 from fitter.render.shadow import cast_shadow, lamp_seen
 from fitter.render.surroundings import irradiance, mean_irradiance, uniform_surroundings
-from fitter.request import LightGuess, SurroundingsKind
+from fitter.request import LightGuess
+from fitter.vocabulary.choices import LightKind, SurroundingsKind
 from tests.unit.optimizer.rendered_scene import LIGHT, RenderedScene, lit_fit, rendered_scene
 from tests.unit.render.shapes import sphere
 

@@ -8,9 +8,10 @@ import pytest
 
 from fitter.errors import InvalidInputError
 from fitter.numerics.array_archive import write_arrays
-from fitter.parameters import CameraTilt, StanceKind
+from fitter.parameters import CameraTilt
 from fitter.person.fitted_person import FittedPerson, require_model
 from fitter.person.person_checks import MAX_BYTES
+from fitter.vocabulary.outcomes import StanceKind
 from tests.unit.body.synthetic_model import bar_model
 from tests.unit.export.results import CAMERA, POINT_LIGHT, SUN, result_of
 

@@ -9,7 +9,7 @@ from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
 from fitter.person.several_pictures import SAME_PERSON_PROBABILITY, SHARED_ERROR, combined_shape
 from fitter.render.camera import Camera
-from fitter.request import Gender
+from fitter.vocabulary.choices import Gender
 
 N = 6
 CAMERA = Camera(focal_length_px=700.0, centre_x=20.0, centre_y=30.0, width=40, height=60)

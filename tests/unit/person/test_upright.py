@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from fitter.parameters import CameraTilt, StanceKind
+from fitter.parameters import CameraTilt
 from fitter.person.upright import upright_frame, upright_rotation, upright_turn
+from fitter.vocabulary.outcomes import StanceKind
 
 TILT = CameraTilt(
     pitch=np.radians(-12.0),

@@ -11,7 +11,8 @@ from fitter.measurement.anthropometry import measurement_values
 from fitter.population.body_estimate import BodyEstimate, estimate_body
 from fitter.population.known import conditioned_population
 from fitter.population.measured_population import MeasuredPopulation
-from fitter.request import Gender, KnownMeasurement
+from fitter.request import KnownMeasurement
+from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.measurements import STATURE
 
 GENDERS = pytest.mark.parametrize("gender", list(Gender))

@@ -10,7 +10,8 @@ from fitter.measurement.anthropometry import measure
 from fitter.observation.subject import MEAN_HEIGHT_M, check_person
 from fitter.population.body_estimate import estimate_body
 from fitter.population.known_person import KnownPerson, known_person
-from fitter.request import Gender, KnownMeasurement, Person
+from fitter.request import KnownMeasurement, Person
+from fitter.vocabulary.choices import Gender
 
 GENDERS = pytest.mark.parametrize("gender", list(Gender))
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fitter.fits.prepared_model import prepared_model
-from fitter.request import Gender
+from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.measurements import MEASUREMENT_UNITS
 from fitter.vocabulary.reach import USUAL_REACH, other_unit
 

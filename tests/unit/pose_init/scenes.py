@@ -15,7 +15,8 @@ from fitter.pose_init.perspective import PerspectiveLifting
 from fitter.pose_init.points import ClickedPoints
 from fitter.pose_init.trunk_points import trunk_points
 from fitter.render.camera import Camera
-from fitter.request import Click, Facing
+from fitter.request import Click
+from fitter.vocabulary.choices import Facing
 from tests.unit.pose_init.stick_figure import plausible_pose, stick_figure, stick_prior
 
 RIG = stick_figure()

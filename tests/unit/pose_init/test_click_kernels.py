@@ -14,7 +14,7 @@ from fitter.pose_init import _click_kernels as kernels
 from fitter.pose_init.click_fit import FLOOR, fit_clicks, terms_of, unknowns_of
 from fitter.pose_init.click_problem import ClickProblem, click_problem
 from fitter.pose_init.landmark_rig import LandmarkRig, rig_arrays
-from fitter.request import Facing
+from fitter.vocabulary.choices import Facing
 from tests.unit.pose_init.plain_clicks import (
     click_energy,
     landmark_jacobian,

@@ -17,7 +17,7 @@ from fitter.pose_init.initial_pose import InitialPose, initialize_pose
 from fitter.pose_init.landmark_rig import landmark_rig
 from fitter.pose_init.points import ClickedPoints
 from fitter.render.camera import Camera
-from fitter.request import Facing
+from fitter.vocabulary.choices import Facing
 from tests.unit.pose_init.scenes import CLICK_SPREADS_M, CLICKED
 from tests.unit.pose_init.stick_figure import plausible_pose
 

@@ -13,7 +13,7 @@ from fitter.pose_init.perspective import PerspectiveLifting
 from fitter.pose_init.points import ClickedPoints
 from fitter.pose_init.start_poses import start_poses
 from fitter.pose_init.trunk_points import trunk_points
-from fitter.request import Facing
+from fitter.vocabulary.choices import Facing
 from tests.unit.pose_init.plain_clicks import click_energy, pose_landmarks
 from tests.unit.pose_init.scenes import (
     HIPS,

@@ -4,9 +4,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitter.parameters import Light, LightKind, Reflectance
+from fitter.parameters import Light, Reflectance
 from fitter.render.light import direction_derivatives, direction_to_light, light_position
 from fitter.render.reflectance import ShadingDerivatives, shade, shade_with_derivatives
+from fitter.vocabulary.choices import LightKind
 from tests.unit.render.shapes import sphere
 
 CENTRE = np.array([0.1, -0.05, 3.0])

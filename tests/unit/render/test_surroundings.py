@@ -3,7 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitter.parameters import Light, LightKind, Reflectance
+from fitter.parameters import Light, Reflectance
 from fitter.render.reflectance import shade, shade_with_derivatives, shading_terms
 from fitter.render.surroundings import (
     BAND_OF,
@@ -16,6 +16,7 @@ from fitter.render.surroundings import (
     uniform_surroundings,
     without_negative_light,
 )
+from fitter.vocabulary.choices import LightKind
 
 CENTRE = np.array([0.1, -0.05, 3.0])
 LAMP = Light(kind=LightKind.POINT, azimuth=0.6, elevation=0.4, distance=2.2)

@@ -2,8 +2,8 @@ import cv2
 import numpy as np
 import pytest
 
-from fitter.request import Cues
 from fitter.segmentation.bones import BONES
+from fitter.vocabulary.choices import Cues
 from tests.evaluation.cases import CASES
 from tests.evaluation.clicks import CLICK_DEVIATION_PX
 from tests.evaluation.files import read_case

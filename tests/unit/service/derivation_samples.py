@@ -16,7 +16,7 @@ from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
 from fitter.render.camera import Camera
-from fitter.request import Gender
+from fitter.vocabulary.choices import Gender
 from service.api.derivation_kinds import needs_of
 from service.demo_data.sample import load_sample
 from service.jobs.inputs import (

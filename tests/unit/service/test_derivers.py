@@ -17,9 +17,10 @@ from fitter.applications.own_texture import LEAST_SIDE
 from fitter.applications.poses import NAMED_POSES, REST
 from fitter.applications.texture import SIZES
 from fitter.body.storage import load_body_model, packaged_model_path
-from fitter.parameters import Light, LightKind, Reflectance
+from fitter.parameters import Light, Reflectance
 from fitter.person.fitted_person import FittedPerson
-from fitter.request import FitRequest, OptimizerKind
+from fitter.request import FitRequest
+from fitter.vocabulary.choices import LightKind, OptimizerKind
 from service.jobs.inputs import (
     CLIP,
     PERSON,

@@ -7,13 +7,13 @@ import pytest
 from PIL import Image, ImageChops, ImageStat
 
 from api_schemas.bodies import BodyRequest
-from api_schemas.checks import CheckRequest, SeenFrom
+from api_schemas.checks import CheckRequest
 from api_schemas.known import UncertainMeasurement
 from api_schemas.points import Point, PointSource
 from api_schemas.proposals import PointsRequest
-from api_schemas.requests import Facing, Gender, Limb
-from fitter.vocabulary.choices import ViewKind
-from fitter.vocabulary.outcomes import Severity
+from api_schemas.requests import Limb
+from fitter.vocabulary.choices import Facing, Gender, ViewKind
+from fitter.vocabulary.outcomes import SeenFrom, Severity
 from service.demo_data.sample import load_sample
 from service.estimates.answers import body, check, initial_pose, jpeg, points
 from service.estimates.messages import BodyTask, CheckTask, InitialPoseTask, PointsTask

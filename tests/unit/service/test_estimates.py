@@ -9,7 +9,7 @@ from api_schemas.checks import CaptureCheck, CheckRequest
 from api_schemas.initial_poses import InitialPose
 from api_schemas.problems import FieldProblem
 from api_schemas.proposals import PointsRequest
-from api_schemas.requests import Gender
+from fitter.vocabulary.choices import Gender
 from service.api.estimates import Estimates
 from service.api.problems import ProblemError
 from service.api.service_metrics import ServiceMetrics

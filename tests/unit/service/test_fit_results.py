@@ -12,21 +12,15 @@ from api_schemas import results as wire
 from api_schemas.scans import ScanResult
 from fitter import request as fitter_request
 from fitter import result as fitter_result
-from fitter.capture.finding import Code, Finding, Severity
+from fitter.capture.finding import Code, Finding
 from fitter.measurement.quantity import Measurement
-from fitter.parameters import (
-    BodyParameters,
-    CameraTilt,
-    Light,
-    LightKind,
-    Reflectance,
-    StanceKind,
-)
+from fitter.parameters import BodyParameters, CameraTilt, Light, Reflectance
 from fitter.person.fitted_person import FittedPerson
 from fitter.person.several_pictures import CombinedShape
 from fitter.remarks import Assumption, FitWarning
-from fitter.render.camera import Camera, FocalLengthSource
-from fitter.vocabulary.choices import ViewKind
+from fitter.render.camera import Camera
+from fitter.vocabulary.choices import LightKind, ViewKind
+from fitter.vocabulary.outcomes import FocalLengthSource, Severity, StanceKind
 from service.worker.derived.person import read_result
 from service.worker.fit_results import fit_result, scan_result
 

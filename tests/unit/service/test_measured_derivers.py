@@ -10,7 +10,7 @@ import pytest
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.fits.prepared_model import prepared_model
 from fitter.measurement.anthropometry import measure
-from fitter.request import Gender
+from fitter.vocabulary.choices import Gender
 from service.jobs.inputs import (
     CHART,
     PERSON,

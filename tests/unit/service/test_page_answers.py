@@ -7,8 +7,8 @@ import pytest
 
 from api_schemas.problems import PROBLEM_TYPES
 from fitter.capture.finding import Code
-from fitter.result import Verdict
 from fitter.vocabulary.measurements import CHIEF
+from fitter.vocabulary.outcomes import Verdict
 
 REPOSITORY = Path(__file__).parents[3]
 MESSAGES = REPOSITORY / "service" / "page" / "src" / "messages"

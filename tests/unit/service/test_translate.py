@@ -11,9 +11,7 @@ from fitter import request as fitter_request
 from fitter.detection.landmark_meanings import SPREAD_EXPONENT, spread_m
 from fitter.errors import InvalidInputError
 from fitter.fits.progress import Progress, Stage
-from fitter.parameters import (
-    LightKind,
-)
+from fitter.vocabulary.choices import LightKind
 from fitter.vocabulary.points import POINT_NAMES
 from service.jobs.inputs import SentPicture
 from service.worker import translate

@@ -7,21 +7,19 @@ from types import MappingProxyType
 from typing import Final
 
 from api_schemas.derivation_kinds.report import ReportOptions
-from api_schemas.requests import Gender
 from api_schemas.results import (
     Assumption,
     CameraResult,
     FitResult,
     FitWarning,
-    FocalLengthSource,
     LightResult,
     Measurement,
-    Outcome,
     ReflectanceResult,
     SurroundingsResult,
-    Verdict,
 )
+from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.measurements import CHIEF, Group, group_of
+from fitter.vocabulary.outcomes import FocalLengthSource, Outcome, Verdict
 from service.worker.derived.report.units import height_in_words, in_units
 from service.worker.derived.report.wording import (
     Wording,

@@ -3,10 +3,9 @@
 from typing import Final
 
 from api_schemas.derivation_kinds.report import Language
-from api_schemas.requests import Cues, Gender
-from api_schemas.results import FocalLengthSource, Outcome, Verdict
-from fitter.vocabulary.choices import ViewKind
+from fitter.vocabulary.choices import Cues, Gender, ViewKind
 from fitter.vocabulary.measurements import Group
+from fitter.vocabulary.outcomes import FocalLengthSource, Outcome, Verdict
 from service.worker.derived.report.english_measures import MEASUREMENTS
 from service.worker.derived.report.wording import (
     Figures,

@@ -8,10 +8,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from api_schemas.derivation_kinds.report import Language
-from api_schemas.requests import Cues, Gender
-from api_schemas.results import Assumption, FitWarning, FocalLengthSource, Outcome, Verdict
-from fitter.vocabulary.choices import ViewKind
+from api_schemas.results import Assumption, FitWarning
+from fitter.vocabulary.choices import Cues, Gender, ViewKind
 from fitter.vocabulary.measurements import Group
+from fitter.vocabulary.outcomes import FocalLengthSource, Outcome, Verdict
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

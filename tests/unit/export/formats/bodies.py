@@ -15,7 +15,7 @@ from fitter.export.gltf_document import Frame
 from fitter.export.plain_gltf import plain_glb
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
-from fitter.request import Gender
+from fitter.vocabulary.choices import Gender
 from tests.unit.applications.bodies import packaged
 from tests.unit.body.synthetic_model import bar_model
 from tests.unit.export.results import CAMERA, result_of
