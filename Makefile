@@ -24,7 +24,7 @@ CHECKED := --jaxtyping-packages=fitter,beartype.beartype(conf=beartype.BeartypeC
 FITTER_TESTS := $(filter $(wildcard tests/unit/*/__init__.py),\
 	$(patsubst fitter/%,tests/unit/%,$(wildcard fitter/*/__init__.py)))
 
-.PHONY: demo test test-rest test-shapes blender lint serve train report openapi docs page wheel image audit sbom release lock clean
+.PHONY: demo test test-rest test-shapes blender lint serve train report openapi examples docs page wheel image audit sbom release lock clean
 
 demo: $(STAMP)
 	$(VENV)/bin/maquette demo
@@ -60,6 +60,10 @@ train: $(STAMP)
 
 report: $(STAMP)
 	$(VENV)/bin/python -m fitter.training report
+
+# What a sandbox answers, as the examples of the OpenAPI document: recorded, never written.
+examples: $(STAMP)
+	$(VENV)/bin/python -m tests.contract.recording
 
 openapi: $(STAMP)
 	$(VENV)/bin/maquette openapi --output api_schemas/openapi.json

@@ -18,7 +18,7 @@ ROUTER: Final = APIRouter(prefix="/v1/body-models", tags=["body models"])
     summary="The bodies there are",
     responses=documented("invalid-request", "not-ready", "internal-error"),
 )
-def body_models(context: Context) -> BodyModels:
+def list_body_models(context: Context) -> BodyModels:
     """Return genders, mean heights, landmarks, accepted points, versions and provenance."""
     known = context.engine.body_models()
     if known is None:

@@ -16,7 +16,7 @@ ROUTER: Final = APIRouter(prefix="/healthz", tags=["health"])
 
 
 @ROUTER.get("/live", response_model=Live, summary="The process answers")
-async def live() -> Live:
+async def get_liveness() -> Live:
     """Answer."""
     return Live()
 
@@ -27,7 +27,7 @@ async def live() -> Live:
     summary="A fit can be accepted and finished",
     responses=documented("not-ready"),
 )
-async def ready(request: Request) -> Ready:
+async def get_readiness(request: Request) -> Ready:
     """Check that database and storage can be written and a worker is alive and able to work.
 
     Answered within two seconds: a database or a storage that says nothing for so long is not

@@ -34,7 +34,7 @@ _ANSWER: Final[dict[int | str, dict[str, Any]]] = {
     openapi_extra=json_body(InitialPoseRequest),
     responses=_ANSWER | documented(*ESTIMATE_PROBLEMS),
 )
-async def initial_pose(request: Request, context: Context) -> Response:
+async def estimate_initial_pose(request: Request, context: Context) -> Response:
     """Return pose, camera and outline of the body a fit would begin from.
 
     With how far each click is from it, and the limbs of which the clicks do not say whether they

@@ -35,11 +35,6 @@ from service.api.job_routes import OfLabel, find
 from service.engine.port import FIT, SCAN, JobRecord, TenantJobs
 from service.representation.jobs import collection_path
 
-_SHORT_NAMES: Final[Mapping[str, str]] = {
-    name: name for name in ("submit", "cancel", "erase", "follow", "retry", "result", "artifact")
-}
-"""Operations on fits were named first, and generated clients call them so."""
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class JobResource:
@@ -105,14 +100,14 @@ class JobResource:
         return f"/{{{self.parameter}}}"
 
 
-def _operations(noun: str, suffix: str = "") -> dict[str, str]:
-    """Names of operations as all resources but the first have them."""
+def _operations(noun: str) -> dict[str, str]:
+    """Names of operations, as generated clients have them: ``submit_fit``, ``get_fit_result``."""
     done = ("submit", "get", "cancel", "erase", "follow", "retry")
-    named = ("request", "result", "artifact", "image", "mask")
+    read = ("request", "result", "artifact", "image", "mask")
     return (
-        {"list": f"list_{noun}s{suffix}"}
-        | {verb: f"{verb}_{noun}{suffix}" for verb in done}
-        | {what: f"{noun}_{what}{suffix}" for what in named}
+        {"list": f"list_{noun}s"}
+        | {verb: f"{verb}_{noun}" for verb in done}
+        | {what: f"get_{noun}_{what}" for what in read}
     )
 
 
@@ -139,7 +134,7 @@ FITS: Final = JobResource(
     parameter="fit_id",
     jobs=_fits,
     label=_by_label,
-    operations=_operations("fit") | _SHORT_NAMES,
+    operations=_operations("fit"),
     tag="fits",
     results_tag="results",
     model=Job,
@@ -180,7 +175,7 @@ SCANS: Final = JobResource(
 
 
 def _derived_from(
-    source: JobResource, *, suffix: str, model: type[JobStanding], page: Callable[..., WireModel]
+    source: JobResource, *, model: type[JobStanding], page: Callable[..., WireModel]
 ) -> JobResource:
     """What is derived from fits, or from scans."""
 
@@ -203,7 +198,7 @@ def _derived_from(
         parent=parent,
         jobs=below,
         label=_by_no_label,
-        operations=_operations("derivation", suffix) | {"submit": f"derive{suffix}"},
+        operations=_operations(f"{source.noun}_derivation"),
         tag="derivations",
         results_tag="derivations",
         model=model,
@@ -219,7 +214,5 @@ def _derived_from(
     )
 
 
-OF_FITS: Final = _derived_from(FITS, suffix="", model=Derivation, page=DerivationPage)
-OF_SCANS: Final = _derived_from(
-    SCANS, suffix="_of_scan", model=ScanDerivation, page=ScanDerivationPage
-)
+OF_FITS: Final = _derived_from(FITS, model=Derivation, page=DerivationPage)
+OF_SCANS: Final = _derived_from(SCANS, model=ScanDerivation, page=ScanDerivationPage)

@@ -23,6 +23,6 @@ ROUTER: Final = APIRouter(tags=["health"])
     }
     | documented("not-ready", "internal-error"),
 )
-def metrics(context: Context) -> Response:
+def get_metrics(context: Context) -> Response:
     """Return queue, workers, endings, durations and requests; needs a key made for metrics."""
     return Response(context.metrics.exposition(), media_type=CONTENT_TYPE_LATEST)

@@ -1,7 +1,10 @@
 """Complete the generated OpenAPI document: what FastAPI cannot know of our types."""
 
+import json
 from collections.abc import Iterator, Mapping
-from typing import Any
+from functools import cache
+from importlib.resources import files
+from typing import Any, Final
 
 from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
@@ -14,7 +17,7 @@ from api_schemas.derivations import DerivationEvent, DerivationRequest, Derivati
 from api_schemas.images import LARGEST_ASPECT_RATIO, LEAST_SIDE_PX, UploadedImage
 from api_schemas.initial_poses import InitialPose, InitialPoseRequest
 from api_schemas.jobs import EventData
-from api_schemas.problems import PROBLEM_MEDIA_TYPE, Problem
+from api_schemas.problems import Problem
 from api_schemas.proposals import PointsOfImage, PointsProposal, PointsRequest
 from api_schemas.requests import FitOfImage, FitOptions, FitRequest
 from api_schemas.scans import (
@@ -46,17 +49,12 @@ from fitter.vocabulary.points import (
     TRUNK_POINT_NAMES,
 )
 from service.api.json_bodies import JSON, json_content
-from service.api.operation_examples import (
-    ANSWERS,
-    DERIVATION_NOTICE,
-    NOTICE,
-    REQUESTS,
-    SCAN_DERIVATION_NOTICE,
-    SCAN_NOTICE,
-    Examples,
-)
+from service.api.openapi_components import share_components
 from service.api.operation_links import LINKS
 from service.api.problems import documented
+
+Examples = Mapping[str, Any]
+"""Values by their names."""
 
 _ANSWERED_EVERYWHERE = {
     str(status): answer
@@ -83,10 +81,18 @@ _SECURITY: dict[str, Any] = {
 }
 
 
-def _notice(
-    event: type[BaseModel], *, name: str, summary: str, example: Mapping[str, Any]
-) -> dict[str, Any]:
+@cache
+def recorded_examples() -> Mapping[str, Any]:
+    """Return what a sandbox was asked and what it answered, notices included.
+
+    By operation, status and name; ``tests/contract/recording.py`` has recorded it.
+    """
+    return json.loads((files("service.api") / "examples.json").read_bytes())
+
+
+def _notice(name: str, event: type[BaseModel], summary: str) -> dict[str, Any]:
     """Describe the notice of the end of a job."""
+    example = recorded_examples()["notices"][name]
     content = {JSON: json_content(event) | {"examples": {"succeeded": {"value": example}}}}
     return {
         "post": {
@@ -98,7 +104,7 @@ def _notice(
                 "until it is accepted, always with the same id and body: whoever receives it may "
                 "get it more than once."
             ),
-            "operationId": name,
+            "operationId": name.replace("-", "_"),
             "parameters": [
                 {
                     "name": name,
@@ -123,23 +129,11 @@ def _notice(
     }
 
 
-_WEBHOOKS: dict[str, Any] = {
-    "fit-ended": _notice(WebhookEvent, name="fit_ended", summary="A job has ended", example=NOTICE),
-    "derivation-ended": _notice(
-        DerivationEvent,
-        name="derivation_ended",
-        summary="A derivation has ended",
-        example=DERIVATION_NOTICE,
-    ),
-    "scan-ended": _notice(
-        ScanEvent, name="scan_ended", summary="A scan has ended", example=SCAN_NOTICE
-    ),
-    "scan-derivation-ended": _notice(
-        ScanDerivationEvent,
-        name="scan_derivation_ended",
-        summary="A derivation of a scan has ended",
-        example=SCAN_DERIVATION_NOTICE,
-    ),
+_NOTICES: Final[Mapping[str, tuple[type[BaseModel], str]]] = {
+    "fit-ended": (WebhookEvent, "A job has ended"),
+    "derivation-ended": (DerivationEvent, "A derivation has ended"),
+    "scan-ended": (ScanEvent, "A scan has ended"),
+    "scan-derivation-ended": (ScanDerivationEvent, "A derivation of a scan has ended"),
 }
 
 
@@ -185,12 +179,13 @@ def complete_openapi(document: dict[str, Any]) -> dict[str, Any]:
     for path in document["paths"].values():
         for operation in path.values():
             _complete_operation(operation)
-    document["webhooks"] = _WEBHOOKS
+    document["webhooks"] = {name: _notice(name, *kind) for name, kind in _NOTICES.items()}
     document["x-limits"] = _LIMITS
     for name in ("HTTPValidationError", "ValidationError"):
         schemas.pop(name, None)
     document["components"]["schemas"] = dict(sorted(schemas.items()))
     document["components"] |= _SECURITY
+    share_components(document)
     # With a key or without: which of the two, the service's settings say.
     document["security"] = [{_KEY_SCHEME: []}, {}]
     return document
@@ -205,6 +200,9 @@ def _complete_operation(operation: dict[str, Any]) -> None:
     for examples, content in _with_examples(operation):
         content["examples"] = {each: {"value": value} for each, value in examples.items()}
     for status, answer in operation["responses"].items():
+        if "$ref" in answer:
+            # FastAPI adds a description of its own.
+            answer.pop("description", None)
         if (name, status) in LINKS:
             answer["links"] = LINKS[name, status]
     operation["responses"] = _ANSWERED_EVERYWHERE | operation["responses"]
@@ -213,10 +211,11 @@ def _complete_operation(operation: dict[str, Any]) -> None:
 def _with_examples(operation: dict[str, Any]) -> Iterator[tuple[Examples, dict[str, Any]]]:
     """The operation's examples, each with the media type it is to stand at."""
     name: str = operation["operationId"]
-    if name in REQUESTS:
-        yield REQUESTS[name], operation["requestBody"]["content"][JSON]
-    for status, examples in ANSWERS.get(name, {}).items():
-        content: dict[str, Any] = operation["responses"][str(status)]["content"]
+    recorded = recorded_examples()
+    if name in recorded["requests"]:
+        yield recorded["requests"][name], operation["requestBody"]["content"][JSON]
+    for status, examples in recorded["answers"].get(name, {}).items():
+        content: dict[str, Any] = operation["responses"][status]["content"]
         yield examples, content[JSON] if JSON in content else next(iter(content.values()))
 
 
@@ -263,5 +262,4 @@ def _models(mode: str) -> tuple[type[BaseModel], ...]:
 
 
 def _is_fastapi_error(operation: dict[str, Any]) -> bool:
-    content = operation["responses"].get("422", {}).get("content", {})
-    return "422" in operation["responses"] and PROBLEM_MEDIA_TYPE not in content
+    return "$ref" not in operation["responses"].get("422", {"$ref": "none"})

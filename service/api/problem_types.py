@@ -16,7 +16,7 @@ ROUTER: Final = APIRouter(prefix="/problems", tags=["problems"])
     summary="What a problem type means",
     responses=documented("not-found"),
 )
-def problem_type(
+def get_problem_type(
     slug: Annotated[str, Path(json_schema_extra={"enum": list(PROBLEM_TYPES)})],
 ) -> ProblemType:
     """Describe a problem type."""

@@ -12,7 +12,7 @@ from fastapi.responses import Response
 from starlette.exceptions import HTTPException
 
 from api_schemas.problems import PROBLEM_MEDIA_TYPE, PROBLEM_TYPES, Problem, field_problem, problem
-from service.api.examples.problems import PROBLEM_SAMPLES
+from service.api.problem_samples import PROBLEM_SAMPLES
 from service.blobs import BlobsUnavailableError, StorageFullError
 from service.engine.port import EngineFullError, EngineUnavailableError, JobExpiredError
 from service.submissions.refusal import RefusedError
@@ -21,6 +21,9 @@ from service.submissions.validation import field_problems
 LOG: Final = logging.getLogger(__name__)
 
 RETRY_AFTER_S: Final = 5
+
+RESPONSES: Final = "#/components/responses/"
+_OR: Final = "-or-"
 
 
 class ProblemError(Exception):
@@ -44,25 +47,30 @@ def not_found(*, what: str) -> ProblemError:
 
 
 def documented(*slugs: str) -> dict[int | str, dict[str, Any]]:
-    """Describe the problems an operation may answer with, for the OpenAPI document."""
-    by_status: dict[int | str, dict[str, Any]] = {}
+    """Refer to the problems an operation may answer with, for the OpenAPI document."""
+    by_status: dict[int, list[str]] = {}
     for slug in slugs:
-        kind = PROBLEM_TYPES[slug]
-        example = PROBLEM_SAMPLES[slug].model_dump(mode="json")
-        entry = by_status.setdefault(
-            kind.status,
-            {
-                "description": kind.title,
-                "content": {
-                    PROBLEM_MEDIA_TYPE: {
-                        "schema": {"$ref": "#/components/schemas/Problem"},
-                        "examples": {},
-                    }
+        by_status.setdefault(PROBLEM_TYPES[slug].status, []).append(slug)
+    return {
+        status: {"$ref": f"{RESPONSES}{_OR.join(sorted(together))}"}
+        for status, together in by_status.items()
+    }
+
+
+def shared_response(name: str) -> dict[str, Any]:
+    """Describe what :func:`documented` refers to by this name: problems of one status."""
+    slugs = name.split(_OR)
+    return {
+        "description": "; ".join(PROBLEM_TYPES[slug].title for slug in slugs),
+        "content": {
+            PROBLEM_MEDIA_TYPE: {
+                "schema": {"$ref": "#/components/schemas/Problem"},
+                "examples": {
+                    slug: {"value": PROBLEM_SAMPLES[slug].model_dump(mode="json")} for slug in slugs
                 },
-            },
-        )
-        entry["content"][PROBLEM_MEDIA_TYPE]["examples"][slug] = {"value": example}
-    return by_status
+            }
+        },
+    }
 
 
 def problem_response(

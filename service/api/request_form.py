@@ -36,7 +36,11 @@ async def check_form(request: Request) -> None:
 
 
 def _check_parameters(request: Request) -> None:
-    declared = _operation(request).get("parameters", ())
+    shared = request.app.openapi()["components"]["parameters"]
+    declared = [
+        shared[each["$ref"].rpartition("/")[2]] if "$ref" in each else each
+        for each in _operation(request).get("parameters", ())
+    ]
     known = [each["name"] for each in declared if each["in"] == "query"]
     counted = Counter(name for name, _ in request.query_params.multi_items())
     there = f"Parameters there are: {', '.join(known)}." if known else "This path has none."

@@ -15,8 +15,10 @@ from hypothesis import strategies as st
 from schemathesis import Case, GenerationMode, HookContext
 from schemathesis.generation.meta import TestPhase
 
-from service.api.examples.estimates import POINTS
+from service.api.openapi import recorded_examples
 from tests.integration.service.fake_pipeline import scripted_image
+
+POINTS = recorded_examples()["requests"]["submit_fit"]["uploaded-picture"]["points"]
 
 PICTURES = [
     scripted_image(script, width=720, height=960)

@@ -6,11 +6,12 @@ sends) the old one must allow what the new one does, but for properties that are
 break nobody.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from types import MappingProxyType
 from typing import Any, Final
 
 from service.api.events import ITEMS
-from tests.contract.document import Document, Operation, media_types, operations
+from tests.contract.document import Document, Operation, media_types, operations, whole
 
 Schema = dict[str, Any]
 
@@ -19,8 +20,17 @@ UPPER_BOUNDS: Final = ("maximum", "exclusiveMaximum", "maxLength", "maxItems", "
 EXACT: Final = ("pattern", "format", "const", "contentEncoding", "contentMediaType")
 
 
-def breaking_changes(old: Document, new: Document) -> list[str]:
-    """Describe every change that could break a caller."""
+def breaking_changes(
+    old: Document, new: Document, *, renamed: Mapping[str, str] = MappingProxyType({})
+) -> list[str]:
+    """Describe every change that could break a caller.
+
+    ``renamed`` has operations of the old document that have another name in the new one: they are
+    still asked for as before, and only clients that are generated anew call them otherwise.
+    """
+    old, new = whole(old), whole(new)
+    for operation in operations(old):
+        operation.content["operationId"] = renamed.get(operation.id, operation.id)
     return [
         *_operations(old, new, "paths"),
         *_operations(old, new, "webhooks"),

@@ -11,14 +11,39 @@ import jsonschema_rs
 import api_schemas
 
 FOLDER = Path(api_schemas.__file__).parent
+REPOSITORY = FOLDER.parent
 EXPORTED = FOLDER / "openapi.json"
 METHODS = ("get", "put", "post", "delete", "options", "head", "patch", "trace")
+
+SECTIONS = ("paths", "webhooks")
+SHARED = ("responses", "examples", "parameters")
+"""What operations share by reference, besides types."""
 
 Document = dict[str, Any]
 
 
 def exported() -> Document:
     return json.loads(EXPORTED.read_text())
+
+
+def whole(document: Document) -> Document:
+    """The document with responses, examples and parameters where they are referred to.
+
+    What stands behind a reference is the same as what is written out; types keep theirs.
+    """
+    shared = document.get("components", {})
+
+    def resolved(said: Any) -> Any:
+        if isinstance(said, list):
+            return [resolved(each) for each in said]
+        if not isinstance(said, dict):
+            return said
+        section, _, name = said.get("$ref", "").removeprefix("#/components/").partition("/")
+        if section in SHARED:
+            return resolved(shared[section][name])
+        return {key: resolved(value) for key, value in said.items()}
+
+    return document | {name: resolved(document[name]) for name in SECTIONS if name in document}
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ import pytest
 
 from api_schemas.jobs import EventData
 from service.api.events import ITEMS
-from tests.contract.document import exported, media_types, operations, validator
+from tests.contract.document import exported, media_types, operations, validator, whole
 
-DOCUMENT = exported()
+DOCUMENT = whole(exported())
 OPERATIONS = list(operations(DOCUMENT))
 BODIES = [
     (where, content)

@@ -31,7 +31,7 @@ from tests.contract.acceptable import (
     SCANNED,
     UPLOADED,
 )
-from tests.contract.document import METHODS, Document, media_types, operations
+from tests.contract.document import METHODS, Document, media_types, operations, whole
 from tests.integration.service.harness import (
     REPOSITORY,
     Machine,
@@ -90,7 +90,7 @@ def _no_key_opens_nothing(service: Service) -> None:
 
 def _document(service: Service) -> Document:
     """The document, with streams described as schemathesis reads them: as OpenAPI 3.2 has it."""
-    document = service.client.get("/openapi.json").raise_for_status().json()
+    document = whole(service.client.get("/openapi.json").raise_for_status().json())
     for operation in operations(document):
         for _, content in media_types(operation):
             if ITEMS in content:

@@ -21,7 +21,9 @@ from tests.e2e.service import (
 
 
 @contextlib.contextmanager
-def running_sandbox(data_dir: Path, **settings: object) -> Iterator[httpx.Client]:
+def running_sandbox(
+    data_dir: Path, *, key: str | None = None, **settings: object
+) -> Iterator[httpx.Client]:
     """Start API and worker as a sandbox on an empty data folder; stop them at the end."""
     named = {f"MAQUETTE_{name.upper()}": str(value) for name, value in settings.items()}
     command = (sys.executable, "-m", "service.cli", "serve", "--port", "0")
@@ -30,6 +32,8 @@ def running_sandbox(data_dir: Path, **settings: object) -> Iterator[httpx.Client
         cwd=REPOSITORY,
         environment={**os.environ, "MAQUETTE_SANDBOX": "true", **named},
     ) as client:
+        if key is not None:
+            client.headers["Authorization"] = f"Bearer {key}"
         wait_until_ready(client)
         wait_for_estimator(client)
         yield client

@@ -11,6 +11,7 @@ from sphinx.application import Sphinx
 Document = Mapping[str, Any]
 METHODS = ("get", "post", "delete")
 SUCCESS = range(200, 400)
+SHARED = ("responses", "examples", "parameters")
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
@@ -19,8 +20,8 @@ def setup(app: Sphinx) -> dict[str, bool]:
 
 
 def write_pages(app: Sphinx) -> None:
-    document = json.loads(
-        (Path(app.srcdir).parents[1] / "api_schemas" / "openapi.json").read_text()
+    document = whole(
+        json.loads((Path(app.srcdir).parents[1] / "api_schemas" / "openapi.json").read_text())
     )
     folder = Path(app.srcdir) / "reference" / "http"
     folder.mkdir(exist_ok=True)
@@ -28,6 +29,22 @@ def write_pages(app: Sphinx) -> None:
     pages |= {"types": types_page(document), "failures": failures_page(document)}
     for name, lines in pages.items():
         write_if_new(folder / f"{name}.md", "\n".join(lines) + "\n")
+
+
+def whole(document: Document) -> dict[str, Any]:
+    """The document with what operations share written out, but for types."""
+
+    def resolved(said: Any) -> Any:
+        if isinstance(said, list):
+            return [resolved(each) for each in said]
+        if not isinstance(said, dict):
+            return said
+        section, _, name = said.get("$ref", "").removeprefix("#/components/").partition("/")
+        if section in SHARED:
+            return resolved(document["components"][section][name])
+        return {key: resolved(value) for key, value in said.items()}
+
+    return {**document, "paths": resolved(document["paths"])}
 
 
 def write_if_new(path: Path, text: str) -> None:

@@ -2,7 +2,7 @@
 // node fit.js SERVICE PICTURE REQUEST
 import { readFile } from "node:fs/promises";
 import { basename } from "node:path";
-import { erase, getFit, result, submit } from "./client/index.js";
+import { eraseFit, getFit, getFitResult, submitFit } from "./client/index.js";
 import type { FitRequest } from "./client/index.js";
 import { client } from "./client/client.gen.js";
 
@@ -11,15 +11,15 @@ client.setConfig({ baseUrl: service, throwOnError: true });
 
 const image = new File([new Uint8Array(await readFile(picture))], basename(picture), { type: "image/jpeg" });
 const asked = JSON.parse(await readFile(request, "utf8")) as FitRequest;
-let { data: job } = await submit<true>({ body: { image, request: asked } });
+let { data: job } = await submitFit<true>({ body: { image, request: asked } });
 const path = { fit_id: job.id };
 while (job.state === "queued" || job.state === "running") {
   await new Promise((resume) => setTimeout(resume, 300));
   ({ data: job } = await getFit<true>({ path }));
 }
 if (job.state !== "succeeded") throw new Error(job.problem?.detail ?? job.state);
-const { data } = await result<true>({ path });
-const { response } = await erase<true>({ path });
+const { data } = await getFitResult<true>({ path });
+const { response } = await eraseFit<true>({ path });
 console.log(
   JSON.stringify({
     measurements: Object.fromEntries(data.measurements.map(({ name, value }) => [name, value])),

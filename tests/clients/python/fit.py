@@ -10,16 +10,16 @@ import time
 from pathlib import Path
 
 from maquette_client import Client
-from maquette_client.api.fits import erase, follow, get_fit, submit
+from maquette_client.api.fits import erase_fit, follow_fit, get_fit, submit_fit
 from maquette_client.api.images import erase_image, upload_image
-from maquette_client.api.results import artifact, result
+from maquette_client.api.results import get_fit_artifact, get_fit_result
 from maquette_client.models import (
     FitOfImage,
     FitRequest,
     FitResult,
     Job,
     JobState,
-    SubmitFilesBody,
+    SubmitFitFilesBody,
     UploadedImage,
     UploadImageBody,
 )
@@ -33,15 +33,15 @@ def picture_file(picture: Path) -> File:
 
 def submitted_as_form(client: Client, picture: Path, request: Path) -> Job:
     asked = FitRequest.from_dict(json.loads(request.read_text()))
-    form = SubmitFilesBody(image=picture_file(picture), request=asked)
-    job = submit.sync(client=client, body=form)
+    form = SubmitFitFilesBody(image=picture_file(picture), request=asked)
+    job = submit_fit.sync(client=client, body=form)
     assert isinstance(job, Job), job
     return job
 
 
 def submitted_as_json(client: Client, image: UploadedImage, request: Path) -> Job:
     asked = FitOfImage.from_dict({"image_id": image.id, **json.loads(request.read_text())})
-    job = submit.sync(client=client, body=asked)
+    job = submit_fit.sync(client=client, body=asked)
     assert isinstance(job, Job), job
     return job
 
@@ -59,7 +59,7 @@ def ended(client: Client, job: Job) -> FitResult:
         assert isinstance(seen, Job), seen
         job = seen
     assert job.state is JobState.SUCCEEDED, job.problem
-    found = result.sync(job.id, client=client)
+    found = get_fit_result.sync(job.id, client=client)
     assert isinstance(found, FitResult), found
     return found
 
@@ -72,11 +72,11 @@ def main(service: str, picture: Path, request: Path) -> None:
         submitted_as_json(client, image, request),
     ]
     measured = [{each.name: each.value for each in ended(client, job).measurements} for job in jobs]
-    body = artifact.sync(jobs[0].id, "body_posed.glb", client=client)
+    body = get_fit_artifact.sync(jobs[0].id, "body_posed.glb", client=client)
     assert isinstance(body, File), body
-    events = follow.sync(jobs[0].id, client=client)
+    events = follow_fit.sync(jobs[0].id, client=client)
     assert isinstance(events, str), events
-    erased = [erase.sync_detailed(job.id, client=client).status_code for job in jobs]
+    erased = [erase_fit.sync_detailed(job.id, client=client).status_code for job in jobs]
     erased.append(erase_image.sync_detailed(image.id, client=client).status_code)
     print(
         json.dumps(

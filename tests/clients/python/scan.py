@@ -15,8 +15,8 @@ from maquette_client.api.scans import (
     erase_scan,
     follow_scan,
     get_scan,
-    scan_artifact,
-    scan_result,
+    get_scan_artifact,
+    get_scan_result,
     submit_scan,
 )
 from maquette_client.models import (
@@ -69,7 +69,7 @@ def ended(client: Client, scan: Scan) -> ScanResult:
         assert isinstance(seen, Scan), seen
         scan = seen
     assert scan.state is JobState.SUCCEEDED, scan.problem
-    found = scan_result.sync(scan.id, client=client)
+    found = get_scan_result.sync(scan.id, client=client)
     assert isinstance(found, ScanResult), found
     return found
 
@@ -82,7 +82,7 @@ def main(service: str, front: Path, side: Path, request: Path) -> None:
         submitted_as_json(client, images, request),
     ]
     results = [ended(client, scan) for scan in scans]
-    body = scan_artifact.sync(scans[0].id, "body_posed_1.glb", client=client)
+    body = get_scan_artifact.sync(scans[0].id, "body_posed_1.glb", client=client)
     assert isinstance(body, File), body
     events = follow_scan.sync(scans[0].id, client=client)
     assert isinstance(events, str), events

@@ -16,7 +16,7 @@ from api_schemas.problems import FieldProblem
 from api_schemas.requests import FitOptions
 from api_schemas.results import FitResult, PictureResult
 from api_schemas.scans import ScanOptions, ScanResult
-from service.api.derivation_kinds import KINDS
+from service.api.openapi import recorded_examples
 from service.jobs.inputs import (
     CLIP,
     IMAGE,
@@ -132,7 +132,7 @@ def derived_output(job: DerivationInput[AnyDerivationOptions]) -> DerivationOutp
         # Of any other kind what the OpenAPI document shows of it.
         if RESULT in job.inputs:
             RESULTS.validate_json(job.inputs[RESULT])
-        shown = json.dumps(KINDS[options.kind].answer)
-        result = DerivationResult.model_validate_json(shown).root
+        shown = recorded_examples()["answers"]["get_fit_derivation_result"]["200"][options.kind]
+        result = DerivationResult.model_validate_json(json.dumps(shown)).root
         files = {each.name: FILES[Path(each.name).suffix] for each in result.artifacts}
     return DerivationOutput(result=result, artifacts=files)

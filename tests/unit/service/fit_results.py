@@ -1,9 +1,14 @@
-"""A result document for tests, made of the documented example."""
+"""Result documents for tests, made of the documented examples."""
 
 import json
+from typing import Any
 
 from api_schemas.results import FitResult
-from service.api.examples.results import RESULT
+from service.api.openapi import recorded_examples
+
+_ANSWERS = recorded_examples()["answers"]
+RESULT: dict[str, Any] = _ANSWERS["get_fit_result"]["200"]["sample"]
+SCAN_RESULT: dict[str, Any] = _ANSWERS["get_scan_result"]["200"]["sample"]
 
 
 def fit_result(**changes: object) -> FitResult:

@@ -14,9 +14,8 @@ from api_schemas.derivation_kinds import (
     DerivationKind,
 )
 from api_schemas.derivations import DerivationRequest, DerivationResult
-from service.api.derivation_kinds import KINDS, needs_of
-from service.api.derivation_kinds.definition import DerivationKindDefinition
-from service.api.operation_examples import ANSWERS, REQUESTS
+from service.api.derivation_kinds import KINDS, DerivationKindDefinition, needs_of
+from service.api.openapi import recorded_examples
 from service.jobs.inputs import OF_EACH_FIT, PERSON
 from service.worker.derivers import load_deriver
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
@@ -31,6 +30,13 @@ def told_apart_by(union: object) -> dict[str, object]:
     """The types of a union by their tags without the brackets, in its order."""
     alternatives = (get_args(each) for each in get_args(union))
     return {tag.tag.strip("[]"): model for model, tag in alternatives}
+
+
+def asked(kind: Definition) -> list[AnyDerivationOptions]:
+    """The recorded requests for derivations of a kind."""
+    recorded = recorded_examples()["requests"]["submit_fit_derivation"].values()
+    parsed = [DerivationRequest.model_validate_json(json.dumps(each)).root for each in recorded]
+    return [each for each in parsed if each.kind == kind.kind]
 
 
 def test_every_kind_of_the_wire_is_declared():
@@ -53,28 +59,22 @@ def test_options_and_result_say_of_which_kind_they_are(kind: Definition):
 
 
 @each_kind
-def test_examples_are_of_the_declared_types(kind: Definition):
-    assert kind.requests
-    for example in kind.requests.values():
-        asked = DerivationRequest.model_validate_json(json.dumps(example)).root
-        assert type(asked) is kind.options
-    answer = DerivationResult.model_validate_json(json.dumps(kind.answer)).root
+def test_a_request_and_a_result_are_shown(kind: Definition):
+    assert asked(kind)
+    for options in asked(kind):
+        assert type(options) is kind.options
+    shown = recorded_examples()["answers"]["get_fit_derivation_result"]["200"][kind.kind]
+    answer = DerivationResult.model_validate_json(json.dumps(shown)).root
     assert type(answer) is kind.result
     assert answer.artifacts
-
-
-@each_kind
-def test_examples_are_shown_in_the_document(kind: Definition):
-    assert kind.requests.items() <= REQUESTS["derive"].items()
-    assert ANSWERS["derivation_result"][200][kind.kind] == kind.answer
 
 
 @each_kind
 def test_what_a_request_needs_is_of_the_person_and_no_other_part_than_the_declared_one(
     kind: Definition,
 ):
-    for example in kind.requests.values():
-        needs = needs_of(DerivationRequest.model_validate_json(json.dumps(example)).root)
+    for options in asked(kind):
+        needs = needs_of(options)
         assert PERSON in needs.of_fit
         assert needs.part in (None, kind.part)
         # What is needed of others is needed of the fit itself, and told apart by its names.

@@ -7,7 +7,7 @@ import httpx
 import pytest
 from starlette.requests import Request
 
-from service.api.derivation_kinds import texture
+from service.api import derivation_parts
 from service.api.derivations import read_derivation
 from service.jobs.inputs import TEXTURE
 from service.submissions.submission import check_picture
@@ -39,7 +39,7 @@ def test_a_texture_is_checked_in_a_thread_of_its_own(monkeypatch: pytest.MonkeyP
         threads.append(threading.current_thread())
         return check_picture(*arguments, **named)
 
-    monkeypatch.setattr(texture, "check_picture", noted)
+    monkeypatch.setattr(derivation_parts, "check_picture", noted)
     _, read = asyncio.run(read_derivation(request_of(sent), max_pixels=1_000_000))
     assert read.files[TEXTURE].content == painted
     assert len(threads) == 1

@@ -1,4 +1,4 @@
-"""The documented examples are of the wire types themselves, stricter than their schemas."""
+"""The recorded examples are of the wire types themselves, stricter than their schemas."""
 
 import json
 
@@ -19,7 +19,7 @@ from api_schemas.images import ImagePage, UploadedImage
 from api_schemas.initial_poses import InitialPose, InitialPoseRequest
 from api_schemas.jobs import Job, JobPage
 from api_schemas.people import PeoplePage
-from api_schemas.problems import Problem, ProblemType
+from api_schemas.problems import ProblemType
 from api_schemas.proposals import PointsOfImage, PointsProposal
 from api_schemas.requests import FitOfImage, FitOptions
 from api_schemas.results import FitResult
@@ -36,32 +36,28 @@ from api_schemas.scans import (
 )
 from api_schemas.tokens import NewToken, Token, TokenPage, TokenRequest
 from api_schemas.webhooks import WebhookEvent
-from service.api.operation_examples import (
-    ANSWERS,
-    DERIVATION_NOTICE,
-    NOTICE,
-    REQUESTS,
-    SCAN_DERIVATION_NOTICE,
-    SCAN_NOTICE,
-)
+from service.api.openapi import recorded_examples
 
+REQUESTS, ANSWERS, NOTICES = (
+    recorded_examples()[name] for name in ("requests", "answers", "notices")
+)
 KINDS = {
-    "submit": Job,
-    "retry": Job,
+    "submit_fit": Job,
+    "retry_fit": Job,
     "list_fits": JobPage,
     "get_fit": Job,
-    "cancel": Job,
-    "fit_request": FitOptions,
-    "result": FitResult,
-    "artifact": FitResult,
-    "derive": Derivation,
-    "retry_derivation": Derivation,
-    "list_derivations": DerivationPage,
-    "get_derivation": Derivation,
-    "cancel_derivation": Derivation,
-    "derivation_request": DerivationRequest,
-    "derivation_result": DerivationResult,
-    "derivation_artifact": DerivationResult,
+    "cancel_fit": Job,
+    "get_fit_request": FitOptions,
+    "get_fit_result": FitResult,
+    "get_fit_artifact": FitResult,
+    "submit_fit_derivation": Derivation,
+    "retry_fit_derivation": Derivation,
+    "list_fit_derivations": DerivationPage,
+    "get_fit_derivation": Derivation,
+    "cancel_fit_derivation": Derivation,
+    "get_fit_derivation_request": DerivationRequest,
+    "get_fit_derivation_result": DerivationResult,
+    "get_fit_derivation_artifact": DerivationResult,
     "submit_scan": Scan,
     "retry_scan": Scan,
     "list_scans": ScanPage,
@@ -71,57 +67,54 @@ KINDS = {
     "get_token": Token,
     "get_scan": Scan,
     "cancel_scan": Scan,
-    "scan_request": ScanOptions,
-    "scan_result": ScanResult,
-    "scan_artifact": ScanResult,
-    "derive_of_scan": ScanDerivation,
-    "retry_derivation_of_scan": ScanDerivation,
-    "list_derivations_of_scan": ScanDerivationPage,
-    "get_derivation_of_scan": ScanDerivation,
-    "cancel_derivation_of_scan": ScanDerivation,
-    "derivation_request_of_scan": DerivationRequest,
-    "derivation_result_of_scan": DerivationResult,
-    "derivation_artifact_of_scan": DerivationResult,
+    "get_scan_request": ScanOptions,
+    "get_scan_result": ScanResult,
+    "get_scan_artifact": ScanResult,
+    "submit_scan_derivation": ScanDerivation,
+    "retry_scan_derivation": ScanDerivation,
+    "list_scan_derivations": ScanDerivationPage,
+    "get_scan_derivation": ScanDerivation,
+    "cancel_scan_derivation": ScanDerivation,
+    "get_scan_derivation_request": DerivationRequest,
+    "get_scan_derivation_result": DerivationResult,
+    "get_scan_derivation_artifact": DerivationResult,
     "upload_image": UploadedImage,
     "list_images": ImagePage,
     "get_image": UploadedImage,
-    "initial_pose": InitialPose,
+    "estimate_initial_pose": InitialPose,
     "estimate_body": BodyEstimate,
     "propose_points": PointsProposal,
     "check_capture": CaptureCheck,
-    "body_models": BodyModels,
-    "live": Live,
-    "ready": Ready,
-    "problem_type": ProblemType,
+    "list_body_models": BodyModels,
+    "get_liveness": Live,
+    "get_readiness": Ready,
+    "get_problem_type": ProblemType,
 }
 TEXTS = {
-    "follow",
-    "follow_derivation",
+    "follow_fit",
+    "follow_fit_derivation",
     "follow_scan",
-    "follow_derivation_of_scan",
-    "metrics",
+    "follow_scan_derivation",
+    "get_metrics",
 }
-REFUSED = 400
-"""Answers from this status on are problems, whatever the operation."""
 
 
 @pytest.mark.parametrize("operation", sorted(ANSWERS))
 def test_examples_of_answers_are_of_their_types(operation):
-    for status, examples in ANSWERS[operation].items() if operation not in TEXTS else ():
-        kind = KINDS[operation] if status < REFUSED else Problem
+    for examples in ANSWERS[operation].values() if operation not in TEXTS else ():
         for value in examples.values():
-            kind.model_validate_json(json.dumps(value))
+            KINDS[operation].model_validate_json(json.dumps(value))
     assert operation in KINDS.keys() | TEXTS
 
 
 @pytest.mark.parametrize(
     ("operation", "kind"),
     [
-        ("submit", FitOfImage),
-        ("derive", DerivationRequest),
+        ("submit_fit", FitOfImage),
+        ("submit_fit_derivation", DerivationRequest),
         ("submit_scan", ScanOfImages),
-        ("derive_of_scan", DerivationRequest),
-        ("initial_pose", InitialPoseRequest),
+        ("submit_scan_derivation", DerivationRequest),
+        ("estimate_initial_pose", InitialPoseRequest),
         ("estimate_body", BodyRequest),
         ("propose_points", PointsOfImage),
         ("check_capture", CheckOfImage),
@@ -133,8 +126,14 @@ def test_examples_of_requests_are_of_their_types(operation, kind):
         kind.model_validate_json(json.dumps(value))
 
 
-def test_the_example_of_a_notice_is_one():
-    WebhookEvent.model_validate_json(json.dumps(NOTICE))
-    DerivationEvent.model_validate_json(json.dumps(DERIVATION_NOTICE))
-    ScanEvent.model_validate_json(json.dumps(SCAN_NOTICE))
-    ScanDerivationEvent.model_validate_json(json.dumps(SCAN_DERIVATION_NOTICE))
+@pytest.mark.parametrize(
+    ("name", "kind"),
+    [
+        ("fit-ended", WebhookEvent),
+        ("derivation-ended", DerivationEvent),
+        ("scan-ended", ScanEvent),
+        ("scan-derivation-ended", ScanDerivationEvent),
+    ],
+)
+def test_the_example_of_a_notice_is_one(name, kind):
+    kind.model_validate_json(json.dumps(NOTICES[name]))

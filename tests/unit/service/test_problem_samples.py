@@ -4,7 +4,7 @@ import pytest
 
 from api_schemas.problems import PROBLEM_TYPES
 from api_schemas.requests import FitRequest
-from service.api.examples.problems import PROBLEM_SAMPLES
+from service.api.problem_samples import PROBLEM_SAMPLES
 from service.submissions.refusal import RefusedError
 from service.submissions.validation import parsed
 

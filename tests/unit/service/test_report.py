@@ -12,7 +12,6 @@ from api_schemas.derivation_kinds.report import Language, ReportOptions
 from api_schemas.scans import ScanResult
 from fitter.measurement.definition_file import load_definitions
 from fitter.vocabulary.measurements import CHIEF
-from service.api.examples.scans import RESULT as SCAN
 from service.worker.derived.report.content import report_content
 from service.worker.derived.report.page_html import report_html
 from service.worker.derived.report.page_pdf import report_pdf
@@ -20,7 +19,7 @@ from service.worker.derived.report.pictures import Picture, ReportPictures
 from service.worker.derived.report.scan_content import scan_content
 from service.worker.derived.report.wordings import WORDINGS
 from tests.e2e.service import REPOSITORY
-from tests.unit.service.fit_results import fit_result, measurement
+from tests.unit.service.fit_results import SCAN_RESULT, fit_result, measurement
 
 
 def picture(caption: str, *, width: int = 60, height: int = 80) -> Picture:
@@ -102,7 +101,12 @@ def test_light_and_reflectance_are_in_words_and_missing_after_silhouettes_alone(
 
 
 def test_what_was_assumed_and_what_to_look_at_are_listed_or_said_to_be_nothing():
-    assumed = section(fit_result(), "What was assumed")
+    lens = {
+        "quantity": "focal_length_35mm",
+        "value": 50.0,
+        "reason": "Neither the request nor the picture's EXIF data names a focal length.",
+    }
+    assumed = section(fit_result(assumptions=[lens]), "What was assumed")
     assert assumed.facts[0][0] == "Lens"
     assert assumed.facts[0][1].startswith("50 mm. Neither the request")
     assert section(fit_result(assumptions=[]), "What was assumed").remarks == ("Nothing.",)
@@ -130,7 +134,7 @@ def test_the_page_stands_alone_and_runs_nothing():
     assert all(source.startswith("data:image/") for source in sources)
     assert all(attributes["alt"] for tag, attributes in elements.found if tag == "img")
     assert not re.search(rb"url\(|@import|https?:", page)
-    assert "74.9" in elements.text
+    assert f"{measurement('weight')['value']:.1f}" in elements.text
 
 
 def test_whatever_the_result_says_is_text_on_the_page():
@@ -237,18 +241,20 @@ def test_a_report_of_a_fit_without_shading_has_no_pictures_of_skin():
 
 
 def scan_result(**changes: object) -> ScanResult:
-    return ScanResult.model_validate_json(json.dumps(SCAN | changes))
+    return ScanResult.model_validate_json(json.dumps(SCAN_RESULT | changes))
 
 
 def test_a_report_of_a_scan_says_what_was_found_in_every_view():
     warning = {"code": "different-people", "message": "The pictures seem to show two people."}
-    content = scan_content(scan_result(warnings=[warning]))
+    doubtful = {"code": "segmentation-doubtful", "message": "The outline is doubtful."}
+    views = [view | {"warnings": [doubtful]} for view in SCAN_RESULT["views"]]
+    content = scan_content(scan_result(warnings=[warning], views=views))
     assert content.title.endswith("from several pictures")
     assert "from 2 pictures" in content.subtitle
     pictures, _, _, warnings = content.sections
     assert [label for label, _ in pictures.facts] == ["Front", "Side"]
     assert warnings.remarks[0] == warning["message"]
-    # Both views of the example have the same one: it is said once.
+    # Both views have the same one: it is said once.
     assert len(warnings.remarks) == 2
     page = Elements(report_html(content, PICTURES))
     assert content.title in page.text

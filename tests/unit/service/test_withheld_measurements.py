@@ -8,11 +8,11 @@ from rich.console import Console
 
 from api_schemas.derivation_kinds.combined import CombinedOptions
 from fitter.errors import InvalidInputError
-from service.api.examples.results import RESULT as EXAMPLE
 from service.commands.terminal import print_result
 from service.jobs.inputs import RESULT
 from service.worker.derived.combined import derive
 from service.worker.pipeline_port import DerivationInput
+from tests.unit.service.fit_results import RESULT as EXAMPLE
 from tests.unit.service.fit_results import fit_result
 
 WITHHELD = {"measurements": [], "outcome": "poor_fit", "verdict": "implausible"}

@@ -1,1 +1,0 @@
-"""Values for the examples of the OpenAPI document; long lists are cut short."""

@@ -1,0 +1,433 @@
+"""The examples of the OpenAPI document: what a sandbox was asked, and what it answered.
+
+``python -m tests.contract.recording`` (``make examples``) asks one and writes
+``service/api/examples.json``: requests by operation, answers by operation and status, and notices.
+Of long lists the beginning is kept. Ids, times, secrets and digests are always the same, so that
+what is answered twice alike is said once in the document.
+"""
+
+import json
+import re
+import tempfile
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+from urllib.parse import quote
+
+import httpx
+
+import service.api
+from service.demo_data.sample import load_sample, load_scan_sample
+from service.engine.database import open_database, prepare_database
+from service.engine.keys import KeyRing, Role
+from service.settings import Settings
+from tests.contract.document import exported, operations
+from tests.e2e.sandbox import running_sandbox
+from tests.integration.service.receiver import Receiver, receiving
+
+RECORDED = Path(service.api.__file__).parent / "examples.json"
+
+SHOWN = "https://example.org/hooks/maquette"
+"""Stands for the address that notices are really sent to."""
+
+WEBHOOK = {"url": SHOWN, "secret": "whsec_C2FVsBQIhrscChlQIMV+b5sSYspob7oD"}
+GIRTHS = {"waist_girth_navel": 88, "hip_girth": {"value": 98, "standard_error": 1.5}}
+OTHER = "0d3c1b6e-52a4-4f0e-9e37-0a4f6c2f7d10"
+JOBS = {
+    "fits": "b0d3cd76-33ef-4c01-b18c-190159d7df68",
+    "scans": "7c9f2f0e-3d1a-4a7e-8a53-5e0d9b1c2f44",
+    "derivations": "5f1c2a34-8b1e-4c57-9a1d-0c6f3f0f9b21",
+}
+"""Ids that stand for all of a kind."""
+
+UUID = r"[0-9a-f]{8}(?:-[0-9a-f]{4}){3}-[0-9a-f]{12}"
+MOMENT = re.compile(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(?:\.\d+)?(?=Z)")
+SAME: tuple[tuple[str, str], ...] = (
+    (r'(?<="expires_at": ")[^"]+', "2026-05-11T09:30:05.995Z"),
+    (r"http://127\.0\.0\.1:\d+/\w*", SHOWN),
+    (r"cursor=\d+\.\d+-", "cursor=1777887000.995-"),
+    (
+        r"mqt_[0-9a-f]{16}_[\w-]+",
+        "mqt_5f1c9a7be0d24c63_Zk3Qm0v4cP1sYw8rT6uXh2bNa9eLd7oGjKfVxRiCtEy",
+    ),
+    (
+        r"(?<=\"sha256\": \")[0-9a-f]{64}",
+        "d749f854970d25e805a6f10b7ec3a75d2b0060b9eb3333653b6c95baa7a1608c",
+    ),
+    (r"(?<=\"id\": \")[0-9a-f]{16}(?=\")", "5f1c9a7be0d24c63"),
+    (r"(?<=\"(?:token)_id\": \")[0-9a-f]{16}(?=\")", "5f1c9a7be0d24c63"),
+    (r"(?<=\"key_id\": \")[0-9a-f]{8}(?=\")", "1f2e3d4c"),
+)
+
+FIGURE = re.compile(r"\d+(?:\.\d+)?(?:e-?\d+)?")
+PASSING = ("stage", "progress", "view")
+
+MOST_ITEMS = 4
+SHORTENED = 2
+ONE_IS_ENOUGH = ("stages",)
+MAPS = ("artifacts", "points", "residual_px")
+"""Objects whose names are many: the first few are kept."""
+
+DERIVATIONS: Mapping[str, Mapping[str, Any]] = {
+    "report": {"kind": "report"},
+    "caricature": {"kind": "caricature", "factor": 2.5},
+    "looks": {"kind": "caricature", "factor": 2.0, "exaggerated": "looks"},
+    "pose": {
+        "kind": "pose",
+        "pose": "standing",
+        "rotations": {"head": [0.0, 0.35, 0.0], "left_forearm": [0.0, 0.0, 0.0, 1.0]},
+    },
+    "walk": {"kind": "animation"},
+    "figure": {"kind": "figure", "pose": "arms_raised", "degrees": 30},
+    "texture": {"kind": "texture", "colours": "albedo", "size": 2048},
+    "combined": {"kind": "combined", "fits": [OTHER]},
+    "size": {
+        "kind": "size",
+        "chart": {
+            "sizes": [
+                {
+                    "label": label,
+                    "measurements": {"chest_girth": {"low": chest, "high": chest + 4}},
+                }
+                for label, chest in (("M", 94), ("L", 98))
+            ]
+        },
+    },
+    "size-of-a-table": {
+        "kind": "size",
+        "chart_csv": "size,chest_girth,waist_girth_navel\nS,90-94,76-80\nM,94-98,80-84\n",
+        "ease": {"waist_girth_navel": 2},
+        "tolerances": {"waist_girth_navel": {"too_small": 1, "too_large": 4}},
+    },
+    "body-composition": {"kind": "body_composition", "age_years": 34},
+    "change": {
+        "kind": "change",
+        "since": OTHER,
+        "measurements": ["waist_girth_navel", "weight"],
+    },
+    "told-of-its-end": {"kind": "report", "webhook": WEBHOOK},
+}
+
+
+class Recorder:
+    """Asks a service, and keeps questions and answers by operation."""
+
+    def __init__(self, client: httpx.Client, receiver: Receiver) -> None:
+        self.requests: dict[str, dict[str, Any]] = {}
+        self.answers: dict[str, dict[str, dict[str, Any]]] = {}
+        self.notices: dict[str, Any] = {}
+        self.other = OTHER
+        self._known: dict[str, str] = {}
+        self._client = client
+        self._receiver = receiver
+        self._operations = [
+            (each.method, re.compile(re.sub(r"\{\w+\}", "[^/]+", each.path)), each.id)
+            for each in operations(exported())
+        ]
+
+    def ask(
+        self, shown_as: str, method: str, path: str, *, asked_as: str = "", **sent: Any
+    ) -> httpx.Response:
+        """Ask, and keep the answer under a name, and what was asked if it has one too."""
+        operation = next(
+            name
+            for verb, pattern, name in self._operations
+            if verb == method.lower() and pattern.fullmatch(path.partition("?")[0])
+        )
+        if asked_as:
+            self.requests.setdefault(operation, {})[asked_as] = sent["json"]
+        if "json" in sent:
+            real = json.dumps(sent["json"]).replace(SHOWN, self._receiver.url())
+            sent["json"] = json.loads(real.replace(OTHER, self.other))
+        answer = self._client.request(method, path, **sent)
+        assert answer.is_success, answer.text
+        if shown_as:
+            kept = self.answers.setdefault(operation, {}).setdefault(str(answer.status_code), {})
+            is_json = answer.headers["content-type"].startswith("application/json")
+            kept.setdefault(shown_as, self._shown(answer.json() if is_json else answer.text))
+        return answer
+
+    def is_other(self, identity: str) -> None:
+        """Have a job stand for another one of the same person."""
+        self.other = identity
+        self._known[identity] = OTHER
+
+    def until_ended(self, path: str) -> dict[str, Any]:
+        """Wait for the end of a job."""
+        return self.until(path, lambda job: job["state"] not in ("queued", "running"))
+
+    def until(self, path: str, is_so: Any) -> dict[str, Any]:
+        """Look at a job until it is as it should be."""
+        while not is_so(job := self._client.get(path).raise_for_status().json()):
+            time.sleep(0.05)
+        return job
+
+    def take_notice(self, name: str) -> None:
+        """Keep the next notice."""
+        while not self._receiver.notices:
+            time.sleep(0.05)
+        self.notices[name] = self._shown(self._receiver.notices.pop(0).event)
+
+    def _shown(self, value: Any) -> Any:
+        """The value as an example: short, and with ids and times that are always the same."""
+        text = json.dumps(_short(value))
+        for kind, identity in JOBS.items():
+            for found in re.findall(rf"/{kind}/({UUID})", text):
+                self._known.setdefault(found, identity)
+        for found, identity in self._known.items():
+            text = text.replace(found, identity)
+        for second, moment in enumerate(sorted(set(MOMENT.findall(text)))):
+            text = text.replace(f"{moment}Z", f"2026-05-04T09:30:{second:02}.995Z")
+        for pattern, same in SAME:
+            text = re.sub(pattern, same, text)
+        return json.loads(text)
+
+
+def _short(value: Any, name: str = "") -> Any:
+    if isinstance(value, float):
+        return float(f"{value:.4g}")
+    if isinstance(value, list):
+        kept = value if len(value) <= MOST_ITEMS else value[:SHORTENED]
+        kept = kept[:1] if name in ONE_IS_ENOUGH else kept
+        return [_short(each) for each in kept]
+    if isinstance(value, dict):
+        items = list(value.items())
+        if name in MAPS:
+            items = items[:SHORTENED]
+        return {key: _short(each, key) for key, each in items}
+    return value
+
+
+def record(client: httpx.Client, receiver: Receiver, *, metrics_key: str) -> dict[str, Any]:
+    """Ask a sandbox for one of everything."""
+    recorder = Recorder(client, receiver)
+    sample, pair = load_sample(), load_scan_sample()
+    person = json.loads(sample.request)
+    points = {name: [at["x"], at["y"]] for name, at in person["points"].items()}
+    image, *views = _images(recorder, sample.image, *pair.images)
+    fit = person | {"image_id": image, "points": points}
+    auto = {"gender": "female", "height_m": 1.68, "image_id": image, "points": "auto"}
+    _jobs(
+        recorder,
+        "fits",
+        {
+            "uploaded-picture": fit,
+            "points-proposed": auto,
+            "told-of-its-end": fit
+            | {"measurements": GIRTHS, "weight_kg": 75, "cues": "SE", "focal_length_35mm": 50}
+            | {"label": "customer-4711", "webhook": WEBHOOK},
+        },
+    )
+    asked = json.loads(pair.request)
+    placed = [
+        {"view": view["view"], "image_id": each, "points": view["points"]}
+        for view, each in zip(asked["views"], views, strict=True)
+    ]
+    proposed = [each | {"points": "auto"} for each in placed]
+    scan = {"gender": asked["gender"], "height_m": asked["height_m"]}
+    _jobs(
+        recorder,
+        "scans",
+        {
+            "front-and-side": scan | {"views": placed},
+            "told-of-its-end": scan | {"views": proposed, "webhook": WEBHOOK},
+        },
+    )
+    _estimates(recorder, image, points, person)
+    _whole_service(recorder, metrics_key)
+    _tokens(recorder, fit, sample.image)
+    return {
+        "requests": dict(sorted(recorder.requests.items())),
+        "answers": dict(sorted(recorder.answers.items())),
+        "notices": recorder.notices,
+    }
+
+
+def _images(recorder: Recorder, *pictures: bytes) -> list[str]:
+    kept = [
+        recorder.ask("photograph", "POST", "/v1/images", files={"image": ("picture.jpg", each)})
+        for each in (*pictures, pictures[0])
+    ]
+    recorder.ask("only-page", "GET", "/v1/images?limit=1")
+    ids = [each.json()["id"] for each in kept]
+    recorder.ask("photograph", "GET", f"/v1/images/{ids[0]}")
+    return ids[:-1]
+
+
+def _jobs(recorder: Recorder, kind: str, submissions: Mapping[str, Any]) -> None:
+    """Ask for fits or scans and all that can be asked of them, then for what is derived."""
+    path = f"/v1/{kind}"
+    usual, *_ = submissions.values()
+    other = recorder.ask("", "POST", path, json=usual).headers["Location"]
+    recorder.is_other(recorder.until_ended(other)["id"])
+    for name, each in submissions.items():
+        accepted = recorder.ask("queued", "POST", path, asked_as=name, json=each)
+        told = recorder.until_ended(accepted.headers["Location"])
+        assert told["state"] == "succeeded", told
+    recorder.take_notice(f"{kind.removesuffix('s')}-ended")
+    done = _life(recorder, path, usual, slow=(path, usual | {"label": "sandbox:slow:60"}))
+    failing = usual | {"label": "sandbox:image-damaged"}
+    failed = recorder.ask("", "POST", path, json=failing).headers["Location"]
+    recorder.until_ended(failed)
+    recorder.ask("failed", "GET", failed)
+    asked = usual | {"label": "sandbox:derivations:slow:60"}
+    of_slow = recorder.ask("", "POST", path, json=asked).headers["Location"]
+    recorder.until_ended(of_slow)
+    below = done["links"]["derivations"]
+    for name, each in DERIVATIONS.items():
+        accepted = recorder.ask("queued", "POST", below, asked_as=name, json=each)
+        made = recorder.until_ended(accepted.headers["Location"])
+        assert made["state"] == "succeeded", made
+        if kind == "fits":
+            recorder.ask(made["kind"], "GET", made["links"]["result"])
+    prefix = "" if kind == "fits" else "scan-"
+    recorder.take_notice(f"{prefix}derivation-ended")
+    slow = (f"{of_slow}/derivations", DERIVATIONS["pose"])
+    _life(recorder, below, DERIVATIONS["report"], slow=slow)
+
+
+def _life(
+    recorder: Recorder,
+    path: str,
+    usual: Mapping[str, Any],
+    *,
+    slow: tuple[str, Mapping[str, Any]],
+) -> dict[str, Any]:
+    """Ask all that can be asked of a job; returns the one that has succeeded.
+
+    ``slow`` is where and how to ask for one that can be looked at while it runs.
+    """
+    waiting: dict[str, Any] = {"headers": {"Prefer": "wait=60"}}
+    answer = recorder.ask("succeeded", "POST", path, json=usual, **waiting)
+    done = answer.json()
+    links = done["links"]
+    where, what = slow
+    begun = recorder.ask("", "POST", where, json=what).headers["Location"]
+    recorder.until(begun, lambda job: job["state"] == "running" and job["progress"] > 0)
+    recorder.ask("" if "kind" in what else "running", "GET", begun)
+    recorder.ask("stopping", "POST", f"{begun}/cancel")
+    recorder.until_ended(begun)
+    recorder.ask("canceled", "POST", f"{begun}/cancel")
+    recorder.ask("succeeded", "GET", links["self"])
+    recorder.ask("queued", "POST", links["retry"])
+    recorder.ask("succeeded", "POST", links["retry"], **waiting)
+    recorder.ask("short", "GET", links["events"])
+    recorder.ask("as-understood", "GET", links["request"])
+    recorder.ask(done.get("kind", "sample"), "GET", links["result"])
+    recorder.ask("result.json", "GET", links["artifacts"]["result.json"])
+    recorder.ask("first-page", "GET", f"{path}?limit=1")
+    return done
+
+
+def _estimates(
+    recorder: Recorder, image: str, points: Mapping[str, Any], person: Mapping[str, Any]
+) -> None:
+    known = {"gender": person["gender"], "height_m": person["height_m"], "points": points}
+    for path, shown, asked, body in (
+        ("initial-poses", "standing", "uploaded-picture", known | {"image_id": image}),
+        ("initial-poses", "", "size-alone", known | {"image_size": {"width": 720, "height": 960}}),
+        ("points", "standing", "largest-person", {"image_id": image}),
+        ("points", "", "person-and-mask", {"image_id": image, "person": 0, "mask": True}),
+        ("checks", "good-picture", "front", {"image_id": image, "view": "front"}),
+        (
+            "checks",
+            "camera-too-near",
+            "lens-and-height",
+            {"image_id": image, "view": "front", "height_m": 1.555, "focal_length_35mm": 14},
+        ),
+        ("bodies", "from-gender-alone", "gender-alone", {"gender": "female"}),
+        (
+            "bodies",
+            "from-height-and-weight",
+            "height-and-weight",
+            {"gender": "female", "height_m": 1.68, "weight_kg": 64.5},
+        ),
+        ("bodies", "", "girths", {"gender": "male", "measurements": GIRTHS, "include_glb": True}),
+    ):
+        recorder.ask(shown, "POST", f"/v1/{path}", asked_as=asked, json=body)
+
+
+def _whole_service(recorder: Recorder, metrics_key: str) -> None:
+    recorder.ask("both", "GET", "/v1/body-models")
+    recorder.ask("first-page", "GET", "/v1/people?limit=1")
+    recorder.ask("live", "GET", "/healthz/live")
+    recorder.ask("ready", "GET", "/healthz/ready")
+    recorder.ask("no-result", "GET", "/problems/no-result")
+    bearer = {"Authorization": f"Bearer {metrics_key}"}
+    recorder.ask("some", "GET", "/metrics", headers=bearer)
+    (figures,) = recorder.answers["get_metrics"].values()
+    shown = ("maquette_queue_jobs", "maquette_workers_able")
+    figures["some"] = "".join(
+        f"{line}\n" for line in figures["some"].splitlines() if any(each in line for each in shown)
+    )
+
+
+def _tokens(recorder: Recorder, fit: Mapping[str, Any], picture: bytes) -> None:
+    asked = {"jobs": 2, "label": "customer-4711"}
+    made = recorder.ask(
+        "for-one-customer", "POST", "/v1/tokens", asked_as="for-one-customer", json=asked
+    ).json()
+    browser: dict[str, Any] = {"headers": {"Authorization": f"Bearer {made['token']}"}}
+    recorder.ask("", "POST", "/v1/images", files={"image": ("picture.jpg", picture)}, **browser)
+    recorder.ask("", "POST", "/v1/fits", json=fit, **browser)
+    recorder.ask("one-job-left", "GET", f"/v1/tokens/{quote(made['id'])}")
+    recorder.ask("only-page", "GET", "/v1/tokens")
+
+
+def recorded_from_sandbox(folder: Path) -> dict[str, Any]:
+    """Start a sandbox that asks for keys, in an empty folder, and record it."""
+    url = Settings(data_dir=folder).system_database_url
+    prepare_database(url)
+    database = open_database(url, connections=1)
+    keys = KeyRing(database)
+    key, metrics_key = keys.create("shop"), keys.create("shop", Role.METRICS)
+    database.dispose()
+    settings = {
+        "authentication": "keys",
+        "requests_per_minute": 1_000_000,
+        "webhook_hosts": "127.0.0.1",
+    }
+    with (
+        receiving() as receiver,
+        running_sandbox(folder, key=key, **settings) as client,
+    ):
+        return record(client, receiver, metrics_key=metrics_key)
+
+
+def differences(recorded: Any, shown: Any, where: str = "") -> list[str]:
+    """Where what was recorded is otherwise than what is shown, but for figures.
+
+    A machine computes other last digits, needs other times and writes files of other sizes; how far
+    a job has come when it is looked at is chance.
+    """
+    if isinstance(recorded, dict) and isinstance(shown, dict):
+        names = recorded.keys() | shown.keys()
+        if recorded.keys() != shown.keys():
+            return [f"{where}: {sorted(recorded.keys() ^ shown.keys())}"]
+        chance = PASSING if recorded.get("state") == "running" else ()
+        return [
+            each
+            for name in sorted(names - set(chance))
+            for each in differences(recorded[name], shown[name], f"{where}.{name}")
+        ]
+    if isinstance(recorded, list) and isinstance(shown, list):
+        if len(recorded) != len(shown):
+            return [f"{where}: {len(recorded)} items, not {len(shown)}"]
+        pairs = enumerate(zip(recorded, shown, strict=True))
+        return [each for number, pair in pairs for each in differences(*pair, f"{where}.{number}")]
+    if _is_figure(recorded) and _is_figure(shown):
+        return []
+    if isinstance(recorded, str) and isinstance(shown, str):
+        recorded, shown = (FIGURE.sub("0", each) for each in (recorded, shown))
+    return [] if recorded == shown else [f"{where}: {recorded!r}, not {shown!r}"]
+
+
+def _is_figure(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as folder:
+        found = recorded_from_sandbox(Path(folder))
+    RECORDED.write_text(json.dumps(found, indent=1, ensure_ascii=False) + "\n")
