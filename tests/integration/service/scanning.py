@@ -8,7 +8,7 @@ import httpx
 import pytest
 
 from tests.integration.service.fake_pipeline import scripted_image
-from tests.integration.service.harness import POINTS, Service
+from tests.integration.service.harness import POINTS, REQUEST, Service
 
 FRONT: dict[str, Any] = {"view": "front", "points": POINTS}
 SIDE: dict[str, Any] = {"view": "side", "points": POINTS}
@@ -46,17 +46,29 @@ def post_scan(
 
 
 def posted(
-    service: Service, resource: str, script: Script | None = None, **headers: str
+    service: Service,
+    resource: str,
+    script: Script | None = None,
+    said: Mapping[str, Any] | None = None,
+    **headers: str,
 ) -> httpx.Response:
-    """Post a picture as a fit, or with another as a scan, that does what the script says."""
+    """Post a picture as a fit, or with another as a scan, that does what the script says.
+
+    ``said`` is said of either beside what all requests say.
+    """
     if resource == "fits":
-        return service.post(script, headers=headers)
-    return post_scan(service, script or {}, {"n": 1}, **headers)
+        return service.post(script, request=REQUEST | (said or {}), headers=headers)
+    return post_scan(service, script or {}, {"n": 1}, request=SCAN | dict(said or {}), **headers)
 
 
-def submitted(service: Service, resource: str, script: Script | None = None) -> str:
+def submitted(
+    service: Service,
+    resource: str,
+    script: Script | None = None,
+    said: Mapping[str, Any] | None = None,
+) -> str:
     """Post so, and return the job's path."""
-    answer = posted(service, resource, script)
+    answer = posted(service, resource, script, said)
     assert answer.status_code == 202, answer.text
     return answer.headers["Location"]
 

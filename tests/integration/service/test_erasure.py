@@ -13,15 +13,15 @@ from tests.integration.service.harness import (
     eventually,
     running_service,
 )
+from tests.integration.service.scanning import FRONT, SCAN, SIDE, of_either, post_scan
+from tests.integration.service.test_images import blobs_below
 
 RETENTION_HOURS = 2.0
 SCRIPT = {"n": "the-picture-itself"}
 SECRET = "whsec_" + "eraseThisSecretAtTheEndX" * 2
-REMARKABLE = REQUEST | {
-    "weight_kg": 83.7654321,
-    "points": {**REQUEST["points"], "nose": [321.1234567, 61.7654321]},
-    "webhook": {"url": "http://127.0.0.1:9/erase-this-address", "secret": SECRET},
-}
+WEBHOOK = {"url": "http://127.0.0.1:9/erase-this-address", "secret": SECRET}
+PERSON = {"weight_kg": 83.7654321, "webhook": WEBHOOK}
+POINTS = {"points": {**REQUEST["points"], "nose": [321.1234567, 61.7654321]}}
 TRACES: dict[str, bytes] = {
     "picture": b"the-picture-itself",
     "picture's name": hashlib.sha256(scripted_image(SCRIPT)).hexdigest().encode(),
@@ -45,9 +45,16 @@ def traces(folder: Path) -> set[str]:
     return found
 
 
-def fitted(service: Service) -> str:
-    """Have the remarkable picture fitted, and return the job's path."""
-    answer = service.post(SCRIPT, request=REMARKABLE)
+def fitted(service: Service, resource: str) -> str:
+    """Have the remarkable picture fitted, or a scan of it twice made, and return the job's path."""
+    if resource == "fits":
+        answer = service.post(SCRIPT, request=REQUEST | PERSON | POINTS)
+    else:
+        views = [FRONT | POINTS, SIDE | POINTS]
+        masks = dict.fromkeys(range(2), scripted_image(SCRIPT))
+        answer = post_scan(
+            service, SCRIPT, SCRIPT, request=SCAN | PERSON | {"views": views}, masks=masks
+        )
     assert answer.status_code == 202, answer.text
     return answer.headers["Location"]
 
@@ -56,26 +63,31 @@ def settings(**changes: object) -> dict[str, object]:
     return {"webhook_hosts": "127.0.0.1", "sweep_interval_s": 0.3} | changes
 
 
-def test_after_delete_no_byte_is_left(tmp_path: Path):
+@of_either
+def test_after_delete_no_byte_is_left(tmp_path: Path, resource: str):
     with running_service(Machine(tmp_path, settings=settings())) as service:
-        path = fitted(service)
+        path = fitted(service, resource)
         assert service.ended(path)["state"] == "succeeded"
         for kind in ("report", "texture"):
-            asked = {"kind": kind, "webhook": REMARKABLE["webhook"]}
-            derived = service.client.post(f"{path}/derivations", json=asked)
-            assert service.ended(derived.headers["Location"])["state"] == "succeeded"
+            asked = {"kind": kind, "webhook": WEBHOOK}
+            answer = service.client.post(f"{path}/derivations", json=asked)
+            derived = answer.headers["Location"]
+            assert service.ended(derived)["state"] == "succeeded"
         picture = {"image": ("p.png", scripted_image(SCRIPT), "image/png")}
         uploaded = service.client.post("/v1/images", files=picture).headers["Location"]
         assert traces(tmp_path) == set(TRACES)
         assert service.client.delete(path).status_code == 204
         assert service.client.delete(uploaded).status_code == 204
         eventually(lambda: not traces(tmp_path), what=f"nothing is left of {set(TRACES)}")
+        eventually(lambda: not blobs_below(tmp_path), what="no file is left")
+        assert service.client.get(derived).status_code == 404
 
 
-def test_after_its_time_no_byte_is_left(tmp_path: Path):
+@of_either
+def test_after_its_time_no_byte_is_left(tmp_path: Path, resource: str):
     machine = Machine(tmp_path, settings=settings(retention_hours=RETENTION_HOURS))
     with running_service(machine) as service:
-        path = fitted(service)
+        path = fitted(service, resource)
         job = service.ended(path)
         ended_at, expires_at = (
             datetime.fromisoformat(job[name]) for name in ("finished_at", "expires_at")
@@ -85,3 +97,7 @@ def test_after_its_time_no_byte_is_left(tmp_path: Path):
         machine.rewrite(path, expires_at=time.time())
         eventually(lambda: service.client.get(path).status_code == 410, what="expired")
         eventually(lambda: not traces(tmp_path), what=f"nothing is left of {set(TRACES)}")
+        eventually(lambda: not blobs_below(tmp_path), what="no file is left")
+        assert service.client.get(path).status_code == 410
+        other = {"fits": "scans", "scans": "fits"}[resource]
+        assert service.client.get(path.replace(resource, other)).status_code == 404

@@ -1,13 +1,12 @@
 """Several pictures of one person are one job, with all that a fit has."""
 
 import hashlib
-import time
 from pathlib import Path
 from uuid import uuid4
 
 import pytest
 
-from api_schemas.scans import Scan, ScanEvent, ScanOptions, ScanPage, ScanResult
+from api_schemas.scans import Scan, ScanOptions, ScanPage, ScanResult
 from service.engine.database import open_database, prepare_database
 from service.engine.keys import KeyRing
 from tests.integration.service.fake_pipeline import scripted_image
@@ -17,7 +16,6 @@ from tests.integration.service.harness import (
     eventually,
     running_service,
 )
-from tests.integration.service.receiver import SECRET, Receiver
 from tests.integration.service.scanning import (
     FRONT,
     SCAN,
@@ -26,7 +24,7 @@ from tests.integration.service.scanning import (
     scanned,
     submit_scan,
 )
-from tests.integration.service.test_images import blobs_below, uploaded
+from tests.integration.service.test_images import uploaded
 
 
 def test_two_pictures_are_sent_and_one_person_comes_out(either: Service):
@@ -143,14 +141,6 @@ def test_a_scan_is_repeated_with_copies_of_all_pictures(service: Service):
     assert service.client.get(links[2]["mask"]).content == images[0]
 
 
-def test_whom_a_scan_names_is_told_of_its_end(service: Service, receiver: Receiver):
-    webhook = {"url": receiver.url("/scan"), "secret": SECRET}
-    path = scanned(service, request=SCAN | {"webhook": webhook})
-    eventually(lambda: service.job(path)["webhook"]["state"] == "delivered", what="delivered")
-    event = ScanEvent.model_validate_json(receiver.notices[-1].body)
-    assert (event.type, event.data.links.self) == ("scan.succeeded", path)
-
-
 def test_a_scan_waits_as_so_many_jobs_as_it_has_pictures(tmp_path: Path):
     machine = Machine(tmp_path, settings={"max_queued": 3})
     with running_service(machine, api_only=True) as service:
@@ -180,20 +170,6 @@ def test_every_view_counts_among_what_a_tenant_may_have_waiting(tmp_path: Path):
         submit_scan(service)
         service.client.headers["Authorization"] = f"Bearer {keys[1]}"
         submit_scan(service)
-
-
-def test_erasing_a_scan_erases_every_view_and_what_was_derived(tmp_path: Path):
-    with running_service(Machine(tmp_path, settings={"sweep_interval_s": 0.3})) as service:
-        path = scanned(service, masks={0: scripted_image(), 1: scripted_image()})
-        derived = service.client.post(
-            f"{path}/derivations", json={"kind": "caricature", "factor": 2.0}
-        )
-        assert derived.status_code == 202, derived.text
-        assert service.ended(derived.headers["Location"])["state"] == "succeeded"
-        assert blobs_below(tmp_path)
-        assert service.client.delete(path).status_code == 204
-        eventually(lambda: not blobs_below(tmp_path), what="nothing is left")
-        assert service.client.get(derived.headers["Location"]).status_code == 404
 
 
 THREE = SCAN | {"views": [FRONT, SIDE, {"view": "other", "points": FRONT["points"]}]}
@@ -256,18 +232,6 @@ def test_two_scans_are_compared_and_the_comparison_goes_with_either(service: Ser
     assert service.ended(answer.headers["Location"])["state"] == "succeeded"
     assert service.client.delete(earlier).status_code == 204
     assert service.client.get(answer.headers["Location"]).status_code == 404
-
-
-def test_a_scan_whose_time_is_over_is_gone_as_a_scan_alone(tmp_path: Path):
-    machine = Machine(tmp_path, settings={"sweep_interval_s": 0.3})
-    with running_service(machine) as service:
-        path = scanned(service)
-        scan_id = path.rpartition("/")[2]
-        machine.rewrite(path, expires_at=time.time())
-        eventually(lambda: service.client.get(path).status_code == 410, what="expired")
-        eventually(lambda: not blobs_below(tmp_path), what="nothing is left")
-        assert service.client.get(path).status_code == 410
-        assert service.client.get(f"/v1/fits/{scan_id}").status_code == 404
 
 
 def test_how_long_scans_ran_is_counted_by_itself(service: Service):
