@@ -1,7 +1,8 @@
 """What a fit is asked to do: the person, the pictures of them and the caller's choices."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
+from typing import Self
 
 from fitter.arrays import ShapeCovariance
 from fitter.parameters import BodyParameters
@@ -175,3 +176,15 @@ class FitRequest:
     person: Person
     views: tuple[View, ...]
     choices: Choices = field(default_factory=Choices)
+
+    def __new__(cls, **said: object) -> Self:
+        """Refuse what was said of a request until 1.0, and tell where it is said now."""
+        for name in said:
+            for owner in (Person, View, Choices):
+                if name in {each.name for each in fields(owner)}:
+                    msg = (
+                        f"FitRequest() takes no {name!r}: say {owner.__name__}({name}=...), in "
+                        "FitRequest(person=Person(...), views=(View(...),), choices=Choices(...))."
+                    )
+                    raise TypeError(msg)
+        return object.__new__(cls)

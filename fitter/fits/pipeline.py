@@ -50,15 +50,7 @@ def fit(
 ) -> FitResult:
     """Fit one body to all pictures of a person: each by itself until near its outline, then all.
 
-    Raises
-    ------
-    InvalidInputError
-        If the request cannot be used; the message names the field and the remedy. Of several
-        pictures, what is at fault in one has a field that begins with ``views.NUMBER``.
-    ModelFileError
-        If the body model is missing or damaged, or lacks something a fit needs.
-    DetectorUnavailableError
-        If points are to be proposed and the detector is not installed.
+    Of what it raises :func:`fitter.library.fit` tells, which is this to callers.
     """
     _check(request)
     clock = StageClock(observer, len(request.views))
