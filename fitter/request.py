@@ -125,6 +125,8 @@ class View:
         At most one; pixels of the upright picture, or the 35 mm equivalent.
     cues
         What is compared with the picture.
+    clothing
+        How clothes lie; by itself, that is found in the picture.
     limb_facing
         The caller's word by limb name (``left_forearm`` ...).
     complete_clicks
@@ -142,7 +144,7 @@ class View:
     focal_length_px: float | None = None
     focal_length_35mm: float | None = None
     cues: Cues = Cues.SES
-    clothing: Clothing = Clothing.TIGHT
+    clothing: Clothing = Clothing.AUTO
     light: LightGuess = field(default_factory=LightGuess)
     limb_facing: Mapping[str, Facing] = field(default_factory=dict[str, Facing])
     complete_clicks: bool = False

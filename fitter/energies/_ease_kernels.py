@@ -12,21 +12,21 @@ _FAR_REACHES = 2.0
 @no_type_check
 @njit(cache=True, fastmath=True)
 def clothed_mismatch(
-    model, image, to_image, confidence, cloth, scale, floor, far, tight, mean, reach, loose
+    model, image, to_image, confidence, cloth, full, scale, floor, far, tight, usual, reach, loose
 ):
     """Sum over unmatched pixels of confidence times the derivative of the outline's cost.
 
     ``model`` holds face ids. A pixel of the model outside the observed region costs what
     :func:`robust_mismatch` says, times ``tight``, plus the cost of the ease its nearest cloth would
     have. A pixel of the region that the model does not cover costs the former to the extent that it
-    is bare and the latter, times ``loose``, to the extent that it is cloth; within the ``mean``
-    ease the latter is a gain. What no ease explains costs at least ``floor``, so that a body does
-    not become cheaper by leaving its clothes.
+    is bare and the latter, times ``loose``, to the extent that it is cloth; within the mean ease,
+    ``usual`` times the sum of ``full``, the latter is a gain. What no ease explains costs at least
+    ``floor``, so that a body does not become cheaper by leaving its clothes.
     """
     runs, counts = _runs(model)
     total = 0.0
     inverse, inverse_reach = 1.0 / (scale * scale), 1.0 / (reach * reach)
-    farthest = max(far, mean + 3.0 * reach)
+    farthest = max(far, 2.0 * usual + 3.0 * reach)
     height, width = model.shape
     for i in range(height):
         for j in range(width):
@@ -34,6 +34,7 @@ def clothed_mismatch(
             if covered == image[i, j]:
                 continue
             share = cloth[i, j]
+            mean = usual * (full[i, j, 0] + full[i, j, 1])
             bare_farthest = farthest if share > 0.01 else far
             d = to_image[i, j] if covered else _distance_to(runs, counts, i, j, bare_farthest)
             damping = 1.0 + d * d * inverse

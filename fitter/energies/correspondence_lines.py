@@ -14,7 +14,14 @@ it bounds the body from outside (:mod:`fitter.energies.ease`).
 import numpy as np
 from jaxtyping import Float
 
-from fitter.energies.ease import bound_share, common_ease, common_offset, ease_loss, ease_weights
+from fitter.energies.ease import (
+    beyond_usual,
+    bound_share,
+    common_ease,
+    common_offset,
+    ease_loss,
+    ease_weights,
+)
 from fitter.energies.rows import PositionRows
 from fitter.energies.scales import EnergyScales
 from fitter.evidence.correspondence_lines import CorrespondenceLines
@@ -47,14 +54,15 @@ def line_rows(
     )
     if not lines.cloth.any():
         return (bound,)
-    lengths = _cloth_lengths(lines)
-    offset = common_offset(residuals, lengths, scales)
+    lengths, fullness = _cloth_lengths(lines), lines.fullness
+    usual = beyond_usual(residuals, fullness, scales)
+    off = usual + fullness @ common_offset(usual, fullness, lengths, scales)
     ease = PositionRows(
-        residuals=residuals + scales.ease_mean + offset,
-        weights=lengths * ease_weights(residuals + offset, scales),
+        residuals=off + scales.ease_mean,
+        weights=lengths * ease_weights(off, scales),
         points=lines.points,
         derivatives=derivatives,
-        nuisance=common_ease(len(residuals), scales),
+        nuisance=common_ease(fullness, scales),
     )
     return bound, ease
 
@@ -64,10 +72,11 @@ def _ease_energy(
 ) -> float:
     if not lines.cloth.any():
         return 0.0
-    lengths = _cloth_lengths(lines)
-    offset = common_offset(residuals, lengths, scales)
-    prior = 0.5 * (offset / scales.ease_common_spread) ** 2
-    return float(lengths @ ease_loss(residuals + offset, scales)) + prior
+    lengths, fullness = _cloth_lengths(lines), lines.fullness
+    usual = beyond_usual(residuals, fullness, scales)
+    offset = common_offset(usual, fullness, lengths, scales)
+    prior = 0.5 * float(offset @ offset) / scales.ease_common_spread**2
+    return float(lengths @ ease_loss(usual + fullness @ offset, scales)) + prior
 
 
 def _residuals(rendering: Rendering, lines: CorrespondenceLines) -> Float[np.ndarray, " k"]:

@@ -17,12 +17,13 @@ A pixel of outline therefore costs the expected negative log-likelihood
 continuously differentiable. Its two terms are two rows of least squares; without cloth it is the
 tight outline's.
 
-As written, the ease of each length Λ is independent of the others', but a person who wears wide
-clothes does so all over. Where the contour is fitted to lines, all of it shares an offset
-δ ~ N(0, τ_δ²) of the mean. It is not a parameter of the body: the energy is that of its most
-probable value,
+μ is that of the place: cloth lies on shoulders and hangs away from shins. As written, the ease of
+each length Λ is independent of the others', but who wears a wide shirt wears it all over. Where the
+contour is fitted to lines, all of it shares two offsets δ ~ N(0, τ_δ²), of what covers the upper
+body and the legs, each in proportion f to the usual ease there. They are not parameters of the
+body: the energy is that of their most probable values,
 
-    min over δ of  Σ ρ_κ(r + μ + δ) c / (τ² Λ) + ½ δ²/τ_δ²,
+    min over δ of  Σ ρ_κ(r + μ + f · δ) c / (τ² Λ) + ½ |δ|²/τ_δ²,
 
 so that bare skin and what is usual for people tell how wide this person's clothes are.
 """
@@ -37,6 +38,8 @@ from fitter.energies.scales import EnergyScales
 from fitter.numerics.robust import boundary_loss, boundary_weights
 
 Values = Float[np.ndarray, " k"]
+Fullness = Float[np.ndarray, "k 2"]
+"""How far what covers the upper body and the legs usually stands off, of the mean ease."""
 
 _OFFSET_STEPS: Final = 10
 """Reweighted least squares in one unknown: the last step is less than a hundredth of a pixel."""
@@ -59,21 +62,32 @@ def ease_weights(residuals: Values, scales: EnergyScales) -> Values:
     return weights / (scales.ease_spread**2 * scales.ease_correlation_length)
 
 
-def common_offset(residuals: Values, lengths: Values, scales: EnergyScales) -> float:
+def beyond_usual(residuals: Values, fullness: Fullness, scales: EnergyScales) -> Values:
+    """Residuals as they would be if the mean ease were the same everywhere: r + μ - its scale."""
+    return residuals + scales.ease_mean * (fullness.sum(axis=1) - 1.0)
+
+
+def common_offset(
+    residuals: Values, fullness: Fullness, lengths: Values, scales: EnergyScales
+) -> Float[np.ndarray, "2"]:
     """The most probable δ, pixels; ``lengths`` are the pixels of outline under cloth."""
-    offset = 0.0
+    offset = np.zeros(fullness.shape[1])
+    known = np.eye(len(offset)) / scales.ease_common_spread**2
     for _ in range(_OFFSET_STEPS):
-        weights = lengths * ease_weights(residuals + offset, scales)
-        precision = float(weights.sum()) + 1.0 / scales.ease_common_spread**2
-        offset = -float(weights @ (residuals + scales.ease_mean)) / precision
+        weights = lengths * ease_weights(residuals + fullness @ offset, scales)
+        weighted = fullness * weights[:, None]
+        slope = weighted.T @ (residuals + scales.ease_mean)
+        offset = -np.linalg.solve(weighted.T @ fullness + known, slope)
     return offset
 
 
-def common_ease(rows: int, scales: EnergyScales, *, held_in_search: bool = False) -> Nuisance:
-    """δ as the unknown that so many rows r + μ + δ share."""
+def common_ease(
+    fullness: Fullness, scales: EnergyScales, *, held_in_search: bool = False
+) -> Nuisance:
+    """δ as the unknowns that all rows r + μ + f · δ share."""
     return Nuisance(
         name="ease",
-        slopes=np.ones((rows, 1)),
-        known=np.array([[1.0 / scales.ease_common_spread]]),
+        slopes=fullness,
+        known=np.eye(fullness.shape[1]) / scales.ease_common_spread,
         held_in_search=held_in_search,
     )

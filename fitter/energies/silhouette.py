@@ -20,7 +20,7 @@ from fitter.energies._silhouette_kernels import (
     nearest_within,
     robust_mismatch,
 )
-from fitter.energies.ease import bound_share, common_ease, ease_weights
+from fitter.energies.ease import Fullness, beyond_usual, bound_share, common_ease, ease_weights
 from fitter.energies.rows import PositionRows
 from fitter.energies.scales import EnergyScales
 from fitter.evidence.loose_outline import FARTHEST_M
@@ -54,12 +54,13 @@ def silhouette_energy(
     )
     eta = scales.silhouette_eta
     nats = 1.0 / (scales.silhouette_sigma**2 * scales.correlation_length)
-    if evidence.cloth is None:
+    if evidence.cloth is None or evidence.fullness is None:
         return nats * float(robust_mismatch(*pixels, eta, _FAR_COST * eta, _FAR * eta))
     return float(
         clothed_mismatch(
             *pixels,
             evidence.cloth[top:bottom, left:right],
+            evidence.fullness[top:bottom, left:right],
             eta,
             _FAR_COST * eta,
             _FAR * eta,
@@ -101,6 +102,7 @@ def silhouette_rows(
         distances,
         evidence.confidence_at(middles) * lengths,
         evidence.cloth_at(middles),
+        evidence.fullness_at(middles),
         scales,
         points=pairs,
         derivatives=0.5 * camera.pull_back(points, np.repeat(normals[:, None], 2, axis=1)),
@@ -116,6 +118,7 @@ def silhouette_rows(
         residuals,
         evidence.confidence_at(observed) * evidence.boundary_spacing,
         evidence.cloth_at(observed),
+        evidence.fullness_at(observed),
         scales,
         points=pairs[nearest],
         derivatives=0.5 * camera.pull_back(points[nearest], np.repeat(facing[:, None], 2, axis=1)),
@@ -127,6 +130,7 @@ def _rows(
     residuals: Float[np.ndarray, " k"],
     lengths: Float[np.ndarray, " k"],
     cloth: Float[np.ndarray, " k"],
+    fullness: Fullness,
     scales: EnergyScales,
     *,
     points: Integer[np.ndarray, "k 2"],
@@ -145,12 +149,13 @@ def _rows(
     )
     if not cloth.any():
         return (bound,)
+    usual = beyond_usual(residuals, fullness, scales)
     ease = PositionRows(
-        residuals=residuals + scales.ease_mean,
-        weights=_SHARE * lengths * cloth * ease_weights(residuals, scales),
+        residuals=usual + scales.ease_mean,
+        weights=_SHARE * lengths * cloth * ease_weights(usual, scales),
         points=points,
         derivatives=derivatives,
-        nuisance=common_ease(len(residuals), scales, held_in_search=True),
+        nuisance=common_ease(fullness, scales, held_in_search=True),
     )
     return bound, ease
 

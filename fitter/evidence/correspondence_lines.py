@@ -79,6 +79,8 @@ class CorrespondenceLines:
         (k,) how much a line counts: what is seen may not be the body's outline.
     cloth
         (k,) probability that the boundary is that of loose clothes; 0 where clothes are tight.
+    fullness
+        (k, 2) how far clothes of upper body and legs usually stand off, of the mean ease.
     spacing
         Pixels of contour each line stands for.
     """
@@ -90,6 +92,7 @@ class CorrespondenceLines:
     variances: Float[np.ndarray, " k"]
     confidence: Float[np.ndarray, " k"]
     cloth: Float[np.ndarray, " k"]
+    fullness: Float[np.ndarray, "k 2"]
     spacing: float
 
 
@@ -142,6 +145,7 @@ def correspondence_lines(
         window=window,
         depth=depth,
     )
+    found = outline + offsets[:, None] * normals
     return CorrespondenceLines(
         points=edges.edges[chosen],
         centres=centres,
@@ -151,7 +155,10 @@ def correspondence_lines(
         confidence=sample(confidence, centres)[0],
         cloth=np.zeros(len(chosen))
         if clothes is None
-        else clothes.cloth_within(outline + offsets[:, None] * normals, normals, pixels_per_metre),
+        else clothes.cloth_within(found, normals, pixels_per_metre),
+        fullness=np.zeros((len(chosen), 2))
+        if clothes is None
+        else clothes.fullness_within(found, normals, pixels_per_metre),
         spacing=spacing,
     )
 

@@ -7,6 +7,7 @@ from jaxtyping import Float
 
 from fitter.arrays import GreyImage, Mask, PerVertex, Points2D
 from fitter.evidence.sampling import sample
+from fitter.evidence.silhouette_evidence import FullnessMap
 from fitter.render.rasterizer import Rendering
 
 FARTHEST_M, INWARD_M = 0.18, 0.05
@@ -37,10 +38,15 @@ class LooseClothes:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class LooseOutline:
-    """``mask`` (h, w) the segmented person, ``cloth`` (h, w) the probability of loose cloth."""
+    """The outline of the clothes.
+
+    ``mask`` (h, w) is the segmented person, ``cloth`` (h, w) the probability of loose cloth,
+    ``fullness`` (h, w, 2) how far it usually stands off, of the mean ease.
+    """
 
     mask: Mask
     cloth: GreyImage
+    fullness: FullnessMap
 
     def beyond(
         self, rendering: Rendering, centres: Points2D, normals: Points2D
@@ -65,6 +71,13 @@ class LooseOutline:
         found = np.where(inside, leaves - 0.5, enters + 0.5)
         lost = np.where(inside, (leaves > outward) | (meets < leaves), enters < -inward)
         return np.where(lost, np.nan, found)
+
+    def fullness_within(
+        self, boundary: Points2D, normals: Points2D, pixels_per_metre: float
+    ) -> Float[np.ndarray, "k 2"]:
+        """How far cloth at points of the boundary usually stands off."""
+        inside = boundary - WITHIN_M * pixels_per_metre * normals
+        return np.stack([sample(self.fullness[..., k], inside)[0] for k in range(2)], axis=1)
 
     def cloth_within(
         self, boundary: Points2D, normals: Points2D, pixels_per_metre: float

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import cv2
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Float32
 from scipy.special import ndtri
 
 from fitter.arrays import GreyImage, Mask, Points2D
@@ -25,6 +25,9 @@ _FLATTEST = 0.02
 _FARTHEST_FROM_HALF = 0.2
 
 
+FullnessMap = Float32[np.ndarray, "h w 2"]
+
+
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class SilhouetteEvidence:
     """The observed region.
@@ -40,6 +43,9 @@ class SilhouetteEvidence:
     cloth
         (h, w) probability that what is seen there is loose cloth; off the person, that of their
         nearest pixel; None where clothes are tight.
+    fullness
+        (h, w, 2) how far what covers the upper body and the legs usually stands off there, as a
+        share of the mean ease; None where clothes are tight.
     boundary_points, boundary_normals
         (b, 2) points of the outline in continuous pixels, between the pixels' centres, with
         outward unit normals; the picture's own border is not part of the outline.
@@ -58,12 +64,19 @@ class SilhouetteEvidence:
     occupied_rows: Bool[np.ndarray, " h"]
     occupied_columns: Bool[np.ndarray, " w"]
     cloth: GreyImage | None = None
+    fullness: FullnessMap | None = None
 
     def cloth_at(self, points: Points2D) -> Float[np.ndarray, " k"]:
         """Probability of loose cloth at continuous pixels."""
         if self.cloth is None:
             return np.zeros(len(points))
         return sample(self.cloth, points)[0]
+
+    def fullness_at(self, points: Points2D) -> Float[np.ndarray, "k 2"]:
+        """How far clothes usually stand off at continuous pixels, 1 where nothing is known."""
+        if self.fullness is None:
+            return np.tile([1.0, 0.0], (len(points), 1))
+        return np.stack([sample(self.fullness[..., k], points)[0] for k in range(2)], axis=1)
 
     def confidence_at(self, points: Points2D) -> Float[np.ndarray, " k"]:
         """Confidence at continuous pixels."""
@@ -78,7 +91,7 @@ class SilhouetteEvidence:
 def silhouette_evidence(
     mask: Mask, confidence: GreyImage | None = None, cloth: GreyImage | None = None
 ) -> SilhouetteEvidence:
-    """Prepare a segmentation."""
+    """Prepare a segmentation; cloth, where there is any, has the same ease everywhere."""
     points, normals = _outline(mask)
     return SilhouetteEvidence(
         mask=np.ascontiguousarray(mask),
@@ -90,7 +103,15 @@ def silhouette_evidence(
         occupied_rows=np.asarray(mask.any(axis=1)),
         occupied_columns=np.asarray(mask.any(axis=0)),
         cloth=cloth,
+        fullness=None if cloth is None else uniform_fullness(mask.shape),
     )
+
+
+def uniform_fullness(shape: tuple[int, ...]) -> FullnessMap:
+    """(h, w, 2) the mean ease everywhere."""
+    fullness = np.zeros((*shape, 2), dtype=np.float32)
+    fullness[..., 0] = 1.0
+    return fullness
 
 
 def signed_distance(mask: Mask) -> GreyImage:

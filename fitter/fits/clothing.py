@@ -3,30 +3,53 @@
 from dataclasses import replace
 
 import numpy as np
+from jaxtyping import Float
 
-from fitter.arrays import PerVertex
+from fitter.arrays import GreyImage
 from fitter.body.skeleton import regress
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.shading import seen_vertices
 from fitter.evidence.intensity import IntensityMap
 from fitter.evidence.loose_outline import LooseClothes
 from fitter.evidence.sampling import sample
+from fitter.evidence.silhouette_evidence import FullnessMap, uniform_fullness
 from fitter.fits.prepared_model import PreparedModel
+from fitter.fits.usual_ease import usual_fullness
 from fitter.observation.observation import Observation
 from fitter.parameters import BodyParameters
 from fitter.remarks import Assumption, FitWarning
 from fitter.render.rasterizer import Rendering, render
-from fitter.request import Clothing
+from fitter.segmentation.coverage import Coverage, coverage
+from fitter.segmentation.leg_looseness import legs_are_loose
 from fitter.segmentation.skin_colour import (
     LEAST_SAMPLES,
     PersonRegions,
     SkinMap,
     face_point,
+    nearest_of,
+    nearest_part,
     skin_map,
 )
+from fitter.vocabulary.choices import Clothing
 
 FACE_CLICKS = ("nose", "left_eye", "right_eye")
 
+LEAST_COVERED = 0.5
+"""From what probability on that trunk or legs are covered, the outline is not the body's. Of 89
+pictures of people in underwear 0.38 is the most, of 18 in clothes 0.97 the least."""
+
+LOOSE_ABOVE_CLOSE, LOOSE_ABOVE_LOOSE = 0.5, 0.95
+"""How often what covers the upper body is loose where what covers the legs is close or loose."""
+
+LIKELY_LOOSE = 0.15
+"""From what probability on clothes do not bind at all: even a small share of a tight outline would
+outweigh all that is said of loose clothes."""
+
+CLOSE_FULLNESS = 0.15
+"""Ease of close clothes, as a share of that of loose ones."""
+
+_OF_LEGS = frozenset({"thigh", "shin", "foot"})
+_LEAST_PIXELS_PER_METRE = 120.0
 _SEEN_WITHIN_M = 0.02
 _BARE = 0.5
 
@@ -39,12 +62,13 @@ _UNDRESSED_SHARE = 0.25
 def dressed(
     objective: Objective, observation: Observation, prepared: PreparedModel, near: BodyParameters
 ) -> Objective:
-    """The objective of a person dressed as the caller says, given a body near them.
+    """The objective of a person dressed as the caller or the picture says, given a body near them.
 
-    For tight clothes the objective is returned unchanged.
+    For tight clothes, and people in underwear, the objective is that of the body's outline.
     """
+    undressed = replace(objective, evidence=replace(objective.evidence, clothes=None))
     if observation.clothing is Clothing.TIGHT:
-        return objective
+        return undressed
     vertices = prepared.searched.evaluator.vertices(near)
     rendering = render(vertices, prepared.searched.model.triangles, observation.camera)
     silhouette = objective.evidence.silhouette
@@ -55,15 +79,32 @@ def dressed(
         face=face_point(_clicked_face(observation), _nose(rendering, prepared)),
         pixels_per_metre=observation.camera.focal_length_px / float(near.translation[2]),
     )
+    covered: Coverage | None = None
+    if observation.clothing is Clothing.AUTO:
+        covered = _coverage(observation, regions, prepared)
+        if covered.anything < LEAST_COVERED:
+            return undressed
     skin = skin_map(observation.linear_rgb, regions)
-    cloth = (1.0 - skin.probability).astype(np.float32)
+    bare, fullness = skin.probability, _fullness(rendering, prepared)
+    if covered is not None:
+        bare = covered.bare(skin, regions)
+        legs = legs_are_loose(
+            regions.person,
+            bare,
+            _joints_seen(rendering, prepared),
+            regions.pixels_per_metre,
+        )
+        loose = _loose(regions, legs)
+        bare = 1.0 - (1.0 - bare) * np.minimum(loose / LIKELY_LOOSE, 1.0)
+        fullness = fullness * (CLOSE_FULLNESS + (1.0 - CLOSE_FULLNESS) * loose)[..., None]
+    cloth = (1.0 - bare).astype(np.float32)
     return replace(
         objective,
         evidence=replace(
             objective.evidence,
-            silhouette=replace(silhouette, cloth=cloth),
+            silhouette=replace(silhouette, cloth=cloth, fullness=fullness),
             clothes=LooseClothes(
-                bare=_bare(rendering, skin),
+                bare=sample(bare, rendering.projected)[0],
                 learnt_from=skin.learnt_from,
                 looks_undressed=looks_undressed(skin, regions),
             ),
@@ -153,6 +194,49 @@ def _parts(rendering: Rendering, prepared: PreparedModel) -> np.ndarray:
     return np.where(faces >= 0, prepared.searched.model.part_of_triangle[faces], -1)
 
 
+def _coverage(
+    observation: Observation, regions: PersonRegions, prepared: PreparedModel
+) -> Coverage:
+    """What is covered, from every second or third pixel where there are enough."""
+    step = max(int(regions.pixels_per_metre / _LEAST_PIXELS_PER_METRE), 1)
+    fewer = replace(
+        regions,
+        person=np.ascontiguousarray(regions.person[::step, ::step]),
+        parts=np.ascontiguousarray(regions.parts[::step, ::step]),
+        face=None if regions.face is None else regions.face / step,
+        pixels_per_metre=regions.pixels_per_metre / step,
+    )
+    skin = skin_map(np.ascontiguousarray(observation.linear_rgb[::step, ::step]), fewer)
+    return coverage(skin, fewer, prepared.searched.model.gender)
+
+
+def _joints_seen(
+    rendering: Rendering, prepared: PreparedModel
+) -> dict[str, Float[np.ndarray, "2"]]:
+    model = prepared.searched.model
+    joints = regress(model.joint_regressor, rendering.vertices)
+    return dict(zip(model.part_names, rendering.camera.project(joints), strict=True))
+
+
+def _loose(regions: PersonRegions, legs: float) -> GreyImage:
+    """(h, w) probability that what covers a pixel's part is loose, given that of the legs'."""
+    upper = LOOSE_ABOVE_CLOSE + (LOOSE_ABOVE_LOOSE - LOOSE_ABOVE_CLOSE) * legs
+    of_part = [
+        legs if name.rpartition("_")[2] in _OF_LEGS else upper for name in regions.part_names
+    ]
+    return np.array(of_part, dtype=np.float32)[nearest_part(regions)]
+
+
+def _fullness(rendering: Rendering, prepared: PreparedModel) -> FullnessMap:
+    """The usual ease of the body each pixel shows or is nearest to."""
+    model = prepared.searched.model
+    of_triangle = usual_fullness(model)[model.triangles].mean(axis=1).astype(np.float32)
+    faces = rendering.face_ids
+    if not (faces >= 0).any():
+        return uniform_fullness(faces.shape)
+    return of_triangle[faces.ravel()[nearest_of(faces >= 0)]]
+
+
 def _clicked_face(observation: Observation) -> np.ndarray:
     clicks = [observation.clicks.get(name) for name in FACE_CLICKS]
     return np.array(
@@ -170,7 +254,3 @@ def _nose(rendering: Rendering, prepared: PreparedModel) -> np.ndarray | None:
         return None
     hidden = float(point[2]) - float(rendering.depth[row, column]) > _SEEN_WITHIN_M
     return None if hidden else place
-
-
-def _bare(rendering: Rendering, skin: SkinMap) -> PerVertex:
-    return sample(skin.probability, rendering.projected)[0]

@@ -29,7 +29,7 @@ from fitter.request import Choices, View
 from fitter.result import LimbFacing
 from fitter.segmentation.grabcut import Segmentation
 from fitter.segmentation.trimap import Trimap
-from fitter.vocabulary.choices import OutlineKind
+from fitter.vocabulary.choices import Clothing, OutlineKind
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -131,7 +131,13 @@ def outlined(
         first = body_search(kind, limits.first, report)
         nearer = first(of_person(known, [coarse]), [initial.parameters])
         (near,) = nearer.candidate.views
-        labels, segmentation = segmented(observation, prepared, near.parameters, fitted=True)
+        labels, segmentation = segmented(
+            observation,
+            prepared,
+            near.parameters,
+            fitted=True,
+            loosely_dressed=is_loosely_dressed(coarse),
+        )
     with clock.stage(Stage.SILHOUETTE_AND_EDGES) as report:
         hypotheses = initial.hypotheses[: limits.hypotheses]
         far = with_silhouette(coarse, segmentation, observation, prepared, near.parameters)
@@ -182,10 +188,18 @@ def _started(
     lines_on: Image | None,
 ) -> Outlined:
     """A picture in which a body was found before."""
-    labels, segmentation = segmented(observation, prepared, body, fitted=True)
+    said_loose = observation.clothing is Clothing.LOOSE
+    labels, segmentation = segmented(
+        observation, prepared, body, fitted=True, loosely_dressed=said_loose
+    )
     objective = silhouette_and_edges(
         observation, prepared, body, segmentation, boundary_eta_m=NEAR_BOUNDARY_ETA_M
     )
+    if is_loosely_dressed(objective) and not said_loose:
+        labels, segmentation = segmented(
+            observation, prepared, body, fitted=True, loosely_dressed=True
+        )
+        objective = with_silhouette(objective, segmentation, observation, prepared, body)
     return Outlined(
         view=view,
         observation=observation,
@@ -198,6 +212,11 @@ def _started(
         lines_on=lines_on,
         evaluations=0,
     )
+
+
+def is_loosely_dressed(objective: Objective) -> bool:
+    """Whether the outline is taken to bound the body from outside, somewhere."""
+    return objective.evidence.clothes is not None
 
 
 def _about(objective: Objective, body: Body, lines_on: Image | None) -> Objective:

@@ -34,7 +34,6 @@ from fitter.segmentation.trimap import (
     seeded_trimap,
     trimap,
 )
-from fitter.vocabulary.choices import Clothing
 
 RESEGMENTED_BAND = 0.5
 """Width of the second band as a share of the first. The picture is segmented again around the body
@@ -56,7 +55,12 @@ prior about depth makes them err in alike, another view tells."""
 
 
 def segmented(
-    observation: Observation, prepared: PreparedModel, parameters: BodyParameters, *, fitted: bool
+    observation: Observation,
+    prepared: PreparedModel,
+    parameters: BodyParameters,
+    *,
+    fitted: bool,
+    loosely_dressed: bool = False,
 ) -> tuple[Trimap | None, Segmentation]:
     """The caller's mask, or GrabCut (section 3.2).
 
@@ -80,7 +84,7 @@ def segmented(
             return None, Segmentation(mask=uncut, warnings=border_warnings(uncut))
     silhouette = render(vertices, prepared.searched.model.triangles, observation.camera).silhouette
     # The body inside loose clothes does not say how far they reach.
-    telling = fitted and observation.clothing is Clothing.TIGHT
+    telling = fitted and not loosely_dressed
     if seed is not None and (labels := seeded_trimap(seed, bones)) is not None:
         preferred = preference(seed, silhouette if telling else None)
         return labels, segment(observation.display, labels, preferred)
@@ -140,10 +144,15 @@ def with_silhouette(
     prepared: PreparedModel,
     near: BodyParameters,
 ) -> Objective:
-    """The same objective with the person segmented again around a body."""
+    """The same objective with the person segmented again around a body.
+
+    A person who was found undressed before is not looked at again.
+    """
     evidence = objective.evidence
     silhouette = silhouette_evidence(segmentation.mask, evidence.silhouette.confidence)
     cut = replace(objective, evidence=replace(evidence, silhouette=silhouette))
+    if evidence.clothes is None:
+        return cut
     return dressed(cut, observation, prepared, near)
 
 

@@ -14,8 +14,10 @@ def with_lines_about(objective: Objective, body: Body, display: Image) -> Object
     seen = objective.see(body)
     silhouette = objective.evidence.silhouette
     clothes = None
-    if silhouette.cloth is not None:
-        clothes = LooseOutline(mask=silhouette.mask, cloth=silhouette.cloth)
+    if silhouette.cloth is not None and silhouette.fullness is not None:
+        clothes = LooseOutline(
+            mask=silhouette.mask, cloth=silhouette.cloth, fullness=silhouette.fullness
+        )
     return objective.with_lines(
         correspondence_lines(seen.rendering, seen.edges, display, silhouette.confidence, clothes)
     )

@@ -118,7 +118,7 @@ def skin_map(linear_rgb: Image, regions: PersonRegions) -> SkinMap:
         nowhere = np.zeros(person.shape, dtype=np.float32)
         return SkinMap(probability=nowhere, coloured=coloured, learnt_from=())
     features = _features(linear_rgb[person])
-    parts = _nearest_part(regions)[person]
+    parts = nearest_part(regions)[person]
     prior = _bare_shares(regions.part_names)[parts]
     skin, learnt_from = _skin_colours(features, regions, parts)
     nats = np.log(prior / (1.0 - prior))
@@ -128,7 +128,7 @@ def skin_map(linear_rgb: Image, regions: PersonRegions) -> SkinMap:
     odds = np.zeros(person.shape, dtype=np.float32)
     odds[person] = np.clip(nats, -_MOST_NATS, _MOST_NATS)
     smooth = _smoothed(odds, person, _SMOOTHING_M * regions.pixels_per_metre)
-    everywhere = smooth.ravel()[_nearest_of(person)]
+    everywhere = smooth.ravel()[nearest_of(person)]
     probability = (1.0 / (1.0 + np.exp(-everywhere))).astype(np.float32)
     return SkinMap(probability=probability, coloured=coloured, learnt_from=learnt_from)
 
@@ -144,15 +144,15 @@ def _bare_shares(part_names: tuple[str, ...]) -> Float[np.ndarray, " p"]:
     return np.array([BARE_SHARE[kind] for kind in kinds])
 
 
-def _nearest_part(regions: PersonRegions) -> Integer[np.ndarray, "h w"]:
+def nearest_part(regions: PersonRegions) -> Integer[np.ndarray, "h w"]:
     """Each pixel's part; off the body, that of the nearest pixel on it."""
     on_body = regions.parts >= 0
     if not on_body.any():
         return np.zeros_like(regions.parts)
-    return regions.parts.ravel()[_nearest_of(on_body)]
+    return regions.parts.ravel()[nearest_of(on_body)]
 
 
-def _nearest_of(region: Mask) -> Integer[np.ndarray, "h w"]:
+def nearest_of(region: Mask) -> Integer[np.ndarray, "h w"]:
     """Flat index of each pixel's nearest pixel of a region that is not empty."""
     outside = (~region).astype(np.uint8)
     _, found = cv2.distanceTransformWithLabels(

@@ -65,8 +65,12 @@ class SurroundingsKind(StrEnum):
 
 
 class Clothing(StrEnum):
-    """How clothes lie: with the body's outline, or as an outer bound of it, bare skin excepted."""
+    """How clothes lie: with the body's outline, or as an outer bound of it, bare skin excepted.
 
+    ``auto`` leaves it to the picture which of the two they do, and where.
+    """
+
+    AUTO = "auto"
     TIGHT = "tight"
     LOOSE = "loose"
 

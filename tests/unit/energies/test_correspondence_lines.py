@@ -68,7 +68,8 @@ def test_an_uncertain_line_counts_less(lined):
 @pytest.mark.parametrize("cloth", [0.0, 0.3, 1.0])
 def test_rows_are_the_exact_slope_of_the_energy(lined, cloth: float):
     rendering, lines = lined
-    lines = replace(lines, cloth=np.full(len(lines.offsets), cloth))
+    full = np.random.default_rng(2).uniform(0.0, 1.5, (len(lines.offsets), 2))
+    lines = replace(lines, cloth=np.full(len(lines.offsets), cloth), fullness=full)
     slope = np.zeros_like(rendering.vertices)
     for rows in line_rows(rendering, lines, SCALES):
         force = (rows.weights * rows.residuals)[:, None, None] * rows.derivatives

@@ -5,7 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitter.energies.ease import bound_share, common_offset, ease_loss, ease_weights
+from fitter.energies.ease import (
+    beyond_usual,
+    bound_share,
+    common_offset,
+    ease_loss,
+    ease_weights,
+)
 from fitter.energies.edges import edge_energy, edge_rows
 from fitter.energies.scales import scales_at
 from fitter.energies.silhouette import silhouette_energy, silhouette_overlap, silhouette_rows
@@ -151,6 +157,7 @@ class TestEdges:
 
 class TestCommonOffset:
     LENGTHS = np.full(400, 2.0)
+    EVEN = np.tile([1.0, 0.0], (400, 1))
 
     def test_it_is_the_most_probable_one(self):
         residuals = np.random.default_rng(0).normal(-1.8 * NEAR.ease_mean, 1.0, 400)
@@ -159,15 +166,26 @@ class TestCommonOffset:
             prior = 0.5 * (offset / NEAR.ease_common_spread) ** 2
             return float(self.LENGTHS @ ease_loss(residuals + offset, NEAR)) + prior
 
-        found = common_offset(residuals, self.LENGTHS, NEAR)
+        found, none = common_offset(residuals, self.EVEN, self.LENGTHS, NEAR)
         assert found > 0.5 * NEAR.ease_mean
+        assert none == 0.0
         for step in (-0.05, 0.05):
             assert energy(found) < energy(found + step)
 
     def test_clothes_as_usual_have_none(self):
-        assert common_offset(np.full(400, -NEAR.ease_mean), self.LENGTHS, NEAR) == 0.0
+        usual = np.full(400, -NEAR.ease_mean)
+        assert not common_offset(usual, self.EVEN, self.LENGTHS, NEAR).any()
 
     def test_what_hardly_shows_cloth_says_little(self):
         residuals = np.full(400, -1.8 * NEAR.ease_mean)
-        little = common_offset(residuals, 1e-6 * self.LENGTHS, NEAR)
-        assert 0.0 < little < 0.01 * common_offset(residuals, self.LENGTHS, NEAR)
+        little, _ = common_offset(residuals, self.EVEN, 1e-6 * self.LENGTHS, NEAR)
+        assert 0.0 < little < 0.01 * common_offset(residuals, self.EVEN, self.LENGTHS, NEAR)[0]
+
+    def test_wide_trousers_say_nothing_of_a_shirt(self):
+        fullness = np.repeat([[0.8, 0.0], [0.0, 1.6]], 200, axis=0)
+        usual = -NEAR.ease_mean * fullness.sum(axis=1)
+        residuals = usual - np.repeat([0.0, 3.0], 200)
+        shifted = beyond_usual(residuals, fullness, NEAR)
+        shirt, trousers = common_offset(shifted, fullness, self.LENGTHS, NEAR)
+        assert abs(shirt) < 1e-9
+        assert trousers == pytest.approx(3.0 / 1.6, rel=0.1)

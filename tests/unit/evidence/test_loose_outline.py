@@ -24,7 +24,11 @@ def clothes(left: float, right: float, cloth: float = 1.0) -> LooseOutline:
     """Upright stripes of clothes from the top to the bottom of the picture."""
     columns = np.arange(WIDTH) + 0.5
     mask = np.tile((columns > left) & (columns < right), (HEIGHT, 1))
-    return LooseOutline(mask=mask, cloth=np.full(mask.shape, cloth, dtype=np.float32))
+    return LooseOutline(
+        mask=mask,
+        cloth=np.full(mask.shape, cloth, dtype=np.float32),
+        fullness=np.broadcast_to(np.float32([0.25, 1.5]), (*mask.shape, 2)),
+    )
 
 
 def beyond(outline: LooseOutline, *bodies: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
@@ -66,3 +70,4 @@ def test_lines_find_the_boundary_of_clothes_far_outside_the_body():
     assert aside.any()
     np.testing.assert_allclose(np.median(lines.offsets[aside]), ease, atol=0.5)
     np.testing.assert_allclose(lines.cloth, 0.7, atol=1e-6)
+    np.testing.assert_allclose(lines.fullness, np.tile([0.25, 1.5], (len(lines.cloth), 1)))

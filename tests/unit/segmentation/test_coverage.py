@@ -1,0 +1,110 @@
+"""What people wear, told by how much of each region shows their skin's colour."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fitter.segmentation.coverage import Coverage, coverage, skin_shares
+from fitter.segmentation.skin_colour import PersonRegions, SkinMap
+
+PARTS = (
+    "head", "chest", "spine", "pelvis", "left_thigh", "right_thigh", "left_shin", "right_shin",
+    "left_upper_arm",
+)  # fmt: skip
+SIDE = 20
+"""Pixels of a part each way; the parts lie side by side."""
+
+UNDERWEAR = {"head": 0.8, "chest": 0.9, "spine": 0.7, "thigh": 0.5, "shin": 0.9, "upper_arm": 0.9}
+SHIRT_AND_TROUSERS = {"head": 0.8, "chest": 0.08, "upper_arm": 0.3}
+
+
+def shown(shares: dict[str, float], unseen: tuple[str, ...] = ()) -> tuple[SkinMap, PersonRegions]:
+    """Parts of which a share has the skin's colour."""
+    parts = np.repeat(np.arange(len(PARTS)), SIDE)[None].repeat(SIDE, axis=0)
+    person = ~np.isin(parts, [PARTS.index(name) for name in unseen])
+    coloured = np.zeros(parts.shape, dtype=np.bool_)
+    for number, name in enumerate(PARTS):
+        rows = round(shares.get(name.removeprefix("left_").removeprefix("right_"), 0.0) * SIDE)
+        coloured[:rows] |= parts[:rows] == number
+    skin = SkinMap(
+        probability=(coloured & person).astype(np.float32),
+        coloured=coloured & person,
+        learnt_from=("face",),
+    )
+    regions = PersonRegions(
+        person=person, parts=parts, part_names=PARTS, face=None, pixels_per_metre=300.0
+    )
+    return skin, regions
+
+
+def of(shares: dict[str, float], gender: str = "male") -> Coverage:
+    return coverage(*shown(shares), gender)
+
+
+@pytest.mark.parametrize(
+    ("gender", "chest"), [("male", 0.9), ("female", 0.5)], ids=["man", "woman"]
+)
+def test_people_in_underwear_are_not_covered(gender, chest):
+    assert of(UNDERWEAR | {"chest": chest}, gender).anything < 0.05
+
+
+def test_poor_light_covers_nobody():
+    in_shadow = {"head": 0.6, "chest": 0.5, "spine": 0.3, "thigh": 0.2, "shin": 0.4}
+    assert of(in_shadow, "female").anything < 0.3
+
+
+@pytest.mark.parametrize("gender", ["male", "female"])
+def test_a_shirt_with_trousers_covers_both(gender):
+    found = of(SHIRT_AND_TROUSERS, gender)
+    assert min(found.top, found.bottom) > 0.99
+
+
+def test_shorts_or_a_dress_cover_although_shins_are_bare():
+    found = of({"head": 0.8, "chest": 0.15, "thigh": 0.1, "shin": 0.9}, "female")
+    assert min(found.top, found.bottom) > 0.99
+
+
+def test_a_bare_chest_above_trousers_is_bare():
+    found = of({"head": 0.8, "chest": 0.9, "spine": 0.8})
+    assert found.top < 0.5
+    assert found.bottom > 0.95
+
+
+def test_a_woman_s_top_of_the_skin_s_colour_is_a_top():
+    found = of({"head": 0.8, "chest": 0.98, "spine": 0.95, "pelvis": 0.9}, "female")
+    assert found.top_like_skin > 0.9
+
+
+def test_without_colours_it_is_what_people_usually_wear():
+    skin, regions = shown(UNDERWEAR)
+    grey = coverage(replace(skin, learnt_from=()), regions, "male")
+    assert 0.5 < grey.top < grey.bottom < 0.9
+
+
+def test_parts_out_of_sight_have_no_share():
+    shares = skin_shares(*shown(UNDERWEAR, unseen=("left_thigh", "right_thigh", "spine")))
+    assert "thighs" not in shares
+    assert "waist" not in shares
+    assert shares["chest"] == pytest.approx(0.9)
+
+
+def test_underwear_is_bare_although_it_is_not_skin():
+    skin, regions = shown(UNDERWEAR)
+    bare = coverage(skin, regions, "male").bare(skin, regions)
+    assert bare[regions.parts == PARTS.index("pelvis")].min() > 0.95
+
+
+def test_below_a_sleeve_an_arm_is_bare_where_it_shows_skin():
+    skin, regions = shown(SHIRT_AND_TROUSERS)
+    bare = coverage(skin, regions, "male").bare(skin, regions)
+    arm = regions.parts == PARTS.index("left_upper_arm")
+    assert bare[arm & skin.coloured].min() > 0.95
+    assert bare[arm & ~skin.coloured].max() < 0.05
+
+
+def test_skin_is_not_believed_in_the_midst_of_a_shirt():
+    skin, regions = shown(SHIRT_AND_TROUSERS | {"spine": 0.1})
+    bare = coverage(skin, regions, "male").bare(skin, regions)
+    waist = regions.parts == PARTS.index("spine")
+    assert bare[waist].max() < 0.2
