@@ -5,8 +5,8 @@ come) and a MOTION of frames. Every error names the line. What a file says again
 in an unusual way that has one meaning only, is read with a warning.
 
 Plain Python and no arrays: the process that accepts requests reads a file with this module before
-the job is queued, and the job reads it again. Of the packages on PyPI (bvh 0.3, bvhio 1.5.4) none
-reads `Frames:40`, wrapped rows and a wrong number of frames, or says which line is at fault.
+the job is queued, and the job reads it again. Of the ten irregular files that its tests read,
+bvh 0.3 reads three, pybvh 0.9 two and bvhio 1.5.4 one; `Frames:40` and wrapped rows none of them.
 """
 
 import codecs

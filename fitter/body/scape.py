@@ -28,7 +28,7 @@ from fitter.body.pose_features import axial_vectors, pose_derivative, pose_featu
 from fitter.body.skeleton import descendants, global_rotations
 from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
 from fitter.numerics.rotations import compose
-from fitter.numerics.supernodal import SupernodalFactor, supernodal_factor
+from fitter.numerics.sparse_factor import SparseFactor, sparse_factor
 from fitter.parameters import BodyParameters
 
 CAMERA_AXES = np.array([1.0, -1.0, -1.0])
@@ -212,7 +212,7 @@ def _root_weights(model: BodyModel) -> Float[np.ndarray, " m"]:
     return weights / weights.sum()
 
 
-def _factor(laplacians: list[sparse.csr_array]) -> SupernodalFactor:
+def _factor(laplacians: list[sparse.csr_array]) -> SparseFactor:
     """LDLᵀ of the whole Laplacian with vertex 0 held.
 
     The matrix leaves translation free. A weight on one vertex fixes it without changing the
@@ -222,4 +222,4 @@ def _factor(laplacians: list[sparse.csr_array]) -> SupernodalFactor:
     matrix[0, 0] += matrix.diagonal().mean()
     solver = qdldl.Solver(sparse.csc_matrix(matrix))
     lower, diagonal, permutation = solver.factors()
-    return supernodal_factor(sparse.csc_matrix(lower), diagonal, permutation)
+    return sparse_factor(sparse.csc_matrix(lower), diagonal, permutation)

@@ -1,4 +1,8 @@
-"""Solving with symmetric matrices of one pattern: a mesh's graph, with two unknowns a vertex."""
+"""Solving with symmetric matrices of one pattern: a mesh's graph, with two unknowns a vertex.
+
+Entries are blocks of two by two. A fit of 0.54 s factorises seventeen times, which takes 26 ms; by
+``qdldl.Solver.update`` it is 58 ms, and by SciPy's ``splu`` 144 ms: 6 and 22 % of the fit more.
+"""
 
 import numpy as np
 from jaxtyping import Float, Integer

@@ -1,8 +1,8 @@
 """Reserved disk space for the embedded database, given up when erasing needs it.
 
 SQLite writes what it deletes to its log first, so on a full disk nothing can be erased to make
-room. A file of the service's own therefore reserves a little space, and is truncated piece by piece
-until the erasing succeeds.
+room: without this ``DELETE`` is answered 503 until somebody frees space by hand. A file of the
+service's own therefore reserves 8 MB, and is truncated piece by piece until the erasing succeeds.
 """
 
 import contextlib

@@ -5,7 +5,7 @@ service holds the database's address and passwords, so the fork server is execut
 it needs of it, and so are those that it forks: ``/proc/PID/environ`` shows what a program was
 executed with, whatever it has removed since. Linux keeps the rest by itself: ``no_new_privs``, and
 Landlock (5.13 or later; TCP from 6.7 on) through its three system calls, as no package that wraps
-them is established. Elsewhere nothing is given up but the environment.
+them has a version 1.0. Elsewhere nothing is given up but the environment.
 """
 
 import ctypes

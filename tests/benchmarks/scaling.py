@@ -20,7 +20,7 @@ from fitter.fits.prepared_model import PreparedModel, prepared_model
 from fitter.fits.progress import Stage
 from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
 from fitter.numerics.mesh_topology import mesh_topology
-from fitter.numerics.supernodal import supernodal_factor
+from fitter.numerics.sparse_factor import sparse_factor
 from fitter.optimizer.search import limits_of
 from fitter.render.camera import Camera
 from fitter.render.contours import model_edges
@@ -200,7 +200,7 @@ def _vertex_row(subdivisions: int) -> tuple[str, ...]:
     matrix = sparse.lil_array(laplacian)
     matrix[0, 0] += matrix.diagonal().mean()
     lower, diagonal, permutation = qdldl.Solver(sparse.csc_matrix(matrix)).factors()
-    factor = supernodal_factor(sparse.csc_matrix(lower), diagonal, permutation)
+    factor = sparse_factor(sparse.csc_matrix(lower), diagonal, permutation)
     actions: Sequence[Callable[[], object]] = (
         lambda: render(vertices, triangles, CAMERA),
         lambda: model_edges(rendering, topology),

@@ -1,11 +1,11 @@
-"""Supernodal solves against dense ones."""
+"""Solves by a sparse factor against dense ones."""
 
 import numpy as np
 import pytest
 import qdldl
 from scipy import sparse
 
-from fitter.numerics.supernodal import supernodal_factor
+from fitter.numerics.sparse_factor import sparse_factor
 
 
 def grid_laplacian(side: int, *, held: float) -> sparse.csc_matrix:
@@ -20,20 +20,9 @@ def grid_laplacian(side: int, *, held: float) -> sparse.csc_matrix:
 def test_solutions_are_those_of_a_dense_solver(side):
     matrix = grid_laplacian(side, held=1.0)
     lower, diagonal, permutation = qdldl.Solver(matrix).factors()
-    factor = supernodal_factor(sparse.csc_matrix(lower), diagonal, permutation)
+    factor = sparse_factor(sparse.csc_matrix(lower), diagonal, permutation)
     right = np.random.default_rng(0).standard_normal((side * side, 3))
     before = right.copy()
     found = factor.solve(right)
     np.testing.assert_allclose(found, np.linalg.solve(matrix.toarray(), right), rtol=1e-9)
     np.testing.assert_array_equal(right, before)
-
-
-def test_neighbouring_columns_share_blocks():
-    matrix = grid_laplacian(24, held=1.0)
-    lower, diagonal, permutation = qdldl.Solver(matrix).factors()
-    factor = supernodal_factor(sparse.csc_matrix(lower), diagonal, permutation)
-    assert len(factor.starts) - 1 < 0.6 * 24 * 24
-    assert factor.starts[0] == 0
-    assert factor.starts[-1] == 24 * 24
-    stored = np.count_nonzero(factor.triangles) + np.count_nonzero(factor.rectangles)
-    assert stored == np.count_nonzero(np.tril(lower.toarray(), k=-1))
