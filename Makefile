@@ -24,7 +24,7 @@ CHECKED := --jaxtyping-packages=fitter,beartype.beartype(conf=beartype.BeartypeC
 FITTER_TESTS := $(filter $(wildcard tests/unit/*/__init__.py),\
 	$(patsubst fitter/%,tests/unit/%,$(wildcard fitter/*/__init__.py)))
 
-.PHONY: demo test test-rest test-shapes blender lint serve train report openapi examples docs page wheel image audit sbom release lock clean
+.PHONY: demo test test-rest test-shapes test-others blender lint serve train report openapi examples docs page wheel image audit sbom release lock clean
 
 demo: $(STAMP)
 	$(VENV)/bin/maquette demo
@@ -37,6 +37,10 @@ test-rest: $(STAMP)
 
 test-shapes: $(STAMP)
 	$(PYTEST) -m "not rest" "$(CHECKED)" $(dir $(FITTER_TESTS))
+
+# With `make test-shapes` all that `make test` runs, each test once: so CI does.
+test-others: $(STAMP)
+	$(PYTEST) -m "not rest" $(addprefix --ignore=,$(dir $(FITTER_TESTS)))
 
 # Blender's importer is one of the readers that tests/foreign asks; it is large and wants Python 3.11.
 blender: .venv-blender/.installed
