@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Generator
+from pathlib import Path
 from typing import TypeVar
 
 import pytest
@@ -15,6 +16,13 @@ Report = TypeVar("Report", pytest.TestReport, pytest.CollectReport)
 # Hypothesis' own profile for machines of which nothing is known: no example has a time limit,
 # slow drawing is no fault, and every machine tries the same examples.
 settings.load_profile("ci")
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Leave files unread none of whose tests would run: reading all takes six seconds a process."""
+    if config.option.markexpr != "not rest" or not collection_path.name.startswith("test_"):
+        return None
+    return is_rest(collection_path, slow=False) or None
 
 
 @pytest.hookimpl(tryfirst=True)  # before pytest selects by the marker

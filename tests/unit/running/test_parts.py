@@ -54,7 +54,7 @@ def test_what_is_not_shipped_may_be_missing_in_ci(tmp_path: Path):
 def test_what_one_command_leaves_the_other_runs(tmp_path: Path):
     # A file that is in none of the named folders is of the rest.
     quick, rest = run(tmp_path, "-m", "not rest"), run(tmp_path, "-m", "rest")
-    assert "3 deselected" in quick.stdout
+    assert "no tests ran" in quick.stdout
     assert "2 passed, 1 skipped" in rest.stdout
     assert "no such program" in rest.stdout
 
