@@ -15,9 +15,9 @@ from starlette.concurrency import run_in_threadpool
 from api_schemas.jobs import JobStanding
 from api_schemas.problems import problem
 from service.api.context import ApiContext
-from service.api.job_inputs import Inputs, erase_at_once, store_inputs
+from service.api.job_inputs import Inputs, store_inputs
 from service.api.problems import ProblemError, not_found
-from service.api.room import no_room, storing
+from service.api.storage import disk_full, erase_at_once, storing
 from service.engine.port import (
     FIT,
     SCAN,
@@ -147,7 +147,7 @@ def _reserve(
     # Not even the scope is recorded; but repeating an earlier answer takes no space.
     repeated = jobs.repeated(key)
     if repeated is None:
-        raise no_room()
+        raise disk_full()
     return repeated
 
 
@@ -175,7 +175,7 @@ def _store(
     # If the database goes away before it answers, it may have accepted the job: the blobs stay.
     submission = jobs.submit(job)
     if submission.outcome is not SubmitOutcome.ACCEPTED:
-        erase_at_once(context, job_id)
+        erase_at_once(context.blobs, job_id)
     return submission
 
 

@@ -12,39 +12,31 @@ from fastapi import Depends, FastAPI
 from starlette.middleware.cors import CORSMiddleware
 
 from service.api import (
-    about,
     bodies,
-    body_models,
-    checks,
+    browser_tokens,
     derivations,
     documentation,
     health,
     images,
     initial_poses,
     jobs,
-    metrics,
+    openapi,
     page,
     people,
+    picture_questions,
     pictures,
-    points,
-    problem_types,
-    site,
+    problems,
     submissions,
 )
-from service.api import browser_tokens as token_routes
-from service.api.authentication import Authentication, KeySource, KnownKeys
-from service.api.body_limit import BodyLimit
-from service.api.body_time import BodyTimeLimit
+from service.api.authentication import Authentication
+from service.api.body_limits import BodyLimit, BodyTimeLimit, MessageFraming
 from service.api.context import Parts
+from service.api.credentials import KeyUses, KnownKeys, KnownTokens
 from service.api.estimates import Estimates
 from service.api.event_feed import EventFeed
 from service.api.job_inputs import COPIED_AT_ONCE
-from service.api.key_uses import KeyUses
-from service.api.known_tokens import KnownTokens
 from service.api.local_guard import LocalGuard
-from service.api.message_framing import MessageFraming
 from service.api.observation import Observation
-from service.api.openapi import complete_openapi
 from service.api.problems import install_problem_handlers
 from service.api.rate_limit import RateLimit
 from service.api.readiness import Readiness
@@ -55,6 +47,7 @@ from service.api.security_headers import SecurityHeaders
 from service.api.service_metrics import ServiceMetrics
 from service.blobs import BlobStore
 from service.engine.browser_token_port import BrowserTokens
+from service.engine.keys import KeyRing
 from service.engine.port import JobEngine
 from service.engine.token_port import SharedTokens
 from service.estimates.port import Estimator
@@ -65,6 +58,24 @@ from service.version import VERSION
 MULTIPART_OVERHEAD_BYTES: Final = 2_000_000
 """Allowance, besides the pictures, for the JSON part and the multipart's own lines."""
 
+
+_ROUTERS: Final = (
+    submissions.ROUTER,
+    jobs.ROUTER,
+    pictures.ROUTER,
+    derivations.ROUTER,
+    people.ROUTER,
+    browser_tokens.ROUTER,
+    images.ROUTER,
+    picture_questions.ROUTER,
+    initial_poses.ROUTER,
+    bodies.ROUTER,
+    health.ROUTER,
+    problems.ROUTER,
+    documentation.ROUTER,
+    page.ROUTER,
+)
+"""In the order of the OpenAPI document."""
 
 CORS_METHODS: Final = ("DELETE", "GET", "POST")
 CORS_REQUEST_HEADERS: Final = (
@@ -96,7 +107,7 @@ def create_app(
     blobs: BlobStore,
     disk: Disk,
     estimator: Estimator,
-    keys: KeySource,
+    keys: KeyRing,
     tokens: SharedTokens,
     browser_tokens: BrowserTokens,
     draining: threading.Event,
@@ -154,7 +165,7 @@ def _surround(
     app: FastAPI,
     *,
     settings: Settings,
-    keys: KeySource,
+    keys: KeyRing,
     known_tokens: KnownTokens,
     rate_limit: RateLimit | None,
     metrics: ServiceMetrics,
@@ -201,11 +212,11 @@ def _resources(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]] 
     app = FastAPI(
         title="Maquette",
         version=VERSION,
-        summary=about.SUMMARY,
-        description=about.DESCRIPTION,
-        license_info=dict(about.LICENCE),
-        openapi_tags=[dict(tag) for tag in about.TAGS],
-        servers=[dict(server) for server in about.SERVERS],
+        summary=openapi.SUMMARY,
+        description=openapi.DESCRIPTION,
+        license_info=dict(openapi.LICENCE),
+        openapi_tags=[dict(tag) for tag in openapi.TAGS],
+        servers=[dict(server) for server in openapi.SERVERS],
         lifespan=lifespan,
         docs_url=None,
         redoc_url=None,
@@ -215,33 +226,15 @@ def _resources(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]] 
         dependencies=[Depends(check_form)],
     )
     install_problem_handlers(app)
-    for resource in (
-        submissions,
-        jobs,
-        pictures,
-        derivations,
-        people,
-        token_routes,
-        images,
-        points,
-        checks,
-        initial_poses,
-        bodies,
-        body_models,
-        health,
-        metrics,
-        problem_types,
-        documentation,
-        page,
-    ):
-        app.include_router(resource.ROUTER)
-    site.mount(app)
+    for router in _ROUTERS:
+        app.include_router(router)
+    documentation.mount_site(app)
     generate = app.openapi
 
-    def openapi() -> dict[str, Any]:
+    def complete() -> dict[str, Any]:
         if app.openapi_schema is None:
-            app.openapi_schema = complete_openapi(generate())
+            app.openapi_schema = openapi.complete_openapi(generate())
         return app.openapi_schema
 
-    app.openapi = openapi
+    app.openapi = complete
     return app

@@ -3,24 +3,21 @@
 Both are checked before the body is looked at.
 """
 
-import time
-from collections.abc import Callable, Sequence
-from typing import Final, Protocol
+from typing import Final
 
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from api_schemas.problems import problem
-from service.api.body_limit import refuse
+from service.api.body_limits import refuse
 from service.api.browser_tokens import is_allowed
 from service.api.context import SOLE_TENANT, Caller
-from service.api.key_uses import KeyUses, UseStore
-from service.api.known_tokens import KnownTokens
+from service.api.credentials import KeyUses, KnownKeys, KnownTokens
 from service.api.problems import ProblemError, problem_response
 from service.api.rate_limit import RateLimit
 from service.engine.browser_tokens import MARK
-from service.engine.keys import ApiKey, Role, hash_key
+from service.engine.keys import ApiKey, Role
 from service.engine.port import EngineUnavailableError
 
 OPEN: Final = ("/healthz/", "/problems/", "/docs", "/documentation", "/openapi.json", "/page/")
@@ -31,12 +28,6 @@ ROOT: Final = "/"
 
 METRICS_PATH: Final = "/metrics"
 
-REFRESH_S: Final = 5.0
-"""Within this time at the latest a revoked key is refused."""
-
-RETRY_UNKNOWN_S: Final = 0.5
-"""Unknown keys cause at most one query per this time, all of them together."""
-
 NO_KEY: Final = "There is no API key."
 UNKNOWN_KEY: Final = "The API key is unknown or revoked."
 KEY_REMEDY: Final = (
@@ -45,53 +36,6 @@ KEY_REMEDY: Final = (
 )
 UNKNOWN_TOKEN: Final = "The token is unknown or has expired, or its key is revoked."
 NEW_TOKEN: Final = "Have the site that shows this page make a new one: POST /v1/tokens."
-
-
-class KeySource(UseStore, Protocol):
-    """Where the keys and their uses are."""
-
-    def all_keys(self) -> Sequence[ApiKey]:
-        """Return all keys."""
-        ...
-
-
-class KnownKeys:
-    """The valid keys, cached for a few seconds, so that a request costs no query."""
-
-    def __init__(
-        self, source: KeySource, *, monotonic: Callable[[], float] = time.monotonic
-    ) -> None:
-        self._source = source
-        self._monotonic = monotonic
-        self._by_hash: dict[str, ApiKey] = {}
-        self._read_at: float | None = None
-
-    def find(self, presented: str) -> ApiKey | None:
-        """Return the valid key that was presented; None if there is no such key.
-
-        Raises
-        ------
-        EngineUnavailableError
-            If the database is unavailable and nothing is cached yet.
-        """
-        secret_hash = hash_key(presented)
-        age = None if self._read_at is None else self._monotonic() - self._read_at
-        known = self._by_hash.get(secret_hash)
-        if age is None or age >= (REFRESH_S if known is not None else RETRY_UNKNOWN_S):
-            self._refresh()
-            known = self._by_hash.get(secret_hash)
-        return known
-
-    def _refresh(self) -> None:
-        try:
-            keys = self._source.all_keys()
-        except EngineUnavailableError:
-            # A key valid a moment ago is still accepted; the request itself will fail next.
-            if self._read_at is None:
-                raise
-            return
-        self._by_hash = {key.secret_hash: key for key in keys if key.revoked_at is None}
-        self._read_at = self._monotonic()
 
 
 class Authentication:

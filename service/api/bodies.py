@@ -1,4 +1,4 @@
-"""Bodies without a picture: known measurements in, the most probable body out, at once."""
+"""Bodies without a picture: the most probable one for known measurements, and the models."""
 
 import base64
 from typing import Any, Final
@@ -6,17 +6,19 @@ from typing import Any, Final
 from fastapi import APIRouter, Request, Response
 
 from api_schemas.bodies import BodyEstimate, BodyRequest
+from api_schemas.body_models import BodyModels
+from api_schemas.problems import problem
 from service.api.artifacts import BINARY, AcceptHeader
 from service.api.context import Context
 from service.api.estimates import ESTIMATE_PROBLEMS
 from service.api.json_bodies import JSON, json_body, json_content, read_json
 from service.api.negotiation import not_acceptable, preferred
-from service.api.problems import documented
+from service.api.problems import ProblemError, documented
 from service.estimates.messages import BodyTask
 from service.representation.formats import GLB, MESH_FORMATS, written_here
 from service.representation.measurement_table import CSV, measurements_csv
 
-ROUTER: Final = APIRouter(prefix="/v1/bodies", tags=["estimates"])
+ROUTER: Final = APIRouter()
 
 _BY_MEDIA_TYPE: Final = {each.media_type: each for each in MESH_FORMATS.values()}
 _ANSWER: Final[dict[int | str, dict[str, Any]]] = {
@@ -31,7 +33,8 @@ _ANSWER: Final[dict[int | str, dict[str, Any]]] = {
 
 
 @ROUTER.post(
-    "",
+    "/v1/bodies",
+    tags=["estimates"],
     response_class=Response,
     summary="Estimate a body from measurements",
     openapi_extra=json_body(BodyRequest),
@@ -72,3 +75,24 @@ async def estimate_body(
         glb = base64.b64encode(found.glb).decode()
         estimate = estimate.model_copy(update={"glb": glb})
     return Response(estimate.model_dump_json(), media_type=JSON, headers=headers)
+
+
+@ROUTER.get(
+    "/v1/body-models",
+    tags=["body models"],
+    response_model=BodyModels,
+    summary="The bodies there are",
+    responses=documented("invalid-request", "not-ready", "internal-error"),
+)
+def list_body_models(context: Context) -> BodyModels:
+    """Return genders, mean heights, landmarks, accepted points, versions and provenance."""
+    known = context.engine.body_models()
+    if known is None:
+        raise ProblemError(
+            problem(
+                "not-ready",
+                detail="No worker has started yet, and only workers know the bodies.",
+                remedy="Start a worker, or try again in a moment.",
+            )
+        )
+    return known

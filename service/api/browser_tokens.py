@@ -3,7 +3,7 @@
 from datetime import UTC, datetime
 from typing import Annotated, Final
 
-from fastapi import APIRouter, Path, Query, Request, Response
+from fastapi import APIRouter, Path, Request, Response
 from starlette.concurrency import run_in_threadpool
 
 from api_schemas.problems import problem
@@ -16,9 +16,15 @@ from api_schemas.tokens import (
     TokenRequest,
 )
 from service.api.context import ApiContext, Context
-from service.api.job_routes import Limit
 from service.api.json_bodies import json_body, read_json
-from service.api.list_cursors import cursor_of, cursor_pattern, read_cursor
+from service.api.listing import (
+    Limit,
+    cursor_of,
+    cursor_pattern,
+    cursor_query,
+    page_of,
+    read_cursor,
+)
 from service.api.problems import ProblemError, documented, not_found
 from service.api.sandbox import check_label
 from service.engine.browser_token_port import NewBrowserToken, TokenStanding
@@ -103,10 +109,7 @@ def list_tokens(
     response: Response,
     context: Context,
     limit: Limit = 50,
-    cursor: Annotated[
-        str | None,
-        Query(description="From `next` of the page before.", json_schema_extra={"pattern": CURSOR}),
-    ] = None,
+    cursor: Annotated[str | None, cursor_query(CURSOR)] = None,
 ) -> TokenPage:
     """List the tenant's tokens that are valid, and what they have left.
 
@@ -114,16 +117,15 @@ def list_tokens(
     """
     _key_of(context)
     found = context.browser_tokens.tokens(
-        context.tenant,
-        limit=limit + 1,
-        before=None if cursor is None else read_cursor(CURSOR, cursor),
+        context.tenant, limit=limit + 1, before=read_cursor(CURSOR, cursor)
     )
-    page = found[:limit]
-    following = None
-    if len(found) > limit:
-        last = page[-1]
-        following = f"{PATH}?limit={limit}&cursor={cursor_of(last.created_at, last.token.id)}"
-        response.headers["Link"] = f'<{following}>; rel="next"'
+    page, following = page_of(
+        found,
+        response,
+        path=PATH,
+        limit=limit,
+        cursor=lambda last: cursor_of(last.created_at, last.token.id),
+    )
     return TokenPage(tokens=tuple(map(_represent, page)), next=following)
 
 

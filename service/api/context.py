@@ -8,9 +8,9 @@ from typing import Annotated, Final
 from anyio import CapacityLimiter
 from fastapi import Depends, Request
 
+from service.api.credentials import KnownTokens
 from service.api.estimates import Estimates
 from service.api.event_feed import EventFeed
-from service.api.known_tokens import KnownTokens
 from service.api.readiness import Readiness
 from service.api.service_metrics import ServiceMetrics
 from service.blobs import BlobStore

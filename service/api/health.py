@@ -1,28 +1,29 @@
-"""Is the process alive, and can it do its work.
+"""Is the process alive, can it do its work, and its figures for Prometheus.
 
-Both are answered by the event loop itself, which no other request can keep waiting.
+The first two are answered by the event loop itself, which no other request can keep waiting.
 """
 
 from typing import Final
 
-from fastapi import APIRouter, Request
+from fastapi import APIRouter, Request, Response
+from prometheus_client.exposition import CONTENT_TYPE_LATEST
 
 from api_schemas.health import Live, Ready
-from service.api.context import Parts
+from service.api.context import Context, Parts
 from service.api.problems import documented
 from service.api.readiness import not_ready
 
-ROUTER: Final = APIRouter(prefix="/healthz", tags=["health"])
+ROUTER: Final = APIRouter(tags=["health"])
 
 
-@ROUTER.get("/live", response_model=Live, summary="The process answers")
+@ROUTER.get("/healthz/live", response_model=Live, summary="The process answers")
 async def get_liveness() -> Live:
     """Answer."""
     return Live()
 
 
 @ROUTER.get(
-    "/ready",
+    "/healthz/ready",
     response_model=Ready,
     summary="A fit can be accepted and finished",
     responses=documented("not-ready"),
@@ -41,3 +42,20 @@ async def get_readiness(request: Request) -> Ready:
     if parts.draining.is_set():
         raise not_ready(code="draining", detail="This process is being stopped.")
     return await parts.readiness.ready()
+
+
+@ROUTER.get(
+    "/metrics",
+    summary="Figures for Prometheus",
+    response_class=Response,
+    responses={
+        200: {
+            "description": "Prometheus' text format.",
+            "content": {"text/plain": {"schema": {"type": "string"}}},
+        }
+    }
+    | documented("not-ready", "internal-error"),
+)
+def get_metrics(context: Context) -> Response:
+    """Return queue, workers, endings, durations and requests; needs a key made for metrics."""
+    return Response(context.metrics.exposition(), media_type=CONTENT_TYPE_LATEST)

@@ -1,28 +1,32 @@
 """Pictures uploaded once, for any number of initial poses and fits."""
 
-import contextlib
 import hashlib
 from datetime import UTC, datetime
 from functools import partial
 from typing import Annotated, Any, Final
 from uuid import uuid4
 
-from fastapi import APIRouter, Path, Query, Request, Response
+from fastapi import APIRouter, Path, Request, Response
 from starlette.concurrency import run_in_threadpool
 
 from api_schemas.images import ImageId, ImagePage, UploadedImage
 from api_schemas.problems import FieldProblem, problem
 from service.api.artifacts import AcceptHeader
 from service.api.context import ApiContext, Context
-from service.api.erasure import erase_blobs
-from service.api.job_routes import IfNoneMatch, Limit
+from service.api.job_routes import IfNoneMatch
 from service.api.json_bodies import JSON, json_content
-from service.api.list_cursors import cursor_of, cursor_pattern, read_cursor
-from service.api.picture_forms import picture_form
+from service.api.listing import (
+    Limit,
+    cursor_of,
+    cursor_pattern,
+    cursor_query,
+    page_of,
+    read_cursor,
+)
 from service.api.pictures import AS_JPEG, PICTURE_ANSWERS, serve_stored_picture
 from service.api.problems import ProblemError, documented, not_found
-from service.api.room import no_room, storing
-from service.api.uploads import read_image
+from service.api.storage import disk_full, erase_at_once, erase_blobs, storing
+from service.api.uploads import picture_form, read_image
 from service.blobs import BlobMissingError, BlobsUnavailableError
 from service.engine.image_port import (
     ImageQuotaError,
@@ -96,23 +100,21 @@ def list_images(
     response: Response,
     context: Context,
     limit: Limit = 50,
-    cursor: Annotated[
-        str | None,
-        Query(description="From `next` of the page before.", json_schema_extra={"pattern": CURSOR}),
-    ] = None,
+    cursor: Annotated[str | None, cursor_query(CURSOR)] = None,
 ) -> ImagePage:
     """List the pictures that are kept: with a token its own, with a key all of the tenant's.
 
     Where the same picture was uploaded with a key and with tokens it is listed for each of them.
     `next` and the Link header lead to the following page.
     """
-    before = None if cursor is None else read_cursor(CURSOR, cursor)
-    found = context.images.images(limit=limit + 1, before=before)
-    page = found[:limit]
-    following = None
-    if len(found) > limit:
-        following = f"{PATH}?limit={limit}&cursor={cursor_of(page[-1].created_at, page[-1].id)}"
-        response.headers["Link"] = f'<{following}>; rel="next"'
+    found = context.images.images(limit=limit + 1, before=read_cursor(CURSOR, cursor))
+    page, following = page_of(
+        found,
+        response,
+        path=PATH,
+        limit=limit,
+        cursor=lambda last: cursor_of(last.created_at, last.id),
+    )
     return ImagePage(images=tuple(map(_represent, page)), next=following)
 
 
@@ -221,7 +223,7 @@ def _keep(context: ApiContext, content: bytes) -> KeptImage:
     if earlier is not None:
         return KeptImage(record=earlier, is_new=False)
     if not context.disk.has_room_for(len(content)):
-        raise no_room()
+        raise disk_full()
     scope = str(uuid4())
     # From here on the scope is erased automatically unless the picture is kept.
     try:
@@ -231,7 +233,7 @@ def _keep(context: ApiContext, content: bytes) -> KeptImage:
     try:
         context.blobs.put(scope, content)
     except BlobsUnavailableError:
-        _erase_at_once(context, scope)
+        erase_at_once(context.blobs, scope)
         raise
     new = NewImage(
         id=image_id,
@@ -245,10 +247,10 @@ def _keep(context: ApiContext, content: bytes) -> KeptImage:
     try:
         kept = context.images.keep(new)
     except TokenQuotaError as error:
-        _erase_at_once(context, scope)
+        erase_at_once(context.blobs, scope)
         raise _no_quota(error) from error
     if kept is None or not kept.is_new:
-        _erase_at_once(context, scope)
+        erase_at_once(context.blobs, scope)
     if kept is None:
         raise ProblemError(
             problem(
@@ -272,12 +274,6 @@ def _no_quota(error: ImageQuotaError) -> ProblemError:
             + "; a fit can also bring its picture along.",
         )
     )
-
-
-def _erase_at_once(context: ApiContext, scope: str) -> None:
-    # If this fails too, the sweep will do it.
-    with contextlib.suppress(BlobsUnavailableError):
-        context.blobs.erase(scope)
 
 
 def _represent(record: ImageRecord) -> UploadedImage:

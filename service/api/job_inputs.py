@@ -1,6 +1,5 @@
 """The inputs of a job, and how they get into the job's own scope."""
 
-import contextlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
@@ -14,7 +13,8 @@ from service.api.derivation_kinds import needs_of
 from service.api.job_routes import find
 from service.api.json_bodies import JSON
 from service.api.problems import ProblemError, not_found
-from service.blobs import BlobMissingError, BlobsUnavailableError
+from service.api.storage import erase_at_once
+from service.blobs import BlobMissingError
 from service.engine.port import StoredBlob, TenantJobs
 from service.jobs.inputs import SANDBOX
 from service.jobs.states import ACTIVE
@@ -98,7 +98,7 @@ def store_inputs(context: ApiContext, job_id: str, inputs: Inputs) -> StoredInpu
             else _stored_json(context, job_id, inputs.webhook.model_dump_json().encode()),
         )
     except Exception:
-        erase_at_once(context, job_id)
+        erase_at_once(context.blobs, job_id)
         raise
 
 
@@ -139,13 +139,6 @@ def inputs_again(context: ApiContext, jobs: TenantJobs, job_id: UUID) -> Inputs:
         sources=() if record.parent is None else _sources(options),
         webhook=webhook,
     )
-
-
-def erase_at_once(context: ApiContext, job_id: str) -> None:
-    """Erase what was stored for a job that is not accepted."""
-    # If this fails too, the sweep will do it.
-    with contextlib.suppress(BlobsUnavailableError):
-        context.blobs.erase(job_id)
 
 
 def _stored_json(context: ApiContext, job_id: str, text: bytes) -> StoredBlob:

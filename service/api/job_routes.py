@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from typing import Annotated, Any, Final
-from urllib.parse import quote
 from uuid import UUID
 
 from fastapi import Header, Query, Response
@@ -10,14 +9,12 @@ from fastapi import Header, Query, Response
 from api_schemas.jobs import JobState
 from api_schemas.labels import LabelOfList
 from service.api.context import ApiContext
-from service.api.erasure import erase_blobs
-from service.api.list_cursors import cursor_of, cursor_pattern, read_cursor
+from service.api.listing import cursor_of, cursor_pattern, cursor_query, page_of, read_cursor
 from service.api.problems import not_found
+from service.api.storage import erase_blobs
 from service.engine.port import JobRecord, TenantJobs
 from service.jobs.states import ACTIVE, TERMINAL
 from service.representation.jobs import POLL_AFTER_S, list_path
-
-MAX_PAGE: Final = 200
 
 CURSOR: Final = cursor_pattern("[0-9a-f]{8}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{12}")
 """When the last job of a page was accepted, in epoch seconds, and its id."""
@@ -35,14 +32,7 @@ NOT_MODIFIED: Final[dict[int | str, dict[str, Any]]] = {
     304: {"description": "Not changed since the given ETag."}
 }
 
-Limit = Annotated[int, Query(ge=1, le=MAX_PAGE)]
-Cursor = Annotated[
-    str | None,
-    Query(
-        description="From `next` of the page before.",
-        json_schema_extra={"pattern": CURSOR},
-    ),
-]
+Cursor = Annotated[str | None, cursor_query(CURSOR)]
 State = Annotated[JobState | None, Query()]
 OfLabel = Annotated[
     LabelOfList | None, Query(alias="label", description="Only those with exactly this label.")
@@ -71,7 +61,7 @@ def not_modified(
     return None
 
 
-def page_of(
+def jobs_page(
     jobs: TenantJobs,
     response: Response,
     *,
@@ -81,17 +71,16 @@ def page_of(
     label: str | None,
 ) -> tuple[Sequence[JobRecord], str | None]:
     """Return a page of jobs, newest first, and the path of the next page."""
-    before = None if cursor is None else read_cursor(CURSOR, cursor)
+    before = read_cursor(CURSOR, cursor)
     records = jobs.jobs(limit=limit + 1, before=before, state=state, label=label)
-    page = records[:limit]
-    if len(records) <= limit:
-        return page, None
-    last = page[-1]
-    following = f"{list_path(last)}?limit={limit}&cursor={cursor_of(last.created_at, last.id)}"
-    following += f"&state={state}" if state else ""
-    following += f"&label={quote(label, safe='')}" if label else ""
-    response.headers["Link"] = f'<{following}>; rel="next"'
-    return page, following
+    return page_of(
+        records,
+        response,
+        path=list_path(records[0]) if records else "",
+        limit=limit,
+        cursor=lambda last: cursor_of(last.created_at, last.id),
+        filters={"state": state, "label": label},
+    )
 
 
 def cancel_job(jobs: TenantJobs, job_id: UUID, response: Response) -> JobRecord:

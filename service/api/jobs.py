@@ -41,15 +41,15 @@ from service.api.job_routes import (
     NOT_MODIFIED,
     Cursor,
     IfNoneMatch,
-    Limit,
     State,
     cancel_job,
     erase_job,
     find,
+    jobs_page,
     not_modified,
-    page_of,
 )
 from service.api.json_bodies import JSON, json_content
+from service.api.listing import Limit
 from service.api.pictures import serve_blob
 from service.api.problems import documented
 from service.engine.port import TenantJobs
@@ -87,7 +87,7 @@ def _add_standing(router: APIRouter, of: JobResource) -> None:
         state: State = None,
     ) -> WireModel:
         """List jobs; `next` and the Link header lead to the following page."""
-        page, following = page_of(
+        page, following = jobs_page(
             jobs, response, limit=limit, cursor=cursor, state=state, label=label
         )
         return of.page(**{of.listed: tuple(map(represent, page)), "next": following})

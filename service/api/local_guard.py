@@ -13,7 +13,7 @@ from starlette.requests import Request
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from api_schemas.problems import Problem, problem
-from service.api.body_limit import refuse
+from service.api.body_limits import refuse
 from service.api.problems import problem_response
 from service.setting_addresses import is_loopback
 

@@ -2,14 +2,13 @@
 
 from datetime import UTC, datetime
 from typing import Annotated, Final
-from urllib.parse import quote
 
 from fastapi import APIRouter, Query, Response
 
 from api_schemas.labels import LabelOfList
 from api_schemas.people import LabelledPerson, PeoplePage
 from service.api.context import Context
-from service.api.job_routes import Limit
+from service.api.listing import Limit, page_of
 from service.api.problems import documented
 from service.engine.people_port import PersonRecord
 from service.representation.jobs import collection_path
@@ -39,11 +38,9 @@ def list_people(
     header lead to the following page.
     """
     found = context.people.people(limit=limit + 1, after=cursor)
-    page = found[:limit]
-    following = None
-    if len(found) > limit:
-        following = f"{PATH}?limit={limit}&cursor={quote(page[-1].label, safe='')}"
-        response.headers["Link"] = f'<{following}>; rel="next"'
+    page, following = page_of(
+        found, response, path=PATH, limit=limit, cursor=lambda last: last.label
+    )
     return PeoplePage(people=tuple(map(_represent, page)), next=following)
 
 

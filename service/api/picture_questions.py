@@ -1,26 +1,54 @@
-"""Questions about a picture that comes along or was uploaded before: read, and described."""
+"""Questions about a picture, answered at once: who is in it (points), what is wrong (checks).
 
+The picture comes along or was uploaded before.
+"""
+
+import base64
 from typing import Any, Final, TypeVar
 
-from fastapi import Request
+from fastapi import APIRouter, Request, Response
 from pydantic import BaseModel
 from starlette.concurrency import run_in_threadpool
 
+from api_schemas.checks import CaptureCheck, CheckOfImage, CheckRequest
 from api_schemas.images import ImageId
-from service.api.context import ApiContext
+from api_schemas.proposals import PointsOfImage, PointsProposal, PointsRequest
+from service.api.context import ApiContext, Context
+from service.api.estimates import ESTIMATE_PROBLEMS, no_detector
 from service.api.images import image_content
 from service.api.json_bodies import JSON, json_content, media_type, read_json
-from service.api.picture_forms import picture_form
-from service.api.uploads import read_image_and_request
+from service.api.problems import documented
+from service.api.uploads import picture_form, read_image_and_request
+from service.estimates.messages import CheckTask, PointsTask
+from service.submissions.capture_questions import placed_question
+from service.submissions.detector import detector_is_installed
+from service.submissions.submission import check_picture
 from service.submissions.validation import parsed
 
 Asked = TypeVar("Asked", bound=BaseModel)
 
+ROUTER: Final = APIRouter(tags=["estimates"])
+
 IMAGE_ID: Final = "image_id"
 
 
-def question_body(asked: type[BaseModel], of_image: type[BaseModel]) -> dict[str, Any]:
-    """Describe such a body: a form of picture and request, or JSON that names the picture."""
+_PROPOSED: Final[dict[int | str, dict[str, Any]]] = {
+    200: {
+        "description": "Who was found, and the points of one of them; nobody is no error.",
+        "content": {JSON: json_content(PointsProposal)},
+    }
+}
+
+_CHECKED: Final[dict[int | str, dict[str, Any]]] = {
+    200: {
+        "description": "What is wrong with the picture; a bad one is no error.",
+        "content": {JSON: json_content(CaptureCheck)},
+    }
+}
+
+
+def _body(asked: type[BaseModel], of_image: type[BaseModel]) -> dict[str, Any]:
+    """Describe a question's body: a form of picture and request, or JSON that names the picture."""
     return {
         "requestBody": {
             "required": True,
@@ -29,7 +57,68 @@ def question_body(asked: type[BaseModel], of_image: type[BaseModel]) -> dict[str
     }
 
 
-async def read_question(
+@ROUTER.post(
+    "/v1/points",
+    response_class=Response,
+    summary="Propose the points of a person",
+    openapi_extra=_body(PointsRequest, PointsOfImage),
+    responses=_PROPOSED | documented("not-found", *ESTIMATE_PROBLEMS),
+)
+async def propose_points(request: Request, context: Context) -> Response:
+    """Return who is in a picture, and where a detector sees the joints of one of them.
+
+    The picture comes along, or was uploaded to `/v1/images` before: then the body is JSON and names
+    it by `image_id`. `points` can be sent with a fit as they are; what is `doubtful` is better
+    looked at first. Points that somebody moved are sent without `source`, or as clicks.
+
+    The detector is optional: where it is not installed the answer is a 404 whose code is
+    `detector-not-installed`.
+    """
+    if not detector_is_installed(context.settings.detector_dir):
+        raise no_detector()
+    asked, image = await _read(request, context, PointsRequest, PointsOfImage)
+    await run_in_threadpool(_check_picture, context, image)
+    proposed = await context.estimates.points(PointsTask(request=asked), image)
+    answer = proposed.proposal
+    if proposed.mask:
+        mask = base64.b64encode(proposed.mask).decode()
+        answer = answer.model_copy(update={"mask": mask})
+    text = answer.model_dump_json()
+    return Response(text, media_type=JSON, headers={"Cache-Control": "no-store"})
+
+
+def _check_picture(context: ApiContext, image: bytes) -> None:
+    check_picture("image", image, max_pixels=context.settings.max_pixels)
+
+
+@ROUTER.post(
+    "/v1/checks",
+    response_class=Response,
+    summary="Check a picture before it is fitted",
+    openapi_extra=_body(CheckRequest, CheckOfImage),
+    responses=_CHECKED | documented("not-found", *ESTIMATE_PROBLEMS),
+)
+async def check_capture(request: Request, context: Context) -> Response:
+    """Return what is wrong with a picture, each with what was measured and what to do about it.
+
+    The picture comes along, or was uploaded to `/v1/images` before: then the body is JSON and names
+    it by `image_id`. Say in `view` from where the person is to be seen, and in `height_m` and the
+    focal length what is known: how near the camera was follows from them.
+
+    Where no detector is installed, only what points tell is checked, and `not_checked` names the
+    rest; without points the answer is a 404 whose code is `detector-not-installed`.
+    """
+    asked, image = await _read(request, context, CheckRequest, CheckOfImage)
+    placed = await run_in_threadpool(
+        placed_question, asked, image, max_pixels=context.settings.max_pixels
+    )
+    if not placed.points and not detector_is_installed(context.settings.detector_dir):
+        raise no_detector()
+    check = await context.estimates.check(CheckTask(request=placed), image)
+    return Response(check.model_dump_json(), media_type=JSON, headers={"Cache-Control": "no-store"})
+
+
+async def _read(
     request: Request, context: ApiContext, asked: type[Asked], of_image: type[BaseModel]
 ) -> tuple[Asked, bytes]:
     """Read what is asked, and the picture.

@@ -1,17 +1,24 @@
-"""Every error leaves the service through here, as problem+json."""
+"""Every error leaves the service through here, as problem+json; and what its types mean."""
 
 import logging
 import re
 from collections.abc import Mapping
 from datetime import UTC, datetime
-from typing import Any, Final
+from typing import Annotated, Any, Final
 
-from fastapi import FastAPI, Request
+from fastapi import APIRouter, FastAPI, Path, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import Response
 from starlette.exceptions import HTTPException
 
-from api_schemas.problems import PROBLEM_MEDIA_TYPE, PROBLEM_TYPES, Problem, field_problem, problem
+from api_schemas.problems import (
+    PROBLEM_MEDIA_TYPE,
+    PROBLEM_TYPES,
+    Problem,
+    ProblemType,
+    field_problem,
+    problem,
+)
 from service.api.problem_samples import PROBLEM_SAMPLES
 from service.blobs import BlobsUnavailableError, StorageFullError
 from service.engine.port import EngineFullError, EngineUnavailableError, JobExpiredError
@@ -211,3 +218,21 @@ def _allowed_methods(request: Request) -> list[str]:
         if re.fullmatch(pattern, request.url.path):
             allowed |= {method.upper() for method in operations}
     return sorted(allowed) or ["GET"]
+
+
+ROUTER: Final = APIRouter(prefix="/problems", tags=["problems"])
+
+
+@ROUTER.get(
+    "/{slug}",
+    response_model=ProblemType,
+    summary="What a problem type means",
+    responses=documented("not-found"),
+)
+def get_problem_type(
+    slug: Annotated[str, Path(json_schema_extra={"enum": list(PROBLEM_TYPES)})],
+) -> ProblemType:
+    """Describe a problem type."""
+    if slug not in PROBLEM_TYPES:
+        raise not_found(what="such problem type")
+    return PROBLEM_TYPES[slug]

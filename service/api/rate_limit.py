@@ -9,6 +9,7 @@ meanwhile is taken from the shared one afterwards.
 
 import asyncio
 import logging
+import math
 import time
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager, suppress
@@ -18,7 +19,6 @@ from typing import Final
 
 from anyio import CapacityLimiter, to_thread
 
-from service.api.token_bucket import TokenBucket, whole_seconds
 from service.engine.port import EngineUnavailableError
 from service.engine.token_port import SharedTokens
 
@@ -38,6 +38,36 @@ RETRY_AWAY_S: Final = 1.0
 
 EXCHANGES_AT_ONCE: Final = 4
 """Threads and connections that exchanges may occupy, however slow the database is."""
+
+
+@dataclass(slots=True)
+class TokenBucket:
+    """``tokens`` as of ``filled_at``, in seconds of any clock that does not jump."""
+
+    capacity: float
+    per_second: float
+    tokens: float
+    filled_at: float
+
+    def fill(self, now: float) -> None:
+        """Add the tokens that have accrued since."""
+        self.tokens = min(self.capacity, self.tokens + (now - self.filled_at) * self.per_second)
+        self.filled_at = now
+
+    @property
+    def wait_s(self) -> float:
+        """Seconds from the last filling until there is a token; 0 if there is one."""
+        return max(0.0, (1.0 - self.tokens) / self.per_second)
+
+    @property
+    def is_full(self) -> bool:
+        """Whether it was full at the last filling."""
+        return self.tokens >= self.capacity
+
+
+def whole_seconds(wait_s: float) -> int:
+    """How long a caller is told to wait: whole seconds, at least one."""
+    return max(1, math.ceil(wait_s))
 
 
 @dataclass(slots=True)

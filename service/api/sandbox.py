@@ -1,11 +1,16 @@
-"""What a sandbox is asked to make of a job, on its way into the job's inputs."""
+"""What a sandbox is asked to make of a job: by its label, as an input of the job."""
 
+from typing import Final
+
+from api_schemas.problems import FieldProblem
 from service.api.context import ApiContext
 from service.api.job_inputs import File
 from service.engine.port import JobRecord
 from service.jobs.inputs import SANDBOX
-from service.jobs.sandbox import Whose
-from service.submissions.sandbox_labels import asked_ending
+from service.jobs.sandbox import ENDINGS, FOR_DERIVATIONS, MARK, Whose, is_known
+from service.submissions.refusal import RefusedError, refused
+
+_PREFIXES: Final = {Whose.PICTURES: "", Whose.DERIVATIONS: FOR_DERIVATIONS}
 
 
 def asked_of_job(context: ApiContext, label: str | None) -> dict[str, File]:
@@ -42,3 +47,34 @@ def _asked(context: ApiContext, label: str | None, whose: Whose) -> dict[str, Fi
 
 def _file(ending: str) -> File:
     return File(content=ending.encode(), media_type="text/plain")
+
+
+def asked_ending(label: str | None, whose: Whose) -> str | None:
+    """The ending that a label asks for, of the job itself or of what is derived from it.
+
+    Raises
+    ------
+    RefusedError
+        If it asks for one that there is not, of either.
+    """
+    if label is None or not label.startswith(MARK):
+        return None
+    asked = label.removeprefix(MARK)
+    meant = Whose.DERIVATIONS if asked.startswith(FOR_DERIVATIONS) else Whose.PICTURES
+    ending = asked.removeprefix(_PREFIXES[meant])
+    if not is_known(ending, meant):
+        raise _unknown(ending, meant)
+    return ending if meant is whose else None
+
+
+def _unknown(ending: str, whose: Whose) -> RefusedError:
+    listed = ", ".join(f"{MARK}{_PREFIXES[whose]}{each}" for each in ENDINGS[whose])
+    return refused(
+        FieldProblem(
+            field="label",
+            code="unknown-ending",
+            reason=f"This sandbox knows no ending '{ending}' of {whose}.",
+            remedy=f"Use one of {listed}, with the seconds if slow ('{MARK}slow:5'), or a label "
+            f"that does not begin with '{MARK}'.",
+        )
+    )

@@ -2,7 +2,7 @@
 
 Uvicorn limits neither how long the head of a request takes nor how many connections there are: the
 proxy in front of it does (``service/docs/operate/proxy.md``). The application limits what uvicorn
-hands it: how long a body takes (:mod:`service.api.body_time`), and how many requests there are at
+hands it: how long a body takes (:mod:`service.api.body_limits`), and how many requests there are at
 the same time (:mod:`service.api.request_limit`).
 """
 

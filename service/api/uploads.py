@@ -1,17 +1,18 @@
 """Read multipart bodies."""
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from typing import Final
+from typing import Any, Final
 
 from fastapi import Request
 from fastapi.datastructures import FormData
+from pydantic import BaseModel
 from starlette.datastructures import UploadFile
 from starlette.exceptions import HTTPException
 
 from api_schemas.problems import FieldProblem, field_problem, problem
-from service.api.json_bodies import media_type, unsupported
+from service.api.json_bodies import JSON, json_content, media_type, unsupported
 from service.api.problems import ProblemError
-from service.api.room import no_room
+from service.api.storage import disk_full
 from service.blobs.local import FULL
 
 NEEDED_PARTS: Final = ("image", "request")
@@ -21,6 +22,9 @@ MOST_PARTS: Final = 32
 
 MULTIPART: Final = "multipart/form-data"
 MAX_REQUEST_PART_BYTES: Final = 1_000_000
+
+_PICTURE: Final = {"type": "string", "format": "binary", "description": "JPEG, PNG, WebP or HEIC."}
+_PICTURE_TYPES: Final = {"contentType": "image/jpeg, image/png, image/webp, image/heic"}
 
 
 async def read_image(request: Request) -> bytes:
@@ -131,7 +135,7 @@ async def _form(request: Request, known: Sequence[str], *, most: int) -> FormDat
     except OSError as error:
         # Large parts are stored in the folder of temporary files until they are complete.
         if error.errno in FULL:
-            raise no_room() from error
+            raise disk_full() from error
         raise
     if not all(_is_text(text) for item in form.multi_items() for text in item):
         await form.close()
@@ -203,3 +207,23 @@ def _unknown(names: Iterable[str], known: Sequence[str]) -> Iterator[FieldProble
 
 async def _content(part: UploadFile | str) -> bytes:
     return part.encode() if isinstance(part, str) else await part.read()
+
+
+def picture_form(asked: type[BaseModel] | None = None) -> dict[str, Any]:
+    """Content of a body with the part ``image``, and with an optional ``request`` of that type."""
+    properties: dict[str, Any] = {"image": dict(_PICTURE)}
+    encoding: dict[str, Any] = {"image": dict(_PICTURE_TYPES)}
+    if asked is not None:
+        properties["request"] = json_content(asked)["schema"]
+        encoding["request"] = {"contentType": JSON}
+    return {
+        MULTIPART: {
+            "schema": {
+                "type": "object",
+                "additionalProperties": False,
+                "required": ["image"],
+                "properties": properties,
+            },
+            "encoding": encoding,
+        }
+    }

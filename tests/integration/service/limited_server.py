@@ -18,7 +18,7 @@ from fastapi.responses import PlainTextResponse, Response, StreamingResponse
 from starlette.requests import ClientDisconnect
 
 from api_schemas.problems import PROBLEM_MEDIA_TYPE, Problem
-from service.api.body_time import BodyTimeLimit
+from service.api.body_limits import BodyTimeLimit
 from service.api.problems import install_problem_handlers
 from service.api.request_limit import RequestLimit
 from service.api.server import ApiServer

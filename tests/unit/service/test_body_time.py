@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from starlette.types import Message, Receive, Scope, Send
 
-from service.api.body_time import BodyTimeLimit
+from service.api.body_limits import BodyTimeLimit
 from service.api.problems import ProblemError
 
 LIMIT_S = 0.2

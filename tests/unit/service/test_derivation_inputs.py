@@ -9,7 +9,7 @@ import pytest
 from api_schemas.derivation_kinds.combined import CombinedOptions
 from api_schemas.jobs import JobState
 from api_schemas.results import Artifact
-from service.api.derivation_inputs import derivation_inputs
+from service.api.derivations import derivation_inputs
 from service.engine.port import FIT, JobExpiredError, StoredBlob, TenantJobs
 from service.jobs.inputs import IMAGE, PERSON
 from service.submissions.refusal import RefusedError

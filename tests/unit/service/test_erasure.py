@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from service.api.erasure import erase_blobs
 from service.api.problems import ProblemError
+from service.api.storage import erase_blobs
 from service.blobs import BlobsUnavailableError
 from service.blobs.local import LocalBlobStore
 

@@ -3,7 +3,7 @@
 import asyncio
 import threading
 
-from service.api.key_uses import BETWEEN_NOTES_S, KeyUses
+from service.api.credentials import BETWEEN_NOTES_S, KeyUses
 from service.engine.port import EngineUnavailableError
 
 PATIENCE_S = 600.0

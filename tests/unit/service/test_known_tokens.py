@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import pytest
 
-from service.api import known_tokens
+from service.api import credentials
 from service.api.browser_tokens import is_allowed
-from service.api.known_tokens import REFRESH_S, KnownTokens
+from service.api.credentials import REFRESH_S, KnownTokens
 from service.engine.browser_token_port import BrowserToken, NewBrowserToken, TokenStanding
 
 TOKEN = BrowserToken(
@@ -101,7 +101,7 @@ def test_a_remembered_token_ends_when_its_time_is_over():
 
 
 def test_no_more_are_remembered_than_there_is_room_for(monkeypatch):
-    monkeypatch.setattr(known_tokens, "MOST_REMEMBERED", 3)
+    monkeypatch.setattr(credentials, "MOST_REMEMBERED", 3)
     tokens = Tokens(**{str(number): TOKEN for number in range(9)})
 
     async def ask() -> int:

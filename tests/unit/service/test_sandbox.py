@@ -8,6 +8,7 @@ import sqlalchemy as sa
 
 from api_schemas.derivation_kinds.combined import CombinedPicture, CombinedResult
 from api_schemas.problems import PROBLEM_TYPES
+from service.api.sandbox import asked_ending
 from service.engine.database import check_database, open_database, prepare_database
 from service.engine.port import DatabaseUnusableError, Ending, Report
 from service.engine.sandbox import SANDBOX_FACT
@@ -22,7 +23,6 @@ from service.jobs.sandbox import (
     slowness_s,
 )
 from service.submissions.refusal import RefusedError
-from service.submissions.sandbox_labels import asked_ending
 from service.worker.endings import ending_by, input_gone, too_slow
 from service.worker.pipeline_port import DerivationOutput, ProblemError, UnusableInputError
 from service.worker.sandbox_endings import end_as_asked

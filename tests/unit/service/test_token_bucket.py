@@ -2,7 +2,7 @@
 
 import pytest
 
-from service.api.token_bucket import TokenBucket, whole_seconds
+from service.api.rate_limit import TokenBucket, whole_seconds
 
 
 def bucket(tokens: float) -> TokenBucket:

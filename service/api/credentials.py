@@ -1,0 +1,148 @@
+"""Keys and browsers' tokens as a process knows them, so that a request costs no query.
+
+They are remembered for a few seconds. When keys were last used is written once a minute at most,
+and never while a request waits.
+"""
+
+import asyncio
+import logging
+import time
+from collections.abc import Callable
+from functools import partial
+from typing import Final
+
+from anyio import CapacityLimiter, to_thread
+
+from service.engine.browser_token_port import BrowserToken, BrowserTokens
+from service.engine.keys import ApiKey, KeyRing, hash_key
+from service.engine.port import EngineUnavailableError
+
+LOG: Final = logging.getLogger(__name__)
+
+REFRESH_S: Final = 5.0
+"""Within this time at the latest a key or token is refused that was revoked."""
+
+RETRY_UNKNOWN_S: Final = 0.5
+"""Unknown keys cause at most one query per this time, all of them together."""
+
+BETWEEN_NOTES_S: Final = 60.0
+"""Also the error of what is told: a use within this time after another is not written."""
+
+MOST_REMEMBERED: Final = 10_000
+
+LOOKED_UP_AT_ONCE: Final = 2
+"""Unknown tokens cost a query each; however many are sent, they take no more connections."""
+
+
+class KnownKeys:
+    """The valid keys, cached for a few seconds, so that a request costs no query."""
+
+    def __init__(self, source: KeyRing, *, monotonic: Callable[[], float] = time.monotonic) -> None:
+        self._source = source
+        self._monotonic = monotonic
+        self._by_hash: dict[str, ApiKey] = {}
+        self._read_at: float | None = None
+
+    def find(self, presented: str) -> ApiKey | None:
+        """Return the valid key that was presented; None if there is no such key.
+
+        Raises
+        ------
+        EngineUnavailableError
+            If the database is unavailable and nothing is cached yet.
+        """
+        secret_hash = hash_key(presented)
+        age = None if self._read_at is None else self._monotonic() - self._read_at
+        known = self._by_hash.get(secret_hash)
+        if age is None or age >= (REFRESH_S if known is not None else RETRY_UNKNOWN_S):
+            self._refresh()
+            known = self._by_hash.get(secret_hash)
+        return known
+
+    def _refresh(self) -> None:
+        try:
+            keys = self._source.all_keys()
+        except EngineUnavailableError:
+            # A key valid a moment ago is still accepted; the request itself will fail next.
+            if self._read_at is None:
+                raise
+            return
+        self._by_hash = {key.secret_hash: key for key in keys if key.revoked_at is None}
+        self._read_at = self._monotonic()
+
+
+class KeyUses:
+    """Notes the use of keys; for use from a single event loop."""
+
+    def __init__(self, store: KeyRing, *, monotonic: Callable[[], float] = time.monotonic) -> None:
+        self._store = store
+        self._monotonic = monotonic
+        self._noted_at: dict[str, float] = {}
+        self._writing: set[asyncio.Task[None]] = set()
+        self._limiter = CapacityLimiter(1)
+
+    def note(self, identity: str) -> None:
+        """Have it written that a key is used now, if that is due."""
+        now = self._monotonic()
+        if now - self._noted_at.get(identity, -BETWEEN_NOTES_S) < BETWEEN_NOTES_S:
+            return
+        self._noted_at[identity] = now
+        task = asyncio.create_task(self._write(identity, time.time()))
+        self._writing.add(task)
+        task.add_done_callback(self._writing.discard)
+
+    async def _write(self, identity: str, at: float) -> None:
+        """Write one use; where the database is away, the next one that is due is written."""
+        note = partial(self._store.note_use, identity, at=at, unless_since=at - BETWEEN_NOTES_S)
+        try:
+            await to_thread.run_sync(note, limiter=self._limiter)
+        except EngineUnavailableError:
+            LOG.debug("The use of key %s could not be noted.", identity)
+        except Exception:
+            LOG.exception("The use of key %s could not be noted.", identity)
+
+
+class KnownTokens:
+    """The valid tokens, each remembered for a few seconds."""
+
+    def __init__(
+        self, tokens: BrowserTokens, *, monotonic: Callable[[], float] = time.monotonic
+    ) -> None:
+        self._tokens = tokens
+        self._monotonic = monotonic
+        self._remembered: dict[str, tuple[float, BrowserToken]] = {}
+        self._limiter = CapacityLimiter(LOOKED_UP_AT_ONCE)
+
+    async def find(self, presented: str) -> BrowserToken | None:
+        """Return the valid token that was presented; None if there is no such token.
+
+        Raises
+        ------
+        EngineUnavailableError
+            If the database is unavailable.
+        """
+        secret_hash = hash_key(presented)
+        found_at, token = self._remembered.get(secret_hash, (0.0, None))
+        if token is None or self._monotonic() - found_at >= REFRESH_S:
+            self._remembered.pop(secret_hash, None)
+            token = await to_thread.run_sync(self._tokens.find, presented, limiter=self._limiter)
+            if token is not None:
+                if len(self._remembered) >= MOST_REMEMBERED:
+                    self._remembered.clear()
+                self._remembered[secret_hash] = (self._monotonic(), token)
+        return token if token is not None and token.expires_at > time.time() else None
+
+    async def revoke(self, tenant: str, identity: str) -> bool:
+        """Revoke a tenant's token, here at once; returns whether it was valid.
+
+        Raises
+        ------
+        EngineUnavailableError
+            If the database is unavailable.
+        """
+        was_valid = await to_thread.run_sync(self._tokens.revoke, tenant, identity)
+        if was_valid:
+            for secret_hash, (_, token) in list(self._remembered.items()):
+                if token.id == identity:
+                    del self._remembered[secret_hash]
+        return was_valid

@@ -1,0 +1,66 @@
+"""What the storage cannot do, as problems: keep more, or erase now."""
+
+import contextlib
+from collections.abc import Iterable, Iterator
+from typing import Final
+
+from api_schemas.problems import problem
+from service.api.problems import ProblemError
+from service.blobs import BlobStore, BlobsUnavailableError, StorageFullError
+from service.engine.port import EngineFullError
+
+RETRY_WHEN_FULL_S: Final = 60
+"""Somebody has to make room first."""
+
+
+def disk_full() -> ProblemError:
+    """Say that nothing can be stored now."""
+    return ProblemError(
+        problem(
+            "insufficient-storage",
+            code="disk-full",
+            detail="Too little of the disk is free; nothing was kept.",
+            remedy="Erase what you need no more by DELETE, or try again after the time in "
+            "Retry-After.",
+        ),
+        headers={"Retry-After": str(RETRY_WHEN_FULL_S)},
+    )
+
+
+@contextlib.contextmanager
+def storing() -> Iterator[None]:
+    """Say so too if the disk fills up while storing."""
+    try:
+        yield
+    except (StorageFullError, EngineFullError) as error:
+        raise disk_full() from error
+
+
+def erase_at_once(blobs: BlobStore, scope: str) -> None:
+    """Erase what was stored for something that was not accepted."""
+    # If this fails too, the sweep will do it.
+    with contextlib.suppress(BlobsUnavailableError):
+        blobs.erase(scope)
+
+
+def erase_blobs(blobs: BlobStore, scopes: Iterable[str]) -> None:
+    """Erase scopes whose records are gone.
+
+    Raises
+    ------
+    ProblemError
+        If the storage is unavailable: the sweep erases them once it is back.
+    """
+    try:
+        for scope in scopes:
+            blobs.erase(scope)
+    except BlobsUnavailableError as error:
+        raise ProblemError(
+            problem(
+                "not-ready",
+                code="storage-unavailable",
+                detail="It is not found any more, but the storage is not available: its files are "
+                "erased once that is back.",
+                remedy="Nothing has to be sent again.",
+            )
+        ) from error
