@@ -1,16 +1,20 @@
 """Processes that decode pictures, of a real service: what they know and may do."""
 
+import json
 import os
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import httpx
 
+from service.demo_data.sample import load_sample
 from service.process.confinement import NEEDED
 from service.settings import PREFIX
 
 REPOSITORY = Path(__file__).parents[2]
 FORK_SERVER = b"multiprocessing.forkserver"
+BEGINS_WITHIN_S = 600.0
 
 
 def forked() -> Iterator[Path]:
@@ -26,12 +30,41 @@ def forked() -> Iterator[Path]:
             continue
 
 
+def name_of(process: Path) -> str:
+    return (process / "comm").read_text().strip()
+
+
+def assert_confined(process: Path) -> None:
+    names = {each.partition("=")[0] for each in (process / "environ").read_text().split("\0")}
+    assert {name for name in names if name.startswith(PREFIX)} <= NEEDED
+    assert f"{PREFIX}PORT" not in names
+    assert "NoNewPrivs:\t1" in (process / "status").read_text()
+
+
 def test_they_know_no_secrets_and_gain_no_privileges(service: httpx.Client, finished_fit: str):
     service.get(f"/v1/fits/{finished_fit}").raise_for_status()
     processes = list(forked())
-    assert "estimator" in {(each / "comm").read_text().strip() for each in processes}
+    assert "estimator" in {name_of(each) for each in processes}
     for process in processes:
-        names = {each.partition("=")[0] for each in (process / "environ").read_text().split("\0")}
-        assert {name for name in names if name.startswith(PREFIX)} <= NEEDED
-        assert f"{PREFIX}PORT" not in names
-        assert "NoNewPrivs:\t1" in (process / "status").read_text()
+        assert_confined(process)
+
+
+def test_no_more_does_a_job_that_runs(service: httpx.Client):
+    sample = load_sample()
+    # The simplex takes minutes: the job lives until it is canceled.
+    asked = json.loads(sample.request) | {"optimizer": "simplex"}
+    files = {
+        "image": ("sample.jpg", sample.image, "image/jpeg"),
+        "request": ("request.json", json.dumps(asked), "application/json"),
+    }
+    path = service.post("/v1/fits", files=files).raise_for_status().headers["Location"]
+    deadline = time.monotonic() + BEGINS_WITHIN_S
+    while not service.get(path).json()["progress"]:
+        assert time.monotonic() < deadline
+        time.sleep(0.1)
+    # One of a job before it may wait there for another.
+    jobs = [each for each in forked() if name_of(each) == "job"]
+    assert jobs
+    for each in jobs:
+        assert_confined(each)
+    service.post(f"{path}/cancel").raise_for_status()
