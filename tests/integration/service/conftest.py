@@ -10,6 +10,7 @@ import pytest
 
 from tests.integration.service.harness import SHARED, Machine, Service, running_service
 from tests.integration.service.receiver import Receiver, receiving
+from tests.object_storage import CREDENTIALS, ObjectStorage, running_object_storage
 from tests.postgres import fresh_database
 
 DATABASES = ("sqlite", "postgres")
@@ -81,6 +82,15 @@ def receiver() -> Iterator[Receiver]:
     """Who the shared services may send notices to."""
     with receiving() as started:
         yield started
+
+
+@pytest.fixture
+def storage(monkeypatch: pytest.MonkeyPatch) -> Iterator[ObjectStorage]:
+    """A fresh object storage, and its credentials in the environment."""
+    for name, value in CREDENTIALS.items():
+        monkeypatch.setenv(name, value)
+    with running_object_storage() as running:
+        yield running
 
 
 @pytest.fixture

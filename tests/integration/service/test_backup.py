@@ -14,21 +14,13 @@ import psycopg
 import pytest
 
 from tests.integration.service.harness import REQUEST, Machine, Service, eventually, running_service
-from tests.object_storage import CREDENTIALS, ObjectStorage, running_object_storage
+from tests.object_storage import ObjectStorage
 from tests.postgres import fresh_database
 from tests.readme import block
 
 KEPT = 5
 MAQUETTE = (sys.executable, "-m", "service.cli")
 KEYS = {"authentication": "keys"}
-
-
-@pytest.fixture
-def storage(monkeypatch: pytest.MonkeyPatch) -> Iterator[ObjectStorage]:
-    for name, value in CREDENTIALS.items():
-        monkeypatch.setenv(name, value)
-    with running_object_storage() as running:
-        yield running
 
 
 @pytest.fixture

@@ -7,14 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from service.engine.ballast import Ballast
-from service.engine.database import open_database, prepare_database
-from service.engine.dbos_jobs import DbosJobEngine
-from service.engine.image_port import ImageQuota
 from service.engine.port import FIT, NewJob, StoredBlob
 from tests.integration.service.conftest import fresh_machine
 from tests.integration.service.database_outage import assert_refused_for_now, no_connections
 from tests.integration.service.harness import Machine, running_service
+from tests.integration.service.test_images import engine_of
 
 STUCK_S = 60.0
 """A guard against hanging."""
@@ -59,7 +56,7 @@ def test_stopping_a_job_does_not_wait_for_a_database_that_goes_away_meanwhile(
     machine: Machine, stop: str, step: str, monkeypatch: pytest.MonkeyPatch
 ):
     with contextlib.ExitStack() as stack:
-        jobs = stack.enter_context(contextlib.closing(job_engine(machine))).of("somebody")
+        jobs = stack.enter_context(contextlib.closing(engine_of(machine))).of("somebody")
         jobs.reserve("a", None)
         options = StoredBlob(digest="0" * 64, media_type="application/json")
         jobs.submit(NewJob(id="a", kind=FIT, options=options, inputs={}))
@@ -78,20 +75,3 @@ def test_stopping_a_job_does_not_wait_for_a_database_that_goes_away_meanwhile(
         stopping.join(STUCK_S)
         assert len(answers) == 1
         assert answers[0]
-
-
-def job_engine(machine: Machine) -> DbosJobEngine:
-    assert machine.database_url is not None
-    prepare_database(machine.database_url)
-    return DbosJobEngine(
-        open_database(machine.database_url),
-        blobs=None,  # pyright: ignore[reportArgumentType]
-        max_queued=10,
-        max_queued_per_tenant=10,
-        image_quota=ImageQuota(images=10, size=10_000),
-        retention_s=100.0,
-        sweep_interval_s=60.0,
-        heartbeat_s=1.0,
-        dead_after_s=10.0,
-        ballast=Ballast(None),
-    )

@@ -24,7 +24,7 @@ from tests.integration.service.harness import (
     pids_noted,
     running_service,
 )
-from tests.object_storage import CREDENTIALS, ObjectStorage, running_object_storage
+from tests.object_storage import ObjectStorage
 from tests.postgres import fresh_database
 
 JOBS = 8
@@ -33,14 +33,6 @@ LIMIT = 40
 
 RENAMED = ("unshare", "--uts", "--map-root-user", "sh", "-c", 'hostname "$0" && exec "$@"')
 """Runs a command with a host name of its own: to the others it is on another machine."""
-
-
-@pytest.fixture
-def storage(monkeypatch: pytest.MonkeyPatch) -> Iterator[ObjectStorage]:
-    for name, value in CREDENTIALS.items():
-        monkeypatch.setenv(name, value)
-    with running_object_storage() as running:
-        yield running
 
 
 @pytest.fixture

@@ -2,7 +2,6 @@
 
 import shutil
 import threading
-from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -22,7 +21,7 @@ from tests.integration.service.test_refused_start import (
     assert_refused,
     run,
 )
-from tests.object_storage import CREDENTIALS, ObjectStorage, running_object_storage
+from tests.object_storage import ObjectStorage
 from tests.postgres import fresh_database
 
 NAMED = "MAQUETTE_DATA_DIR=/somewhere"
@@ -122,14 +121,6 @@ def test_a_lost_folder_is_replaced_by_a_command(tmp_path: Path):
     assert done.returncode == 0, done.stderr
     with running_service(Machine(tmp_path), api_only=True):
         pass
-
-
-@pytest.fixture
-def storage(monkeypatch: pytest.MonkeyPatch) -> Iterator[ObjectStorage]:
-    for name, value in CREDENTIALS.items():
-        monkeypatch.setenv(name, value)
-    with running_object_storage() as running:
-        yield running
 
 
 def test_another_bucket_or_prefix_is_refused(storage: ObjectStorage, tmp_path: Path):

@@ -15,7 +15,7 @@ from tests.integration.service.harness import (
     pids_noted,
     running_service,
 )
-from tests.object_storage import CREDENTIALS, ObjectStorage, running_object_storage
+from tests.object_storage import ObjectStorage
 
 PROBES = 60
 """More than the threads in which requests are answered."""
@@ -24,13 +24,11 @@ JSON = "application/problem+json"
 
 
 @pytest.fixture
-def storage(monkeypatch: pytest.MonkeyPatch) -> Iterator[ObjectStorage]:
-    for name, value in CREDENTIALS.items():
-        monkeypatch.setenv(name, value)
-    with running_object_storage() as running:
-        place = {"LocationConstraint": running.settings["s3_region"]}
-        running.client.create_bucket(Bucket=running.bucket, CreateBucketConfiguration=place)
-        yield running
+def storage(storage: ObjectStorage) -> ObjectStorage:
+    """One whose bucket is there."""
+    place = {"LocationConstraint": storage.settings["s3_region"]}
+    storage.client.create_bucket(Bucket=storage.bucket, CreateBucketConfiguration=place)
+    return storage
 
 
 @pytest.fixture
