@@ -20,6 +20,7 @@ from fitter.energies.objective import Candidate, Objective
 from fitter.energies.rows import PositionRows, ShadingRows, Support, thinned
 from fitter.energies.shading import thinned_shading
 from fitter.numerics.normals import add_normal_derivative
+from fitter.optimizer.light_freedom import light_nuisance
 from fitter.optimizer.nuisance import RowsWithNuisance, without_nuisance
 from fitter.optimizer.parameter_vector import as_vector
 from fitter.optimizer.row_jacobians import (
@@ -75,23 +76,29 @@ def normal_equations(
     for rows in (rows for term in objective.terms for rows in term.rows(candidate)):
         if isinstance(rows, PriorTerms):
             priors.append(rows)
-        elif isinstance(rows, ShadingRows):
+            continue
+        if not len(rows.residuals):
+            continue
+        if isinstance(rows, ShadingRows):
             by_centre += rows.centre_derivatives.T @ (rows.weights * rows.residuals)
             _add_shading_pull(objective, candidate, rows, pull)
             few = thinned_shading(rows, MATRIX_SHADING_ROWS)
-            jacobians.append(shading_row_jacobian(few, frame, operators, candidate))
-        elif len(rows.residuals):
+            jacobian = shading_row_jacobian(few, frame, operators, candidate)
+            evidence = objective.evidence.shading
+            assert evidence is not None
+            nuisance = light_nuisance(candidate, evidence, few) if marginal else None
+        else:
             on = points[rows.support]
             _add_pull(rows, on, pull)
             few = thinned(rows, MATRIX_ROWS)
             jacobian = position_row_jacobian(few, frame, on.attachments, on.positions)
             nuisance = few.nuisance
-            if nuisance is None or (nuisance.held_in_search and not marginal):
-                jacobians.append(jacobian)
-            else:
-                with_nuisance.setdefault(nuisance.name, []).append(
-                    RowsWithNuisance(by_body=jacobian, weights=few.weights, nuisance=nuisance)
-                )
+        if nuisance is None or (nuisance.held_in_search and not marginal):
+            jacobians.append(jacobian)
+        else:
+            with_nuisance.setdefault(nuisance.name, []).append(
+                RowsWithNuisance(by_body=jacobian, weights=few.weights, nuisance=nuisance)
+            )
     jacobians += [without_nuisance(kinds) for kinds in with_nuisance.values()]
     every = np.concatenate(jacobians)
     matrix = every.T @ every

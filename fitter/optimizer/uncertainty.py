@@ -18,7 +18,6 @@ from fitter.energies.objective import Candidate, Objective
 from fitter.energies.priors import height_extrapolation
 from fitter.energies.stance import stance_rows
 from fitter.optimizer.free_space import FreeSpace, free_space
-from fitter.optimizer.light_freedom import information_lost_to_light
 from fitter.optimizer.normal_equations import normal_equations
 from fitter.optimizer.nuisance import RowsWithNuisance, nuisance_covariance
 from fitter.optimizer.row_jacobians import position_row_jacobian
@@ -94,8 +93,6 @@ def body_information(
 ) -> Float[np.ndarray, "columns columns"]:
     """What a picture says of all its body's parameters, with light and ease marginalised."""
     matrix, _ = normal_equations(objective, candidate, marginal=True)
-    if objective.evidence.shading is not None:
-        matrix -= information_lost_to_light(objective, candidate, objective.evidence.shading)
     return matrix
 
 
