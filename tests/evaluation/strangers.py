@@ -9,6 +9,7 @@ import numpy as np
 from fitter.fits.pipeline import fit
 from fitter.person.several_pictures import SAME_PERSON_PROBABILITY
 from fitter.vocabulary.choices import Cues, ViewKind
+from tests.evaluation.people_table import PEOPLE
 from tests.evaluation.runs import picture_of
 from tests.evaluation.scans import Pair, foreign_pairs, own_pairs, repeated_pairs
 from tests.evaluation.scene import Half
@@ -58,15 +59,18 @@ def _of_one(half: Half) -> Iterator[Pictures]:
 
 def _of_two(half: Half) -> Iterator[Pictures]:
     for pairs in (own_pairs(half), foreign_pairs(half)):
-        for one in pairs:
-            for stranger in pairs:
-                if one is not stranger and _gender(one) is _gender(stranger):
+        people = [(pair, _gender(pair)) for pair in pairs]
+        for one, gender in people:
+            for stranger, of_stranger in people:
+                if one is not stranger and gender is of_stranger:
                     yield Pictures(
                         front=one.front, other=stranger.side, kind=ViewKind.SIDE, same=False
                     )
 
 
 def _gender(pair: Pair) -> object:
+    if pair.person in PEOPLE:
+        return PEOPLE[pair.person].gender
     return picture_of(pair.front).request.person.gender
 
 

@@ -92,7 +92,9 @@ def test_averages_are_sums_by_area(factor: float):
     pixels = noise()
     size = WorkingSize(width=int(WIDTH / factor), height=int(HEIGHT / factor), scale=1 / factor)
     across, down = overlaps(WIDTH, size.width, factor), overlaps(HEIGHT, size.height, factor)
-    light = np.einsum("iy,jx,yxc->ijc", down, across, linear_from_display(pixels / 255))
+    light = np.einsum(
+        "iy,jx,yxc->ijc", down, across, linear_from_display(pixels / 255), optimize=True
+    )
     np.testing.assert_allclose(linear_working_picture(pixels, size), light / factor**2, atol=1e-6)
     coverage = pixels[:, :, 0].copy()
     shares = down @ (coverage / 255) @ across.T
