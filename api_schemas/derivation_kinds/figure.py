@@ -5,7 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from api_schemas.derivation_kinds.base import DerivationOptions, DerivedFiles
-from api_schemas.named_poses import NamedPose
+from api_schemas.derivation_kinds.pose import NamedPose
 
 
 class FigureOptions(DerivationOptions):

@@ -1,12 +1,26 @@
-"""Another pose: what is asked for, and what comes of it."""
+"""Another pose: what is asked for, and what comes of it; and poses by name."""
 
+from enum import StrEnum
 from typing import Annotated, Final, Literal
 
 from pydantic import Field
 
 from api_schemas.derivation_kinds.base import DerivationOptions, DerivedFiles
-from api_schemas.named_poses import NamedPose
 from api_schemas.results import PartRotation
+
+
+class NamedPose(StrEnum):
+    """Poses by name; ``rest`` is the body model's own, with half-raised arms."""
+
+    REST = "rest"
+    STANDING = "standing"
+    A_POSE = "a_pose"
+    T_POSE = "t_pose"
+    RELAXED = "relaxed"
+    WALKING = "walking"
+    SITTING = "sitting"
+    ARMS_RAISED = "arms_raised"
+
 
 FULL_TURN: Final = 6.2832
 """Radians, rounded up."""

@@ -20,8 +20,8 @@ from service.api.security_headers import STAND_ALONE
 from service.blobs import BlobMissingError
 from service.engine.port import JobRecord, TenantJobs
 from service.jobs.inputs import RESULT
+from service.representation.csv_tables import CSV, measurements_csv_of
 from service.representation.formats import GLB, MESH_FORMATS, MTL
-from service.representation.measurement_table import CSV, measurements_csv_of
 
 HTML: Final = "text/html"
 BINARY: Final = {"schema": {"type": "string", "format": "binary"}}

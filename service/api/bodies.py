@@ -15,8 +15,8 @@ from service.api.json_bodies import JSON, json_body, json_content, read_json
 from service.api.negotiation import not_acceptable, preferred
 from service.api.problems import ProblemError, documented
 from service.estimates.messages import BodyTask
+from service.representation.csv_tables import CSV, measurements_csv
 from service.representation.formats import GLB, MESH_FORMATS, written_here
-from service.representation.measurement_table import CSV, measurements_csv
 
 ROUTER: Final = APIRouter()
 

@@ -8,7 +8,7 @@ from typing import Final
 from fastapi import APIRouter, Request, Response
 from prometheus_client.exposition import CONTENT_TYPE_LATEST
 
-from api_schemas.health import Live, Ready
+from api_schemas.service import Live, Ready
 from service.api.context import Context, Parts
 from service.api.problems import documented
 from service.api.readiness import not_ready

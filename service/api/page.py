@@ -9,7 +9,7 @@ from typing import Annotated, Final
 
 from fastapi import APIRouter, Header, Request, Response
 
-from api_schemas.index import ServiceIndex
+from api_schemas.service import ServiceIndex
 from service.api.context import Parts
 from service.api.problems import not_found
 from service.api.security_headers import OWN_CAMERA, framed_by

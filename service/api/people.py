@@ -5,8 +5,7 @@ from typing import Annotated, Final
 
 from fastapi import APIRouter, Query, Response
 
-from api_schemas.labels import LabelOfList
-from api_schemas.people import LabelledPerson, PeoplePage
+from api_schemas.labels import LabelledPerson, LabelOfList, PeoplePage
 from service.api.context import Context
 from service.api.listing import Limit, page_of
 from service.api.problems import documented

@@ -20,9 +20,8 @@ from service.api.json_bodies import JSON, json_content, media_type, read_json
 from service.api.problems import documented
 from service.api.uploads import picture_form, read_image_and_request
 from service.estimates.messages import CheckTask, PointsTask
-from service.submissions.capture_questions import placed_question
 from service.submissions.detector import detector_is_installed
-from service.submissions.submission import check_picture
+from service.submissions.submission import check_picture, placed_question
 from service.submissions.validation import parsed
 
 Asked = TypeVar("Asked", bound=BaseModel)

@@ -13,8 +13,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
-from api_schemas.health import Ready
 from api_schemas.problems import problem
+from api_schemas.service import Ready
 from service.api.problems import ProblemError
 from service.blobs import BlobStore, BlobsUnavailableError, StorageFullError
 from service.engine.port import JobEngine, WorkerStatus

@@ -17,6 +17,7 @@ from service.api.negotiation import not_acceptable, preferred
 from service.api.problems import ProblemError
 from service.engine.port import JobRecord
 from service.jobs.inputs import RESULT
+from service.representation.csv_tables import CSV, TABLE
 from service.representation.formats import (
     GLB,
     GLB_ENDING,
@@ -29,7 +30,6 @@ from service.representation.formats import (
     usd_is_installed,
     written_here,
 )
-from service.representation.measurement_table import CSV, TABLE
 
 TEXTURE_FILE: Final = "texture.png"
 """The file next to a textured mesh that its material refers to."""

@@ -17,9 +17,9 @@ from service.estimates.main import ANSWERS_MODULE
 from service.estimates.messages import CheckTask
 from service.estimates.port import NoDetectorError
 from service.settings import Settings
-from service.submissions.capture_questions import placed_question
 from service.submissions.detector import NOT_INSTALLED, REMEDY
 from service.submissions.refusal import RefusedError
+from service.submissions.submission import placed_question
 from service.submissions.validation import parsed
 from service.worker.pipeline_port import UnusableInputError
 

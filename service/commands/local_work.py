@@ -14,8 +14,8 @@ from service.commands.terminal import print_problem, print_result, stage_bars
 from service.engine.port import Report
 from service.jobs.inputs import SentPicture
 from service.process.caches import settle_folders
+from service.representation.csv_tables import TABLE, measurements_csv
 from service.representation.formats import GLB_ENDING
-from service.representation.measurement_table import TABLE, measurements_csv
 from service.settings import Settings
 from service.submissions.detector import check_detector
 from service.submissions.refusal import RefusedError

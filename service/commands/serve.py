@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from typing import Final
 
 from service.blobs import setting_of_storage
-from service.commands.ground import check_ground
+from service.commands.preflight import run_preflight
 from service.engine.ballast import open_ballast
 from service.process.disk import open_disk
 from service.process.interpreter import PYTHON
@@ -81,7 +81,7 @@ def serve(
     # All faults of the settings come to light before anything with the same settings is started.
     ballast = open_ballast(settings)
     ballast.make_room()
-    blobs = check_ground(settings)
+    blobs = run_preflight(settings)
     tracing = start_tracing(settings, role="api")
     environment = _environment(settings)
     if worker_command is not None:

@@ -15,7 +15,7 @@ from service.estimates.answers import body, conversion, initial_pose, jpeg, prep
 from service.estimates.messages import CheckTask, PointsTask
 from service.estimates.port import ProposedPoints
 from service.estimates.sandbox_scale import scale_between
-from service.submissions.capture_questions import placed_question
+from service.submissions.submission import placed_question
 
 __all__ = ["body", "check", "conversion", "initial_pose", "jpeg", "points", "prepare"]
 

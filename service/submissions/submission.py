@@ -8,14 +8,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final, Generic, Protocol, TypeVar
 
-from api_schemas.points import AUTO, Point
+from api_schemas.checks import CheckRequest
+from api_schemas.points import AUTO, Point, PointsFormat
 from api_schemas.problems import FieldProblem
 from api_schemas.requests import AskedPicture, FitOptions, FitRequest
 from api_schemas.scans import ScanOptions
 from api_schemas.webhooks import WebhookTarget
+from fitter.observation.heif import NOT_INSTALLED, NOT_INSTALLED_CODE, REMEDY, decodes_heif
 from fitter.vocabulary.points import PointName
 from service.jobs.inputs import IMAGE, MASK, SentPicture, named_pictures
-from service.submissions.heic import check_heic
 from service.submissions.image_header import (
     HEIC,
     DamagedImageError,
@@ -176,7 +177,7 @@ def check_picture(field: str, content: bytes, *, max_pixels: int) -> ImageHeader
             )
         ) from error
     if header.media_type == HEIC:
-        check_heic(field)
+        _check_heic(field)
     if header.animated:
         raise refused(
             FieldProblem(
@@ -214,3 +215,35 @@ def _check_same_size(image: ImageHeader, mask: ImageHeader) -> None:
                 remedy="Send a mask of the picture's size as a browser shows it.",
             )
         )
+
+
+def placed_question(asked: CheckRequest, image: bytes, *, max_pixels: int) -> CheckRequest:
+    """The request with named points, which lie in the picture; that is not decoded.
+
+    Raises
+    ------
+    RefusedError
+        As :func:`check_picture` and :func:`service.submissions.point_rules.placed_points`.
+    """
+    header = check_picture("image", image, max_pixels=max_pixels)
+    points = placed_points(asked.points, asked.format, width=header.width, height=header.height)
+    return asked.model_copy(update={"points": points, "format": PointsFormat.NAMED})
+
+
+def _check_heic(field: str) -> None:
+    """Refuse a HEIC picture if its decoder is not installed.
+
+    Only this machine is checked. Workers may run elsewhere with the same settings: if one of them
+    lacks the decoder, its fit fails with the same code.
+
+    Raises
+    ------
+    RefusedError
+        ``heic-not-installed``.
+    """
+    if decodes_heif():
+        return
+    raise refused(
+        FieldProblem(field=field, code=NOT_INSTALLED_CODE, reason=NOT_INSTALLED, remedy=REMEDY),
+        slug="unsupported-media-type",
+    )

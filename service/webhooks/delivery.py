@@ -1,6 +1,9 @@
 """A thread that sends notices that are due, and retries those that were not accepted."""
 
 import asyncio
+import base64
+import hashlib
+import hmac
 import logging
 import random
 import threading
@@ -12,21 +15,14 @@ from typing import Final
 
 from api_schemas.derivations import Derivation, DerivationEvent, DerivationEventType
 from api_schemas.jobs import Job, WebhookState
-from api_schemas.scans import (
-    Scan,
-    ScanDerivation,
-    ScanDerivationEvent,
-    ScanEvent,
-    ScanEventType,
-)
-from api_schemas.webhooks import WebhookEvent, WebhookEventType
+from api_schemas.scans import Scan, ScanDerivation, ScanDerivationEvent, ScanEvent, ScanEventType
+from api_schemas.webhooks import WebhookEvent, WebhookEventType, secret_key
 from service.blobs import BlobMissingError, BlobStore, BlobsUnavailableError
 from service.engine.port import EngineUnavailableError, JobRecord
 from service.engine.webhooks import DueWebhook, WebhookLedger
 from service.process.logs import fields
 from service.representation.jobs import represent
 from service.webhooks.sending import Answer, Sender
-from service.webhooks.signing import signed_headers
 from service.webhooks.targets import read_target
 
 LOG: Final = logging.getLogger(__name__)
@@ -191,3 +187,14 @@ class Deliverer:
             return None
         planned_s = self._pauses_s[attempt - 1] * random.uniform(1.0, 1.0 + JITTER)
         return min(max(planned_s, answer.retry_after_s or 0.0), LONGEST_PAUSE_S * (1.0 + JITTER))
+
+
+def signed_headers(*, notice_id: str, timestamp: int, body: bytes, secret: str) -> dict[str, str]:
+    """Return the headers that identify, date and sign a notice; ``timestamp`` in epoch seconds."""
+    content = f"{notice_id}.{timestamp}.".encode() + body
+    signature = base64.b64encode(hmac.digest(secret_key(secret), content, hashlib.sha256)).decode()
+    return {
+        "webhook-id": notice_id,
+        "webhook-timestamp": str(timestamp),
+        "webhook-signature": f"v1,{signature}",
+    }

@@ -9,7 +9,7 @@ from api_schemas.derivation_kinds.body_composition import (
     BodyFatEstimate,
 )
 from fitter.applications.body_fat import body_fat, body_mass_index
-from service.representation.csv_table import models_csv
+from service.representation.csv_tables import models_csv
 from service.worker.derived.measured import measured_person
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 

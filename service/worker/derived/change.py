@@ -8,7 +8,7 @@ from api_schemas.results import FitWarning
 from fitter.applications.change import SIGNIFICANCE, Change, changes
 from fitter.errors import InvalidInputError
 from fitter.vocabulary.measurements import STATURE
-from service.representation.csv_table import models_csv
+from service.representation.csv_tables import models_csv
 from service.worker.derived.measured import measured_person
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 

@@ -4,8 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from api_schemas.derivation_kinds.pose import PoseOptions, PoseResult
-from api_schemas.named_poses import NamedPose
+from api_schemas.derivation_kinds.pose import NamedPose, PoseOptions, PoseResult
 from fitter.applications.poses import named_pose, spelled_pose
 from fitter.applications.previews import View, preview
 from fitter.applications.rig import Rig, rig_of

@@ -16,7 +16,7 @@ from fitter.applications import size_arguments
 from fitter.applications import size_chart as charts
 from fitter.applications.size_probability import SizeAnswer, size_answer
 from service.jobs.inputs import CHART
-from service.representation.csv_table import models_csv
+from service.representation.csv_tables import models_csv
 from service.worker.derived.measured import measured_person
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 

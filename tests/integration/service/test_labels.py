@@ -7,7 +7,7 @@ from uuid import uuid4
 
 import pytest
 
-from api_schemas.people import PeoplePage
+from api_schemas.labels import PeoplePage
 from service.engine.dbos_jobs import DbosJobEngine
 from service.engine.port import FIT, SCAN, NewJob, StoredBlob, SubmitOutcome
 from tests.integration.service.harness import REQUEST, Machine, Service

@@ -6,7 +6,7 @@ import re
 import httpx
 import pytest
 
-from api_schemas.index import ServiceIndex
+from api_schemas.service import ServiceIndex
 from service.settings import Settings
 from tests.integration.service.harness import Machine, Service, running_service
 

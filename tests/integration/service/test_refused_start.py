@@ -212,12 +212,12 @@ def test_a_folder_of_another_user_is_refused(tmp_path: Path):
     folder.mkdir(mode=0o755)
     becoming_nobody = (
         "import os, pwd, sys\n"
-        "from service.commands.ground import check_ground\n"
+        "from service.commands.preflight import run_preflight\n"
         "from service.startup.begin import begin, run_told\n"
         "import service.engine.port, sqlalchemy.exc\n"
         "settings = begin('serve')\n"
         "os.setgroups([]), os.setgid(65534), os.setuid(65534)\n"
-        "sys.exit(run_told('serve', lambda: check_ground(settings)))\n"
+        "sys.exit(run_told('serve', lambda: run_preflight(settings)))\n"
     )
     line = assert_refused(run(("-c", becoming_nobody), folder), naming=f"{folder}")
     assert "MAQUETTE_DATA_DIR=" in line

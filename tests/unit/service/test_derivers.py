@@ -10,9 +10,9 @@ import pytest
 from PIL import Image
 
 from api_schemas.derivation_kinds import DerivationKind
+from api_schemas.derivation_kinds.pose import NamedPose
 from api_schemas.derivation_kinds.texture import LEAST_OWN_TEXTURE, TEXTURE_SIZES
 from api_schemas.derivations import DerivationResult
-from api_schemas.named_poses import NamedPose
 from fitter.applications.own_texture import LEAST_SIDE
 from fitter.applications.poses import NAMED_POSES, REST
 from fitter.applications.texture import SIZES

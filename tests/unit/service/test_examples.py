@@ -14,11 +14,10 @@ from api_schemas.derivations import (
     DerivationRequest,
     DerivationResult,
 )
-from api_schemas.health import Live, Ready
 from api_schemas.images import ImagePage, UploadedImage
 from api_schemas.initial_poses import InitialPose, InitialPoseRequest
 from api_schemas.jobs import Job, JobPage
-from api_schemas.people import PeoplePage
+from api_schemas.labels import PeoplePage
 from api_schemas.problems import ProblemType
 from api_schemas.proposals import PointsOfImage, PointsProposal
 from api_schemas.requests import FitOfImage, FitOptions
@@ -34,6 +33,7 @@ from api_schemas.scans import (
     ScanPage,
     ScanResult,
 )
+from api_schemas.service import Live, Ready
 from api_schemas.tokens import NewToken, Token, TokenPage, TokenRequest
 from api_schemas.webhooks import WebhookEvent
 from service.api.openapi import recorded_examples

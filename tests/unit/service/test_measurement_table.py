@@ -6,8 +6,7 @@ import pytest
 
 from api_schemas.derivation_kinds.size import SizeChance
 from api_schemas.results import Measurement
-from service.representation.csv_table import models_csv
-from service.representation.measurement_table import measurements_csv, measurements_csv_of
+from service.representation.csv_tables import measurements_csv, measurements_csv_of, models_csv
 
 
 def measurement(**changes: object) -> Measurement:

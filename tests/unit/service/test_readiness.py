@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from api_schemas.health import Ready
+from api_schemas.service import Ready
 from service.api.problems import ProblemError
 from service.api.readiness import Look, Readiness, not_ready
 from service.engine.port import EngineUnavailableError

@@ -1,4 +1,4 @@
-// What the root of the service answers to programs (api_schemas/index.py); the API document describes `/v1` alone.
+// What the root of the service answers to programs (api_schemas/service.py); the API document describes `/v1` alone.
 export interface ServiceIndex {
   readonly retention_hours: number | null;
   readonly max_pixels: number | null;

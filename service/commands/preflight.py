@@ -8,7 +8,7 @@ from service.settings import Settings
 from service.worker.model_files import check_detector, check_models
 
 
-def check_ground(settings: Settings) -> BlobStore:
+def run_preflight(settings: Settings) -> BlobStore:
     """Check data folder, models, detector, database and storage, and return the last.
 
     Waits for a database or a storage that does not answer.

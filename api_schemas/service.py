@@ -1,4 +1,6 @@
-"""What the root of the service answers."""
+"""What the service says of itself: its root and its health."""
+
+from typing import Literal
 
 from pydantic import Field
 
@@ -28,3 +30,17 @@ class ServiceIndex(WireModel):
         default=False,
         description="Whether results are canned, whatever is sent: for those who develop clients.",
     )
+
+
+class Live(WireModel):
+    """The process answers."""
+
+    status: Literal["live"] = "live"
+
+
+class Ready(WireModel):
+    """The service can accept and finish a fit: database writable, disk free, a worker able."""
+
+    status: Literal["ready"] = "ready"
+    workers: int
+    queued: int

@@ -1,4 +1,4 @@
-"""Rows of wire types as CSV, for spreadsheets: RFC 4180, UTF-8, one header line.
+"""Measurements and other rows as CSV, for spreadsheets: RFC 4180, UTF-8, one header line.
 
 A spreadsheet takes a text that begins like a formula for one, and runs it: what somebody has typed
 into a size chart could read the other cells and send them away. Such a text gets an apostrophe,
@@ -11,6 +11,9 @@ from collections.abc import Iterable, Sequence
 from typing import Final
 
 from pydantic import BaseModel
+
+from api_schemas.bodies import EstimatedMeasurement
+from api_schemas.results import Measurement
 
 FORMULAS: Final = tuple("=+-@\t\r\n\uff1d\uff0b\uff0d\uff20")
 """What a cell begins with that is a formula to some spreadsheet, full-width forms included."""
@@ -35,3 +38,25 @@ def _cell(value: object) -> object:
     if isinstance(value, str) and any(each.startswith(FORMULAS) for each in (value, value.strip())):
         return f"'{value}"
     return value
+
+
+CSV: Final = "text/csv"
+TABLE: Final = "measurements.csv"
+"""The file's name."""
+
+
+class _Measured(BaseModel):
+    """The measurements of a result document, whatever else there is in it."""
+
+    measurements: tuple[Measurement, ...]
+
+
+def measurements_csv(measurements: Sequence[Measurement | EstimatedMeasurement]) -> bytes:
+    """One line per measurement, one column per field; an unknown standard error stays empty."""
+    fields = (type(measurements[0]) if measurements else Measurement).model_fields
+    return models_csv(measurements, fields)
+
+
+def measurements_csv_of(result: bytes) -> bytes:
+    """The same of a result document, of a fit or of several combined."""
+    return measurements_csv(_Measured.model_validate_json(result).measurements)
