@@ -1,0 +1,122 @@
+"""The parts of an API process, put together: settings in, a server with its helpers out.
+
+Imported while the worker starts: what is below takes a second to import.
+"""
+
+import socket
+import threading
+from dataclasses import dataclass
+
+import sqlalchemy as sa
+
+from service.api.app import create_app
+from service.api.server import ApiServer
+from service.blobs import BlobStore, setting_of_storage
+from service.engine.ballast import Ballast
+from service.engine.browser_tokens import StoredBrowserTokens
+from service.engine.database import open_database, prepare_database
+from service.engine.dbos_jobs import DbosJobEngine
+from service.engine.image_port import ImageQuota
+from service.engine.keys import KeyRing
+from service.engine.rate_tokens import RateTokens
+from service.engine.storage_identity import take_storage
+from service.engine.webhooks import WebhookLedger
+from service.estimates.pool import EstimatorPool
+from service.estimates.starting import Start
+from service.process.disk import open_disk
+from service.settings import Settings
+from service.webhooks.delivery import Deliverer
+from service.webhooks.sending import Sender
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ApiProcess:
+    """What runs in an API process."""
+
+    engine: DbosJobEngine
+    webhooks: Deliverer
+    estimators: EstimatorPool
+    server: ApiServer
+
+    def run(self, listener: socket.socket) -> None:
+        """Serve until told to stop."""
+        self.engine.start()
+        self.webhooks.start()
+        self.server.run(sockets=[listener])
+
+    def ask_to_stop(self) -> None:
+        """Have :meth:`run` return once open requests have ended."""
+        self.server.should_exit = True
+
+    def close(self) -> None:
+        """Stop what runs beside the server."""
+        self.estimators.stop()
+        self.webhooks.stop()
+        self.engine.close()
+
+
+def assemble(
+    settings: Settings, blobs: BlobStore, ballast: Ballast, start_estimator: Start
+) -> ApiProcess:
+    """Prepare the database, and build all parts; the estimators start at once."""
+    url = settings.system_database_url
+    prepare_database(url, sandbox=settings.sandbox)
+    take_storage(url, blobs, named=setting_of_storage(settings))
+    ballast.fill()
+    database = open_database(url)
+    engine = _engine(settings, database, blobs, ballast)
+    webhooks = _webhooks(settings, database, blobs)
+    # Last: what they do before they are ready would keep service and worker waiting.
+    estimators = EstimatorPool(start_estimator, processes=settings.estimator_processes)
+    draining = threading.Event()
+    app = create_app(
+        settings=settings,
+        engine=engine,
+        blobs=blobs,
+        disk=open_disk(settings),
+        estimator=estimators,
+        keys=KeyRing(database),
+        tokens=RateTokens(database, per_minute=settings.requests_per_minute),
+        browser_tokens=StoredBrowserTokens(database),
+        draining=draining,
+    )
+    server = ApiServer(
+        app,
+        log_level=settings.log_level,
+        draining=draining,
+        stop_delay_s=settings.stop_delay_s,
+    )
+    return ApiProcess(engine=engine, webhooks=webhooks, estimators=estimators, server=server)
+
+
+def _engine(
+    settings: Settings, database: sa.Engine, blobs: BlobStore, ballast: Ballast
+) -> DbosJobEngine:
+    return DbosJobEngine(
+        database,
+        blobs,
+        max_queued=settings.max_queued,
+        max_queued_per_tenant=settings.tenant_queue_limit,
+        image_quota=ImageQuota(
+            images=settings.max_images_per_tenant, size=settings.max_image_bytes_per_tenant
+        ),
+        retention_s=settings.retention_s,
+        sweep_interval_s=settings.sweep_interval_s,
+        heartbeat_s=settings.heartbeat_s,
+        dead_after_s=settings.dead_after_s,
+        ballast=ballast,
+    )
+
+
+def _webhooks(settings: Settings, database: sa.Engine, blobs: BlobStore) -> Deliverer:
+    return Deliverer(
+        WebhookLedger(database, time_limit_s=settings.webhook_time_limit_s),
+        Sender(
+            allowed_hosts=settings.allowed_webhook_hosts,
+            ports=settings.allowed_webhook_ports,
+            time_limit_s=settings.webhook_time_limit_s,
+        ),
+        blobs,
+        secret=settings.webhook_secret,
+        pauses_s=settings.webhook_schedule_s,
+    )
