@@ -5,6 +5,8 @@ finds that its attempt is no longer the current one, and none of its writes have
 """
 
 import json
+import logging
+import time
 from collections.abc import Callable
 from typing import Final
 
@@ -21,9 +23,12 @@ from service.engine.records import (
     job_record,
     move_job,
 )
-from service.engine.retrying import retry_while_database_is_away
+from service.engine.retrying import ABSENCES, retry_while_database_is_away
 from service.engine.statistics import count_durations
-from service.engine.tables import JOBS
+from service.engine.tables import JOBS, WORKERS
+from service.process.retrying import LONGEST_PAUSE_S
+
+LOG: Final = logging.getLogger(__name__)
 
 FINAL_STATES: Final = {
     Ending.SUCCEEDED: JobState.SUCCEEDED,
@@ -52,6 +57,11 @@ _REPORT: Final = (
         last_event=JOBS.c.last_event + 1,
     )
     .returning(JOBS)
+)
+_TOUCH: Final = (
+    sa.update(WORKERS)
+    .where(WORKERS.c.executor_id == sa.bindparam("worker"))
+    .values(pid=WORKERS.c.pid)
 )
 _COUNT_CRASH: Final = sa.update(JOBS).where(*_CURRENT).values(crashes=JOBS.c.crashes + 1)
 
@@ -207,6 +217,23 @@ class AttemptLog:
                 )
             return ended
 
+    def await_database(self) -> None:
+        """Return once the database takes writes.
+
+        DBOS repeats its own writes after pauses that double up to a minute and a half: what it is
+        given to write while the database is away or full stands still for long afterwards.
+        """
+        while True:
+            try:
+                with self._database.begin() as connection:
+                    connection.execute(_TOUCH, {"worker": self._executor_id})
+                    return
+            except ABSENCES as error:
+                LOG.warning(
+                    "The database is not available (%s); waiting.", getattr(error, "orig", error)
+                )
+            time.sleep(LONGEST_PAUSE_S)
+
     @retry_while_database_is_away
     def exists(self, job_id: str) -> bool:
         """Whether the job still exists, not having been erased."""
@@ -215,7 +242,7 @@ class AttemptLog:
 
     @retry_while_database_is_away
     def hand_back(self) -> None:
-        """Return this worker's running jobs to the queue, as if they had not been begun."""
+        """Let this worker's jobs wait again, as if they had not been begun."""
         with self._database.begin() as connection:
             ids = connection.execute(
                 sa.select(JOBS.c.id).where(
@@ -230,6 +257,14 @@ class AttemptLog:
                     state=JobState.QUEUED,
                     values={"claimed_by": None, "stage": None, "view": None, "progress": 0.0},
                 )
+            # Those that were claimed and have not begun.
+            connection.execute(
+                sa.update(JOBS)
+                .where(
+                    JOBS.c.claimed_by == self._executor_id, JOBS.c.state == JobState.QUEUED.value
+                )
+                .values(claimed_by=None)
+            )
 
 
 def result_to_json(attempt: int, result: AttemptResult) -> str:

@@ -1,4 +1,9 @@
-"""The worker's side of the engine on DBOS: claim, run, publish, survive."""
+"""The worker's side of the engine on DBOS: claim, run, publish, survive.
+
+The worker claims jobs in their records (:mod:`service.engine.claims`) when it has a slot for them,
+and has DBOS execute each under the job's id. DBOS keeps what the execution has done: when its
+worker dies, the next one that claims the job continues it after its last checkpoint.
+"""
 
 import contextlib
 import logging
@@ -10,26 +15,20 @@ from collections.abc import Callable
 from typing import Final
 
 import sqlalchemy as sa
-from dbos import DBOS, DBOSClient, DBOSPortableJSONSerializer
+from dbos import DBOS, DBOSPortableJSONSerializer, SetWorkflowID, error
 from opentelemetry.trace import SpanKind
-from sqlalchemy.exc import SQLAlchemyError
 
 from api_schemas.body_models import BodyModels
-from api_schemas.jobs import JobState
 from service.blobs import BlobStore, BlobsUnavailableError
 from service.engine.attempts import AttemptLog, result_from_json, result_to_json
-from service.engine.dbos_internals import (
-    pace_queue,
-    put_back_executions_of,
-    shorten_pauses,
-)
+from service.engine.claims import Claims
 from service.engine.dbos_jobs import BODY_MODELS_FACT
-from service.engine.executions import Executions
+from service.engine.executions import FAILED, Executions
 from service.engine.facts import write_fact
 from service.engine.heartbeat import Heartbeat
 from service.engine.port import AttemptHandler, Ending
-from service.engine.queue import APPLICATION, EXECUTION_VERSION, QUEUE, WORKFLOW
-from service.engine.tables import JOBS
+from service.engine.queue import APPLICATION, EXECUTION_VERSION, WORKFLOW, queue_of
+from service.engine.retrying import ABSENCES
 from service.engine.worker_slots import WorkerSlots
 from service.process.disk import Disk
 from service.process.logs import fields, log_context
@@ -37,21 +36,14 @@ from service.process.tracing import span
 
 LOG: Final = logging.getLogger(__name__)
 
-MAX_RECOVERIES: Final = 10
-"""How many workers may die while running one job. Larger than the limit on crashes of the fit's own
-process, because workers also die for reasons unrelated to the picture: restarts, machines, chaos
-tests."""
+AWAY_PAUSE_S: Final = 1.0
+"""How long to pause while the database is away."""
 
-LOOK_S: Final = 0.02
-"""How long to wait at least between two looks for a job that waits."""
-
-LOOK_ANYWAY_S: Final = 1.0
-"""How long DBOS's queue is left alone while no job waits."""
+CLAIM_ENDS_S: Final = 5.0
+"""How long a worker that stops waits for the claim it may be about."""
 
 OUTCOME_WAIT_S: Final = 2.0
 OUTCOME_POLL_S: Final = 0.02
-
-_ANY_WAITING: Final = sa.select(JOBS.c.id).where(JOBS.c.state == JobState.QUEUED.value).limit(1)
 
 
 class DbosWorkerEngine:
@@ -75,12 +67,12 @@ class DbosWorkerEngine:
         self.executor_id = f"{os.uname().nodename[:20]}-{uuid.uuid4().hex}"
         self._database = database
         self._blobs = blobs
-        self._queue_poll_s = queue_poll_s
         self._disk = disk
         self._is_able = is_able
         self._is_holding_back = False
         self._slots = WorkerSlots(processes, poll_s=queue_poll_s)
         self._executions = Executions(database)
+        self._claims = Claims(database, executor_id=self.executor_id, retention_s=retention_s)
         self._attempts = AttemptLog(
             database,
             executor_id=self.executor_id,
@@ -93,15 +85,13 @@ class DbosWorkerEngine:
             executor_id=self.executor_id,
             interval_s=heartbeat_s,
             dead_after_s=dead_after_s,
-            retention_s=retention_s,
             executions=self._executions,
-            recover=put_back_executions_of,
-            put_back=lambda job_id: DBOS.resume_workflow(job_id, queue_name=QUEUE),
-            holds=self._slots.held,
+            claims=self._claims,
+            slots=self._slots,
             is_able=is_able,
         )
         self._handing_back = threading.Event()
-        self._dbos: DBOS | None = None
+        self._claiming = threading.Thread(target=self._claim_jobs, name="claiming", daemon=True)
 
     def start(
         self,
@@ -114,8 +104,7 @@ class DbosWorkerEngine:
         While the worker is not able to run any, jobs are left waiting, for this one or another,
         and each heartbeat says so.
         """
-        shorten_pauses()
-        self._dbos = DBOS(
+        DBOS(
             config={
                 "name": APPLICATION,
                 "system_database_engine": self._database,
@@ -127,17 +116,12 @@ class DbosWorkerEngine:
             }
         )
         self._register(handler)
-        self._declare_queue()
+        DBOS.listen_queues([queue_of(self.executor_id)])
         self._store_body_models(body_models)
         self._heartbeat.register()
         DBOS.launch()
-        pace_queue(
-            self._dbos,
-            QUEUE,
-            await_turn=self._await_turn,
-            usable_slots=lambda: self._usable_slots() if self._is_able() else 0,
-        )
         self._heartbeat.start()
+        self._claiming.start()
 
     def stop(self, *, drain_s: float) -> None:
         """Claim no more, wait for running attempts, hand the rest back to other workers.
@@ -145,15 +129,67 @@ class DbosWorkerEngine:
         Threads of attempts that were handed back are parked, not ended: DBOS would take their
         return for the end of the job. The caller must end the process right away.
         """
-        if self._dbos is None:
+        if not self._claiming.is_alive():
             return
         self._slots.close()
+        self._claiming.join(CLAIM_ENDS_S)
         if not self._slots.all_left(within_s=drain_s):
             self._handing_back.set()
             self._attempts.hand_back()
         else:
             self._wait_for_outcomes()
         self._heartbeat.stop()
+
+    def _claim_jobs(self) -> None:
+        while True:
+            self._slots.await_vacancy()
+            if self._slots.is_closed:
+                return
+            if not self._begin_waiting_jobs():
+                self._slots.await_next_look()
+
+    def _begin_waiting_jobs(self) -> bool:
+        """Begin as many jobs as there are slots for; returns whether any waited."""
+        if not self._is_able() or not self._has_disk_space():
+            return False
+        try:
+            jobs = self._claims.take(self._slots.vacant())
+        except ABSENCES as absence:
+            LOG.warning("The database is not available (%s).", getattr(absence, "orig", absence))
+            time.sleep(AWAY_PAUSE_S)
+            return False
+        for job_id in jobs:
+            self._slots.take(job_id)
+            try:
+                self._execute(job_id)
+            except Exception:
+                # The heartbeat puts it back.
+                LOG.exception(
+                    "A job that was claimed could not be begun.", extra=fields(job=job_id)
+                )
+                self._slots.free(job_id)
+        return bool(jobs)
+
+    def _execute(self, job_id: str) -> None:
+        """Have DBOS execute a claimed job, or continue what another worker began."""
+        try:
+            with SetWorkflowID(job_id, workflow_id_reuse_policy="reject"):
+                DBOS.start_workflow(self._workflow, job_id)
+        except error.DBOSWorkflowIDInUseError:
+            self._continue(job_id)
+
+    def _continue(self, job_id: str) -> None:
+        ending = self._executions.ending(job_id)
+        if ending is None:
+            DBOS.resume_workflow(job_id, queue_name=queue_of(self.executor_id))
+            return
+        LOG.error("Job %s was left %s by its execution.", job_id, ending)
+        if ending == FAILED:
+            self._claims.give_up(job_id)
+            self._slots.free(job_id)
+        else:
+            self._executions.remove([job_id])
+            self._execute(job_id)
 
     def _wait_for_outcomes(self) -> None:
         # DBOS records the end of a workflow after the workflow has returned. If the process ended
@@ -173,12 +209,15 @@ class DbosWorkerEngine:
         def publish(job_id: str, result: str) -> None:
             self._publish(job_id, result)
 
-        @DBOS.workflow(name=WORKFLOW, max_recovery_attempts=MAX_RECOVERIES)
+        @DBOS.workflow(name=WORKFLOW)
         def fit(job_id: str) -> None:
-            with self._slots.taken_by(job_id):
+            self._slots.begin(job_id)
+            try:
                 result = run(job_id)
                 if result is not None:
                     publish(job_id, result)
+            finally:
+                self._slots.free(job_id)
 
         self._workflow = fit
 
@@ -204,6 +243,7 @@ class DbosWorkerEngine:
                     attempt.job.kind,
                     extra=fields(ending=result.ending, seconds=f"{time.monotonic() - started:.2f}"),
                 )
+            self._attempts.await_database()
             if self._handing_back.is_set():
                 threading.Event().wait()
             if result.ending is Ending.SUPERSEDED:
@@ -226,46 +266,7 @@ class DbosWorkerEngine:
             with contextlib.suppress(BlobsUnavailableError):
                 self._blobs.erase(job_id)
 
-    def _declare_queue(self) -> None:
-        # Before the launch: DBOS looks for new queues only once a second afterwards.
-        client = DBOSClient(
-            system_database_engine=self._database,
-            serializer=DBOSPortableJSONSerializer(),
-            application_name=APPLICATION,
-        )
-        client.register_queue(
-            QUEUE,
-            worker_concurrency=1,
-            polling_interval_sec=self._queue_poll_s,
-        )
-
-    def _await_turn(self) -> None:
-        """Return when a job waits and may be begun, or after a second without any.
-
-        DBOS asks five things whenever it looks. Its queue also holds executions whose job does not
-        wait: what dead workers ran, which can wait for a second longer.
-        """
-        self._slots.end_look()
-        deadline = time.monotonic() + LOOK_ANYWAY_S
-        while True:
-            self._slots.await_turn()
-            if self._slots.is_closed:
-                # No turn comes any more: the process ends once its jobs have.
-                threading.Event().wait()
-            if time.monotonic() >= deadline or self._is_any_waiting():
-                return
-            # Just after a slot was left there is no wait for a turn.
-            time.sleep(LOOK_S)
-
-    def _is_any_waiting(self) -> bool:
-        try:
-            with self._database.connect() as connection:
-                return connection.execute(_ANY_WAITING).first() is not None
-        except SQLAlchemyError:
-            # DBOS meets the same, and pauses.
-            return True
-
-    def _usable_slots(self) -> int:
+    def _has_disk_space(self) -> bool:
         # Waiting jobs are safe, and running ones need the remaining space for their results.
         is_short = not self._disk.has_room_for()
         if is_short != self._is_holding_back:
@@ -274,7 +275,7 @@ class DbosWorkerEngine:
                 LOG.warning("Too little of the disk is free: no job that waits is begun.")
             else:
                 LOG.info("There is room on the disk again: jobs are begun.")
-        return 0 if is_short or self._slots.is_closed else self._slots.claimable()
+        return not is_short
 
     def _store_body_models(self, body_models: BodyModels) -> None:
         with self._database.begin() as connection:

@@ -1,20 +1,23 @@
-"""What DBOS records about executions: who runs what, and what DBOS itself has ended."""
+"""What DBOS records of executions: who runs what, and how it ended. Their ids are the jobs'."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Final
 
 import sqlalchemy as sa
 from dbos import DBOSClient, DBOSPortableJSONSerializer, WorkflowStatus
 
-from service.engine.queue import APPLICATION
+from service.engine.queue import APPLICATION, queue_of
 
-EXHAUSTED: Final = "MAX_RECOVERY_ATTEMPTS_EXCEEDED"
-TERMINAL: Final = ("SUCCESS", "ERROR", "CANCELLED", EXHAUSTED)
+FAILED: Final = "ERROR"
+ENDED: Final = ("SUCCESS", FAILED, "CANCELLED", "MAX_RECOVERY_ATTEMPTS_EXCEEDED")
 OPEN: Final = ("PENDING", "ENQUEUED", "DELAYED")
+
+CONTINUE_S: Final = 0.5
+"""How often DBOS looks for executions that a worker is to continue."""
 
 
 class Executions:
-    """Reads executions, whose ids are those of the jobs.
+    """Reads executions, and removes those that are over.
 
     An unavailable database raises ``OperationalError`` at once, where DBOS itself would wait: the
     heartbeat must not stall until the database is back.
@@ -31,36 +34,42 @@ class Executions:
 
     def holders(self) -> Mapping[str, str]:
         """By which executor, dead or alive, each job's execution is recorded as run."""
-        pending = self._list(["PENDING"])
         return {
-            each.workflow_id: each.executor_id for each in pending if each.executor_id is not None
+            each.workflow_id: each.executor_id
+            for each in self._list(["PENDING"])
+            if each.executor_id is not None
         }
 
     def held_by(self, executor_id: str) -> set[str]:
         """The jobs whose executions are recorded as run by an executor."""
         return {each.workflow_id for each in self._list(["PENDING"], executor_id=executor_id)}
 
-    def ended(self, job_ids: Sequence[str]) -> Mapping[str, str]:
-        """Which of the jobs' executions have ended, and how: one of ``TERMINAL``."""
-        # No ids would mean all executions.
-        if not job_ids:
-            return {}
-        ended = self._list(TERMINAL, job_ids=job_ids)
-        return {each.workflow_id: each.status for each in ended}
+    def ending(self, job_id: str) -> str | None:
+        """How a job's execution ended: one of ``ENDED``; None if it has not."""
+        found = self._list(ENDED, job_id=job_id)
+        return found[0].status if found else None
 
     def open(self) -> int:
         """How many executions are waiting or running."""
         return len(self._list(OPEN))
 
+    def remove(self, job_ids: Collection[str]) -> None:
+        """Forget executions, with their checkpoints."""
+        self._client.delete_workflows(list(job_ids))
+
+    def declare_queue(self, executor_id: str) -> None:
+        """Make the queue on which an executor continues what others have begun."""
+        self._client.register_queue(queue_of(executor_id), polling_interval_sec=CONTINUE_S)
+
+    def drop_queue(self, executor_id: str) -> None:
+        """Remove the queue of an executor that is gone."""
+        self._client.delete_queue(queue_of(executor_id))
+
     def _list(
-        self,
-        status: Sequence[str],
-        *,
-        executor_id: str | None = None,
-        job_ids: Sequence[str] | None = None,
+        self, status: Sequence[str], *, executor_id: str | None = None, job_id: str | None = None
     ) -> list[WorkflowStatus]:
         return self._client.list_workflows(
-            workflow_ids=None if job_ids is None else list(job_ids),
+            workflow_ids=None if job_id is None else [job_id],
             status=list(status),
             executor_id=executor_id,
             load_input=False,

@@ -46,6 +46,7 @@ JOBS = sa.Table(
     sa.Column("webhook_attempts", sa.Integer, nullable=False, default=0),
     sa.Column("webhook_status", sa.Integer),
     sa.Column("webhook_error", sa.Text),
+    sa.Column("worker_deaths", sa.Integer),
     sa.UniqueConstraint("tenant", "idempotency_key", name="maquette_jobs_key"),
     sa.Index("maquette_jobs_newest", "tenant", "root", "parent_id", "created_at", "id"),
     sa.Index("maquette_jobs_label", "tenant", "label", "root", "created_at", "id"),
@@ -60,7 +61,9 @@ by name, as JSON, ``pictures`` of them pictures of a person; ``webhook_target`` 
 another, which holds whom to notify and the secret to sign with. It is not in the database, because
 databases keep what was deleted in dead rows, logs and backups. ``token_id`` names the browser's
 token that a job was made with, if it was; ``turn`` says when it is begun
-(:mod:`service.engine.turns`), None if a version without turns accepted it."""
+(:mod:`service.engine.turns`), None if a version without turns accepted it. ``claimed_by`` is the
+worker that runs the job or is about to (:mod:`service.engine.claims`); ``worker_deaths`` counts
+those that died over it, and is None until one did."""
 
 SOURCES = sa.Table(
     "maquette_sources",

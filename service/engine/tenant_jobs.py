@@ -1,4 +1,4 @@
-"""The jobs of one tenant: our records, with DBOS's queue behind them."""
+"""The jobs of one tenant, as our records have them."""
 
 import functools
 import logging
@@ -7,7 +7,7 @@ from collections.abc import Collection, Sequence
 from typing import Final
 
 import sqlalchemy as sa
-from dbos import DBOSClient, EnqueueOptions
+from dbos import DBOSClient
 from sqlalchemy.exc import IntegrityError
 
 from api_schemas.jobs import EventData, EventKind, JobState, WebhookState
@@ -31,7 +31,6 @@ from service.engine.port import (
     Submission,
     SubmitOutcome,
 )
-from service.engine.queue import EXECUTION_VERSION, QUEUE, WORKFLOW
 from service.engine.records import INPUTS, append_event, end_job, job_record
 from service.engine.retrying import ABSENCES
 from service.engine.tables import EVENTS, JOBS, SOURCES, TOMBSTONES
@@ -95,7 +94,7 @@ class DbosTenantJobs:
 
     @available
     def submit(self, job: NewJob) -> Submission:
-        """Write the record and the queue entry in one transaction."""
+        """Write the record, which is all that a worker needs to find it."""
         try:
             with read_then_write(self._database) as connection:
                 answered = self._admission.answered(connection, job.idempotency)
@@ -111,14 +110,6 @@ class DbosTenantJobs:
                     return Submission(outcome=SubmitOutcome.TOKEN_SPENT, job=None)
                 turn = turn_of_next_job(connection, tenant=self._tenant, token=self._token)
                 record = self._insert(connection, job, turn=turn, expires_at=expires_at)
-                options: EnqueueOptions = {
-                    "workflow_name": WORKFLOW,
-                    "queue_name": QUEUE,
-                    "workflow_id": job.id,
-                    "app_version": EXECUTION_VERSION,
-                    "priority": turn,
-                }
-                self._client.enqueue_in_transaction(connection, options, job.id)
                 return Submission(outcome=SubmitOutcome.ACCEPTED, job=record)
         except IntegrityError:
             # Two requests with the same new key raced; the other one is stored by now.
@@ -172,8 +163,7 @@ class DbosTenantJobs:
     def cancel(self, job_id: str) -> JobRecord | None:
         """End a queued job at once; ask the worker of a running one to stop.
 
-        A running job keeps its entry in DBOS: if its worker is dead, the next one must find the
-        job, see the request and end it.
+        If that worker is dead, the next one finds the job, sees the request and ends it.
         """
         return self._ballast.spend_on(lambda: self._cancel(job_id))
 
@@ -195,19 +185,11 @@ class DbosTenantJobs:
                     .values(cancel_requested=True)
                 )
                 return self._find(connection, job_id)
-        self._cancel_in_queue(job_id)
         return canceled
-
-    def _cancel_in_queue(self, job_id: str) -> None:
-        try:
-            self._client.cancel_workflow(job_id)
-        except ABSENCES as error:
-            # Whoever takes it finds that the job has ended.
-            LOG.warning("A canceled job stays in the queue (%s).", getattr(error, "orig", error))
 
     @available
     def erase(self, job_id: str) -> Sequence[str]:
-        """Delete records, events and queue entries; a running attempt finds itself superseded."""
+        """Delete records, events and checkpoints; a running attempt finds itself superseded."""
         forgotten = self._ballast.spend_on(lambda: self._forget(job_id))
         if forgotten:
             try:

@@ -1,8 +1,8 @@
 """Whose job is begun next: owners take turns, and each owner's jobs are begun in their order.
 
 An owner is a tenant, or a browser with one of its tokens. A job gets the number of its turn when it
-is accepted, and DBOS begins the jobs of the lowest number first: the number is its priority. So all
-workers and both databases keep the same order, and a job that is put back keeps its place.
+is accepted, and workers claim the jobs of the lowest number first. So all workers and both
+databases keep the same order, and a job that is put back keeps its place.
 
 The numbers are those of start-time fair queueing (Goyal, Vin and Cheng 1996) with jobs of equal
 cost: an owner's next job is one turn after its last one, and an owner who has nothing waiting

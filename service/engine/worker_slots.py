@@ -1,26 +1,25 @@
 """The slots a worker's jobs run in, and when the worker looks for more jobs."""
 
-import contextlib
 import math
 import threading
 import time
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection
 from typing import Final
 
 SETTLING_S: Final = 0.1
-"""How long to look for jobs without a pause after a slot was left: what comes next may be about to
-be submitted, and the engine counts a job until it has recorded its end, a database write or two."""
+"""How long to look often for jobs after a slot was left: what comes next may be about to be
+submitted."""
 
-FULL_LOOK_S: Final = 1.0
-"""How long a full worker waits before it looks anyway."""
+LOOK_S: Final = 0.02
+"""How long to wait between two looks for so long."""
 
 
 class WorkerSlots:
     """One slot for each job that may run at the same time; decides when to look for jobs.
 
-    Polling at a fixed interval would leave a slot empty for half an interval after every job, and
-    would query the database while no slot is free. A job leaves its slot when all that is left of
-    it is to store its result; no more jobs may be about that than there are slots.
+    Looking at a fixed pace would leave a slot empty for half an interval after every job, and would
+    query the database while no slot is free. A job leaves its slot when all that is left of it is
+    to store its result; no more jobs may be about that than there are slots.
     """
 
     def __init__(
@@ -29,79 +28,80 @@ class WorkerSlots:
         self.count = count
         self._poll_s = poll_s
         self._monotonic = monotonic
+        self._taken: set[str] = set()
         self._running: set[str] = set()
         self._leaving: set[str] = set()
-        self._is_looking = False
         self._changed = threading.Condition()
-        self._turns = 0
         self._left_at = -math.inf
+        self._is_left = False
         self._closed = False
 
-    @contextlib.contextmanager
-    def taken_by(self, job_id: str) -> Iterator[None]:
-        """Give a job a slot while the context lasts, or until it leaves it."""
+    def take(self, job_id: str) -> None:
+        """Give a slot to a job that was claimed and is about to begin."""
         with self._changed:
+            self._taken.add(job_id)
+
+    def begin(self, job_id: str) -> None:
+        """Note that the job has begun."""
+        with self._changed:
+            self._taken.discard(job_id)
             self._running.add(job_id)
-        try:
-            yield
-        finally:
-            with self._changed:
-                if job_id in self._leaving:
-                    self._changed.wait_for(self._may_end, timeout=FULL_LOOK_S)
-                self._running.discard(job_id)
-                self._leaving.discard(job_id)
-                self._give_turn()
 
     def leave(self, job_id: str) -> None:
         """Leave the slot to another job, while the result of this one is stored."""
         with self._changed:
             self._running.discard(job_id)
             self._leaving.add(job_id)
-            self._give_turn()
+            self._report_left()
+
+    def free(self, job_id: str) -> None:
+        """Forget a job: it has ended, or will not begin."""
+        with self._changed:
+            for jobs in (self._taken, self._running, self._leaving):
+                jobs.discard(job_id)
+            self._report_left()
 
     def held(self) -> Collection[str]:
         """The jobs that have a slot now, or whose results are being stored."""
         with self._changed:
-            return (*self._running, *self._leaving)
+            return (*self._taken, *self._running, *self._leaving)
 
-    def claimable(self) -> int:
-        """How many jobs the engine may have begun after the look that begins now.
+    def not_begun(self) -> Collection[str]:
+        """The jobs that have a slot and have not begun."""
+        with self._changed:
+            return tuple(self._taken)
 
-        Those that have left their slots still count among them. None of them ends before
-        :meth:`end_look`: a job too many would be begun in its place.
+    def vacant(self) -> int:
+        """How many jobs may begin now; none once the slots are closed."""
+        with self._changed:
+            return self._vacant()
+
+    def await_vacancy(self) -> None:
+        """Return when a slot is free, or when the slots are closed."""
+        with self._changed:
+            self._changed.wait_for(lambda: self._closed or self._vacant() > 0)
+
+    def await_next_look(self) -> None:
+        """Return when it is time to look once more, after a look that found nothing.
+
+        That is at once if a slot has been left since the last time, else after ``poll_s`` or when
+        one is; just after one was left, after ``LOOK_S``.
         """
         with self._changed:
-            self._is_looking = True
-            return min(self.count + len(self._leaving), 2 * self.count)
-
-    def end_look(self) -> None:
-        """Let jobs end again that have left their slots."""
-        with self._changed:
-            self._is_looking = False
-            self._changed.notify_all()
-
-    def await_turn(self) -> None:
-        """Return when it is time to look for jobs.
-
-        That is at once if a slot has just been left, else after ``poll_s`` or when the next one is;
-        while all slots are taken, once a second.
-        """
-        with self._changed:
-            if not self._changed.wait_for(self._has_free_slot, timeout=FULL_LOOK_S):
-                return
-            if self._monotonic() - self._left_at >= SETTLING_S:
-                before = self._turns
-                self._changed.wait_for(
-                    lambda: self._closed or self._turns != before, timeout=self._poll_s
-                )
+            is_settled = self._monotonic() - self._left_at >= SETTLING_S
+            self._changed.wait_for(
+                lambda: self._closed or self._is_left,
+                timeout=self._poll_s if is_settled else min(LOOK_S, self._poll_s),
+            )
+            self._is_left = False
 
     @property
     def is_closed(self) -> bool:
-        """Whether nobody is to wait for a turn any more."""
+        """Whether no job is to begin any more."""
         return self._closed
 
     def close(self) -> None:
-        """Release everybody who waits for a turn."""
+        """Begin no more jobs, and release everybody who waits."""
         with self._changed:
             self._closed = True
             self._changed.notify_all()
@@ -110,19 +110,16 @@ class WorkerSlots:
         """Wait until all jobs have ended; returns whether that happened in time."""
         with self._changed:
             return self._changed.wait_for(
-                lambda: not self._running and not self._leaving, timeout=within_s
+                lambda: not (self._taken or self._running or self._leaving), timeout=within_s
             )
 
-    def _has_free_slot(self) -> bool:
-        running = len(self._running)
-        return self._closed or (
-            running < self.count and running + len(self._leaving) < 2 * self.count
-        )
+    def _vacant(self) -> int:
+        if self._closed:
+            return 0
+        running = len(self._taken) + len(self._running)
+        return min(self.count - running, 2 * self.count - running - len(self._leaving))
 
-    def _may_end(self) -> bool:
-        return self._closed or not self._is_looking
-
-    def _give_turn(self) -> None:
-        self._turns += 1
+    def _report_left(self) -> None:
+        self._is_left = True
         self._left_at = self._monotonic()
         self._changed.notify_all()

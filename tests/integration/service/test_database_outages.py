@@ -49,28 +49,23 @@ def test_a_refusal_is_logged_in_a_line_not_in_a_trace(
     assert lines[number + 1].startswith("20"), "it is followed by another record"
 
 
-@pytest.mark.parametrize(
-    ("stop", "step"), [("cancel", "_cancel_in_queue"), ("erase", "_forget_traces")]
-)
-def test_stopping_a_job_does_not_wait_for_a_database_that_goes_away_meanwhile(
-    machine: Machine, stop: str, step: str, monkeypatch: pytest.MonkeyPatch
+def test_erasing_a_job_does_not_wait_for_a_database_that_goes_away_meanwhile(
+    machine: Machine, monkeypatch: pytest.MonkeyPatch
 ):
     with contextlib.ExitStack() as stack:
         jobs = stack.enter_context(contextlib.closing(engine_of(machine))).of("somebody")
         jobs.reserve("a", None)
         options = StoredBlob(digest="0" * 64, media_type="application/json")
         jobs.submit(NewJob(id="a", kind=FIT, options=options, inputs={}))
-        proceed = getattr(jobs, step)
+        proceed = jobs._forget_traces
 
-        def go_away_first(of: str | Sequence[str]) -> None:
+        def go_away_first(of: Sequence[str]) -> None:
             stack.enter_context(no_connections(machine))
             proceed(of)
 
-        monkeypatch.setattr(jobs, step, go_away_first)
+        monkeypatch.setattr(jobs, "_forget_traces", go_away_first)
         answers: list[object] = []
-        stopping = threading.Thread(
-            target=lambda: answers.append(getattr(jobs, stop)("a")), daemon=True
-        )
+        stopping = threading.Thread(target=lambda: answers.append(jobs.erase("a")), daemon=True)
         stopping.start()
         stopping.join(STUCK_S)
         assert len(answers) == 1

@@ -10,7 +10,7 @@ from sqlalchemy.exc import OperationalError
 
 from service.engine.database import open_database, prepare_database
 from service.engine.executions import Executions
-from service.engine.queue import APPLICATION, EXECUTION_VERSION, QUEUE, WORKFLOW
+from service.engine.queue import APPLICATION, EXECUTION_VERSION, WORKFLOW, queue_of
 from tests.integration.service.harness import PATIENCE_S, Machine
 
 NOBODY = "postgresql://postgres@127.0.0.1:1/none"
@@ -35,7 +35,7 @@ def test_ended_and_waiting_executions_are_told_apart(database: sa.Engine):
         client.enqueue(
             {
                 "workflow_name": WORKFLOW,
-                "queue_name": QUEUE,
+                "queue_name": queue_of("somebody"),
                 "workflow_id": job_id,
                 "app_version": EXECUTION_VERSION,
             },
@@ -44,11 +44,16 @@ def test_ended_and_waiting_executions_are_told_apart(database: sa.Engine):
     client.cancel_workflow("canceled")
     client.cancel_workflow("another")
     executions = Executions(database)
-    assert executions.ended(["waiting", "canceled", "unknown"]) == {"canceled": "CANCELLED"}
-    assert executions.ended([]) == {}
+    assert executions.ending("canceled") == "CANCELLED"
+    assert executions.ending("waiting") is None
+    assert executions.ending("unknown") is None
     assert executions.open() == 1
     assert executions.holders() == {}
     assert executions.held_by("anybody") == set()
+    executions.remove(["waiting", "canceled"])
+    assert executions.open() == 0
+    assert executions.ending("canceled") is None
+    assert executions.ending("another") == "CANCELLED"
 
 
 def test_a_database_that_is_away_is_told_and_not_waited_for():

@@ -134,12 +134,13 @@ def test_an_upload_that_finds_no_room_on_its_way_is_refused(
 
 
 def test_what_waits_is_begun_when_there_is_room_again(disk: SmallDisk, tmp_path: Path):
-    note = tmp_path / "pids"
+    note, gate = tmp_path / "pids", tmp_path / "gate"
     with running_service(machine_on(disk)) as service:
-        running = service.submit({"seconds": 1.0, "note_pid": str(note)})
+        running = service.submit({"gate": str(gate), "note_pid": str(note)})
         waiting = [service.submit({"number": number}) for number in range(3)]
         eventually(lambda: pids_noted(note), what="the fit runs")
         disk.leave(SHORT)
+        gate.touch()
         assert service.ended(running)["state"] == "succeeded"
         assert {service.state(path) for path in waiting} == {"queued"}
         disk.clear()
@@ -151,13 +152,13 @@ def test_what_waits_is_begun_when_there_is_room_again(disk: SmallDisk, tmp_path:
 def test_on_a_disk_without_a_byte_all_can_be_read_and_erased_and_nothing_is_lost(
     disk: SmallDisk, tmp_path: Path
 ):
-    note = tmp_path / "pids"
+    note, gate = tmp_path / "pids", tmp_path / "gate"
     with running_service(machine_on(disk)) as service:
         ended = [service.submit(large(number)) for number in range(4)]
         for path in ended:
             service.ended(path)
         image = upload(service, scripted_image(large(9))).headers["Location"]
-        running = service.submit({"seconds": 1.0, "note_pid": str(note)})
+        running = service.submit({"gate": str(gate), "note_pid": str(note)})
         waiting = [service.submit({"number": number}) for number in range(2)]
         eventually(lambda: pids_noted(note), what="the fit runs")
         disk.leave(0)
@@ -177,6 +178,7 @@ def test_on_a_disk_without_a_byte_all_can_be_read_and_erased_and_nothing_is_lost
         assert picture in {path.name for path in before} - {path.name for path in blobs_of(disk)}
         assert service.client.post(f"{waiting[1]}/cancel").json()["state"] == "canceled"
 
+        gate.touch()
         disk.clear()
         assert service.ended(running)["state"] == "succeeded"
         assert service.ended(service.submit())["state"] == "succeeded"

@@ -1,20 +1,23 @@
-"""Who looks for jobs waits for a turn: threads that wait for minutes, or are let go at once."""
+"""Whoever looks for jobs waits for minutes, or is let go at once."""
 
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-from service.engine import worker_slots
 from service.engine.worker_slots import SETTLING_S, WorkerSlots
 
 LONG_S = 6_000.0
 PATIENCE_S = 600.0
 
 
+def slots_of(count: int, monotonic: Callable[[], float] = lambda: 5.0) -> WorkerSlots:
+    return WorkerSlots(count, poll_s=LONG_S, monotonic=monotonic)
+
+
 @contextmanager
-def waiting(slots: WorkerSlots) -> Iterator[threading.Thread]:
-    """Somebody who waits for a turn; gets it before the context ends, or the test fails."""
-    thread = threading.Thread(target=slots.await_turn, daemon=True)
+def waiting(wait: Callable[[], None]) -> Iterator[threading.Thread]:
+    """Somebody who waits; is let go before the context ends, or the test fails."""
+    thread = threading.Thread(target=wait, daemon=True)
     thread.start()
     yield thread
     thread.join(PATIENCE_S)
@@ -26,114 +29,91 @@ def is_waiting(thread: threading.Thread) -> bool:
     return thread.is_alive()
 
 
-def test_with_room_the_next_look_is_a_pause_away():
-    slots = WorkerSlots(2, poll_s=LONG_S)
-    with slots.taken_by("one"), waiting(slots) as waiter:
+def test_jobs_take_slots_when_they_are_claimed_and_free_them_when_they_end():
+    slots = slots_of(2)
+    assert slots.vacant() == 2
+    slots.take("one")
+    assert (slots.vacant(), set(slots.held()), set(slots.not_begun())) == (1, {"one"}, {"one"})
+    slots.begin("one")
+    assert (slots.vacant(), set(slots.held()), set(slots.not_begun())) == (1, {"one"}, set())
+    slots.free("one")
+    assert (slots.vacant(), set(slots.held())) == (2, set())
+
+
+def test_a_full_worker_waits_until_a_slot_is_left():
+    slots = slots_of(1)
+    slots.take("one")
+    slots.begin("one")
+    with waiting(slots.await_vacancy) as waiter:
         assert is_waiting(waiter)
-        slots.close()
-
-
-def test_the_end_of_a_job_gives_a_turn_at_once():
-    # With a clock that stands still, whoever comes to wait only after the end is let go as well.
-    slots = WorkerSlots(2, poll_s=LONG_S, monotonic=lambda: 5.0)
-    with waiting(slots) as waiter, slots.taken_by("one"):
-        assert is_waiting(waiter)
-
-
-def test_just_after_an_end_nobody_waits():
-    slots = WorkerSlots(1, poll_s=LONG_S, monotonic=lambda: 5.0)
-    with slots.taken_by("one"):
-        pass
-    with waiting(slots):
-        pass
-
-
-def test_some_time_after_an_end_the_pace_is_kept_again():
-    now = 5.0
-    slots = WorkerSlots(1, poll_s=LONG_S, monotonic=lambda: now)
-    with slots.taken_by("one"):
-        pass
-    now += 2.0 * SETTLING_S
-    with waiting(slots) as waiter:
-        assert is_waiting(waiter)
-        slots.close()
-
-
-def test_a_full_worker_waits_for_a_slot_and_not_for_the_pace(monkeypatch):
-    monkeypatch.setattr(worker_slots, "FULL_LOOK_S", LONG_S)
-    slots = WorkerSlots(1, poll_s=0.0)
-    given = threading.Event()
-
-    def look() -> None:
-        slots.await_turn()
-        given.set()
-
-    with slots.taken_by("one"):
-        threading.Thread(target=look, daemon=True).start()
-        assert not given.wait(0.2)
-    assert given.wait(PATIENCE_S)
-
-
-def test_a_full_worker_is_given_a_turn_in_the_end():
-    slots = WorkerSlots(1, poll_s=LONG_S)
-    with slots.taken_by("one"), waiting(slots):
-        pass
-
-
-def test_closed_places_keep_nobody_waiting_and_wait_for_those_who_have_one():
-    slots = WorkerSlots(2, poll_s=LONG_S)
-    with slots.taken_by("one"):
-        slots.close()
-        with waiting(slots):
-            pass
-        assert set(slots.held()) == {"one"}
-        assert not slots.all_left(within_s=0.01)
-    assert slots.all_left(within_s=0.0)
-    assert set(slots.held()) == set()
+        slots.leave("one")
+    assert slots.vacant() == 1
 
 
 def test_a_slot_that_was_left_is_another_jobs_while_the_result_is_stored():
-    slots = WorkerSlots(1, poll_s=LONG_S, monotonic=lambda: 5.0)
-    with slots.taken_by("one"):
-        slots.leave("one")
-        with waiting(slots):
-            pass
-        # The engine has begun one, which it still counts.
-        assert slots.claimable() == 2
-        slots.end_look()
-        assert set(slots.held()) == {"one"}
-        assert not slots.all_left(within_s=0.01)
+    slots = slots_of(1)
+    slots.begin("one")
+    slots.leave("one")
+    assert slots.vacant() == 1
+    assert set(slots.held()) == {"one"}
+    assert not slots.all_left(within_s=0.01)
+    slots.free("one")
     assert slots.all_left(within_s=0.0)
-    assert slots.claimable() == 1
 
 
-def test_no_more_results_are_being_stored_than_there_are_slots(monkeypatch):
-    monkeypatch.setattr(worker_slots, "FULL_LOOK_S", LONG_S)
-    slots = WorkerSlots(1, poll_s=0.0)
-    with slots.taken_by("one"), slots.taken_by("two"):
+def test_no_more_results_are_being_stored_than_there_are_slots():
+    slots = slots_of(1)
+    for job in ("one", "two"):
+        slots.begin(job)
+        slots.leave(job)
+    assert slots.vacant() == 0
+    with waiting(slots.await_vacancy) as waiter:
+        assert is_waiting(waiter)
+        slots.free("one")
+
+
+def test_after_a_look_that_found_nothing_the_next_is_a_pause_away():
+    slots = slots_of(2)
+    with waiting(slots.await_next_look) as waiter:
+        assert is_waiting(waiter)
+        slots.close()
+
+
+def test_the_end_of_a_job_is_followed_by_a_look_at_once():
+    slots = slots_of(2)
+    slots.begin("one")
+    with waiting(slots.await_next_look) as waiter:
+        assert is_waiting(waiter)
         slots.leave("one")
-        slots.leave("two")
-        assert slots.claimable() == 2
-        slots.end_look()
-        thread = threading.Thread(target=slots.await_turn, daemon=True)
-        thread.start()
-        assert is_waiting(thread)
-    thread.join(PATIENCE_S)
-    assert not thread.is_alive()
+    # Also if nobody was waiting when it was left.
+    slots.free("one")
+    with waiting(slots.await_next_look):
+        pass
 
 
-def test_a_job_that_a_look_has_counted_does_not_end_during_it(monkeypatch):
-    monkeypatch.setattr(worker_slots, "FULL_LOOK_S", LONG_S)
-    slots = WorkerSlots(1, poll_s=LONG_S)
+def test_just_after_an_end_looks_follow_each_other_quickly_and_later_at_the_pace():
+    now = 5.0
+    slots = slots_of(1, lambda: now)
+    slots.begin("one")
+    slots.free("one")
+    for _ in range(3):
+        with waiting(slots.await_next_look):
+            pass
+    now += 2.0 * SETTLING_S
+    with waiting(slots.await_next_look) as waiter:
+        assert is_waiting(waiter)
+        slots.close()
 
-    def run() -> None:
-        with slots.taken_by("one"):
-            slots.leave("one")
-            assert slots.claimable() == 2
 
-    thread = threading.Thread(target=run, daemon=True)
-    thread.start()
-    assert is_waiting(thread)
-    slots.end_look()
-    thread.join(PATIENCE_S)
-    assert not thread.is_alive()
+def test_closed_slots_take_nobody_and_wait_for_those_who_have_one():
+    slots = slots_of(2)
+    slots.begin("one")
+    slots.close()
+    assert slots.is_closed
+    assert slots.vacant() == 0
+    with waiting(slots.await_vacancy):
+        pass
+    assert set(slots.held()) == {"one"}
+    assert not slots.all_left(within_s=0.01)
+    slots.free("one")
+    assert slots.all_left(within_s=0.0)

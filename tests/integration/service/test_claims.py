@@ -1,0 +1,181 @@
+"""Who runs which job, on both databases."""
+
+import threading
+from collections.abc import Iterator
+
+import pytest
+import sqlalchemy as sa
+
+from api_schemas.jobs import JobState
+from service.engine.attempts import AttemptLog
+from service.engine.claims import MAX_WORKER_DEATHS, Claims
+from service.engine.database import open_database, prepare_database
+from service.engine.records import find_job
+from service.engine.tables import JOBS
+from tests.integration.service.harness import Machine
+
+RETENTION_S = 60.0
+
+
+@pytest.fixture
+def database(machine: Machine) -> Iterator[sa.Engine]:
+    url = machine.database_url or f"sqlite:///{machine.data_dir / 'maquette.sqlite'}"
+    prepare_database(url)
+    opened = open_database(url)
+    yield opened
+    opened.dispose()
+
+
+def claims(database: sa.Engine, worker: str) -> Claims:
+    return Claims(database, executor_id=worker, retention_s=RETENTION_S)
+
+
+def attempts(database: sa.Engine, worker: str) -> AttemptLog:
+    return AttemptLog(
+        database,
+        executor_id=worker,
+        max_crashes=3,
+        retention_s=RETENTION_S,
+        leave_slot=lambda _: None,
+    )
+
+
+def accept(database: sa.Engine, name: str, *, turn: int | None = 1) -> None:
+    with database.begin() as connection:
+        connection.execute(
+            sa.insert(JOBS).values(
+                id=name,
+                tenant="default",
+                kind="fit",
+                root="fit",
+                pictures=1,
+                turn=turn,
+                state="queued",
+                progress=0.0,
+                attempt=0,
+                crashes=0,
+                cancel_requested=False,
+                created_at=1.0,
+                options_digest="0" * 64,
+                inputs="{}",
+                artifacts="[]",
+                last_event=0,
+            )
+        )
+
+
+def state(database: sa.Engine, name: str) -> JobState:
+    with database.connect() as connection:
+        job = find_job(connection, name)
+    assert job is not None
+    return job.state
+
+
+def test_jobs_are_claimed_by_their_turn_and_by_one_worker_only(database: sa.Engine):
+    for name, turn in {"third": 7, "second": 3, "first": None}.items():
+        accept(database, name, turn=turn)
+    one, other = claims(database, "one"), claims(database, "other")
+    assert one.take(1) == ["first"]
+    assert other.take(5) == ["second", "third"]
+    assert one.take(5) == []
+    assert (one.held(), other.held()) == ({"first"}, {"second", "third"})
+    assert one.holders() == {"one", "other"}
+
+
+def test_workers_that_claim_at_the_same_time_share_the_jobs(database: sa.Engine):
+    names = {f"job-{number}" for number in range(40)}
+    for name in names:
+        accept(database, name)
+    taken: list[str] = []
+
+    def take_all(worker: str) -> None:
+        mine = claims(database, worker)
+        while jobs := mine.take(2):
+            taken.extend(jobs)
+
+    workers = [threading.Thread(target=take_all, args=[f"worker-{each}"]) for each in range(4)]
+    for each in workers:
+        each.start()
+    for each in workers:
+        each.join()
+    # Postgres skips what another is just claiming; what is left then has not been lost.
+    taken.extend(claims(database, "last").take(len(names)))
+    assert len(taken) == len(names)
+    assert set(taken) == names
+
+
+def test_a_job_that_ended_or_was_canceled_is_claimed_by_nobody(database: sa.Engine):
+    accept(database, "canceled")
+    with database.begin() as connection:
+        connection.execute(sa.update(JOBS).values(state=JobState.CANCELED.value))
+    assert claims(database, "one").take(1) == []
+
+
+def test_the_jobs_of_the_dead_wait_again_and_are_put_back_once(database: sa.Engine):
+    for name in ("begun", "claimed", "others"):
+        accept(database, name)
+    doomed, other = claims(database, "doomed"), claims(database, "other")
+    assert doomed.take(2) == ["begun", "claimed"]
+    assert other.take(1) == ["others"]
+    assert attempts(database, "doomed").begin("begun") is not None
+    assert sorted(other.take_from(["doomed", "somebody"])) == ["begun", "claimed"]
+    assert claims(database, "third").take_from(["doomed"]) == []
+    assert other.held() == {"others"}
+    assert sorted(other.take(5)) == ["begun", "claimed"]
+    # It goes on being shown as running, and its next attempt is counted.
+    assert state(database, "begun") is JobState.RUNNING
+    second = attempts(database, "other").begin("begun")
+    assert second is not None
+    assert second.job.attempt == 2
+
+
+def test_a_job_over_which_too_many_workers_died_is_given_up(database: sa.Engine):
+    accept(database, "deadly")
+    watcher = claims(database, "watcher")
+    for number in range(MAX_WORKER_DEATHS + 1):
+        assert state(database, "deadly") is not JobState.FAILED
+        worker = f"worker-{number}"
+        assert claims(database, worker).take(1) == ["deadly"]
+        assert attempts(database, worker).begin("deadly") is not None
+        watcher.take_from([worker])
+    assert state(database, "deadly") is JobState.FAILED
+    assert watcher.take(1) == []
+
+
+def test_workers_that_die_before_a_job_began_do_not_count_against_it(database: sa.Engine):
+    accept(database, "job")
+    watcher = claims(database, "watcher")
+    for number in range(MAX_WORKER_DEATHS + 5):
+        worker = f"worker-{number}"
+        assert claims(database, worker).take(1) == ["job"]
+        watcher.take_from([worker])
+    assert state(database, "job") is JobState.QUEUED
+
+
+def test_a_worker_puts_back_only_what_is_its_own(database: sa.Engine):
+    accept(database, "job")
+    one, other = claims(database, "one"), claims(database, "other")
+    assert one.take(1) == ["job"]
+    other.put_back("job")
+    assert one.held() == {"job"}
+    one.put_back("job")
+    assert one.held() == set()
+    assert other.take(1) == ["job"]
+
+
+def test_what_was_claimed_and_not_begun_is_handed_back_too(database: sa.Engine):
+    accept(database, "job")
+    assert claims(database, "one").take(1) == ["job"]
+    attempts(database, "other").hand_back()
+    assert claims(database, "other").take(1) == []
+    attempts(database, "one").hand_back()
+    assert claims(database, "other").take(1) == ["job"]
+
+
+def test_a_job_whose_execution_failed_is_ended(database: sa.Engine):
+    accept(database, "job")
+    one = claims(database, "one")
+    assert one.take(1) == ["job"]
+    one.give_up("job")
+    assert state(database, "job") is JobState.FAILED
+    assert one.held() == set()
