@@ -36,6 +36,7 @@ from service.api.estimates import Estimates
 from service.api.event_feed import EventFeed
 from service.api.job_inputs import COPIED_AT_ONCE
 from service.api.local_guard import LocalGuard
+from service.api.metrics import ServiceMetrics
 from service.api.observation import Observation
 from service.api.problems import install_problem_handlers
 from service.api.rate_limit import RateLimit
@@ -44,7 +45,6 @@ from service.api.readiness import checks as readiness_checks
 from service.api.request_form import check_form
 from service.api.request_limit import RequestLimit
 from service.api.security_headers import SecurityHeaders
-from service.api.service_metrics import ServiceMetrics
 from service.blobs import BlobStore
 from service.engine.browser_token_port import BrowserTokens
 from service.engine.keys import KeyRing

@@ -2,7 +2,7 @@
 
 import threading
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Annotated, Final
 
 from anyio import CapacityLimiter
@@ -11,8 +11,8 @@ from fastapi import Depends, Request
 from service.api.credentials import KnownTokens
 from service.api.estimates import Estimates
 from service.api.event_feed import EventFeed
+from service.api.metrics import ServiceMetrics
 from service.api.readiness import Readiness
-from service.api.service_metrics import ServiceMetrics
 from service.blobs import BlobStore
 from service.engine.browser_token_port import BrowserToken, BrowserTokens
 from service.engine.image_port import TenantImages
@@ -56,24 +56,13 @@ class Parts:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ApiContext:
-    """The parts for one request: its tenant's ``jobs``, fits and scans, ``images`` and ``people``.
+class ApiContext(Parts):
+    """The parts, and for one request its tenant's ``jobs``, fits and scans, ``images``, ``people``.
 
     ``key_id`` is the key it came with, None where none are asked for; ``token`` the browser's token
     that stands for it, if it does: then jobs and images are that token's alone.
     """
 
-    settings: Settings
-    engine: JobEngine
-    blobs: BlobStore
-    disk: Disk
-    estimates: Estimates
-    feed: EventFeed
-    metrics: ServiceMetrics
-    draining: threading.Event
-    copying: CapacityLimiter
-    browser_tokens: BrowserTokens
-    known_tokens: KnownTokens
     tenant: str
     key_id: str | None
     token: BrowserToken | None
@@ -86,26 +75,16 @@ class ApiContext:
 def _context(request: Request) -> ApiContext:
     parts: Parts = request.app.state.parts
     caller: Caller = request.state.caller
-    tenant = caller.tenant
     token_id = None if caller.token is None else caller.token.id
+    engine = parts.engine
     return ApiContext(
-        settings=parts.settings,
-        engine=parts.engine,
-        blobs=parts.blobs,
-        disk=parts.disk,
-        estimates=parts.estimates,
-        feed=parts.feed,
-        metrics=parts.metrics,
-        draining=parts.draining,
-        copying=parts.copying,
-        browser_tokens=parts.browser_tokens,
-        known_tokens=parts.known_tokens,
-        tenant=tenant,
+        **{each.name: getattr(parts, each.name) for each in fields(Parts)},
+        tenant=caller.tenant,
         key_id=caller.key_id,
         token=caller.token,
-        jobs={root: parts.engine.of(tenant, root, token=token_id) for root in (FIT, SCAN)},
-        images=parts.engine.images_of(tenant, token=token_id),
-        people=parts.engine.people_of(tenant),
+        jobs={root: engine.of(caller.tenant, root, token=token_id) for root in (FIT, SCAN)},
+        images=engine.images_of(caller.tenant, token=token_id),
+        people=engine.people_of(caller.tenant),
         request_id=getattr(request.state, "request_id", None),
     )
 

@@ -10,8 +10,8 @@ from anyio import CapacityLimiter, to_thread
 from api_schemas.checks import CaptureCheck
 from api_schemas.initial_poses import InitialPose
 from api_schemas.problems import problem
+from service.api.metrics import ServiceMetrics
 from service.api.problems import ProblemError
-from service.api.service_metrics import ServiceMetrics
 from service.estimates.messages import (
     BodyTask,
     CheckTask,

@@ -12,8 +12,8 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from api_schemas.problems import problem
+from service.api.metrics import ServiceMetrics
 from service.api.problems import problem_response
-from service.api.service_metrics import ServiceMetrics
 from service.process.logs import fields, log_context
 from service.process.tracing import span
 

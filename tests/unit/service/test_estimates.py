@@ -11,8 +11,8 @@ from api_schemas.problems import FieldProblem
 from api_schemas.proposals import PointsRequest
 from fitter.vocabulary.choices import Gender
 from service.api.estimates import Estimates
+from service.api.metrics import ServiceMetrics
 from service.api.problems import ProblemError
-from service.api.service_metrics import ServiceMetrics
 from service.estimates.messages import (
     BodyTask,
     CheckTask,

@@ -8,8 +8,8 @@ import pytest
 from starlette.requests import ClientDisconnect
 from starlette.types import Message, Receive, Scope, Send
 
+from service.api.metrics import ServiceMetrics
 from service.api.observation import Observation
-from service.api.service_metrics import ServiceMetrics
 from service.engine.port import JobEngine
 from service.process.disk import Disk
 
