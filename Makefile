@@ -24,10 +24,12 @@ CHECKED := --jaxtyping-packages=fitter,beartype.beartype(conf=beartype.BeartypeC
 FITTER_TESTS := $(filter $(wildcard tests/unit/*/__init__.py),\
 	$(patsubst fitter/%,tests/unit/%,$(wildcard fitter/*/__init__.py)))
 
-.PHONY: demo test test-rest test-shapes test-others blender lint serve train report openapi examples docs page wheel image audit sbom release lock clean
+.PHONY: demo setup test test-rest test-shapes test-others blender lint serve train report openapi examples docs page wheel image audit sbom release lock clean
 
 demo: $(STAMP)
 	$(VENV)/bin/maquette demo
+
+setup: $(STAMP)
 
 test: $(STAMP)
 	$(PYTEST) -m "not rest"

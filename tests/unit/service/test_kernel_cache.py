@@ -1,10 +1,10 @@
 """Compiled kernels in one checked file: whatever happens to it costs no more than its remaking."""
 
 import os
+import shutil
 import subprocess
 import sys
 import textwrap
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -51,13 +51,24 @@ print(quadrupled(3.0), sum(quadrupled.stats.cache_hits.values()), len(quadrupled
 """
 
 
+@pytest.fixture(scope="module")
+def packed(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+    """A folder with a module of two kernels, whose cache is full, and a copy of it."""
+    folder, copy = tmp_path_factory.mktemp("kernels"), tmp_path_factory.mktemp("copies") / "copy"
+    (folder / "_some_kernels.py").write_text(KERNELS)
+    assert ran(folder).split() == ["12.0", "1", "1"]
+    assert compiled(folder) == 1
+    shutil.copytree(folder, copy)
+    return folder, copy
+
+
 @pytest.fixture
-def package(tmp_path: Path) -> Path:
-    """A folder with a module of two kernels, whose cache is full."""
-    (tmp_path / "_some_kernels.py").write_text(KERNELS)
-    assert ran(tmp_path).split() == ["12.0", "1", "1"]
-    assert compiled(tmp_path) == 1
-    return tmp_path
+def package(packed: tuple[Path, Path]) -> Path:
+    """The folder as it was first: what is compiled is known by its path and its times."""
+    folder, copy = packed
+    shutil.rmtree(folder)
+    shutil.copytree(copy, folder)
+    return folder
 
 
 def ran(package: Path, *arguments: str, tells: str = "") -> str:
@@ -87,18 +98,6 @@ def test_what_is_kept_is_read_and_not_compiled(package: Path):
     assert compiled(package) == 1
 
 
-def truncated(path: Path) -> None:
-    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
-
-
-def emptied(path: Path) -> None:
-    path.write_bytes(b"")
-
-
-def zeroed(path: Path) -> None:
-    path.write_bytes(bytes(path.stat().st_size))
-
-
 def flipped(path: Path) -> None:
     content = bytearray(path.read_bytes())
     content[len(content) // 2] ^= 4
@@ -110,12 +109,8 @@ def replaced_by_a_folder(path: Path) -> None:
     path.mkdir()
 
 
-DAMAGES = [truncated, emptied, zeroed, flipped]
-
-
-@pytest.mark.parametrize("damage", DAMAGES)
-def test_a_damaged_file_costs_its_remaking_and_one_line(package: Path, damage: Callable):
-    damage(kept_file(package))
+def test_a_damaged_file_costs_its_remaking_and_one_line(package: Path):
+    flipped(kept_file(package))
     assert ran(package, tells="are made anew").split() == ["12.0", "1", "1"]
     assert compiled(package) == 2
     assert ran(package).split() == ["12.0", "1", "1"]
