@@ -16,6 +16,9 @@ TABLES = (ROOT / "service" / "docs" / "accuracy_tables.md").read_text()
 DECISIONS = (ROOT / "DECISIONS.md").read_text()
 MEASURING = (ROOT / "MEASURING.md").read_text()
 
+ROUNDED = 0.051
+"""How far a figure to one place may lie from the same one to two."""
+
 OPTIONS = sorted(set(re.findall(r"`(?:python -m tests\.evaluation )?(--[^`]+)`", PAGE)))
 
 
@@ -60,6 +63,41 @@ def test_a_known_weight_is_worth_what_the_tables_say():
     chest, waist, hip = cells(TABLES, "SES, weight given")[:3]
     told = [chest.split()[0], f"{waist.split()[0]} (navel)", hip.split()[0]]
     assert cells(PAGE, "and the weight")[:3] == told
+
+
+@pytest.mark.parametrize(
+    ("ours", "table"), [("SE", "SE: silhouette and edges"), ("SES", "SES: and shading")]
+)
+def test_one_picture_errs_as_the_tables_say(ours: str, table: str):
+    chest, _, hip, weight, navel = (float(each.split()[0]) for each in cells(PAGE, ours))
+    told = [float(each.split()[0]) for each in cells(TABLES, table)[:4]]
+    assert [chest, navel, hip, weight] == pytest.approx(told, abs=ROUNDED)
+
+
+def test_medians_of_one_picture_are_those_of_the_tables():
+    chest, _, hip, weight, navel = map(float, cells(PAGE, "SES, median"))
+    told = [float(each.split()[1].strip("()")) for each in cells(TABLES, "SES: and shading")[:4]]
+    assert [chest, navel, hip, weight] == pytest.approx(told, abs=ROUNDED)
+
+
+def test_women_and_men_together_are_everybody():
+    women, men, all_people = (
+        [float(each.split()[0]) for each in cells(PAGE, row)] for row in ("women", "men", "SES")
+    )
+    both = [(one + other) / 2 for one, other in zip(women, men, strict=True)]
+    assert both == pytest.approx(all_people, abs=2 * ROUNDED)
+
+
+def test_shares_in_sentences_are_those_of_the_tables():
+    page, tables = (" ".join(each.split()) for each in (PAGE, TABLES))
+    truths, within = re.findall(r"Of (\d+) truths (\d+) lie in these intervals", page)[0]
+    assert f"95 % intervals of SES hold {100 * int(within) / int(truths):.0f} %" in tables
+    (wrong,) = re.findall(r"In (\d+ of) the 36 a limb slants the wrong way", page)
+    assert f"In {wrong} 36 a limb" in tables
+    degrees = re.findall(r"the lamp's direction ([\d.]+) degrees", page)[0]
+    assert f"within {degrees} degrees. Shading improves" in tables
+    joints = cells(TABLES, "SES: and shading")[5]
+    assert f"The joints are {joints} mm off on the mean" in page
 
 
 @pytest.mark.parametrize(
