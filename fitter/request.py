@@ -77,6 +77,19 @@ class LightGuess:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class SaidClothing:
+    """How the caller says that clothes lie on the upper body and on seat and legs."""
+
+    upper: Clothing = Clothing.AUTO
+    lower: Clothing = Clothing.AUTO
+
+    @property
+    def both(self) -> frozenset[Clothing]:
+        """What is said of either."""
+        return frozenset({self.upper, self.lower})
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Person:
     """Who is in the pictures.
 
@@ -126,7 +139,7 @@ class View:
     cues
         What is compared with the picture.
     clothing
-        How clothes lie; by itself, that is found in the picture.
+        How clothes lie, all or by region; nothing said, it is found in the picture.
     limb_facing
         The caller's word by limb name (``left_forearm`` ...).
     complete_clicks
@@ -144,7 +157,7 @@ class View:
     focal_length_px: float | None = None
     focal_length_35mm: float | None = None
     cues: Cues = Cues.SES
-    clothing: Clothing = Clothing.AUTO
+    clothing: Clothing | SaidClothing = Clothing.AUTO
     light: LightGuess = field(default_factory=LightGuess)
     limb_facing: Mapping[str, Facing] = field(default_factory=dict[str, Facing])
     complete_clicks: bool = False

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 from fitter.arrays import Image, Mask, Shape, ShapeCovariance, Triangles, Vertices
 from fitter.capture.finding import Finding
+from fitter.evidence.worn import WornRegion
 from fitter.measurement.quantity import Measurement
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
@@ -83,6 +84,7 @@ class PictureFit:
 
     ``posed_vertices`` lie in the camera frame, metres. ``contradictions`` says in sentences what
     in the picture contradicts a person; empty where the verdict is that it is plausible.
+    ``clothing`` is how each region is covered; empty where it was said that all clothes are tight.
     """
 
     person: FittedPerson
@@ -93,6 +95,7 @@ class PictureFit:
     silhouette_overlap: float
     verdict: Verdict = Verdict.PLAUSIBLE
     contradictions: tuple[str, ...] = ()
+    clothing: tuple[WornRegion, ...] = ()
 
     @property
     def is_plausible(self) -> bool:

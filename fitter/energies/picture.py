@@ -14,6 +14,7 @@ from fitter.evidence.correspondence_lines import CorrespondenceLines
 from fitter.evidence.edge_cost import EdgeCostMap
 from fitter.evidence.loose_outline import LooseClothes
 from fitter.evidence.silhouette_evidence import SilhouetteEvidence
+from fitter.evidence.worn import WornRegion
 from fitter.parameters import BodyParameters
 from fitter.render.camera import Camera
 from fitter.render.contours import ModelEdges
@@ -37,6 +38,8 @@ class PictureEvidence:
     clothes
         What is known about loose clothes, None where they are tight: the body's edges under them
         are not those of the picture.
+    worn
+        How regions are covered; empty where the caller says that all clothes are tight.
     shading
         None for E1.
     """
@@ -48,6 +51,7 @@ class PictureEvidence:
     lines: CorrespondenceLines | None = None
     edges: EdgeCostMap
     clothes: LooseClothes | None = None
+    worn: tuple[WornRegion, ...] = ()
     shading: ShadingEvidence | None
 
     @property

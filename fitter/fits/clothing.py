@@ -15,10 +15,11 @@ from fitter.evidence.sampling import sample
 from fitter.evidence.silhouette_evidence import FullnessMap, uniform_fullness
 from fitter.fits.prepared_model import PreparedModel
 from fitter.fits.usual_ease import usual_fullness
+from fitter.fits.worn_clothing import worn_regions
 from fitter.observation.observation import Observation
 from fitter.parameters import BodyParameters
-from fitter.remarks import Assumption, FitWarning
 from fitter.render.rasterizer import Rendering, render
+from fitter.request import SaidClothing
 from fitter.segmentation.coverage import Coverage, coverage
 from fitter.segmentation.leg_looseness import legs_are_loose
 from fitter.segmentation.skin_colour import (
@@ -49,6 +50,7 @@ CLOSE_FULLNESS = 0.15
 """Ease of close clothes, as a share of that of loose ones."""
 
 _OF_LEGS = frozenset({"thigh", "shin", "foot"})
+_SAID = {Clothing.TIGHT: 0.0, Clothing.LOOSE: 1.0}
 _LEAST_PIXELS_PER_METRE = 120.0
 _SEEN_WITHIN_M = 0.02
 _BARE = 0.5
@@ -66,9 +68,9 @@ def dressed(
 
     For tight clothes, and people in underwear, the objective is that of the body's outline.
     """
-    undressed = replace(objective, evidence=replace(objective.evidence, clothes=None))
-    if observation.clothing is Clothing.TIGHT:
-        return undressed
+    said = observation.clothing
+    if said.both == {Clothing.TIGHT}:
+        return replace(objective, evidence=replace(objective.evidence, clothes=None, worn=()))
     vertices = prepared.searched.evaluator.vertices(near)
     rendering = render(vertices, prepared.searched.model.triangles, observation.camera)
     silhouette = objective.evidence.silhouette
@@ -79,35 +81,30 @@ def dressed(
         face=face_point(_clicked_face(observation), _nose(rendering, prepared)),
         pixels_per_metre=observation.camera.focal_length_px / float(near.translation[2]),
     )
-    covered: Coverage | None = None
-    if observation.clothing is Clothing.AUTO:
-        covered = _coverage(observation, regions, prepared)
-        if covered.anything < LEAST_COVERED:
-            return undressed
+    covered = _coverage(observation, regions, prepared, said)
+    if Clothing.LOOSE not in said.both and covered.anything < LEAST_COVERED:
+        worn = worn_regions(regions, covered, bare=None, loose=None)
+        return replace(objective, evidence=replace(objective.evidence, clothes=None, worn=worn))
     skin = skin_map(observation.linear_rgb, regions)
-    bare, fullness = skin.probability, _fullness(rendering, prepared)
-    if covered is not None:
-        bare = covered.bare(skin, regions)
-        legs = legs_are_loose(
-            regions.person,
-            bare,
-            _joints_seen(rendering, prepared),
-            regions.pixels_per_metre,
-        )
-        loose = _loose(regions, legs)
-        bare = 1.0 - (1.0 - bare) * np.minimum(loose / LIKELY_LOOSE, 1.0)
-        fullness = fullness * (CLOSE_FULLNESS + (1.0 - CLOSE_FULLNESS) * loose)[..., None]
-    cloth = (1.0 - bare).astype(np.float32)
+    bare = skin.probability if said.both == {Clothing.LOOSE} else covered.bare(skin, regions)
+    loose = _loose(said, regions, bare, _joints_seen(rendering, prepared))
+    cloth = ((1.0 - bare) * np.minimum(loose / LIKELY_LOOSE, 1.0)).astype(np.float32)
+    fullness = CLOSE_FULLNESS + (1.0 - CLOSE_FULLNESS) * loose
     return replace(
         objective,
         evidence=replace(
             objective.evidence,
-            silhouette=replace(silhouette, cloth=cloth, fullness=fullness),
+            silhouette=replace(
+                silhouette,
+                cloth=cloth,
+                fullness=_fullness(rendering, prepared) * fullness[..., None],
+            ),
             clothes=LooseClothes(
-                bare=sample(bare, rendering.projected)[0],
+                bare=1.0 - sample(cloth, rendering.projected)[0],
                 learnt_from=skin.learnt_from,
                 looks_undressed=looks_undressed(skin, regions),
             ),
+            worn=worn_regions(regions, covered, bare=bare, loose=loose),
         ),
     )
 
@@ -146,48 +143,6 @@ def looks_undressed(skin: SkinMap, regions: PersonRegions) -> bool:
     return True
 
 
-def clothing_remarks(
-    objective: Objective,
-) -> tuple[tuple[Assumption, ...], tuple[FitWarning, ...]]:
-    """How the outline was interpreted, and what makes that doubtful; empty for tight clothes."""
-    evidence = objective.evidence
-    if evidence.clothes is None:
-        return (), ()
-    along = evidence.silhouette.cloth_at(evidence.silhouette.boundary_points)
-    share = float(along.mean()) if len(along) else 0.0
-    metres = objective.scales.ease_mean / objective.scales.pixels_per_metre
-    assumption = Assumption(
-        quantity="outline",
-        value="outer bound",
-        reason=(
-            f"Clothing is loose: where clothes show, along {share:.0%} of the outline, the body is "
-            f"taken to lie within it, by {100.0 * metres:.0f} cm or so; along bare skin, on it."
-        ),
-    )
-    if not evidence.clothes.learnt_from:
-        return (assumption,), (_NO_SKIN,)
-    return (assumption,), (_NOT_LOOSE,) if evidence.clothes.looks_undressed else ()
-
-
-_NO_SKIN = FitWarning(
-    code="skin-not-found",
-    message=(
-        "Neither face nor hands show the colour of the person's skin, or the picture has no "
-        "colours: which parts are bare is guessed. Click the nose or the eyes if they are seen; "
-        "send the picture in colour if there is one."
-    ),
-)
-
-_NOT_LOOSE = FitWarning(
-    code="clothes-not-loose",
-    message=(
-        "Trunk and thighs show much of the colour of the person's skin, as in underwear or "
-        "swimwear. If nothing loose hides them, say that clothing is tight: as it is, girths may "
-        "come out several centimetres too small."
-    ),
-)
-
-
 def _parts(rendering: Rendering, prepared: PreparedModel) -> np.ndarray:
     """(h, w) index of the part each pixel shows, -1 off the body."""
     faces = rendering.face_ids
@@ -195,7 +150,10 @@ def _parts(rendering: Rendering, prepared: PreparedModel) -> np.ndarray:
 
 
 def _coverage(
-    observation: Observation, regions: PersonRegions, prepared: PreparedModel
+    observation: Observation,
+    regions: PersonRegions,
+    prepared: PreparedModel,
+    said: SaidClothing,
 ) -> Coverage:
     """What is covered, from every second or third pixel where there are enough."""
     step = max(int(regions.pixels_per_metre / _LEAST_PIXELS_PER_METRE), 1)
@@ -207,7 +165,10 @@ def _coverage(
         pixels_per_metre=regions.pixels_per_metre / step,
     )
     skin = skin_map(np.ascontiguousarray(observation.linear_rgb[::step, ::step]), fewer)
-    return coverage(skin, fewer, prepared.searched.model.gender)
+    found = coverage(skin, fewer, prepared.searched.model.gender)
+    if said.upper is Clothing.LOOSE:
+        found = replace(found, top=1.0)
+    return replace(found, bottom=1.0) if said.lower is Clothing.LOOSE else found
 
 
 def _joints_seen(
@@ -218,12 +179,21 @@ def _joints_seen(
     return dict(zip(model.part_names, rendering.camera.project(joints), strict=True))
 
 
-def _loose(regions: PersonRegions, legs: float) -> GreyImage:
-    """(h, w) probability that what covers a pixel's part is loose, given that of the legs'."""
-    upper = LOOSE_ABOVE_CLOSE + (LOOSE_ABOVE_LOOSE - LOOSE_ABOVE_CLOSE) * legs
-    of_part = [
-        legs if name.rpartition("_")[2] in _OF_LEGS else upper for name in regions.part_names
-    ]
+def _loose(
+    said: SaidClothing,
+    regions: PersonRegions,
+    bare: GreyImage,
+    joints: dict[str, Float[np.ndarray, "2"]],
+) -> GreyImage:
+    """(h, w) probability that what covers a pixel's part is loose."""
+    lower = _SAID.get(said.lower)
+    if lower is None:
+        lower = legs_are_loose(regions.person, bare, joints, regions.pixels_per_metre)
+    upper = _SAID.get(said.upper)
+    if upper is None:
+        upper = LOOSE_ABOVE_CLOSE + (LOOSE_ABOVE_LOOSE - LOOSE_ABOVE_CLOSE) * lower
+    by_kind = {"pelvis": max(upper, lower)} | dict.fromkeys(_OF_LEGS, lower)
+    of_part = [by_kind.get(name.rpartition("_")[2], upper) for name in regions.part_names]
     return np.array(of_part, dtype=np.float32)[nearest_part(regions)]
 
 

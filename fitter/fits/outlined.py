@@ -188,7 +188,7 @@ def _started(
     lines_on: Image | None,
 ) -> Outlined:
     """A picture in which a body was found before."""
-    said_loose = observation.clothing is Clothing.LOOSE
+    said_loose = Clothing.LOOSE in observation.clothing.both
     labels, segmentation = segmented(
         observation, prepared, body, fitted=True, loosely_dressed=said_loose
     )

@@ -9,7 +9,6 @@ from fitter.capture.finding import Finding
 from fitter.energies.joint_objective import JointCandidate
 from fitter.errors import InvalidInputError
 from fitter.fits.capture_check import capture_of_view
-from fitter.fits.clothing import clothing_remarks
 from fitter.fits.equipment import Equipment
 from fitter.fits.foretold import foretold
 from fitter.fits.outlined import Outlined, Subject, outlined
@@ -24,6 +23,7 @@ from fitter.fits.reporting import (
 from fitter.fits.search import Found, search
 from fitter.fits.settling import settle
 from fitter.fits.stage_clock import StageClock, ViewClock
+from fitter.fits.worn_clothing import clothing_remarks
 from fitter.measurement.anthropometry import measure
 from fitter.measurement.quantity import Measurement
 from fitter.observation.subject import check_person
@@ -237,7 +237,9 @@ def _views(
     views: list[FittedView] = []
     for picture, objective, each in zip(pictures, found.objective.views, people, strict=True):
         observation, view = picture.observation, picture.view
-        clothing_assumptions, clothing_warnings = clothing_remarks(objective)
+        clothing_assumptions, clothing_warnings = clothing_remarks(
+            objective, observation.clothing.both
+        )
         views.append(
             FittedView(
                 kind=view.kind,

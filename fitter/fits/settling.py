@@ -9,6 +9,7 @@ from fitter.fits.outlined import Outlined, Subject
 from fitter.fits.plausibility import plausibility
 from fitter.fits.reporting import outcome_of
 from fitter.fits.search import Found, LitView
+from fitter.fits.worn_clothing import with_ease
 from fitter.optimizer.albedo_colour import albedo_rgb
 from fitter.optimizer.uncertainty import Certainty, camera_tilt, certainty, shape_covariance
 from fitter.person.fitted_person import FittedPerson
@@ -73,6 +74,7 @@ def _settled(
         silhouette_overlap=overlap,
         verdict=contradicted.verdict,
         contradictions=contradicted.sentences,
+        clothing=with_ease(objective.evidence.worn, objective, certain),
     )
 
 

@@ -30,7 +30,7 @@ from fitter.observation.resampling import (
 from fitter.observation.subject import check_light
 from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera
-from fitter.request import Click, View
+from fitter.request import Click, SaidClothing, View
 from fitter.vocabulary.choices import Clothing, Posture, SegmentationKind, ViewKind
 from fitter.vocabulary.outcomes import FocalLengthSource
 
@@ -79,7 +79,7 @@ class Observation:
     scale: float
     clicks: Mapping[str, Click]
     mask: Mask | None
-    clothing: Clothing
+    clothing: SaidClothing
     posture: Posture
     seed: GreyImage | None
     slants: DetectedSlants | None
@@ -137,7 +137,7 @@ def observe(view: View, *, max_pixels: int, detector: Detector | None = None) ->
         scale=size.scale,
         clicks=clicks,
         mask=mask,
-        clothing=view.clothing,
+        clothing=_said_by_region(view.clothing),
         posture=_posture(view.kind),
         seed=detected.mask if detected is not None and _is_seeded(view) else None,
         slants=detected.slants if detected is not None and view.slant_hints else None,
@@ -148,6 +148,12 @@ def observe(view: View, *, max_pixels: int, detector: Detector | None = None) ->
         + side_warnings(clicks)
         + (crowd_warnings(given, len(bodies)) if view.complete_clicks else ()),
     )
+
+
+def _said_by_region(clothing: Clothing | SaidClothing) -> SaidClothing:
+    if isinstance(clothing, SaidClothing):
+        return clothing
+    return SaidClothing(upper=clothing, lower=clothing)
 
 
 def _posture(kind: ViewKind | None) -> Posture:

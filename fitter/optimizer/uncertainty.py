@@ -5,24 +5,29 @@ of all parameters near the minimum. The albedo of each vertex is held, as is eve
 objective fixes. What is held exactly does not vary.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Final
 
 import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Shape
 from fitter.body.tangent import linearise
+from fitter.energies.correspondence_lines import line_rows
 from fitter.energies.fitting_operators import FittingOperators
 from fitter.energies.joint_objective import JointCandidate, JointObjective
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.priors import height_extrapolation
 from fitter.energies.stance import stance_rows
 from fitter.optimizer.free_space import FreeSpace, free_space
-from fitter.optimizer.normal_equations import normal_equations
+from fitter.optimizer.normal_equations import normal_equations, support_points
 from fitter.optimizer.nuisance import RowsWithNuisance, nuisance_covariance
 from fitter.optimizer.row_jacobians import position_row_jacobian
 from fitter.parameters import CameraTilt
+from fitter.vocabulary.choices import ClothedRegion
 from fitter.vocabulary.outcomes import StanceKind
+
+_FEWEST_LINES: Final = 5.0
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -131,6 +136,39 @@ def camera_tilt(certain: Certainty) -> CameraTilt:
         covariance=nuisance_covariance(stance, certain.covariance),
         stances=dict(zip(StanceKind, tilt.shares.tolist(), strict=True)),
     )
+
+
+def covered_distances(
+    objective: Objective, certain: Certainty
+) -> dict[ClothedRegion, tuple[float, float]]:
+    """How far the outline stands off the body under loose cloth, and its standard error, metres.
+
+    The mean over the lines of upper body and legs, each counted as far as it shows cloth. Empty
+    where the outline was not found on lines; regions that show none are left out.
+    """
+    lines, candidate = objective.evidence.lines, certain.candidate
+    found: dict[ClothedRegion, tuple[float, float]] = {}
+    if lines is None or not lines.cloth.any():
+        return found
+    outline = line_rows(candidate.rendering, lines, objective.scales)[0]
+    frame = linearise(certain.operators.tangent, candidate.parameters)
+    on = support_points(objective, candidate)[outline.support]
+    shares = lines.fullness / np.maximum(lines.fullness.sum(axis=1, keepdims=True), 1e-9)
+    pixels_per_metre = objective.scales.pixels_per_metre
+    for region, share in zip(ClothedRegion, shares.T, strict=True):
+        weights = lines.confidence * lines.cloth * share
+        if weights.sum() < _FEWEST_LINES:
+            continue
+        weights = weights / weights.sum()
+        # Rows are weighted by the roots of their weights.
+        means = replace(outline, weights=weights**2, nuisance=None)
+        by_body = position_row_jacobian(means, frame, on.attachments, on.positions).sum(axis=0)
+        variance = float(by_body @ certain.covariance @ by_body)
+        found[region] = (
+            -float(weights @ outline.residuals) / pixels_per_metre,
+            variance**0.5 / pixels_per_metre,
+        )
+    return found
 
 
 def _height_response(space: FreeSpace, known: Float[np.ndarray, "n n"]) -> Shape:

@@ -75,6 +75,31 @@ class Clothing(StrEnum):
     LOOSE = "loose"
 
 
+class ClothedRegion(StrEnum):
+    """What clothing can be said of alone: trunk with arms, and seat with legs."""
+
+    UPPER = "upper"
+    LOWER = "lower"
+
+
+class Covering(StrEnum):
+    """How a region is covered: not by more than underwear, closely, or at a distance."""
+
+    BARE = "bare"
+    CLOSE = "close"
+    LOOSE = "loose"
+
+
+class BodyRegion(StrEnum):
+    """Of what a result says how it is covered."""
+
+    UPPER = "upper"
+    ARMS = "arms"
+    LOWER = "lower"
+    LEGS = "legs"
+    FEET = "feet"
+
+
 class Posture(StrEnum):
     """What is known of how the person stands.
 

@@ -7,8 +7,10 @@ import pytest
 
 from fitter.evidence.loose_outline import LooseClothes
 from fitter.evidence.silhouette_evidence import silhouette_evidence
-from fitter.fits.clothing import clothing_remarks, looks_undressed
+from fitter.fits.clothing import looks_undressed
+from fitter.fits.worn_clothing import clothing_remarks
 from fitter.segmentation.skin_colour import PersonRegions, SkinMap
+from fitter.vocabulary.choices import Clothing
 from tests.unit.optimizer.rendered_scene import rendered_scene
 
 PARTS = ("head", "pelvis", "spine", "chest", "left_thigh", "right_thigh")
@@ -70,5 +72,7 @@ def test_an_outline_that_is_the_picture_s_border_has_no_share_of_clothes():
         silhouette=silhouette_evidence(whole, cloth=cloth),
         clothes=LooseClothes(bare=np.zeros(vertices), learnt_from=("face",), looks_undressed=False),
     )
-    (assumption,), _ = clothing_remarks(replace(scene.objective, evidence=evidence))
+    (assumption,), _ = clothing_remarks(
+        replace(scene.objective, evidence=evidence), frozenset({Clothing.LOOSE})
+    )
     assert "along 0% of the outline" in assumption.reason

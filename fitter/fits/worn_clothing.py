@@ -1,0 +1,130 @@
+"""What is told of clothes: how each region is covered, how the outline was taken, the doubts."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from fitter.arrays import GreyImage
+from fitter.energies.objective import Objective
+from fitter.evidence.worn import WornRegion
+from fitter.optimizer.uncertainty import Certainty, covered_distances
+from fitter.remarks import Assumption, FitWarning
+from fitter.segmentation.coverage import Coverage
+from fitter.segmentation.skin_colour import LEAST_SAMPLES, PersonRegions
+from fitter.vocabulary.choices import BodyRegion, ClothedRegion, Clothing, Covering
+
+PARTS_OF: Final[Mapping[BodyRegion, frozenset[str]]] = {
+    BodyRegion.UPPER: frozenset({"chest", "spine"}),
+    BodyRegion.ARMS: frozenset({"arm", "forearm"}),
+    BodyRegion.LOWER: frozenset({"pelvis", "thigh"}),
+    BodyRegion.LEGS: frozenset({"shin"}),
+    BodyRegion.FEET: frozenset({"foot"}),
+}
+"""Parts of the body model by region, by the last word of their names."""
+
+_UNDER_TOP: Final = frozenset({BodyRegion.UPPER, BodyRegion.ARMS})
+_EASES: Final[Mapping[BodyRegion, ClothedRegion]] = {
+    BodyRegion.UPPER: ClothedRegion.UPPER,
+    BodyRegion.LOWER: ClothedRegion.LOWER,
+}
+
+
+def worn_regions(
+    regions: PersonRegions,
+    covered: Coverage,
+    *,
+    bare: GreyImage | None,
+    loose: GreyImage | None,
+) -> tuple[WornRegion, ...]:
+    """How each region in sight is most probably covered.
+
+    ``bare`` and ``loose`` (h, w) are the probabilities that a pixel's part is bare, and that what
+    covers it is loose; None of people in underwear, of whom the regions as a whole are told.
+    """
+    found: list[WornRegion] = []
+    for region, kinds in PARTS_OF.items():
+        numbers = [
+            number
+            for number, name in enumerate(regions.part_names)
+            if name.rpartition("_")[2] in kinds
+        ]
+        seen = regions.person & np.isin(regions.parts, numbers)
+        if np.count_nonzero(seen) < LEAST_SAMPLES:
+            continue
+        if bare is None or loose is None:
+            is_bare = 1.0 - (covered.top if region in _UNDER_TOP else covered.bottom)
+            is_loose = 0.0
+        else:
+            is_bare = float(bare[seen].mean())
+            # Whether shoes are loose, legs do not tell.
+            may_be_loose = region is not BodyRegion.FEET
+            is_loose = may_be_loose * float(((1.0 - bare[seen]) * loose[seen]).mean())
+        shares = {
+            Covering.BARE: is_bare,
+            Covering.CLOSE: max(1.0 - is_bare - is_loose, 0.0),
+            Covering.LOOSE: is_loose,
+        }
+        kind = max(shares, key=shares.__getitem__)
+        found.append(WornRegion(region=region, kind=kind, probability=shares[kind]))
+    return tuple(found)
+
+
+def with_ease(
+    worn: Sequence[WornRegion], objective: Objective, certain: Certainty
+) -> tuple[WornRegion, ...]:
+    """The same with how far loose clothes stand off the body that was found."""
+    distances = covered_distances(objective, certain)
+    found: list[WornRegion] = []
+    for each in worn:
+        told = distances.get(_EASES[each.region]) if each.region in _EASES else None
+        if each.kind is Covering.LOOSE and told is not None:
+            found.append(replace(each, ease_m=told[0], ease_standard_error_m=told[1]))
+        else:
+            found.append(each)
+    return tuple(found)
+
+
+def clothing_remarks(
+    objective: Objective, said: frozenset[Clothing]
+) -> tuple[tuple[Assumption, ...], tuple[FitWarning, ...]]:
+    """How the outline was interpreted, and what makes that doubtful; empty for tight clothes."""
+    evidence = objective.evidence
+    if evidence.clothes is None:
+        return (), ()
+    along = evidence.silhouette.cloth_at(evidence.silhouette.boundary_points)
+    share = float(along.mean()) if len(along) else 0.0
+    seen = "is seen to be" if said == {Clothing.AUTO} else "is said to be"
+    assumption = Assumption(
+        quantity="outline",
+        value="outer bound",
+        reason=(
+            f"Clothing {seen} loose along {share:.0%} of the outline: there the body under it is "
+            "estimated, along bare skin and close-fitting clothes it is the outline. Close-fitting "
+            "clothes, or the weight if it is given, make measurements surer."
+        ),
+    )
+    if not evidence.clothes.learnt_from:
+        return (assumption,), (_NO_SKIN,)
+    doubted = Clothing.LOOSE in said and evidence.clothes.looks_undressed
+    return (assumption,), (_NOT_LOOSE,) if doubted else ()
+
+
+_NO_SKIN = FitWarning(
+    code="skin-not-found",
+    message=(
+        "Neither face nor hands show the colour of the person's skin, or the picture has no "
+        "colours: which parts are bare is guessed. Click the nose or the eyes if they are seen; "
+        "send the picture in colour if there is one."
+    ),
+)
+
+_NOT_LOOSE = FitWarning(
+    code="clothes-not-loose",
+    message=(
+        "Trunk and thighs show much of the colour of the person's skin, as in underwear or "
+        "swimwear. If nothing loose hides them, say that clothing is tight: as it is, girths may "
+        "come out several centimetres too small."
+    ),
+)
