@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from enum import StrEnum
 from typing import Annotated, Any, Final, Self
 
-from pydantic import Field
+from pydantic import Field, WithJsonSchema
 
 from api_schemas.base import WireModel
 from api_schemas.images import ImageId
@@ -99,6 +99,13 @@ class SubjectOptions(PictureFacts, Person):
     )
 
 
+class ClothingByRegion(WireModel):
+    """How clothes lie on trunk and arms, and on seat and legs."""
+
+    upper: Clothing = Clothing.AUTO
+    lower: Clothing = Clothing.AUTO
+
+
 class PictureChoices(WireModel):
     """How a picture is read."""
 
@@ -109,13 +116,26 @@ class PictureChoices(WireModel):
             "are, and one is enough to say who of several people is meant. Needs the detector."
         ),
     )
-    clothing: Clothing = Field(
-        default=Clothing.TIGHT,
+    # What is stored for a worker of an earlier version says nothing that it does not know.
+    clothing: Annotated[
+        Clothing,
+        WithJsonSchema({"type": "string", "enum": ["tight", "loose"]}, mode="serialization"),
+    ] = Field(
+        default=Clothing.AUTO,
+        exclude_if=lambda clothing: clothing is Clothing.AUTO,
         description=(
-            "`loose`: the outline of clothes bounds the body from outside, by an ease that is not "
-            "known; where skin shows, which the person's own face and hands tell, it is tight. "
-            "Shading looks at skin alone. Give the weight if it is known."
+            "`auto`: what is covered, and whether loosely, is found in the picture. `loose`: the "
+            "outline of clothes bounds the body from outside, by an ease that is not known; where "
+            "skin shows, which the person's own face and hands tell, it is tight. Shading looks at "
+            "skin alone. Give the weight if it is known. `tight`: the outline is the body's own. "
+            "A request that is read back leaves `auto` out."
         ),
+    )
+    clothing_by_region: ClothingByRegion | None = Field(
+        default=None,
+        exclude_if=lambda by_region: by_region is None,
+        description="In place of `clothing`: what lies how on the upper body, and on the lower.",
+        examples=[{"upper": "loose", "lower": "tight"}],
     )
     segmentation: SegmentationKind = Field(
         default=SegmentationKind.SEEDED_GRABCUT,

@@ -3,7 +3,16 @@
 from pydantic import Field
 
 from api_schemas.base import WireModel
-from fitter.vocabulary.choices import Cues, Facing, Gender, LightKind, OptimizerKind, ViewKind
+from fitter.vocabulary.choices import (
+    BodyRegion,
+    Covering,
+    Cues,
+    Facing,
+    Gender,
+    LightKind,
+    OptimizerKind,
+    ViewKind,
+)
 from fitter.vocabulary.outcomes import (
     FacingSource,
     FocalLengthSource,
@@ -216,6 +225,20 @@ class Finding(WireModel):
     box: Box | None
 
 
+class WornRegion(WireModel):
+    """How a region of the person is most probably covered.
+
+    ``bare`` is covered by underwear at most. ``ease_cm`` is how far loose clothes stand off the
+    trunk, or off seat and legs, where the outline shows them; null elsewhere.
+    """
+
+    region: BodyRegion
+    kind: Covering
+    probability: float
+    ease_cm: float | None
+    ease_standard_error_cm: float | None
+
+
 class ViewResult(PictureResult):
     """What a fit finds in one picture."""
 
@@ -227,6 +250,11 @@ class ViewResult(PictureResult):
     limb_facing: tuple[LimbFacing, ...]
     findings: tuple[Finding, ...] = Field(
         description="What `POST /v1/checks` says of the picture; it was measured all the same."
+    )
+    clothing: tuple[WornRegion, ...] = Field(
+        default=(),
+        exclude_if=lambda worn: not worn,
+        description="Left out where it was said that all clothes are `tight`.",
     )
 
 

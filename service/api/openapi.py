@@ -262,7 +262,6 @@ def _drop_null(schema: dict[str, Any]) -> None:
 def _models(mode: str) -> tuple[type[BaseModel], ...]:
     if mode == "validation":
         return (
-            FitOptions,
             FitRequest,
             FitOfImage,
             BodyRequest,
@@ -273,11 +272,12 @@ def _models(mode: str) -> tuple[type[BaseModel], ...]:
             CheckRequest,
             CheckOfImage,
             DerivationRequest,
-            ScanOptions,
             ScanRequest,
             ScanOfImages,
         )
     return (
+        FitOptions,
+        ScanOptions,
         Problem,
         EventData,
         BodyEstimate,

@@ -12,6 +12,7 @@ from api_schemas import scans as wire_scan
 from api_schemas.derivation_kinds.combined import CombinedPicture
 from api_schemas.requests import FitOptions
 from fitter.capture.finding import Box, Finding
+from fitter.evidence.worn import WornRegion
 from fitter.measurement.quantity import Measurement
 from fitter.parameters import (
     BodyParameters,
@@ -124,7 +125,23 @@ def _view(view: FittedView, part_names: Sequence[str]) -> dict[str, Any]:
         "stance": _stance(found.person),
         "limb_facing": tuple(_limb_facing(facing) for facing in view.limb_facing),
         "findings": finding_results(view.findings),
+        "clothing": tuple(_worn(each) for each in found.clothing),
     }
+
+
+def _worn(each: WornRegion) -> wire.WornRegion:
+    """To a hundredth, and to half a millimetre."""
+    return wire.WornRegion(
+        region=each.region,
+        kind=each.kind,
+        probability=round(each.probability, 2),
+        ease_cm=_centimetres(each.ease_m),
+        ease_standard_error_cm=_centimetres(each.ease_standard_error_m),
+    )
+
+
+def _centimetres(metres: float | None) -> float | None:
+    return None if metres is None else round(100.0 * metres, 1)
 
 
 def _in_picture(found: PictureFit, part_names: Sequence[str]) -> dict[str, Any]:

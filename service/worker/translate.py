@@ -11,8 +11,17 @@ from api_schemas.scans import ScanOptions, ScanViewOptions
 from fitter.detection.landmark_meanings import INDEX_OF_POINT, UNSEEN_CONFIDENCE, spread_m
 from fitter.errors import DetectorUnavailableError, InvalidInputError
 from fitter.fits.progress import Progress
-from fitter.request import Choices, Click, FitRequest, KnownMeasurement, LightGuess, Person, View
-from fitter.vocabulary.choices import Cues
+from fitter.request import (
+    Choices,
+    Click,
+    FitRequest,
+    KnownMeasurement,
+    LightGuess,
+    Person,
+    SaidClothing,
+    View,
+)
+from fitter.vocabulary.choices import Clothing, Cues
 from service.engine.port import Report
 from service.jobs.inputs import SentPicture
 from service.submissions.detector import DETECTOR_MISSING
@@ -62,7 +71,7 @@ def _view(asked: wire.FitOptions | ScanViewOptions, cues: Cues, sent: SentPictur
         focal_length_px=asked.focal_length_px,
         focal_length_35mm=asked.focal_length_35mm,
         cues=cues,
-        clothing=asked.clothing,
+        clothing=_clothing(asked),
         complete_clicks=asked.complete_points,
         segmentation=asked.segmentation,
         slant_hints=asked.slant_hints,
@@ -75,6 +84,13 @@ def _view(asked: wire.FitOptions | ScanViewOptions, cues: Cues, sent: SentPictur
         ),
         limb_facing={limb.value: facing for limb, facing in asked.limb_facing.items()},
     )
+
+
+def _clothing(asked: wire.PictureChoices) -> Clothing | SaidClothing:
+    by_region = asked.clothing_by_region
+    if by_region is None:
+        return asked.clothing
+    return SaidClothing(upper=by_region.upper, lower=by_region.lower)
 
 
 def clicks(points: Points) -> dict[str, Click]:

@@ -211,13 +211,15 @@ def test_a_finger_paints_and_two_zoom(browser: Browser, service: httpx.Client):
         expect(undo).to_be_disabled()
 
 
-def test_loose_clothes_are_asked_about_and_never_switched(visitor: Visitor):
+def test_loose_clothes_said_to_be_close_are_asked_about_and_never_switched(visitor: Visitor):
     page = visitor.page
     drop(visitor, CLOTHED.read_bytes())
     question = page.get_by_text("The clothes look loose.")
-    expect(question).to_be_visible()
     page.get_by_role("heading", name="What the fit goes by").click()
-    expect(page.get_by_role("radio", name="Close-fitting or none")).to_be_checked()
+    expect(page.get_by_role("radio", name="As seen")).to_be_checked()
+    expect(question).not_to_be_attached()
+    page.get_by_role("radio", name="Close-fitting or none").check()
+    expect(question).to_be_visible()
     page.get_by_role("button", name="Yes, loose clothes").click()
     expect(page.get_by_role("radio", name="Loose", exact=True)).to_be_checked()
     expect(question).not_to_be_attached()

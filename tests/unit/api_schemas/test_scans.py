@@ -9,7 +9,7 @@ from pydantic import ValidationError
 from api_schemas.points import AUTO
 from api_schemas.requests import FitRequest
 from api_schemas.scans import ScanOptions, ScanRequest
-from fitter.vocabulary.choices import OptimizerKind, ViewKind
+from fitter.vocabulary.choices import Clothing, OptimizerKind, ViewKind
 from service.submissions.validation import field_problems
 
 POINTS = {"nose": [1.0, 2.0]}
@@ -72,7 +72,7 @@ def test_of_every_view_is_kept_what_was_said_of_it_and_of_the_person_once():
     kept = ScanOptions.model_validate_json(options.model_dump_json())
     assert kept == options
     first, second = kept.pictures
-    assert (first.clothing, first.focal_length_35mm) == ("tight", None)
+    assert (first.clothing, first.focal_length_35mm) == ("auto", None)
     assert (second.clothing, second.focal_length_35mm) == ("loose", 26.0)
     assert (kept.weight_kg, kept.cues, kept.force) == (64.5, "SE", True)
 
@@ -86,3 +86,17 @@ def test_a_request_that_version_1_0_knows_is_stored_in_its_words(name):
     assert name not in json.loads(stored.model_dump_json())
     said = stored.model_copy(update={"view": ViewKind.SIDE, "optimizer": OptimizerKind.SIMPLEX})
     assert name in json.loads(said.model_dump_json())
+
+
+def test_clothing_of_which_nothing_is_said_is_stored_as_version_1_0_does_not_know_it():
+    fit = FitRequest.model_validate_json(json.dumps({"gender": "female", "points": POINTS}))
+    stored = fit.understood([{}])
+    words = json.loads(stored.model_dump_json())
+    assert "clothing" not in words
+    assert "clothing_by_region" not in words
+    assert (
+        json.loads(stored.model_copy(update={"clothing": Clothing.LOOSE}).model_dump_json())[
+            "clothing"
+        ]
+        == "loose"
+    )

@@ -82,7 +82,7 @@ def test_of_every_picture_the_fitter_is_told_what_was_said_of_it(monkeypatch):
     assert (front.kind, side.kind, alone.kind) == (ViewKind.FRONT, ViewKind.SIDE, ViewKind.FRONT)
     assert front.clicks == alone.clicks == {"nose": Click(x=10.0, y=20.0)}
     assert front.clothing is alone.clothing is Clothing.LOOSE
-    assert side.clothing is Clothing.TIGHT
+    assert side.clothing is Clothing.AUTO
     assert (front.complete_clicks, side.complete_clicks) == (False, True)
     assert (front.focal_length_35mm, side.focal_length_35mm) == (None, 26.0)
 

@@ -54,6 +54,15 @@ def test_a_request_says_the_same_in_both_languages():
     assert view.limb_facing == {"left_forearm": fitter_request.Facing.TOWARD}
 
 
+def test_clothing_may_be_said_of_a_region_alone():
+    words = json.loads(REQUEST) | {"clothing_by_region": {"upper": "loose"}}
+    options = FitOptions.model_validate_json(json.dumps(words))
+    (view,) = translate.fit_request(options, NO_PICTURE, max_pixels=7).views
+    assert view.clothing == fitter_request.SaidClothing(
+        upper=fitter_request.Clothing.LOOSE, lower=fitter_request.Clothing.AUTO
+    )
+
+
 def known(**fields: object) -> dict[str, fitter_request.KnownMeasurement]:
     options = FitOptions.model_validate_json(json.dumps(json.loads(REQUEST) | fields))
     request = translate.fit_request(options, NO_PICTURE, max_pixels=7)

@@ -21,7 +21,8 @@ export type Gender = Schemas["Gender"];
 export type Cues = Schemas["Cues"];
 export type LightGuess = Schemas["LightGuess"];
 export type Surroundings = NonNullable<LightGuess["surroundings"]>;
-export type Clothing = NonNullable<FitOptions["clothing"]>;
+/** Requests that are read back leave `auto` out. */
+export type Clothing = Schemas["Clothing"];
 export type Limb = Schemas["Limb"];
 export type Facing = Schemas["Facing"];
 export type EventData = Schemas["EventData"];

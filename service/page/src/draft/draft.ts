@@ -33,7 +33,7 @@ export const focalLength = signal<number | null>(null);
 export const light = signal<LightGuess | null>(null);
 /** Whether ambient light is taken as even, or as coming from everywhere by direction. */
 export const surroundings = signal<Surroundings>("uniform");
-export const clothing = signal<Clothing>("tight");
+export const clothing = signal<Clothing>("auto");
 export const facing = signal<Readonly<Partial<Record<Limb, Facing>>>>({});
 export const cues = signal<Cues>("SES");
 /** Who is the person and who is not, white on black; null leaves it to the fit. */
@@ -69,7 +69,7 @@ export function usePicture(next: Picture | null): void {
     focalLength.value = null;
     light.value = null;
     surroundings.value = "uniform";
-    clothing.value = "tight";
+    clothing.value = "auto";
     cues.value = "SES";
     seenFromBehind.value = false;
     useMask(null);

@@ -60,7 +60,7 @@ export function draftedChoices(): Pick<FitOptions, "cues" | "clothing" | "light"
   const known = light.value !== null || surroundings.value !== "uniform";
   return {
     cues: cues.value,
-    clothing: clothing.value,
+    ...(clothing.value === "auto" ? {} : { clothing: clothing.value }),
     ...(known ? { light: { ...light.value, surroundings: surroundings.value } } : {}),
   };
 }
@@ -93,7 +93,7 @@ export function loadDraft(asked: FitOptions): void {
   focalLength.value = lensOf(asked);
   facing.value = asked.limb_facing ?? {};
   cues.value = asked.cues ?? "SES";
-  clothing.value = asked.clothing ?? "tight";
+  clothing.value = asked.clothing ?? "auto";
   light.value = asked.light?.azimuth_deg != null ? asked.light : null;
   surroundings.value = asked.light?.surroundings ?? "uniform";
 }

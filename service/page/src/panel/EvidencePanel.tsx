@@ -24,6 +24,7 @@ export function EvidencePanel() {
         name="clothing"
         legend={clothes.title}
         options={[
+          { value: "auto", label: clothes.auto },
           { value: "tight", label: clothes.tight },
           { value: "loose", label: clothes.loose },
         ]}
@@ -31,7 +32,7 @@ export function EvidencePanel() {
         onChange={(value) => (clothing.value = value)}
       />
       <p class="fine">
-        {clothing.value === "tight" ? clothes.tightHelp : clothes.looseHelp}
+        {clothes.help[clothing.value]}
       </p>
     </div>
   );

@@ -149,7 +149,7 @@ export const answers: TranslatedAnswers = {
     no_person: "An den Punkten zeigt das Bild keine Person. Klicken Sie die Gelenke einer Person, oder nehmen Sie ein anderes Bild.",
   },
   assumptions: {
-    outline: "Die Kleidung ist weit: Wo Kleidung zu sehen ist, liegt der Körper einige Zentimeter innerhalb des Umrisses; an bloßer Haut liegt er auf ihm.",
+    outline: "Die Kleidung ist weit: Wo sie den Umriss bildet, ist der Körper darunter geschätzt; an bloßer Haut und anliegender Kleidung liegt er auf ihm. Mit anliegender Kleidung oder dem Gewicht werden die Maße sicherer.",
   },
   definitions,
 };

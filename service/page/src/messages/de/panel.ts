@@ -189,9 +189,13 @@ export const panel: Messages["panel"] = {
   },
   clothes: {
     title: "Kleidung",
+    auto: "Wie im Bild",
     tight: "Anliegend oder keine",
     loose: "Weit",
-    tightHelp: "Der Umriss ist der des Körpers.",
-    looseHelp: "Der Körper wird innerhalb des Umrisses gesucht, eng nur dort, wo Haut zu sehen ist. Die Intervalle sind breiter.",
+    help: {
+      auto: "Was bedeckt ist und ob weit, wird im Bild gefunden.",
+      tight: "Der Umriss ist der des Körpers.",
+      loose: "Der Körper wird innerhalb des Umrisses gesucht, eng nur dort, wo Haut zu sehen ist. Die Intervalle sind breiter.",
+    },
   },
 };

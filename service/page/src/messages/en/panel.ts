@@ -177,9 +177,13 @@ export const panel = {
   },
   clothes: {
     title: "Clothes",
+    auto: "As seen",
     tight: "Close-fitting or none",
     loose: "Loose",
-    tightHelp: "The outline is the body’s own.",
-    looseHelp: "The body is sought inside the outline, tight only where skin is seen. Intervals are wider.",
+    help: {
+      auto: "What is covered, and whether loosely, is found in the picture.",
+      tight: "The outline is the body’s own.",
+      loose: "The body is sought inside the outline, tight only where skin is seen. Intervals are wider.",
+    },
   },
 } as const;
