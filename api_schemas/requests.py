@@ -124,11 +124,8 @@ class PictureChoices(WireModel):
         default=Clothing.AUTO,
         exclude_if=lambda clothing: clothing is Clothing.AUTO,
         description=(
-            "`auto`: what is covered, and whether loosely, is found in the picture. `loose`: the "
-            "outline of clothes bounds the body from outside, by an ease that is not known; where "
-            "skin shows, which the person's own face and hands tell, it is tight. Shading looks at "
-            "skin alone. Give the weight if it is known. `tight`: the outline is the body's own. "
-            "A request that is read back leaves `auto` out."
+            "How clothes lie on the whole person. Give the weight if it is known. A request that "
+            "is read back leaves `auto` out."
         ),
     )
     clothing_by_region: ClothingByRegion | None = Field(

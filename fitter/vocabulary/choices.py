@@ -65,9 +65,12 @@ class SurroundingsKind(StrEnum):
 
 
 class Clothing(StrEnum):
-    """How clothes lie: with the body's outline, or as an outer bound of it, bare skin excepted.
+    """How clothes lie.
 
-    ``auto`` leaves it to the picture which of the two they do, and where.
+    ``auto``: what is covered, and whether loosely, is found in the picture. ``tight``: the outline
+    is the body's own. ``loose``: the outline bounds the body from outside, by an ease that is not
+    known; where skin shows, which the person's own face and hands tell, it is tight, and shading
+    looks at skin alone.
     """
 
     AUTO = "auto"
