@@ -71,8 +71,13 @@ def held_at(held: HeldBody) -> Iterator[None]:
 
     def body(*arguments: Any, **options: Any) -> PreparedModel:
         found = find_body(*arguments, **options)
-        narrow = narrowed(found.operators.pose_prior, pose)
-        return replace(found, operators=replace(found.operators, pose_prior=narrow))
+        assert found.searched.whole is not None
+        operators, searched = (
+            replace(each, pose_prior=narrowed(each.pose_prior, pose))
+            for each in (found.operators, found.searched)
+        )
+        whole = replace(found.searched.whole, operators=operators)
+        return replace(found, operators=operators, searched=replace(searched, whole=whole))
 
     def initial(*arguments: Any, **options: Any) -> InitialPose:
         found = find_pose(*arguments, **options)

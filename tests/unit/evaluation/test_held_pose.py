@@ -6,10 +6,12 @@ import pytest
 from fitter.body.pose_prior import prior_residuals
 from fitter.energies.attributes import NOTHING_KNOWN
 from fitter.energies.fitting_operators import fitting_operators
+from fitter.fits.equipment import Equipment
 from fitter.fits.prepared_model import prepared_model
 from fitter.optimizer.free_space import free_space
 from fitter.optimizer.joint_equations import joint_equations
 from fitter.parameters import BodyParameters
+from fitter.vocabulary.choices import Gender
 from tests.evaluation.cases import CASES, DEMO
 from tests.evaluation.held_pose import HELD_WITHIN_RADIANS, HeldBody, held_at, narrowed, true_pose
 from tests.evaluation.people import load_person
@@ -46,6 +48,16 @@ def test_a_narrowed_prior_expects_one_pose_of_every_joint():
     turned = pose.copy()
     turned[0, 1] += HELD_WITHIN_RADIANS
     assert np.linalg.norm(prior_residuals(narrow, turned)) == pytest.approx(1.0)
+
+
+def test_a_held_pose_is_expected_by_the_body_that_is_searched_and_by_the_whole_one():
+    pose = np.random.default_rng(0).normal(scale=0.4, size=rendered_scene(0).start.pose.shape)
+    with held_at(HeldBody(pose=pose, place=np.array([0.0, 0.0, 3.0]))):
+        held = Equipment().model(Gender.MALE)
+    assert held.searched.whole is not None
+    for each in (held.searched, held.operators, held.searched.whole.operators):
+        assert np.allclose(prior_residuals(each.pose_prior, pose), 0.0)
+        assert np.all(each.pose_prior.precision == 1.0 / HELD_WITHIN_RADIANS)
 
 
 def test_a_held_place_leaves_pose_and_shape_free():
