@@ -47,8 +47,7 @@ def test_the_right_ring_is_the_left_ones_mirror_and_other_groups_stay():
 
 
 @needs_makehuman
-@pytest.mark.parametrize("gender", ["female", "male"])
-@pytest.mark.parametrize("height", [0.2, 0.8])
+@pytest.mark.parametrize(("gender", "height"), [("female", 0.2), ("male", 0.8)])
 def test_short_and_tall_peoples_knees_are_in_the_middle_of_their_legs(gender: str, height: float):
     space, base = body_space(gender), base_mesh()
     parameters = space.neutral.copy()
