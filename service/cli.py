@@ -1,7 +1,7 @@
 """``maquette serve``, ``fit``, ``scan``, ``check`` and the other commands.
 
-Every command imports what it needs itself: ``maquette --help`` and the processes forked by a worker
-load this module and nothing heavy with it.
+Every command imports what it needs itself: ``maquette --help`` and the processes forked by
+``maquette worker`` load this module and nothing heavy with it.
 """
 
 import argparse

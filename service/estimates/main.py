@@ -29,6 +29,7 @@ from service.estimates.messages import (
     RefusalAnswer,
 )
 from service.estimates.port import NoDetectorError
+from service.process.child_work import succeeds_in_child
 from service.process.heap import give_back
 from service.settings import Settings
 from service.worker.body_models.asking import unusable_models
@@ -56,6 +57,17 @@ def prepare_here(module: Answers, settings: Settings) -> None:
         module.prepare(settings.models_dir, settings.detector_dir)
     except ModelFileError as error:
         raise unusable_models(settings, str(error)) from error
+
+
+def prepare_in_child(module: Answers, settings: Settings) -> None:
+    """Prepare in a child; what that has compiled is read from its cache when it is called.
+
+    For an estimator that shares models and detector with whoever forked it. The questions by which
+    it prepares write to many of their pages, each of which is a copy from then on.
+    """
+    if not succeeds_in_child(lambda: prepare_here(module, settings)):
+        # What went wrong there is told here.
+        prepare_here(module, settings)
 
 
 def run_estimator(

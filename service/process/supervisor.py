@@ -21,7 +21,7 @@ class SupervisedWorker:
 
     Its standard input is one end of a socket of ours: if this process is killed, the socket ends
     and the worker stops. What is passed through it, the worker hands to a process that it forks
-    (:mod:`service.worker.lending`).
+    (:mod:`service.worker.fork_requests`).
     """
 
     def __init__(

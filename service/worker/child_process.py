@@ -27,7 +27,7 @@ from service.worker.endings import (
     no_storage,
     too_slow,
 )
-from service.worker.forking import ForkedProcesses, NoProcessError, killed_in_time
+from service.worker.fork_server import ForkedProcesses, NoProcessError, killed_in_time
 from service.worker.kept_children import Child, KeptChildren, Owner, owner_of
 from service.worker.messages import (
     MESSAGES,

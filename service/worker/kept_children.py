@@ -13,7 +13,7 @@ from typing import Final, NamedTuple
 
 from service.engine.port import JobRecord
 from service.worker.child_tasks import ChildTask, give
-from service.worker.forking import end
+from service.worker.fork_server import end
 
 KEPT_S: Final = 1.0
 """How long a process waits: a worker that idles holds no memory for it."""

@@ -23,8 +23,8 @@ from typing import Any, Final
 import fitter
 from fitter.fits.kept_models import VARIABLE as USERS_CACHE
 from fitter.numerics.checked_file import DamagedFileError, check, write_checked
-from service.process.apart import succeeds_apart
 from service.process.caches import KERNELS
+from service.process.child_work import succeeds_in_child
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -65,7 +65,7 @@ def make_kernels_ready(compile_all: Callable[[], bool]) -> None:
         return
     kept = restore_kernels()
     if kept is None or not kept.is_current():
-        succeeds_apart(lambda: keep_kernels() if compile_all() else None)
+        succeeds_in_child(lambda: keep_kernels() if compile_all() else None)
         kept = read_kept()
     if kept is None or not kept.is_current():
         compile_all()

@@ -18,8 +18,8 @@ from service.settings import Settings
 from service.worker.body_models.asking import COMMAND as MODELS_COMMAND
 from service.worker.body_models.asking import ModelsBeingRead
 from service.worker.child_process import ChildRunner
-from service.worker.forking import ForkedProcesses
-from service.worker.lending import follow_starter
+from service.worker.fork_requests import follow_starter
+from service.worker.fork_server import ForkedProcesses
 from service.worker.model_files import check_detector
 
 LOG: Final = logging.getLogger(__name__)
@@ -28,7 +28,7 @@ PIPELINE: Final = "service.worker.pipeline"
 SANDBOX_PIPELINE: Final = "service.worker.sandbox"
 SECRETLESS: Final = "service.worker.secretless"
 PRELOAD: Final = "service.worker.preload"
-LENT: Final = "service.estimates.lent"
+ESTIMATOR: Final = "service.estimates.forked_estimator"
 
 THREAD_LIMITS: Final = (
     "OMP_NUM_THREADS",
@@ -50,14 +50,14 @@ def run_worker(
     pipeline: str | None = None,
     secretless: str = SECRETLESS,
     preload: str = PRELOAD,
-    lent: str = LENT,
+    estimator: str = ESTIMATOR,
     models_command: Sequence[str] = MODELS_COMMAND,
 ) -> None:
     """Work until SIGTERM or SIGINT, or until standard input ends if that is to be followed.
 
     ``pipeline`` is by default the real one, or the sandbox's where that is set.
     ``secretless`` is what its fork server imports first, ``preload`` what last.
-    ``lent`` is what runs in processes forked for whoever started this one.
+    ``estimator`` is what runs in processes forked for whoever started this one.
     ``models_command`` starts the process that says which body models there are.
     """
     if pipeline is None:
@@ -75,9 +75,9 @@ def run_worker(
     prepare_data_folder(settings)
     check_detector(settings)
     blobs = open_blob_store(settings)
-    processes = ForkedProcesses(secretless, *((lent,) if follow_stdin else ()), preload)
+    processes = ForkedProcesses(secretless, *((estimator,) if follow_stdin else ()), preload)
     if follow_stdin:
-        follow_starter(processes, lent=lent, ended=stop.ask)
+        follow_starter(processes, module=estimator, ended=stop.ask)
     runner = ChildRunner(settings, blobs, processes, pipeline=pipeline)
     # What takes longest begins first, even if the database then turns out to be of no use.
     processes.begin_preloading()

@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 FAKE = "tests.integration.service.fake_pipeline"
-FAKE_LENT = "tests.integration.service.fake_lent"
+FAKE_ESTIMATOR = "tests.integration.service.fake_forked_estimator"
 FAKE_SECRETLESS = "tests.integration.service.fake_secretless"
 FAKE_PRELOAD = "tests.integration.service.fake_preload"
 FAKE_MODELS = (sys.executable, "-m", "tests.integration.service.fake_models")
@@ -27,7 +27,7 @@ def main() -> None:
         pipeline=FAKE,
         secretless=FAKE_SECRETLESS,
         preload=FAKE_PRELOAD,
-        lent=FAKE_LENT,
+        estimator=FAKE_ESTIMATOR,
         models_command=FAKE_MODELS,
     )
 

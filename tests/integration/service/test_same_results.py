@@ -11,7 +11,7 @@ from service.jobs.inputs import IMAGE, PERSON, RESULT
 from service.submissions.submission import check_fit
 from service.worker import child
 from service.worker.child_tasks import ChildSetup, ChildTask
-from service.worker.forking import ForkedProcesses
+from service.worker.fork_server import ForkedProcesses
 from service.worker.kept_children import Child
 from service.worker.messages import MESSAGES, DoneMessage, FileMessage, ProgressMessage
 from tests.submissions import small_submissions

@@ -17,7 +17,7 @@ from collections.abc import Callable
 from multiprocessing.connection import Connection
 from typing import Final, Protocol, cast
 
-from service.worker.forking import ForkedProcesses, NoProcessError
+from service.worker.fork_server import ForkedProcesses, NoProcessError
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -25,22 +25,22 @@ READ_AT_ONCE: Final = 4_096
 CONNECTIONS_AT_ONCE: Final = 16
 
 
-class Lent(Protocol):
-    """A module that is run in a lent process."""
+class Answering(Protocol):
+    """A module that is run in a process forked on request."""
 
     def answer(self, connection: Connection) -> None:
         """Answer over the connection until it ends."""
         ...
 
 
-def follow_starter(processes: ForkedProcesses, *, lent: str, ended: Callable[[], None]) -> None:
-    """Follow standard input in a thread; ``lent`` is what is run for each connection."""
+def follow_starter(processes: ForkedProcesses, *, module: str, ended: Callable[[], None]) -> None:
+    """Follow standard input in a thread; ``module`` is what is run for each connection."""
 
     def follow() -> None:
         # Not through sys.stdin: a reader that holds its lock keeps the interpreter from ending.
         number = sys.stdin.fileno()
         if stat.S_ISSOCK(os.fstat(number).st_mode):
-            _fork_what_is_asked(socket.socket(fileno=os.dup(number)), processes, lent)
+            _fork_what_is_asked(socket.socket(fileno=os.dup(number)), processes, module)
         else:
             while os.read(number, READ_AT_ONCE):
                 pass
@@ -49,7 +49,7 @@ def follow_starter(processes: ForkedProcesses, *, lent: str, ended: Callable[[],
     threading.Thread(target=follow, name="starter", daemon=True).start()
 
 
-def _fork_what_is_asked(starter: socket.socket, processes: ForkedProcesses, lent: str) -> None:
+def _fork_what_is_asked(starter: socket.socket, processes: ForkedProcesses, module: str) -> None:
     while True:
         try:
             said, numbers, _, _ = socket.recv_fds(starter, READ_AT_ONCE, CONNECTIONS_AT_ONCE)
@@ -57,18 +57,18 @@ def _fork_what_is_asked(starter: socket.socket, processes: ForkedProcesses, lent
             return
         for number in numbers:
             # In a thread: the fork server may be loading for minutes, and our end is not to wait.
-            threading.Thread(target=_fork, args=(processes, lent, number), daemon=True).start()
+            threading.Thread(target=_fork, args=(processes, module, number), daemon=True).start()
         if not said:
             return
 
 
-def _fork(processes: ForkedProcesses, lent: str, number: int) -> None:
+def _fork(processes: ForkedProcesses, module: str, number: int) -> None:
     with Connection(number) as connection:
         try:
-            processes.start_with(_run, lent, connection)
+            processes.start_with(_run, module, connection)
         except NoProcessError as error:
-            LOG.error("No process can be lent (%s).", error)
+            LOG.error("No estimator can be forked (%s).", error)
 
 
-def _run(lent: str, connection: Connection) -> None:
-    cast("Lent", importlib.import_module(lent)).answer(connection)
+def _run(module: str, connection: Connection) -> None:
+    cast("Answering", importlib.import_module(module)).answer(connection)

@@ -5,7 +5,6 @@ import logging
 import os
 import select
 import signal
-import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -39,7 +38,6 @@ class ForkedProcesses:
 
     def __init__(self, *preload: str) -> None:
         self._context: ForkServerContext = get_context("forkserver")
-        _keep_main_to_ourselves()
         self._context.set_forkserver_preload(list(preload))
         self._lock = threading.Lock()
         self._deaths = 0
@@ -165,16 +163,6 @@ def _wait_for_end(server: int) -> bool:
 def _pause_s(deaths: int) -> float:
     doublings = min(deaths - 1, DOUBLINGS)
     return FIRST_PAUSE_S * 2.0**doublings
-
-
-def _keep_main_to_ourselves() -> None:
-    """Have children not import the program that was started: what they run is imported by name.
-
-    It takes a child a fiftieth of what a fit takes to import the command line anew.
-    """
-    main = sys.modules["__main__"]
-    main.__spec__ = None
-    main.__dict__.pop("__file__", None)
 
 
 def _tell_parent(connection: Connection) -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from service.worker.forking import ForkedProcesses, end
+from service.worker.fork_server import ForkedProcesses, end
 
 REPOSITORY = Path(__file__).parents[3]
 
@@ -69,10 +69,10 @@ def test_a_killed_server_is_started_again(processes):
 DYING = """
 import os, sys, threading
 from pathlib import Path
-from service.worker import forking
+from service.worker import fork_server
 
 fault = Path(sys.argv[1])
-processes = forking.ForkedProcesses("dies_if_told")
+processes = fork_server.ForkedProcesses("dies_if_told")
 
 def answer(connection):
     connection.send("here")
@@ -84,7 +84,7 @@ if __name__ == "__main__":
     for _ in range(2):
         try:
             processes.start(print)
-        except forking.NoProcessError:
+        except fork_server.NoProcessError:
             print("none", processes.is_able())
     fault.unlink()
     able = threading.Event()

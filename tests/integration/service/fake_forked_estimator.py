@@ -2,8 +2,7 @@
 
 from multiprocessing.connection import Connection
 
-from service.estimates.apart import prepare_apart
-from service.estimates.main import run_estimator
+from service.estimates.main import prepare_in_child, run_estimator
 from service.process.naming import call_process
 from service.settings import Settings
 
@@ -15,5 +14,5 @@ def answer(connection: Connection) -> None:
         Settings(),
         connection,
         answers="tests.integration.service.fake_answers",
-        prepare=prepare_apart,
+        prepare=prepare_in_child,
     )

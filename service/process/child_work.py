@@ -4,7 +4,7 @@ import os
 from collections.abc import Callable
 
 
-def succeeds_apart(work: Callable[[], object]) -> bool:
+def succeeds_in_child(work: Callable[[], object]) -> bool:
     """Do it in a child, of a process without threads; say whether it ended well."""
     child = os.fork()
     if child == 0:
