@@ -32,8 +32,8 @@ from service.estimates.port import NoDetectorError
 from service.process.child_work import succeeds_in_child
 from service.process.heap import give_back
 from service.settings import Settings
-from service.worker.body_models.asking import unusable_models
 from service.worker.main import THREAD_LIMITS
+from service.worker.models_reading import unusable_models
 from service.worker.pipeline_port import UnusableInputError
 
 LOG: Final = logging.getLogger(__name__)

@@ -15,12 +15,12 @@ from service.process.heap import KEPT
 from service.process.interpreter import SAFE_PATH_VARIABLE
 from service.process.stop_request import StopRequest
 from service.settings import Settings
-from service.worker.body_models.asking import COMMAND as MODELS_COMMAND
-from service.worker.body_models.asking import ModelsBeingRead
 from service.worker.child_process import ChildRunner
 from service.worker.fork_requests import follow_starter
 from service.worker.fork_server import ForkedProcesses
 from service.worker.model_files import check_detector
+from service.worker.models_reading import COMMAND as MODELS_COMMAND
+from service.worker.models_reading import ModelsBeingRead
 
 LOG: Final = logging.getLogger(__name__)
 

@@ -14,7 +14,7 @@ import fitter.body
 from fitter.detection.weights import checked_weights
 from fitter.errors import DetectorUnavailableError
 from service.settings import SettingError, Settings
-from service.worker.body_models.asking import ModelsBeingRead, unusable_models
+from service.worker.models_reading import ModelsBeingRead, unusable_models
 
 PACKAGED: Final = Path(fitter.body.__path__[0]) / "data"
 NAMES: Final = ("female.npz", "male.npz")

@@ -12,8 +12,8 @@ import pytest
 
 from fitter.body.storage import packaged_model_path
 from service.settings import SettingError, Settings
-from service.worker.body_models.asking import COMMAND, READINGS, ModelsBeingRead
-from service.worker.body_models.described import describe
+from service.worker.model_reader import describe
+from service.worker.models_reading import COMMAND, READINGS, ModelsBeingRead
 from tests.changed_models import packaged, save, without
 
 MODELS = packaged_model_path("female").parent
@@ -94,7 +94,7 @@ def test_it_loads_neither_compiled_kernels_nor_picture_libraries():
         [
             sys.executable,
             "-c",
-            "import sys, service.worker.body_models.described; print(*sys.modules)",
+            "import sys, service.worker.model_reader; print(*sys.modules)",
         ],
         capture_output=True,
         text=True,

@@ -1,27 +1,45 @@
-"""The side of whoever wants to know: start the process that reads the body models, and listen."""
+"""Which body models there are, and whether they can be used, as another process finds out.
+
+A worker loads no numerics, and its fork server is not to be waited for: whoever wants to know
+starts :mod:`service.worker.model_reader`, which says one message on its standard output.
+"""
 
 import logging
 import subprocess
 from collections.abc import Sequence
-from typing import Final
+from typing import Annotated, Final, Literal
 
-from pydantic import ValidationError
+from pydantic import Field, TypeAdapter, ValidationError
 
+from api_schemas.base import WireModel
 from api_schemas.body_models import BodyModels
 from service.process.interpreter import PYTHON
 from service.settings import SettingError, Settings
-from service.worker.body_models.messages import (
-    MODELS_MESSAGES,
-    ModelsMessage,
-    UnusableModelsMessage,
-)
 
 LOG: Final = logging.getLogger(__name__)
 
-COMMAND: Final = (*PYTHON, "-m", "service.worker.body_models")
+COMMAND: Final = (*PYTHON, "-m", "service.worker.model_reader")
 
 READINGS: Final = 3
 """How often the body models are read: the process that does may be killed for other reasons."""
+
+
+class DescriptionMessage(WireModel):
+    """The body models there are."""
+
+    kind: Literal["description"] = "description"
+    body_models: BodyModels
+
+
+class UnusableModelsMessage(WireModel):
+    """The body models cannot be used."""
+
+    kind: Literal["unusable-models"] = "unusable-models"
+    reason: str
+
+
+ModelsMessage = Annotated[DescriptionMessage | UnusableModelsMessage, Field(discriminator="kind")]
+MODELS_MESSAGES: Final[TypeAdapter[ModelsMessage]] = TypeAdapter(ModelsMessage)
 
 
 class ModelsBeingRead:

@@ -1,12 +1,25 @@
-"""The body models in the words of the wire; what this imports takes little time to load."""
+"""Read the body models and describe them: ``python -m service.worker.model_reader [FOLDER]``.
 
-from collections.abc import Mapping
+What this imports takes little time to load.
+"""
+
+import os
+import sys
+from collections.abc import Callable, Mapping
+from contextlib import suppress
 from pathlib import Path
 
 from api_schemas.body_models import BodyModelInfo, BodyModels
+from fitter.errors import ModelFileError
 from fitter.fits.usable_model import usable_model
 from fitter.observation.subject import MEAN_HEIGHT_M
 from fitter.vocabulary.choices import Gender
+from service.worker.models_reading import (
+    MODELS_MESSAGES,
+    DescriptionMessage,
+    ModelsMessage,
+    UnusableModelsMessage,
+)
 
 
 def describe(models: Path | None) -> BodyModels:
@@ -44,3 +57,19 @@ def _texts(value: object) -> tuple[str, ...]:
     if isinstance(value, Mapping):
         return tuple(f"{name}: {text}" for name, text in value.items())
     return tuple(str(text) for text in value)  # pyright: ignore[reportGeneralTypeIssues]
+
+
+def tell(describe: Callable[[Path | None], BodyModels]) -> None:
+    """Describe the models of the folder named by the argument, without one the packaged ones."""
+    folder = Path(sys.argv[1]) if sys.argv[1:] else None
+    try:
+        message: ModelsMessage = DescriptionMessage(body_models=describe(folder))
+    except ModelFileError as error:
+        message = UnusableModelsMessage(reason=str(error))
+    # Not through sys.stdout, whose end would meet a reader that is gone where nobody can bear it.
+    with suppress(BrokenPipeError):
+        os.write(sys.stdout.fileno(), MODELS_MESSAGES.dump_json(message))
+
+
+if __name__ == "__main__":
+    tell(describe)
