@@ -65,9 +65,9 @@ PASSING = ("stage", "progress", "view")
 
 MOST_ITEMS = 4
 SHORTENED = 2
-ONE_IS_ENOUGH = ("stages",)
+ONE_IS_ENOUGH = ("bodies", "limb_facing", "limbs", "models", "pose", "stages")
 MAPS = ("artifacts", "points", "residual_px")
-"""Objects whose names are many: the first few are kept."""
+"""Objects whose names are many: the first is kept."""
 
 DERIVATIONS: Mapping[str, Mapping[str, Any]] = {
     "report": {"kind": "report"},
@@ -194,7 +194,7 @@ def _short(value: Any, name: str = "") -> Any:
     if isinstance(value, dict):
         items = list(value.items())
         if name in MAPS:
-            items = items[:SHORTENED]
+            items = items[:1]
         return {key: _short(each, key) for key, each in items}
     return value
 
@@ -336,7 +336,7 @@ def _estimates(
             "lens-and-height",
             {"image_id": image, "view": "front", "height_m": 1.555, "focal_length_35mm": 14},
         ),
-        ("bodies", "from-gender-alone", "gender-alone", {"gender": "female"}),
+        ("bodies", "", "gender-alone", {"gender": "female"}),
         (
             "bodies",
             "from-height-and-weight",
