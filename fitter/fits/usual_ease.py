@@ -30,9 +30,9 @@ class PartEase:
 USUAL_EASE_M: Final[Mapping[str, PartEase]] = {
     "head": PartEase(at_joint=(0.005, 0.0), at_next=(0.005, 0.0)),
     "neck": PartEase(at_joint=(0.008, 0.0), at_next=(0.008, 0.0)),
-    "chest": PartEase(at_joint=(0.021, 0.0), at_next=(0.008, 0.0), next_part="neck"),
-    "spine": PartEase(at_joint=(0.022, 0.0), at_next=(0.021, 0.0), next_part="chest"),
-    "pelvis": PartEase(at_joint=(0.009, 0.009), at_next=(0.016, 0.004), next_part="spine"),
+    "chest": PartEase(at_joint=(0.025, 0.0), at_next=(0.008, 0.0), next_part="neck"),
+    "spine": PartEase(at_joint=(0.026, 0.0), at_next=(0.025, 0.0), next_part="chest"),
+    "pelvis": PartEase(at_joint=(0.009, 0.009), at_next=(0.019, 0.004), next_part="spine"),
     "upper_arm": PartEase(at_joint=(0.008, 0.0), at_next=(0.022, 0.0), next_part="forearm"),
     "forearm": PartEase(at_joint=(0.024, 0.0), at_next=(0.022, 0.0), next_part="hand"),
     "hand": PartEase(at_joint=(0.01, 0.0), at_next=(0.01, 0.0)),
