@@ -46,7 +46,7 @@ def _score(choice: Choice) -> None:
             place=options.true_place,
             measurements=tuple(options.given or ()),
             outline=None if options.outline is None else OutlineKind(options.outline),
-            clothing=Clothing(options.clothing or Clothing.TIGHT),
+            clothing=Clothing(options.clothing or Clothing.AUTO),
         ),
         pictures=options.page,
     )

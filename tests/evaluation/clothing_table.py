@@ -1,6 +1,6 @@
 """People in loose clothes: what saying so changes, as text."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -12,7 +12,7 @@ LEVEL, DEVIATIONS = INTERVALS[1]
 
 
 def clothing_lines(scored: Sequence[tuple[Clothing, Scored]]) -> list[str]:
-    """Signed errors and standard errors of each picture, tight and loose below one another; then
+    """Signed errors and standard errors of each picture, each below the other; then
     mean absolute errors (medians) and how many intervals hold the truth."""
     heading = f"{'case':40s}{'clothing':9s}"
     heading += "".join(f"{f'{name} {unit}':>13s}" for name, _, unit in MEASUREMENTS)
@@ -38,4 +38,22 @@ def clothing_lines(scored: Sequence[tuple[Clothing, Scored]]) -> list[str]:
             for _, key, _ in MEASUREMENTS
         ]
         lines.append(f"{line}  {LEVEL} % hold {sum(held)}/{len(held)}")
+        line = f"{'bias (half width)':40s}{clothing.value:9s}"
+        for _, key, _ in MEASUREMENTS:
+            bias = np.mean([each.errors[key] for each in these])
+            half = DEVIATIONS * np.mean([each.standard_errors[key] for each in these])
+            line += f"{f'{bias:+.1f} ({half:.1f})':>13s}"
+        lines.append(line)
+    return lines
+
+
+def null_lines(nulls: Mapping[str, Sequence[Mapping[str, float]]]) -> list[str]:
+    """Mean absolute errors (bias) of what is said without a picture, by what is known."""
+    lines: list[str] = []
+    for title, errors in nulls.items():
+        line = f"{title:49s}"
+        for _, key, _ in MEASUREMENTS:
+            off = np.array([each[key] for each in errors])
+            line += f"{f'{np.abs(off).mean():.1f} ({off.mean():+.1f})':>13s}"
+        lines.append(line)
     return lines

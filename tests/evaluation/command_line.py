@@ -57,7 +57,7 @@ def _add_told(to: argparse.ArgumentParser) -> None:
     to.add_argument(
         "--clothing",
         choices=[each.value for each in Clothing],
-        help="how clothes are said to lie (default: tight; of the clothed set both, side by side)",
+        help="how clothes are said to lie (default: auto; of clothed and dressed people each)",
     )
     to.add_argument(
         "--true-light", action="store_true", help="begin the search for the light at the truth"

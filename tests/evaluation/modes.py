@@ -10,8 +10,16 @@ from tests.evaluation.capture_table import capture_lines, judged_by, judgements
 from tests.evaluation.cases import PEOPLE
 from tests.evaluation.chain import Link, chain_of
 from tests.evaluation.chain_tables import chain_case_lines, chain_lines
-from tests.evaluation.clothing_table import clothing_lines
+from tests.evaluation.clothing_table import clothing_lines, null_lines
 from tests.evaluation.detector_figures import detector_lines, hinted_fits
+from tests.evaluation.dressed import (
+    MISSING,
+    NULLS,
+    dressed_names,
+    dressed_picture,
+    garments,
+    null_errors,
+)
 from tests.evaluation.foreign import foreign_half
 from tests.evaluation.light_figures import InLight, in_both_lights, light_lines
 from tests.evaluation.limit_tables import limit_lines, outline_lines, several_lines
@@ -174,10 +182,26 @@ def strangers(choice: Choice) -> None:
 
 
 def dressed(choice: Choice) -> None:
-    """Loose clothes said to be tight and loose."""
+    """Loose clothes left to the picture, and said to be tight and loose."""
     for half, cases in choice.cases_by_half.items():
         names = [case.name for case in cases]
         _print(clothing_lines(score_dressed(names, jobs=choice.jobs)), f"{half.value} half")
+
+
+def dressed_strangers(choice: Choice) -> None:
+    """The same of bodies by another maker, and what errs without a picture."""
+    names = dressed_names()
+    if not names:
+        print(MISSING, flush=True)
+        return
+    for name in names:
+        print(f"{name}: {garments(name)}")
+    _print(clothing_lines(score_dressed(names, jobs=choice.jobs)), "dressed set")
+    nulls = {
+        title: [null_errors(dressed_picture(name), known) for name in names]
+        for title, known in NULLS.items()
+    }
+    _print(null_lines(nulls))
 
 
 Mode = Callable[[Choice], None]
@@ -204,8 +228,10 @@ def mode_of(options: argparse.Namespace) -> Mode | None:
     asked = [mode for name, mode in MODES.items() if getattr(options, name)]
     if asked:
         return asked[0]
-    both = options.set == Series.CLOTHED.value and options.clothing is None
-    return dressed if both else None
+    if options.set == Series.DRESSED.value:
+        return dressed_strangers
+    each = options.set == Series.CLOTHED.value and options.clothing is None
+    return dressed if each else None
 
 
 def _names(choice: Choice, half: Half) -> list[str]:

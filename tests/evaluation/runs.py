@@ -9,6 +9,7 @@ from typing import TypeVar
 
 from fitter.vocabulary.choices import Clothing, Cues
 from tests.evaluation.cases import CASES
+from tests.evaluation.dressed import dressed_names, dressed_picture
 from tests.evaluation.foreign import foreign_mesh, foreign_picture
 from tests.evaluation.held_pose import HeldBody, held_body_of
 from tests.evaluation.mesh_fit import MeshFit, fit_mesh
@@ -30,8 +31,10 @@ class Run:
 
 
 def picture_of(name: str) -> TruePicture:
-    """A picture of the suite's own, or a foreign one."""
-    return case_picture(CASES[name]) if name in CASES else foreign_picture(name)
+    """A picture of the suite's own, or one of bodies by another maker."""
+    if name in CASES:
+        return case_picture(CASES[name])
+    return dressed_picture(name) if name in dressed_names() else foreign_picture(name)
 
 
 def held_body(name: str, told: Told) -> HeldBody | None:
@@ -56,7 +59,7 @@ def score_all(names: Sequence[str], run: Run, *, jobs: int) -> Iterator[list[Sco
 
 
 def score_dressed(names: Sequence[str], *, jobs: int) -> list[tuple[Clothing, Scored]]:
-    """Each picture by SES, its clothes said to be tight and loose."""
+    """Each picture by SES, its clothes left to the picture, and said to be tight and loose."""
     return [pair for pairs in of_each(_score_dressed, names, jobs) for pair in pairs]
 
 

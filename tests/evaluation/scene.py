@@ -29,6 +29,7 @@ class Series(StrEnum):
     PHONE = "phone"
     REPEATED = "repeated"
     FOREIGN = "foreign"
+    DRESSED = "dressed"
 
 
 PAIRED_SERIES = frozenset({Series.PHONE, Series.REPEATED})

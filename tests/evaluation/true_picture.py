@@ -34,7 +34,7 @@ class Told:
     measurements: tuple[str, ...] = ()
     outline: OutlineKind | None = None
     surroundings: SurroundingsKind = SurroundingsKind.UNIFORM
-    clothing: Clothing = Clothing.TIGHT
+    clothing: Clothing = Clothing.AUTO
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
