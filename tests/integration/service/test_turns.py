@@ -81,5 +81,6 @@ def test_turns_are_the_same_for_several_workers(guarded: Guarded, tmp_path: Path
         assert bob.ended(single[0])["state"] == "succeeded"
         for path in paths:
             assert alice.ended(path)["state"] == "succeeded"
-        # The other worker may begin one of its turn at the same moment.
-        assert "bob 0" in begun(guarded, names)[2:4]
+        # It is claimed first or second. Until it begins, the other worker may end short ones: they
+        # take as long as that moment. Without turns it would come last, after all eight.
+        assert "bob 0" in begun(guarded, names)[2:6]
