@@ -36,6 +36,7 @@ LEVELS: Final = (
 )
 
 INDEPENDENT: Final = 2.0
+_ENOUGH_OF_SHINS: Final = 1.0
 _LOOSE_LEGS: Final = 0.8
 """How often what covers legs is loose."""
 
@@ -57,7 +58,10 @@ def legs_are_loose(
     ``joints`` are continuous pixels by part; levels count as far as they are not ``bare``.
     """
     weighted, levels = 0.0, 0.0
-    for level in LEVELS:
+    # Thighs differ most between people: where shins are covered too, these tell more.
+    for level in sorted(LEVELS, key=lambda each: each.near != "shin"):
+        if level.near != "shin" and levels >= _ENOUGH_OF_SHINS:
+            break
         told = _least_reach(person, bare, joints, pixels_per_metre, level)
         if told is None:
             continue

@@ -22,7 +22,7 @@ def of(model, part: str) -> np.ndarray:
 
 def test_cloth_lies_on_shoulders_and_hangs_away_from_shins(model):
     assert of(model, "neck").sum(axis=1).mean() < 0.01
-    assert 0.012 < of(model, "spine").sum(axis=1).mean() < 0.025
+    assert 0.02 < of(model, "spine").sum(axis=1).mean() < 0.03
     assert of(model, "left_shin").sum(axis=1).mean() > 0.035
 
 
