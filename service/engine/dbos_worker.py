@@ -91,7 +91,12 @@ class DbosWorkerEngine:
             is_able=is_able,
         )
         self._handing_back = threading.Event()
-        self._claiming = threading.Thread(target=self._claim_jobs, name="claiming", daemon=True)
+        self._claiming = threading.Thread(
+            target=self._slots.keep_filled,
+            args=(self._begin_waiting_jobs,),
+            name="claiming",
+            daemon=True,
+        )
 
     def start(
         self,
@@ -139,14 +144,6 @@ class DbosWorkerEngine:
         else:
             self._wait_for_outcomes()
         self._heartbeat.stop()
-
-    def _claim_jobs(self) -> None:
-        while True:
-            self._slots.await_vacancy()
-            if self._slots.is_closed:
-                return
-            if not self._begin_waiting_jobs():
-                self._slots.await_next_look()
 
     def _begin_waiting_jobs(self) -> bool:
         """Begin as many jobs as there are slots for; returns whether any waited."""

@@ -1,10 +1,13 @@
 """The slots a worker's jobs run in, and when the worker looks for more jobs."""
 
+import logging
 import math
 import threading
 import time
 from collections.abc import Callable, Collection
 from typing import Final
+
+LOG: Final = logging.getLogger(__name__)
 
 SETTLING_S: Final = 0.1
 """How long to look often for jobs after a slot was left: what comes next may be about to be
@@ -12,6 +15,10 @@ submitted."""
 
 LOOK_S: Final = 0.02
 """How long to wait between two looks for so long."""
+
+
+FAULT_PAUSE_S: Final = 1.0
+"""How long to wait after a look that failed."""
 
 
 class WorkerSlots:
@@ -35,6 +42,27 @@ class WorkerSlots:
         self._left_at = -math.inf
         self._is_left = False
         self._closed = False
+
+    def keep_filled(
+        self, begin_waiting_jobs: Callable[[], bool], *, fault_pause_s: float = FAULT_PAUSE_S
+    ) -> None:
+        """Begin jobs whenever a slot is free, until the slots are closed.
+
+        ``begin_waiting_jobs`` returns whether any waited. Whatever it raises is logged, and it is
+        called again: a worker that looks for nothing would seem healthy and do nothing.
+        """
+        while True:
+            self.await_vacancy()
+            if self.is_closed:
+                return
+            try:
+                any_waited = begin_waiting_jobs()
+            except Exception:
+                LOG.exception("Waiting jobs could not be looked for; tried again.")
+                time.sleep(fault_pause_s)
+                any_waited = False
+            if not any_waited:
+                self.await_next_look()
 
     def take(self, job_id: str) -> None:
         """Give a slot to a job that was claimed and is about to begin."""

@@ -1,8 +1,11 @@
 """Whoever looks for jobs waits for minutes, or is let go at once."""
 
+import errno
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+
+import pytest
 
 from service.engine.worker_slots import SETTLING_S, WorkerSlots
 
@@ -38,6 +41,22 @@ def test_jobs_take_slots_when_they_are_claimed_and_free_them_when_they_end():
     assert (slots.vacant(), set(slots.held()), set(slots.not_begun())) == (1, {"one"}, set())
     slots.free("one")
     assert (slots.vacant(), set(slots.held())) == (2, set())
+
+
+def test_a_look_that_fails_is_logged_and_made_again(caplog: pytest.LogCaptureFixture):
+    slots = WorkerSlots(1, poll_s=0.01)
+    looks: list[int] = []
+
+    def look() -> bool:
+        looks.append(len(looks))
+        if len(looks) == 1:
+            raise FileNotFoundError(errno.ENOENT, "the data folder is away")
+        slots.close()
+        return False
+
+    slots.keep_filled(look, fault_pause_s=0.0)
+    assert looks == [0, 1]
+    assert "the data folder is away" in caplog.text
 
 
 def test_a_full_worker_waits_until_a_slot_is_left():
