@@ -144,8 +144,8 @@ REMARKS: Final = RemarkWords(
         "focal_length_35mm": "Weder Sie noch das Bild sagen, welches Objektiv es aufnahm.",
         "points": ("Die Erkennung hat sie vorgeschlagen; sie sind weniger sicher als Klicks."),
         "outline": (
-            "Die Kleidung ist weit: Wo sie den Umriss bildet, ist der Körper darunter geschätzt; an "
-            "bloßer Haut und anliegender Kleidung liegt er auf ihm. Mit anliegender Kleidung oder "
+            "Die Kleidung ist weit: Wo sie den Umriss bildet, ist der Körper darunter geschätzt; "
+            "an bloßer Haut und anliegender Kleidung liegt er auf ihm. Mit anliegender Kleidung oder "
             "dem Gewicht werden die Maße sicherer."
         ),
     },
