@@ -145,8 +145,8 @@ REMARKS: Final = RemarkWords(
         "points": ("Die Erkennung hat sie vorgeschlagen; sie sind weniger sicher als Klicks."),
         "outline": (
             "Die Kleidung ist weit: Wo sie den Umriss bildet, ist der Körper darunter geschätzt; "
-            "an bloßer Haut und anliegender Kleidung liegt er auf ihm. Mit anliegender Kleidung oder "
-            "dem Gewicht werden die Maße sicherer."
+            "an bloßer Haut und anliegender Kleidung liegt er auf ihm. Mit anliegender Kleidung "
+            "oder dem Gewicht werden die Maße sicherer."
         ),
     },
     warnings=_WARNINGS,
