@@ -20,12 +20,14 @@ from tests.evaluation.dressed import (
     garments,
     null_errors,
 )
+from tests.evaluation.foreign import MISSING as FOREIGN_MISSING
 from tests.evaluation.foreign import foreign_half
 from tests.evaluation.light_figures import InLight, in_both_lights, light_lines
 from tests.evaluation.limit_tables import limit_lines, outline_lines, several_lines
 from tests.evaluation.moved_points import moved_fits, moved_lines
 from tests.evaluation.nonsense import nonsense
 from tests.evaluation.outline_limit import outline_limit
+from tests.evaluation.painted_clothes import painted_names
 from tests.evaluation.people import load_person
 from tests.evaluation.runs import of_each, score_dressed
 from tests.evaluation.scan_tables import repeat_lines, scan_lines, worst_scan_lines
@@ -204,6 +206,13 @@ def dressed_strangers(choice: Choice) -> None:
     _print(null_lines(nulls))
 
 
+def painted_strangers(choice: Choice) -> None:
+    """Clothes as close as paint, left to the picture and said to be tight and loose."""
+    names = painted_names()
+    lines = clothing_lines(score_dressed(names, jobs=choice.jobs)) if names else [FOREIGN_MISSING]
+    _print(lines, "painted set")
+
+
 Mode = Callable[[Choice], None]
 
 MODES: Mapping[str, Mode] = {
@@ -230,6 +239,8 @@ def mode_of(options: argparse.Namespace) -> Mode | None:
         return asked[0]
     if options.set == Series.DRESSED.value:
         return dressed_strangers
+    if options.set == Series.PAINTED.value:
+        return painted_strangers
     each = options.set == Series.CLOTHED.value and options.clothing is None
     return dressed if each else None
 

@@ -13,6 +13,7 @@ from tests.evaluation.dressed import dressed_names, dressed_picture
 from tests.evaluation.foreign import foreign_mesh, foreign_picture
 from tests.evaluation.held_pose import HeldBody, held_body_of
 from tests.evaluation.mesh_fit import MeshFit, fit_mesh
+from tests.evaluation.painted_clothes import PREFIX, painted_picture
 from tests.evaluation.scoring import Scored, fit_picture, score
 from tests.evaluation.sheets import write_pictures
 from tests.evaluation.suite import case_picture
@@ -34,6 +35,8 @@ def picture_of(name: str) -> TruePicture:
     """A picture of the suite's own, or one of bodies by another maker."""
     if name in CASES:
         return case_picture(CASES[name])
+    if name.startswith(PREFIX):
+        return painted_picture(name)
     return dressed_picture(name) if name in dressed_names() else foreign_picture(name)
 
 

@@ -30,6 +30,7 @@ class Series(StrEnum):
     REPEATED = "repeated"
     FOREIGN = "foreign"
     DRESSED = "dressed"
+    PAINTED = "painted"
 
 
 PAIRED_SERIES = frozenset({Series.PHONE, Series.REPEATED})

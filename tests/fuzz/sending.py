@@ -13,6 +13,8 @@ IMPATIENCE_S = 0.3
 
 PROBLEM = "application/problem+json"
 RETRY_LATER = 503
+NOT_HTTP = b"Invalid HTTP request received."
+"""What the server answers itself, in plain text, to what is no HTTP."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,6 +50,8 @@ def _fault(answer: http.client.HTTPResponse, body: bytes) -> str | None:
         return None if answer.headers.get("Retry-After") else "503 without Retry-After"
     if answer.status >= 500:
         return f"{answer.status}: {body[:300]!r}"
+    if (answer.status, body) == (400, NOT_HTTP):
+        return None
     is_told = answer.headers.get_content_type() == PROBLEM
     # An answer to HEAD has no body to look at.
     if answer.status >= 400 and body and not is_told:
