@@ -106,6 +106,15 @@ class ClothingByRegion(WireModel):
     lower: Clothing = Clothing.AUTO
 
 
+_CLOTHING_READ_BACK: Final = {"type": "string", "enum": ["tight", "loose"]}
+
+
+def _without_unsaid_default(schema: dict[str, Any]) -> None:
+    """``auto``, the default, is left out of a request that is read back."""
+    if schema.get("enum") == _CLOTHING_READ_BACK["enum"]:
+        schema.pop("default", None)
+
+
 class PictureChoices(WireModel):
     """How a picture is read."""
 
@@ -119,10 +128,11 @@ class PictureChoices(WireModel):
     # What is stored for a worker of an earlier version says nothing that it does not know.
     clothing: Annotated[
         Clothing,
-        WithJsonSchema({"type": "string", "enum": ["tight", "loose"]}, mode="serialization"),
+        WithJsonSchema(_CLOTHING_READ_BACK, mode="serialization"),
     ] = Field(
         default=Clothing.AUTO,
         exclude_if=lambda clothing: clothing is Clothing.AUTO,
+        json_schema_extra=_without_unsaid_default,
         description=(
             "How clothes lie on the whole person. Give the weight if it is known. A request that "
             "is read back leaves `auto` out."
