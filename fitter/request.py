@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
-from typing import Self
 
 from fitter.arrays import ShapeCovariance
 from fitter.parameters import BodyParameters
@@ -192,7 +191,7 @@ class FitRequest:
     views: tuple[View, ...]
     choices: Choices = field(default_factory=Choices)
 
-    def __new__(cls, **said: object) -> Self:
+    def __new__(cls, **said: object) -> "FitRequest":
         """Refuse what was said of a request until 1.0, and tell where it is said now."""
         for name in said:
             for owner in (Person, View, Choices):
