@@ -33,6 +33,9 @@ PACE_S = 1.5
 EACH_STEP_S = 6.0
 ENDED_WITHIN_S = 300.0
 
+Step = tuple[str, Callable[[], object]]
+"""What is done, and how it is called."""
+
 
 @dataclass
 class Traffic:
@@ -62,6 +65,15 @@ class Traffic:
                 self.refused.append(answer.text)
             time.sleep(PACE_S)
 
+    def run_out(self) -> None:
+        """Wait until all that is accepted by now has ended."""
+        caller = Caller(self.site.address)
+        try:
+            for _, path in list(self.paths):
+                caller.ended(path, within_s=ENDED_WITHIN_S)
+        finally:
+            caller.close()
+
 
 def main(arguments: Sequence[str]) -> int:
     """Run the command line; returns the exit status."""
@@ -89,19 +101,27 @@ def _there_and_back(site: Site, old: Installation, new: Installation) -> int:
         print(f"other tables, and nothing is changed: {asked.stderr.strip()}")
         return 0
     assert asked.returncode == 0, asked.stderr
-    steps: list[tuple[str, Callable[[], object]]] = []
-    for what, version in (("upgrade", new), ("roll back", old)):
-        steps += [
+    traffic = Traffic(site)
+
+    def workers(what: str, version: Installation) -> list[Step]:
+        return [
             (f"{what}: another worker", partial(site.start_worker, version)),
             (f"{what}: the worker before it stops", site.stop_oldest_worker),
+        ]
+
+    def api(what: str, version: Installation) -> list[Step]:
+        return [
             (f"{what}: another API process", partial(site.start_api, version)),
             (f"{what}: the one before it stops", site.stop_oldest_api),
         ]
-    return _judge(site, steps)
+
+    steps = workers("upgrade", new) + api("upgrade", new)
+    # Workers of an older version may not see the jobs of a newer API.
+    steps += [*api("roll back", old), ("roll back: its jobs run out", traffic.run_out)]
+    return _judge(site, traffic, steps + workers("roll back", old))
 
 
-def _judge(site: Site, steps: Sequence[tuple[str, Callable[[], object]]]) -> int:
-    traffic = Traffic(site)
+def _judge(site: Site, traffic: Traffic, steps: Sequence[Step]) -> int:
     flowing = threading.Thread(target=traffic.flow)
     flowing.start()
     try:
