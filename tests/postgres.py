@@ -1,13 +1,24 @@
 """Databases of a Postgres server on this machine, made for one run and dropped after it."""
 
 import contextlib
+import tempfile
 import uuid
 from collections.abc import Iterator
+from pathlib import Path
+from typing import Final
 
 import psycopg
 from psycopg import sql
 
 SERVER = "postgresql://postgres@127.0.0.1:5432"
+
+_OPEN_TO_ALL: Final = tempfile.gettempdir()
+"""Found before any test makes a work folder, which is for one user alone."""
+
+
+def server_folder() -> Path:
+    """Make a folder for a server of a test's own; its user may enter all that it lies in."""
+    return Path(tempfile.mkdtemp(prefix="maquette-postgres-", dir=_OPEN_TO_ALL))
 
 
 @contextlib.contextmanager

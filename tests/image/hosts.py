@@ -5,10 +5,11 @@ import ctypes
 import os
 import shutil
 import subprocess
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Final
+
+from tests.postgres import server_folder
 
 FRONT: Final = "maquette-front"
 BACK: Final = "maquette-back"
@@ -53,7 +54,7 @@ def entered(host: str) -> Iterator[None]:
 def running_postgres(host: str) -> Iterator[str]:
     """Run an empty Postgres that both hosts reach with a password, and give its address."""
     programs = max(Path("/usr/lib/postgresql").iterdir()) / "bin"
-    folder = Path(tempfile.mkdtemp(prefix="maquette-postgres-"))
+    folder = server_folder()
     shutil.chown(folder, "postgres", "postgres")
     data = folder / "data"
     as_postgres = ("setpriv", "--reuid=postgres", "--regid=postgres", "--clear-groups")

@@ -3,7 +3,6 @@
 import os
 import shutil
 import subprocess
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -12,6 +11,7 @@ import pytest
 
 from service.engine.database import check_database, open_database, prepare_database
 from service.engine.keys import KeyRing, Role
+from tests.postgres import server_folder
 
 SCRIPT = Path(__file__).parents[2] / "docker" / "database_role.sh"
 PASSWORD = "it's a 'password' with $signs and \\ strokes"
@@ -36,8 +36,7 @@ def as_server() -> tuple[str, ...]:
 def server() -> Iterator[Path]:
     """The socket's folder of a server of its own, on which the script has run."""
     bin_folder = programs()
-    # Not below the tests' folder, which a server's user may not enter.
-    folder = Path(tempfile.mkdtemp(prefix="maquette-role-"))
+    folder = server_folder()
     if as_server():
         shutil.chown(folder, "postgres", "postgres")
     data = folder / "data"

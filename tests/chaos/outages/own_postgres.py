@@ -6,10 +6,11 @@ import shutil
 import signal
 import socket
 import subprocess
-import tempfile
 import time
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+
+from tests.postgres import server_folder
 
 PROGRAMS = Path("/usr/lib/postgresql")
 AS_POSTGRES = ("setpriv", "--reuid=postgres", "--regid=postgres", "--clear-groups")
@@ -107,7 +108,7 @@ def own_postgres(
     options: Sequence[str] = (),
 ) -> Iterator[OwnPostgres]:
     """Run a server with an empty database; it and its files are gone at the end."""
-    made = Path(tempfile.mkdtemp(prefix="maquette-postgres-")) if folder is None else folder
+    made = server_folder() if folder is None else folder
     shutil.chown(made, "postgres", "postgres")
     server = OwnPostgres(made, host=host, options=options)
     try:
