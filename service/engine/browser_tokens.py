@@ -136,9 +136,9 @@ def images_of_token(connection: sa.Connection, token_id: str) -> tuple[int, int]
     return kept, most or 0
 
 
-def drop_expired_tokens(connection: sa.Connection) -> None:
+def drop_expired_tokens(connection: sa.Connection, now: float) -> None:
     """Forget the tokens whose time is over."""
-    connection.execute(sa.delete(BROWSER_TOKENS).where(BROWSER_TOKENS.c.expires_at <= time.time()))
+    connection.execute(sa.delete(BROWSER_TOKENS).where(BROWSER_TOKENS.c.expires_at <= now))
 
 
 def _valid(query: sa.Select[tuple[Any, ...]]) -> sa.Select[tuple[Any, ...]]:

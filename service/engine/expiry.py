@@ -55,10 +55,13 @@ class ClockGuard:
         self._offset = wall() - monotonic()
         self._settled_at = monotonic()
 
-    def is_settled(self) -> bool:
-        """Whether the wall clock has run evenly for a while."""
-        now = self._monotonic()
-        offset = self._wall() - now
+    def settled_time(self) -> float | None:
+        """The wall clock's time; None unless it has run evenly for a while.
+
+        Whatever expires by it must be asked with this time: the clock may jump right after.
+        """
+        now, wall = self._monotonic(), self._wall()
+        offset = wall - now
         if abs(offset - self._offset) > JUMP_S:
             LOG.warning(
                 "The clock jumped by %.0f s; nothing expires for %.0f s.",
@@ -67,7 +70,7 @@ class ClockGuard:
             )
             self._settled_at = now + SETTLING_S
         self._offset = offset
-        return now >= self._settled_at
+        return wall if now >= self._settled_at else None
 
 
 def enter_erasures(connection: sa.Connection, scopes: Sequence[str], *, due_at: float) -> None:
@@ -111,9 +114,8 @@ def _enter_forgotten(connection: sa.Connection, states: Mapping[str, str]) -> No
     enter_erasures(connection, [each for each in states if each not in running], due_at=now)
 
 
-def expire_jobs(connection: sa.Connection) -> int:
+def expire_jobs(connection: sa.Connection, now: float) -> int:
     """Forget the jobs that have expired, keeping only their ids; returns how many."""
-    now = time.time()
     ids = list(
         connection.execute(
             sa.select(JOBS.c.id)
@@ -150,9 +152,8 @@ def expire_jobs(connection: sa.Connection) -> int:
     return len(rows)
 
 
-def expire_images(connection: sa.Connection) -> int:
+def expire_images(connection: sa.Connection, now: float) -> int:
     """Forget the uploaded pictures that have expired; returns how many."""
-    now = time.time()
     scopes = list(
         connection.execute(
             sa.delete(IMAGES).where(IMAGES.c.expires_at <= now).returning(IMAGES.c.scope)
@@ -162,10 +163,10 @@ def expire_images(connection: sa.Connection) -> int:
     return len(scopes)
 
 
-def drop_old_tombstones(connection: sa.Connection) -> None:
+def drop_old_tombstones(connection: sa.Connection, now: float) -> None:
     """Forget that jobs expired long ago."""
     connection.execute(
-        sa.delete(TOMBSTONES).where(TOMBSTONES.c.expired_at < time.time() - TOMBSTONES_KEPT_S)
+        sa.delete(TOMBSTONES).where(TOMBSTONES.c.expired_at < now - TOMBSTONES_KEPT_S)
     )
 
 

@@ -2,6 +2,7 @@
 
 import logging
 import threading
+from functools import partial
 from typing import Final
 
 import sqlalchemy as sa
@@ -59,11 +60,12 @@ class Sweeper:
 
     def sweep(self) -> int:
         """Expire and erase what is due; returns how many scopes were erased."""
-        if self._clock.is_settled():
+        now = self._clock.settled_time()
+        if now is not None:
             while not self._stopped.is_set():
-                if self._ballast.spend_on(self._expire_jobs) == 0:
+                if self._ballast.spend_on(partial(self._expire_jobs, now)) == 0:
                     break
-            self._ballast.spend_on(self._expire_others)
+            self._ballast.spend_on(partial(self._expire_others, now))
         erased = 0
         while not self._stopped.is_set():
             with self._database.connect() as connection:
@@ -76,16 +78,16 @@ class Sweeper:
         self._ballast.fill()
         return erased
 
-    def _expire_jobs(self) -> int:
+    def _expire_jobs(self, now: float) -> int:
         with read_then_write(self._database) as connection:
-            return expire_jobs(connection)
+            return expire_jobs(connection, now)
 
-    def _expire_others(self) -> None:
+    def _expire_others(self, now: float) -> None:
         with self._database.begin() as connection:
-            expire_images(connection)
-            drop_old_tombstones(connection)
+            expire_images(connection, now)
+            drop_old_tombstones(connection, now)
             drop_full_buckets(connection)
-            drop_expired_tokens(connection)
+            drop_expired_tokens(connection, now)
 
     def _erase(self, scope: str) -> bool:
         try:

@@ -1,6 +1,7 @@
 """Transactions that write what follows from what they read, while others write too."""
 
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -103,7 +104,7 @@ def test_a_job_that_two_sweeps_find_expired_is_expired_by_one_of_them(
 ):
     def sweep() -> int:
         with read_then_write(database) as connection:
-            return expire_jobs(connection)
+            return expire_jobs(connection, time.time())
 
     fitted(engine, database, "short", kept_s=0.0)
     with interfered_with(f"SELECT {JOBS.c.id}", sweep) as other:

@@ -64,7 +64,7 @@ def test_only_a_hash_of_a_token_is_stored_and_it_goes_when_it_expires(database: 
         kept = [str(row) for row in connection.execute(sa.select(BROWSER_TOKENS))]
         assert len(kept) == 2
         assert not any(text.rpartition("_")[2] in row for row in kept)
-        drop_expired_tokens(connection)
+        drop_expired_tokens(connection, time.time())
         assert len(connection.execute(sa.select(BROWSER_TOKENS)).all()) == 1
         connection.execute(sa.update(API_KEYS).values(revoked_at=time.time()))
     assert tokens.find(text) is None
