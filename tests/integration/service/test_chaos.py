@@ -30,7 +30,8 @@ PLAN = Plan(
 )
 
 
-SCRIPT = {"seconds": 0.4, "derivation": {"seconds": 0.4}}
+# So long that some of the kills hit a job.
+SCRIPT = {"seconds": 0.8, "derivation": {"seconds": 0.8}}
 TASKS: tuple[Task, ...] = (
     *(
         Submission(image=scripted_image(SCRIPT | {"number": number}), request=json.dumps(REQUEST))
