@@ -2,14 +2,10 @@
 
 ``python -m tests.contract.recording`` (``make examples``) asks one and writes
 ``service/api/examples.json``: requests by operation, answers by operation and status, and notices.
-Of long lists the beginning is kept. Ids, times, secrets and digests are always the same, so that
-what is answered twice alike is said once in the document.
 """
 
 import json
-import re
 import tempfile
-import time
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -22,53 +18,14 @@ from service.demo_data.sample import load_sample, load_scan_sample
 from service.engine.database import open_database, prepare_database
 from service.engine.keys import KeyRing, Role
 from service.settings import Settings
-from tests.contract.document import exported, operations
+from tests.contract.recorder import OTHER, SHOWN, Recorder
 from tests.e2e.sandbox import running_sandbox
 from tests.integration.service.receiver import Receiver, receiving
 
 RECORDED = Path(service.api.__file__).parent / "examples.json"
 
-SHOWN = "https://example.org/hooks/maquette"
-"""Stands for the address that notices are really sent to."""
-
 WEBHOOK = {"url": SHOWN, "secret": "whsec_C2FVsBQIhrscChlQIMV+b5sSYspob7oD"}
 GIRTHS = {"waist_girth_navel": 88, "hip_girth": {"value": 98, "standard_error": 1.5}}
-OTHER = "0d3c1b6e-52a4-4f0e-9e37-0a4f6c2f7d10"
-JOBS = {
-    "fits": "b0d3cd76-33ef-4c01-b18c-190159d7df68",
-    "scans": "7c9f2f0e-3d1a-4a7e-8a53-5e0d9b1c2f44",
-    "derivations": "5f1c2a34-8b1e-4c57-9a1d-0c6f3f0f9b21",
-}
-"""Ids that stand for all of a kind."""
-
-UUID = r"[0-9a-f]{8}(?:-[0-9a-f]{4}){3}-[0-9a-f]{12}"
-MOMENT = re.compile(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(?:\.\d+)?(?=Z)")
-SAME: tuple[tuple[str, str], ...] = (
-    (r'(?<="expires_at": ")[^"]+', "2026-05-11T09:30:05.995Z"),
-    (r"http://127\.0\.0\.1:\d+/\w*", SHOWN),
-    (r"cursor=\d+\.\d+-", "cursor=1777887000.995-"),
-    (
-        r"mqt_[0-9a-f]{16}_[\w-]+",
-        "mqt_5f1c9a7be0d24c63_Zk3Qm0v4cP1sYw8rT6uXh2bNa9eLd7oGjKfVxRiCtEy",
-    ),
-    (
-        r"(?<=\"sha256\": \")[0-9a-f]{64}",
-        "d749f854970d25e805a6f10b7ec3a75d2b0060b9eb3333653b6c95baa7a1608c",
-    ),
-    (r"(?<=\"id\": \")[0-9a-f]{16}(?=\")", "5f1c9a7be0d24c63"),
-    (r"(?<=\"(?:token)_id\": \")[0-9a-f]{16}(?=\")", "5f1c9a7be0d24c63"),
-    (r"(?<=\"key_id\": \")[0-9a-f]{8}(?=\")", "1f2e3d4c"),
-)
-
-FIGURE = re.compile(r"\d+(?:\.\d+)?(?:e-?\d+)?")
-PASSING = ("stage", "progress", "view")
-
-MOST_ITEMS = 4
-SHORTENED = 2
-ONE_IS_ENOUGH = ("bodies", "limb_facing", "limbs", "models", "pose", "stages")
-MAPS = ("artifacts", "points", "residual_px")
-"""Objects whose names are many: the first is kept."""
-
 DERIVATIONS: Mapping[str, Mapping[str, Any]] = {
     "report": {"kind": "report"},
     "caricature": {"kind": "caricature", "factor": 2.5},
@@ -108,95 +65,6 @@ DERIVATIONS: Mapping[str, Mapping[str, Any]] = {
     },
     "told-of-its-end": {"kind": "report", "webhook": WEBHOOK},
 }
-
-
-class Recorder:
-    """Asks a service, and keeps questions and answers by operation."""
-
-    def __init__(self, client: httpx.Client, receiver: Receiver) -> None:
-        self.requests: dict[str, dict[str, Any]] = {}
-        self.answers: dict[str, dict[str, dict[str, Any]]] = {}
-        self.notices: dict[str, Any] = {}
-        self.other = OTHER
-        self._known: dict[str, str] = {}
-        self._client = client
-        self._receiver = receiver
-        self._operations = [
-            (each.method, re.compile(re.sub(r"\{\w+\}", "[^/]+", each.path)), each.id)
-            for each in operations(exported())
-        ]
-
-    def ask(
-        self, shown_as: str, method: str, path: str, *, asked_as: str = "", **sent: Any
-    ) -> httpx.Response:
-        """Ask, and keep the answer under a name, and what was asked if it has one too."""
-        operation = next(
-            name
-            for verb, pattern, name in self._operations
-            if verb == method.lower() and pattern.fullmatch(path.partition("?")[0])
-        )
-        if asked_as:
-            self.requests.setdefault(operation, {})[asked_as] = sent["json"]
-        if "json" in sent:
-            real = json.dumps(sent["json"]).replace(SHOWN, self._receiver.url())
-            sent["json"] = json.loads(real.replace(OTHER, self.other))
-        answer = self._client.request(method, path, **sent)
-        assert answer.is_success, answer.text
-        if shown_as:
-            kept = self.answers.setdefault(operation, {}).setdefault(str(answer.status_code), {})
-            is_json = answer.headers["content-type"].startswith("application/json")
-            kept.setdefault(shown_as, self._shown(answer.json() if is_json else answer.text))
-        return answer
-
-    def is_other(self, identity: str) -> None:
-        """Have a job stand for another one of the same person."""
-        self.other = identity
-        self._known[identity] = OTHER
-
-    def until_ended(self, path: str) -> dict[str, Any]:
-        """Wait for the end of a job."""
-        return self.until(path, lambda job: job["state"] not in ("queued", "running"))
-
-    def until(self, path: str, is_so: Any) -> dict[str, Any]:
-        """Look at a job until it is as it should be."""
-        while not is_so(job := self._client.get(path).raise_for_status().json()):
-            time.sleep(0.05)
-        return job
-
-    def take_notice(self, name: str) -> None:
-        """Keep the next notice."""
-        while not self._receiver.notices:
-            time.sleep(0.05)
-        self.notices[name] = self._shown(self._receiver.notices.pop(0).event)
-
-    def _shown(self, value: Any) -> Any:
-        """The value as an example: short, and with ids and times that are always the same."""
-        text = json.dumps(_short(value))
-        for kind, identity in JOBS.items():
-            for found in re.findall(rf"/{kind}/({UUID})", text):
-                self._known.setdefault(found, identity)
-        for found, identity in self._known.items():
-            text = text.replace(found, identity)
-        for second, moment in enumerate(sorted(set(MOMENT.findall(text)))):
-            text = text.replace(f"{moment}Z", f"2026-05-04T09:30:{second:02}.995Z")
-        for pattern, same in SAME:
-            text = re.sub(pattern, same, text)
-        return json.loads(text)
-
-
-def _short(value: Any, name: str = "") -> Any:
-    if isinstance(value, float):
-        return float(f"{value:.4g}")
-    if isinstance(value, list):
-        kept = value if len(value) <= MOST_ITEMS else value[:SHORTENED]
-        kept = kept[:1] if name in ONE_IS_ENOUGH else kept
-        return [_short(each) for each in kept]
-    if isinstance(value, dict):
-        items = list(value.items())
-        if name in MAPS:
-            items = items[:1]
-        return {key: _short(each, key) for key, each in items}
-    return value
 
 
 def record(client: httpx.Client, receiver: Receiver, *, metrics_key: str) -> dict[str, Any]:
@@ -393,38 +261,6 @@ def recorded_from_sandbox(folder: Path) -> dict[str, Any]:
         running_sandbox(folder, key=key, **settings) as client,
     ):
         return record(client, receiver, metrics_key=metrics_key)
-
-
-def differences(recorded: Any, shown: Any, where: str = "") -> list[str]:
-    """Where what was recorded is otherwise than what is shown, but for figures.
-
-    A machine computes other last digits, needs other times and writes files of other sizes; how far
-    a job has come when it is looked at is chance.
-    """
-    if isinstance(recorded, dict) and isinstance(shown, dict):
-        names = recorded.keys() | shown.keys()
-        if recorded.keys() != shown.keys():
-            return [f"{where}: {sorted(recorded.keys() ^ shown.keys())}"]
-        chance = PASSING if recorded.get("state") == "running" else ()
-        return [
-            each
-            for name in sorted(names - set(chance))
-            for each in differences(recorded[name], shown[name], f"{where}.{name}")
-        ]
-    if isinstance(recorded, list) and isinstance(shown, list):
-        if len(recorded) != len(shown):
-            return [f"{where}: {len(recorded)} items, not {len(shown)}"]
-        pairs = enumerate(zip(recorded, shown, strict=True))
-        return [each for number, pair in pairs for each in differences(*pair, f"{where}.{number}")]
-    if _is_figure(recorded) and _is_figure(shown):
-        return []
-    if isinstance(recorded, str) and isinstance(shown, str):
-        recorded, shown = (FIGURE.sub("0", each) for each in (recorded, shown))
-    return [] if recorded == shown else [f"{where}: {recorded!r}, not {shown!r}"]
-
-
-def _is_figure(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,8 @@ import json
 from pathlib import Path
 
 from service.api.openapi import recorded_examples
-from tests.contract.recording import differences, recorded_from_sandbox
+from tests.contract.recorder import differences
+from tests.contract.recording import recorded_from_sandbox
 
 
 def test_the_examples_are_what_a_sandbox_answers(tmp_path: Path):

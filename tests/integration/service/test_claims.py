@@ -13,6 +13,7 @@ from service.engine.database import open_database, prepare_database
 from service.engine.records import find_job
 from service.engine.tables import JOBS
 from tests.integration.service.harness import Machine
+from tests.stored_jobs import insert_job
 
 RETENTION_S = 60.0
 
@@ -42,26 +43,7 @@ def attempts(database: sa.Engine, worker: str) -> AttemptLog:
 
 def accept(database: sa.Engine, name: str, *, turn: int | None = 1) -> None:
     with database.begin() as connection:
-        connection.execute(
-            sa.insert(JOBS).values(
-                id=name,
-                tenant="default",
-                kind="fit",
-                root="fit",
-                pictures=1,
-                turn=turn,
-                state="queued",
-                progress=0.0,
-                attempt=0,
-                crashes=0,
-                cancel_requested=False,
-                created_at=1.0,
-                options_digest="0" * 64,
-                inputs="{}",
-                artifacts="[]",
-                last_event=0,
-            )
-        )
+        insert_job(connection, name, turn=turn)
 
 
 def state(database: sa.Engine, name: str) -> JobState:

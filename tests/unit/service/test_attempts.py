@@ -11,6 +11,7 @@ from service.engine.database import open_database
 from service.engine.port import AttemptResult, Directive, Ending, Report
 from service.engine.records import find_job
 from service.engine.tables import EVENTS, JOBS, METADATA
+from tests.stored_jobs import insert_job
 
 JOB = "00000000-0000-0000-0000-000000000001"
 ARTIFACT = Artifact(name="a.png", media_type="image/png", size=1, sha256="0" * 64)
@@ -22,25 +23,7 @@ def database(tmp_path):
     engine = open_database(f"sqlite:///{tmp_path}/jobs.sqlite")
     METADATA.create_all(engine)
     with engine.begin() as connection:
-        connection.execute(
-            sa.insert(JOBS).values(
-                id=JOB,
-                tenant="default",
-                state="queued",
-                progress=0.0,
-                attempt=0,
-                crashes=0,
-                cancel_requested=False,
-                created_at=1.0,
-                options_digest="0" * 64,
-                kind="fit",
-                root="fit",
-                pictures=1,
-                inputs="{}",
-                artifacts="[]",
-                last_event=0,
-            )
-        )
+        insert_job(connection, JOB)
     yield engine
     engine.dispose()
 

@@ -6,8 +6,9 @@ import sqlalchemy as sa
 from api_schemas.jobs import JobState, WebhookState
 from service.engine.database import open_database
 from service.engine.records import end_job, find_job
-from service.engine.tables import JOBS, METADATA
+from service.engine.tables import METADATA
 from service.engine.webhooks import LEASE_MARGIN_S, WebhookLedger
+from tests.stored_jobs import insert_job
 
 TIME_LIMIT_S = 10.0
 
@@ -24,26 +25,13 @@ def ended(database: sa.Engine, *names: str, target: str | None = "0" * 64) -> No
     """Enter jobs and end them."""
     with database.begin() as connection:
         for name in names:
-            connection.execute(
-                sa.insert(JOBS).values(
-                    id=name,
-                    tenant="default",
-                    state="running",
-                    progress=0.0,
-                    attempt=1,
-                    crashes=0,
-                    cancel_requested=False,
-                    created_at=1.0,
-                    options_digest="0" * 64,
-                    kind="fit",
-                    root="fit",
-                    pictures=1,
-                    inputs="{}",
-                    artifacts="[]",
-                    last_event=0,
-                    webhook_target=target,
-                    webhook_state="waiting" if target else None,
-                )
+            insert_job(
+                connection,
+                name,
+                state="running",
+                attempt=1,
+                webhook_target=target,
+                webhook_state="waiting" if target else None,
             )
             end_job(connection, name, state=JobState.SUCCEEDED, retention_s=1e6)
 

@@ -1,0 +1,29 @@
+"""Rows of jobs as they are stored, for tests that write them without the engine."""
+
+from typing import Any
+
+import sqlalchemy as sa
+
+from service.engine.tables import JOBS
+
+
+def insert_job(connection: sa.Connection, name: str, **values: Any) -> None:
+    """Insert a fit that waits, but for what ``values`` say."""
+    row: dict[str, Any] = {
+        "id": name,
+        "tenant": "default",
+        "kind": "fit",
+        "root": "fit",
+        "pictures": 1,
+        "state": "queued",
+        "progress": 0.0,
+        "attempt": 0,
+        "crashes": 0,
+        "cancel_requested": False,
+        "created_at": 1.0,
+        "options_digest": "0" * 64,
+        "inputs": "{}",
+        "artifacts": "[]",
+        "last_event": 0,
+    }
+    connection.execute(sa.insert(JOBS).values(row | values))
