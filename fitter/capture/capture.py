@@ -12,6 +12,7 @@ from fitter.arrays import Mask
 from fitter.capture.finding import Box
 from fitter.capture.joints import Joints, joints_of, middle, stature_px
 from fitter.detection.detector import DetectedBody
+from fitter.observation.worn import WornRegion
 from fitter.request import Click
 from fitter.vocabulary.choices import ViewKind
 
@@ -58,6 +59,8 @@ class Capture:
         Of the working picture; None if it could only be assumed.
     height_m
         Given or assumed.
+    clothing
+        How each region in sight is covered; None where it cannot be told.
     """
 
     picture: UInt8[np.ndarray, "h w 3"]
@@ -71,6 +74,7 @@ class Capture:
     view: ViewKind | None
     focal_length_px: float | None
     height_m: float
+    clothing: tuple[WornRegion, ...] | None = None
 
     @property
     def shows_somebody(self) -> bool:

@@ -1,11 +1,15 @@
 """The checks of an encoded picture: decoded and reduced just as a fit does it."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
+import numpy as np
+
+from fitter.arrays import Image
 from fitter.capture.capture import Capture
 from fitter.capture.checking import Checked, check_capture
 from fitter.detection.detector import DetectedBody, Detector, body_of_clicks
+from fitter.fits.clothing import FACE_CLICKS, LEAST_PIXELS_PER_METRE, clothing_seen
 from fitter.fits.proposal import chosen_person
 from fitter.observation.clicks import check_places
 from fitter.observation.colour import bytes_of_display
@@ -19,8 +23,11 @@ from fitter.observation.resampling import (
     working_size,
 )
 from fitter.observation.subject import MEAN_HEIGHT_M, check_height
+from fitter.observation.worn import WornRegion
 from fitter.remarks import Assumption, FitWarning
 from fitter.request import Click, Person, View
+from fitter.segmentation.bone_parts import PART_NAMES, bone_parts, part_joints
+from fitter.segmentation.skin_colour import PersonRegions
 from fitter.vocabulary.choices import Gender, ViewKind
 from fitter.vocabulary.outcomes import FocalLengthSource
 
@@ -108,13 +115,12 @@ def capture_of(
         question, picture.exif, width=width, height=height, stored_width=picture.stored_width
     )
     size = working_size(width=width, height=height)
-    working = bytes_of_display(
-        display_working_picture(linear_working_picture(picture.pixels, size))
-    )
+    linear_rgb = linear_working_picture(picture.pixels, size)
+    working = bytes_of_display(display_working_picture(linear_rgb))
     points = scaled_clicks(question.points, size.scale)
     bodies = None if detector is None else detector.bodies(working)
     known = focal.source is not FocalLengthSource.ASSUMED
-    return Capture(
+    capture = Capture(
         picture=working,
         width=width,
         height=height,
@@ -127,10 +133,13 @@ def capture_of(
         focal_length_px=focal.pixels * size.scale if known else None,
         height_m=_height_m(question),
     )
+    return replace(capture, clothing=_clothing(capture, linear_rgb, question.gender))
 
 
-def capture_of_view(observation: Observation, view: View, person: Person) -> Capture:
-    """What there is to check of a picture that was read to be fitted."""
+def capture_of_view(
+    observation: Observation, view: View, person: Person, clothing: tuple[WornRegion, ...]
+) -> Capture:
+    """What there is to check of a picture that was fitted, and of clothes as the fit saw them."""
     known = observation.focal_length_source is not FocalLengthSource.ASSUMED
     points = scaled_clicks(view.clicks, observation.scale)
     return Capture(
@@ -145,7 +154,39 @@ def capture_of_view(observation: Observation, view: View, person: Person) -> Cap
         view=view.kind,
         focal_length_px=observation.camera.focal_length_px if known else None,
         height_m=_height_m(person),
+        clothing=clothing,
     )
+
+
+def _clothing(
+    capture: Capture, linear_rgb: Image, gender: Gender | None
+) -> tuple[WornRegion, ...] | None:
+    """How each region is covered, by parts that are told by the bones."""
+    if capture.mask is None or capture.stature_px is None:
+        return None
+    pixels_per_metre = capture.stature_px / capture.height_m
+    step = max(int(pixels_per_metre / LEAST_PIXELS_PER_METRE), 1)
+    person = np.ascontiguousarray(capture.mask[::step, ::step])
+    points = {name: place / step for name, place in capture.joints.items()}
+    face = [points[name] for name in FACE_CLICKS if _is_seen(capture, name)]
+    regions = PersonRegions(
+        person=person,
+        parts=bone_parts(person, points, pixels_per_metre / step),
+        part_names=PART_NAMES,
+        face=np.mean(face, axis=0) if face else None,
+        pixels_per_metre=pixels_per_metre / step,
+    )
+    return clothing_seen(
+        np.ascontiguousarray(linear_rgb[::step, ::step]),
+        regions,
+        part_joints(points),
+        gender=None if gender is None else gender.value,
+    )
+
+
+def _is_seen(capture: Capture, name: str) -> bool:
+    points = capture.points if capture.body is None else capture.body.points
+    return name in points and not points[name].occluded
 
 
 def _meant(

@@ -1,11 +1,12 @@
 """Loose clothes: where the outline only bounds the body from outside, and what else they hide."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
 from jaxtyping import Float
 
-from fitter.arrays import GreyImage
+from fitter.arrays import GreyImage, Image
 from fitter.body.skeleton import regress
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.shading import seen_vertices
@@ -17,6 +18,7 @@ from fitter.fits.prepared_model import PreparedModel
 from fitter.fits.usual_ease import usual_fullness
 from fitter.fits.worn_clothing import worn_regions
 from fitter.observation.observation import Observation
+from fitter.observation.worn import WornRegion
 from fitter.parameters import BodyParameters
 from fitter.render.rasterizer import Rendering, render
 from fitter.request import SaidClothing
@@ -52,7 +54,7 @@ CLOSE_FULLNESS = 0.15
 
 _OF_LEGS = frozenset({"thigh", "shin", "foot"})
 _SAID = {Clothing.TIGHT: 0.0, Clothing.LOOSE: 1.0}
-_LEAST_PIXELS_PER_METRE = 120.0
+LEAST_PIXELS_PER_METRE = 120.0
 _SEEN_WITHIN_M = 0.02
 _BARE = 0.5
 
@@ -82,7 +84,9 @@ def dressed(
         face=face_point(_clicked_face(observation), _nose(rendering, prepared)),
         pixels_per_metre=observation.camera.focal_length_px / float(near.translation[2]),
     )
-    covered = _coverage(observation, regions, prepared, said)
+    covered = _coverage(
+        observation.linear_rgb, regions, said, gender=prepared.searched.model.gender
+    )
     if Clothing.LOOSE not in said.both and covered.anything < LEAST_COVERED:
         worn = worn_regions(regions, covered, bare=None, loose=None)
         return replace(objective, evidence=replace(objective.evidence, clothes=None, worn=worn))
@@ -108,6 +112,35 @@ def dressed(
             worn=worn_regions(regions, covered, bare=bare, loose=loose),
         ),
     )
+
+
+def clothing_seen(
+    linear_rgb: Image,
+    regions: PersonRegions,
+    joints: Mapping[str, Float[np.ndarray, "2"]],
+    *,
+    gender: str | None,
+) -> tuple[WornRegion, ...] | None:
+    """How each region in sight is covered, before a body is fitted.
+
+    None where it cannot be told, for nothing shows the colour of the person's skin.
+
+    Parameters
+    ----------
+    linear_rgb
+        (h, w, 3) linear light.
+    joints
+        Where the parts begin, by their names, continuous pixels.
+    """
+    said = SaidClothing(upper=Clothing.AUTO, lower=Clothing.AUTO)
+    skin = skin_map(linear_rgb, regions)
+    if not skin.learnt_from:
+        return None
+    covered = _coverage(linear_rgb, regions, said, gender=gender)
+    if covered.anything < LEAST_COVERED:
+        return worn_regions(regions, covered, bare=None, loose=None)
+    bare = covered.bare(skin, regions)
+    return worn_regions(regions, covered, bare=bare, loose=_loose(said, regions, bare, joints))
 
 
 def where_bare(
@@ -151,13 +184,10 @@ def _parts(rendering: Rendering, prepared: PreparedModel) -> np.ndarray:
 
 
 def _coverage(
-    observation: Observation,
-    regions: PersonRegions,
-    prepared: PreparedModel,
-    said: SaidClothing,
+    linear_rgb: Image, regions: PersonRegions, said: SaidClothing, *, gender: str | None
 ) -> Coverage:
     """What is covered, from every second or third pixel where there are enough."""
-    step = max(int(regions.pixels_per_metre / _LEAST_PIXELS_PER_METRE), 1)
+    step = max(int(regions.pixels_per_metre / LEAST_PIXELS_PER_METRE), 1)
     fewer = replace(
         regions,
         person=np.ascontiguousarray(regions.person[::step, ::step]),
@@ -165,8 +195,8 @@ def _coverage(
         face=None if regions.face is None else regions.face / step,
         pixels_per_metre=regions.pixels_per_metre / step,
     )
-    skin = skin_map(np.ascontiguousarray(observation.linear_rgb[::step, ::step]), fewer)
-    found = coverage(skin, fewer, prepared.searched.model.gender)
+    skin = skin_map(np.ascontiguousarray(linear_rgb[::step, ::step]), fewer)
+    found = coverage(skin, fewer, gender)
     if said.upper is Clothing.LOOSE:
         found = replace(found, top=1.0)
     return replace(found, bottom=1.0) if said.lower is Clothing.LOOSE else found
@@ -184,7 +214,7 @@ def _loose(
     said: SaidClothing,
     regions: PersonRegions,
     bare: GreyImage,
-    joints: dict[str, Float[np.ndarray, "2"]],
+    joints: Mapping[str, Float[np.ndarray, "2"]],
 ) -> GreyImage:
     """(h, w) probability that what covers a pixel's part is loose."""
     lower = _SAID.get(said.lower)

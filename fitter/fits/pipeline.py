@@ -247,7 +247,7 @@ def _views(
                 camera=observation.camera,
                 focal_length_source=observation.focal_length_source,
                 limb_facing=picture.limb_facing,
-                findings=_findings(request, picture),
+                findings=_findings(request, picture, each),
                 assumptions=observation.assumptions + clothing_assumptions,
                 warnings=observation.warnings
                 + picture.segmentation.warnings
@@ -265,9 +265,9 @@ def _views(
     return tuple(views)
 
 
-def _findings(request: FitRequest, picture: Outlined) -> tuple[Finding, ...]:
+def _findings(request: FitRequest, picture: Outlined, found: PictureFit) -> tuple[Finding, ...]:
     """What is wrong with a picture that was taken to be measured; it is fitted all the same."""
     if picture.view.kind is None:
         return ()
-    capture = capture_of_view(picture.observation, picture.view, request.person)
+    capture = capture_of_view(picture.observation, picture.view, request.person, found.clothing)
     return check_capture(capture).findings

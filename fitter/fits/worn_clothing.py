@@ -8,7 +8,7 @@ import numpy as np
 
 from fitter.arrays import GreyImage
 from fitter.energies.objective import Objective
-from fitter.evidence.worn import WornRegion
+from fitter.observation.worn import WornRegion
 from fitter.optimizer.uncertainty import Certainty, covered_distances
 from fitter.remarks import Assumption, FitWarning
 from fitter.segmentation.coverage import Coverage

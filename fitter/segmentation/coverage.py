@@ -11,6 +11,7 @@ covers it cannot be told from skin by its colour.
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
+from itertools import chain
 from typing import Final
 
 import numpy as np
@@ -167,15 +168,17 @@ class Coverage:
         return 1.0 - self.top, _BELIEVED.get(kind, 1.0) * told
 
 
-def coverage(skin: SkinMap, regions: PersonRegions, gender: str) -> Coverage:
+def coverage(skin: SkinMap, regions: PersonRegions, gender: str | None) -> Coverage:
     """What a person wears, from the share of skin on each region of a body near them.
 
-    Where no colour was learnt, as in a grey picture, it is what outfits are usual.
+    Where no colour was learnt, as in a grey picture, it is what outfits are usual; of a gender that
+    is not known, it is what either wears.
     """
+    outfits = chain(*_BY_GENDER.values()) if gender is None else _BY_GENDER[gender]
     seen = skin_shares(skin, regions) if skin.learnt_from else {}
     weights: list[float] = []
     states: list[tuple[frozenset[Covers], frozenset[Covers]]] = []
-    for outfit in _BY_GENDER[gender]:
+    for outfit in outfits:
         for like_skin in _subsets(outfit.covers):
             colours = SAME_COLOUR ** len(like_skin)
             colours *= (1.0 - SAME_COLOUR) ** (len(outfit.covers) - len(like_skin))

@@ -55,7 +55,8 @@ def legs_are_loose(
 ) -> float:
     """Probability that clothes stand off the legs, if there are any.
 
-    ``joints`` are continuous pixels by part; levels count as far as they are not ``bare``.
+    ``joints`` are continuous pixels by part, as far as they are known; levels count as far as they
+    are not ``bare``.
     """
     weighted, levels = 0.0, 0.0
     # Thighs differ most between people: where shins are covered too, these tell more.
@@ -90,7 +91,10 @@ def _least_reach(
     found: list[float] = []
     covered: list[float] = []
     for side in ("left", "right"):
-        near, far = joints[f"{side}_{level.near}"], joints[f"{side}_{level.far}"]
+        ends = f"{side}_{level.near}", f"{side}_{level.far}"
+        if any(end not in joints for end in ends):
+            continue
+        near, far = (joints[end] for end in ends)
         bone = far - near
         length = float(np.linalg.norm(bone))
         if length < _LEAST_LENGTH_M * pixels_per_metre:

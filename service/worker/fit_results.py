@@ -12,8 +12,8 @@ from api_schemas import scans as wire_scan
 from api_schemas.derivation_kinds.combined import CombinedPicture
 from api_schemas.requests import FitOptions
 from fitter.capture.finding import Box, Finding
-from fitter.evidence.worn import WornRegion
 from fitter.measurement.quantity import Measurement
+from fitter.observation.worn import WornRegion
 from fitter.parameters import (
     BodyParameters,
     CameraTilt,

@@ -46,7 +46,7 @@ def variants_of(
     if FRONTAL_DEG < turned < TURNED_DEG:
         plain[Code.OTHER_VIEW] = None
     if turned > FRONTAL_DEG:
-        plain |= {Code.ARMS_AGAINST_TRUNK: None, Code.CLOTHES_LOOSE: None}
+        plain[Code.ARMS_AGAINST_TRUNK] = None
     zoomed = None if capture.focal_length_px is None else 0.5 * capture.focal_length_px
     variants = [
         ("as it is, said from the front", replace(capture, view=ViewKind.FRONT), plain),

@@ -10,6 +10,7 @@ from tests.evaluation.capture_table import capture_lines, judged_by, judgements
 from tests.evaluation.cases import PEOPLE
 from tests.evaluation.chain import Link, chain_of
 from tests.evaluation.chain_tables import chain_case_lines, chain_lines
+from tests.evaluation.clothes_check import clothed_pictures, clothes_lines, clothes_said
 from tests.evaluation.clothing_table import clothing_lines, null_lines
 from tests.evaluation.detector_figures import detector_lines, hinted_fits
 from tests.evaluation.dressed import (
@@ -137,6 +138,8 @@ def checks(choice: Choice) -> None:
         judged = of_each(judged_by, tasks, choice.jobs)
         lines = capture_lines([each for several in judged for each in several])
         _print(lines, f"{half.value} half")
+    asked = [each for half in choice.halves for each in clothed_pictures(half)]
+    _print(clothes_lines(list(of_each(clothes_said, list(dict.fromkeys(asked)), choice.jobs))), "")
 
 
 def spoilt_scans(choice: Choice) -> None:

@@ -82,6 +82,7 @@ def capture(*bodies: DetectedBody, **changes: object) -> Capture:
         view=None,
         focal_length_px=900.0,
         height_m=1.7,
+        clothing=(),
     )
     return replace(made, **changes)
 

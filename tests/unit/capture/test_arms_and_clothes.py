@@ -4,9 +4,12 @@ import cv2
 import pytest
 
 from fitter.capture.arms import arms, free_share
-from fitter.capture.clothes import LEVELS, clothes, outward_share
+from fitter.capture.clothes import clothes
 from fitter.capture.finding import Code, Finding, Unchecked
-from tests.unit.capture.made_up import STATURE_PX, by_points_alone, capture, person
+from fitter.observation.worn import WornRegion
+from fitter.vocabulary.choices import BodyRegion, Covering
+from fitter.vocabulary.outcomes import Severity
+from tests.unit.capture.made_up import by_points_alone, capture, person
 
 HANGING = {"left_elbow": (258.0, 220.0), "left_wrist": (255.0, 285.0)}
 SIDEWAYS = {
@@ -40,41 +43,38 @@ def test_arms_are_looked_at_from_the_front_and_from_behind_alone_and_with_an_out
     assert isinstance(arms(by_points_alone()), Unchecked)
 
 
-def test_how_far_an_outline_is_off_the_bones_is_found():
-    """Limbs are drawn 50 and 28 pixels broad."""
-    whole = capture()
-    assert whole.mask is not None
-    found = {level.name: outward_share(whole, whole.mask, STATURE_PX, level) for level in LEVELS}
-    assert found["thighs"] == pytest.approx(25.0 / STATURE_PX, abs=2.0 / STATURE_PX)
-    assert found["lower shins"] == pytest.approx(14.0 / STATURE_PX, abs=2.0 / STATURE_PX)
-    assert clothes(whole) is None
+def worn(**kinds: Covering) -> tuple[WornRegion, ...]:
+    return tuple(
+        WornRegion(region=BodyRegion(region), kind=kind, probability=0.8)
+        for region, kind in kinds.items()
+    )
 
 
 @pytest.mark.parametrize(
-    ("drawn", "level"),
+    ("kinds", "said"),
     [
-        (((160, 420), (160, 545), (240, 420), (240, 545)), "lower shins"),
-        (((172, 330), (160, 420), (228, 330), (240, 420)), "knees"),
+        ({"upper": Covering.LOOSE, "lower": Covering.CLOSE}, "cover the upper body, with"),
+        ({"upper": Covering.BARE, "lower": Covering.LOOSE, "legs": Covering.LOOSE},
+         "cover seat and thighs and the lower legs, with a probability of 80 %"),
     ],
-    ids=["trousers", "a skirt"],
-)
-def test_trousers_and_skirts_stand_off_the_legs(drawn, level):
-    found = person()
-    for start, end in (drawn[:2], drawn[2:]):
-        cv2.line(found.mask, start, end, 1.0, 90)
-    told = clothes(capture(found))
+)  # fmt: skip
+def test_loose_clothes_are_told_by_the_regions_that_they_cover(kinds, said):
+    told = clothes(capture(clothing=worn(**kinds)))
     assert isinstance(told, Finding)
-    assert told.code is Code.CLOTHES_LOOSE
-    assert told.reason.startswith(f"At the {level} the outline is ")
+    assert (told.code, told.severity) == (Code.CLOTHES_LOOSE, Severity.HARMS)
+    assert said in told.reason
+    assert ("left_shoulder" in told.points) is (kinds["upper"] is Covering.LOOSE)
 
 
-def test_legs_that_cross_or_are_seen_from_the_side_are_not_judged():
-    crossed = {"left_knee": (165.0, 420.0), "right_knee": (235.0, 420.0),
-               "left_ankle": (162.0, 545.0), "right_ankle": (238.0, 545.0),
-               "left_hip": (201.0, 290.0), "right_hip": (199.0, 290.0)}  # fmt: skip
-    assert isinstance(clothes(capture(person(**crossed))), Unchecked)
-    assert isinstance(clothes(capture(person(**SIDEWAYS))), Unchecked)
-    assert isinstance(clothes(by_points_alone()), Unchecked)
+def test_close_clothes_sleeves_and_shoes_are_no_fault():
+    close = worn(upper=Covering.CLOSE, lower=Covering.BARE, arms=Covering.LOOSE)
+    assert clothes(capture(clothing=close)) is None
+
+
+def test_without_an_outline_or_the_skins_colour_clothes_are_not_checked():
+    told = [clothes(by_points_alone()), clothes(capture(clothing=None))]
+    assert all(isinstance(each, Unchecked) for each in told)
+    assert told[0] != told[1]
 
 
 def _places() -> dict[str, tuple[float, float]]:
