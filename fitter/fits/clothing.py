@@ -15,7 +15,7 @@ from fitter.evidence.loose_outline import LooseClothes
 from fitter.evidence.sampling import sample
 from fitter.evidence.silhouette_evidence import FullnessMap, uniform_fullness
 from fitter.fits.prepared_model import PreparedModel
-from fitter.fits.usual_ease import usual_fullness
+from fitter.fits.usual_ease import share_by_sleeves, usual_fullness
 from fitter.fits.worn_clothing import worn_regions
 from fitter.observation.observation import Observation
 from fitter.observation.worn import WornRegion
@@ -84,13 +84,11 @@ def dressed(
         face=face_point(_clicked_face(observation), _nose(rendering, prepared)),
         pixels_per_metre=observation.camera.focal_length_px / float(near.translation[2]),
     )
-    covered = _coverage(
-        observation.linear_rgb, regions, said, gender=prepared.searched.model.gender
-    )
+    skin = _skin(observation.linear_rgb, regions)
+    covered = _coverage(skin, regions, said, gender=prepared.searched.model.gender)
     if Clothing.LOOSE not in said.both and covered.anything < LEAST_COVERED:
         worn = worn_regions(regions, covered, bare=None, loose=None)
         return replace(objective, evidence=replace(objective.evidence, clothes=None, worn=worn))
-    skin = skin_map(observation.linear_rgb, regions)
     bare = skin.probability if said.both == {Clothing.LOOSE} else covered.bare(skin, regions)
     loose = _loose(said, regions, bare, _joints_seen(rendering, prepared))
     cloth = ((1.0 - bare) * np.minimum(loose / LIKELY_LOOSE, 1.0)).astype(np.float32)
@@ -102,7 +100,9 @@ def dressed(
             silhouette=replace(
                 silhouette,
                 cloth=cloth,
-                fullness=_fullness(rendering, prepared) * fullness[..., None],
+                fullness=_fullness(rendering, prepared)
+                * fullness[..., None]
+                * np.float32([share_by_sleeves(regions, bare), 1.0]),
             ),
             clothes=LooseClothes(
                 bare=1.0 - sample(cloth, rendering.projected)[0],
@@ -133,10 +133,10 @@ def clothing_seen(
         Where the parts begin, by their names, continuous pixels.
     """
     said = SaidClothing(upper=Clothing.AUTO, lower=Clothing.AUTO)
-    skin = skin_map(linear_rgb, regions)
+    skin = _skin(linear_rgb, regions)
     if not skin.learnt_from:
         return None
-    covered = _coverage(linear_rgb, regions, said, gender=gender)
+    covered = _coverage(skin, regions, said, gender=gender)
     if covered.anything < LEAST_COVERED:
         return worn_regions(regions, covered, bare=None, loose=None)
     bare = covered.bare(skin, regions)
@@ -183,20 +183,36 @@ def _parts(rendering: Rendering, prepared: PreparedModel) -> np.ndarray:
     return np.where(faces >= 0, prepared.searched.model.part_of_triangle[faces], -1)
 
 
-def _coverage(
-    linear_rgb: Image, regions: PersonRegions, said: SaidClothing, *, gender: str | None
-) -> Coverage:
-    """What is covered, from every second or third pixel where there are enough."""
+def _skin(linear_rgb: Image, regions: PersonRegions) -> SkinMap:
+    """Where skin shows, from every second or third pixel where there are enough."""
     step = max(int(regions.pixels_per_metre / LEAST_PIXELS_PER_METRE), 1)
+    middle = slice(step // 2, None, step)
     fewer = replace(
         regions,
-        person=np.ascontiguousarray(regions.person[::step, ::step]),
-        parts=np.ascontiguousarray(regions.parts[::step, ::step]),
+        person=np.ascontiguousarray(regions.person[middle, middle]),
+        parts=np.ascontiguousarray(regions.parts[middle, middle]),
         face=None if regions.face is None else regions.face / step,
         pixels_per_metre=regions.pixels_per_metre / step,
     )
-    skin = skin_map(np.ascontiguousarray(linear_rgb[::step, ::step]), fewer)
-    found = coverage(skin, fewer, gender)
+    found = skin_map(np.ascontiguousarray(linear_rgb[middle, middle]), fewer)
+    nearest = np.ix_(
+        *(
+            np.minimum(np.arange(size) // step, fewer_size - 1)
+            for size, fewer_size in zip(regions.person.shape, fewer.person.shape, strict=True)
+        )
+    )
+    return replace(
+        found,
+        probability=found.probability[nearest],
+        coloured=found.coloured[nearest] & regions.person,
+    )
+
+
+def _coverage(
+    skin: SkinMap, regions: PersonRegions, said: SaidClothing, *, gender: str | None
+) -> Coverage:
+    """What the caller says is covered, else what the picture shows."""
+    found = coverage(skin, regions, gender)
     if said.upper is Clothing.LOOSE:
         found = replace(found, top=1.0)
     return replace(found, bottom=1.0) if said.lower is Clothing.LOOSE else found

@@ -162,7 +162,8 @@ class Coverage:
         """How probable it is that a part is bare anyway, and where its colour says so."""
         kind = part.removeprefix("left_").removeprefix("right_")
         if kind in _UNDER_BOTTOM:
-            like = self.bottom_like_skin if kind == "thigh" else 0.0
+            hidden = {"thigh": self.bottom_like_skin, "pelvis": self.top_like_skin}
+            like = min(hidden.get(kind, 0.0), self.bottom)
             return 1.0 - self.bottom, self.bottom - like
         told = self.top - _LIKE_SKIN.get(kind, 0.0) * self.top_like_skin
         return 1.0 - self.top, _BELIEVED.get(kind, 1.0) * told

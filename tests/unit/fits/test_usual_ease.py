@@ -4,7 +4,14 @@ import numpy as np
 import pytest
 
 from fitter.energies.scales import EASE_MEAN_M
-from fitter.fits.usual_ease import USUAL_EASE_M, usual_fullness
+from fitter.fits.usual_ease import (
+    LONG_SLEEVED,
+    SHORT_SLEEVED,
+    USUAL_EASE_M,
+    share_by_sleeves,
+    usual_fullness,
+)
+from fitter.segmentation.skin_colour import PersonRegions
 from fitter.vocabulary.choices import Gender
 from tests.evaluation.landmark_points import packaged_model
 
@@ -39,3 +46,24 @@ def test_shirts_say_nothing_of_shins_and_trousers_nothing_of_arms(model):
 def test_every_part_has_its_ease(model):
     kinds = {name.removeprefix("left_").removeprefix("right_") for name in model.part_names}
     assert kinds == set(USUAL_EASE_M)
+
+
+def forearms(*, seen: bool) -> PersonRegions:
+    parts = np.repeat([[0] * 20 + [1] * 20], 20, axis=0)
+    return PersonRegions(
+        person=np.full(parts.shape, True) if seen else parts == 0,
+        parts=parts,
+        part_names=("chest", "left_forearm"),
+        face=None,
+        pixels_per_metre=300.0,
+    )
+
+
+@pytest.mark.parametrize(
+    ("bare", "share"),
+    [(1.0, SHORT_SLEEVED), (0.0, LONG_SLEEVED), (0.5, (SHORT_SLEEVED + LONG_SLEEVED) / 2.0)],
+)
+def test_a_top_that_covers_forearms_is_wider(bare, share):
+    everywhere = np.full((20, 40), bare, dtype=np.float32)
+    assert share_by_sleeves(forearms(seen=True), everywhere) == pytest.approx(share)
+    assert share_by_sleeves(forearms(seen=False), everywhere) == 1.0

@@ -108,3 +108,11 @@ def test_skin_is_not_believed_in_the_midst_of_a_shirt():
     bare = coverage(skin, regions, "male").bare(skin, regions)
     waist = regions.parts == PARTS.index("spine")
     assert bare[waist].max() < 0.2
+
+
+def test_hips_under_a_shirt_of_the_skin_s_colour_are_not_bare():
+    shirt = {"head": 0.8, "chest": 0.98, "spine": 0.95, "pelvis": 0.7}
+    skin, regions = shown(shirt)
+    found = coverage(skin, regions, "female")
+    assert found.bottom > 0.9
+    assert found.bare(skin, regions)[regions.parts == PARTS.index("pelvis")].max() < 0.2
