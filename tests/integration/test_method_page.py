@@ -2,13 +2,20 @@
 
 import pkgutil
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from fitter.body.storage import load_body_model, packaged_model_path
+from fitter.fits.pipeline import PACKAGED
+from fitter.fits.prepared_model import PreparedModel
 from fitter.measurement.definition_file import load_definitions
+from fitter.optimizer.alternation import SMOOTHNESS_SCHEDULE
+from fitter.optimizer.light_step import SPECULAR_EXPONENTS
+from fitter.vocabulary.choices import Gender
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "service" / "docs" / "method.md").read_text()
@@ -65,6 +72,27 @@ def test_the_decisions_that_are_quoted_have_such_headings():
     quoted = [" ".join(each.split()) for each in re.findall(r'"([A-Z][^"]+)"', PAGE)]
     assert len(quoted) > 15
     assert [each for each in quoted if not any(each in heading for heading in headings)] == []
+
+
+def test_the_sizes_of_the_meshes_are_those_of_the_packaged_models():
+    women, men = (PACKAGED.model(gender) for gender in (Gender.FEMALE, Gender.MALE))
+
+    def both(count: Callable[[PreparedModel], int]) -> tuple[str, str]:
+        return f"{count(women):,}", f"{count(men):,}"
+
+    searched = both(lambda each: len(each.searched.model.mean_vertices))
+    shaded = both(lambda each: int(np.count_nonzero(each.searched.shaded.areas)))
+    assert f"a simplified mesh of {searched[0]} (women) and {searched[1]} (men)" in on_one_line(
+        PAGE
+    )
+    assert f"sums over {shaded[0]} and {shaded[1]} of these" in on_one_line(PAGE)
+
+
+def test_the_exponents_and_rounds_are_those_of_the_alternation():
+    *but_last, last = (f"{each:.0f}" for each in SPECULAR_EXPONENTS)
+    assert f"from {', '.join(but_last)} and {last}, with the first light" in on_one_line(PAGE)
+    assert len(SMOOTHNESS_SCHEDULE) == 3
+    assert "*The alternation has three rounds*" in PAGE
 
 
 def on_one_line(text: str) -> str:
