@@ -1,8 +1,7 @@
 """The pictures of the suite: a table of people, rooms and stances, varied from seeds.
 
-Three pictures of each person, one of each kind of stance; eight of the tuning half in unusual
-light; eight people of both halves in loose clothes; phone pairs; and the sample of ``maquette
-demo``.
+Three pictures of each person, one of each kind of stance, and one in clothes; eight of the tuning
+half in unusual light; phone pairs, also in clothes; and the sample of ``maquette demo``.
 """
 
 from collections.abc import Mapping
@@ -10,25 +9,20 @@ from dataclasses import replace
 
 import numpy as np
 
-from tests.evaluation.outfits import (
-    BLOUSE_AND_SKIRT,
-    BLOUSE_AND_TROUSERS,
-    CHECKED_SHIRT_AND_TROUSERS,
-    DRESS,
-    DRESS_OF_LINEN,
-    SHIRT_AND_TROUSERS,
-    STRIPED_SHIRT_AND_TROUSERS,
-    WIDE_SHIRT_AND_TROUSERS,
-)
+from tests.evaluation.dressed_people import DRESSED, IN_PAIRS, Dressed, look_under
 from tests.evaluation.people_table import PEOPLE, SITTERS, Sitter
-from tests.evaluation.phone_cases import PHONE_CASES
+from tests.evaluation.phone_cases import (
+    PHONE_CASES,
+    PhonePair,
+    arms_in_turn,
+    stance_from_the_side,
+)
 from tests.evaluation.scene import (
     Case,
     Floor,
     FocalLength,
     Lamp,
     Lighting,
-    Outfit,
     Rgb,
     Series,
     Stance,
@@ -264,41 +258,53 @@ _LIGHTS = (
 )
 
 
-def _clothed(number: int, person: str, stance: Stance, outfit: Outfit) -> Case:
-    """A picture in loose clothes."""
-    sitter, seed = _SITTER[person], 300 + number
+def _clothed(number: int, dressed: Dressed) -> Case:
+    """A picture in clothes."""
+    sitter, seed = _SITTER[dressed.person], 300 + number
     rng = np.random.default_rng([seed, 3])
     return Case(
-        name=f"clothed_{person}",
-        person=person,
+        name=f"clothed_{dressed.person}",
+        person=dressed.person,
         series=Series.CLOTHED,
-        stance=_stance(sitter, stance, rng),
+        stance=_stance(sitter, dressed.stance, rng),
         view=_view(sitter.source.stature_m, (480, 640), rng),
         lighting=_lighting(rng),
         surroundings=ROOMS[(3 * number + 1) % len(ROOMS)],
-        look=sitter.look,
+        look=look_under(sitter.look, dressed.outfit),
         focal_length=FocalLength.GIVEN,
-        outfit=outfit,
+        outfit=dressed.outfit,
         seed=seed,
     )
 
 
-_CLOTHED = tuple(
-    _clothed(number, person, stance, outfit)
-    for number, (person, stance, outfit) in enumerate(
-        (
-            ("woman_young_thin", UPRIGHT, SHIRT_AND_TROUSERS),
-            ("woman_old_heavy", ASTRIDE, DRESS),
-            ("man_middle_aged_middling", AT_EASE, STRIPED_SHIRT_AND_TROUSERS),
-            ("woman_middle_aged_middling", THREE_QUARTERS, BLOUSE_AND_SKIRT),
-            ("woman_193_young_thin", AT_EASE, DRESS_OF_LINEN),
-            ("woman_101_middle_aged_middling", UPRIGHT, BLOUSE_AND_TROUSERS),
-            ("man_105_young_thin", ASTRIDE, WIDE_SHIRT_AND_TROUSERS),
-            ("man_122_middle_aged_middling", UPRIGHT, CHECKED_SHIRT_AND_TROUSERS),
+_CLOTHED = tuple(_clothed(number, dressed) for number, dressed in enumerate(DRESSED))
+
+
+def _clothed_pairs() -> dict[str, PhonePair]:
+    """The person turns; camera, lamp and room stay as they are."""
+    fronts = {case.person: case for case in _CLOTHED}
+    pairs: dict[str, PhonePair] = {}
+    for number, person in enumerate(IN_PAIRS):
+        front, seed = fronts[person], 600 + number
+        rng = np.random.default_rng([seed, 3])
+        side = replace(
+            front,
+            name=f"{front.name}_side",
+            series=Series.CLOTHED_PAIRS,
+            stance=stance_from_the_side(_SITTER[person], arms_in_turn(number), rng),
+            seed=seed,
+            surface_seed=front.seed,
         )
-    )
-)
+        pairs[person] = PhonePair(front=front, side=side)
+    return pairs
+
+
+CLOTHED_PAIRS: Mapping[str, PhonePair] = _clothed_pairs()
+"""People in their clothes whose one picture is from the front, with another from the side."""
+
+_CLOTHED_SIDES = tuple(pair.side for pair in CLOTHED_PAIRS.values())
 
 CASES: Mapping[str, Case] = {
-    case.name: case for case in (DEMO, *_people(), *_LIGHTS, *_CLOTHED, *PHONE_CASES)
+    case.name: case
+    for case in (DEMO, *_people(), *_LIGHTS, *_CLOTHED, *_CLOTHED_SIDES, *PHONE_CASES)
 }

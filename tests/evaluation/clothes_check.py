@@ -15,7 +15,7 @@ from tests.evaluation.dressed import dressed_names, garments
 from tests.evaluation.foreign import foreign_half, foreign_names
 from tests.evaluation.painted_clothes import PREFIX, painted_names
 from tests.evaluation.runs import picture_of
-from tests.evaluation.scene import Half, Series
+from tests.evaluation.scene import Case, Half, Series
 
 MAX_PIXELS = 50_000_000
 SAID = ("loose", "close", "bare", "not said")
@@ -41,8 +41,10 @@ def clothed_pictures(half: Half) -> list[tuple[str, str]]:
     """Names of pictures after what is worn in them; dressed foreigners belong to both halves."""
     own = [case for case in CASES.values() if PEOPLE[case.person].half is half]
     loose = [name for name in dressed_names() if CLOSE not in garments(name)]
+    clothed = [each for each in own if each.series is Series.CLOTHED]
     groups = {
-        "loose, own": [each.name for each in own if each.series is Series.CLOTHED],
+        "loose, own": [each.name for each in clothed if _wears_loose(each)],
+        "close, own": [each.name for each in clothed if not _wears_loose(each)],
         "loose, dressed set": loose,
         "close, dressed set": [name for name in dressed_names() if name not in loose],
         "close, painted set": [
@@ -52,6 +54,10 @@ def clothed_pictures(half: Half) -> list[tuple[str, str]]:
         "underwear, foreign": foreign_names(half),
     }
     return [(group, name) for group, names in groups.items() for name in names]
+
+
+def _wears_loose(case: Case) -> bool:
+    return case.outfit is not None and CLOSE not in case.outfit.name
 
 
 def clothes_said(asked: tuple[str, str]) -> SaidOfClothes:

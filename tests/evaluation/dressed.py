@@ -9,6 +9,7 @@ from PIL import Image as PillowImage
 from fitter.fits.pipeline import PACKAGED
 from fitter.population.body_estimate import estimate_body
 from fitter.request import KnownMeasurement
+from tests.evaluation.files import read_labels
 from tests.evaluation.foreign import foreign_picture
 from tests.evaluation.scene import Series
 from tests.evaluation.table import MEASUREMENTS
@@ -34,7 +35,13 @@ def dressed_names() -> list[str]:
 def dressed_picture(name: str) -> TruePicture:
     """Read a picture of this name; its body's own silhouette is without clothes."""
     body = np.asarray(PillowImage.open(FOLDER / name / "body_mask.png").convert("L")) > 127
-    return replace(foreign_picture(name, FOLDER), series=Series.DRESSED, body_mask=body)
+    return replace(
+        foreign_picture(name, FOLDER),
+        series=Series.DRESSED,
+        body_mask=body,
+        outfit=garments(name),
+        labels=read_labels(FOLDER / name / "labels.png"),
+    )
 
 
 def garments(name: str) -> str:

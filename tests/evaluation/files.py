@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from jaxtyping import UInt8
 from PIL import Image as PillowImage
 
 from fitter.arrays import Mask
@@ -14,11 +15,23 @@ from fitter.parameters import Light
 from fitter.vocabulary.choices import LightKind
 from tests.evaluation.clicks import hidden_points, noisy_clicks, rendering
 from tests.evaluation.photograph import photograph
-from tests.evaluation.scene import PAIRED_SERIES, Case, FocalLength
+from tests.evaluation.scene import PAIRED_SERIES, Case, FocalLength, Label
 from tests.evaluation.staging import Staged, root_joint
 from tests.evaluation.truth import true_body, true_joints, true_light
 
 PICTURES_FOLDER = Path(__file__).parent / "data" / "pictures"
+
+LABEL_COLOURS = (
+    (0, 0, 0),
+    (230, 170, 130),
+    (90, 50, 20),
+    (60, 120, 220),
+    (60, 170, 80),
+    (220, 60, 60),
+)
+"""Of background, skin, hair, upper and lower garment, shoes."""
+
+Labels = UInt8[np.ndarray, "h w"]
 
 CREDITS = (
     "Our own render with Mitsuba 3 of a body made from MakeHuman's CC0 assets; released under "
@@ -34,6 +47,7 @@ class CaseFiles:
     document: dict[str, Any]
     body_mask: Mask
     person_mask: Mask
+    labels: Labels | None
 
     @property
     def request(self) -> dict[str, Any]:
@@ -47,9 +61,9 @@ class CaseFiles:
 
 
 def write_picture(
-    folder: Path, staged: Staged, linear: np.ndarray, person: Mask, *, quality: int
+    folder: Path, staged: Staged, linear: np.ndarray, labels: Labels, *, quality: int
 ) -> None:
-    """The photograph and the masks of body and person."""
+    """The photograph and the masks of body and person; of people in clothes, labels too."""
     folder.mkdir(parents=True, exist_ok=True)
     case = staged.case
     in_exif = case.focal_length is FocalLength.EXIF
@@ -62,7 +76,22 @@ def write_picture(
     (folder / f"{case.name}.jpg").write_bytes(picture)
     body = rendering(staged).silhouette
     (folder / f"{case.name}_body.png").write_bytes(encoded_mask(body))
-    (folder / f"{case.name}_person.png").write_bytes(encoded_mask(person))
+    (folder / f"{case.name}_person.png").write_bytes(encoded_mask(labels > Label.BACKGROUND))
+    if case.outfit is not None:
+        write_labels(folder / f"{case.name}_labels.png", labels)
+
+
+def write_labels(path: Path, labels: Labels) -> None:
+    """What each pixel shows, as a PNG with a palette."""
+    picture = PillowImage.fromarray(labels).convert("P")
+    picture.putpalette([value for colour in LABEL_COLOURS for value in colour])
+    picture.save(path, optimize=True)
+
+
+def read_labels(path: Path) -> Labels:
+    """What each pixel shows."""
+    with PillowImage.open(path) as picture:
+        return np.asarray(picture)
 
 
 def write_document(folder: Path, staged: Staged) -> None:
@@ -91,6 +120,9 @@ def _scene_document(staged: Staged) -> dict[str, object]:
         "root_joint_m": _rounded(staged.in_camera(root_joint(staged))),
         "joints_m": [_rounded(joint) for joint in true_joints(staged)],
     }
+    outfit = staged.case.outfit
+    if outfit is not None:
+        scene["clothes"] = {"class": outfit.name, "sole_m": outfit.sole_m}
     if staged.case.series in PAIRED_SERIES:
         scene["hidden_points"] = hidden_points(staged, rendering(staged))
     return scene
@@ -117,11 +149,13 @@ def true_measurements(staged: Staged) -> dict[str, float]:
 
 def read_case(case: Case, folder: Path = PICTURES_FOLDER) -> CaseFiles:
     """Read what the generator wrote."""
+    labels = folder / f"{case.name}_labels.png"
     return CaseFiles(
         image=(folder / f"{case.name}.jpg").read_bytes(),
         document=json.loads((folder / f"{case.name}.json").read_text()),
         body_mask=_load_mask(folder / f"{case.name}_body.png"),
         person_mask=_load_mask(folder / f"{case.name}_person.png"),
+        labels=read_labels(labels) if labels.exists() else None,
     )
 
 

@@ -31,6 +31,7 @@ SAMPLES = {
     Series.CLOTHED: 25,
     Series.PHONE: 36,
     Series.REPEATED: 36,
+    Series.CLOTHED_PAIRS: 25,
 }
 QUALITY = {
     Series.SAMPLE: 92,
@@ -39,6 +40,7 @@ QUALITY = {
     Series.CLOTHED: 86,
     Series.PHONE: 86,
     Series.REPEATED: 86,
+    Series.CLOTHED_PAIRS: 86,
 }
 SAMPLE_FOLDER = Path(__file__).parents[2] / "service" / "demo_data"
 
@@ -58,13 +60,13 @@ def main(arguments: Sequence[str]) -> int:
 
 
 def _render(staged: Staged, options: argparse.Namespace) -> None:
-    from tests.evaluation.render_mitsuba import linear_picture_and_person
+    from tests.evaluation.render_mitsuba import linear_picture_and_labels
 
     case = staged.case
-    linear, person = linear_picture_and_person(
+    linear, labels = linear_picture_and_labels(
         staged, samples=options.samples or SAMPLES[case.series]
     )
-    write_picture(options.output, staged, linear, person, quality=QUALITY[case.series])
+    write_picture(options.output, staged, linear, labels, quality=QUALITY[case.series])
 
 
 def _staged(case: Case) -> Staged:

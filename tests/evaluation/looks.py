@@ -8,14 +8,14 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Integer
 from PIL import Image as PillowImage
 
 from fitter.arrays import Vertices
 from fitter.training.makehuman.meshes import makehuman_folder
 from fitter.vocabulary.choices import Gender
 from tests.evaluation.noise import smooth_step, value_noise
-from tests.evaluation.scene import Hair, Look
+from tests.evaluation.scene import Hair, Label, Look
 
 Landmarks = Mapping[str, Float[np.ndarray, "3"]]
 
@@ -23,7 +23,6 @@ SKIN_ROUGHNESS = 0.48
 HAIR_ROUGHNESS = 0.5
 CLOTH_ROUGHNESS = 0.9
 
-CLOTH_RELIEF_M = 0.0025
 CLOTH_EDGE_M = 0.003
 HAIR_RISE_M = 0.02
 HAIR_RELIEF_M: Mapping[Hair, float] = {Hair.SHORT: 0.016, Hair.TIED: 0.009, Hair.SHAVED: 0.001}
@@ -46,11 +45,14 @@ class Painted:
         (k,) of the gloss.
     relief_m
         (k,) how far the surface is pushed out along its normal.
+    labels
+        (k,) skin, hair or, of underwear, the garment.
     """
 
     albedo: Float[np.ndarray, "k 3"]
     roughness: Float[np.ndarray, " k"]
     relief_m: Float[np.ndarray, " k"]
+    labels: Integer[np.ndarray, " k"]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -87,10 +89,14 @@ def paint(
     roughness += cloth * (CLOTH_ROUGHNESS - roughness)
     volume = HAIR_RELIEF_M[look.hair] * smooth_step(above_hairline, 0.0, HAIR_RISE_M)
     folds = 1.0 + 0.25 * value_noise(rng, canvas.rest / np.array([0.05, 0.02, 0.05]))
+    labels = np.where(cover > 0.5, Label.HAIR, Label.SKIN)
+    above_waist = canvas.rest[:, 1] > points["navel"][1]
+    labels[cloth > 0.5] = np.where(above_waist, Label.UPPER, Label.LOWER)[cloth > 0.5]
     return Painted(
         albedo=np.clip(albedo, 0.003, 0.9),
         roughness=roughness,
-        relief_m=volume * (1.0 + 0.05 * strands) + cloth * CLOTH_RELIEF_M * folds,
+        relief_m=volume * (1.0 + 0.05 * strands) + cloth * look.clothes_relief_m * folds,
+        labels=labels,
     )
 
 

@@ -11,16 +11,23 @@ from tests.evaluation.cases import PEOPLE
 from tests.evaluation.chain import Link, chain_of
 from tests.evaluation.chain_tables import chain_case_lines, chain_lines
 from tests.evaluation.clothes_check import clothed_pictures, clothes_lines, clothes_said
-from tests.evaluation.clothing_table import clothing_lines, null_lines
+from tests.evaluation.clothing_table import (
+    case_heading,
+    clothing_lines,
+    null_lines,
+    underwear_lines,
+)
+from tests.evaluation.clothing_table import (
+    case_lines as dressed_lines,
+)
 from tests.evaluation.detector_figures import detector_lines, hinted_fits
 from tests.evaluation.dressed import (
     MISSING,
     NULLS,
     dressed_names,
-    dressed_picture,
-    garments,
     null_errors,
 )
+from tests.evaluation.dressed_scores import DressedScore, score_dressed, score_undressed
 from tests.evaluation.foreign import MISSING as FOREIGN_MISSING
 from tests.evaluation.foreign import foreign_half
 from tests.evaluation.light_figures import InLight, in_both_lights, light_lines
@@ -30,12 +37,21 @@ from tests.evaluation.nonsense import nonsense
 from tests.evaluation.outline_limit import outline_limit
 from tests.evaluation.painted_clothes import painted_names
 from tests.evaluation.people import load_person
-from tests.evaluation.runs import of_each, score_dressed
+from tests.evaluation.runs import of_each, picture_of
 from tests.evaluation.scan_tables import repeat_lines, scan_lines, worst_scan_lines
-from tests.evaluation.scans import Pair, Scanned, foreign_pairs, own_pairs, repeated_pairs, scanned
+from tests.evaluation.scans import (
+    Pair,
+    Scanned,
+    clothed_pairs,
+    foreign_pairs,
+    own_pairs,
+    repeated_pairs,
+    scanned,
+)
 from tests.evaluation.scene import Case, Half, Series
 from tests.evaluation.several import several_pictures
 from tests.evaluation.shape_limit import shape_limit
+from tests.evaluation.stance_kinds import Kind
 from tests.evaluation.strangers import agreement_of, asked_of, stranger_lines
 from tests.evaluation.table import MEASUREMENTS, case_lines
 from tests.evaluation.verdict_table import judged_nonsense, judged_picture, verdict_lines
@@ -165,6 +181,7 @@ def scan(choice: Choice) -> None:
     for half in choice.halves:
         for series, pairs in (
             (Series.PHONE, own_pairs(half)),
+            (Series.CLOTHED_PAIRS, clothed_pairs(half)),
             (Series.FOREIGN, foreign_pairs(half)),
         ):
             if pairs and choice.options.set in (None, series.value):
@@ -187,33 +204,54 @@ def strangers(choice: Choice) -> None:
 
 
 def dressed(choice: Choice) -> None:
-    """Loose clothes left to the picture, and said to be tight and loose."""
+    """People in clothes: nothing said, clothes said to be tight and loose, the weight given."""
     for half, cases in choice.cases_by_half.items():
         names = [case.name for case in cases]
-        _print(clothing_lines(score_dressed(names, jobs=choice.jobs)), f"{half.value} half")
+        scores = _dressed(names, choice.jobs, f"{half.value} half")
+        _print(_nulls(names))
+        undressed = [f"{case.person}_{Kind.STANDING.value}" for case in cases]
+        _print(underwear_lines(scores, score_undressed(undressed, jobs=choice.jobs)))
 
 
 def dressed_strangers(choice: Choice) -> None:
-    """The same of bodies by another maker, and what errs without a picture."""
+    """The same of bodies by another maker."""
     names = dressed_names()
     if not names:
         print(MISSING, flush=True)
         return
-    for name in names:
-        print(f"{name}: {garments(name)}")
-    _print(clothing_lines(score_dressed(names, jobs=choice.jobs)), "dressed set")
-    nulls = {
-        title: [null_errors(dressed_picture(name), known) for name in names]
-        for title, known in NULLS.items()
-    }
-    _print(null_lines(nulls))
+    _dressed(names, choice.jobs, "dressed set")
+    _print(_nulls(names))
 
 
 def painted_strangers(choice: Choice) -> None:
-    """Clothes as close as paint, left to the picture and said to be tight and loose."""
+    """Clothes as close as paint."""
     names = painted_names()
-    lines = clothing_lines(score_dressed(names, jobs=choice.jobs)) if names else [FOREIGN_MISSING]
-    _print(lines, "painted set")
+    if not names:
+        print(FOREIGN_MISSING, flush=True)
+        return
+    _dressed(names, choice.jobs, "painted set")
+
+
+def _dressed(names: Sequence[str], jobs: int, title: str) -> list[DressedScore]:
+    """Each picture as soon as it is fitted, then what they have in common."""
+    _print([case_heading()], title)
+    scores: list[DressedScore] = []
+    for of_picture in score_dressed(names, jobs=jobs):
+        _print(dressed_lines(of_picture))
+        scores += of_picture
+    _print(["", *clothing_lines(scores)])
+    return scores
+
+
+def _nulls(names: Sequence[str]) -> list[str]:
+    """What errs without a picture."""
+    pictures = [picture_of(name) for name in names]
+    return null_lines(
+        {
+            title: [null_errors(picture, known) for picture in pictures]
+            for title, known in NULLS.items()
+        }
+    )
 
 
 Mode = Callable[[Choice], None]

@@ -1,5 +1,7 @@
 """A person as coloured meshes in the world, for the renderer."""
 
+from functools import cache
+
 import numpy as np
 from jaxtyping import Float
 
@@ -10,7 +12,7 @@ from tests.evaluation.makehuman_faces import faces_of_group, texture_coordinates
 from tests.evaluation.people import rig_of_people
 from tests.evaluation.person_mesh import PersonMesh
 from tests.evaluation.refinement import Refined, refined, triangulated, vertex_normals
-from tests.evaluation.scene import Hair
+from tests.evaluation.scene import Hair, Label
 from tests.evaluation.staging import Staged, body_group_ids
 
 REFINEMENTS = 3
@@ -41,9 +43,8 @@ def person_meshes(staged: Staged, rng: np.random.Generator) -> list[PersonMesh]:
 
 
 def _body(staged: Staged, rng: np.random.Generator) -> list[PersonMesh]:
-    faces, ids = faces_of_group("body"), body_group_ids()
-    local = np.searchsorted(ids, faces.quads)
-    fine = refined(local, len(ids), times=REFINEMENTS)
+    ids = body_group_ids()
+    local, fine = _refined_body()
     look = staged.case.look
     painted = paint(
         _canvas(staged, fine, local),
@@ -66,8 +67,17 @@ def _body(staged: Staged, rng: np.random.Generator) -> list[PersonMesh]:
         triangles=triangles,
         albedo=painted.albedo,
         roughness=painted.roughness,
+        labels=painted.labels,
     )
     return [body, _bun(staged)] if look.hair is Hair.TIED else [body]
+
+
+@cache
+def _refined_body() -> tuple[np.ndarray, Refined]:
+    """The body's quads, and refined; alike for everybody."""
+    ids = body_group_ids()
+    local = np.searchsorted(ids, faces_of_group("body").quads)
+    return local, refined(local, len(ids), times=REFINEMENTS)
 
 
 def _canvas(staged: Staged, fine: Refined, quads: np.ndarray) -> Canvas:
@@ -103,7 +113,7 @@ def _eyes(staged: Staged) -> list[PersonMesh]:
         albedo[off_axis < IRIS_DEGREES] = IRIS_ALBEDO
         albedo[off_axis < PUPIL_DEGREES] = PUPIL_ALBEDO
         posed = fine.rows @ staged.source_vertices(ids)
-        meshes.append(_plain(posed, triangulated(fine.quads), albedo, EYE_ROUGHNESS))
+        meshes.append(_plain(posed, triangulated(fine.quads), albedo, EYE_ROUGHNESS, Label.SKIN))
     return meshes
 
 
@@ -113,7 +123,7 @@ def _lashes(staged: Staged) -> list[PersonMesh]:
         ids, local = _group(group)
         albedo = np.full((len(ids), 3), LASH_ALBEDO)
         posed = staged.source_vertices(ids)
-        meshes.append(_plain(posed, triangulated(local), albedo, HAIR_ROUGHNESS))
+        meshes.append(_plain(posed, triangulated(local), albedo, HAIR_ROUGHNESS, Label.SKIN))
     return meshes
 
 
@@ -141,7 +151,8 @@ def _bun(staged: Staged) -> PersonMesh:
     ).reshape(-1, 4)
     colour = np.array(staged.case.look.hair_colour)
     albedo = colour * np.exp(4.0 * (rolls.reshape(-1, 1) - 1.0))
-    return _plain(staged.on_bone("head", rest), triangulated(quads), albedo, HAIR_ROUGHNESS)
+    posed = staged.on_bone("head", rest)
+    return _plain(posed, triangulated(quads), albedo, HAIR_ROUGHNESS, Label.HAIR)
 
 
 def _group(name: str) -> tuple[np.ndarray, np.ndarray]:
@@ -152,7 +163,11 @@ def _group(name: str) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _plain(
-    vertices: Vertices, triangles: np.ndarray, albedo: Float[np.ndarray, "k 3"], roughness: float
+    vertices: Vertices,
+    triangles: np.ndarray,
+    albedo: Float[np.ndarray, "k 3"],
+    roughness: float,
+    label: Label,
 ) -> PersonMesh:
     return PersonMesh(
         vertices=vertices,
@@ -160,4 +175,5 @@ def _plain(
         triangles=triangles,
         albedo=albedo,
         roughness=np.full(len(vertices), roughness),
+        labels=np.full(len(vertices), label),
     )

@@ -95,7 +95,13 @@ class PhonePair:
 
 
 def _pair(
-    sitter: Sitter, *, name: str, series: Series, number: int, seed: int, arms: SideArms
+    sitter: Sitter,
+    *,
+    name: str,
+    series: Series,
+    number: int,
+    seed: int,
+    arms: SideArms,
 ) -> PhonePair:
     """The pair of a seed; ``number`` chooses room and size."""
     rng = np.random.default_rng([seed, 3])
@@ -112,11 +118,16 @@ def _pair(
         seed=seed,
         surface_seed=seed,
     )
-    facing = float(rng.choice((-90.0, 90.0)))
-    stance = unsteady(_from_the_side(sitter, arms, facing, rng), rng)
+    stance = stance_from_the_side(sitter, arms, rng)
     return PhonePair(
         front=front, side=replace(front, name=f"{name}_side", stance=stance, seed=seed + 1)
     )
+
+
+def stance_from_the_side(sitter: Sitter, arms: SideArms, rng: np.random.Generator) -> Stance:
+    """Turned to either side."""
+    facing = float(rng.choice((-90.0, 90.0)))
+    return unsteady(_from_the_side(sitter, arms, facing, rng), rng)
 
 
 def _from_the_front(sitter: Sitter, rng: np.random.Generator) -> Stance:
@@ -223,7 +234,8 @@ def _room(number: int, rng: np.random.Generator) -> Surroundings:
     return replace(rooms[(number // 2) % len(rooms)], wall_distance_m=distance_m)
 
 
-def _arms_in_turn(count: int) -> SideArms:
+def arms_in_turn(count: int) -> SideArms:
+    """Stretched and hanging in turn."""
     return SideArms.HANGING if count % 2 else SideArms.STRETCHED
 
 
@@ -237,7 +249,7 @@ def _pairs() -> dict[str, PhonePair]:
             series=Series.PHONE,
             number=number,
             seed=400 + 2 * number,
-            arms=_arms_in_turn(number // 2 + number // rooms),
+            arms=arms_in_turn(number // 2 + number // rooms),
         )
         for number, sitter in enumerate(SITTERS)
     }
@@ -253,7 +265,7 @@ def _repeated_pairs() -> dict[str, PhonePair]:
             series=Series.REPEATED,
             number=number,
             seed=500 + 2 * number,
-            arms=_arms_in_turn(number // 2),
+            arms=arms_in_turn(number // 2),
         )
         for number, (person, take) in numbered
     }

@@ -5,11 +5,12 @@ throw back, a skin with a broad gloss.
 """
 
 import os
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import mitsuba
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Float, UInt8
 
 from tests.evaluation.person_meshes import PersonMesh, person_meshes
 from tests.evaluation.staging import Staged, lamp_place
@@ -31,18 +32,18 @@ _MIRRORED_AXES = np.array([-1.0, -1.0, 1.0])
 """Mitsuba's camera has x to the left and y up."""
 
 
-def linear_picture_and_person(
+def linear_picture_and_labels(
     staged: Staged, *, samples: int
-) -> tuple[Float[np.ndarray, "h w 3"], Bool[np.ndarray, "h w"]]:
-    """Path-trace a case; and the pixels whose centre shows the person, hair and clothes included.
+) -> tuple[Float[np.ndarray, "h w 3"], UInt8[np.ndarray, "h w"]]:
+    """Path-trace a case; and the :class:`Label` of what each pixel's centre shows.
 
     Both from one set of meshes, which take longer to paint than a small picture to trace.
     """
     _choose_variant()
     case = staged.case
     rng = np.random.default_rng(case.seed if case.surface_seed is None else case.surface_seed)
-    meshes = [_shape(mesh) for mesh in person_meshes(staged, rng)]
-    person = {f"mesh{k}": mesh for k, mesh in enumerate(meshes)}
+    meshes = person_meshes(staged, rng)
+    person = {f"mesh{k}": _shape(mesh) for k, mesh in enumerate(meshes)}
     linear: Any = mitsuba.load_dict(
         {
             "type": "scene",
@@ -53,15 +54,40 @@ def linear_picture_and_person(
             **person,
         }
     )
+    light = np.array(mitsuba.render(linear, spp=samples, seed=case.seed), dtype=np.float64)
+    return light[..., :3], _labels(staged, meshes, person)
+
+
+def labels_of(staged: Staged) -> UInt8[np.ndarray, "h w"]:
+    """The labels alone."""
+    _choose_variant()
+    case = staged.case
+    rng = np.random.default_rng(case.seed if case.surface_seed is None else case.surface_seed)
+    meshes = person_meshes(staged, rng)
+    return _labels(staged, meshes, {f"mesh{k}": _shape(mesh) for k, mesh in enumerate(meshes)})
+
+
+def _labels(
+    staged: Staged, meshes: Sequence[PersonMesh], person: Mapping[str, Any]
+) -> UInt8[np.ndarray, "h w"]:
+    """By the first triangle that a ray through a pixel's centre meets."""
     sensor = _sensor(staged, 1)
     sensor["film"]["rfilter"] = {"type": "box"}
     sensor["sampler"] = {"type": "stratified", "sample_count": 1, "jitter": False}
-    depth: Any = mitsuba.load_dict(
-        {"type": "scene", "integrator": {"type": "depth"}, "sensor": sensor, **person}
-    )
-    light = np.array(mitsuba.render(linear, spp=samples, seed=case.seed), dtype=np.float64)
-    seen = np.array(mitsuba.render(depth, spp=1), dtype=np.float64)
-    return light[..., :3], seen[..., 0] > 0.0
+    told = {"type": "aov", "aovs": "depth:depth,triangle:prim_index"}
+    labels = np.zeros((staged.camera.height, staged.camera.width), dtype=np.uint8)
+    nearest = np.full(labels.shape, np.inf)
+    # One mesh at a time: which triangle is met is then told by its number alone.
+    for mesh, shape in zip(meshes, person.values(), strict=True):
+        scene: Any = mitsuba.load_dict(
+            {"type": "scene", "integrator": told, "sensor": sensor, "shape": shape}
+        )
+        met = np.array(mitsuba.render(scene, spp=1), dtype=np.float64)
+        depth, triangle = met[..., -2], np.rint(met[..., -1]).astype(int)
+        before = (depth > 0.0) & (depth < nearest)
+        nearest[before] = depth[before]
+        labels[before] = mesh.labels[mesh.triangles[triangle[before], 0]]
+    return labels
 
 
 def _choose_variant() -> None:

@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
-from fitter.vocabulary.choices import Clothing, Cues
+from fitter.vocabulary.choices import Cues
 from tests.evaluation.cases import CASES
 from tests.evaluation.dressed import dressed_names, dressed_picture
 from tests.evaluation.foreign import foreign_mesh, foreign_picture
@@ -61,11 +61,6 @@ def score_all(names: Sequence[str], run: Run, *, jobs: int) -> Iterator[list[Sco
     return of_each(partial(_score_both, run), names, jobs)
 
 
-def score_dressed(names: Sequence[str], *, jobs: int) -> list[tuple[Clothing, Scored]]:
-    """Each picture by SES, its clothes left to the picture, and said to be tight and loose."""
-    return [pair for pairs in of_each(_score_dressed, names, jobs) for pair in pairs]
-
-
 def of_each(task: Callable[[Item], Found], items: Sequence[Item], jobs: int) -> Iterator[Found]:
     """What comes of each, in order; ``jobs`` processes."""
     if jobs == 1:
@@ -82,11 +77,3 @@ def _score_both(run: Run, name: str) -> list[Scored]:
     if run.pictures is not None:
         write_pictures(run.pictures, fits)
     return [score(fitted) for fitted in fits]
-
-
-def _score_dressed(name: str) -> list[tuple[Clothing, Scored]]:
-    picture = picture_of(name)
-    return [
-        (clothing, score(fit_picture(picture, Cues.SES, Told(clothing=clothing))))
-        for clothing in Clothing
-    ]

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from fitter.vocabulary.choices import Clothing
 from tests.evaluation.scans import Scanned, Views
 from tests.evaluation.table import INTERVALS, MEASUREMENTS
 
@@ -48,7 +49,11 @@ def worst_scan_lines(found: Sequence[Scanned]) -> list[str]:
     def distance(each: Scanned) -> float:
         return float(np.mean([abs(each.errors[key]) for key in girths]))
 
-    unaided = [each for each in found if each.views is Views.BOTH and not each.weight_given]
+    unaided = [
+        each
+        for each in found
+        if each.views is Views.BOTH and not each.weight_given and each.clothing is Clothing.AUTO
+    ]
     columns = "".join(f"{f'{name} {unit}':>11s}" for name, _, unit in MEASUREMENTS)
     lines = [f"{f'worst, {Views.BOTH}':32s}{columns}{'joints mm':>11s}{'overlap':>9s}"]
     for each in sorted(unaided, key=distance, reverse=True)[:WORST]:
@@ -86,9 +91,16 @@ def repeat_lines(found: Sequence[Scanned]) -> list[str]:
 
 
 def _kinds(found: Sequence[Scanned]) -> Iterator[tuple[str, list[Scanned]]]:
-    """Scans of one kind, with the kind's name: without the weight first, then with it."""
-    for given in (False, True):
+    """Scans of one kind, with the kind's name: nothing said, then the weight, then clothes."""
+    told = dict.fromkeys((each.weight_given, each.clothing) for each in found)
+    for given, clothing in sorted(told, key=lambda pair: (pair[1] is not Clothing.AUTO, pair)):
         for views in Views:
-            these = [each for each in found if each.views is views and each.weight_given is given]
+            these = [
+                each
+                for each in found
+                if each.views is views and each.weight_given is given and each.clothing is clothing
+            ]
+            said = ["weight"] if given else []
+            said += [] if clothing is Clothing.AUTO else [f"said {clothing}"]
             if these:
-                yield f"{views}, weight" if given else views.value, these
+                yield ", ".join([views.value, *said]), these

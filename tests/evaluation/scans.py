@@ -10,13 +10,17 @@ from fitter.body.skeleton import regress
 from fitter.fits.pipeline import fit
 from fitter.render.rasterizer import render
 from fitter.result import FitResult
-from fitter.vocabulary.choices import Cues, ViewKind
-from tests.evaluation.cases import CASES
+from fitter.vocabulary.choices import Clothing, Cues, ViewKind
+from tests.evaluation.cases import CASES, CLOTHED_PAIRS
 from tests.evaluation.foreign import foreign_half, foreign_names
 from tests.evaluation.joint_figures import joint_error_mm
 from tests.evaluation.landmark_points import packaged_model
 from tests.evaluation.people_table import PEOPLE
-from tests.evaluation.phone_cases import PHONE_PAIRS, REPEATED_PAIRS, PhonePair
+from tests.evaluation.phone_cases import (
+    PHONE_PAIRS,
+    REPEATED_PAIRS,
+    PhonePair,
+)
 from tests.evaluation.runs import picture_of
 from tests.evaluation.scene import Half, Series
 from tests.evaluation.scoring import overlap
@@ -67,7 +71,7 @@ class Pair:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scanned:
-    """The figures of one person by some views.
+    """The figures of one person by some views, and by what was said of clothes.
 
     ``errors`` are measured minus true, by measurement, ``standard_errors`` what the fit says of
     them but for what was given; ``joint_mm`` and ``overlap``, with the true body's mask, are means
@@ -79,6 +83,7 @@ class Scanned:
     half: Half
     views: Views
     weight_given: bool
+    clothing: Clothing = Clothing.AUTO
     errors: Mapping[str, float]
     standard_errors: Mapping[str, float]
     joint_mm: float
@@ -103,6 +108,12 @@ def repeated_pairs(half: Half | None) -> list[Pair]:
     return [pair for pair in pairs if half in (None, pair.half)]
 
 
+def clothed_pairs(half: Half | None) -> list[Pair]:
+    """The pairs of the people who are shown so in their clothes."""
+    pairs = [_pair(pair) for pair in CLOTHED_PAIRS.values()]
+    return [pair for pair in pairs if half in (None, pair.half)]
+
+
 def foreign_pairs(half: Half | None) -> list[Pair]:
     """Foreign people who have a picture from the front and one from the side."""
     names = foreign_names(half)
@@ -120,13 +131,12 @@ def foreign_pairs(half: Half | None) -> list[Pair]:
 
 
 def scanned(pair: Pair) -> list[Scanned]:
-    """A pair by all views, without the weight and with it."""
+    """A pair by all views, without the weight and with it; clothes also said to be tight, loose."""
     pictures = {name: picture_of(name) for name in pair.kinds}
-    return [
-        each
-        for told in (Told(), Told(measurements=("weight",)))
-        for each in _by_all_views(pair, pictures, told)
-    ]
+    all_told = [Told(), Told(measurements=("weight",))]
+    if pair.series is Series.CLOTHED_PAIRS:
+        all_told += [Told(clothing=said) for said in Clothing if said is not Clothing.AUTO]
+    return [each for told in all_told for each in _by_all_views(pair, pictures, told)]
 
 
 def _by_all_views(pair: Pair, pictures: Mapping[str, TruePicture], told: Told) -> Iterator[Scanned]:
@@ -136,13 +146,13 @@ def _by_all_views(pair: Pair, pictures: Mapping[str, TruePicture], told: Told) -
     }
     for views, names in pair.pictures_by_views.items():
         found = fit(together(*(requests[name] for name in names)))
-        yield _scanned(pair, views, [pictures[name] for name in names], found)
+        yield _scanned(pair, views, told, [pictures[name] for name in names], found)
 
 
 def _pair(pair: PhonePair) -> Pair:
     return Pair(
         person=pair.person,
-        series=CASES[pair.front.name].series,
+        series=CASES[pair.side.name].series,
         half=PEOPLE[pair.person].half,
         front=pair.front.name,
         side=pair.side.name,
@@ -150,7 +160,7 @@ def _pair(pair: PhonePair) -> Pair:
 
 
 def _scanned(
-    pair: Pair, views: Views, pictures: Sequence[TruePicture], found: FitResult
+    pair: Pair, views: Views, told: Told, pictures: Sequence[TruePicture], found: FitResult
 ) -> Scanned:
     measured = {each.name: each for each in found.measurements}
     truth = pictures[0].truth.measurements
@@ -167,6 +177,7 @@ def _scanned(
         half=pair.half,
         views=views,
         weight_given="weight" in found.given,
+        clothing=told.clothing,
         errors={name: measured[name].value - value for name, value in truth.items()},
         standard_errors={
             name: each.standard_error

@@ -1,7 +1,7 @@
 """What one picture of the suite shows: frozen descriptions, nothing computed."""
 
 from dataclasses import dataclass, field
-from enum import StrEnum
+from enum import IntEnum, StrEnum
 
 from fitter.vocabulary.choices import Gender
 
@@ -28,12 +28,13 @@ class Series(StrEnum):
     CLOTHED = "clothed"
     PHONE = "phone"
     REPEATED = "repeated"
+    CLOTHED_PAIRS = "clothed-pairs"
     FOREIGN = "foreign"
     DRESSED = "dressed"
     PAINTED = "painted"
 
 
-PAIRED_SERIES = frozenset({Series.PHONE, Series.REPEATED})
+PAIRED_SERIES = frozenset({Series.PHONE, Series.REPEATED, Series.CLOTHED_PAIRS})
 """A person from the front and from the side; fitted where they are asked for."""
 
 
@@ -80,6 +81,17 @@ class Hair(StrEnum):
     SHORT = "short"
     TIED = "tied"
     SHAVED = "shaved"
+
+
+class Label(IntEnum):
+    """What a pixel shows."""
+
+    BACKGROUND = 0
+    SKIN = 1
+    HAIR = 2
+    UPPER = 3
+    LOWER = 4
+    SHOES = 5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -196,12 +208,13 @@ class Surroundings:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Look:
-    """Skin, hair and clothes."""
+    """Skin, hair and underwear; ``clothes_relief_m`` is how far underwear stands off."""
 
     skin: Rgb = (0.58, 0.345, 0.24)
     hair: Hair = Hair.SHORT
     hair_colour: Rgb = (0.045, 0.028, 0.018)
     clothes_colour: Rgb = (0.03, 0.035, 0.06)
+    clothes_relief_m: float = 0.0025
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -222,37 +235,62 @@ class Cloth:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Top:
-    """A shirt, a blouse or a dress.
+    """A shirt, a blouse, a jacket or a dress.
 
-    ``sleeve`` is the share of the arm from shoulder to wrist, ``hem`` the height above the floor
-    as a share of the stature, ``neckline_m`` how far it lies below the neck's root in front.
+    ``sleeve`` is the share of the arm from shoulder to wrist, 0 of tank tops; ``hem`` the height
+    above the floor as a share of the stature, ``neckline_m`` how far it lies below the neck's root
+    in front. ``cuffs`` gather sleeves and hem; ``opening_m`` is half the breadth that an open
+    jacket shows of what is under it, at the hem.
     """
 
     cloth: Cloth
     sleeve: float = 0.4
     hem: float = 0.46
     neckline_m: float = 0.03
+    cuffs: bool = False
+    opening_m: float = 0.0
+    clearance_m: float = 0.012
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Bottom:
     """Trousers, or a skirt, whose legs are one.
 
-    ``waist`` and ``hem`` are heights above the floor as shares of the stature.
+    ``waist`` and ``hem`` are heights above the floor as shares of the stature; ``cuffs`` gather
+    the legs at the hem.
     """
 
     cloth: Cloth
     waist: float = 0.585
     hem: float = 0.06
     skirt: bool = False
+    cuffs: bool = False
+    clearance_m: float = 0.006
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Shoes:
+    """Low shoes: their colour, their soles' colour, linear, and how thick the soles are."""
+
+    colour: Rgb
+    sole_colour: Rgb
+    sole_m: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Outfit:
-    """What is worn over the underwear; a dress is a top alone."""
+    """What is worn over the underwear, and its class in words; a dress is a top alone."""
 
-    top: Top
+    name: str
+    top: Top | None = None
     bottom: Bottom | None = None
+    jacket: Top | None = None
+    shoes: Shoes | None = None
+
+    @property
+    def sole_m(self) -> float:
+        """How far the feet stand above the floor."""
+        return 0.0 if self.shoes is None else self.shoes.sole_m
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

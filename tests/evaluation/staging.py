@@ -87,7 +87,8 @@ def stage(person: Person, case: Case) -> Staged:
     body = posed_body(person, pose)
     bones = posed_bones(person, pose)
     support = body[feet["left"] | feet["right"]].mean(axis=0)
-    shift = -np.array([support[0], body[:, 1].min(), support[2]])
+    sole_m = 0.0 if case.outfit is None else case.outfit.sole_m
+    shift = np.array([-support[0], sole_m - body[:, 1].min(), -support[2]])
     to_camera, eye = _look(case.view)
     return Staged(
         person=person,

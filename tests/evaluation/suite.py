@@ -30,6 +30,8 @@ def case_picture(case: Case) -> TruePicture:
         light=light_from_document(files.scene["light"]),
         joints=np.array(files.scene["joints_m"]),
         truth=true_body(load_person(source)),
+        outfit="" if case.outfit is None else case.outfit.name,
+        labels=files.labels,
     )
 
 

@@ -9,7 +9,7 @@ from fitter.arrays import Mask
 from fitter.parameters import Light
 from fitter.request import FitRequest, KnownMeasurement, LightGuess
 from fitter.vocabulary.choices import Clothing, OutlineKind, SurroundingsKind
-from tests.evaluation.files import encoded_mask
+from tests.evaluation.files import Labels, encoded_mask
 from tests.evaluation.scene import Half, Series
 from tests.evaluation.truth import TrueBody
 from tests.one_picture import changed
@@ -55,6 +55,11 @@ class TruePicture:
         (p, 3) of the body model's parts, camera frame, metres; NaN where the truth has none.
     truth
         The person's body.
+    outfit
+        The class of what is worn, in words; empty for underwear.
+    labels
+        (h, w) the :class:`~tests.evaluation.scene.Label` of each pixel; None where they are not
+        known.
     """
 
     name: str
@@ -68,6 +73,8 @@ class TruePicture:
     light: Light | None
     joints: Float[np.ndarray, "p 3"]
     truth: TrueBody
+    outfit: str = ""
+    labels: Labels | None = None
 
 
 def told_request(picture: TruePicture, told: Told) -> FitRequest:

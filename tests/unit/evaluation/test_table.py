@@ -13,18 +13,19 @@ from tests.evaluation.table import MEASUREMENTS, case_lines, cue_lines, summary_
 from tests.evaluation.trunk_sections import LEVELS, TrunkSections
 
 
-def _scored(
+def scored_picture(
     cues: Cues,
     error: float,
     *,
     case: Case = DEMO,
+    person: str | None = None,
     bmi: float = 22.0,
     wrong_limbs: tuple[str, ...] = (),
 ) -> Scored:
     """Every figure errs alike; distances and depths in centimetres, breadths not at all."""
     return Scored(
         name=case.name,
-        person=case.person,
+        person=person or case.person,
         series=case.series,
         half=Half.TUNING,
         cues=cues,
@@ -48,8 +49,8 @@ def _scored(
 
 
 def test_the_summary_has_absolute_errors_and_their_bias_of_each_kind_of_fit():
-    scored = [_scored(Cues.SE, error) for error in (-3.0, 1.0, 5.0)]
-    scored += [_scored(Cues.SES, error) for error in (-1.0, 1.0, 4.0)]
+    scored = [scored_picture(Cues.SE, error) for error in (-3.0, 1.0, 5.0)]
+    scored += [scored_picture(Cues.SES, error) for error in (-1.0, 1.0, 4.0)]
     chest = next(line for line in summary_lines(scored) if line.startswith("chest"))
     mean_se, bias_se, median_se, _, width_se, *ses = map(float, chest.split()[2:])
     assert (mean_se, bias_se, median_se, width_se) == (3.0, 1.0, 3.0, 7.84)
@@ -57,7 +58,7 @@ def test_the_summary_has_absolute_errors_and_their_bias_of_each_kind_of_fit():
 
 
 def test_the_lines_of_cases_keep_the_errors_signs():
-    _, line = case_lines([_scored(Cues.SES, -2.5)])
+    _, line = case_lines([scored_picture(Cues.SES, -2.5)])
     assert line.count("-2.5") == len(MEASUREMENTS)
     assert "12.0" in line
 
@@ -67,7 +68,7 @@ def _line(scored: list[Scored], start: str) -> str:
 
 
 def test_intervals_hold_the_truth_within_their_standard_errors():
-    scored = [_scored(Cues.SE, error) for error in (-1.0, 1.9, 3.0, 5.0)]
+    scored = [scored_picture(Cues.SE, error) for error in (-1.0, 1.9, 3.0, 5.0)]
     assert "10/20  50%" in _line(scored, "truth in 68 %")
     assert "15/20  75%" in _line(scored, "truth in 95 %")
     assert "2/4  50%" in _line(scored, "  waist in 68 %")
@@ -77,7 +78,7 @@ def test_both_descriptions_of_the_light_stand_side_by_side():
     found = [
         InLight(
             surroundings=kind,
-            scored=_scored(Cues.SES, error),
+            scored=scored_picture(Cues.SES, error),
             figures=LightFigures(
                 unexplained=share,
                 unexplained_in_shadow=float("nan"),
@@ -103,7 +104,10 @@ def test_both_descriptions_of_the_light_stand_side_by_side():
 
 
 def test_a_fit_fails_by_a_limb_that_faces_the_wrong_way():
-    scored = [_scored(Cues.SES, 1.0), _scored(Cues.SES, 1.0, wrong_limbs=("left_forearm",))]
+    scored = [
+        scored_picture(Cues.SES, 1.0),
+        scored_picture(Cues.SES, 1.0, wrong_limbs=("left_forearm",)),
+    ]
     assert "1/2  50%" in _line(scored, "failures")
     assert [each.failed for each in scored] == [False, True]
     assert case_lines(scored)[2].endswith("left_forearm")
@@ -111,8 +115,8 @@ def test_a_fit_fails_by_a_limb_that_faces_the_wrong_way():
 
 def test_ses_is_compared_with_se_on_the_same_picture():
     other = next(case for case in CASES.values() if case is not DEMO)
-    scored = [_scored(Cues.SE, 3.0), _scored(Cues.SES, -1.0)]
-    scored += [_scored(Cues.SE, -2.0, case=other), _scored(Cues.SES, 6.0, case=other)]
+    scored = [scored_picture(Cues.SE, 3.0), scored_picture(Cues.SES, -1.0)]
+    scored += [scored_picture(Cues.SE, -2.0, case=other), scored_picture(Cues.SES, 6.0, case=other)]
     _, *lines = cue_lines(scored)
     assert len(lines) == len(MEASUREMENTS)
     assert all(line.split()[2:] == ["1/2", "50%", "+1.00", "worse"] for line in lines)
@@ -126,14 +130,18 @@ def test_people_are_told_apart_by_body_mass_index():
 
 
 def test_errors_are_summed_up_by_class_of_body_mass_index():
-    scored = [_scored(Cues.SES, 1.0), _scored(Cues.SES, -3.0), _scored(Cues.SES, 5.0, bmi=40.0)]
+    scored = [
+        scored_picture(Cues.SES, 1.0),
+        scored_picture(Cues.SES, -3.0),
+        scored_picture(Cues.SES, 5.0, bmi=40.0),
+    ]
     _, slim, heavy = bmi_lines(scored)
     assert slim.split()[:5] == ["18.5-25", "SES", "2", "2.00", "(-1.00)"]
     assert heavy.split()[:6] == [">=", "35", "SES", "1", "5.00", "(+5.00)"]
 
 
 def test_bias_stands_beside_the_absolute_error_of_trunk_and_distance():
-    scored = [_scored(Cues.SES, -3.0), _scored(Cues.SES, 1.0)]
+    scored = [scored_picture(Cues.SES, -3.0), scored_picture(Cues.SES, 1.0)]
     trunk = {line[:26].strip(): line[26:].split() for line in trunk_lines(scored)[1:]}
     assert trunk["SES depth bias"] == ["-1.00"] * len(LEVELS)
     assert trunk["SES depth mean absolute"] == ["2.00"] * len(LEVELS)
@@ -144,7 +152,7 @@ def test_bias_stands_beside_the_absolute_error_of_trunk_and_distance():
 
 
 def test_one_kind_of_fit_alone_can_be_summed_up():
-    assert all("nan" not in line for line in summary_lines([_scored(Cues.SE, 1.0)]))
+    assert all("nan" not in line for line in summary_lines([scored_picture(Cues.SE, 1.0)]))
 
 
 def test_a_mask_at_half_size_covers_the_same_share_at_full_size():
@@ -157,8 +165,8 @@ def test_a_mask_at_half_size_covers_the_same_share_at_full_size():
 
 
 def test_the_worst_fits_by_ses_are_named_worst_first():
-    scored = [_scored(Cues.SE, 9.0)]
-    scored += [_scored(Cues.SES, error) for error in (1.0, -6.0, 3.0)]
+    scored = [scored_picture(Cues.SE, 9.0)]
+    scored += [scored_picture(Cues.SES, error) for error in (1.0, -6.0, 3.0)]
     title, *lines = worst_lines(scored, count=2)
     assert title == "worst"
     assert ["-6.0" in lines[0], "+3.0" in lines[1], len(lines)] == [True, True, 2]

@@ -1,0 +1,47 @@
+from collections import Counter
+
+import numpy as np
+
+from tests.evaluation.dressed_people import DRESSED
+from tests.evaluation.outfits import Wardrobe, drawn_outfit
+from tests.evaluation.people_table import PEOPLE
+from tests.evaluation.scene import Half
+
+SKIN = (0.5, 0.3, 0.2)
+
+
+def test_nobody_is_dressed_twice():
+    assert set(Counter(each.person for each in DRESSED).values()) == {1}
+
+
+def test_the_tuning_half_is_dressed_and_wears_every_class():
+    worn = [each.outfit.name for each in DRESSED if PEOPLE[each.person].half is Half.TUNING]
+    assert len(worn) == 12
+    assert set(worn) == {kind.value for kind in Wardrobe}
+
+
+def test_an_outfit_is_drawn_again_from_its_seed_and_others_from_others():
+    first, again, other = (
+        drawn_outfit(Wardrobe.HOODIE, SKIN, np.random.default_rng(seed)) for seed in (1, 1, 2)
+    )
+    assert first == again != other
+
+
+def test_soles_are_one_to_three_centimetres_thick():
+    rng = np.random.default_rng(0)
+    soles = [drawn_outfit(Wardrobe.T_SHIRT, SKIN, rng).sole_m for _ in range(100)]
+    shod = [sole for sole in soles if sole > 0.0]
+    assert 60 < len(shod) < 95
+    assert 0.01 <= min(shod) < max(shod) <= 0.03
+
+
+def test_cloth_near_the_skins_colour_is_near_it_and_jackets_stand_off_farther_than_shirts():
+    rng = np.random.default_rng(0)
+    like_skin = drawn_outfit(Wardrobe.LIKE_SKIN, SKIN, rng).top
+    jacket = drawn_outfit(Wardrobe.JACKET, SKIN, rng)
+    assert like_skin is not None
+    assert jacket.top is not None
+    assert jacket.jacket is not None
+    np.testing.assert_allclose(like_skin.cloth.colour, SKIN, rtol=0.4)
+    assert jacket.jacket.cloth.ease_m > 2.0 * jacket.top.cloth.ease_m
+    assert jacket.jacket.clearance_m > jacket.top.clearance_m
