@@ -1,7 +1,7 @@
-"""Keys and browsers' tokens as a process knows them, so that a request costs no query.
+"""A process's cache of keys and browsers' tokens, so that a request costs no query.
 
-They are remembered for a few seconds. When keys were last used is written once a minute at most,
-and never while a request waits.
+Entries live for a few seconds. A key's last use is written at most once a minute, and no request
+waits for it.
 """
 
 import asyncio

@@ -1,7 +1,6 @@
 """The routes that all jobs have: fits, scans, and what is derived from either.
 
-They are listed, looked at, followed, cancelled, made again and erased; and what was asked for and
-what came of it can be read.
+List, show, follow, cancel, retry and erase jobs; read their requests and results.
 """
 
 from typing import Annotated, Any, Final

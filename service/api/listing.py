@@ -1,4 +1,4 @@
-"""Lists, a page at a time: where a page ends, as its caller brings it back, and the next one."""
+"""Pagination of lists: the cursor at which a page ends, and the page after it."""
 
 import re
 from collections.abc import Callable, Mapping, Sequence

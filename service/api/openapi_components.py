@@ -1,4 +1,4 @@
-"""What the OpenAPI document would say more than once: said once, in its components.
+"""Move what the OpenAPI document would repeat into its components.
 
 Written out everywhere, errors alone were two fifths of the document.
 """

@@ -1,8 +1,8 @@
-"""Whether the service can do its work, looked at once for all who ask at the same time.
+"""Readiness: whether the service can do its work, checked once for all concurrent probes.
 
-A database or a storage that is silent keeps a look for a minute and more. So looks are made in a
-thread of their own, one at a time, and whoever asks is answered all the same: probes take neither
-the threads that other requests are answered in, nor more than one connection.
+A check of a database or a storage that does not answer takes a minute or more. Checks therefore run
+one at a time in a thread of their own, and probes are answered meanwhile: they occupy neither the
+threads that answer other requests, nor more than one connection.
 """
 
 import asyncio

@@ -1,6 +1,7 @@
-"""What is refused whatever is asked for: unknown query parameters, and compressed bodies.
+"""Refuse unknown query parameters and compressed bodies, whatever the operation.
 
-What an operation has is read from the OpenAPI document, and only where there is something to check.
+The parameters of an operation are read from the OpenAPI document, and only if there are any to
+check.
 """
 
 from collections import Counter

@@ -1,4 +1,4 @@
-"""What a sandbox is asked to make of a job: by its label, as an input of the job."""
+"""The ending that a job of a sandbox asks for by its label, stored as an input of the job."""
 
 from typing import Final
 

@@ -1,7 +1,7 @@
-"""Tokens that browsers use in place of a key, for minutes, made by the site that embeds the page.
+"""Short-lived tokens that browsers use in place of a key, made by the site that embeds the page.
 
-A token is 256 random bits, as a key is, and only its SHA-256 is stored. It counts as long as its
-key is not revoked. What it has made stays when it has expired, and belongs to the tenant.
+A token is 256 random bits, as a key is, and only its SHA-256 is stored. It is valid until it
+expires or its key is revoked. Jobs made with it belong to the tenant and outlive it.
 """
 
 import secrets

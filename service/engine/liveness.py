@@ -2,9 +2,9 @@
 
 A worker increments its ``beat`` every few seconds. A watcher adds up, by its own monotonic clock,
 for how long it has looked and seen the number unchanged. Time in which it did not look does not
-count: while the database was unavailable nobody could beat, which must not make anybody dead. On
-the watcher's own machine the process table is consulted as well: a process that is gone is dead at
-once.
+count: while the database is unavailable no worker can beat, and none may be declared dead for it.
+On the watcher's own machine the process table is consulted as well: a process that is gone is dead
+at once.
 """
 
 import os

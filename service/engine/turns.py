@@ -1,4 +1,4 @@
-"""Whose job is begun next: owners take turns, and each owner's jobs are begun in their order.
+"""Fair queueing: owners take turns, and each owner's jobs are started in their order.
 
 An owner is a tenant, or a browser with one of its tokens. A job gets the number of its turn when it
 is accepted, and workers claim the jobs of the lowest number first. So all workers and both
