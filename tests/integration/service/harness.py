@@ -65,14 +65,19 @@ SHARED: Mapping[str, object] = {
 def eventually(
     condition: Callable[[], Any], *, within_s: float = PATIENCE_S, what: str = ""
 ) -> Any:
-    """Wait for a condition and return its value; fail when time is up."""
+    """Wait for a condition and return its value; fail when time is up.
+
+    Asked less and less often: what takes long is not to wait for who asks.
+    """
     deadline = time.monotonic() + within_s
+    pause_s = 0.02
     while True:
         value = condition()
         if value:
             return value
         assert time.monotonic() < deadline, f"not within {within_s} s: {what or condition}"
-        time.sleep(0.02)
+        time.sleep(pause_s)
+        pause_s = min(1.3 * pause_s, 0.2)
 
 
 def is_running(pid: int) -> bool:

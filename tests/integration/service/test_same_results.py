@@ -29,6 +29,8 @@ SETUP = ChildSetup(
 
 DERIVED_FROM = "11111111-1111-4111-8111-111111111111"
 
+KINDS = ("body_composition", "caricature", "pose", "animation")
+
 Job = tuple[str, bytes, dict[str, bytes]]
 """Kind, options and inputs."""
 
@@ -44,28 +46,43 @@ def fits() -> Sequence[Job]:
 
 
 @pytest.fixture(scope="module")
-def found(processes: ForkedProcesses, fits: Sequence[Job]) -> dict[str, bytes]:
-    """What is derived from: files of one of the fits."""
-    files = next(results(processes, fits))
-    return {name: files[name] for name in (PERSON, RESULT)}
+def alone(processes: ForkedProcesses, fits: Sequence[Job]) -> Sequence[dict[str, bytes]]:
+    """The files of the first fit and the last, each in a process of its own."""
+    return [next(results(processes, [each])) for each in (fits[0], fits[-1])]
+
+
+@pytest.fixture(scope="module")
+def derivations(alone: Sequence[dict[str, bytes]]) -> dict[str, Job]:
+    """What is derived from the first fit, by kind."""
+    found = {name: alone[0][name] for name in (PERSON, RESULT)}
+    return {kind: _derivation({"kind": kind}, found) for kind in KINDS}
+
+
+@pytest.fixture(scope="module")
+def after_others(
+    processes: ForkedProcesses, fits: Sequence[Job], derivations: dict[str, Job]
+) -> Sequence[dict[str, bytes]]:
+    """The files of jobs that one process runs; the first fit is its second, fourth and last."""
+    one, other, last = fits
+    return list(results(processes, [other, one, last, one, *derivations.values(), one]))
 
 
 def test_a_fit_is_the_same_in_a_process_that_has_run_others(
-    processes: ForkedProcesses, fits: Sequence[Job]
+    after_others: Sequence[dict[str, bytes]], alone: Sequence[dict[str, bytes]]
 ):
-    one, other, last = fits
-    alone = [next(results(processes, [each])) for each in (one, last)]
-    after_others = list(results(processes, [other, one, last, one]))
-    assert after_others[1] == after_others[3] == alone[0]
+    assert after_others[1] == after_others[3] == after_others[-1] == alone[0]
     assert after_others[2] == alone[1]
 
 
-@pytest.mark.parametrize("kind", ["body_composition", "caricature", "pose", "animation"])
+@pytest.mark.parametrize("kind", KINDS)
 def test_what_is_derived_from_a_fit_is_the_same_after_other_jobs(
-    processes: ForkedProcesses, fits: Sequence[Job], found: dict[str, bytes], kind: str
+    processes: ForkedProcesses,
+    derivations: dict[str, Job],
+    after_others: Sequence[dict[str, bytes]],
+    kind: str,
 ):
-    job = _derivation({"kind": kind}, found)
-    assert list(results(processes, [fits[1], job]))[1] == next(results(processes, [job]))
+    (derived,) = results(processes, [derivations[kind]])
+    assert after_others[4 + KINDS.index(kind)] == derived
 
 
 def results(processes: ForkedProcesses, jobs: Sequence[Job]) -> Iterator[dict[str, bytes]]:
