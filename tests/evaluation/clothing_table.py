@@ -72,7 +72,7 @@ def label_lines(unsaid: Sequence[DressedScore]) -> list[str]:
     for name in CLASSES:
         shares = [share for each in told if (share := each[name]) is not None]
         if shares:
-            mean = f"{np.mean(shares):.2f}{_plus_minus(shares, 2)}"
+            mean = f"{np.mean(shares):.2f}{plus_minus(shares, 2)}"
             lines.append(
                 f"{name:{WIDEST_CLASS}s}{len(shares):8d}{mean:>14s}  least {min(shares):.2f}"
             )
@@ -112,16 +112,16 @@ def _summary(title: str, scored: Sequence[Scored]) -> list[str]:
     held_by_person = [held(each, KEYS, DEVIATIONS) for each in scored]
     shares = [100.0 * float(np.mean(each)) for each in held_by_person]
     share = 100.0 * np.mean([yes for each in held_by_person for yes in each])
-    return [f"{line}{f'{share:.0f}{_plus_minus(shares, 0)} %':>14s}", widths]
+    return [f"{line}{f'{share:.0f}{plus_minus(shares, 0)} %':>14s}", widths]
 
 
 def _errors(errors: Sequence[float]) -> str:
     away, bias = np.abs(errors), np.array(errors)
-    mean = f"{away.mean():.1f}{_plus_minus(away, 1)}"
-    return f"{mean} ({bias.mean():+.1f}{_plus_minus(bias, 1)})"
+    mean = f"{away.mean():.1f}{plus_minus(away, 1)}"
+    return f"{mean} ({bias.mean():+.1f}{plus_minus(bias, 1)})"
 
 
-def _plus_minus(values: Sequence[float] | np.ndarray, places: int) -> str:
+def plus_minus(values: Sequence[float] | np.ndarray, places: int) -> str:
     """The standard error of a mean; nothing of one value."""
     if len(values) < 2:
         return ""

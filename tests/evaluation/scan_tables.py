@@ -5,6 +5,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from fitter.vocabulary.choices import Clothing
+from tests.evaluation.clothing_table import plus_minus
 from tests.evaluation.scans import Scanned, Views
 from tests.evaluation.table import INTERVALS, MEASUREMENTS
 
@@ -15,12 +16,13 @@ WIDTHS = 2.0 * INTERVALS[-1][1]
 
 
 def scan_lines(found: Sequence[Scanned]) -> list[str]:
-    """Mean absolute errors, in brackets their mean, by views, without the weight and with it.
+    """Mean absolute errors with their standard errors over people, in brackets their mean, by
+    views, without the weight and with it.
 
     Beside each the median width of its 95 % interval; then the share of truths in these intervals,
     of what was not given, the joints' mean distance and the overlap with the true body.
     """
-    columns = "".join(f"{f'{name} {unit}':>15s}{'width':>6s}" for name, _, unit in MEASUREMENTS)
+    columns = "".join(f"{f'{name} {unit}':>21s}{'width':>6s}" for name, _, unit in MEASUREMENTS)
     heading = f"{'views':24s}{'people':>7s}{columns}"
     lines = [f"{heading}{'95 % hold':>11s}{'joints mm':>11s}{'overlap':>9s}"]
     for name, these in _kinds(found):
@@ -29,7 +31,9 @@ def scan_lines(found: Sequence[Scanned]) -> list[str]:
         for _, key, _ in MEASUREMENTS:
             errors = np.array([each.errors[key] for each in these])
             known = [each for each in these if key in each.standard_errors]
-            line += f"{f'{np.abs(errors).mean():.2f} ({errors.mean():+.2f})':>15s}"
+            away = np.abs(errors)
+            spread = plus_minus(away, 2)
+            line += f"{f'{away.mean():.2f}{spread} ({errors.mean():+.2f})':>21s}"
             width = WIDTHS * np.median([each.standard_errors[key] for each in known] or [np.nan])
             line += f"{width:6.1f}" if known else f"{'-':>6s}"
             held += [

@@ -1,6 +1,9 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from fitter.vocabulary.choices import Clothing
 from tests.evaluation.foreign import FIRST_REPORTED
 from tests.evaluation.phone_cases import REPEATED
 from tests.evaluation.scan_tables import repeat_lines, scan_lines, worst_scan_lines
@@ -41,8 +44,8 @@ def _line(lines: list[str], beginning: str) -> list[str]:
 def test_views_sum_up_their_people():
     found = [_scanned("a", 1.0), _scanned("b", -2.0), _scanned("a", 4.0, views=Views.SIDE)]
     lines = scan_lines(found)
-    people, error, bias, width, *_, held, joints, overlap = _line(lines, "front + side")
-    assert [people, error, bias, width] == ["2", "1.50", "(-0.50)", "3.9"]
+    people, error, spread, bias, width, *_, held, joints, overlap = _line(lines, "front + side")
+    assert [people, error, spread, bias, width] == ["2", "1.50", "±0.50", "(-0.50)", "3.9"]
     assert [held, joints, overlap] == ["50%", "30.0", "0.950"]
     assert _line(lines, "side")[:3] == ["1", "4.00", "(+4.00)"]
     assert len(lines) == 3
@@ -53,6 +56,16 @@ def test_a_weight_that_was_given_has_no_interval_to_hold_it():
     line = _line(scan_lines([inside]), "front + side, weight")
     assert line.count("-") == 1
     assert line[-3] == "100%"
+
+
+def test_what_was_said_of_clothes_is_told_apart():
+    found = [
+        _scanned("a", 1.0),
+        replace(_scanned("a", 3.0), clothing=Clothing.TIGHT),
+    ]
+    lines = scan_lines(found)
+    assert _line(lines, "front + side")[1] == "1.00"
+    assert _line(lines, "front + side, said tight")[1] == "3.00"
 
 
 def test_the_worst_are_judged_from_front_and_side_without_the_weight():
