@@ -108,32 +108,21 @@ def look_under(look: Look, outfit: Outfit) -> Look:
 
 _RNG = np.random.default_rng(SEED)
 
-_EVERYBODY: tuple[Dressed, ...] = (
+DRESSED: tuple[Dressed, ...] = (
     *_BY_HAND,
     *(each for half in Half for each in _drawn(half, _RNG)),
 )
 
-_IN_PAIRS: tuple[str, ...] = tuple(
+IN_PAIRS: tuple[str, ...] = tuple(
     from_the_front[number]
     for half in Half
     for from_the_front in [
         [
             each.person
-            for each in _EVERYBODY
+            for each in DRESSED
             if PEOPLE[each.person].half is half and each.stance is not THREE_QUARTERS
         ]
     ]
     for number in sorted(_RNG.choice(len(from_the_front), PAIRS_OF_HALF, replace=False))
 )
-
-_BY_HAND_NAMES = frozenset(each.person for each in _BY_HAND)
-
-DRESSED: tuple[Dressed, ...] = tuple(
-    each
-    for each in _EVERYBODY
-    if each.person in _BY_HAND_NAMES or PEOPLE[each.person].half is Half.TUNING
-)
-"""Those whose pictures are made; of the reporting half, yet, those dressed by hand alone."""
-
-IN_PAIRS: tuple[str, ...] = ()
 """People who are shown from front and side in their clothes, drawn too."""

@@ -110,7 +110,8 @@ def repeated_pairs(half: Half | None) -> list[Pair]:
 
 def clothed_pairs(half: Half | None) -> list[Pair]:
     """The pairs of the people who are shown so in their clothes."""
-    pairs = [_pair(pair) for pair in CLOTHED_PAIRS.values()]
+    made = [pair for pair in CLOTHED_PAIRS.values() if pair.side.name in CASES]
+    pairs = [_pair(pair) for pair in made if pair.front.name in CASES]
     return [pair for pair in pairs if half in (None, pair.half)]
 
 
@@ -152,7 +153,7 @@ def _by_all_views(pair: Pair, pictures: Mapping[str, TruePicture], told: Told) -
 def _pair(pair: PhonePair) -> Pair:
     return Pair(
         person=pair.person,
-        series=CASES[pair.side.name].series,
+        series=pair.side.series,
         half=PEOPLE[pair.person].half,
         front=pair.front.name,
         side=pair.side.name,

@@ -2,22 +2,28 @@ from collections import Counter
 
 import numpy as np
 
-from tests.evaluation.dressed_people import DRESSED
+from tests.evaluation.dressed_people import DRESSED, IN_PAIRS, PAIRS_OF_HALF
 from tests.evaluation.outfits import Wardrobe, drawn_outfit
-from tests.evaluation.people_table import PEOPLE
+from tests.evaluation.people_table import PEOPLE, SITTERS
 from tests.evaluation.scene import Half
 
 SKIN = (0.5, 0.3, 0.2)
 
 
-def test_nobody_is_dressed_twice():
-    assert set(Counter(each.person for each in DRESSED).values()) == {1}
+def test_everybody_of_both_halves_is_dressed_once():
+    assert Counter(each.person for each in DRESSED) == dict.fromkeys(
+        (sitter.source.name for sitter in SITTERS), 1
+    )
 
 
-def test_the_tuning_half_is_dressed_and_wears_every_class():
-    worn = [each.outfit.name for each in DRESSED if PEOPLE[each.person].half is Half.TUNING]
-    assert len(worn) == 12
-    assert set(worn) == {kind.value for kind in Wardrobe}
+def test_either_half_wears_every_class_that_is_drawn_and_shirts_and_dresses():
+    for half in Half:
+        worn = {each.outfit.name for each in DRESSED if PEOPLE[each.person].half is half}
+        assert worn == {kind.value for kind in Wardrobe}
+
+
+def test_people_in_pairs_are_of_both_halves():
+    assert Counter(PEOPLE[person].half for person in IN_PAIRS) == dict.fromkeys(Half, PAIRS_OF_HALF)
 
 
 def test_an_outfit_is_drawn_again_from_its_seed_and_others_from_others():
