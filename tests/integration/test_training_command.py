@@ -14,6 +14,8 @@ from fitter.training.report import (
     civilian_figures,
     held_out_errors,
     measured_people,
+    raised_arm_figures,
+    refinement_effect,
     repeatability_figures,
     summary_figures,
 )
@@ -42,6 +44,8 @@ def _few_are_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(measured_people, "PEOPLE", 30)
     monkeypatch.setattr(articulation_figures, "POSES", 20)
     monkeypatch.setattr(articulation_figures, "COMPARED", 6)
+    monkeypatch.setattr(raised_arm_figures, "POSES", 4)
+    monkeypatch.setattr(refinement_effect, "RANDOM_BODIES", 1)
     fewer(repeatability_figures, "repeatability_figures", bodies=3)
     fewer(civilian_figures, "figures_of_civilians", count=500)
     monkeypatch.setattr(summary_figures, "TIMED_EVALUATIONS", 20)
