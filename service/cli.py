@@ -94,6 +94,24 @@ def _parser() -> argparse.ArgumentParser:
     add_check_arguments(check)
     check.set_defaults(command=_check)
 
+    validate = commands.add_parser(
+        "validate", help="say how far fits are off on people who were measured with a tape"
+    )
+    validate.add_argument(
+        "people",
+        type=Path,
+        metavar="TABLE",
+        help="CSV: a row for each fit (service/docs/validate.md)",
+    )
+    validate.add_argument(
+        "--output",
+        type=Path,
+        default=Path("maquette-validation"),
+        metavar="DIR",
+        help="default: %(default)s",
+    )
+    validate.set_defaults(command=_validate)
+
     demo = commands.add_parser("demo", help="start a service, fit the sample picture, show it all")
     demo.add_argument(
         "--output",
@@ -254,6 +272,13 @@ def _check(parsed: argparse.Namespace) -> int:
             ),
         )
     )
+
+
+def _validate(parsed: argparse.Namespace) -> int:
+    from service.commands.validate import validate
+    from service.startup.begin import read_settings
+
+    return validate(parsed.people, parsed.output, models=read_settings("validate").models_dir)
 
 
 def _given(parsed: argparse.Namespace, *names: str) -> dict[str, object]:

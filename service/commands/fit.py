@@ -89,13 +89,14 @@ def fit_locally(arguments: FitArguments, *, pipeline: str = PIPELINE) -> int:
 
 
 def _fit(console: Console, arguments: FitArguments, *, pipeline: str) -> PipelineOutput:
-    asked = parsed(FitRequest, _request(arguments), whole="request", called="what is asked for")
+    asked = parsed(FitRequest, fit_request(arguments), whole="request", called="what is asked for")
     mask = None if arguments.mask is None else arguments.mask.read_bytes()
     picture = SentPicture(arguments.image.read_bytes(), mask)
     return fitted(console, asked, [picture], models=arguments.models, pipeline=pipeline)
 
 
-def _request(arguments: FitArguments) -> bytes:
+def fit_request(arguments: FitArguments) -> bytes:
+    """The request that the arguments and the points file make together."""
     if arguments.points is None:
         return json.dumps({"points": AUTO} | dict(arguments.overrides)).encode()
     return request_from_file(arguments.points.read_text(), arguments.overrides)

@@ -51,12 +51,14 @@ def scan_locally(arguments: ScanArguments, *, pipeline: str = PIPELINE) -> int:
 
 
 def _scan(console: Console, arguments: ScanArguments, *, pipeline: str) -> PipelineOutput:
-    asked = parsed(ScanRequest, _request(arguments), whole="request", called="what is asked for")
+    asked = parsed(
+        ScanRequest, scan_request(arguments), whole="request", called="what is asked for"
+    )
     pictures = [SentPicture(path.read_bytes(), None) for path in arguments.images]
     return fitted(console, asked, pictures, models=arguments.models, pipeline=pipeline)
 
 
-def _request(arguments: ScanArguments) -> bytes:
+def scan_request(arguments: ScanArguments) -> bytes:
     """The request that the arguments and the points files make together."""
     pictures = range(len(arguments.images))
     said = [_said_of(arguments.points, number) for number in pictures]

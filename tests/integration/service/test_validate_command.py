@@ -1,0 +1,114 @@
+"""``maquette validate`` with the fake pipeline: from a table to a report."""
+
+import csv
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from service.cli import main
+from service.commands.validate import PAIRS, REPORT, validate
+from service.engine.port import Report
+from service.worker.pipeline_port import PipelineInput, PipelineOutput
+from tests.integration.service import fake_pipeline
+from tests.integration.service.fake_pipeline import scripted_image
+
+FOUND = 92.0
+COLUMNS = (
+    "person,gender,height_cm,picture,side_picture,waist_girth_navel,waist_girth_navel_2,weight"
+)
+
+
+def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput:
+    """The fake pipeline, with a measurement that people have a tape for."""
+    output = fake_pipeline.run(job, observe)
+    (measured, *_) = output.result.measurements
+    waist = measured.model_copy(
+        update={"name": "waist_girth_navel", "value": FOUND, "standard_error": 2.0}
+    )
+    return replace(output, result=output.result.model_copy(update={"measurements": (waist,)}))
+
+
+def table(folder: Path, *rows: str, columns: str = COLUMNS) -> Path:
+    for name in ("a.png", "b.png", "side.png"):
+        (folder / name).write_bytes(scripted_image())
+    (folder / "spoilt.png").write_bytes(scripted_image({"unusable": True}))
+    file = folder / "people.csv"
+    file.write_text("\n".join((columns, *rows)) + "\n")
+    return file
+
+
+def cells(folder: Path, measurement: str) -> list[str]:
+    lines = (folder / REPORT).read_text().splitlines()
+    (row,) = (line for line in lines if line.startswith(f"| {measurement},"))
+    return [each.strip() for each in row.strip("|").split("|")]
+
+
+def test_people_and_tapes_become_a_report(tmp_path, capsys):
+    tapes = FOUND - 2.0, FOUND + 3.0
+    file = table(
+        tmp_path,
+        f"one,female,165,a.png,,{tapes[0]},,60",
+        f"one,female,165,b.png,,{tapes[0]},,60",
+        f"two,male,180,a.png,side.png,{tapes[1] - 0.5},{tapes[1] + 0.5},80",
+    )
+    assert validate(file, tmp_path / "out", pipeline=__name__) == 0
+    _, people, fits, mean_absolute, bias, *rest = cells(tmp_path / "out", "waist_girth_navel")
+    assert (people, fits) == ("2", "3")
+    assert mean_absolute.startswith("2.5 (2.0 to 3.0)")
+    assert bias.startswith("-0.5 (-3.0 to +2.0)")
+    repeatability, tape = rest[2:4]
+    assert (repeatability, tape) == ("0.0", "0.7")
+    by_height, by_both = (float(each.split()[0]) for each in rest[4:])
+    assert by_height > 0.0
+    assert by_both > 0.0
+    assert "waist_girth_navel" in capsys.readouterr().out
+    with (tmp_path / "out" / PAIRS).open(newline="") as lines:
+        rows = [row for row in csv.DictReader(lines) if row["measurement"] == "waist_girth_navel"]
+    assert [float(row["found"]) for row in rows] == [FOUND] * 3
+
+
+def test_a_picture_that_cannot_be_used_is_named_and_the_others_count(tmp_path):
+    file = table(tmp_path, "one,female,165,a.png,,70,,", "two,male,180,spoilt.png,,90,,")
+    assert validate(file, tmp_path / "out", pipeline=__name__) == 0
+    report = (tmp_path / "out" / REPORT).read_text()
+    assert "1 of 2 fits of 2 people gave measurements." in report
+    assert "row 3, two: " in report
+    assert cells(tmp_path / "out", "waist_girth_navel")[1] == "1"
+
+
+@pytest.mark.parametrize(
+    ("columns", "row", "told"),
+    [
+        ("person,gender,picture", "one,female,a.png", "no column 'height_cm'"),
+        (f"{COLUMNS},bust_girth", "one,female,165,a.png,,,,,90", "chest_girth"),
+        (COLUMNS, "one,female,165,nowhere.png,,70,,", "nowhere.png"),
+        (COLUMNS, "one,woman,165,a.png,,70,,", "Use one of female, male"),
+        (COLUMNS, "one,female,165 cm,a.png,,70,,", "Row 2: height_cm is '165 cm'"),
+        (COLUMNS, "one,female,,a.png,,70,,", "Row 2 has no height_cm"),
+        (COLUMNS, "", "The file has no row"),
+    ],
+    ids=["column", "measurement", "file", "gender", "unit", "empty", "no rows"],
+)
+def test_what_is_wrong_with_a_table_is_told_before_a_fit_is_made(
+    tmp_path, capsys, columns, row, told
+):
+    rows = (row,) if row else ()
+    assert (
+        validate(table(tmp_path, *rows, columns=columns), tmp_path / "out", pipeline=__name__) == 2
+    )
+    assert told in " ".join(capsys.readouterr().out.split())
+    assert not (tmp_path / "out").exists()
+
+
+def test_the_command_hands_over_the_table_and_the_folder(monkeypatch, tmp_path):
+    asked: list[object] = []
+    monkeypatch.setattr(
+        "service.commands.validate.validate",
+        lambda file, output, *, models: asked.append((file, output, models)) or 0,
+    )
+    with pytest.raises(SystemExit) as ended:
+        main(["validate", "people.csv", "--output", str(tmp_path)])
+    assert ended.value.code == 0
+    assert asked == [(Path("people.csv"), tmp_path, None)]
