@@ -12,7 +12,7 @@ from playwright.sync_api import Browser, sync_playwright
 
 from fitter.training.report.text_tables import note_lines, table_lines
 from tests.benchmarks.spent import late, median
-from tests.e2e.page.browser import chromium
+from tests.e2e.page.browser import WHOLE, chromium
 from tests.e2e.page.visitor import LIMBS, Visitor
 from tests.e2e.service import running_service, wait_for_estimator
 
@@ -45,7 +45,7 @@ def lines(count: int) -> Iterator[str]:
         tempfile.TemporaryDirectory(prefix="maquette-benchmark-") as folder,
         running_service(Path(folder)) as client,
         sync_playwright() as playwright,
-        chromium(playwright) as browser,
+        chromium(playwright, programs=WHOLE) as browser,
     ):
         wait_for_estimator(client)
         visits = [_visit(browser, str(client.base_url)) for _ in range(count + 1)][1:]

@@ -18,7 +18,7 @@ from service.demo_data import sample
 from service.engine.database import open_database
 from service.engine.tables import BROWSER_TOKENS
 from tests.e2e.page.embedding import Site, documented, documented_token_maker, serving
-from tests.e2e.page.visitor import DESK, GIVEN_UP_AFTER_MS, VIOLATIONS
+from tests.e2e.page.visitor import DESK, GIVEN_UP_AFTER_MS, SETTLED, VIOLATIONS
 from tests.e2e.service import READY_WITHIN_S, REPOSITORY, running_service, wait_for_estimator
 
 DATA = Path(sample.__file__).parent
@@ -95,7 +95,7 @@ def at(
     browser: Browser, address: str, device: dict[str, Any] = DESK, **options: Any
 ) -> Iterator[Page]:
     """Somebody at a page of the site; at the end nothing may have gone wrong."""
-    context = browser.new_context(**device, **options)
+    context = browser.new_context(**(SETTLED | device | options))
     context.set_default_timeout(GIVEN_UP_AFTER_MS)
     context.add_init_script(VIOLATIONS)
     page = context.new_page()

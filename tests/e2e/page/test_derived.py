@@ -83,6 +83,7 @@ def test_an_animation_plays_until_it_is_held_still(
     looking: Visitor, service: httpx.Client, bare_fit: str
 ):
     page = looking.page
+    page.emulate_media(reduced_motion="no-preference")
     looking.choose("Animation")
     page.get_by_label("Choose a BVH file").set_input_files(
         {"name": "dance.bvh", "mimeType": "text/plain", "buffer": b"no motion"}

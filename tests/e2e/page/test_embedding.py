@@ -51,7 +51,7 @@ WAIST = re.compile(r"^Waist: \d+\.\d cm$")
 def test_measurements_of_pictures_that_the_site_gave_arrive_there(
     browser: Browser, embedding: Embedding, axe: str, of: str, device: dict, scheme: str
 ):
-    settled = {"color_scheme": scheme, "reduced_motion": "reduce"}
+    settled = {"color_scheme": scheme}
     address = getattr(embedding, of).origin + "/"
     with at(browser, address, device, **settled) as page:
         frame = begin(page)

@@ -38,7 +38,7 @@ def serious_findings(page: Page | Frame, axe: str) -> list[str]:
 def test_axe_finds_nothing_serious_from_start_to_result(
     browser: Browser, service: httpx.Client, axe: str, scheme: str, bare_fit: str
 ):
-    settled = {"color_scheme": scheme, "reduced_motion": "reduce"}
+    settled = {"color_scheme": scheme}
     with Visitor.at(browser, str(service.base_url), **settled) as visitor:
         page = visitor.page
         expect(page.locator("html")).to_have_attribute("data-theme", scheme)

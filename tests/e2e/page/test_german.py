@@ -71,7 +71,7 @@ def open_folds(page: Page) -> None:
 def test_from_a_sample_to_a_result_there_is_no_english(
     browser: Browser, service: httpx.Client, axe: str, device: dict
 ):
-    german = {"locale": "de-DE", "reduced_motion": "reduce"}
+    german = {"locale": "de-DE"}
     with Visitor.at(browser, str(service.base_url), device, **german) as visitor:
         page = visitor.page
 

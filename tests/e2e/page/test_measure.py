@@ -28,7 +28,7 @@ def no_wider_than_the_phone(page: Page) -> bool:
 def test_the_sample_pair_is_measured_in_three_taps(
     browser: Browser, service: httpx.Client, axe: str, scheme: str
 ):
-    settled = PHONE | {"color_scheme": scheme, "reduced_motion": "reduce"}
+    settled = PHONE | {"color_scheme": scheme}
     with Visitor.at(browser, str(service.base_url), settled) as visitor:
         page = visitor.page
         page.get_by_role("link", name="Measure", exact=True).tap()

@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import Browser, Locator, Page, Playwright, expect
 
 from service.demo_data import sample
-from tests.e2e.page.browser import chromium
+from tests.e2e.page.browser import WHOLE, chromium
 from tests.e2e.page.cameras import HeldPhone, camera_flags, permit, write_film
 from tests.e2e.page.visitor import PHONE, Visitor
 
@@ -21,7 +21,7 @@ def filming(playwright: Playwright, tmp_path_factory: pytest.TempPathFactory) ->
     """A browser before whose camera somebody stands, seen from the side."""
     film = tmp_path_factory.mktemp("film") / "side.mjpeg"
     write_film(film, DATA / "scan_side.jpg")
-    with chromium(playwright, *camera_flags(film)) as running:
+    with chromium(playwright, *camera_flags(film), programs=WHOLE) as running:
         yield running
 
 

@@ -64,8 +64,7 @@ def test_a_browser_that_opened_a_scan_by_its_link_knows_it(visitor: Visitor, sca
 def test_size_and_report_are_made_of_a_scan(
     browser: Browser, service: httpx.Client, axe: str, scan: dict
 ):
-    settled = PHONE | {"reduced_motion": "reduce"}
-    with Visitor.at(browser, str(service.base_url), settled) as visitor:
+    with Visitor.at(browser, str(service.base_url), PHONE) as visitor:
         page = visitor.page
         open_scan(visitor, scan)
         page.get_by_role("button", name="Make the report").tap()

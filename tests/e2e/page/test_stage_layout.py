@@ -152,7 +152,7 @@ def test_what_each_point_is_can_be_read_whole_above_the_picture(
 def test_axe_finds_nothing_serious_in_a_full_screen(
     browser: Browser, service: httpx.Client, axe: str, scheme: str
 ):
-    settled = {"color_scheme": scheme, "reduced_motion": "reduce"}
+    settled = {"color_scheme": scheme}
     with Visitor.at(browser, str(service.base_url), PHONE, **settled) as visitor:
         page = visitor.page
         visitor.open_sample()

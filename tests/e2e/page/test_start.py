@@ -50,6 +50,7 @@ def test_the_figures_are_a_link_away(browser: Browser, service: httpx.Client, ax
 
 def test_the_body_turns_and_can_be_held(visitor: Visitor):
     page = visitor.page
+    page.emulate_media(reduced_motion="no-preference")
     strip = page.locator(".turning-strip")
     first = strip.evaluate(MOVED)
     page.wait_for_function(
@@ -62,11 +63,11 @@ def test_the_body_turns_and_can_be_held(visitor: Visitor):
     expect(strip).to_have_css("animation-play-state", "running")
 
 
-def test_whoever_wants_little_motion_sees_it_stand(browser: Browser, service: httpx.Client):
-    with Visitor.at(browser, str(service.base_url), reduced_motion="reduce") as visitor:
-        page = visitor.page
-        expect(page.locator(".turning-strip")).to_have_css("animation-name", "none")
-        expect(page.get_by_role("button", name="Hold still")).to_be_hidden()
+def test_whoever_wants_little_motion_sees_it_stand(visitor: Visitor):
+    page = visitor.page
+    page.emulate_media(reduced_motion="reduce")
+    expect(page.locator(".turning-strip")).to_have_css("animation-name", "none")
+    expect(page.get_by_role("button", name="Hold still")).to_be_hidden()
 
 
 def test_without_an_answer_no_time_is_named(visitor: Visitor):

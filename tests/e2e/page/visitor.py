@@ -22,6 +22,9 @@ PHONE = {
     "has_touch": True,
     "is_mobile": True,
 }
+SETTLED = {"reduced_motion": "reduce"}
+"""What moves without end is drawn without end, in software: only its own tests let it."""
+
 SAMPLE_SIZE = (720, 960)
 STAGE_MARGIN = 16
 GIVEN_UP_AFTER_MS = 180_000
@@ -82,7 +85,7 @@ class Visitor:
         cls, browser: Browser, address: str, device: dict[str, Any] = DESK, **options: Any
     ) -> Iterator["Visitor"]:
         """Open the page in a profile of its own; at the end nothing may have gone wrong."""
-        context = browser.new_context(**device, **options)
+        context = browser.new_context(**(SETTLED | device | options))
         context.set_default_timeout(GIVEN_UP_AFTER_MS)
         context.add_init_script(VIOLATIONS)
         someone = cls(context.new_page(), address.rstrip("/"))
