@@ -189,8 +189,8 @@ class FitChoices(PictureChoices, PictureFacts, PersonChoices):
         exclude_if=lambda view: view is None,
         description=(
             "From where the picture shows the person, if it was taken to be measured: who is so "
-            "pictured stands upright and still, and `findings` of the result say what is wrong "
-            "with the picture. Nothing is presumed of other pictures, where it is left out."
+            "pictured stands upright and still. Nothing is presumed of other pictures, where "
+            "it is left out."
         ),
     )
 

@@ -249,7 +249,7 @@ class ViewResult(PictureResult):
     stance: StanceResult | None
     limb_facing: tuple[LimbFacing, ...]
     findings: tuple[Finding, ...] = Field(
-        description="What `POST /v1/checks` says of the picture; it was measured all the same."
+        description="As of `POST /v1/checks`; what `blocks` withholds the measurements."
     )
     clothing: tuple[WornRegion, ...] = Field(
         default=(),
@@ -300,7 +300,7 @@ class FitResult(ViewResult, PersonResult):
     findings: tuple[Finding, ...] = Field(
         default=(),
         exclude_if=lambda findings: not findings,
-        description="What `POST /v1/checks` says of a picture whose `view` was said; it was "
-        "measured all the same.",
+        description="As of `POST /v1/checks`; what `blocks` withholds the measurements, what "
+        "`harms` widens those that it harms. `contradicted`: no person was measured.",
     )
     stages: tuple[Stage, ...]

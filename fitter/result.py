@@ -14,7 +14,7 @@ from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera
 from fitter.segmentation.trimap import Trimap
 from fitter.vocabulary.choices import Cues, Facing, OptimizerKind, ViewKind
-from fitter.vocabulary.outcomes import FacingSource, FocalLengthSource, Outcome, Verdict
+from fitter.vocabulary.outcomes import FacingSource, FocalLengthSource, Outcome, Severity, Verdict
 
 OUTCOME_EXPLANATIONS: Mapping[Outcome, str] = {
     Outcome.CONVERGED: "The energy stopped decreasing.",
@@ -30,14 +30,8 @@ OUTCOME_EXPLANATIONS: Mapping[Outcome, str] = {
 
 
 VERDICT_EXPLANATIONS: Mapping[Verdict, str] = {
-    Verdict.IMPLAUSIBLE: (
-        "A body was fitted, but the picture contradicts it. See whether the points are on the "
-        "right joints of one person, and whether a mask that was sent shows this person alone."
-    ),
-    Verdict.NO_PERSON: (
-        "The picture shows no person where the points are. Click the joints of a person, or send "
-        "another picture."
-    ),
+    Verdict.IMPLAUSIBLE: "A body was fitted, but this picture cannot be measured.",
+    Verdict.NO_PERSON: "The picture shows no person where the points are.",
 }
 
 
@@ -82,9 +76,9 @@ class Pictures:
 class PictureFit:
     """The person as found in one picture.
 
-    ``posed_vertices`` lie in the camera frame, metres. ``contradictions`` says in sentences what
-    in the picture contradicts a person; empty where the verdict is that it is plausible.
-    ``clothing`` is how each region is covered; empty where it was said that all clothes are tight.
+    ``posed_vertices`` lie in the camera frame, metres. ``findings`` is what is wrong with the
+    picture; where one blocks, the verdict is not that it is plausible. ``clothing`` is how each
+    region is covered; empty where it was said that all clothes are tight.
     """
 
     person: FittedPerson
@@ -94,7 +88,7 @@ class PictureFit:
     posed_vertices: Vertices
     silhouette_overlap: float
     verdict: Verdict = Verdict.PLAUSIBLE
-    contradictions: tuple[str, ...] = ()
+    findings: tuple[Finding, ...] = ()
     clothing: tuple[WornRegion, ...] = ()
 
     @property
@@ -104,10 +98,12 @@ class PictureFit:
 
     @property
     def outcome_explanation(self) -> str:
-        """What the outcome means; if a person is contradicted, what to do and by what."""
+        """What the outcome means; where nothing is measured, by which findings, and what to do."""
         if self.is_plausible:
             return OUTCOME_EXPLANATIONS[self.outcome]
-        return " ".join((VERDICT_EXPLANATIONS[self.verdict], *self.contradictions))
+        blocking = [each for each in self.findings if each.severity is Severity.BLOCKS]
+        said = [f"{each.code.value}: {each.reason} {each.remedy}" for each in blocking]
+        return " ".join((VERDICT_EXPLANATIONS[self.verdict], *said))
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -124,8 +120,6 @@ class FittedView:
         Of the working picture.
     limb_facing
         How each limb's depth ambiguity was resolved; empty where the search began with a body.
-    findings
-        What is wrong with a picture that was taken to be measured; empty where ``kind`` is None.
     assumptions, warnings
         What was assumed of this picture, and what to look at in it.
     """
@@ -135,10 +129,14 @@ class FittedView:
     camera: Camera
     focal_length_source: FocalLengthSource
     limb_facing: tuple[LimbFacing, ...]
-    findings: tuple[Finding, ...]
     assumptions: tuple[Assumption, ...]
     warnings: tuple[FitWarning, ...]
     pictures: Pictures
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """What is wrong with the picture, what blocks first."""
+        return self.found.findings
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -175,7 +173,8 @@ class FitResult:
     canonical_vertices, triangles
         The body in the canonical pose, body frame, metres; the triangles of its vertices.
     measurements
-        Empty where a picture contradicts that it shows a person and the request does not insist.
+        Empty where a finding of a picture blocks and the request does not insist; with wider
+        standard errors where findings harm.
     given
         Names of the measurements the request gave, its height as stature.
     energies

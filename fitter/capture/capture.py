@@ -10,7 +10,7 @@ from jaxtyping import Float, UInt8
 
 from fitter.arrays import Mask
 from fitter.capture.finding import Box
-from fitter.capture.joints import Joints, joints_of, middle, stature_px
+from fitter.capture.joints import Directions, Joints, joints_of, middle, stature_px
 from fitter.detection.detector import DetectedBody
 from fitter.observation.worn import WornRegion
 from fitter.request import Click
@@ -61,6 +61,8 @@ class Capture:
         Given or assumed.
     clothing
         How each region in sight is covered; None where it cannot be told.
+    directions
+        How trunk and limbs of a fitted body lie; None before a fit.
     """
 
     picture: UInt8[np.ndarray, "h w 3"]
@@ -75,6 +77,7 @@ class Capture:
     focal_length_px: float | None
     height_m: float
     clothing: tuple[WornRegion, ...] | None = None
+    directions: Directions | None = None
 
     @property
     def shows_somebody(self) -> bool:

@@ -11,6 +11,8 @@ from fitter.capture.exposure import brightness, darkness
 from fitter.capture.finding import Box, Code, Finding, Remark, Unchecked
 from fitter.capture.framing import picture_size, size, wholeness
 from fitter.capture.people import nobody_else, somebody
+from fitter.capture.posture import posture
+from fitter.capture.proportions import proportions
 from fitter.capture.sharpness import sharpness
 from fitter.capture.turning import announced_view, facing, seen_from
 from fitter.vocabulary.outcomes import SeenFrom, Severity
@@ -31,6 +33,8 @@ CHECKS_OF_PERSON: tuple[Check, ...] = (
     announced_view,
     arms,
     clothes,
+    posture,
+    proportions,
     roll,
     distance,
 )
@@ -41,6 +45,8 @@ CODES_OF_PERSON = (
     Code.PERSON_TOO_SMALL,
     Code.ARMS_AGAINST_TRUNK,
     Code.CLOTHES_LOOSE,
+    Code.NOT_STANDING,
+    Code.CHILD,
     Code.CAMERA_ROLLED,
     Code.CAMERA_TOO_NEAR,
 )

@@ -9,7 +9,7 @@ from fitter.vocabulary.outcomes import Severity
 
 _WORDS: Final = {
     BodyRegion.UPPER: "the upper body",
-    BodyRegion.LOWER: "seat and thighs",
+    BodyRegion.LOWER: "the thighs",
     BodyRegion.LEGS: "the lower legs",
 }
 """Regions whose girths are measured; sleeves and shoes hide little."""
@@ -43,7 +43,7 @@ def clothes(capture: Capture) -> Remark | None:
         severity=Severity.HARMS,
         reason=(
             f"Loose clothes cover {regions}, with a probability of "
-            f"{100.0 * min(loose.values()):.0f} %: the body under them can only be estimated."
+            f"{100.0 * min(loose.values()):.0f} %: the body under them is estimated."
         ),
         remedy="Have close-fitting clothes worn, or send the weight with the fit.",
         points=tuple(

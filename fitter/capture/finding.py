@@ -10,7 +10,10 @@ Box = tuple[float, float, float, float]
 
 
 class Code(StrEnum):
-    """What may be found. Where proposals of points warn of the same, they use the same code."""
+    """What may be found; ``CONTRADICTED``, that no person was measured, by a fit alone.
+
+    Where proposals of points warn of the same, they use the same code.
+    """
 
     NOBODY_FOUND = "nobody-found"
     SEVERAL_PEOPLE = "several-people"
@@ -20,11 +23,14 @@ class Code(StrEnum):
     OTHER_VIEW = "other-view"
     ARMS_AGAINST_TRUNK = "arms-against-trunk"
     CLOTHES_LOOSE = "clothes-loose"
+    NOT_STANDING = "not-standing"
+    CHILD = "child"
     BLURRED = "blurred"
     TOO_DARK = "too-dark"
     TOO_BRIGHT = "too-bright"
     CAMERA_ROLLED = "camera-rolled"
     CAMERA_TOO_NEAR = "camera-too-near"
+    CONTRADICTED = "contradicted"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

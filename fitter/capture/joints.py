@@ -11,6 +11,10 @@ from fitter.request import Click
 Joints = Mapping[str, Float[np.ndarray, "2"]]
 """Places by the points' names, continuous pixels."""
 
+Directions = Mapping[str, Float[np.ndarray, "3"]]
+"""Unit vectors in camera axes (x right, y down, z along the view): ``trunk`` from hips to
+shoulders, ``left_thigh`` and so on from their near ends."""
+
 RADIUS_OF_STATURE = 0.54
 """Radius of the circle around a person, as a share of their stature."""
 

@@ -5,18 +5,20 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from fitter.arrays import Image
+from fitter.arrays import Image, Points3D
 from fitter.capture.capture import Capture
 from fitter.capture.checking import Checked, check_capture
+from fitter.capture.joints import Directions
 from fitter.detection.detector import DetectedBody, Detector, body_of_clicks
+from fitter.energies.objective import Candidate
 from fitter.fits.clothing import FACE_CLICKS, LEAST_PIXELS_PER_METRE, clothing_seen
+from fitter.fits.outlined import Outlined
 from fitter.fits.proposal import chosen_person
 from fitter.observation.clicks import check_places
 from fitter.observation.colour import bytes_of_display
 from fitter.observation.completion import scaled_clicks
 from fitter.observation.decoding import DecodedPicture, decode_picture
 from fitter.observation.focal_length import focal_length
-from fitter.observation.observation import Observation
 from fitter.observation.resampling import (
     display_working_picture,
     linear_working_picture,
@@ -25,7 +27,7 @@ from fitter.observation.resampling import (
 from fitter.observation.subject import MEAN_HEIGHT_M, check_height
 from fitter.observation.worn import WornRegion
 from fitter.remarks import Assumption, FitWarning
-from fitter.request import Click, Person, View
+from fitter.request import Click
 from fitter.segmentation.bone_parts import PART_NAMES, bone_parts, part_joints
 from fitter.segmentation.skin_colour import PersonRegions
 from fitter.vocabulary.choices import Gender, ViewKind
@@ -136,26 +138,56 @@ def capture_of(
     return replace(capture, clothing=_clothing(capture, linear_rgb, question.gender))
 
 
-def capture_of_view(
-    observation: Observation, view: View, person: Person, clothing: tuple[WornRegion, ...]
+def capture_of_fit(
+    picture: Outlined, height_m: float, body: Candidate, clothing: tuple[WornRegion, ...]
 ) -> Capture:
-    """What there is to check of a picture that was fitted, and of clothes as the fit saw them."""
-    known = observation.focal_length_source is not FocalLengthSource.ASSUMED
+    """What there is to check of a picture that was fitted: what the fit has of it anyway.
+
+    Parameters
+    ----------
+    body
+        As it was found in the picture.
+    clothing
+        How the fit saw the clothes.
+    """
+    observation, view = picture.observation, picture.view
     points = scaled_clicks(view.clicks, observation.scale)
+    meant = _meant(observation.bodies or (), None, points)
+    known = observation.focal_length_source is not FocalLengthSource.ASSUMED
     return Capture(
         picture=bytes_of_display(observation.display),
         width=observation.image_camera.width,
         height=observation.image_camera.height,
         scale=observation.scale,
-        bodies=observation.bodies,
-        body=_meant(observation.bodies or (), None, points),
-        points=points,
+        # Whether somebody is there although no detector says so, the fit judges by itself.
+        bodies=None if meant is None else observation.bodies,
+        body=meant,
+        points=observation.clicks,
         is_chosen=bool(points),
         view=view.kind,
         focal_length_px=observation.camera.focal_length_px if known else None,
-        height_m=_height_m(person),
+        height_m=height_m,
         clothing=clothing,
+        directions=directions_of(body.joints, picture.objective.operators.model.part_names),
     )
+
+
+def directions_of(joints: Points3D, part_names: Sequence[str]) -> Directions:
+    """How trunk, thighs and shins of a body lie; its joints (p, 3) in the camera frame, by part."""
+    at = dict(zip(part_names, joints, strict=True))
+    ends = {
+        f"{side}_{limb}": (at[f"{side}_{limb}"], at[f"{side}_{following}"])
+        for side in ("left", "right")
+        for limb, following in (("thigh", "shin"), ("shin", "foot"))
+    }
+    ends["trunk"] = (
+        at["left_thigh"] + at["right_thigh"],
+        at["left_upper_arm"] + at["right_upper_arm"],
+    )
+    return {
+        name: (end - start) / max(float(np.linalg.norm(end - start)), 1e-9)
+        for name, (start, end) in ends.items()
+    }
 
 
 def _clothing(
@@ -198,7 +230,7 @@ def _meant(
     return None if chosen is None else bodies[chosen]
 
 
-def _height_m(question: CaptureQuestion | Person) -> float:
+def _height_m(question: CaptureQuestion) -> float:
     if question.height_m is not None:
         return question.height_m
     return ASSUMED_HEIGHT_M if question.gender is None else MEAN_HEIGHT_M[question.gender]

@@ -8,9 +8,10 @@ careless clicks: a circle that is measured is laughed about, a person who is ref
 from dataclasses import dataclass
 from typing import Final
 
+from fitter.capture.finding import Code, Finding
 from fitter.fits.plausibility import Plausibility
 from fitter.fits.reporting import POOR_OVERLAP
-from fitter.vocabulary.outcomes import Verdict
+from fitter.vocabulary.outcomes import Severity, Verdict
 
 BAD_OVERLAP: Final = 0.78
 ELSEWHERE_OVERLAP: Final = 0.3
@@ -33,12 +34,21 @@ more, that of a person seen as badly at most 11. An animal's joints are 2.2 stan
 a body of 34 nats; an athlete's body costs 26, with points that are off by 1.0."""
 
 
+_REMEDIES: Final = {
+    Verdict.IMPLAUSIBLE: (
+        "See whether the points are on the right joints of one person, and whether a mask that was "
+        "sent shows this person alone."
+    ),
+    Verdict.NO_PERSON: "Click the joints of a person, or send another picture.",
+}
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Contradiction:
-    """The verdict on a fit, and what contradicts a person."""
+    """The verdict on a fit, and what contradicts a person: nothing, or one finding that blocks."""
 
     verdict: Verdict = Verdict.PLAUSIBLE
-    sentences: tuple[str, ...] = ()
+    findings: tuple[Finding, ...] = ()
 
 
 def contradiction(found: Plausibility) -> Contradiction:
@@ -67,10 +77,14 @@ def contradiction(found: Plausibility) -> Contradiction:
         "person's lie within about one.": is_no_body or is_muddled,
         "The points ask for a pose or a shape that people hardly have.": is_no_body,
     }
-    return Contradiction(
-        verdict=Verdict.NO_PERSON if nobody else Verdict.IMPLAUSIBLE,
-        sentences=tuple(sentence for sentence, holds in said.items() if holds),
+    verdict = Verdict.NO_PERSON if nobody else Verdict.IMPLAUSIBLE
+    finding = Finding(
+        code=Code.CONTRADICTED,
+        severity=Severity.BLOCKS,
+        reason=" ".join(sentence for sentence, holds in said.items() if holds),
+        remedy=_REMEDIES[verdict],
     )
+    return Contradiction(verdict=verdict, findings=(finding,))
 
 
 def _least_boundary(found: Plausibility) -> float:

@@ -4,13 +4,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
 
-from fitter.capture.checking import check_capture
-from fitter.capture.finding import Finding
+from fitter.arrays import Shape
+from fitter.capture.finding import Code
 from fitter.energies.joint_objective import JointCandidate
 from fitter.errors import InvalidInputError
-from fitter.fits.capture_check import capture_of_view
 from fitter.fits.equipment import Equipment
 from fitter.fits.foretold import foretold
+from fitter.fits.harm import widened
 from fitter.fits.outlined import Outlined, Subject, outlined
 from fitter.fits.picture_objective import of_person
 from fitter.fits.progress import Observer, Stage, ignore_progress
@@ -23,8 +23,8 @@ from fitter.fits.reporting import (
 from fitter.fits.search import Found, search
 from fitter.fits.settling import settle
 from fitter.fits.stage_clock import StageClock, ViewClock
-from fitter.fits.worn_clothing import clothing_remarks
-from fitter.measurement.anthropometry import measure
+from fitter.fits.worn_clothing import clothing_warnings, with_what_clothes_cost
+from fitter.measurement.anthropometry import error_if_known, measure
 from fitter.measurement.quantity import Measurement
 from fitter.observation.subject import check_person
 from fitter.optimizer.free_space import held_shape
@@ -34,6 +34,8 @@ from fitter.person.several_pictures import MOST_PICTURES, CombinedShape, combine
 from fitter.population.known_person import known_person
 from fitter.request import FitRequest
 from fitter.result import FitResult, FitStage, FittedView, PictureFit, Pictures, StageBody
+
+_WAIST: Final = "waist_girth_smallest"
 
 MOST_VIEWS: Final = 6
 """Pictures of one fit; those in which a body was found before are searched faster, and may be
@@ -72,6 +74,8 @@ def fit(
             given=known.given,
             held=known.held,
         )
+        measurements = widened(measurements, [each.findings for each in people], known.given)
+        people = _told(people, subject, shape, measurements)
         stages = _stages(subject, pictures, found, people, measurements)
         population = subject.prepared.population
         warnings = person_warnings(
@@ -176,6 +180,31 @@ def _person_alone(request: FitRequest, subject: Subject, picture: Outlined) -> F
     )
 
 
+def _told(
+    people: Sequence[PictureFit],
+    subject: Subject,
+    shape: Shape,
+    measurements: Sequence[Measurement],
+) -> tuple[PictureFit, ...]:
+    """The same; where loose clothes hide somebody, it is said what that costs."""
+    findings = [found for each in people for found in each.findings]
+    if not any(found.code is Code.CLOTHES_LOOSE for found in findings):
+        return tuple(people)
+    covariance = people[0].person.shape_covariance
+    assert covariance is not None
+    known = subject.known.given
+    waist = next(each.standard_error for each in measurements if each.name == _WAIST)
+    weighed = None
+    if waist is not None and "weight" not in known and _WAIST not in known:
+        weighed = waist * error_if_known(
+            subject.prepared.measuring, shape, covariance, of=_WAIST, known="weight"
+        )
+    return tuple(
+        replace(each, findings=with_what_clothes_cost(each.findings, waist, weighed))
+        for each in people
+    )
+
+
 def _stages(
     subject: Subject,
     pictures: Sequence[Outlined],
@@ -237,9 +266,6 @@ def _views(
     views: list[FittedView] = []
     for picture, objective, each in zip(pictures, found.objective.views, people, strict=True):
         observation, view = picture.observation, picture.view
-        clothing_assumptions, clothing_warnings = clothing_remarks(
-            objective, observation.clothing.both
-        )
         views.append(
             FittedView(
                 kind=view.kind,
@@ -247,11 +273,10 @@ def _views(
                 camera=observation.camera,
                 focal_length_source=observation.focal_length_source,
                 limb_facing=picture.limb_facing,
-                findings=_findings(request, picture, each),
-                assumptions=observation.assumptions + clothing_assumptions,
+                assumptions=observation.assumptions,
                 warnings=observation.warnings
                 + picture.segmentation.warnings
-                + clothing_warnings
+                + clothing_warnings(objective, observation.clothing.both)
                 + fit_warnings(each.silhouette_overlap, picture.limb_facing)
                 + shading_warnings(view, each)
                 + insistence_warnings(request.choices, each),
@@ -263,11 +288,3 @@ def _views(
             )
         )
     return tuple(views)
-
-
-def _findings(request: FitRequest, picture: Outlined, found: PictureFit) -> tuple[Finding, ...]:
-    """What is wrong with a picture that was taken to be measured; it is fitted all the same."""
-    if picture.view.kind is None:
-        return ()
-    capture = capture_of_view(picture.observation, picture.view, request.person, found.clothing)
-    return check_capture(capture).findings

@@ -3,7 +3,9 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
+from fitter.capture.checking import check_capture
 from fitter.energies.objective import Objective
+from fitter.fits.capture_check import capture_of_fit
 from fitter.fits.contradiction import contradiction
 from fitter.fits.outlined import Outlined, Subject
 from fitter.fits.plausibility import plausibility
@@ -15,6 +17,7 @@ from fitter.optimizer.uncertainty import Certainty, camera_tilt, certainty, shap
 from fitter.person.fitted_person import FittedPerson
 from fitter.result import PictureFit
 from fitter.vocabulary.choices import Gender
+from fitter.vocabulary.outcomes import Verdict
 
 
 def settle(
@@ -49,6 +52,12 @@ def _settled(
         shape_nats=found.minimum.candidate.energies["shape_prior"],
     )
     contradicted = contradiction(figures)
+    clothing = with_ease(objective.evidence.worn, objective, certain)
+    checked = check_capture(capture_of_fit(picture, known.height_m, body, clothing))
+    findings = (*contradicted.findings, *checked.findings)
+    verdict = contradicted.verdict
+    if verdict is Verdict.PLAUSIBLE and not checked.usable:
+        verdict = Verdict.IMPLAUSIBLE
     return PictureFit(
         person=_with_light(
             FittedPerson(
@@ -67,14 +76,12 @@ def _settled(
         ),
         height_m=known.height_m,
         cues=picture.view.cues,
-        outcome=outcome_of(
-            converged=found.minimum.converged, overlap=overlap, verdict=contradicted.verdict
-        ),
+        outcome=outcome_of(converged=found.minimum.converged, overlap=overlap, verdict=verdict),
         posed_vertices=objective.operators.whole_vertices(body.parameters),
         silhouette_overlap=overlap,
-        verdict=contradicted.verdict,
-        contradictions=contradicted.sentences,
-        clothing=with_ease(objective.evidence.worn, objective, certain),
+        verdict=verdict,
+        findings=findings,
+        clothing=clothing,
     )
 
 

@@ -7,10 +7,11 @@ from typing import Final
 import numpy as np
 
 from fitter.arrays import GreyImage
+from fitter.capture.finding import Code, Finding
 from fitter.energies.objective import Objective
 from fitter.observation.worn import WornRegion
 from fitter.optimizer.uncertainty import Certainty, covered_distances
-from fitter.remarks import Assumption, FitWarning
+from fitter.remarks import FitWarning
 from fitter.segmentation.coverage import Coverage
 from fitter.segmentation.skin_colour import LEAST_SAMPLES, PersonRegions
 from fitter.vocabulary.choices import BodyRegion, ClothedRegion, Clothing, Covering
@@ -86,29 +87,54 @@ def with_ease(
     return tuple(found)
 
 
-def clothing_remarks(
-    objective: Objective, said: frozenset[Clothing]
-) -> tuple[tuple[Assumption, ...], tuple[FitWarning, ...]]:
-    """How the outline was interpreted, and what makes that doubtful; empty for tight clothes."""
-    evidence = objective.evidence
-    if evidence.clothes is None:
-        return (), ()
-    along = evidence.silhouette.cloth_at(evidence.silhouette.boundary_points)
-    share = float(along.mean()) if len(along) else 0.0
-    seen = "is seen to be" if said == {Clothing.AUTO} else "is said to be"
-    assumption = Assumption(
-        quantity="outline",
-        value="outer bound",
-        reason=(
-            f"Clothing {seen} loose along {share:.0%} of the outline: there the body under it is "
-            "estimated, along bare skin and close-fitting clothes it is the outline. Close-fitting "
-            "clothes, or the weight if it is given, make measurements surer."
-        ),
+def clothing_warnings(objective: Objective, said: frozenset[Clothing]) -> tuple[FitWarning, ...]:
+    """What makes doubtful how clothes were taken; empty for tight ones."""
+    clothes = objective.evidence.clothes
+    if clothes is None:
+        return ()
+    if not clothes.learnt_from:
+        return (_NO_SKIN,)
+    return (_NOT_LOOSE,) if Clothing.LOOSE in said and clothes.looks_undressed else ()
+
+
+def with_what_clothes_cost(
+    findings: Sequence[Finding], waist_cm: float | None, weighed_cm: float | None
+) -> tuple[Finding, ...]:
+    """The findings; that of loose clothes with how well the waist is known, and would be.
+
+    Parameters
+    ----------
+    waist_cm
+        Standard error of the smallest waist; None where nothing is measured.
+    weighed_cm
+        The same if the weight were known; None if it is.
+    """
+    return tuple(
+        _costing(each, waist_cm, weighed_cm)
+        if each.code is Code.CLOTHES_LOOSE and waist_cm is not None
+        else each
+        for each in findings
     )
-    if not evidence.clothes.learnt_from:
-        return (assumption,), (_NO_SKIN,)
-    doubted = Clothing.LOOSE in said and evidence.clothes.looks_undressed
-    return (assumption,), (_NOT_LOOSE,) if doubted else ()
+
+
+def _costing(found: Finding, waist_cm: float, weighed_cm: float | None) -> Finding:
+    said, _, _ = found.reason.partition(", with a probability")
+    remedy = "Close-fitting clothes make it surer."
+    if weighed_cm is not None:
+        remedy = f"Close-fitting clothes make it surer, or the weight: ± {_half(weighed_cm)} cm."
+    return replace(
+        found,
+        reason=(
+            f"{said}: the body under them is estimated, the smallest waist to "
+            f"± {_half(waist_cm)} cm (95 % of true values fall within)."
+        ),
+        remedy=remedy,
+    )
+
+
+def _half(standard_error: float) -> str:
+    """Half the breadth of the 95 % interval."""
+    return f"{1.96 * standard_error:.0f}"
 
 
 _NO_SKIN = FitWarning(

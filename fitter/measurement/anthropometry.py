@@ -177,6 +177,27 @@ def measure(
     )
 
 
+def error_if_known(
+    body: MeasuringBody,
+    shape: Shape,
+    shape_covariance: Float[np.ndarray, "n n"],
+    *,
+    of: str,
+    known: str,
+) -> float:
+    """What knowing one measurement exactly would leave of another's standard error, in (0, 1].
+
+    For normal errors the variance of a under a known b is aΣa - (aΣb)² / bΣb; what the shapes leave
+    unexplained of a stays.
+    """
+    names = [definition.about.name for definition in body.definitions]
+    jacobian = measurement_jacobian(body, shape)[[names.index(of), names.index(known)]]
+    (own, shared), (_, other) = jacobian @ shape_covariance @ jacobian.T
+    unexplained = body.unexplained[names.index(of)] ** 2
+    left = own - shared**2 / max(other, 1e-12)
+    return float(np.sqrt((max(left, 0.0) + unexplained) / (own + unexplained)))
+
+
 def measurement_values(body: MeasuringBody, shape: Shape) -> Float[np.ndarray, " k"]:
     """The measurements' values alone, in the order of ``body.definitions`` and in their units."""
     taken = _take(body, shape)

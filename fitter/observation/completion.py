@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from fitter.detection.detector import DetectedBody
 from fitter.errors import InvalidInputError
-from fitter.remarks import Assumption, FitWarning
+from fitter.remarks import Assumption
 from fitter.request import Click
 
 
@@ -48,21 +48,6 @@ def proposal_assumptions(
             reason=(
                 "Nobody clicked them: they are where a detector proposes them, and less sure than "
                 "clicks."
-            ),
-        ),
-    )
-
-
-def crowd_warnings(clicks: Mapping[str, Click], persons: int) -> tuple[FitWarning, ...]:
-    """Warn that the largest of several people was taken, if no click says who is meant."""
-    if persons < 2 or clicks:
-        return ()
-    return (
-        FitWarning(
-            code="several-people",
-            message=(
-                f"{persons} people were found and the largest was fitted. Click one point of the "
-                "person who is meant."
             ),
         ),
     )

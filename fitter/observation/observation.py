@@ -15,7 +15,6 @@ from fitter.observation.clicks import check_clicks, check_places, side_warnings
 from fitter.observation.colour import bytes_of_display, luminance_of
 from fitter.observation.completion import (
     completed_clicks,
-    crowd_warnings,
     proposal_assumptions,
     scaled_clicks,
 )
@@ -144,9 +143,7 @@ def observe(view: View, *, max_pixels: int, detector: Detector | None = None) ->
         detected=None if detector is None else is_somebody_at(bodies, given),
         bodies=None if detector is None else tuple(bodies),
         assumptions=focal.assumptions + proposal_assumptions(given, clicks),
-        warnings=picture.warnings
-        + side_warnings(clicks)
-        + (crowd_warnings(given, len(bodies)) if view.complete_clicks else ()),
+        warnings=picture.warnings + side_warnings(clicks),
     )
 
 

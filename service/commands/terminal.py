@@ -9,9 +9,17 @@ from rich.progress import BarColumn, Progress, SpinnerColumn, TaskID, TextColumn
 from rich.table import Table
 
 from api_schemas.problems import Problem
-from api_schemas.results import Assumption, FitResult, FitWarning, Measurement, ViewResult
+from api_schemas.results import (
+    Assumption,
+    Finding,
+    FitResult,
+    FitWarning,
+    Measurement,
+    ViewResult,
+)
 from api_schemas.scans import ScanResult
 from fitter.vocabulary.measurements import group_of
+from fitter.vocabulary.outcomes import Severity
 
 SHADED: Final = "SES"
 UNSHADED: Final = "SE"
@@ -81,9 +89,11 @@ def print_result(
         console.print(WITHHELD)
     if isinstance(result, FitResult):
         console.print(f"Outcome: {_ended(result)}", highlight=False)
+        _print_findings(console, result.findings)
     else:
         for view in result.views:
             console.print(f"View {view.number}, {view.view}: {_ended(view)}", highlight=False)
+            _print_findings(console, view.findings)
             _print_remarks(console, view.assumptions, view.warnings)
         console.print(f"Agreement of the views {result.agreement:.2f}.", highlight=False)
     console.print(
@@ -98,6 +108,15 @@ def _ended(view: ViewResult) -> str:
         f"{view.outcome}, {view.verdict} ({view.outcome_explanation}) "
         f"Silhouette overlap {view.silhouette_overlap:.3f}."
     )
+
+
+def _print_findings(console: Console, findings: Iterable[Finding]) -> None:
+    """What blocks is told by the outcome."""
+    for each in findings:
+        if each.severity is not Severity.BLOCKS:
+            console.print(
+                f"{each.severity} ({each.code}): {each.reason} {each.remedy}", markup=False
+            )
 
 
 def _print_remarks(

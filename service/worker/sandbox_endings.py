@@ -32,7 +32,6 @@ WARNINGS_OF_A_FIT: Final = (
     "left-and-right-may-be-swapped",
     "low-silhouette-overlap",
     "segmentation-doubtful",
-    "several-people",
     "shoulders-and-hips-disagree",
 )
 WARNINGS_OF_A_SCAN: Final = ("different-people", "given-contradicted")

@@ -202,7 +202,9 @@ def test_measurements_are_withheld_on_request(sandbox: httpx.Client, nobody: byt
 
 def test_there_are_warnings_on_request(sandbox: httpx.Client, nobody: bytes):
     fit = result_of(sandbox, fitted(sandbox, nobody, label="sandbox:warnings"))
-    assert {"sandbox", "several-people", "segmentation-doubtful"} < set(codes(fit["warnings"]))
+    assert {"sandbox", "low-silhouette-overlap", "segmentation-doubtful"} < set(
+        codes(fit["warnings"])
+    )
 
 
 def test_a_slow_job_reports_and_can_be_canceled(sandbox: httpx.Client, nobody: bytes):

@@ -1,7 +1,10 @@
 """Fits of one person of the evaluation suite in loose clothes, said to be tight and loose."""
 
+import re
+
 import pytest
 
+from fitter.capture.finding import Code
 from fitter.fits.pipeline import fit
 from fitter.request import Clothing, Cues
 from fitter.result import FitResult
@@ -10,7 +13,7 @@ from tests.evaluation.files import CaseFiles, read_case
 from tests.evaluation.suite import fit_request
 from tests.one_picture import changed
 
-WAIST = "waist_girth_navel"
+WAIST, SMALLEST = "waist_girth_navel", "waist_girth_smallest"
 
 pytestmark = pytest.mark.slow
 
@@ -26,8 +29,8 @@ def fits(files: CaseFiles) -> dict[Clothing, FitResult]:
     return {clothing: fit(changed(request, clothing=clothing)) for clothing in Clothing}
 
 
-def waist(result: FitResult) -> tuple[float, float]:
-    (found,) = [each for each in result.measurements if each.name == WAIST]
+def waist(result: FitResult, name: str = WAIST) -> tuple[float, float]:
+    (found,) = [each for each in result.measurements if each.name == name]
     assert found.standard_error is not None
     return found.value, found.standard_error
 
@@ -44,14 +47,20 @@ def test_the_waist_within_loose_clothes_is_nearer_to_the_truth_and_less_certain(
     assert loose_error > tight_error
 
 
-def test_the_result_says_how_the_outline_was_taken(fits):
-    assumed = {
-        clothing: {each.quantity: each for each in result.views[0].assumptions}
+def test_the_result_says_in_a_line_what_loose_clothes_cost(fits):
+    found = {
+        clothing: {each.code: each for each in result.views[0].findings}
         for clothing, result in fits.items()
     }
-    assert "outline" not in assumed[Clothing.TIGHT]
-    assert assumed[Clothing.LOOSE]["outline"].value == "outer bound"
-    assert "%" in assumed[Clothing.LOOSE]["outline"].reason
+    assert Code.CLOTHES_LOOSE not in found[Clothing.TIGHT]
+    for said in (Clothing.LOOSE, Clothing.AUTO):
+        told, (_, error) = (
+            found[said][Code.CLOTHES_LOOSE],
+            waist(fits[said], SMALLEST),
+        )
+        assert f"the smallest waist to ± {1.96 * error:.0f} cm" in told.reason
+        (weighed,) = re.findall(r"the weight: ± (\d+) cm", told.remedy)
+        assert 0.2 < float(weighed) / (1.96 * error) < 0.9
 
 
 def test_a_body_within_loose_clothes_is_no_poor_fit(fits):

@@ -2,10 +2,11 @@
 
 import pytest
 
+from fitter.capture.finding import Code
 from fitter.fits.pipeline import fit
 from fitter.result import FitResult
 from fitter.vocabulary.choices import Cues, SegmentationKind
-from fitter.vocabulary.outcomes import Outcome, Verdict
+from fitter.vocabulary.outcomes import Outcome, Severity, Verdict
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import read_case
 from tests.evaluation.nonsense import DONORS, NAMED_KINDS, nonsense
@@ -35,7 +36,9 @@ def fitted(kind: str, *, with_detector: bool = False, force: bool = False) -> Fi
 def test_what_is_no_person_gets_no_measurements(kind, with_detector):
     result = fitted(kind, with_detector=with_detector)
     assert not result.found.is_plausible
-    assert result.found.contradictions
+    blocking = {each.code for each in result.found.findings if each.severity is Severity.BLOCKS}
+    assert Code.CONTRADICTED in blocking
+    assert "contradicted: " in result.found.outcome_explanation
     assert result.measurements == ()
     assert all(stage.measurements == () for stage in result.stages)
     assert len(result.found.posed_vertices)

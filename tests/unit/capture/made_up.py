@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 
 from fitter.capture.capture import Capture
-from fitter.detection.detector import DetectedBody, DetectedSlants
+from fitter.detection.detector import DetectedBody, DetectedSlants, LimbSlant
 from fitter.detection.person_detector import DetectedPerson
 from fitter.request import Click
 
@@ -45,7 +45,14 @@ def person(**moved: tuple[float, float]) -> DetectedBody:
         person=DetectedPerson(score=0.9, middle=middle, rim=middle - np.array([0.0, 290.0])),
         points={name: Click(x=float(x), y=float(y)) for name, (x, y) in places.items()},
         visibility=dict.fromkeys(places, 1.0),
-        slants=DetectedSlants(limbs={}, middle=middle),
+        slants=DetectedSlants(
+            limbs={
+                f"{side}_{limb}": LimbSlant(sine=0.0, sigma=0.1)
+                for side in ("left", "right")
+                for limb in ("thigh", "shin")
+            },
+            middle=middle,
+        ),
         mask=outline(places).astype(np.float32),
     )
 

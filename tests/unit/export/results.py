@@ -83,7 +83,6 @@ def result_of(
         camera=working,
         focal_length_source=FocalLengthSource.CALLER,
         limb_facing=(),
-        findings=(),
         assumptions=(),
         warnings=(),
         pictures=Pictures(

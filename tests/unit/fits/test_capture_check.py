@@ -7,25 +7,17 @@ import numpy as np
 import pytest
 from PIL import Image as PillowImage
 
-from fitter.capture.checking import check_capture
-from fitter.capture.finding import Code
 from fitter.detection.detector import installed_detector
 from fitter.errors import InvalidInputError
 from fitter.fits.capture_check import (
     CaptureCheck,
     CaptureQuestion,
-    capture_of_view,
     check_picture,
 )
-from fitter.observation.observation import observe
 from fitter.request import Click
-from fitter.vocabulary.choices import Cues, Gender, ViewKind
+from fitter.vocabulary.choices import Gender, ViewKind
 from fitter.vocabulary.outcomes import SeenFrom, Severity
 from service.demo_data.sample import load_sample
-from tests.evaluation.cases import CASES
-from tests.evaluation.files import read_case
-from tests.evaluation.suite import fit_request
-from tests.one_picture import changed
 from tests.unit.observation.pictures import encode, noise
 
 ROLLED_DEG = 15.0
@@ -171,27 +163,3 @@ def test_what_cannot_be_is_refused(said, code):
     with pytest.raises(InvalidInputError) as caught:
         checked(sample(), **said)
     assert caught.value.code == code
-
-
-def test_a_picture_that_was_read_for_a_fit_is_checked_alike():
-    files = read_case(CASES["phone_woman_old_middling_side"])
-    request = changed(fit_request(files, Cues.SE), kind=ViewKind.FRONT)
-    detector = installed_detector()
-    (asked,), person = request.views, request.person
-    observation = observe(asked, max_pixels=1_000_000, detector=detector)
-    view = check_capture(capture_of_view(observation, asked, person, clothing=()))
-    question = CaptureQuestion(
-        view=ViewKind.FRONT,
-        points=asked.clicks,
-        gender=person.gender,
-        height_m=person.height_m,
-        focal_length_px=asked.focal_length_px,
-        focal_length_35mm=asked.focal_length_35mm,
-    )
-    alone = check_picture(files.image, question, detector=detector, max_pixels=1_000_000)
-    # Of clothes a fit knows more.
-    assert view.findings == alone.checked.findings
-    assert {each.code for each in alone.checked.unchecked} - {Code.CLOTHES_LOOSE} == {
-        each.code for each in view.unchecked
-    }
-    assert Code.OTHER_VIEW in {each.code for each in view.findings}

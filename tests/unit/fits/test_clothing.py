@@ -1,17 +1,10 @@
 """When clothes said to be loose are hardly there."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
-from fitter.evidence.loose_outline import LooseClothes
-from fitter.evidence.silhouette_evidence import silhouette_evidence
 from fitter.fits.clothing import looks_undressed
-from fitter.fits.worn_clothing import clothing_remarks
 from fitter.segmentation.skin_colour import PersonRegions, SkinMap
-from fitter.vocabulary.choices import Clothing
-from tests.unit.optimizer.rendered_scene import rendered_scene
 
 PARTS = ("head", "pelvis", "spine", "chest", "left_thigh", "right_thigh")
 SIDE = 20
@@ -60,19 +53,3 @@ def test_thighs_out_of_sight_say_nothing():
     hidden = ("left_thigh", "right_thigh")
     assert not looks_undressed(*_shown(UNDERWEAR, unseen=hidden))
     assert looks_undressed(*_shown(UNDERWEAR, unseen=hidden[:1]))
-
-
-def test_an_outline_that_is_the_picture_s_border_has_no_share_of_clothes():
-    scene = rendered_scene(1)
-    whole = np.ones(scene.intensity.trusted.shape, dtype=np.bool_)
-    cloth = np.ones(whole.shape, dtype=np.float32)
-    vertices = len(scene.objective.operators.model.mean_vertices)
-    evidence = replace(
-        scene.objective.evidence,
-        silhouette=silhouette_evidence(whole, cloth=cloth),
-        clothes=LooseClothes(bare=np.zeros(vertices), learnt_from=("face",), looks_undressed=False),
-    )
-    (assumption,), _ = clothing_remarks(
-        replace(scene.objective, evidence=evidence), frozenset({Clothing.LOOSE})
-    )
-    assert "along 0% of the outline" in assumption.reason

@@ -4,10 +4,11 @@ from dataclasses import replace
 
 import pytest
 
+from fitter.capture.finding import Code
 from fitter.fits.contradiction import contradiction
 from fitter.fits.plausibility import Plausibility
 from fitter.result import VERDICT_EXPLANATIONS
-from fitter.vocabulary.outcomes import Verdict
+from fitter.vocabulary.outcomes import Severity, Verdict
 
 PERSON = Plausibility(
     overlap=0.94, boundary=0.93, beyond=0.0, click_deviations=0.6, strain=6.0, detected=None
@@ -46,8 +47,9 @@ def test_that_the_detector_finds_nobody_decides_nothing_alone():
 def test_where_neither_silhouette_nor_outline_are_a_person_s_there_is_none(detected):
     found = contradiction(replace(LANDSCAPE, detected=detected))
     assert found.verdict is Verdict.NO_PERSON
-    assert "9%" in " ".join(found.sentences)
-    assert "80%" in " ".join(found.sentences)
+    (finding,) = found.findings
+    assert "9%" in finding.reason
+    assert "80%" in finding.reason
 
 
 def test_a_person_whom_the_detector_sees_is_never_nobody():
@@ -70,7 +72,10 @@ def test_a_person_whom_the_detector_sees_is_never_nobody():
 def test_a_body_that_is_contradicted_is_implausible_and_told_by_what(found, said):
     judged = contradiction(found)
     assert judged.verdict is Verdict.IMPLAUSIBLE
-    assert said in " ".join(judged.sentences)
+    (finding,) = judged.findings
+    assert (finding.code, finding.severity) == (Code.CONTRADICTED, Severity.BLOCKS)
+    assert said in finding.reason
+    assert finding.remedy
 
 
 def test_the_detector_tells_noise_of_good_outline_from_a_person():

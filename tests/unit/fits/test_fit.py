@@ -5,12 +5,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fitter.detection.detector import installed_detector
 from fitter.errors import InvalidInputError
+from fitter.fits.capture_check import CaptureQuestion, check_picture
 from fitter.fits.pipeline import fit
 from fitter.fits.progress import Progress, Stage
 from fitter.request import FitRequest, KnownMeasurement, StartingBody, View
 from fitter.result import FitResult, before_shading
-from fitter.vocabulary.choices import Cues, OptimizerKind, ViewKind
+from fitter.vocabulary.choices import Cues, OptimizerKind, SegmentationKind, ViewKind
+from fitter.vocabulary.outcomes import Verdict
 from tests.benchmarks.requests import resized
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import read_case
@@ -112,10 +115,28 @@ def test_before_shading_every_view_is_as_its_outline_left_it(of_one, of_two):
         np.testing.assert_array_equal(view.found.posed_vertices, body.posed_vertices)
 
 
-def test_pictures_are_checked_where_they_were_taken_to_be_measured(of_two):
+def test_a_picture_from_another_side_than_announced_withholds_measurements():
     turned = fit(asked(STANDING, ViewKind.SIDE))
     assert "other-view" in {each.code for each in turned.views[0].findings}
-    assert of_two[0].views[1].findings == ()
+    assert turned.found.verdict is Verdict.IMPLAUSIBLE
+    assert turned.measurements == ()
+    assert "other-view: " in turned.found.outcome_explanation
+    assert "Have the person turn" in turned.found.outcome_explanation
+
+
+@pytest.mark.parametrize("segmentation", SegmentationKind)
+def test_every_picture_is_checked_as_before_a_fit(segmentation):
+    """Without a detector by the clicks."""
+    request = changed(asked(STANDING, ViewKind.SIDE), segmentation=segmentation, slant_hints=False)
+    (view,), person = request.views, request.person
+    found = fit(request).views[0].findings
+    detector = installed_detector() if segmentation is SegmentationKind.SEEDED_GRABCUT else None
+    question = CaptureQuestion(
+        view=view.kind, points=view.clicks, gender=person.gender, height_m=person.height_m
+    )
+    alone = check_picture(view.image, question, detector=detector, max_pixels=1_000_000)
+    assert {each.code for each in found} == {each.code for each in alone.checked.findings}
+    assert "other-view" in {each.code for each in found}
 
 
 def test_the_measurements_are_more_certain_than_those_of_one_picture(of_one, of_two):

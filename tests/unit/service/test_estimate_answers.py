@@ -201,6 +201,8 @@ def test_without_a_detector_points_are_checked_and_a_picture_alone_is_not(tmp_pa
         "several-people",
         "arms-against-trunk",
         "clothes-loose",
+        "not-standing",
+        "child",
     }
     assert found.distance_m == pytest.approx(checked_sample().distance_m, rel=0.05)
     with pytest.raises(NoDetectorError):

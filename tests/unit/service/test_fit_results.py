@@ -27,6 +27,15 @@ from service.worker.fit_results import fit_result, scan_result
 PARTS = ("pelvis", "spine")
 
 
+CIRCLE = Finding(
+    code=Code.CONTRADICTED,
+    severity=Severity.BLOCKS,
+    reason="It is a circle.",
+    remedy="Send a person.",
+)
+DARK = Finding(code=Code.TOO_DARK, severity=Severity.HARMS, reason="Dark.", remedy="Add light.")
+
+
 def result(*, light: Light | None) -> fitter_result.FitResult:
     body = BodyParameters(
         pose=np.array([[0.1, 0.2, 0.3], [0.0, -0.5, 0.0]]),
@@ -71,7 +80,6 @@ def result(*, light: Light | None) -> fitter_result.FitResult:
         ),
         camera=camera,
         focal_length_source=FocalLengthSource.ASSUMED,
-        findings=(),
         limb_facing=(
             fitter_result.LimbFacing(
                 limb="left_shin",
@@ -157,11 +165,14 @@ def test_a_result_says_the_same_in_both_languages():
 @pytest.mark.parametrize("verdict", fitter_result.VERDICT_EXPLANATIONS)
 def test_where_a_person_is_contradicted_the_outcome_is_explained_by_it(verdict):
     ended = result(light=None)
-    found = replace(ended.found, verdict=verdict, contradictions=("It is a circle.",))
+    found = replace(ended.found, verdict=verdict, findings=(CIRCLE, DARK))
     translated = fit_result(found_otherwise(ended, found), part_names=PARTS)
     assert translated.verdict == verdict.value
     explained = fitter_result.VERDICT_EXPLANATIONS[verdict]
-    assert translated.outcome_explanation == f"{explained} It is a circle."
+    assert (
+        translated.outcome_explanation
+        == f"{explained} contradicted: It is a circle. Send a person."
+    )
 
 
 def test_results_of_earlier_versions_have_no_verdict_and_are_read():
@@ -242,15 +253,12 @@ def scanned(*, light: Light | None = POINT_LIGHT) -> fitter_result.FitResult:
     doubtful = replace(
         front.found,
         verdict=fitter_result.Verdict.IMPLAUSIBLE,
-        contradictions=("It is a circle.",),
+        findings=(CIRCLE, DARK),
         silhouette_overlap=0.4,
-    )
-    finding = Finding(
-        code=Code.BLURRED, severity=Severity.BLOCKS, reason="Blurred.", remedy="Hold it still."
     )
     views = (
         replace(front, kind=ViewKind.FRONT),
-        replace(front, kind=ViewKind.SIDE, found=doubtful, findings=(finding,)),
+        replace(front, kind=ViewKind.SIDE, found=doubtful),
     )
     alone = CombinedShape(shape=one.shape, covariance=np.eye(2), agreement=0.4, differing=1)
     return replace(one, views=views, stages=(replace(stage, bodies=2 * stage.bodies),), alone=alone)
@@ -266,7 +274,7 @@ def test_a_scan_says_of_every_picture_what_a_fit_says_of_its_own():
     for name in wire.ViewResult.model_fields:
         assert getattr(first, name) == getattr(alone, name), name
     assert second.silhouette_overlap == 0.4
-    assert [each.code for each in second.findings] == ["blurred"]
+    assert [each.code for each in second.findings] == ["contradicted", "too-dark"]
     assert [each.code for each in second.warnings] == ["a-warning"]
     assert [each.code for each in translated.warnings] == ["of-the-fit"]
 
@@ -307,7 +315,7 @@ def test_a_fit_of_no_announced_view_is_told_to_workers_of_version_1_0_in_their_w
     announced = fit_result(
         replace(given, views=given.views[1:], stages=(), alone=None), part_names=PARTS
     )
-    assert (announced.view, announced.findings[0].code) == ("side", "blurred")
+    assert (announced.view, announced.findings[0].code) == ("side", "contradicted")
     assert wire.FitResult.model_validate_json(announced.model_dump_json()) == announced
 
 

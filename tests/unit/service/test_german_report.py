@@ -17,7 +17,7 @@ from tests.e2e.service import REPOSITORY
 from tests.unit.service.fit_results import fit_result, measurement
 from tests.unit.service.test_report import PICTURES, Elements, pages, scan_result
 
-SERVICE_S_OWN = {"contradicted", "values", "reasons", "warnings"}
+SERVICE_S_OWN = {"findings", "values", "reasons", "warnings"}
 """Where English leaves something out it shows the service's words, which are English."""
 
 ENGLISH_PARTICLES = re.compile(

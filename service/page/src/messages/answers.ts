@@ -41,6 +41,7 @@ export const WARNINGS = [
 export const FINDINGS = [
   "nobody-found", "several-people", "cut-off", "person-too-small", "picture-too-small", "other-view",
   "arms-against-trunk", "clothes-loose", "blurred", "too-dark", "too-bright", "camera-rolled", "camera-too-near",
+  "not-standing", "child", "contradicted",
 ] as const;
 
 /** Verdicts against a person: why, and what to do. */

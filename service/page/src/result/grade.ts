@@ -48,7 +48,7 @@ export function qualityOf(result: Judged): Quality {
 /** Of the person in one picture. */
 export function gradeOf(view: JudgedView): Grade {
   if (isContradicted(view) || view.outcome === "poor_fit") return "poor";
-  const isDoubted = view.warnings.some(({ code }) => OUTLINE_DOUBTS.has(code));
+  const isDoubted = view.findings.length > 0 || view.warnings.some(({ code }) => OUTLINE_DOUBTS.has(code));
   return isDoubted || view.outcome !== "converged" || view.silhouette_overlap <= GOOD_OVERLAP ? "fair" : "good";
 }
 

@@ -10,6 +10,7 @@ from api_schemas.derivation_kinds.report import ReportOptions
 from api_schemas.results import (
     Assumption,
     CameraResult,
+    Finding,
     FitResult,
     FitWarning,
     LightResult,
@@ -108,7 +109,7 @@ def report_content(
             _light_and_skin(result.light, result.reflectance, wording),
             _fit(result, wording),
             assumed(result.assumptions, options),
-            warned(result.warnings, wording),
+            warned(result.findings, result.warnings, wording),
         ),
     )
 
@@ -267,11 +268,14 @@ def assumed(assumptions: Collection[Assumption], options: ReportOptions) -> Sect
     )
 
 
-def warned(warnings: Iterable[FitWarning], wording: Wording) -> Section:
-    """What to look at."""
+def warned(
+    findings: Iterable[Finding], warnings: Iterable[FitWarning], wording: Wording
+) -> Section:
+    """What to look at: what is wrong with the pictures, and the rest."""
     said = wording.remarks
-    remarks = tuple(warning_in_words(each, wording) for each in warnings)
-    return Section(heading=said.warned, remarks=remarks or (said.nothing,))
+    remarks = [said.findings.get(each.code) or f"{each.reason} {each.remedy}" for each in findings]
+    remarks += [warning_in_words(each, wording) for each in warnings]
+    return Section(heading=said.warned, remarks=tuple(remarks) or (said.nothing,))
 
 
 def _assumed_value(assumption: Assumption, options: ReportOptions) -> str:

@@ -70,9 +70,7 @@ ENGLISH: Final = Wording(
         not_known="not known",
         given="given",
         exact="exact",
-        withheld=(
-            "Measurements are withheld, because the picture contradicts a person: see the outcome."
-        ),
+        withheld=("Measurements are withheld: the reasons are below."),
         groups={group: group.value for group in Group},
     ),
     light=LightWords(
@@ -119,7 +117,12 @@ ENGLISH: Final = Wording(
             Verdict.IMPLAUSIBLE: "Implausible",
             Verdict.NO_PERSON: "No person",
         },
-        contradicted={},
+        contradicted={
+            Verdict.IMPLAUSIBLE: (
+                "A body was fitted, but the picture cannot be measured: the reasons are below."
+            ),
+            Verdict.NO_PERSON: "The picture shows no person where the points are.",
+        },
         overlap="Overlap",
         overlap_of="{percent} % of body and outline",
         overlap_in_view="overlap {percent} %",
@@ -157,6 +160,7 @@ ENGLISH: Final = Wording(
             "focal_length_35mm": "Neither the request nor the picture says which lens took it.",
         },
         warnings=_WARNINGS,
+        findings={},
     ),
     pictures=PictureWords(
         overlay="The body over the picture",

@@ -48,10 +48,7 @@ GERMAN: Final = Wording(
         not_known="nicht bekannt",
         given="angegeben",
         exact="genau",
-        withheld=(
-            "Maße sind zurückgehalten, weil das Bild gegen eine Person spricht: siehe „Wie es "
-            "ausging“."
-        ),
+        withheld="Maße sind zurückgehalten; die Gründe stehen unten.",
         groups={
             Group.OVERALL: "Körperhöhe und Gewicht",
             Group.GIRTHS: "Umfänge",
@@ -106,14 +103,10 @@ GERMAN: Final = Wording(
         },
         contradicted={
             Verdict.IMPLAUSIBLE: (
-                "Ein Körper wurde bestimmt, aber das Bild widerspricht ihm. Sehen Sie nach, ob die "
-                "Punkte auf den richtigen Gelenken einer einzigen Person liegen, und ob eine "
-                "verwendete Maske nur diese Person zeigt."
+                "Ein Körper wurde bestimmt, aber das Bild lässt sich nicht messen: Die Gründe "
+                "stehen unten."
             ),
-            Verdict.NO_PERSON: (
-                "An den Punkten zeigt das Bild keine Person. Klicken Sie die Gelenke einer Person, "
-                "oder nehmen Sie ein anderes Bild."
-            ),
+            Verdict.NO_PERSON: "An den Punkten zeigt das Bild keine Person.",
         },
         overlap="Deckung",
         overlap_of="{percent} % von Körper und Umriss",

@@ -128,6 +128,68 @@ _WARNINGS: Final = {
     ),
 }
 
+_FINDINGS: Final = {
+    "nobody-found": (
+        "In diesem Bild wurde niemand gefunden. Die ganze Person soll darin sein, aufrecht, "
+        "in gutem Licht und unverdeckt."
+    ),
+    "several-people": (
+        "Mehrere Personen sind im Bild; die größte wird gemessen. Es soll niemand anderes "
+        "darin sein."
+    ),
+    "cut-off": (
+        "Die Person reicht bis an den Rand des Bildes oder darüber hinaus. Gehen Sie zurück "
+        "oder drehen Sie die Kamera, bis rings um die Person Platz ist."
+    ),
+    "person-too-small": (
+        "Die Person ist im Bild zu klein. Gehen Sie näher heran, bis sie das Bild füllt, oder "
+        "schneiden Sie es auf sie zu."
+    ),
+    "picture-too-small": (
+        "Das Bild hat zu wenige Pixel. Nehmen Sie das Bild, wie die Kamera es aufgenommen "
+        "hat, keine Vorschau."
+    ),
+    "other-view": (
+        "Die Person steht anders zur Kamera als verlangt. Von vorn: mit dem Gesicht zur "
+        "Kamera. Von der Seite: um ein Viertel gedreht."
+    ),
+    "arms-against-trunk": (
+        "Zwischen Arm und Rumpf ist kaum Hintergrund zu sehen. Die Arme sollen vom Körper "
+        "abstehen, an den Hüften mindestens eine Handbreit."
+    ),
+    "clothes-loose": (
+        "Weite Kleidung: Der Körper darunter ist geschätzt. Anliegende Kleidung oder das "
+        "Gewicht machen die Maße sicherer."
+    ),
+    "not-standing": (
+        "Die Person steht nicht gerade. Lassen Sie sie aufrecht und mit gestreckten Beinen stehen."
+    ),
+    "child": "Nach den Proportionen ist dies ein Kind. Gemessen werden können nur Erwachsene.",
+    "blurred": (
+        "Das Bild ist unscharf. Halten Sie die Kamera ruhig, stellen Sie auf die Person "
+        "scharf, und sorgen Sie für mehr Licht."
+    ),
+    "too-dark": (
+        "Die Person ist zu dunkel. Schalten Sie mehr Licht ein, von der Seite der Kamera und "
+        "nicht hinter der Person."
+    ),
+    "too-bright": (
+        "Ein großer Teil der Person ist überbelichtet. Belichten Sie kürzer: Tippen Sie auf "
+        "dem Bildschirm der Kamera auf die Person, oder meiden Sie das grelle Licht."
+    ),
+    "camera-rolled": (
+        "Die Person steht im Bild schräg. Halten Sie die Kamera gerade, und lassen Sie die "
+        "Person aufrecht stehen."
+    ),
+    "camera-too-near": (
+        "Die Kamera war zu nah. Gehen Sie auf 2,5 m oder mehr zurück und zoomen Sie heran."
+    ),
+    "contradicted": (
+        "Das Bild widerspricht dem Körper. Sehen Sie nach, ob die Punkte auf den Gelenken "
+        "einer einzigen Person liegen und eine Maske nur diese Person zeigt."
+    ),
+}
+
 REMARKS: Final = RemarkWords(
     assumed="Was angenommen wurde",
     warned="Was Sie prüfen sollten",
@@ -150,4 +212,5 @@ REMARKS: Final = RemarkWords(
         ),
     },
     warnings=_WARNINGS,
+    findings=_FINDINGS,
 )

@@ -31,6 +31,7 @@ def scan_content(
     wording = WORDINGS[options.language]
     views, remarks = result.views, [*result.warnings]
     assumptions = [*result.assumptions]
+    findings = [found for view in views for found in view.findings]
     for view in views:
         remarks += view.warnings
         assumptions += view.assumptions
@@ -57,7 +58,7 @@ def scan_content(
                 ),
             ),
             assumed(dict.fromkeys(assumptions), options),
-            warned(dict.fromkeys(remarks), wording),
+            warned(dict.fromkeys(findings), dict.fromkeys(remarks), wording),
         ),
     )
 

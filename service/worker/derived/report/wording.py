@@ -97,7 +97,7 @@ class FitWords:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RemarkWords:
-    """What was assumed, and what to look at."""
+    """What was assumed, and what to look at; findings without words are told as they came."""
 
     assumed: str
     warned: str
@@ -106,6 +106,7 @@ class RemarkWords:
     values: Mapping[str, str]
     reasons: Mapping[str, str]
     warnings: Mapping[str, str]
+    findings: Mapping[str, str]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

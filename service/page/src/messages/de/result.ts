@@ -50,7 +50,7 @@ export const result: Messages["result"] = {
   intervals: (share) => `Das Intervall neben einem Wert: Bei ${share} solcher Auswertungen von Personen in enger Kleidung liegt der wahre Wert darin.`,
   given: "angegeben",
   head: { measure: "Maß", value: "Wert", interval: (share) => `${share}-Intervall`, outline: "Nur nach Umriss" },
-  withheld: "Sie werden zurückgehalten: Es wären die eines Körpers, den niemand im Bild hat.",
+  withheld: "Sie werden zurückgehalten: Es wären nicht die der Person. Die Hinweise sagen, warum.",
   measureAnyway: "Trotzdem messen",
   copied: "Kopiert",
   linkCopied: "Der Link ist kopiert.",

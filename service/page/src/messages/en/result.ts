@@ -49,7 +49,7 @@ export const result = {
   intervals: (share: string) => `The interval beside a value: the truth lies within in ${share} of such fits of people in close-fitting clothes.`,
   given: "given",
   head: { measure: "Measure", value: "Value", interval: (share: string) => `${share} interval`, outline: "By outline alone" },
-  withheld: "They are withheld: they would be those of a body that nobody in the picture has.",
+  withheld: "They are withheld: they would not be those of the person. The notes say why.",
   measureAnyway: "Measure anyway",
   copied: "Copied",
   linkCopied: "The link is copied.",

@@ -1,1 +1,0 @@
-import{T as e,t}from"/page/chunk.N452CK4S.js";import{k as r}from"/page/chunk.36TC3BWD.js";var i=r([]);async function m(){try{i.value=(await e()).map(({label:o})=>o)}catch(o){if(!(o instanceof t))throw o}}export{i as a,m as b};
