@@ -169,7 +169,7 @@ def _worker(_: argparse.Namespace) -> int:
     from service.worker.main import run_worker
 
     settings = begin("worker")
-    return run_told("worker", lambda: run_worker(settings, follow_stdin=False))
+    return run_told("worker", lambda: run_worker(settings))
 
 
 def _prepare(parsed: argparse.Namespace) -> int:

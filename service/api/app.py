@@ -50,7 +50,7 @@ from service.engine.browser_token_port import BrowserTokens
 from service.engine.keys import KeyRing
 from service.engine.port import JobEngine
 from service.engine.token_port import SharedTokens
-from service.estimates.port import Estimator
+from service.numerics.relay import Ask
 from service.process.disk import Disk
 from service.settings import Settings
 from service.version import VERSION
@@ -106,16 +106,16 @@ def create_app(
     engine: JobEngine,
     blobs: BlobStore,
     disk: Disk,
-    estimator: Estimator,
+    ask: Ask,
     keys: KeyRing,
     tokens: SharedTokens,
     browser_tokens: BrowserTokens,
     draining: threading.Event,
 ) -> FastAPI:
-    """Build the application from what outlives it: engine, blobs, disk, estimators, keys and so on.
+    """Build the application from what outlives it: engine, blobs, disk, keys and so on.
 
-    ``draining`` is set once the process is told to stop: it is then no longer ready, and event
-    streams end.
+    ``ask`` has questions answered by estimators. ``draining`` is set once the process is told to
+    stop: it is then no longer ready, and event streams end.
     """
     feed = EventFeed(engine, draining)
     rate_limit = None
@@ -141,7 +141,7 @@ def create_app(
         engine=engine,
         blobs=blobs,
         disk=disk,
-        estimates=Estimates(estimator, metrics),
+        estimates=Estimates(ask, metrics, estimators=settings.estimator_processes),
         feed=feed,
         metrics=metrics,
         draining=draining,

@@ -14,7 +14,7 @@ from service.api.estimates import ESTIMATE_PROBLEMS
 from service.api.json_bodies import JSON, json_body, json_content, read_json
 from service.api.negotiation import not_acceptable, preferred
 from service.api.problems import ProblemError, documented
-from service.estimates.messages import BodyTask
+from service.estimates.questions import BodyTask
 from service.representation.csv_tables import CSV, measurements_csv
 from service.representation.formats import GLB, MESH_FORMATS, written_here
 

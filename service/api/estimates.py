@@ -1,39 +1,41 @@
-"""The resources' access to the estimator: in separate threads, with its failures as problems."""
+"""The resources' access to the estimators: in separate threads, with troubles as problems."""
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import partial
 from typing import Final, TypeVar
 
 from anyio import CapacityLimiter, to_thread
+from pydantic import BaseModel
 
-from api_schemas.checks import CaptureCheck
+from api_schemas.bodies import BodyEstimate
+from api_schemas.checks import CaptureCheck, CheckRequest
 from api_schemas.initial_poses import InitialPose
-from api_schemas.problems import problem
+from api_schemas.problems import Problem
+from api_schemas.proposals import PointsProposal, PointsRequest
 from service.api.metrics import ServiceMetrics
 from service.api.problems import ProblemError
-from service.estimates.messages import (
+from service.estimates import questions
+from service.estimates.questions import (
+    ANSWER,
+    FILE,
+    QUESTION,
     BodyTask,
-    CheckTask,
     ConversionTask,
-    InitialPoseTask,
-    PointsTask,
-)
-from service.estimates.port import (
     EstimatedBody,
-    Estimator,
-    EstimatorFailedError,
-    EstimatorTimeoutError,
-    EstimatorUnavailableError,
-    NoDetectorError,
+    InitialPoseTask,
     ProposedPoints,
 )
+from service.numerics.messages import DoneMessage, ProblemMessage, TaskMessage
+from service.numerics.quick_lane import FAILED, TIMED_OUT, UNAVAILABLE, capacity
+from service.numerics.relay import Ask
+from service.numerics.tasks import Parts
 from service.representation.formats import MeshFormat
-from service.submissions.detector import DETECTOR_MISSING, NOT_INSTALLED, REMEDY
+from service.submissions.detector import DETECTOR_MISSING
 from service.submissions.refusal import RefusedError
 
 SPARE_THREADS: Final = 4
-"""Threads beyond what the estimator takes at a time: here, one too many is refused at once."""
+"""Threads beyond what the estimators take at a time: there, one too many is refused at once."""
 
 SOON_S: Final = 2
 """When to ask an estimator again that is busy or starting."""
@@ -49,28 +51,30 @@ ESTIMATE_PROBLEMS: Final = (
 )
 """Problems with a question or with the estimator."""
 
-OUTCOMES: Final[Mapping[type[Exception], str]] = {
-    RefusedError: "refused",
-    EstimatorUnavailableError: "unavailable",
-    EstimatorTimeoutError: "timed_out",
-    NoDetectorError: "unavailable",
-}
-"""How metrics label the outcome of a question; everything else is labelled failed."""
+UNUSABLE: Final = 422
 
-Answer = TypeVar("Answer")
+OUTCOMES: Final[Mapping[str, str]] = {
+    UNAVAILABLE.code: "unavailable",
+    DETECTOR_MISSING: "unavailable",
+    TIMED_OUT.code: "timed_out",
+    FAILED.code: "failed",
+}
+"""How metrics label the problem of a question; every other one is that the question is refused."""
+
+Answer = TypeVar("Answer", bound=BaseModel)
 
 
 class Estimates:
-    """Questions to the estimator.
+    """Questions to so many estimators.
 
     They wait in threads that nothing else uses, so that however many there are, the rest of the API
     is not held up.
     """
 
-    def __init__(self, estimator: Estimator, metrics: ServiceMetrics) -> None:
-        self._estimator = estimator
+    def __init__(self, ask: Ask, metrics: ServiceMetrics, *, estimators: int) -> None:
+        self._ask = ask
         self._metrics = metrics
-        self._threads = CapacityLimiter(estimator.capacity + SPARE_THREADS)
+        self._threads = CapacityLimiter(capacity(estimators) + SPARE_THREADS)
 
     async def body(self, task: BodyTask) -> EstimatedBody:
         """Estimate a body from measurements.
@@ -82,37 +86,36 @@ class Estimates:
         ProblemError
             503 if there is no answer now, 500 if the question met a fault.
         """
-        return await self._answer("body", partial(self._estimator.body, task))
+        parts = await self._answer(questions.BODY, task)
+        return EstimatedBody(estimate=_parsed(BodyEstimate, parts), glb=parts[FILE])
 
     async def initial_pose(self, task: InitialPoseTask) -> InitialPose:
         """Pose the mean person to match clicks; raises as :meth:`body` does."""
-        return await self._answer("initial_pose", partial(self._estimator.initial_pose, task))
+        return _parsed(InitialPose, await self._answer(questions.INITIAL_POSE, task))
 
-    async def points(self, task: PointsTask, image: bytes) -> ProposedPoints:
+    async def points(self, asked: PointsRequest, image: bytes) -> ProposedPoints:
         """Propose the points of a person in an encoded picture; raises as :meth:`body` does.
 
         Also 404 where the detector is not installed.
         """
-        try:
-            return await self._answer("points", partial(self._estimator.points, task, image))
-        except NoDetectorError as error:
-            raise no_detector() from error
+        parts = await self._answer(questions.POINTS, asked, image)
+        return ProposedPoints(proposal=_parsed(PointsProposal, parts), mask=parts[FILE])
 
-    async def check(self, task: CheckTask, image: bytes) -> CaptureCheck:
-        """Say what is wrong with an encoded picture; raises as :meth:`points` does."""
-        try:
-            return await self._answer("check", partial(self._estimator.check, task, image))
-        except NoDetectorError as error:
-            raise no_detector() from error
+    async def check(self, asked: CheckRequest, image: bytes) -> CaptureCheck:
+        """Say what is wrong with an encoded picture, whose points are named.
+
+        Raises as :meth:`points` does.
+        """
+        return _parsed(CaptureCheck, await self._answer(questions.CHECK, asked, image))
 
     async def convert(self, glb: bytes, kind: MeshFormat) -> bytes:
         """Write the body of a GLB file in another format; raises as :meth:`body` does."""
         task = ConversionTask(ending=kind.ending)
-        return await self._answer("conversion", partial(self._estimator.convert, task, glb))
+        return (await self._answer(questions.CONVERSION, task, glb))[FILE]
 
     async def jpeg(self, image: bytes) -> bytes:
         """Write an encoded picture as a JPEG, upright; raises as :meth:`body` does."""
-        return await self._answer("jpeg", partial(self._estimator.jpeg, image))
+        return (await self._answer(questions.JPEG, None, image))[FILE]
 
     async def refuse_nobody(self, task: BodyTask) -> None:
         """Raise :class:`service.submissions.refusal.RefusedError` if no body has what is known.
@@ -120,63 +123,49 @@ class Estimates:
         If no estimator is ready nothing is checked, and the caller finds out later.
         """
         try:
-            await self._in_thread(
-                "known_person", partial(self._estimator.body, task, patient=False)
-            )
-        except (EstimatorUnavailableError, EstimatorFailedError):
+            await self._answer(questions.BODY, task, patient=False, label="known_person")
+        except ProblemError:
             return
 
-    async def _answer(self, name: str, question: Callable[[], Answer]) -> Answer:
-        try:
-            return await self._in_thread(name, question)
-        except EstimatorUnavailableError as error:
-            raise _not_now(
-                code="estimator-unavailable",
-                detail="All estimators are busy, or still starting.",
-            ) from error
-        except EstimatorTimeoutError as error:
-            raise _not_now(
-                code="estimator-timeout",
-                detail="The estimate took too long and was given up.",
-            ) from error
-        except EstimatorFailedError as error:
-            raise ProblemError(
-                problem(
-                    "internal-error",
-                    code="estimator-failed",
-                    detail="An unexpected fault ended the estimate; it has been logged.",
-                    remedy="Report it; other requests are not affected.",
-                )
-            ) from error
-
-    async def _in_thread(self, name: str, question: Callable[[], Answer]) -> Answer:
+    async def _answer(
+        self,
+        name: str,
+        question: BaseModel | None,
+        file: bytes = b"",
+        *,
+        patient: bool = True,
+        label: str | None = None,
+    ) -> Parts:
+        asked = b"" if question is None else question.model_dump_json().encode()
+        parts = {QUESTION: asked, FILE: file}
+        task = TaskMessage(task=name, parts=tuple(parts), patient=patient)
         started = time.monotonic()
-        outcome = "answered"
+        outcome = "failed"
         try:
-            return await to_thread.run_sync(question, limiter=self._threads)
-        except Exception as error:
-            outcome = OUTCOMES.get(type(error), "failed")
-            raise
+            received = await to_thread.run_sync(
+                partial(self._ask, task, parts), limiter=self._threads
+            )
+            match received.message:
+                case DoneMessage():
+                    outcome = "answered"
+                    return received.parts
+                case ProblemMessage(problem=reason):
+                    outcome = OUTCOMES.get(reason.code, "refused")
+                    raise _raised(reason)
+                case _:
+                    raise ProblemError(FAILED)
         finally:
             self._metrics.count_estimate(
-                question=name, outcome=outcome, seconds=time.monotonic() - started
+                question=label or name, outcome=outcome, seconds=time.monotonic() - started
             )
 
 
-def no_detector() -> ProblemError:
-    """Say that there is no detector here, and how to change that."""
-    return ProblemError(
-        problem("not-found", code=DETECTOR_MISSING, detail=NOT_INSTALLED, remedy=REMEDY)
-    )
+def _parsed(kind: type[Answer], parts: Parts) -> Answer:
+    return kind.model_validate_json(parts[ANSWER])
 
 
-def _not_now(*, code: str, detail: str) -> ProblemError:
-    return ProblemError(
-        problem(
-            "not-ready",
-            code=code,
-            detail=detail,
-            remedy="Try again after the time in Retry-After.",
-        ),
-        headers={"Retry-After": str(SOON_S)},
-    )
+def _raised(reason: Problem) -> RefusedError | ProblemError:
+    if reason.status == UNUSABLE:
+        return RefusedError(reason)
+    later = reason.code in (UNAVAILABLE.code, TIMED_OUT.code)
+    return ProblemError(reason, headers={"Retry-After": str(SOON_S)} if later else {})

@@ -13,7 +13,7 @@ from service.api.estimates import ESTIMATE_PROBLEMS
 from service.api.images import known_image
 from service.api.json_bodies import JSON, json_body, json_content, read_json
 from service.api.problems import documented
-from service.estimates.messages import InitialPoseTask
+from service.estimates.questions import InitialPoseTask
 from service.submissions.point_rules import checked_points
 from service.submissions.refusal import refused
 

@@ -14,13 +14,12 @@ from api_schemas.checks import CaptureCheck, CheckOfImage, CheckRequest
 from api_schemas.images import ImageId
 from api_schemas.proposals import PointsOfImage, PointsProposal, PointsRequest
 from service.api.context import ApiContext, Context
-from service.api.estimates import ESTIMATE_PROBLEMS, no_detector
+from service.api.estimates import ESTIMATE_PROBLEMS
 from service.api.images import image_content
 from service.api.json_bodies import JSON, json_content, media_type, read_json
-from service.api.problems import documented
+from service.api.problems import ProblemError, documented
 from service.api.uploads import picture_form, read_image_and_request
-from service.estimates.messages import CheckTask, PointsTask
-from service.submissions.detector import detector_is_installed
+from service.submissions.detector import detector_is_installed, no_detector
 from service.submissions.submission import check_picture, placed_question
 from service.submissions.validation import parsed
 
@@ -74,10 +73,10 @@ async def propose_points(request: Request, context: Context) -> Response:
     `detector-not-installed`.
     """
     if not detector_is_installed(context.settings.detector_dir):
-        raise no_detector()
+        raise ProblemError(no_detector())
     asked, image = await _read(request, context, PointsRequest, PointsOfImage)
     await run_in_threadpool(_check_picture, context, image)
-    proposed = await context.estimates.points(PointsTask(request=asked), image)
+    proposed = await context.estimates.points(asked, image)
     answer = proposed.proposal
     if proposed.mask:
         mask = base64.b64encode(proposed.mask).decode()
@@ -112,8 +111,8 @@ async def check_capture(request: Request, context: Context) -> Response:
         placed_question, asked, image, max_pixels=context.settings.max_pixels
     )
     if not placed.points and not detector_is_installed(context.settings.detector_dir):
-        raise no_detector()
-    check = await context.estimates.check(CheckTask(request=placed), image)
+        raise ProblemError(no_detector())
+    check = await context.estimates.check(placed, image)
     return Response(check.model_dump_json(), media_type=JSON, headers={"Cache-Control": "no-store"})
 
 

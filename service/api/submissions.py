@@ -30,7 +30,7 @@ from service.api.problems import documented
 from service.api.sandbox import asked_of_job
 from service.api.uploads import MULTIPART, check_names, read_request_and_some
 from service.engine.port import SCAN
-from service.estimates.messages import BodyTask
+from service.estimates.questions import BodyTask
 from service.jobs.inputs import PictureNames, SentPicture, picture_names
 from service.representation.jobs import represent
 from service.submissions.detector import check_detector

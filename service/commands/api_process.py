@@ -21,8 +21,7 @@ from service.engine.keys import KeyRing
 from service.engine.rate_tokens import RateTokens
 from service.engine.storage_identity import take_storage
 from service.engine.webhooks import WebhookLedger
-from service.estimates.pool import EstimatorPool
-from service.estimates.starting import Start
+from service.numerics.relay import Ask
 from service.process.disk import open_disk
 from service.settings import Settings
 from service.webhooks.delivery import Deliverer
@@ -35,7 +34,6 @@ class ApiProcess:
 
     engine: DbosJobEngine
     webhooks: Deliverer
-    estimators: EstimatorPool
     server: ApiServer
 
     def run(self, listener: socket.socket) -> None:
@@ -50,15 +48,12 @@ class ApiProcess:
 
     def close(self) -> None:
         """Stop what runs beside the server."""
-        self.estimators.stop()
         self.webhooks.stop()
         self.engine.close()
 
 
-def assemble(
-    settings: Settings, blobs: BlobStore, ballast: Ballast, start_estimator: Start
-) -> ApiProcess:
-    """Prepare the database, and build all parts; the estimators start at once."""
+def assemble(settings: Settings, blobs: BlobStore, ballast: Ballast, ask: Ask) -> ApiProcess:
+    """Prepare the database, and build all parts."""
     url = settings.system_database_url
     prepare_database(url, sandbox=settings.sandbox)
     take_storage(url, blobs, named=setting_of_storage(settings))
@@ -66,15 +61,13 @@ def assemble(
     database = open_database(url)
     engine = _engine(settings, database, blobs, ballast)
     webhooks = _webhooks(settings, database, blobs)
-    # Last: what they do before they are ready would keep service and worker waiting.
-    estimators = EstimatorPool(start_estimator, processes=settings.estimator_processes)
     draining = threading.Event()
     app = create_app(
         settings=settings,
         engine=engine,
         blobs=blobs,
         disk=open_disk(settings),
-        estimator=estimators,
+        ask=ask,
         keys=KeyRing(database),
         tokens=RateTokens(database, per_minute=settings.requests_per_minute),
         browser_tokens=StoredBrowserTokens(database),
@@ -86,7 +79,7 @@ def assemble(
         draining=draining,
         stop_delay_s=settings.stop_delay_s,
     )
-    return ApiProcess(engine=engine, webhooks=webhooks, estimators=estimators, server=server)
+    return ApiProcess(engine=engine, webhooks=webhooks, server=server)
 
 
 def _engine(

@@ -1,5 +1,6 @@
 """``maquette check``: say what is wrong with a picture, here and without a service."""
 
+import importlib
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -9,19 +10,16 @@ from typing import Final
 from rich.console import Console
 
 from api_schemas.checks import CaptureCheck, CheckRequest
-from api_schemas.problems import field_problem
 from service.commands.fit import UNUSABLE_INPUT, request_from_file
 from service.commands.terminal import print_problem
-from service.estimates.answering import load_answers
-from service.estimates.main import ANSWERS_MODULE
-from service.estimates.messages import CheckTask
-from service.estimates.port import NoDetectorError
+from service.numerics.tasks import ProblemError
 from service.settings import Settings
-from service.submissions.detector import NOT_INSTALLED, REMEDY
 from service.submissions.refusal import RefusedError
 from service.submissions.submission import placed_question
 from service.submissions.validation import parsed
-from service.worker.pipeline_port import UnusableInputError
+
+ANSWERS: Final = "service.estimates.answers"
+"""Loads the numerics, so that it is imported once all else is known to be right."""
 
 BLOCKED: Final = 1
 """Exit status if the picture is to be taken again."""
@@ -36,7 +34,7 @@ class CheckArguments:
     said: Mapping[str, object]
 
 
-def check_locally(arguments: CheckArguments, *, answers: str = ANSWERS_MODULE) -> int:
+def check_locally(arguments: CheckArguments, *, answers: str = ANSWERS) -> int:
     """Check a picture and print what was found; return the exit status."""
     console = Console()
     try:
@@ -44,14 +42,8 @@ def check_locally(arguments: CheckArguments, *, answers: str = ANSWERS_MODULE) -
     except OSError as error:
         console.print(f"[bold red]{error.strerror}:[/] {error.filename}")
         return UNUSABLE_INPUT
-    except NoDetectorError:
-        console.print(f"[bold red]{NOT_INSTALLED}[/] {REMEDY}", highlight=False)
-        return UNUSABLE_INPUT
-    except RefusedError as error:
+    except (RefusedError, ProblemError) as error:
         print_problem(console, error.problem)
-        return UNUSABLE_INPUT
-    except UnusableInputError as error:
-        print_problem(console, field_problem("unusable-input", error.error))
         return UNUSABLE_INPUT
     _print_check(console, check)
     return 0 if check.usable else BLOCKED
@@ -65,11 +57,8 @@ def _check(arguments: CheckArguments, answers: str) -> CaptureCheck:
     asked = parsed(CheckRequest, text, whole="request", called="the request")
     image = arguments.image.read_bytes()
     placed = placed_question(asked, image, max_pixels=settings.max_pixels)
-    return load_answers(answers).check(
-        CheckTask(request=placed),
-        image,
-        max_pixels=settings.max_pixels,
-        detector=settings.detector_dir,
+    return importlib.import_module(answers).check(
+        placed, image, max_pixels=settings.max_pixels, detector=settings.detector_dir
     )
 
 

@@ -1,4 +1,4 @@
-"""``maquette serve``: the API in this process, a worker and estimators in others."""
+"""``maquette serve``: the API in this process, a worker or estimators alone in another."""
 
 import errno
 import logging
@@ -11,17 +11,18 @@ from typing import Final
 
 from service.commands.preflight import run_preflight
 from service.engine.ballast import open_ballast
-from service.estimates.starting import Start, by_command, by_passing_on, can_watch_processes
+from service.numerics.relay import SOCKET, asking
 from service.process.interpreter import PYTHON
-from service.process.supervisor import SupervisedWorker
+from service.process.supervisor import SupervisedProcess
 from service.process.tracing import start_tracing
+from service.process.work_folder import make_work_folder
 from service.settings import PREFIX, SettingError, Settings
 from service.startup.begin import UNUSABLE_SETTINGS
 
 LOG: Final = logging.getLogger(__name__)
 
 WORKER_COMMAND: Final = (*PYTHON, "-m", "service.worker")
-ESTIMATOR_COMMAND: Final = (*PYTHON, "-m", "service.estimates")
+ESTIMATORS_COMMAND: Final = (*PYTHON, "-m", "service.estimates")
 STOP_MARGIN_S: Final = 5.0
 """How much longer than its drain time a worker gets before it is killed."""
 
@@ -60,30 +61,33 @@ def serve(
     listener: socket.socket,
     *,
     worker_command: Sequence[str] | None = WORKER_COMMAND,
-    estimator_command: Sequence[str] | None = None,
+    estimators_command: Sequence[str] = ESTIMATORS_COMMAND,
     announce: Callable[[str], None] = LOG.info,
 ) -> int:
     """Serve until interrupted; without a ``worker_command`` the workers run elsewhere.
 
-    The worker forks the estimators, unless there is none or an ``estimator_command`` is given.
-    Uvicorn is told to stop by SIGINT or SIGTERM and lets open requests end first. Returns the exit
-    status: that of unusable settings if the worker found them to be so.
+    Then only estimators are started beside the API. Either is told the address at which the API's
+    questions are to be answered. Uvicorn is told to stop by SIGINT or SIGTERM and lets open
+    requests end first. Returns the exit status: that of unusable settings if the worker found them
+    to be so.
     """
-    worker: SupervisedWorker | None = None
-    _on_signals(lambda: sys.exit(_status(worker)))
+    beside: SupervisedProcess | None = None
+    _on_signals(lambda: sys.exit(_status(beside)))
     # All faults of the settings come to light before anything with the same settings is started.
     ballast = open_ballast(settings)
     ballast.make_room()
     blobs = run_preflight(settings)
     tracing = start_tracing(settings, role="api")
     environment = _environment(settings)
+    # Of this process alone: what children of the worker may write to is the worker's.
+    address = str(make_work_folder() / SOCKET)
     if worker_command is not None:
-        worker = _start_worker(settings, worker_command, environment)
+        beside = _start_worker(settings, [*worker_command, address], environment)
+    else:
+        beside = _start_estimators(settings, [*estimators_command, address], environment)
     from service.commands.api_process import assemble
 
-    process = assemble(
-        settings, blobs, ballast, _estimator_start(worker, estimator_command, environment)
-    )
+    process = assemble(settings, blobs, ballast, asking(address))
     # The server handles signals while it runs, and raises them again when it is done: they must
     # not end this process before the worker is stopped.
     _on_signals(process.ask_to_stop)
@@ -94,11 +98,10 @@ def serve(
     try:
         process.run(listener)
     finally:
-        if worker is not None:
-            worker.stop()
+        beside.stop()
         process.close()
         tracing.stop()
-    return _status(worker)
+    return _status(beside)
 
 
 def _on_signals(act: Callable[[], object]) -> None:
@@ -108,9 +111,10 @@ def _on_signals(act: Callable[[], object]) -> None:
 
 def _start_worker(
     settings: Settings, command: Sequence[str], environment: Mapping[str, str]
-) -> SupervisedWorker:
-    return SupervisedWorker(
+) -> SupervisedProcess:
+    return SupervisedProcess(
         command,
+        name="worker",
         environment=environment,
         stop_timeout_s=settings.drain_s + STOP_MARGIN_S,
         final_code=UNUSABLE_SETTINGS,
@@ -119,18 +123,19 @@ def _start_worker(
     )
 
 
-def _estimator_start(
-    worker: SupervisedWorker | None,
-    command: Sequence[str] | None,
-    environment: Mapping[str, str],
-) -> Start:
-    if worker is not None and command is None and can_watch_processes():
-        return by_passing_on(worker.pass_on)
-    return by_command(command or ESTIMATOR_COMMAND, environment=environment)
+def _start_estimators(
+    settings: Settings, command: Sequence[str], environment: Mapping[str, str]
+) -> SupervisedProcess:
+    return SupervisedProcess(
+        command,
+        name="estimators",
+        environment=environment,
+        stop_timeout_s=settings.drain_s + STOP_MARGIN_S,
+    )
 
 
-def _status(worker: SupervisedWorker | None) -> int:
-    return UNUSABLE_SETTINGS if worker is not None and worker.has_finally_ended else 0
+def _status(beside: SupervisedProcess | None) -> int:
+    return UNUSABLE_SETTINGS if beside is not None and beside.has_finally_ended else 0
 
 
 def _environment(settings: Settings) -> dict[str, str]:

@@ -1,10 +1,9 @@
 """The real answers: the fitter between two translations."""
 
-from contextlib import suppress
 from pathlib import Path
 
 from api_schemas.bodies import BodyRequest
-from api_schemas.checks import CaptureCheck
+from api_schemas.checks import CaptureCheck, CheckRequest
 from api_schemas.initial_poses import InitialPose
 from api_schemas.problems import FieldProblem
 from api_schemas.proposals import PointsRequest
@@ -20,24 +19,22 @@ from fitter.fits.proposal import propose
 from fitter.observation.decoding import decode_picture
 from fitter.population.body_estimate import estimate_body
 from fitter.request import KnownMeasurement
-from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.measurements import STATURE
-from service.demo_data.sample import load_sample
 from service.estimates import translate
-from service.estimates.messages import (
+from service.estimates.questions import (
     BodyTask,
-    CheckTask,
     ConversionTask,
+    EstimatedBody,
     InitialPoseTask,
-    PointsTask,
+    ProposedPoints,
 )
-from service.estimates.port import EstimatedBody, NoDetectorError, ProposedPoints
-from service.submissions.submission import check_fit
+from service.estimates.tasks import estimate_tasks
+from service.numerics.tasks import ProblemError
+from service.submissions.detector import no_detector
 from service.worker.pipeline_port import UnusableInputError
 from service.worker.translate import field_problem, known_measurements, person
 
 CENTIMETRES_PER_METRE = 100.0
-SAMPLE_PIXELS = 1_000_000
 
 _TOO_MUCH_MEMORY = FieldProblem(
     field="image",
@@ -45,39 +42,6 @@ _TOO_MUCH_MEMORY = FieldProblem(
     reason="The picture needs more memory than one question may have.",
     remedy="Send a smaller version; two million pixels are plenty.",
 )
-
-
-def prepare(models: Path | None, detector: Path | None) -> None:
-    """Load both models and answer a question of each kind, which compiles or loads all kernels.
-
-    Without a detector nothing can be proposed; that is reported when somebody asks.
-    """
-    for gender in Gender:
-        body(
-            BodyTask(
-                request=BodyRequest(gender=gender, height_m=1.7),
-                with_glb=True,
-            ),
-            models,
-        )
-    sample = load_sample()
-    checked = check_fit(
-        request=sample.request, image=sample.image, mask=None, max_pixels=SAMPLE_PIXELS
-    )
-    initial_pose(
-        InitialPoseTask(
-            subject=checked.options, width=720, height=960, exif_focal_length_35mm=None
-        ),
-        models,
-    )
-
-    with suppress(NoDetectorError):
-        points(
-            PointsTask(request=PointsRequest()),
-            sample.image,
-            max_pixels=SAMPLE_PIXELS,
-            detector=detector,
-        )
 
 
 def body(task: BodyTask, models: Path | None) -> EstimatedBody:
@@ -128,19 +92,27 @@ def initial_pose(task: InitialPoseTask, models: Path | None) -> InitialPose:
 
 
 def points(
-    task: PointsTask, image: bytes, *, max_pixels: int, detector: Path | None
+    asked: PointsRequest, image: bytes, *, max_pixels: int, detector: Path | None
 ) -> ProposedPoints:
-    """Propose the points of a person in an encoded picture."""
+    """Propose the points of a person in an encoded picture.
+
+    Raises
+    ------
+    UnusableInputError
+        If the picture or what is asked of it is at fault.
+    ProblemError
+        If there is no detector.
+    """
     try:
         found = propose(
             image,
             detector=installed_detector(detector),
             max_pixels=max_pixels,
-            person=task.request.person,
-            with_mask=task.request.mask,
+            person=asked.person,
+            with_mask=asked.mask,
         )
     except DetectorUnavailableError as error:
-        raise NoDetectorError from error
+        raise ProblemError(no_detector()) from error
     except MemoryError as error:
         raise UnusableInputError(_TOO_MUCH_MEMORY) from error
     except InvalidInputError as error:
@@ -149,9 +121,14 @@ def points(
     return ProposedPoints(proposal=translate.points_proposal(found), mask=mask)
 
 
-def check(task: CheckTask, image: bytes, *, max_pixels: int, detector: Path | None) -> CaptureCheck:
-    """Say what is wrong with an encoded picture."""
-    asked = translate.capture_question(task.request)
+def check(
+    request: CheckRequest, image: bytes, *, max_pixels: int, detector: Path | None
+) -> CaptureCheck:
+    """Say what is wrong with an encoded picture, whose points are named; raises as ``points`` does.
+
+    Without a detector it says what points tell, if there are any.
+    """
+    asked = translate.capture_question(request)
     try:
         found = check_picture(
             image,
@@ -187,7 +164,7 @@ def _detector(folder: Path | None, *, needed: bool) -> Detector | None:
         return installed_detector(folder)
     except DetectorUnavailableError as error:
         if needed:
-            raise NoDetectorError from error
+            raise ProblemError(no_detector()) from error
         return None
 
 
@@ -197,3 +174,13 @@ def _known(request: BodyRequest) -> dict[str, KnownMeasurement]:
         return known
     stature_cm = request.height_m * CENTIMETRES_PER_METRE
     return {STATURE: KnownMeasurement(value=stature_cm, field="height_m")} | known
+
+
+TASKS = estimate_tasks(
+    body=body,
+    initial_pose=initial_pose,
+    points=points,
+    check=check,
+    conversion=conversion,
+    jpeg=jpeg,
+)

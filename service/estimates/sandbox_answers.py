@@ -7,25 +7,23 @@ from pathlib import Path
 
 from api_schemas.checks import CaptureCheck, CheckRequest
 from api_schemas.points import PointsFormat
+from api_schemas.proposals import PointsRequest
 from api_schemas.scans import ScanRequest
 from fitter.vocabulary.choices import ViewKind
 from service.demo_data.sample import load_sample, load_scan_sample
 from service.estimates import answers
-from service.estimates.answers import body, conversion, initial_pose, jpeg, prepare
-from service.estimates.messages import CheckTask, PointsTask
-from service.estimates.port import ProposedPoints
+from service.estimates.questions import ProposedPoints
 from service.estimates.sandbox_scale import scale_between
+from service.estimates.tasks import estimate_tasks
 from service.submissions.submission import placed_question
-
-__all__ = ["body", "check", "conversion", "initial_pose", "jpeg", "points", "prepare"]
 
 
 def points(
-    task: PointsTask, image: bytes, *, max_pixels: int, detector: Path | None
+    asked: PointsRequest, image: bytes, *, max_pixels: int, detector: Path | None
 ) -> ProposedPoints:
     """Propose the points of the sample, scaled to the picture."""
     sample = load_sample().image
-    found = answers.points(task, sample, max_pixels=max_pixels, detector=detector)
+    found = answers.points(asked, sample, max_pixels=max_pixels, detector=detector)
     scale = scale_between(sample, image)
     return ProposedPoints(
         proposal=scale.proposal(found.proposal),
@@ -33,9 +31,10 @@ def points(
     )
 
 
-def check(task: CheckTask, image: bytes, *, max_pixels: int, detector: Path | None) -> CaptureCheck:
+def check(
+    asked: CheckRequest, image: bytes, *, max_pixels: int, detector: Path | None
+) -> CaptureCheck:
     """Check the sample from the side, or from the front whatever else is asked for."""
-    asked = task.request
     sample = load_scan_sample()
     place = 1 if asked.view is ViewKind.SIDE else 0
     own_points = ScanRequest.model_validate_json(sample.request).views[place].points
@@ -50,7 +49,15 @@ def check(task: CheckTask, image: bytes, *, max_pixels: int, detector: Path | No
     )
     picture = sample.images[place]
     placed = placed_question(request, picture, max_pixels=max_pixels)
-    found = answers.check(
-        CheckTask(request=placed), picture, max_pixels=max_pixels, detector=detector
-    )
+    found = answers.check(placed, picture, max_pixels=max_pixels, detector=detector)
     return scale_between(picture, image).check(found)
+
+
+TASKS = estimate_tasks(
+    body=answers.body,
+    initial_pose=answers.initial_pose,
+    points=points,
+    check=check,
+    conversion=answers.conversion,
+    jpeg=answers.jpeg,
+)

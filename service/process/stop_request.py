@@ -1,7 +1,13 @@
-"""A request to stop, which a signal may bring at any moment."""
+"""A request to stop, which a signal may bring at any moment, or the end of who started us."""
 
+import os
 import queue
+import signal
+import sys
+import threading
 from typing import Final
+
+READ_AT_ONCE: Final = 4_096
 
 NOTICED_WITHIN_S: Final = 0.5
 """How late a stop may be noticed that was requested in the moment a wait began."""
@@ -32,3 +38,22 @@ class StopRequest:
                 return self._asked.get(timeout=NOTICED_WITHIN_S)
             except queue.Empty:
                 continue
+
+    def on_signals(self) -> None:
+        """Let SIGTERM and SIGINT ask."""
+        for number in (signal.SIGTERM, signal.SIGINT):
+            signal.signal(number, lambda _number, _frame: self.ask())
+
+    def with_starter(self) -> None:
+        """Let the end of standard input ask: whoever started this process has ended, or wants it.
+
+        Read in a thread, and not through sys.stdin: a reader that holds its lock keeps the
+        interpreter from ending.
+        """
+
+        def follow() -> None:
+            while os.read(sys.stdin.fileno(), READ_AT_ONCE):
+                pass
+            self.ask()
+
+        threading.Thread(target=follow, name="starter", daemon=True).start()

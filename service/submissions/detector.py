@@ -7,7 +7,7 @@ the detector, its fit fails with the same code.
 from pathlib import Path
 from typing import Final
 
-from api_schemas.problems import FieldProblem
+from api_schemas.problems import FieldProblem, Problem, problem
 from api_schemas.requests import FitOptions
 from api_schemas.scans import ScanOptions
 from fitter.detection.weights import INSTALLATION, detector_fault
@@ -25,6 +25,11 @@ def detector_is_installed(folder: Path | None) -> bool:
     Neither is loaded.
     """
     return detector_fault(folder) is None
+
+
+def no_detector() -> Problem:
+    """Say that there is no detector here, and how to change that."""
+    return problem("not-found", code=DETECTOR_MISSING, detail=NOT_INSTALLED, remedy=REMEDY)
 
 
 def check_detector(options: FitOptions | ScanOptions, folder: Path | None) -> None:

@@ -1,4 +1,7 @@
-"""Run a worker that ends with the process that started it: ``python -m service.worker``."""
+"""Run a worker beside the API that started it: ``python -m service.worker ADDRESS``.
+
+It answers the API's questions at that address, and ends with it.
+"""
 
 import sys
 
@@ -7,4 +10,4 @@ from service.worker.main import run_worker
 
 if __name__ == "__main__":
     settings = begin("worker")
-    sys.exit(run_told("worker", lambda: run_worker(settings, follow_stdin=True)))
+    sys.exit(run_told("worker", lambda: run_worker(settings, questions_at=sys.argv[1])))

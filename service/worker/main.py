@@ -3,22 +3,22 @@
 import logging
 import os
 import shutil
-import signal
 from collections.abc import Sequence
-from typing import Final
+from pathlib import Path
+from typing import Final, NoReturn
 
 from service.blobs import open_blob_store, setting_of_storage
-from service.process.caches import settle_folders
+from service.numerics.fork_server import ForkServer, settle_environment
+from service.numerics.job_lane import JobLane
+from service.numerics.quick_lane import QuickLane
+from service.numerics.relay import answer_questions
+from service.numerics.tasks import child_setup
 from service.process.data_folder import prepare_data_folder
 from service.process.disk import open_disk
-from service.process.heap import KEPT
-from service.process.interpreter import SAFE_PATH_VARIABLE
 from service.process.stop_request import StopRequest
 from service.settings import Settings
-from service.worker.child_process import ChildRunner
-from service.worker.fork_requests import follow_starter
-from service.worker.fork_server import ForkedProcesses
-from service.worker.model_files import check_detector
+from service.worker.job_runner import JobRunner
+from service.worker.model_files import check_detector, check_models
 from service.worker.models_reading import COMMAND as MODELS_COMMAND
 from service.worker.models_reading import ModelsBeingRead
 
@@ -28,16 +28,11 @@ PIPELINE: Final = "service.worker.pipeline"
 SANDBOX_PIPELINE: Final = "service.worker.sandbox"
 SECRETLESS: Final = "service.worker.secretless"
 PRELOAD: Final = "service.worker.preload"
-ESTIMATOR: Final = "service.estimates.forked_estimator"
+ESTIMATES: Final = "service.estimates.answers"
+SANDBOX_ESTIMATES: Final = "service.estimates.sandbox_answers"
 
-THREAD_LIMITS: Final = (
-    "OMP_NUM_THREADS",
-    "OPENBLAS_NUM_THREADS",
-    "MKL_NUM_THREADS",
-    "NUMBA_NUM_THREADS",
-    "OPENCV_FOR_THREADS_NUM",
-)
-"""One thread a fit, fits side by side: threads within a fit cost more than they bring."""
+NICENESS: Final = 5
+"""Fits give way to the API on the same machine."""
 
 SPARE_CONNECTIONS: Final = 6
 """To the database, beside one a fit: heartbeat, queue, notifications, and DBOS's own writes."""
@@ -46,41 +41,34 @@ SPARE_CONNECTIONS: Final = 6
 def run_worker(
     settings: Settings,
     *,
-    follow_stdin: bool,
+    questions_at: str | None = None,
     pipeline: str | None = None,
+    estimates: str | None = None,
     secretless: str = SECRETLESS,
     preload: str = PRELOAD,
-    estimator: str = ESTIMATOR,
     models_command: Sequence[str] = MODELS_COMMAND,
 ) -> None:
-    """Work until SIGTERM or SIGINT, or until standard input ends if that is to be followed.
+    """Work until SIGTERM or SIGINT.
 
-    ``pipeline`` is by default the real one, or the sandbox's where that is set.
-    ``secretless`` is what its fork server imports first, ``preload`` what last.
-    ``estimator`` is what runs in processes forked for whoever started this one.
-    ``models_command`` starts the process that says which body models there are.
+    Beside an API it also answers the API's questions at the address ``questions_at``, and ends with
+    standard input. ``pipeline`` and ``estimates`` are the tables of jobs and of questions, by
+    default the real ones, or the sandbox's where that is set. ``secretless`` is what the fork
+    server imports first, ``preload`` what last. ``models_command`` starts the process that says
+    which body models there are.
     """
-    if pipeline is None:
-        pipeline = SANDBOX_PIPELINE if settings.sandbox else PIPELINE
-    stop = StopRequest()
-    for number in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(number, lambda _number, _frame: stop.ask())
-    for variable in THREAD_LIMITS:
-        os.environ.setdefault(variable, "1")
-    for variable, value in KEPT.items():
-        os.environ.setdefault(variable, value)
-    # The fork server and its resource tracker are started by `python -c`.
-    os.environ[SAFE_PATH_VARIABLE] = "1"
-    work = settle_folders()
+    stop, work = _begin(with_starter=questions_at is not None)
     prepare_data_folder(settings)
     check_detector(settings)
     blobs = open_blob_store(settings)
-    processes = ForkedProcesses(secretless, *((estimator,) if follow_stdin else ()), preload)
-    if follow_stdin:
-        follow_starter(processes, module=estimator, ended=stop.ask)
-    runner = ChildRunner(settings, blobs, processes, pipeline=pipeline)
     # What takes longest begins first, even if the database then turns out to be of no use.
-    processes.begin_preloading()
+    if questions_at is None:
+        server = ForkServer(secretless, preload)
+        server.begin_preloading()
+    else:
+        server = _answering(settings, questions_at, estimates, secretless, preload)
+    tasks = pipeline or (SANDBOX_PIPELINE if settings.sandbox else PIPELINE)
+    setup = child_setup(settings, name="job", tasks=tasks, niceness=NICENESS)
+    runner = JobRunner(settings, blobs, JobLane(server, setup, jobs=settings.child_jobs))
     models = ModelsBeingRead(settings, command=models_command)
     # Imported while others load the numerics and read the models: a good part of a second each.
     from service.engine.database import open_database, prepare_database
@@ -105,18 +93,66 @@ def run_worker(
         queue_poll_s=settings.queue_poll_s,
         retention_s=settings.retention_s,
         disk=open_disk(settings),
-        is_able=processes.is_able,
+        is_able=server.is_able,
     )
     engine.start(runner.run, body_models=models.wait())
     LOG.info("Worker %s is ready.", engine.executor_id)
     if settings.sandbox:
         LOG.warning("This worker is a sandbox: its results are canned, whatever was sent.")
-    if not processes.is_able():
+    if not server.is_able():
         LOG.info("Jobs wait until the numerics are loaded, or compiled if that is not done yet.")
     stop.wait()
     LOG.info("Worker %s is stopping.", engine.executor_id)
     engine.stop(drain_s=settings.drain_s)
     tracing.stop()
+    _end(work)
+
+
+def run_estimators(
+    settings: Settings,
+    *,
+    questions_at: str,
+    estimates: str | None = None,
+    secretless: str = SECRETLESS,
+    preload: str = PRELOAD,
+) -> None:
+    """Answer the questions of an API without a worker, as that would, until its end or SIGTERM.
+
+    Raises
+    ------
+    SettingError
+        If body models or detector cannot be used.
+    """
+    stop, work = _begin(with_starter=True)
+    check_models(settings)
+    check_detector(settings)
+    _answering(settings, questions_at, estimates, secretless, preload)
+    stop.wait()
+    _end(work)
+
+
+def _begin(*, with_starter: bool) -> tuple[StopRequest, Path]:
+    """Take requests to stop from here on; return them and the work folder."""
+    stop = StopRequest()
+    stop.on_signals()
+    if with_starter:
+        stop.with_starter()
+    return stop, settle_environment()
+
+
+def _answering(
+    settings: Settings, questions_at: str, estimates: str | None, secretless: str, preload: str
+) -> ForkServer:
+    """Start the fork server, and answer questions by what it forks."""
+    tasks = estimates or (SANDBOX_ESTIMATES if settings.sandbox else ESTIMATES)
+    server = ForkServer(secretless, tasks, preload)
+    server.begin_preloading()
+    setup = child_setup(settings, name="estimator", tasks=tasks)
+    answer_questions(QuickLane(server, setup, children=settings.estimator_processes), questions_at)
+    return server
+
+
+def _end(work: Path) -> NoReturn:
     logging.shutdown()
     shutil.rmtree(work, ignore_errors=True)
     # Not a return: threads of fits that were handed back may still be there.

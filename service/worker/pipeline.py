@@ -24,6 +24,7 @@ from service.worker.pipeline_port import (
     PipelineOutput,
     UnusableInputError,
 )
+from service.worker.tasks import job_tasks
 
 _SEEN_FROM: Final = (("front", 0.0), ("side", 90.0), ("back", 180.0))
 """What ``scan.png`` shows, and how far the onlooker has walked round, degrees."""
@@ -74,3 +75,6 @@ def derive(
         raise UnusableInputError(translate.field_problem(error)) from error
     except DetectorUnavailableError as error:
         raise UnusableInputError(translate.detector_problem(error)) from error
+
+
+TASKS: Final = job_tasks(run, derive)

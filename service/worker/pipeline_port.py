@@ -15,12 +15,13 @@ from uuid import UUID
 
 from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivation_kinds.base import DerivedFiles
-from api_schemas.problems import FieldProblem, Problem
+from api_schemas.problems import FieldProblem, field_problem
 from api_schemas.requests import FitOptions
 from api_schemas.results import FitResult
 from api_schemas.scans import ScanOptions, ScanResult
 from service.engine.port import Report
 from service.jobs.inputs import SentPicture
+from service.numerics.tasks import ProblemError
 
 AnyFitOptions = FitOptions | ScanOptions
 AnyFitResult = FitResult | ScanResult
@@ -81,20 +82,12 @@ class DerivationOutput(Generic[Result_co]):
     artifacts: Mapping[str, bytes]
 
 
-class UnusableInputError(Exception):
-    """The pipeline cannot use what the caller sent."""
+class UnusableInputError(ProblemError):
+    """What the caller sent cannot be used."""
 
     def __init__(self, error: FieldProblem) -> None:
-        super().__init__(error.field, error.code)
+        super().__init__(field_problem("unusable-input", error))
         self.error = error
-
-
-class ProblemError(Exception):
-    """The job ends with this problem."""
-
-    def __init__(self, problem: Problem) -> None:
-        super().__init__(problem.code)
-        self.problem = problem
 
 
 class Pipeline(Protocol):

@@ -6,7 +6,7 @@ person as everywhere, by the options of the request; the others are canned too.
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import cast
+from typing import Final, cast
 
 from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivation_kinds.base import DerivedFiles
@@ -24,6 +24,7 @@ from service.worker.pipeline_port import (
 from service.worker.sandbox_endings import end_as_asked, judged
 from service.worker.sandbox_forms import combined_of_fits, scan_of_views
 from service.worker.sandbox_results import CannedResults, canned_results
+from service.worker.tasks import job_tasks
 
 
 def run(job: PipelineInput, observe: Callable[[Report], None]) -> PipelineOutput:
@@ -63,3 +64,6 @@ def _with_sample(
     # A person of an earlier version's sample is none of these: what is drawn of it is.
     picture = canned.pictures.get(job.inputs[PERSON], job.inputs[OVERLAY])
     return replace(job, inputs={**job.inputs, IMAGE: picture})
+
+
+TASKS: Final = job_tasks(run, derive)

@@ -20,9 +20,10 @@ from service.jobs.sandbox import (
     WARNINGS,
     slowness_s,
 )
+from service.numerics.tasks import ProblemError
 from service.settings import Settings
 from service.worker.endings import input_gone, no_process, no_storage, too_slow
-from service.worker.pipeline_port import AnyFitResult, ProblemError, UnusableInputError
+from service.worker.pipeline_port import AnyFitResult, UnusableInputError
 
 _ASKED: Final = "The sandbox was asked for this."
 _REMEDY: Final = "Post it again without `sandbox:` in the label, or retry the job."

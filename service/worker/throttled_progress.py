@@ -3,7 +3,7 @@
 import time
 
 from service.engine.port import Attempt, Directive, Report
-from service.worker.messages import ProgressMessage
+from service.numerics.messages import ProgressMessage
 
 
 class ThrottledProgress:

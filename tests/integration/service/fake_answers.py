@@ -10,22 +10,30 @@ import time
 from pathlib import Path
 
 from api_schemas.bodies import BodyEstimate, EstimatedMeasurement
-from api_schemas.checks import CaptureCheck, Finding
+from api_schemas.checks import CaptureCheck, CheckRequest, Finding
 from api_schemas.initial_poses import InitialPose, LimbReading
 from api_schemas.points import PointSource
 from api_schemas.problems import FieldProblem
-from api_schemas.proposals import FoundPerson, PictureSize, PointsProposal, ProposedPoint
+from api_schemas.proposals import (
+    FoundPerson,
+    PictureSize,
+    PointsProposal,
+    PointsRequest,
+    ProposedPoint,
+)
 from api_schemas.results import BodyResult, CameraResult, FitWarning, PartRotation
 from fitter.vocabulary.choices import Facing
 from fitter.vocabulary.outcomes import FocalLengthSource, SeenFrom, Severity
-from service.estimates.messages import (
+from service.estimates.questions import (
     BodyTask,
-    CheckTask,
     ConversionTask,
+    EstimatedBody,
     InitialPoseTask,
-    PointsTask,
+    ProposedPoints,
 )
-from service.estimates.port import EstimatedBody, NoDetectorError, ProposedPoints
+from service.estimates.tasks import estimate_tasks
+from service.numerics.tasks import ProblemError
+from service.submissions.detector import no_detector
 from service.worker.pipeline_port import UnusableInputError
 from tests.integration.service.fake_pipeline import NOBODYS_WEIGHT_KG, SCRIPT_MARK
 
@@ -33,10 +41,6 @@ GLB = b"glTF" + bytes(range(256))
 MASK = b"\x89PNG" + bytes(range(64))
 GATE = "FAKE_ANSWERS_GATE"
 KNOWN_NAMES = ("waist_girth_navel", "hip_girth", "inseam")
-
-
-def prepare(models: Path | None, detector: Path | None) -> None:
-    del models, detector
 
 
 def body(task: BodyTask, models: Path | None) -> EstimatedBody:
@@ -109,17 +113,17 @@ def initial_pose(task: InitialPoseTask, models: Path | None) -> InitialPose:
 
 
 def points(
-    task: PointsTask, image: bytes, *, max_pixels: int, detector: Path | None
+    asked: PointsRequest, image: bytes, *, max_pixels: int, detector: Path | None
 ) -> ProposedPoints:
     """See as many people as the picture says; of one of them a nose."""
     del max_pixels, detector
     script = json.loads(image.partition(SCRIPT_MARK)[2])
     if script.get("no_detector"):
-        raise NoDetectorError
+        raise ProblemError(no_detector())
     if script.get("segfault"):
         ctypes.string_at(0)
     count = script.get("people", 1)
-    person = task.request.person or 0
+    person = asked.person or 0
     if person >= max(count, 1):
         raise UnusableInputError(
             FieldProblem(
@@ -146,16 +150,18 @@ def points(
             doubtful=(),
             warnings=() if count else (FitWarning(code="nobody-found", message="Nobody."),),
         ),
-        mask=MASK if task.request.mask and count else b"",
+        mask=MASK if asked.mask and count else b"",
     )
 
 
-def check(task: CheckTask, image: bytes, *, max_pixels: int, detector: Path | None) -> CaptureCheck:
+def check(
+    asked: CheckRequest, image: bytes, *, max_pixels: int, detector: Path | None
+) -> CaptureCheck:
     """Find as many people as the picture says, and repeat what was asked."""
     del max_pixels, detector
     script = json.loads(image.partition(SCRIPT_MARK)[2])
-    if script.get("no_detector") and not task.request.points:
-        raise NoDetectorError
+    if script.get("no_detector") and not asked.points:
+        raise ProblemError(no_detector())
     found = script.get("people", 1)
     nobody = Finding(
         code="nobody-found",
@@ -171,9 +177,9 @@ def check(task: CheckTask, image: bytes, *, max_pixels: int, detector: Path | No
         findings=() if found else (nobody,),
         not_checked=(),
         box=(0.0, 0.0, 64.0, 48.0) if found else None,
-        seen_from=None if task.request.view is None else SeenFrom(task.request.view.value),
-        lean_deg=float(len(task.request.points)),
-        distance_m=task.request.focal_length_px,
+        seen_from=None if asked.view is None else SeenFrom(asked.view.value),
+        lean_deg=float(len(asked.points)),
+        distance_m=asked.focal_length_px,
         assumptions=(),
         warnings=(),
     )
@@ -217,3 +223,13 @@ def _obey(name: str, value: object) -> None:
                 remedy="Use waist_girth_navel.",
             )
         )
+
+
+TASKS = estimate_tasks(
+    body=body,
+    initial_pose=initial_pose,
+    points=points,
+    check=check,
+    conversion=conversion,
+    jpeg=jpeg,
+)

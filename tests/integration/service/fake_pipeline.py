@@ -12,7 +12,7 @@ import time
 import zlib
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 from api_schemas.body_models import BodyModelInfo, BodyModels
 from api_schemas.derivation_kinds import AnyDerivationOptions
@@ -29,6 +29,7 @@ from service.worker.pipeline_port import (
     PipelineOutput,
     UnusableInputError,
 )
+from service.worker.tasks import job_tasks
 from tests.integration.service.fake_derived import derived_output
 from tests.integration.service.fake_results import fit_result, scan_files, scan_result
 
@@ -177,3 +178,6 @@ def _work(seconds: float, *, burn: bool) -> None:
     while (remaining := end - time.monotonic()) > 0.0:
         if not burn:
             time.sleep(remaining)
+
+
+TASKS: Final = job_tasks(run, derive)

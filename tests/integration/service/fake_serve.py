@@ -7,21 +7,17 @@ import argparse
 import sys
 from pathlib import Path
 
-from service.commands.serve import ESTIMATOR_COMMAND, listen, serve
+from service.commands.serve import listen, serve
 from service.process.logs import configure_logging
 from service.settings import Settings
 
-ESTIMATORS = {
-    "fake": (sys.executable, "-m", "tests.integration.service.fake_estimator"),
-    "broken": (sys.executable, "-c", "import sys; sys.exit(1)"),
-    "real": ESTIMATOR_COMMAND,
-}
 FAKE_WORKER = (sys.executable, "-m", "tests.integration.service.fake_worker")
+FAKE_ESTIMATORS = (sys.executable, "-m", "tests.integration.service.fake_estimators")
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()
     parser.add_argument("--no-worker", action="store_true")
-    parser.add_argument("--estimator", choices=ESTIMATORS, default="fake")
+    parser.add_argument("--estimator", choices=("fake", "broken", "real"), default="fake")
     parser.add_argument("--data-dir", type=Path)
     parsed = parser.parse_args()
     given = {} if parsed.data_dir is None else {"data_dir": parsed.data_dir, "port": 0}
@@ -30,7 +26,8 @@ if __name__ == "__main__":
     serve(
         settings,
         listen(settings),
-        worker_command=None if parsed.no_worker else FAKE_WORKER,
-        estimator_command=ESTIMATORS[parsed.estimator],
+        worker_command=None if parsed.no_worker else (*FAKE_WORKER, parsed.estimator),
+        # Those that are broken end at once.
+        estimators_command=(*FAKE_ESTIMATORS, parsed.estimator),
         announce=lambda text: print(text, flush=True),
     )

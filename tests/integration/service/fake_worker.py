@@ -1,17 +1,29 @@
-"""A worker with the fake pipeline: ``python -m tests.integration.service.fake_worker``."""
+"""A worker with the fake pipeline: ``python -m tests.integration.service.fake_worker``.
+
+Beside an API it is told what its estimators are, and the address of the API's questions. Where they
+are broken it answers none. It stops with whoever started it in any case, unlike ``maquette worker``.
+"""
 
 import os
+import signal
 import sys
+import threading
 from pathlib import Path
 
 FAKE = "tests.integration.service.fake_pipeline"
-FAKE_ESTIMATOR = "tests.integration.service.fake_forked_estimator"
+ESTIMATES = {"fake": "tests.integration.service.fake_answers", "real": "service.estimates.answers"}
 FAKE_SECRETLESS = "tests.integration.service.fake_secretless"
 FAKE_PRELOAD = "tests.integration.service.fake_preload"
 FAKE_MODELS = (sys.executable, "-m", "tests.integration.service.fake_models")
 
 
-def main() -> None:
+def stop_with_starter() -> None:
+    while os.read(sys.stdin.fileno(), 1_024):
+        pass
+    os.kill(os.getpid(), signal.SIGTERM)
+
+
+def main(estimates: str = "broken", questions_at: str | None = None) -> None:
     # Imported here: every forked child imports this module again, and is to start quickly.
     from service.process.logs import configure_logging
     from service.settings import Settings
@@ -19,18 +31,19 @@ def main() -> None:
 
     # The processes that a worker starts look for nothing in the current folder.
     os.environ["PYTHONPATH"] = str(Path(__file__).parents[3])
+    threading.Thread(target=stop_with_starter, daemon=True).start()
     settings = Settings()
     configure_logging(settings.log_level, settings.log_format)
     run_worker(
         settings,
-        follow_stdin=True,
+        questions_at=questions_at if estimates in ESTIMATES else None,
         pipeline=FAKE,
+        estimates=ESTIMATES.get(estimates),
         secretless=FAKE_SECRETLESS,
         preload=FAKE_PRELOAD,
-        estimator=FAKE_ESTIMATOR,
         models_command=FAKE_MODELS,
     )
 
 
 if __name__ == "__main__":
-    main()
+    main(*sys.argv[1:])

@@ -28,11 +28,11 @@ SECRET = "opensesame"
 
 SERVE = ("-m", "service.cli", "serve")
 WORKER = ("-m", "service.cli", "worker")
-CHILD_WORKER = ("-m", "service.worker")
+CHILD_WORKER = ("-m", "service.worker", "ADDRESS")
 PREPARE = ("-m", "service.cli", "prepare")
 KEYS = ("-m", "service.cli", "keys", "list")
 HEALTH = ("-m", "service.cli", "health")
-ESTIMATOR = ("-m", "service.estimates", "0")
+ESTIMATORS = ("-m", "service.estimates", "ADDRESS")
 
 WITHIN_S = 100.0
 """Far below the two minutes a database that is away is waited for."""
@@ -42,9 +42,10 @@ def run(
     arguments: Sequence[str], folder: Path, **variables: object
 ) -> subprocess.CompletedProcess[str]:
     machine = Machine(folder, settings={"port": 0})
+    at = {"ADDRESS": str(folder.parent / "questions")}
     named = {f"MAQUETTE_{name.upper()}": str(value) for name, value in variables.items()}
     done = subprocess.run(
-        [sys.executable, *arguments],
+        [sys.executable, *(at.get(each, each) for each in arguments)],
         env=machine.environment() | named,
         stdin=subprocess.DEVNULL,
         capture_output=True,
@@ -74,7 +75,7 @@ def _postgres_answers() -> None:
         pytest.skip(f"no Postgres answers at 127.0.0.1:5432 ({error})")
 
 
-@pytest.mark.parametrize("command", [SERVE, WORKER, CHILD_WORKER, PREPARE, KEYS, HEALTH, ESTIMATOR])
+@pytest.mark.parametrize("command", [SERVE, WORKER, CHILD_WORKER, PREPARE, KEYS, HEALTH, ESTIMATORS])
 def test_no_command_begins_with_an_endless_time(command: Sequence[str], tmp_path: Path):
     done = run(command, tmp_path / "data", retention_hours="inf")
     assert_refused(done, naming="MAQUETTE_RETENTION_HOURS=inf: it must be a finite number")
@@ -169,7 +170,7 @@ def test_a_database_that_does_not_come_is_given_up_with_another_status(
     assert SECRET not in line
 
 
-@pytest.mark.parametrize("command", [SERVE, CHILD_WORKER, ESTIMATOR])
+@pytest.mark.parametrize("command", [SERVE, CHILD_WORKER, ESTIMATORS])
 def test_a_damaged_body_model_is_refused(command: Sequence[str], tmp_path: Path):
     shutil.copytree(MODELS, tmp_path / "models")
     damaged = tmp_path / "models" / "male.npz"

@@ -8,17 +8,17 @@ import pytest
 from api_schemas.derivations import DerivationRequest
 from service.engine.port import FIT
 from service.jobs.inputs import IMAGE, PERSON, RESULT
+from service.numerics.fork_server import Child, ForkServer
+from service.numerics.messages import DoneMessage, ProgressMessage, TaskMessage
+from service.numerics.tasks import ChildSetup
 from service.submissions.submission import check_fit
-from service.worker import child
-from service.worker.child_tasks import ChildSetup, ChildTask
-from service.worker.fork_server import ForkedProcesses
-from service.worker.kept_children import Child
-from service.worker.messages import MESSAGES, DoneMessage, FileMessage, ProgressMessage
+from service.worker.tasks import DERIVATION, DERIVED_FROM, OPTIONS, STAGE_SECONDS
 from tests.submissions import small_submissions
 
 MAX_PIXELS = 10_000_000
 SETUP = ChildSetup(
-    pipeline="service.worker.pipeline",
+    name="job",
+    tasks="service.worker.pipeline",
     max_pixels=MAX_PIXELS,
     models=None,
     detector=None,
@@ -27,17 +27,17 @@ SETUP = ChildSetup(
     log_format="text",
 )
 
-DERIVED_FROM = "11111111-1111-4111-8111-111111111111"
+MADE_OF = b"11111111-1111-4111-8111-111111111111"
 
 KINDS = ("body_composition", "caricature", "pose", "animation")
 
-Job = tuple[str, bytes, dict[str, bytes]]
-"""Kind, options and inputs."""
+Job = tuple[str, dict[str, bytes]]
+"""Its task and parts."""
 
 
 @pytest.fixture(scope="module")
-def processes() -> ForkedProcesses:
-    return ForkedProcesses("service.worker.pipeline")
+def processes() -> ForkServer:
+    return ForkServer("service.worker.pipeline")
 
 
 @pytest.fixture(scope="module")
@@ -46,7 +46,7 @@ def fits() -> Sequence[Job]:
 
 
 @pytest.fixture(scope="module")
-def alone(processes: ForkedProcesses, fits: Sequence[Job]) -> Sequence[dict[str, bytes]]:
+def alone(processes: ForkServer, fits: Sequence[Job]) -> Sequence[dict[str, bytes]]:
     """The files of the first fit and the last, each in a process of its own."""
     return [next(results(processes, [each])) for each in (fits[0], fits[-1])]
 
@@ -60,7 +60,7 @@ def derivations(alone: Sequence[dict[str, bytes]]) -> dict[str, Job]:
 
 @pytest.fixture(scope="module")
 def after_others(
-    processes: ForkedProcesses, fits: Sequence[Job], derivations: dict[str, Job]
+    processes: ForkServer, fits: Sequence[Job], derivations: dict[str, Job]
 ) -> Sequence[dict[str, bytes]]:
     """The files of jobs that one process runs; the first fit is its second, fourth and last."""
     one, other, last = fits
@@ -76,7 +76,7 @@ def test_a_fit_is_the_same_in_a_process_that_has_run_others(
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_what_is_derived_from_a_fit_is_the_same_after_other_jobs(
-    processes: ForkedProcesses,
+    processes: ForkServer,
     derivations: dict[str, Job],
     after_others: Sequence[dict[str, bytes]],
     kind: str,
@@ -85,33 +85,26 @@ def test_what_is_derived_from_a_fit_is_the_same_after_other_jobs(
     assert after_others[4 + KINDS.index(kind)] == derived
 
 
-def results(processes: ForkedProcesses, jobs: Sequence[Job]) -> Iterator[dict[str, bytes]]:
+def results(processes: ForkServer, jobs: Sequence[Job]) -> Iterator[dict[str, bytes]]:
     """The files of jobs that one process runs, one after the other."""
-    process = Child(*processes.start(child.work, SETUP))
+    process = processes.start_child(SETUP)
     try:
-        for kind, options, inputs in jobs:
-            task = ChildTask(
-                kind=kind,
-                inputs=tuple(inputs),
-                log_context={},
-                derived_from=None if kind == FIT else DERIVED_FROM,
-            )
-            process.give(task, (options, *inputs.values()))
+        for task, parts in jobs:
+            process.give(TaskMessage(task=task, parts=tuple(parts)), parts.values())
             yield _files(process)
     finally:
         process.end()
 
 
 def _files(process: Child) -> dict[str, bytes]:
-    files: dict[str, bytes] = {}
     while True:
-        message = MESSAGES.validate_json(process.connection.recv_bytes())
-        if isinstance(message, FileMessage):
-            files[message.name] = process.connection.recv_bytes()
-        elif isinstance(message, DoneMessage):
+        received = process.receive()
+        assert received is not None
+        if isinstance(received.message, DoneMessage):
+            files = dict(received.parts)
+            files.pop(STAGE_SECONDS, None)
             return files | {RESULT: _without_durations(files[RESULT])}
-        else:
-            assert isinstance(message, ProgressMessage), message
+        assert isinstance(received.message, ProgressMessage), received.message
 
 
 def _without_durations(document: bytes) -> bytes:
@@ -122,9 +115,10 @@ def _without_durations(document: bytes) -> bytes:
 
 def _fit(request: str, image: bytes) -> Job:
     checked = check_fit(request=request.encode(), image=image, mask=None, max_pixels=MAX_PIXELS)
-    return FIT, checked.options.model_dump_json().encode(), {IMAGE: image}
+    return FIT, {OPTIONS: checked.options.model_dump_json().encode(), IMAGE: image}
 
 
 def _derivation(options: dict[str, object], inputs: dict[str, bytes]) -> Job:
     checked = DerivationRequest.model_validate(options)
-    return checked.root.kind, checked.model_dump_json().encode(), inputs
+    options_part = checked.model_dump_json().encode()
+    return DERIVATION, {OPTIONS: options_part, DERIVED_FROM: MADE_OF, **inputs}

@@ -102,4 +102,4 @@ def test_it_loads_neither_compiled_kernels_nor_picture_libraries():
     )
     loaded = set(done.stdout.split())
     assert "fitter.body.storage" in loaded
-    assert not {"numba", "cv2", "PIL", "service.worker.child"} & loaded
+    assert not {"numba", "cv2", "PIL", "service.numerics.child"} & loaded

@@ -93,7 +93,7 @@ def test_what_derives_a_kind_takes_its_options_and_gives_its_result(kind: Defini
 def test_a_process_for_fits_has_loaded_nothing_that_derives():
     """Only the package itself: every process forked for a fit would carry more along."""
     code = (
-        "import sys, service.worker.child, service.worker.pipeline;"
+        "import sys, service.numerics.child, service.worker.pipeline;"
         "print([each for each in sys.modules if each.startswith('service.worker.derived')])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True, text=True)

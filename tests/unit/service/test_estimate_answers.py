@@ -16,8 +16,8 @@ from fitter.vocabulary.choices import Facing, Gender, ViewKind
 from fitter.vocabulary.outcomes import SeenFrom, Severity
 from service.demo_data.sample import load_sample
 from service.estimates.answers import body, check, initial_pose, jpeg, points
-from service.estimates.messages import BodyTask, CheckTask, InitialPoseTask, PointsTask
-from service.estimates.port import NoDetectorError
+from service.estimates.questions import BodyTask, InitialPoseTask
+from service.numerics.tasks import ProblemError
 from service.submissions.submission import check_fit
 from service.worker.pipeline_port import UnusableInputError
 from tests.heif_files import SAMPLE_LYING, coded, phone_picture
@@ -106,7 +106,7 @@ def test_a_pose_of_somebody_nobody_is_is_refused_where_it_was_said():
 
 def test_points_of_the_sample_are_proposed_with_a_mask_of_its_size():
     sample = load_sample()
-    task = PointsTask(request=PointsRequest(mask=True))
+    task = PointsRequest(mask=True)
     found = points(task, sample.image, max_pixels=1_000_000, detector=None)
     with Image.open(io.BytesIO(found.mask)) as mask:
         assert (mask.mode, mask.size) == ("L", (720, 960))
@@ -125,7 +125,7 @@ def sample_of_a_phone() -> bytes:
 
 def test_points_of_a_heic_are_those_of_the_jpeg():
     found = [
-        points(PointsTask(request=PointsRequest()), image, max_pixels=1_000_000, detector=None)
+        points(PointsRequest(), image, max_pixels=1_000_000, detector=None)
         for image in (load_sample().image, sample_of_a_phone())
     ]
     jpeg_points, heic_points = (each.proposal.points for each in found)
@@ -139,7 +139,7 @@ def test_points_of_a_heic_are_those_of_the_jpeg():
 
 
 def test_a_heic_is_checked_with_the_lens_of_its_exif_block():
-    task = CheckTask(request=CheckRequest(view=ViewKind.FRONT, height_m=1.804))
+    task = CheckRequest(view=ViewKind.FRONT, height_m=1.804)
     found = check(task, sample_of_a_phone(), max_pixels=1_000_000, detector=None)
     assert found.distance_m == pytest.approx(
         checked_sample(view=ViewKind.FRONT, height_m=1.804).distance_m, rel=0.03
@@ -164,7 +164,7 @@ def test_what_cannot_be_decoded_cannot_be_written_as_a_jpeg():
 def checked_sample(*, detector: Path | None = None, **said: object):
     request = CheckRequest.model_validate(said)
     return check(
-        CheckTask(request=request),
+        request,
         load_sample().image,
         max_pixels=1_000_000,
         detector=detector,
@@ -205,7 +205,7 @@ def test_without_a_detector_points_are_checked_and_a_picture_alone_is_not(tmp_pa
         "child",
     }
     assert found.distance_m == pytest.approx(checked_sample().distance_m, rel=0.05)
-    with pytest.raises(NoDetectorError):
+    with pytest.raises(ProblemError, match="detector-not-installed"):
         checked_sample(detector=tmp_path)
 
 
@@ -224,13 +224,13 @@ def test_what_is_wrong_with_a_picture_or_a_question_is_told_by_field(tmp_path):
         (1, sample.image, "person", "person-unknown"),
         (None, sample.image[:10_000], "image", "image-damaged"),
     ):
-        task = PointsTask(request=PointsRequest(person=person))
+        task = PointsRequest(person=person)
         with pytest.raises(UnusableInputError) as caught:
             points(task, image, max_pixels=1_000_000, detector=None)
         assert (caught.value.error.field, caught.value.error.code) == (field, code)
-    with pytest.raises(NoDetectorError):
+    with pytest.raises(ProblemError, match="detector-not-installed"):
         points(
-            PointsTask(request=PointsRequest()),
+            PointsRequest(),
             sample.image,
             max_pixels=1_000_000,
             detector=tmp_path,
@@ -242,7 +242,7 @@ def test_memory_that_runs_out_is_no_fault_of_the_picture_s(monkeypatch):
         raise MemoryError
 
     monkeypatch.setattr("fitter.observation.decoding.as_srgb", exhausted)
-    task = PointsTask(request=PointsRequest())
+    task = PointsRequest()
     with pytest.raises(UnusableInputError) as caught:
         points(task, load_sample().image, max_pixels=1_000_000, detector=None)
     assert (caught.value.error.field, caught.value.error.code) == ("image", "out-of-memory")

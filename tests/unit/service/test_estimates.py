@@ -1,40 +1,30 @@
-"""What the API makes of an estimator's answers and troubles."""
+"""What the API makes of estimators' answers and troubles."""
 
 import asyncio
 
 import pytest
 
 from api_schemas.bodies import BodyRequest
-from api_schemas.checks import CaptureCheck, CheckRequest
-from api_schemas.initial_poses import InitialPose
-from api_schemas.problems import FieldProblem
+from api_schemas.checks import CheckRequest
+from api_schemas.problems import FieldProblem, Problem, field_problem
 from api_schemas.proposals import PointsRequest
 from fitter.vocabulary.choices import Gender
 from service.api.estimates import Estimates
 from service.api.metrics import ServiceMetrics
 from service.api.problems import ProblemError
-from service.estimates.messages import (
-    BodyTask,
-    CheckTask,
-    ConversionTask,
-    InitialPoseTask,
-    PointsTask,
-)
-from service.estimates.port import (
-    EstimatedBody,
-    EstimatorFailedError,
-    EstimatorTimeoutError,
-    EstimatorUnavailableError,
-    NoDetectorError,
-    ProposedPoints,
-)
+from service.estimates.questions import FILE, QUESTION, BodyTask
+from service.numerics.messages import DoneMessage, ProblemMessage, Received, TaskMessage
+from service.numerics.quick_lane import FAILED, TIMED_OUT, UNAVAILABLE
+from service.numerics.tasks import Parts
 from service.process.disk import Disk
 from service.representation.formats import OBJ
-from service.submissions.refusal import RefusedError, refused
+from service.submissions.detector import no_detector
+from service.submissions.refusal import RefusedError
 
 TASK = BodyTask(request=BodyRequest(gender=Gender.MALE), with_glb=False)
-NOBODY = refused(
-    FieldProblem(field="weight_kg", code="contradictory-measurements", reason="No.", remedy="Yes.")
+NOBODY = field_problem(
+    "unusable-input",
+    FieldProblem(field="weight_kg", code="contradictory-measurements", reason="No.", remedy="Yes."),
 )
 
 
@@ -45,45 +35,34 @@ class NoEngine:
 METRICS = ServiceMetrics(NoEngine(), Disk(None, reserve_bytes=0))
 
 
-class RaisingEstimator:
-    """Raises the given error at every question; notes whether it was asked patiently."""
+class Troubled:
+    """Answers every question with a problem, and notes what it was asked."""
 
-    capacity = 1
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        self.asked: list[TaskMessage] = []
+        self.parts: list[Parts] = []
 
-    def __init__(self, error: Exception) -> None:
-        self.error = error
-        self.patient: bool | None = None
+    def __call__(self, question: TaskMessage, parts: Parts) -> Received:
+        self.asked.append(question)
+        self.parts.append(parts)
+        return Received(ProblemMessage(problem=self.problem), {})
 
-    def body(self, task: BodyTask, *, patient: bool = True) -> EstimatedBody:
-        self.patient = patient
-        raise self.error
 
-    def initial_pose(self, task: InitialPoseTask) -> InitialPose:
-        raise self.error
-
-    def points(self, task: PointsTask, image: bytes) -> ProposedPoints:
-        raise self.error
-
-    def check(self, task: CheckTask, image: bytes) -> CaptureCheck:
-        raise self.error
-
-    def jpeg(self, image: bytes) -> bytes:
-        raise AssertionError
-
-    def convert(self, task: ConversionTask, glb: bytes) -> bytes:
-        raise self.error
+def troubled(problem: Problem) -> Estimates:
+    return Estimates(Troubled(problem), METRICS, estimators=1)
 
 
 @pytest.mark.parametrize(
-    ("error", "status", "code", "retry"),
+    ("problem", "status", "code", "retry"),
     [
-        (EstimatorUnavailableError(), 503, "estimator-unavailable", True),
-        (EstimatorTimeoutError(), 503, "estimator-timeout", True),
-        (EstimatorFailedError(), 500, "estimator-failed", False),
+        (UNAVAILABLE, 503, "estimator-unavailable", True),
+        (TIMED_OUT, 503, "estimator-timeout", True),
+        (FAILED, 500, "estimator-failed", False),
     ],
 )
-def test_an_estimator_s_troubles_are_problems(error, status, code, retry):
-    estimates = Estimates(RaisingEstimator(error), METRICS)
+def test_an_estimator_s_troubles_are_problems(problem, status, code, retry):
+    estimates = troubled(problem)
     for question in (estimates.body(TASK), estimates.convert(b"glTF", OBJ)):
         with pytest.raises(ProblemError) as caught:
             asyncio.run(question)
@@ -92,10 +71,10 @@ def test_an_estimator_s_troubles_are_problems(error, status, code, retry):
 
 
 def test_a_detector_that_is_not_there_is_told_with_what_to_install():
-    estimates = Estimates(RaisingEstimator(NoDetectorError()), METRICS)
+    estimates = troubled(no_detector())
     for question in (
-        estimates.points(PointsTask(request=PointsRequest()), b"a picture"),
-        estimates.check(CheckTask(request=CheckRequest()), b"a picture"),
+        estimates.points(PointsRequest(), b"a picture"),
+        estimates.check(CheckRequest(), b"a picture"),
     ):
         with pytest.raises(ProblemError) as caught:
             asyncio.run(question)
@@ -106,8 +85,23 @@ def test_a_detector_that_is_not_there_is_told_with_what_to_install():
 
 def test_who_is_nobody_is_refused_and_other_troubles_are_left_to_the_job():
     with pytest.raises(RefusedError):
-        asyncio.run(Estimates(RaisingEstimator(NOBODY), METRICS).refuse_nobody(TASK))
-    for error in (EstimatorUnavailableError(), EstimatorTimeoutError(), EstimatorFailedError()):
-        estimator = RaisingEstimator(error)
-        asyncio.run(Estimates(estimator, METRICS).refuse_nobody(TASK))
-        assert estimator.patient is False
+        asyncio.run(troubled(NOBODY).refuse_nobody(TASK))
+    for problem in (UNAVAILABLE, TIMED_OUT, FAILED):
+        estimator = Troubled(problem)
+        asyncio.run(Estimates(estimator, METRICS, estimators=1).refuse_nobody(TASK))
+        (question,) = estimator.asked
+        assert not question.patient
+
+
+def test_a_file_goes_along_and_comes_back():
+    asked: list[tuple[TaskMessage, Parts]] = []
+
+    def ask(question: TaskMessage, parts: Parts) -> Received:
+        asked.append((question, parts))
+        return Received(DoneMessage(parts=(FILE,)), {FILE: b"v 0 0 0"})
+
+    estimates = Estimates(ask, METRICS, estimators=1)
+    assert asyncio.run(estimates.convert(b"glTF", OBJ)) == b"v 0 0 0"
+    ((question, parts),) = asked
+    assert (question.task, question.parts) == ("conversion", (QUESTION, FILE))
+    assert parts == {QUESTION: b'{"ending":"obj"}', FILE: b"glTF"}

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from service.worker.fork_server import ForkedProcesses, end
+from service.numerics.fork_server import ForkServer, end
 
 REPOSITORY = Path(__file__).parents[3]
 
@@ -23,14 +23,14 @@ def eventually(holds: Callable[[], bool]) -> None:
 
 @pytest.fixture(scope="module")
 def processes():
-    return ForkedProcesses("json")
+    return ForkServer("json")
 
 
 def greet(name: str, connection: Connection) -> None:
     connection.send(f"{name} from {os.getpid()}")
 
 
-def greeting(processes: ForkedProcesses) -> str:
+def greeting(processes: ForkServer) -> str:
     connection, process = processes.start(greet, "hello")
     try:
         return connection.recv()
@@ -48,7 +48,7 @@ def test_a_server_is_waited_for_until_it_has_loaded_its_module(processes):
     assert greeting(processes).startswith("hello from ")
 
 
-def server_of(processes: ForkedProcesses) -> int:
+def server_of(processes: ForkServer) -> int:
     connection, process = processes.start(tell_server)
     try:
         return connection.recv()
@@ -69,10 +69,10 @@ def test_a_killed_server_is_started_again(processes):
 DYING = """
 import os, sys, threading
 from pathlib import Path
-from service.worker import fork_server
+from service.numerics import fork_server
 
 fault = Path(sys.argv[1])
-processes = fork_server.ForkedProcesses("dies_if_told")
+processes = fork_server.ForkServer("dies_if_told")
 
 def answer(connection):
     connection.send("here")

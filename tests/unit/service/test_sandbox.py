@@ -22,9 +22,10 @@ from service.jobs.sandbox import (
     Whose,
     slowness_s,
 )
+from service.numerics.tasks import ProblemError
 from service.submissions.refusal import RefusedError
 from service.worker.endings import ending_by, input_gone, too_slow
-from service.worker.pipeline_port import DerivationOutput, ProblemError, UnusableInputError
+from service.worker.pipeline_port import DerivationOutput, UnusableInputError
 from service.worker.sandbox_endings import end_as_asked
 from service.worker.sandbox_forms import combined_of_fits
 

@@ -1,4 +1,4 @@
-"""Processes forked from a server that has the numerics loaded."""
+"""Children forked from a server that has the numerics loaded, as their owner sees them."""
 
 import contextlib
 import logging
@@ -7,11 +7,19 @@ import select
 import signal
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from multiprocessing import forkserver, get_context
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerContext, ForkServerProcess
+from pathlib import Path
 from typing import Final
+
+from service.numerics import child
+from service.numerics.messages import Message, Received, receive, send
+from service.numerics.tasks import ChildSetup
+from service.process.caches import settle_folders
+from service.process.heap import KEPT
+from service.process.interpreter import SAFE_PATH_VARIABLE
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -24,12 +32,89 @@ DOUBLINGS: Final = 8
 time to load."""
 
 
+CRASHES: Final = 2
+"""In a row, after which the server is replaced; a job has three attempts by default."""
+
+THREAD_LIMITS: Final = (
+    "OMP_NUM_THREADS",
+    "OPENBLAS_NUM_THREADS",
+    "MKL_NUM_THREADS",
+    "NUMBA_NUM_THREADS",
+    "OPENCV_FOR_THREADS_NUM",
+)
+"""One thread a fit, fits side by side: threads within a fit cost more than they bring."""
+
+
+def settle_environment() -> Path:
+    """Settle what the server is to inherit, before it is started; return the work folder."""
+    for variable in THREAD_LIMITS:
+        os.environ.setdefault(variable, "1")
+    for variable, value in KEPT.items():
+        os.environ.setdefault(variable, value)
+    # The fork server and its resource tracker are started by `python -c`.
+    os.environ[SAFE_PATH_VARIABLE] = "1"
+    return settle_folders()
+
+
 class NoProcessError(Exception):
     """No process can be forked now."""
 
 
-class ForkedProcesses:
-    """Starts processes; the caller ends each with :func:`end`.
+class Child:
+    """A process that does tasks (:mod:`service.numerics.child`); ``tasks`` it was given so many."""
+
+    def __init__(self, connection: Connection, process: ForkServerProcess) -> None:
+        self._connection = connection
+        self._process = process
+        self.tasks = 0
+
+    def give(self, message: Message, parts: Iterable[bytes]) -> None:
+        """Send it a task."""
+        self.tasks += 1
+        send(self._connection, message, parts)
+
+    def receive(self, timeout_s: float | None = None) -> Received | None:
+        """Return what it sends next, or None if that does not begin in time.
+
+        Raises
+        ------
+        EOFError, OSError, ValidationError
+            If it has ended, or sends what is no message of ours.
+        """
+        return receive(self._connection) if self._connection.poll(timeout_s) else None
+
+    def is_waiting(self) -> bool:
+        """Whether it is alive and says nothing that nobody asked for."""
+        return self._process.is_alive() and not self._connection.poll()
+
+    def exit_code(self, within_s: float) -> int | None:
+        """How it ended, or None if it does not end in time."""
+        self._process.join(within_s)
+        return self._process.exitcode
+
+    @contextlib.contextmanager
+    def killed_in_time(self, limit_s: float) -> Iterator[None]:
+        """Kill it after ``limit_s`` seconds, whatever the caller is doing by then."""
+        watchdog = threading.Timer(limit_s, self._kill)
+        watchdog.daemon = True
+        watchdog.start()
+        try:
+            yield
+        finally:
+            watchdog.cancel()
+
+    def end(self) -> None:
+        """Kill it if it is still running, and release all its resources."""
+        end(self._connection, self._process)
+
+    def _kill(self) -> None:
+        # Already closed if it ended just now.
+        with contextlib.suppress(ValueError):
+            self._process.kill()
+
+
+class ForkServer:
+    """Starts children; the caller ends each.
 
     A fork takes 0.02 s, a fresh interpreter most of a second. The server itself has no threads,
     which is what makes forking safe. A server that dies is started again. While it dies time after
@@ -75,15 +160,9 @@ class ForkedProcesses:
             theirs.close()
         return ours, process
 
-    def start_with(self, target: Callable[..., None], *arguments: object) -> None:
-        """Run ``target`` in a process that nobody here waits for.
-
-        Raises
-        ------
-        NoProcessError
-            If the server dies, however often it is started.
-        """
-        self._started(target, arguments)
+    def start_child(self, setup: ChildSetup) -> Child:
+        """Start a child that waits for tasks; raises as :meth:`start` does."""
+        return Child(*self.start(child.work, setup))
 
     def replace_server(self) -> None:
         """End the server: what it has read may have been damaged since. Another one takes over."""
@@ -180,19 +259,20 @@ def end(connection: Connection, process: ForkServerProcess) -> None:
     process.close()
 
 
-@contextlib.contextmanager
-def killed_in_time(process: ForkServerProcess, limit_s: float) -> Iterator[None]:
-    """Kill the process after ``limit_s`` seconds, whatever the caller is doing by then."""
+class CrashesInARow:
+    """Replaces the fork server when children crash in a row: what it shares may be damaged.
 
-    def kill() -> None:
-        # Already closed if it ended just now.
-        with contextlib.suppress(ValueError):
-            process.kill()
+    A file that it has mapped may have been truncated since, over which every child would die.
+    """
 
-    watchdog = threading.Timer(limit_s, kill)
-    watchdog.daemon = True
-    watchdog.start()
-    try:
-        yield
-    finally:
-        watchdog.cancel()
+    def __init__(self, server: ForkServer) -> None:
+        self._server = server
+        self._crashes = 0
+
+    def note(self, *, crashed: bool) -> None:
+        """Note how a child ended its task."""
+        self._crashes = self._crashes + 1 if crashed else 0
+        if self._crashes >= CRASHES:
+            LOG.warning("Processes crash in a row: the fork server is replaced.")
+            self._crashes = 0
+            self._server.replace_server()

@@ -2,11 +2,10 @@
 
 import time
 
-from service.worker.kept_children import Child, KeptChildren, Owner
+from service.numerics.fork_server import Child
+from service.numerics.job_lane import JobLane
 
-SHOP = Owner("shop", None)
-BROWSER = Owner("shop", "token-1")
-GYM = Owner("gym", None)
+SHOP, BROWSER, GYM = "shop", "a browser of the shop", "gym"
 PATIENCE_S = 60.0
 
 
@@ -44,11 +43,18 @@ class FakeConnection:
 
 def new_child(jobs: int = 1) -> tuple[Child, FakeProcess, FakeConnection]:
     process, connection = FakeProcess(), FakeConnection()
-    return Child(connection, process, jobs=jobs), process, connection  # pyright: ignore
+    child = Child(connection, process)  # pyright: ignore
+    child.tasks = jobs
+    return child, process, connection
+
+
+def lane(*, jobs: int = 50, kept_s: float = 1.0) -> JobLane:
+    """A lane that is asked to start no child."""
+    return JobLane(None, None, jobs=jobs, kept_s=kept_s)  # pyright: ignore
 
 
 def test_a_child_that_ended_well_runs_the_next_job():
-    kept = KeptChildren(jobs=50)
+    kept = lane(jobs=50)
     first, process, _ = new_child()
     kept.keep(first, SHOP)
     assert kept.take(SHOP) is first
@@ -58,7 +64,7 @@ def test_a_child_that_ended_well_runs_the_next_job():
 
 def test_nobody_elses_job_is_run_by_it():
     for other in (GYM, BROWSER):
-        kept = KeptChildren(jobs=50)
+        kept = lane(jobs=50)
         first, process, _ = new_child()
         kept.keep(first, SHOP)
         assert kept.take(other) is None
@@ -67,7 +73,7 @@ def test_nobody_elses_job_is_run_by_it():
 
 
 def test_of_several_the_owners_own_is_taken():
-    kept = KeptChildren(jobs=50)
+    kept = lane(jobs=50)
     shops, gyms = new_child(), new_child()
     kept.keep(gyms[0], GYM)
     kept.keep(shops[0], SHOP)
@@ -76,7 +82,7 @@ def test_of_several_the_owners_own_is_taken():
 
 
 def test_without_a_job_it_ends():
-    kept = KeptChildren(jobs=50, kept_s=0.01)
+    kept = lane(jobs=50, kept_s=0.01)
     first, process, _ = new_child()
     kept.keep(first, SHOP)
     deadline = time.monotonic() + PATIENCE_S
@@ -87,7 +93,7 @@ def test_without_a_job_it_ends():
 
 
 def test_one_that_was_taken_is_not_ended_for_having_waited():
-    kept = KeptChildren(jobs=50, kept_s=0.05)
+    kept = lane(jobs=50, kept_s=0.05)
     first, process, _ = new_child()
     kept.keep(first, SHOP)
     assert kept.take(SHOP) is first
@@ -96,7 +102,7 @@ def test_one_that_was_taken_is_not_ended_for_having_waited():
 
 
 def test_after_its_last_job_it_ends():
-    kept = KeptChildren(jobs=3)
+    kept = lane(jobs=3)
     first, process, _ = new_child(jobs=3)
     kept.keep(first, SHOP)
     assert not process.is_running
@@ -104,7 +110,7 @@ def test_after_its_last_job_it_ends():
 
 
 def test_one_that_died_while_it_waited_is_not_given_a_job():
-    kept = KeptChildren(jobs=50)
+    kept = lane(jobs=50)
     first, process, _ = new_child()
     kept.keep(first, SHOP)
     process.is_running = False
@@ -112,7 +118,7 @@ def test_one_that_died_while_it_waited_is_not_given_a_job():
 
 
 def test_one_that_speaks_unasked_is_not_given_a_job():
-    kept = KeptChildren(jobs=50)
+    kept = lane(jobs=50)
     first, process, connection = new_child()
     kept.keep(first, SHOP)
     connection.has_something = True

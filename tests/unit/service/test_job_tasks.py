@@ -6,12 +6,11 @@ from uuid import UUID
 
 import pytest
 
-from api_schemas.requests import FitRequest
-from api_schemas.scans import ScanRequest
-from service.engine.port import FIT, SCAN
+from api_schemas.requests import FitOptions, FitRequest
+from api_schemas.scans import ScanOptions, ScanRequest
 from service.jobs.inputs import SANDBOX, SentPicture, named_pictures, pictures_of
-from service.worker.child_inputs import derivation_input, fit_input
-from service.worker.child_tasks import ChildSetup, ChildTask, GivenTask
+from service.numerics.tasks import ChildSetup, Parts
+from service.worker.tasks import DERIVED_FROM, OPTIONS, derivation_input, fit_input
 
 PICTURE: dict[str, Any] = {
     "complete_points": False,
@@ -43,7 +42,8 @@ FIT_OF_1_0 = PICTURE | PERSON | {"optimizer": "gauss_newton"}
 SCAN_OF_1_0 = PERSON | {"views": [PICTURE | {"view": view} for view in ("front", "side")]}
 
 SETUP = ChildSetup(
-    pipeline="p",
+    name="job",
+    tasks="p",
     max_pixels=9,
     models=None,
     detector=None,
@@ -53,13 +53,12 @@ SETUP = ChildSetup(
 )
 
 
-def given(kind: str, options: dict[str, Any], inputs: dict[str, bytes], **more: str) -> GivenTask:
-    task = ChildTask(kind=kind, inputs=tuple(inputs), log_context={}, **more)
-    return GivenTask(task=task, options=json.dumps(options).encode(), inputs=inputs)
+def given(options: dict[str, Any], inputs: dict[str, bytes]) -> Parts:
+    return {OPTIONS: json.dumps(options).encode(), **inputs}
 
 
 def test_a_fit_that_version_1_0_stored_is_run():
-    job = fit_input(SETUP, given(FIT, FIT_OF_1_0, {"image": b"front", "mask": b"grey"}))
+    job = fit_input(SETUP, given(FIT_OF_1_0, {"image": b"front", "mask": b"grey"}), FitOptions)
     assert job.pictures == (SentPicture(b"front", b"grey"),)
     (asked,) = job.options.pictures
     assert (asked.view, asked.focal_length_35mm, job.options.optimizer) == (
@@ -71,7 +70,7 @@ def test_a_fit_that_version_1_0_stored_is_run():
 
 def test_a_scan_that_version_1_0_stored_is_run():
     inputs = {"image_1": b"side", "image_0": b"front", "mask_1": b"grey"}
-    job = fit_input(SETUP, given(SCAN, SCAN_OF_1_0, inputs))
+    job = fit_input(SETUP, given(SCAN_OF_1_0, inputs), ScanOptions)
     assert job.pictures == (SentPicture(b"front", None), SentPicture(b"side", b"grey"))
     assert [each.view for each in job.options.pictures] == ["front", "side"]
     assert job.options.optimizer == "gauss_newton"
@@ -97,11 +96,12 @@ def test_pictures_have_the_names_that_version_1_0_gave_them():
 
 
 def test_how_a_sandbox_is_asked_to_end_a_job_reaches_the_pipeline():
-    asked = given(FIT, FIT_OF_1_0, {"image": b"", SANDBOX: b"slow:5"})
-    assert fit_input(SETUP, asked).ending == "slow:5"
+    asked = given(FIT_OF_1_0, {"image": b"", SANDBOX: b"slow:5"})
+    assert fit_input(SETUP, asked, FitOptions).ending == "slow:5"
     made_of = UUID(int=1)
-    caricature = given("caricature", {"kind": "caricature", "factor": 2.0}, {"person.npz": b"p"})
-    derived = derivation_input(SETUP, caricature, made_of)
+    inputs = {DERIVED_FROM: str(made_of).encode(), "person.npz": b"p"}
+    caricature = given({"kind": "caricature", "factor": 2.0}, inputs)
+    derived = derivation_input(SETUP, caricature)
     assert (derived.fit_id, derived.ending, dict(derived.inputs)) == (
         made_of,
         None,

@@ -1,0 +1,141 @@
+"""Inside a child process: the only place where a caller's picture is decoded.
+
+It does one task after the other, as many as it is given. Input and results go through the pipe to
+its owner, so it needs neither database nor storage. It dies with its owner: a thread reads the
+pipe, on which there is nothing but the next task, and the end of the pipe is the end of the owner
+(a signal on the parent's death does not serve, the parent being the fork server).
+"""
+
+import faulthandler
+import logging
+import os
+import queue
+import resource
+import signal
+import threading
+import time
+from multiprocessing.connection import Connection
+from pathlib import Path
+from queue import SimpleQueue
+from typing import Final
+
+from service.engine.port import Report
+from service.numerics.messages import (
+    DoneMessage,
+    FaultMessage,
+    Message,
+    ProblemMessage,
+    ProgressMessage,
+    Received,
+    TaskMessage,
+    receive,
+    send,
+)
+from service.numerics.tasks import ChildSetup, Observe, Parts, ProblemError, load_tasks
+from service.process.heap import give_back
+from service.process.logs import configure_logging, log_context
+from service.process.naming import call_process
+
+LOG: Final = logging.getLogger(__name__)
+
+OOM_SCORE: Final = 500
+"""When memory runs out, the kernel is to take a child and not its owner."""
+
+TOLD_EVERY_S: Final = 0.05
+"""A search reports every few milliseconds, and the owner is woken by each."""
+
+MOMENT_S: Final = 0.1
+"""A child that is given nothing for so long gives back what it has freed: a picture takes a hundred
+times what is needed in between."""
+
+
+def work(setup: ChildSetup, connection: Connection) -> None:
+    """Do the tasks that come, and tell the owner of each how it went."""
+    call_process(setup.name)
+    configure_logging(
+        setup.log_level, setup.log_format, withhold_messages=setup.log_level != "DEBUG"
+    )
+    # A crash in a decoder leaves the places it passed through, and nothing of what it read.
+    faulthandler.enable()
+    _limit(setup)
+    given = _follow_owner(connection)
+    while True:
+        # Nothing here holds a task on to the next: it goes out of scope with the call.
+        _work_on(_next(given), setup, connection)
+
+
+def _next(given: SimpleQueue[Received]) -> Received:
+    try:
+        return given.get(timeout=MOMENT_S)
+    except queue.Empty:
+        give_back()
+        return given.get()
+
+
+def _work_on(given: Received, setup: ChildSetup, connection: Connection) -> None:
+    assert isinstance(given.message, TaskMessage)
+    with log_context(**given.message.log_context):
+        message, parts = _done(given.message.task, given.parts, setup, _telling(connection))
+        send(connection, message, parts.values())
+
+
+def _done(task: str, given: Parts, setup: ChildSetup, observe: Observe) -> tuple[Message, Parts]:
+    nothing: Parts = {}
+    try:
+        parts = load_tasks(setup.tasks)[task](setup, given, observe)
+        return DoneMessage(parts=tuple(parts)), parts
+    except ProblemError as error:
+        return ProblemMessage(problem=error.problem), nothing
+    except MemoryError:
+        return FaultMessage(out_of_memory=True), nothing
+    except Exception:
+        LOG.exception("The task %s failed.", task)
+        return FaultMessage(), nothing
+
+
+def _telling(connection: Connection) -> Observe:
+    """Tell the owner of progress: of a new stage or view at once, else now and then."""
+    told: tuple[str, int | None] | None = None
+    due = 0.0
+
+    def observe(report: Report) -> None:
+        nonlocal told, due
+        now, news = time.monotonic(), (report.stage, report.view)
+        if now >= due or news != told:
+            told, due = news, now + TOLD_EVERY_S
+            send(connection, _progress(report))
+
+    return observe
+
+
+def _progress(report: Report) -> ProgressMessage:
+    return ProgressMessage(
+        stage=report.stage, progress=report.progress, energies=report.energies, view=report.view
+    )
+
+
+def _follow_owner(connection: Connection) -> SimpleQueue[Received]:
+    """Take tasks from the pipe as they come, and end with the owner at any moment."""
+    tasks: SimpleQueue[Received] = SimpleQueue()
+
+    def follow() -> None:
+        try:
+            while True:
+                tasks.put(receive(connection))
+        finally:
+            os._exit(1)
+
+    threading.Thread(target=follow, name="lifeline", daemon=True).start()
+    return tasks
+
+
+def _limit(setup: ChildSetup) -> None:
+    # An interrupt from the terminal reaches the whole group; only the owner is to act on it.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    os.nice(setup.niceness)
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    limit = setup.memory_mb * 1024 * 1024
+    resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
+    score = Path("/proc/self/oom_score_adj")
+    if score.exists():
+        score.write_text(str(OOM_SCORE))

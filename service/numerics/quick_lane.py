@@ -1,0 +1,184 @@
+"""The quick lane: questions that are answered within seconds, by children that are kept ready.
+
+Each child answers one question at a time. One that dies over a question, or takes too long, fails
+that question alone and is replaced. All troubles are answers too, as problems.
+"""
+
+import contextlib
+import logging
+import queue
+import threading
+import time
+from collections.abc import Iterator
+from concurrent.futures import Future
+from typing import Final
+
+from pydantic import ValidationError
+
+from api_schemas.problems import Problem, problem
+from service.numerics.fork_server import Child, CrashesInARow, ForkServer, NoProcessError
+from service.numerics.messages import (
+    FaultMessage,
+    ProblemMessage,
+    ProgressMessage,
+    Received,
+    TaskMessage,
+)
+from service.numerics.tasks import ChildSetup, Parts
+
+LOG: Final = logging.getLogger(__name__)
+
+MOST_WAITING: Final = 20
+"""Questions that may wait per child: about two seconds' worth. More are told to come back."""
+
+MOMENT_S: Final = 0.5
+"""How long a question waits for a child if it can do without an answer."""
+
+READY_WITHIN_S: Final = 5.0
+"""How long a question waits for a child that is being started, as while the server loads."""
+
+ANSWER_WITHIN_S: Final = 10.0
+"""A hundred times what an answer takes: a child that needs more is stuck, and is replaced."""
+
+EXIT_S: Final = 1.0
+"""How long the exit code of a child that has closed its pipe is waited for."""
+
+COME_BACK: Final = "Try again after the time in Retry-After."
+
+UNAVAILABLE: Final = problem(
+    "not-ready",
+    code="estimator-unavailable",
+    detail="All estimators are busy, or still starting.",
+    remedy=COME_BACK,
+)
+TIMED_OUT: Final = problem(
+    "not-ready",
+    code="estimator-timeout",
+    detail="The estimate took too long and was given up.",
+    remedy=COME_BACK,
+)
+FAILED: Final = problem(
+    "internal-error",
+    code="estimator-failed",
+    detail="An unexpected fault ended the estimate; it has been logged.",
+    remedy="Report it; other requests are not affected.",
+)
+
+
+def capacity(children: int) -> int:
+    """How many questions are accepted at a time, being answered or waiting."""
+    return children * (1 + MOST_WAITING)
+
+
+class QuickLane:
+    """Answers questions in the order they come; for any number of threads."""
+
+    def __init__(self, server: ForkServer, setup: ChildSetup, *, children: int) -> None:
+        crashes = CrashesInARow(server)
+        self._idle: queue.SimpleQueue[_Place] = queue.SimpleQueue()
+        for _ in range(children):
+            self._idle.put(_Place(server, setup, crashes))
+        self._room = threading.BoundedSemaphore(capacity(children))
+
+    def answer(self, question: TaskMessage, parts: Parts) -> Received:
+        """Return what a child answers, or the problem why none does.
+
+        Who is not ``patient`` waits only briefly for a busy child, or one that is starting.
+        """
+        with self._place(None if question.patient else MOMENT_S) as place:
+            if place is None:
+                return _told(UNAVAILABLE)
+            within_s = READY_WITHIN_S if question.patient else MOMENT_S
+            return place.answer(question, parts, ready_within_s=within_s)
+
+    @contextlib.contextmanager
+    def _place(self, within_s: float | None) -> Iterator["_Place | None"]:
+        if not self._room.acquire(blocking=False):
+            yield None
+            return
+        try:
+            try:
+                place = self._idle.get(timeout=within_s)
+            except queue.Empty:
+                yield None
+                return
+            try:
+                yield place
+            finally:
+                self._idle.put(place)
+        finally:
+            self._room.release()
+
+
+class _Place:
+    """Where one question is answered at a time; not thread-safe."""
+
+    def __init__(self, server: ForkServer, setup: ChildSetup, crashes: CrashesInARow) -> None:
+        self._server = server
+        self._setup = setup
+        self._crashes = crashes
+        self._child = self._started()
+
+    def answer(self, question: TaskMessage, parts: Parts, *, ready_within_s: float) -> Received:
+        try:
+            child = self._ready(ready_within_s)
+        except (TimeoutError, NoProcessError):
+            return _told(UNAVAILABLE)
+        deadline = time.monotonic() + ANSWER_WITHIN_S
+        try:
+            with child.killed_in_time(ANSWER_WITHIN_S):
+                child.give(question, parts.values())
+                answer = _final(child)
+        except (EOFError, OSError, ValidationError):
+            return _told(self._replace(child, timed_out=time.monotonic() >= deadline))
+        self._crashes.note(crashed=False)
+        return _told(FAILED) if isinstance(answer.message, FaultMessage) else answer
+
+    def _ready(self, within_s: float) -> Child:
+        if self._child.done():
+            try:
+                if (child := self._child.result()).is_waiting():
+                    return child
+                child.end()
+                LOG.error("An estimator died; starting another.")
+            except NoProcessError:
+                pass
+            self._child = self._started()
+        return self._child.result(within_s)
+
+    def _replace(self, child: Child, *, timed_out: bool) -> Problem:
+        code = child.exit_code(EXIT_S)
+        child.end()
+        if timed_out:
+            LOG.error("An estimator did not answer within %.0f s.", ANSWER_WITHIN_S)
+        else:
+            LOG.error("An estimator died over a question, exit code %s.", code)
+            self._crashes.note(crashed=True)
+        self._child = self._started()
+        return TIMED_OUT if timed_out else FAILED
+
+    def _started(self) -> "Future[Child]":
+        """Start a child in a thread, as the fork server may be loading for minutes."""
+        starting: Future[Child] = Future()
+
+        def start() -> None:
+            try:
+                starting.set_result(self._server.start_child(self._setup))
+            except NoProcessError as error:
+                LOG.error("No estimator can be forked (%s).", error)
+                starting.set_exception(error)
+
+        threading.Thread(target=start, name="estimator", daemon=True).start()
+        return starting
+
+
+def _final(child: Child) -> Received:
+    while True:
+        received = child.receive()
+        assert received is not None
+        if not isinstance(received.message, ProgressMessage):
+            return received
+
+
+def _told(reason: Problem) -> Received:
+    return Received(ProblemMessage(problem=reason), {})

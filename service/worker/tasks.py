@@ -1,0 +1,93 @@
+"""The tasks of jobs: from the bytes that the worker has of one to the files that are its result."""
+
+from collections.abc import Callable, Mapping
+from typing import Final
+from uuid import UUID
+
+from pydantic import TypeAdapter
+
+from api_schemas.derivation_kinds import AnyDerivationOptions
+from api_schemas.derivation_kinds.base import DerivedFiles
+from api_schemas.derivations import DerivationRequest
+from api_schemas.requests import FitOptions
+from api_schemas.scans import ScanOptions
+from service.engine.port import FIT, SCAN
+from service.jobs.inputs import SANDBOX, own_and_others, pictures_of
+from service.numerics.tasks import ChildSetup, Observe, Parts, Task
+from service.worker.artifacts import with_result_document
+from service.worker.pipeline_port import (
+    DerivationInput,
+    DerivationOutput,
+    PipelineInput,
+    PipelineOutput,
+)
+
+DERIVATION: Final = "derivation"
+"""The task of every job that derives from a fit or scan; that of others has their kind's name."""
+
+OPTIONS: Final = "options"
+"""The part that says what is asked for."""
+
+DERIVED_FROM: Final = "derived-from"
+"""The part that names the fit or scan that a job derives from."""
+
+STAGE_SECONDS: Final = "stage-seconds"
+"""The part of a fit's answer that is no file of its result, but how long each stage took."""
+
+SECONDS: Final[TypeAdapter[Mapping[str, float]]] = TypeAdapter(Mapping[str, float])
+
+Run = Callable[[PipelineInput, Observe], PipelineOutput]
+Derive = Callable[[DerivationInput[AnyDerivationOptions], Observe], DerivationOutput[DerivedFiles]]
+
+
+def job_tasks(run: Run, derive: Derive) -> Mapping[str, Task]:
+    """The table of a pipeline (:class:`service.worker.pipeline_port.Pipeline`)."""
+
+    def fit_of(options: type[FitOptions] | type[ScanOptions]) -> Task:
+        def fit(setup: ChildSetup, parts: Parts, observe: Observe) -> Parts:
+            fitted = run(fit_input(setup, parts, options), observe)
+            seconds = SECONDS.dump_json(fitted.result.stage_seconds)
+            files = with_result_document(fitted.result, fitted.artifacts)
+            return {**files, STAGE_SECONDS: seconds}
+
+        return fit
+
+    def derivation(setup: ChildSetup, parts: Parts, observe: Observe) -> Parts:
+        derived = derive(derivation_input(setup, parts), observe)
+        return with_result_document(derived.result, derived.artifacts)
+
+    return {FIT: fit_of(FitOptions), SCAN: fit_of(ScanOptions), DERIVATION: derivation}
+
+
+def fit_input(
+    setup: ChildSetup, parts: Parts, options: type[FitOptions] | type[ScanOptions]
+) -> PipelineInput:
+    """The pictures of one person."""
+    return PipelineInput(
+        options=options.model_validate_json(parts[OPTIONS]),
+        pictures=pictures_of(parts),
+        max_pixels=setup.max_pixels,
+        models=setup.models,
+        detector=setup.detector,
+        ending=_ending(parts),
+    )
+
+
+def derivation_input(setup: ChildSetup, parts: Parts) -> DerivationInput[AnyDerivationOptions]:
+    """What a fit left, and what came with the request."""
+    inputs = {name: part for name, part in parts.items() if name not in (OPTIONS, DERIVED_FROM)}
+    own, others = own_and_others(inputs)
+    return DerivationInput(
+        options=DerivationRequest.model_validate_json(parts[OPTIONS]).root,
+        inputs=own,
+        others=others,
+        max_pixels=setup.max_pixels,
+        models=setup.models,
+        detector=setup.detector,
+        fit_id=UUID(parts[DERIVED_FROM].decode()),
+        ending=_ending(parts),
+    )
+
+
+def _ending(parts: Parts) -> str | None:
+    return parts[SANDBOX].decode() if SANDBOX in parts else None

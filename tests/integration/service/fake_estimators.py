@@ -1,0 +1,28 @@
+"""Fake estimators alone: ``python -m tests.integration.service.fake_estimators fake ADDRESS``."""
+
+import os
+import sys
+from pathlib import Path
+
+
+def main(estimates: str, questions_at: str) -> None:
+    # Imported here: every forked child imports this module again, and is to start quickly.
+    from service.process.logs import configure_logging
+    from service.settings import Settings
+    from service.worker.main import run_estimators
+    from tests.integration.service.fake_worker import ESTIMATES, FAKE_PRELOAD, FAKE_SECRETLESS
+
+    os.environ["PYTHONPATH"] = str(Path(__file__).parents[3])
+    settings = Settings()
+    configure_logging(settings.log_level, settings.log_format)
+    run_estimators(
+        settings,
+        questions_at=questions_at,
+        estimates=ESTIMATES[estimates],
+        secretless=FAKE_SECRETLESS,
+        preload=FAKE_PRELOAD,
+    )
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

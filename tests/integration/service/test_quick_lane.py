@@ -1,0 +1,202 @@
+"""The quick lane: asked by many, its children killed, stuck and replaced."""
+
+import os
+import signal
+import threading
+from pathlib import Path
+
+import pytest
+
+from api_schemas.bodies import BodyEstimate, BodyRequest
+from fitter.vocabulary.choices import Gender
+from service.estimates.questions import ANSWER, BODY, CONVERSION, FILE, QUESTION, BodyTask
+from service.numerics import quick_lane
+from service.numerics.fork_server import ForkServer
+from service.numerics.messages import DoneMessage, ProblemMessage, Received, TaskMessage
+from service.numerics.quick_lane import QuickLane
+from service.numerics.tasks import ChildSetup
+from tests.integration.service.fake_answers import GATE, GLB
+from tests.integration.service.harness import PATIENCE_S, eventually, is_running
+from tests.process_table import processes_with
+
+SETUP = ChildSetup(
+    name="estimator",
+    tasks="tests.integration.service.fake_answers",
+    max_pixels=1_000_000,
+    models=None,
+    detector=None,
+    memory_mb=4_096,
+    log_level="INFO",
+    log_format="text",
+)
+
+
+@pytest.fixture(autouse=True)
+def patience(monkeypatch):
+    monkeypatch.setattr(quick_lane, "READY_WITHIN_S", PATIENCE_S)
+    monkeypatch.setattr(quick_lane, "ANSWER_WITHIN_S", PATIENCE_S)
+
+
+@pytest.fixture(scope="module")
+def gate(tmp_path_factory):
+    """A file that lets go what waits at the gate, once it exists."""
+    return tmp_path_factory.mktemp("lane") / "gate"
+
+
+@pytest.fixture(scope="module")
+def server(gate):
+    with pytest.MonkeyPatch.context() as environment:
+        environment.setenv(GATE, str(gate))
+        server = ForkServer(SETUP.tasks)
+        # One that runs already knows of no gate.
+        server.replace_server()
+        yield server
+
+
+@pytest.fixture
+def lane(server, gate):
+    gate.unlink(missing_ok=True)
+    lane = QuickLane(server, SETUP, children=2)
+    yield lane
+    for pid in estimators(gate):
+        os.kill(pid, signal.SIGKILL)
+
+
+def estimators(gate: Path) -> set[int]:
+    return {each.pid for each in processes_with(GATE, gate) if each.name == SETUP.name}
+
+
+def asked(
+    lane: QuickLane, *, with_glb: bool = False, patient: bool = True, **script: float
+) -> Received:
+    request = BodyRequest(gender=Gender.MALE, measurements=dict(script))
+    question = BodyTask(request=request, with_glb=with_glb).model_dump_json().encode()
+    return lane.answer(
+        TaskMessage(task=BODY, parts=(QUESTION,), patient=patient), {QUESTION: question}
+    )
+
+
+def trouble(received: Received) -> str:
+    assert isinstance(received.message, ProblemMessage)
+    return received.message.problem.code
+
+
+def answering_pid(lane: QuickLane, **script: float) -> int:
+    received = asked(lane, **script)
+    assert isinstance(received.message, DoneMessage), received.message
+    estimate = BodyEstimate.model_validate_json(received.parts[ANSWER])
+    return int(estimate.measurements[0].standard_error)
+
+
+def pids(lane: QuickLane) -> set[int]:
+    return {answering_pid(lane) for _ in range(4)}
+
+
+def test_an_answer_comes_with_its_file_where_it_is_asked_for(lane):
+    assert asked(lane, with_glb=True).parts[FILE] == GLB
+    assert asked(lane).parts[FILE] == b""
+
+
+def test_children_are_kept_and_called_estimators(lane, gate):
+    assert pids(lane) == pids(lane) == estimators(gate)
+    assert len(pids(lane)) == 2
+
+
+def test_a_file_goes_along_with_a_question_however_large_it_is(lane):
+    parts = {QUESTION: b'{"ending":"obj"}', FILE: bytes(20_000_000)}
+    answer = lane.answer(TaskMessage(task=CONVERSION, parts=tuple(parts)), parts)
+    assert answer.parts == {FILE: b"obj of 20000000 bytes"}
+
+
+def test_a_question_at_fault_is_refused_with_its_field(lane):
+    received = asked(lane, girth=3.0)
+    assert isinstance(received.message, ProblemMessage)
+    assert received.message.problem.field == "measurements.girth"
+    assert received.message.problem.status == 422
+
+
+@pytest.mark.parametrize("unknown", ["fault", "no such question"])
+def test_a_fault_in_the_answer_leaves_the_child_as_it_was(lane, unknown):
+    before = pids(lane)
+    if unknown == "fault":
+        assert trouble(asked(lane, fault=1.0)) == "estimator-failed"
+    else:
+        assert trouble(lane.answer(TaskMessage(task=unknown), {})) == "estimator-failed"
+    assert pids(lane) == before
+
+
+def test_a_question_that_kills_its_child_fails_alone_and_the_child_is_replaced(lane):
+    before = pids(lane)
+    for _ in range(3):
+        assert trouble(asked(lane, segfault=1.0)) == "estimator-failed"
+    after = pids(lane)
+    assert len(after) == 2
+    assert not any(is_running(pid) for pid in before - after)
+
+
+def test_children_that_die_in_a_row_have_the_fork_server_replaced(lane, server):
+    servers = {parent(pid) for pid in pids(lane)}
+    for _ in range(3):
+        assert trouble(asked(lane, segfault=1.0)) == "estimator-failed"
+    assert not servers & {parent(pid) for pid in pids(lane)}
+
+
+def parent(pid: int) -> int:
+    fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    return int(fields[1])
+
+
+def test_a_child_killed_between_questions_is_replaced_unnoticed(lane):
+    before = pids(lane)
+    for pid in before:
+        os.kill(pid, signal.SIGKILL)
+    eventually(lambda: not any(is_running(pid) for pid in before), what="killed")
+    assert not pids(lane) & before
+
+
+def test_a_question_that_takes_too_long_is_given_up_and_its_child_killed(lane, monkeypatch):
+    before = pids(lane)
+    with monkeypatch.context() as impatience:
+        impatience.setattr(quick_lane, "ANSWER_WITHIN_S", 0.3)
+        assert trouble(asked(lane, gate=1.0)) == "estimator-timeout"
+    after = pids(lane)
+    assert len(before & after) == 1
+    assert not any(is_running(pid) for pid in before - after)
+
+
+def test_as_many_are_answered_at_once_as_there_are_children_and_too_many_are_turned_away(
+    lane, gate
+):
+    answers: list[Received] = []
+    capacity = quick_lane.capacity(2)
+    assert capacity == 2 * (1 + quick_lane.MOST_WAITING)
+    callers = [
+        threading.Thread(target=lambda: answers.append(asked(lane, gate=1.0)))
+        for _ in range(capacity + 5)
+    ]
+    for caller in callers:
+        caller.start()
+    # Nobody is answered before the gate opens, so every place is taken and stays so.
+    eventually(lambda: len(answers) == 5, what="those beyond the capacity were turned away")
+    assert {trouble(each) for each in answers} == {"estimator-unavailable"}
+    gate.touch()
+    for caller in callers:
+        caller.join()
+    assert sum(isinstance(each.message, DoneMessage) for each in answers) == capacity
+
+
+def test_who_is_not_patient_does_not_wait_for_busy_children(lane, gate):
+    held = [
+        threading.Thread(target=answering_pid, args=(lane,), kwargs={"gate": 1.0}) for _ in range(2)
+    ]
+    for caller in held:
+        caller.start()
+    # Until both hold a child there is one to answer.
+    eventually(
+        lambda: isinstance(asked(lane, patient=False).message, ProblemMessage),
+        what="both children are busy",
+    )
+    gate.touch()
+    for caller in held:
+        caller.join()
+    assert isinstance(asked(lane, patient=False).message, DoneMessage)
