@@ -253,8 +253,8 @@ class Settings(BaseSettings):
         le=MOST_PROCESSES,
         description=(
             "Processes beside the API that answer bodies and initial poses, propose points and "
-            "write other formats, one question at a time each; about 110 MB each beside a worker, "
-            "400 elsewhere, 100 more once they wrote USDZ."
+            "write other formats, one question at a time each; about 110 MB each, and 210 for what "
+            "they share where no worker runs, 100 more each once it wrote USDZ."
         ),
     )
     job_time_limit_s: float = Field(

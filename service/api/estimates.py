@@ -30,6 +30,7 @@ from service.numerics.messages import DoneMessage, ProblemMessage, TaskMessage
 from service.numerics.quick_lane import FAILED, TIMED_OUT, UNAVAILABLE, capacity
 from service.numerics.relay import Ask
 from service.numerics.tasks import Parts
+from service.process.logs import current_log_context
 from service.representation.formats import MeshFormat
 from service.submissions.detector import DETECTOR_MISSING
 from service.submissions.refusal import RefusedError
@@ -138,7 +139,12 @@ class Estimates:
     ) -> Parts:
         asked = b"" if question is None else question.model_dump_json().encode()
         parts = {QUESTION: asked, FILE: file}
-        task = TaskMessage(task=name, parts=tuple(parts), patient=patient)
+        task = TaskMessage(
+            task=name,
+            parts=tuple(parts),
+            log_context=dict(current_log_context()),
+            patient=patient,
+        )
         started = time.monotonic()
         outcome = "failed"
         try:

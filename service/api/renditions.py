@@ -1,7 +1,7 @@
 """The files of a job that can be requested: as stored, or converted from what is stored.
 
 Every GLB is also available in other mesh formats, and a result with measurements also as a table.
-Converted files are never stored: an estimator process writes them each time, with the same bytes.
+Converted files are never stored: an estimator writes them each time, with the same bytes.
 """
 
 from collections.abc import Iterator, Mapping

@@ -25,6 +25,7 @@ from service.numerics.quick_lane import (
     QuickLane,
 )
 from service.numerics.tasks import Parts
+from service.process.logs import log_context
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -63,7 +64,8 @@ def _answer(lane: QuickLane, connection: Connection) -> None:
         try:
             asked = receive(connection)
             assert isinstance(asked.message, TaskMessage)
-            answer = lane.answer(asked.message, asked.parts)
+            with log_context(**asked.message.log_context):
+                answer = lane.answer(asked.message, asked.parts)
             send(connection, answer.message, answer.parts.values())
         except (EOFError, OSError, ValidationError) as error:
             LOG.warning("A question was given up (%s).", type(error).__name__)

@@ -24,7 +24,6 @@ import fitter
 from fitter.fits.kept_models import VARIABLE as USERS_CACHE
 from fitter.numerics.checked_file import DamagedFileError, check, write_checked
 from service.process.caches import KERNELS
-from service.process.child_work import succeeds_in_child
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -65,13 +64,26 @@ def make_kernels_ready(compile_all: Callable[[], bool]) -> None:
         return
     kept = restore_kernels()
     if kept is None or not kept.is_current():
-        succeeds_in_child(lambda: keep_kernels() if compile_all() else None)
+        _do_in_child(lambda: keep_kernels() if compile_all() else None)
         kept = read_kept()
     if kept is None or not kept.is_current():
         compile_all()
         return
     for module, name, types in kept.signatures:
         getattr(importlib.import_module(module), name).compile(types)
+
+
+def _do_in_child(work: Callable[[], object]) -> None:
+    """Do it in a child of this process, which has no threads: its memory ends with it."""
+    child = os.fork()
+    if child == 0:
+        status = os.EX_SOFTWARE
+        try:
+            work()
+            status = os.EX_OK
+        finally:
+            os._exit(status)
+    os.waitpid(child, 0)
 
 
 @contextmanager

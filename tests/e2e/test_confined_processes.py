@@ -34,8 +34,19 @@ def name_of(process: Path) -> str:
     return (process / "comm").read_text().strip()
 
 
+def command_of(process: Path) -> bytes:
+    try:
+        return (process / "cmdline").read_bytes()
+    except OSError:
+        return b""
+
+
+def variables_of(process: Path) -> list[str]:
+    return (process / "environ").read_text().split("\0")
+
+
 def assert_confined(process: Path) -> None:
-    names = {each.partition("=")[0] for each in (process / "environ").read_text().split("\0")}
+    names = {each.partition("=")[0] for each in variables_of(process)}
     assert {name for name in names if name.startswith(PREFIX)} <= NEEDED
     assert f"{PREFIX}PORT" not in names
     assert "NoNewPrivs:\t1" in (process / "status").read_text()
@@ -47,6 +58,26 @@ def test_they_know_no_secrets_and_gain_no_privileges(service: httpx.Client, fini
     assert "estimator" in {name_of(each) for each in processes}
     for process in processes:
         assert_confined(process)
+
+
+def test_they_may_not_write_where_the_api_asks_its_questions(service: httpx.Client):
+    service.get("/healthz/live").raise_for_status()
+    (asked,) = {
+        Path(os.fsdecode(command.split(b"\0")[-2]))
+        for process in Path("/proc").glob("[0-9]*")
+        if b"-m\0service.worker\0" in (command := command_of(process))
+        and os.fsencode(REPOSITORY) in command
+    }
+    assert asked.is_socket()
+    assert asked.parent.stat().st_mode & 0o077 == 0
+    written = {
+        each.partition("=")[2]
+        for process in forked()
+        for each in variables_of(process)
+        if each.startswith("TMPDIR=")
+    }
+    assert written
+    assert not written & {str(folder) for folder in asked.parents}
 
 
 def test_no_more_does_a_job_that_runs(service: httpx.Client):

@@ -1,7 +1,7 @@
 """A worker with the fake pipeline: ``python -m tests.integration.service.fake_worker``.
 
-Beside an API it is told what its estimators are, and the address of the API's questions. Where they
-are broken it answers none. It stops with whoever started it in any case, unlike ``maquette worker``.
+Beside an API it is told what its estimators are, and the address of the API's questions; it answers
+none if they are broken. It stops with whoever started it in any case, unlike ``maquette worker``.
 """
 
 import os

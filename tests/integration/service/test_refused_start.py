@@ -75,7 +75,9 @@ def _postgres_answers() -> None:
         pytest.skip(f"no Postgres answers at 127.0.0.1:5432 ({error})")
 
 
-@pytest.mark.parametrize("command", [SERVE, WORKER, CHILD_WORKER, PREPARE, KEYS, HEALTH, ESTIMATORS])
+@pytest.mark.parametrize(
+    "command", [SERVE, WORKER, CHILD_WORKER, PREPARE, KEYS, HEALTH, ESTIMATORS]
+)
 def test_no_command_begins_with_an_endless_time(command: Sequence[str], tmp_path: Path):
     done = run(command, tmp_path / "data", retention_hours="inf")
     assert_refused(done, naming="MAQUETTE_RETENTION_HOURS=inf: it must be a finite number")

@@ -118,4 +118,4 @@ def test_questions_are_answered_by_the_owner_that_is_started_after_one_that_was_
     os.kill(pid, signal.SIGKILL)
     answered(address)
     supervised.stop()
-    assert not processes_with(FOLDER, tmp_path)
+    eventually(lambda: not processes_with(FOLDER, tmp_path), what="all have ended")
