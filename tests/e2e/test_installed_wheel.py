@@ -53,13 +53,11 @@ load_body_model(3)
 
 @pytest.fixture(scope="module")
 def installation(tmp_path_factory: pytest.TempPathFactory) -> Installation:
-    """The wheel, with the kernels that the repository has compiled of the same code."""
+    """The wheel, with its kernels compiled: a service's processes would do it side by side."""
     folder = tmp_path_factory.mktemp("installed")
     made = installed(built(REPOSITORY, "wheel", folder / "wheel"), folder / "environment")
-    for kernel in (REPOSITORY / "fitter").rglob("*.nb[ci]"):
-        place = made.packages / kernel.relative_to(REPOSITORY)
-        place.parent.mkdir(exist_ok=True)
-        shutil.copy(kernel, place)
+    done = made.run(made.maquette, "warm-up", cwd=folder)
+    assert done.returncode == 0, done.stdout + done.stderr
     return made
 
 
