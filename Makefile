@@ -21,8 +21,6 @@ VERSION = $(shell sed -n 's/^VERSION = "\(.*\)"$$/\1/p' service/version.py)
 
 # What fitter announces of its arguments and results, checked at every call of its quick unit tests.
 CHECKED := --jaxtyping-packages=fitter,beartype.beartype(conf=beartype.BeartypeConf(is_pep484_tower=True))
-FITTER_TESTS := $(filter $(wildcard tests/unit/*/__init__.py),\
-	$(patsubst fitter/%,tests/unit/%,$(wildcard fitter/*/__init__.py)))
 
 .PHONY: demo setup test test-rest test-shapes test-others blender lint serve train report openapi examples docs page wheel image audit sbom release lock clean
 
@@ -38,11 +36,11 @@ test-rest: $(STAMP)
 	$(PYTEST) -m rest
 
 test-shapes: $(STAMP)
-	$(PYTEST) -m "not rest" "$(CHECKED)" $(dir $(FITTER_TESTS))
+	$(PYTEST) -m shapes "$(CHECKED)"
 
-# With `make test-shapes` all that `make test` runs, each test once: so CI does.
+# All tests that `make test-shapes` does not run: so CI runs each once.
 test-others: $(STAMP)
-	$(PYTEST) -m "not rest" $(addprefix --ignore=,$(dir $(FITTER_TESTS)))
+	$(PYTEST) -m "not shapes"
 
 # Blender's importer is one of the readers that tests/foreign asks; it is large and wants Python 3.11.
 blender: .venv-blender/.installed
@@ -133,6 +131,7 @@ $(STAMP): pyproject.toml service/version.py requirements.lock requirements-detec
 		--target "$$($(VENV)/bin/python -c 'import sysconfig; print(sysconfig.get_path("purelib"))')" \
 		-r requirements-detector.txt
 	$(VENV)/bin/maquette warm-up
+	$(VENV)/bin/python -m tests.kernels
 	touch $(STAMP)
 
 clean:

@@ -8,7 +8,7 @@ from typing import TypeVar
 import pytest
 from hypothesis import settings
 
-from tests.parts import begins, is_rest
+from tests.parts import begins, has_none, is_of_shapes, is_rest
 from tests.shared_data import NOT_SHIPPED
 
 Report = TypeVar("Report", pytest.TestReport, pytest.CollectReport)
@@ -20,17 +20,20 @@ settings.load_profile("ci")
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
     """Leave files unread none of whose tests would run: reading all takes six seconds a process."""
-    if config.option.markexpr != "not rest" or not collection_path.name.startswith("test_"):
+    if not collection_path.name.startswith("test_"):
         return None
-    return is_rest(collection_path, slow=False) or None
+    return has_none(collection_path, config.option.markexpr) or None
 
 
 @pytest.hookimpl(tryfirst=True)  # before pytest selects by the marker
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what `make test-rest` runs, and put the longest files first."""
+    """Mark what `make test-rest` and `make test-shapes` run, and put the longest files first."""
     for item in items:
-        if is_rest(item.path, slow=item.get_closest_marker("slow") is not None):
+        slow = item.get_closest_marker("slow") is not None
+        if is_rest(item.path, slow=slow):
             item.add_marker("rest")
+        if is_of_shapes(item.path, slow=slow):
+            item.add_marker("shapes")
     items.sort(key=lambda item: begins(item.path))
 
 

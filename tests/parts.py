@@ -1,4 +1,4 @@
-"""Which tests `make test` runs and which `make test-rest`, and which files begin a run."""
+"""Which tests each command of the Makefile runs, and which files begin a run."""
 
 from functools import cache
 from pathlib import Path
@@ -16,10 +16,10 @@ QUICK = (
 LONGEST = (
     "contract/test_schemathesis.py",
     "integration/test_training_command.py",
+    "e2e/test_installed_wheel.py",
     "integration/test_own_bodies.py",
     # With the folders after them, whose other files use the same services.
     "e2e/page/test_derived.py",
-    "e2e/test_installed_wheel.py",
     "e2e/test_readme.py",
     "e2e",
     "integration/service/test_outages.py",
@@ -47,6 +47,23 @@ LONGEST = (
 def is_rest(file: Path, *, slow: bool) -> bool:
     """Whether a test of this file is left to `make test-rest`; else it is one of `make test`."""
     return slow or not any(file.is_relative_to(TESTS / each) for each in QUICK)
+
+
+@cache
+def is_of_shapes(file: Path, *, slow: bool) -> bool:
+    """Whether `make test-shapes` runs it: a quick unit test of one of the fitter's packages."""
+    units = TESTS / "unit"
+    if slow or not file.is_relative_to(units):
+        return False
+    package = TESTS.parent / "fitter" / file.relative_to(units).parts[0]
+    return (package / "__init__.py").exists()
+
+
+def has_none(file: Path, command: str) -> bool:
+    """Whether a file can be left unread by a command, which is told by its markers."""
+    if command == "not rest":
+        return is_rest(file, slow=False)
+    return command == "shapes" and not is_of_shapes(file, slow=False)
 
 
 @cache
