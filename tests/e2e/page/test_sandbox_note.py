@@ -1,13 +1,13 @@
-"""A sandbox's page says that its results are canned; that of any other service does not."""
+"""A sandbox's page says that its results are canned; that of any other service does not.
 
-from collections.abc import Iterator
+That a sandbox answers that it is one, is tested where one runs (``test_sandbox``).
+"""
 
 import httpx
 import pytest
-from playwright.sync_api import Browser, expect
+from playwright.sync_api import Browser, Route, expect
 
-from tests.e2e.page.visitor import DESK, Visitor
-from tests.e2e.sandbox import running_sandbox
+from tests.e2e.page.visitor import Visitor
 
 NOTES = {
     "en-GB": "every result is that of a sample",
@@ -15,18 +15,24 @@ NOTES = {
 }
 
 
-@pytest.fixture(scope="module")
-def sandbox(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
-    with running_sandbox(tmp_path_factory.mktemp("sandbox")) as client:
-        yield client
+def as_of_a_sandbox(route: Route) -> None:
+    """Answer with the service's index, as a sandbox has it; with the page as it is."""
+    if route.request.headers.get("accept") != "application/json":
+        route.continue_()
+        return
+    answer = route.fetch()
+    route.fulfill(response=answer, json=answer.json() | {"sandbox": True})
 
 
 @pytest.mark.parametrize("language", NOTES)
-def test_every_screen_says_so(browser: Browser, sandbox: httpx.Client, language: str):
-    with Visitor.at(browser, str(sandbox.base_url), DESK | {"locale": language}) as visitor:
-        note = visitor.page.get_by_role("note").filter(has_text=NOTES[language])
+def test_every_screen_says_so(browser: Browser, service: httpx.Client, language: str):
+    with Visitor.at(browser, str(service.base_url), locale=language) as visitor:
+        page = visitor.page
+        page.route(lambda url: url == visitor.origin + "/", as_of_a_sandbox)
+        page.reload()
+        note = page.get_by_role("note").filter(has_text=NOTES[language])
         for address in ("#/", "#/prepare", "#/measure"):
-            visitor.page.goto(f"{sandbox.base_url}/{address}")
+            page.goto(f"{visitor.origin}/{address}")
             expect(note).to_be_visible()
 
 
