@@ -1,11 +1,14 @@
 """Whether the person stands: who sits, crouches, lies or bends over is not measured well."""
 
+from typing import Final
+
 import numpy as np
 from jaxtyping import Float
 
 from fitter.capture.capture import Capture
 from fitter.capture.finding import Code, Finding, Remark, Unchecked
-from fitter.capture.joints import Directions
+from fitter.capture.joints import Directions, Joints
+from fitter.detection.detector import DetectedBody
 from fitter.vocabulary.outcomes import Severity
 
 BENT_DEG, FOLDED_DEG = 35.0, 50.0
@@ -13,14 +16,18 @@ BENT_DEG, FOLDED_DEG = 35.0, 50.0
 from the second on nobody stands. It is 20 degrees at most of 105 people who stand or stride, 29 of
 a weightlifter."""
 
-LEAST_THIGH = 0.61
-"""Length of a thigh in the picture, of the trunk's: the least of 113 who stand or stride. One that
+LEAST_LIMBS: Final = {"thigh": 0.61, "shin": 0.57}
+"""Lengths in the picture, of the trunk's: the least of 113 people who stand or stride. A limb that
 looks shorter points toward the camera or away from it, more than the detector's slants dare say."""
+
+LEAST_TRUNK: Final = 1.05
+"""The trunk's own, of the longer thigh's; 1.08 was the least."""
 
 LYING_DEG = 55.0
 """How far the trunk of who lies is from the vertical, at least."""
 
-_KNEES_DEG = 50.0
+KNEELING_DEG = 60.0
+"""Knees that are both bent so far; 24 degrees at most of who stands."""
 
 
 def posture(capture: Capture) -> Remark | None:
@@ -34,18 +41,19 @@ def posture(capture: Capture) -> Remark | None:
     ]
     if trunk is None or len(hips) < 2:
         return Unchecked(code=Code.NOT_STANDING, reason="Trunk and thighs are not both seen.")
-    bent = min(hips)
+    bent, knees = min(hips), _knees_deg(directions)
     leaning = angle_deg(np.array([0.0, -1.0, 0.0]), trunk)
     lies = leaning > LYING_DEG and bent < FOLDED_DEG
-    if bent < BENT_DEG and not lies:
+    kneels = knees >= KNEELING_DEG
+    if bent < BENT_DEG and not lies and not kneels:
         return None
     return Finding(
         code=Code.NOT_STANDING,
-        severity=Severity.BLOCKS if lies or bent >= FOLDED_DEG else Severity.HARMS,
+        severity=(Severity.BLOCKS if lies or kneels or bent >= FOLDED_DEG else Severity.HARMS),
         reason=(
-            f"The person {_words(directions, lies=lies, leaning=leaning)}: the thighs are "
-            f"turned from the trunk by {bent:.0f} degrees, and the trunk from the vertical by "
-            f"{leaning:.0f}."
+            f"The person {_words(bent, knees, lies=lies, leaning=leaning)}: the thighs are "
+            f"turned from the trunk by {bent:.0f} degrees, the shins from them by {knees:.0f}, "
+            f"and the trunk from the vertical by {leaning:.0f}."
         ),
         remedy="Have the person stand upright, with straight legs.",
         points=("left_hip", "right_hip", "left_knee", "right_knee"),
@@ -53,25 +61,48 @@ def posture(capture: Capture) -> Remark | None:
 
 
 def detected_directions(capture: Capture) -> Directions:
-    """By the detector's points and slants; a trunk is taken to be parallel to the picture."""
+    """By the detector's points and slants, and by how short trunk and limbs look.
+
+    A trunk that does is taken to be bent toward the camera.
+    """
     shoulders, hips = capture.middle("shoulder"), capture.middle("hip")
-    found: dict[str, Float[np.ndarray, 3]] = {}
-    if shoulders is not None and hips is not None and (shoulders != hips).any():
-        found["trunk"] = _direction(shoulders - hips, 0.0)
-    slants = {} if capture.body is None else capture.body.slants.limbs
-    for name, slant in slants.items():
-        side, _, limb = name.partition("_")
-        ends = {"thigh": ("hip", "knee"), "shin": ("knee", "ankle")}.get(limb)
-        if ends is None or any(f"{side}_{end}" not in capture.joints for end in ends):
-            continue
-        near, far = (capture.joints[f"{side}_{end}"] for end in ends)
-        sine = slant.sine
-        if limb == "thigh" and shoulders is not None and hips is not None:
-            least = LEAST_THIGH * float(np.linalg.norm(shoulders - hips))
-            share = float(np.linalg.norm(far - near)) / max(least, 1e-9)
-            sine = float(np.copysign(max(abs(sine), np.sqrt(max(1.0 - share**2, 0.0))), sine))
-        found[name] = _direction(far - near, sine)
+    limbs = {} if capture.body is None else _limbs(capture.joints, capture.body)
+    if shoulders is None or hips is None or (shoulders == hips).all():
+        return {name: _direction(limb, slant) for name, (limb, slant) in limbs.items()}
+    trunk = float(np.linalg.norm(shoulders - hips))
+    found = {
+        name: _direction(
+            limb,
+            float(np.copysign(max(abs(slant), _foreshortening(limb, _least(name) * trunk)), slant)),
+        )
+        for name, (limb, slant) in limbs.items()
+    }
+    thighs = [float(np.linalg.norm(limb)) for name, (limb, _) in limbs.items() if "thigh" in name]
+    least = LEAST_TRUNK * max(thighs, default=0.0)
+    found["trunk"] = _direction(shoulders - hips, -_foreshortening(shoulders - hips, least))
     return found
+
+
+def _limbs(joints: Joints, body: DetectedBody) -> dict[str, tuple[Float[np.ndarray, "2"], float]]:
+    """Thighs and shins in the picture, pixels, and the sines of their slants."""
+    found: dict[str, tuple[Float[np.ndarray, 2], float]] = {}
+    for side in ("left", "right"):
+        for limb, near, far in (("thigh", "hip", "knee"), ("shin", "knee", "ankle")):
+            slant = body.slants.limbs.get(f"{side}_{limb}")
+            ends = [joints.get(f"{side}_{end}") for end in (near, far)]
+            if slant is not None and ends[0] is not None and ends[1] is not None:
+                found[f"{side}_{limb}"] = (ends[1] - ends[0], slant.sine)
+    return found
+
+
+def _least(limb: str) -> float:
+    return LEAST_LIMBS[limb.rpartition("_")[2]]
+
+
+def _foreshortening(in_picture: Float[np.ndarray, "2"], least: float) -> float:
+    """Sine of the least angle to the picture at which something looks so short."""
+    share = float(np.linalg.norm(in_picture)) / max(least, 1e-9)
+    return float(np.sqrt(max(1.0 - share**2, 0.0)))
 
 
 def angle_deg(one: Float[np.ndarray, "3"], other: Float[np.ndarray, "3"]) -> float:
@@ -84,14 +115,21 @@ def _direction(in_picture: Float[np.ndarray, "2"], sine: float) -> Float[np.ndar
     return np.array([across * in_picture[0], across * in_picture[1], sine])
 
 
-def _words(directions: Directions, *, lies: bool, leaning: float) -> str:
+def _knees_deg(directions: Directions) -> float:
+    """How far the straighter knee is bent; 0 where a shin is not seen."""
+    return min(
+        angle_deg(directions[f"{side}_thigh"], directions[f"{side}_shin"])
+        if f"{side}_shin" in directions
+        else 0.0
+        for side in ("left", "right")
+    )
+
+
+def _words(bent: float, knees: float, *, lies: bool, leaning: float) -> str:
     if lies:
         return "lies"
-    knees = [
-        angle_deg(directions[f"{side}_thigh"], directions[f"{side}_shin"])
-        for side in ("left", "right")
-        if f"{side}_shin" in directions
-    ]
-    if knees and min(knees) > _KNEES_DEG:
+    if bent < BENT_DEG:
+        return "kneels"
+    if knees >= BENT_DEG:
         return "sits or crouches"
     return "bends over" if leaning > BENT_DEG else "sits or bends the hips"

@@ -102,7 +102,7 @@ def dressed(
                 cloth=cloth,
                 fullness=_fullness(rendering, prepared)
                 * fullness[..., None]
-                * np.float32([share_by_sleeves(regions, bare), 1.0]),
+                * np.array([share_by_sleeves(regions, bare), 1.0], dtype=np.float32),
             ),
             clothes=LooseClothes(
                 bare=1.0 - sample(cloth, rendering.projected)[0],

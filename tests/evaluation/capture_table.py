@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -29,7 +30,7 @@ from tests.evaluation.drawn_pictures import (
 from tests.evaluation.foreign import foreign_names
 from tests.evaluation.plain_rendering import plain_picture
 from tests.evaluation.runs import picture_of
-from tests.evaluation.scene import Half
+from tests.evaluation.scene import Half, Leg
 from tests.evaluation.stance_kinds import Kind
 
 MAX_PIXELS = 50_000_000
@@ -37,6 +38,22 @@ OF_EACH_KIND = 6
 
 SEEN_AT = {0.0: ViewKind.FRONT, 90.0: ViewKind.SIDE, 180.0: ViewKind.BACK, 270.0: ViewKind.SIDE}
 """From where somebody is seen who is turned by so many degrees."""
+
+
+_SEATED = Leg(raised=85.0, forward=80.0, bend=85.0, toe_out=0.0)
+_CROUCHING = Leg(raised=110.0, forward=70.0, bend=140.0, toe_out=0.0)
+
+POSTURES: dict[str, dict[str, Any]] = {
+    "seated": {"left_leg": _SEATED, "right_leg": _SEATED},
+    "crouching": {
+        "left_leg": _CROUCHING,
+        "right_leg": _CROUCHING,
+        "pelvis": (10.0, 0.0, 0.0),
+        "spine": (20.0, 0.0, 0.0),
+    },
+    "bent over": {"pelvis": (60.0, 0.0, 0.0), "spine": (15.0, 0.0, 0.0)},
+}
+"""What differs from how people stand."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -97,7 +114,7 @@ def judged_by(judgement: Judgement) -> list[JudgedFinding]:
         for form in spoilt_forms(source, other.pixels):
             judged += _judged(name, form.name, _found(form), form.truth)
     if name in CASES and judgement.other is not None:
-        judged += _judged_turned(name)
+        judged += _judged_turned(name) + _judged_postures(name)
     return judged
 
 
@@ -155,6 +172,24 @@ def _judged_turned(name: str) -> list[JudgedFinding]:
             truth = {Code.OTHER_VIEW: view is not seen}
             judged += _judged(name, f"seen from the {seen}, said {view}", found, truth)
     return judged
+
+
+def _judged_postures(name: str) -> list[JudgedFinding]:
+    """The person plainly rendered who sits, crouches, bends over or lies."""
+    judged: list[JudgedFinding] = []
+    for posture, legs in POSTURES.items():
+        stance = replace(CASES[name].stance, **legs)
+        for degrees in (0.0, 40.0):
+            picture = plain_picture(replace(CASES[name], stance=stance), turned_deg=degrees)
+            found = {each.code for each in check_capture(_posed(picture)).findings}
+            judged += _judged(name, posture, found, {Code.NOT_STANDING: True})
+    lying = np.ascontiguousarray(np.rot90(plain_picture(CASES[name], turned_deg=0.0)))
+    found = {each.code for each in check_capture(_posed(lying)).findings}
+    return judged + _judged(name, "lying", found, {Code.NOT_STANDING: True})
+
+
+def _posed(picture: Picture) -> Capture:
+    return _capture_of(picture, CaptureQuestion(height_m=1.7))
 
 
 def _judged_nobody(half: Half) -> list[JudgedFinding]:

@@ -34,6 +34,7 @@ def tilted(degrees: float) -> np.ndarray:
         (posed(UP, tilted(85.0), DOWN), Severity.BLOCKS, "sits or crouches"),
         (posed(UP, tilted(85.0), tilted(80.0)), Severity.BLOCKS, "sits or bends the hips"),
         (posed(ACROSS, DOWN, DOWN), Severity.BLOCKS, "bends over"),
+        (posed(UP, DOWN, tilted(-90.0)), Severity.BLOCKS, "kneels"),
         (posed(ACROSS, -ACROSS, -ACROSS), Severity.BLOCKS, "lies"),
         (posed(UP, tilted(45.0), tilted(40.0)), Severity.HARMS, "sits or bends the hips"),
     ],
@@ -76,6 +77,13 @@ def test_a_thigh_that_looks_short_points_at_the_camera_whatever_its_slant():
     assert isinstance(told, Finding)
     assert told.severity is Severity.BLOCKS
     assert detected_directions(capture(body))["left_thigh"][2] < -0.8
+
+
+def test_a_trunk_that_looks_short_is_bent_toward_the_camera():
+    low = {f"{side}_shoulder": (x, 240.0) for side, x in (("left", 254.0), ("right", 146.0))}
+    told = posture(capture(replace(seen(0.0), points=person(**low).points)))
+    assert isinstance(told, Finding)
+    assert "bends over" in told.reason
 
 
 def test_without_thighs_nothing_is_told_of_the_posture():
