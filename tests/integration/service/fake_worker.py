@@ -14,6 +14,7 @@ FAKE = "tests.integration.service.fake_pipeline"
 ESTIMATES = {"fake": "tests.integration.service.fake_answers", "real": "service.estimates.answers"}
 FAKE_SECRETLESS = "tests.integration.service.fake_secretless"
 FAKE_PRELOAD = "tests.integration.service.fake_preload"
+REAL_PRELOAD = "service.worker.preload"
 FAKE_MODELS = (sys.executable, "-m", "tests.integration.service.fake_models")
 
 
@@ -40,7 +41,8 @@ def main(estimates: str = "broken", questions_at: str | None = None) -> None:
         pipeline=FAKE,
         estimates=ESTIMATES.get(estimates),
         secretless=FAKE_SECRETLESS,
-        preload=FAKE_PRELOAD,
+        # Real answers have ten seconds: not enough to compile their kernels.
+        preload=REAL_PRELOAD if estimates == "real" else FAKE_PRELOAD,
         models_command=FAKE_MODELS,
     )
 
