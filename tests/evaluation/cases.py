@@ -42,7 +42,7 @@ from tests.evaluation.stance_kinds import (
 )
 from tests.evaluation.variation import mirrored, opened, unsteady
 
-__all__ = ("CASES", "CLOTHED_PAIRS", "DEMO", "DESCRIBED", "PEOPLE", "TO_MAKE")
+__all__ = ("CASES", "CLOTHED_PAIRS", "DEMO", "PEOPLE")
 
 DEMO = Case(
     name="demo",
@@ -304,28 +304,7 @@ CLOTHED_PAIRS: Mapping[str, PhonePair] = _clothed_pairs()
 
 _CLOTHED_SIDES = tuple(pair.side for pair in CLOTHED_PAIRS.values())
 
-DESCRIBED: Mapping[str, Case] = {
+CASES: Mapping[str, Case] = {
     case.name: case
     for case in (DEMO, *_people(), *_LIGHTS, *_CLOTHED, *_CLOTHED_SIDES, *PHONE_CASES)
 }
-
-TO_MAKE: frozenset[str] = frozenset(
-    {
-        "clothed_woman_102_old_middling",
-        "clothed_woman_109_young_heavy",
-        "clothed_woman_114_middle_aged_thin",
-        "clothed_woman_100_old_heavy",
-        "clothed_man_115_young_heavy",
-        "clothed_man_106_old_middling",
-        "clothed_man_103_old_heavy",
-        "clothed_man_young_thin_side",
-        "clothed_man_young_heavy_side",
-        "clothed_man_old_heavy_side",
-        "clothed_woman_193_young_thin_side",
-        "clothed_woman_101_middle_aged_middling_side",
-        "clothed_man_115_young_heavy_side",
-    }
-)
-"""Pictures that are described and not made yet: ``generate --case NAME`` makes one."""
-
-CASES: Mapping[str, Case] = {name: case for name, case in DESCRIBED.items() if name not in TO_MAKE}

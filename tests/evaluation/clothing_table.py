@@ -42,12 +42,14 @@ def clothing_lines(scores: Sequence[DressedScore]) -> list[str]:
 
 
 def null_lines(nulls: Mapping[str, Sequence[Mapping[str, float]]]) -> list[str]:
-    """Errors of what is said without a picture, by what is known."""
-    return [
-        f"{title:{WIDEST_CLASS}s}{len(errors):3d}"
-        + "".join(f"{_errors([each[key] for each in errors]):>26s}" for key in KEYS)
-        for title, errors in nulls.items()
-    ]
+    """Errors of what is said without a picture, by what is known; a dash for what is known."""
+    lines: list[str] = []
+    for title, errors in nulls.items():
+        columns = [[each[key] for each in errors] for key in KEYS]
+        cells = [_errors(column) if any(column) else "-" for column in columns]
+        line = f"{title:{WIDEST_CLASS}s}{len(errors):3d}"
+        lines.append(line + "".join(f"{cell:>26s}" for cell in cells))
+    return lines
 
 
 def underwear_lines(dressed: Sequence[DressedScore], undressed: Sequence[Scored]) -> list[str]:

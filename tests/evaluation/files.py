@@ -149,13 +149,12 @@ def true_measurements(staged: Staged) -> dict[str, float]:
 
 def read_case(case: Case, folder: Path = PICTURES_FOLDER) -> CaseFiles:
     """Read what the generator wrote."""
-    labels = folder / f"{case.name}_labels.png"
     return CaseFiles(
         image=(folder / f"{case.name}.jpg").read_bytes(),
         document=json.loads((folder / f"{case.name}.json").read_text()),
         body_mask=_load_mask(folder / f"{case.name}_body.png"),
         person_mask=_load_mask(folder / f"{case.name}_person.png"),
-        labels=read_labels(labels) if labels.exists() else None,
+        labels=None if case.outfit is None else read_labels(folder / f"{case.name}_labels.png"),
     )
 
 

@@ -13,7 +13,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from tests.evaluation.cases import CASES, DEMO, DESCRIBED, PEOPLE
+from tests.evaluation.cases import CASES, DEMO, PEOPLE
 from tests.evaluation.files import (
     PICTURES_FOLDER,
     document,
@@ -49,11 +49,11 @@ def main(arguments: Sequence[str]) -> int:
     """Run the command line; returns the exit status."""
     options = _parser().parse_args(arguments)
     for name in options.case or list(CASES):
-        staged = _staged(DESCRIBED[name])
+        staged = _staged(CASES[name])
         write_document(options.output, staged)
         if not options.documents:
             _render(staged, options)
-        if DESCRIBED[name] is DEMO and options.output == PICTURES_FOLDER:
+        if CASES[name] is DEMO and options.output == PICTURES_FOLDER:
             _write_sample(staged, options.output)
         print(f"{name}: written to {options.output}", flush=True)
     return 0
@@ -91,7 +91,7 @@ def _parser() -> argparse.ArgumentParser:
         prog="python -m tests.evaluation.generate",
         description="Build the pictures and truths of the evaluation suite.",
     )
-    parser.add_argument("--case", action="append", choices=list(DESCRIBED), help="default: all")
+    parser.add_argument("--case", action="append", choices=list(CASES), help="default: all")
     parser.add_argument("--output", type=Path, default=PICTURES_FOLDER, metavar="DIR")
     parser.add_argument("--samples", type=int, help="light paths a pixel")
     parser.add_argument(

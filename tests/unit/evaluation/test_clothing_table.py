@@ -96,3 +96,8 @@ def test_a_picture_has_a_line_for_all_that_is_said_with_its_garments():
 def test_what_is_said_without_a_picture_has_the_same_columns(errors: tuple[float, ...], cell: str):
     (line,) = null_lines({"null: height": [dict.fromkeys(KEYS, error) for error in errors]})
     assert line.count(cell) == len(KEYS)
+
+
+def test_what_is_known_has_no_error():
+    (line,) = null_lines({"null: height and weight": [{**dict.fromkeys(KEYS, 1.0), "weight": 0.0}]})
+    assert line.split()[-3:] == ["-", "1.0", "(+1.0)"]

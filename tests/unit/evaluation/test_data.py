@@ -7,7 +7,7 @@ import pytest
 from PIL import Image as PillowImage
 
 from fitter.vocabulary.choices import Gender
-from tests.evaluation.cases import CASES, DEMO, DESCRIBED, PEOPLE, TO_MAKE
+from tests.evaluation.cases import CASES, DEMO, PEOPLE
 from tests.evaluation.dressed_people import DRESSED, IN_PAIRS
 from tests.evaluation.files import PICTURES_FOLDER, document, read_case
 from tests.evaluation.generate import SAMPLE_FOLDER
@@ -59,21 +59,11 @@ def test_the_lights_show_people_of_the_tuning_half_alone():
 def test_people_who_are_dressed_are_shown_in_clothes_once_some_from_the_side_too():
     clothed = [case for case in CASES.values() if case.series is Series.CLOTHED]
     pairs = [case for case in CASES.values() if case.series is Series.CLOTHED_PAIRS]
-    assert {case.person for case in clothed} <= {each.person for each in DRESSED}
-    assert {case.person for case in pairs} <= set(IN_PAIRS)
-    assert len({case.person for case in (*clothed, *pairs)}) == len(clothed)
+    assert [case.person for case in clothed] == [each.person for each in DRESSED]
+    assert [case.person for case in pairs] == list(IN_PAIRS)
     assert {case.name for case in CASES.values() if case.outfit} == {
         case.name for case in (*clothed, *pairs)
     }
-
-
-def test_what_is_not_made_yet_is_clothed_and_of_the_reporting_half_or_from_the_side():
-    to_make = [DESCRIBED[name] for name in TO_MAKE]
-    assert all(case.outfit is not None for case in to_make)
-    assert all(
-        case.series is Series.CLOTHED_PAIRS or PEOPLE[case.person].half is Half.REPORTING
-        for case in to_make
-    )
 
 
 def test_the_suite_is_small_and_holds_nothing_but_its_cases():
@@ -82,7 +72,7 @@ def test_the_suite_is_small_and_holds_nothing_but_its_cases():
     endings = (".jpg", ".json", "_body.png", "_person.png")
     expected = {name + end for name in CASES for end in endings}
     labels = {f"{name}_labels.png" for name, case in CASES.items() if case.outfit}
-    assert expected <= {path.name for path in files} <= expected | labels
+    assert {path.name for path in files} == expected | labels
     assert {path.stem for path in PEOPLE_FOLDER.iterdir()} == set(PEOPLE)
 
 
@@ -103,14 +93,15 @@ def test_clothes_add_to_the_body_and_hide_it(name):
     assert (body & person).sum() / body.sum() > 0.98
     close = outfit.name in (Wardrobe.CLOSE, Wardrobe.TRUNKS)
     assert person.sum() / body.sum() > (1.0 if close else 1.04)
-    if labels is None:
-        return
+    assert labels is not None
     # Labels of outfits made by hand were added later, on another machine.
     assert ((labels > Label.BACKGROUND) != person).sum() <= 20
     shown = set(np.unique(labels))
     assert shown >= {Label.SKIN, Label.HAIR, Label.LOWER}
     assert (Label.SHOES in shown) == (outfit.shoes is not None)
-    assert (Label.UPPER in shown) == (outfit.top is not None and outfit.bottom is not None)
+    has_upper = outfit.top is not None and outfit.bottom is not None
+    # A wide sleeve shows some of a woman's underwear.
+    assert ((labels == Label.UPPER).sum() > 0.01 * person.sum()) == has_upper
 
 
 @pytest.mark.parametrize("name", [name for name, case in CASES.items() if not case.outfit])
