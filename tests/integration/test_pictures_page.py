@@ -8,9 +8,19 @@ from pathlib import Path
 import pytest
 
 from api_schemas import checks as wire
-from fitter.capture import arms, camera_place, clothes, exposure, framing, sharpness, turning
+from fitter.capture import (
+    arms,
+    camera_place,
+    exposure,
+    framing,
+    posture,
+    proportions,
+    sharpness,
+    turning,
+)
 from fitter.capture.finding import Code
 from fitter.fits import reporting
+from fitter.fits.harm import HARM
 from fitter.observation import decoding
 from fitter.person.several_pictures import SAME_PERSON_PROBABILITY
 from fitter.vocabulary.outcomes import Verdict
@@ -34,7 +44,9 @@ def rows(heading: str) -> dict[str, str]:
     return found
 
 
-CHECKS = rows("The thirteen checks")
+BY_FITS_ALONE = "contradicted"
+CHECKS = rows("The checks")
+HARMS = rows("What harms")
 OF_FITS = rows("Warnings of a fit or a scan")
 OF_POINTS = rows("Warnings of proposed points")
 OF_DERIVATIONS = rows("Warnings of what is made of a fit")
@@ -72,13 +84,22 @@ def proposal_codes() -> set[str]:
 
 
 def test_the_checks_are_those_of_the_code_in_its_order():
-    assert list(CHECKS) == [code.value for code in Code]
-    assert len(CHECKS) == 13
+    assert sorted(CHECKS) == sorted(code.value for code in Code)
+    assert [code for code in CHECKS if code != BY_FITS_ALONE] == [
+        code.value for code in Code if code.value != BY_FITS_ALONE
+    ]
+
+
+def test_what_harms_widens_errors_as_the_code_does():
+    assert set(HARMS) == {code.value for code in HARM}
+    for code, harm in HARM.items():
+        factors = [float(each) for each in HARMS[code.value].strip(" |").split(" | ")]
+        assert factors == [harm.chest, harm.waist, harm.hip, harm.weight], code
 
 
 def test_they_are_those_of_the_wire():
     described = re.findall(r"``([a-z-]+)``", (wire.CaptureCheck.__doc__ or "").split("Codes:")[1])
-    assert set(CHECKS) <= set(described)
+    assert set(CHECKS) - {BY_FITS_ALONE} <= set(described)
 
 
 @pytest.mark.parametrize(
@@ -88,7 +109,11 @@ def test_they_are_those_of_the_wire():
         (Code.PICTURE_TOO_SMALL, (framing.LEAST_STATURE_PX, framing.BLOCKING_STATURE_PX)),
         (Code.OTHER_VIEW, (turning.LEAST_FRONTAL, turning.MOST_LATERAL)),
         (Code.ARMS_AGAINST_TRUNK, (arms.LEAST_FREE,)),
-        (Code.CLOTHES_LOOSE, (clothes.LOOSE,)),
+        (
+            Code.NOT_STANDING,
+            (posture.BENT_DEG, posture.FOLDED_DEG, posture.KNEELING_DEG, posture.LYING_DEG),
+        ),
+        (Code.CHILD, (proportions.MOST_BETWEEN_EYES,)),
         (Code.BLURRED, (sharpness.HARMFUL_PX, sharpness.BLOCKING_PX)),
         (Code.TOO_DARK, (exposure.DARKEST,)),
         (Code.TOO_BRIGHT, (exposure.BURNT, exposure.MOST_BURNT)),
@@ -114,9 +139,13 @@ def test_a_check_that_may_block_says_when():
             Code.PICTURE_TOO_SMALL,
             Code.OTHER_VIEW,
             Code.BLURRED,
+            Code.NOT_STANDING,
+            Code.CHILD,
+            Code.CONTRADICTED,
         )
     }
     modules = {"people": 1, "framing": 2, "turning": 1, "sharpness": 1}
+    modules |= {"posture": 1, "proportions": 1}
     for file in sources("fitter/capture"):
         named = file.read_text().count("Severity.BLOCKS")
         if file.stem not in ("finding", "checking"):
