@@ -46,7 +46,7 @@ def null_lines(nulls: Mapping[str, Sequence[Mapping[str, float]]]) -> list[str]:
     lines: list[str] = []
     for title, errors in nulls.items():
         columns = [[each[key] for each in errors] for key in KEYS]
-        cells = [_errors(column) if any(column) else "-" for column in columns]
+        cells = [_errors(column) if np.any(np.abs(column) > 1e-6) else "-" for column in columns]
         line = f"{title:{WIDEST_CLASS}s}{len(errors):3d}"
         lines.append(line + "".join(f"{cell:>26s}" for cell in cells))
     return lines

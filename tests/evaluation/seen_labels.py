@@ -7,7 +7,7 @@ from jaxtyping import UInt8
 
 from fitter.arrays import Mask
 from fitter.body.skeleton import regress
-from fitter.fits.clothing import FACE_CLICKS, LEAST_COVERED
+from fitter.fits.clothing import FACE_CLICKS
 from fitter.observation.colour import linear_from_display
 from fitter.render.rasterizer import render
 from fitter.segmentation.coverage import coverage
@@ -38,7 +38,7 @@ Labels = UInt8[np.ndarray, "h w"]
 def seen_labels(fitted: Fitted) -> Labels:
     """Labels by the code that tells a fit where skin shows, given the body it found.
 
-    Shoes are feet that the fit calls covered.
+    Shoes are feet that the fit calls covered. Of people taken to be in underwear all is bare.
     """
     result, view = fitted.result, fitted.result.views[0]
     model = packaged_model(result.person.gender)
@@ -53,9 +53,7 @@ def seen_labels(fitted: Fitted) -> Labels:
     )
     skin = skin_map(linear_from_display(view.pictures.image), regions)
     covered = coverage(skin, regions, model.gender)
-    bare = regions.person & (skin.probability > 0.5)
-    if covered.anything >= LEAST_COVERED:
-        bare = regions.person & (covered.bare(skin, regions) > 0.5)
+    bare = regions.person & (covered.bare(skin, regions) > 0.5)
     kinds = np.array([name.rpartition("_")[2] for name in model.part_names])
     kind = kinds[nearest_part(regions)]
     labels = np.where(np.isin(kind, list(UPPER_PARTS)), Label.UPPER, Label.LOWER)
