@@ -84,7 +84,8 @@ def error_figures(pairs: Sequence[Pair]) -> ErrorFigures:
     sure = [each for each in pairs if each.standard_error is not None]
     margins = [_margin(each) for each in sure]
     within = [
-        [abs(each.error) <= _margin(each) for each in group] for group in _by_person(sure).values()
+        [float(abs(each.error) <= _margin(each)) for each in group]
+        for group in _by_person(sure).values()
     ]
     return ErrorFigures(
         people=len(by_person),

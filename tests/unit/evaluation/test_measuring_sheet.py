@@ -29,6 +29,10 @@ CAPTIONS = REPOSITORY / "service" / "page" / "src" / "messages" / "en" / "howto.
 HOW_TO = REPOSITORY / "service" / "page" / "src" / "measure" / "HowTo.tsx"
 
 
+WITHOUT_EXAMPLE = {Code.NOBODY_FOUND, Code.NOT_STANDING, Code.CHILD, Code.CONTRADICTED}
+"""Everybody in the suite's pictures is grown up and stands; the last is said by fits alone."""
+
+
 @pytest.fixture(scope="module")
 def shown():
     return examples()
@@ -44,9 +48,9 @@ def test_the_checks_find_in_every_example_what_it_is_an_example_of(shown, said):
     assert said == meant
 
 
-def test_there_is_an_example_of_every_code_but_nobody_found(shown):
+def test_there_is_an_example_of_every_code_but_of_those_that_are_left_out(shown):
     codes = [each.code for each in shown if each.code is not None]
-    assert sorted(codes) == sorted(set(Code) - {Code.NOBODY_FOUND})
+    assert sorted(codes) == sorted(set(Code) - WITHOUT_EXAMPLE)
     assert sum(each.code is None for each in shown) >= 2
 
 
@@ -89,4 +93,4 @@ def test_the_guide_shows_the_sheet_and_has_a_row_for_every_code():
     guide = GUIDE.read_text()
     assert f"](service/demo_data/{SHEET})" in guide
     rows = re.findall(r"^\| `([\w-]+)` \| ", guide, flags=re.MULTILINE)
-    assert rows == [code.value for code in Code]
+    assert rows == [code.value for code in Code if code is not Code.CONTRADICTED]

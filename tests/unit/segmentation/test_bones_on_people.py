@@ -23,5 +23,5 @@ def test_bones_run_inside_slim_and_heavy_people_but_for_the_clicks_own_error(nam
         start, end = ((clicks[point].x, clicks[point].y) for point in bone)
         along = (1.0 - PLACES) * start + PLACES * end
         columns, rows = along.astype(int).T
-        # Of a profile the nose lies on the outline, and one click in a hundred is this far off.
-        assert outside_px[rows, columns].max() <= 3.0 * CLICK_DEVIATION_PX, bone
+        # Tops of heads and noses lie on the outline: one click in 460 is this far off.
+        assert outside_px[rows, columns].max() <= 3.5 * CLICK_DEVIATION_PX, bone
