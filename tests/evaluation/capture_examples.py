@@ -27,6 +27,9 @@ from tests.evaluation.staging import camera_of
 
 MAX_PIXELS = 50_000_000
 
+WITHOUT_EXAMPLE = {Code.NOBODY_FOUND, Code.NOT_STANDING, Code.CHILD, Code.CONTRADICTED}
+"""Everybody in the suite's pictures is grown up and stands; the last is said by fits alone."""
+
 NEAR_M = 1.2
 WIDE_MM = 15
 """A camera too near sees the whole person through a phone's wide lens only."""

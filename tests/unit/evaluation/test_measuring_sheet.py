@@ -9,7 +9,7 @@ import pytest
 
 from fitter.capture.finding import Code
 from fitter.detection.detector import installed_detector
-from tests.evaluation.capture_examples import examples
+from tests.evaluation.capture_examples import WITHOUT_EXAMPLE, examples
 from tests.evaluation.cases import CASES
 from tests.evaluation.measuring_sheet import (
     FOLDER,
@@ -27,10 +27,6 @@ REPOSITORY = Path(__file__).parents[3]
 GUIDE = REPOSITORY / "MEASURING.md"
 CAPTIONS = REPOSITORY / "service" / "page" / "src" / "messages" / "en" / "howto.ts"
 HOW_TO = REPOSITORY / "service" / "page" / "src" / "measure" / "HowTo.tsx"
-
-
-WITHOUT_EXAMPLE = {Code.NOBODY_FOUND, Code.NOT_STANDING, Code.CHILD, Code.CONTRADICTED}
-"""Everybody in the suite's pictures is grown up and stands; the last is said by fits alone."""
 
 
 @pytest.fixture(scope="module")
