@@ -11,9 +11,9 @@ import pytest
 
 from fitter.errors import ModelFileError
 from service.jobs.inputs import SentPicture
+from service.numerics.fork_server import THREAD_LIMITS
 from service.submissions.submission import check_fit
 from service.worker import pipeline, rehearsal
-from service.worker.main import THREAD_LIMITS
 from service.worker.pipeline_port import PipelineInput, PipelineOutput
 from service.worker.rehearsal import rehearse
 from tests.submissions import small_submissions
