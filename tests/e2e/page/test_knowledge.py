@@ -121,7 +121,7 @@ def test_light_and_clothes_that_were_told_reach_the_fit_and_come_back_with_it(vi
     assert asked["light"]["elevation_deg"] == pytest.approx(30.0, abs=1.5)
     visitor.wait_for_result()
     expect(page.get_by_text("from the surroundings, by direction")).to_be_visible()
-    expect(page.get_by_text("Clothing is said to be loose")).to_be_visible()
+    expect(page.get_by_text("Loose clothes cover")).to_be_visible()
     visitor.wait_until_drawn(placement="picture")
     visitor.choose("Lit")
     lit = visitor.wait_until_drawn(placement="picture", surface="lit")
