@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,17 +15,20 @@ from service.settings import PREFIX
 
 REPOSITORY = Path(__file__).parents[2]
 FORK_SERVER = b"multiprocessing.forkserver"
+WORKER = b"-m\0service.worker\0"
 BEGINS_WITHIN_S = 600.0
 
 
 def forked() -> Iterator[Path]:
-    """The fork servers of this checkout that run, and what they have forked."""
+    """The fork servers of this checkout's workers that run, and what they have forked."""
     for process in Path("/proc").glob("[0-9]*"):
         try:
             command = (process / "cmdline").read_bytes()
             if FORK_SERVER in command and os.fsencode(REPOSITORY) in command:
                 (process / "environ").read_bytes()
-                yield process
+                parent = parent_of(process)
+                if any(WORKER in command_of(each) for each in (parent, parent_of(parent))):
+                    yield process
         except OSError:
             # It has just ended, or is another user's.
             continue
@@ -32,6 +36,11 @@ def forked() -> Iterator[Path]:
 
 def name_of(process: Path) -> str:
     return (process / "comm").read_text().strip()
+
+
+def parent_of(process: Path) -> Path:
+    (number,) = re.findall(r"^PPid:\t(\d+)$", (process / "status").read_text(), re.MULTILINE)
+    return Path("/proc") / number
 
 
 def command_of(process: Path) -> bytes:
@@ -66,8 +75,7 @@ def test_they_may_not_write_where_the_api_asks_its_questions(service: httpx.Clie
     asked = {
         Path(os.fsdecode(command.split(b"\0")[-2]))
         for process in Path("/proc").glob("[0-9]*")
-        if b"-m\0service.worker\0" in (command := command_of(process))
-        and os.fsencode(REPOSITORY) in command
+        if WORKER in (command := command_of(process)) and os.fsencode(REPOSITORY) in command
     }
     sockets = {each for each in asked if each.is_socket()}
     assert sockets
