@@ -27,13 +27,9 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.measurement.joint_measurements import JointMeasurements
+from fitter.measurement.quantity import INTERVAL_SD
 from fitter.vocabulary.choices import Gender
-from fitter.vocabulary.measurements import STATURE
-
-WEIGHT = "weight"
-
-INTERVAL_SD = 1.959964
-"""Half of a 95 % interval."""
+from fitter.vocabulary.measurements import STATURE, WEIGHT
 
 CENTIMETRES_PER_METRE = 100.0
 

@@ -1,9 +1,11 @@
 """Whether loose clothes hide the body, as the fit sees them too."""
 
+from collections.abc import Sequence
 from typing import Final
 
 from fitter.capture.capture import Capture
 from fitter.capture.finding import Code, Finding, Remark, Unchecked
+from fitter.observation.worn import WornRegion
 from fitter.vocabulary.choices import BodyRegion, Covering
 from fitter.vocabulary.outcomes import Severity
 
@@ -30,19 +32,14 @@ def clothes(capture: Capture) -> Remark | None:
             code=Code.CLOTHES_LOOSE,
             reason="Neither face nor hands show the colour of the person's skin.",
         )
-    loose = {
-        each.region: each.probability
-        for each in capture.clothing
-        if each.region in _WORDS and each.kind is Covering.LOOSE
-    }
+    loose = _loose(capture.clothing)
     if not loose:
         return None
-    regions = listed([_WORDS[region] for region in loose])
     return Finding(
         code=Code.CLOTHES_LOOSE,
         severity=Severity.HARMS,
         reason=(
-            f"Loose clothes cover {regions}, with a probability of "
+            f"{what_is_loose(capture.clothing)}, with a probability of "
             f"{100.0 * min(loose.values()):.0f} %: the body under them is estimated."
         ),
         remedy="Have close-fitting clothes worn, or send the weight with the fit.",
@@ -55,7 +52,20 @@ def clothes(capture: Capture) -> Remark | None:
     )
 
 
-def listed(words: list[str]) -> str:
-    """Words with commas, and an "and" before the last."""
+def what_is_loose(clothing: Sequence[WornRegion]) -> str:
+    """The beginning of a sentence: what loose clothes cover, of which there are some."""
+    return f"Loose clothes cover {_listed([_WORDS[region] for region in _loose(clothing)])}"
+
+
+def _loose(clothing: Sequence[WornRegion]) -> dict[BodyRegion, float]:
+    """Regions in loose clothes, with the probability that they are."""
+    return {
+        each.region: each.probability
+        for each in clothing
+        if each.region in _WORDS and each.kind is Covering.LOOSE
+    }
+
+
+def _listed(words: list[str]) -> str:
     *others, last = words
     return f"{', '.join(others)} and {last}" if others else last

@@ -14,6 +14,7 @@ from typing import Final
 
 from fitter.capture.finding import Code, Finding
 from fitter.measurement.quantity import Measurement
+from fitter.vocabulary.measurements import WEIGHT
 from fitter.vocabulary.outcomes import Severity
 
 
@@ -102,7 +103,7 @@ def _factor(measurement: str, pictures: Sequence[Sequence[Finding]]) -> float:
 
 
 def _of(harm: Harm, measurement: str) -> float:
-    if measurement == "weight":
+    if measurement == WEIGHT:
         return harm.weight
     for group, factor in ((_CHEST, harm.chest), (_WAIST, harm.waist), (_HIP, harm.hip)):
         if measurement in group:

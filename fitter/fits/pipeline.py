@@ -34,6 +34,7 @@ from fitter.person.several_pictures import MOST_PICTURES, CombinedShape, combine
 from fitter.population.known_person import known_person
 from fitter.request import FitRequest
 from fitter.result import FitResult, FitStage, FittedView, PictureFit, Pictures, StageBody
+from fitter.vocabulary.measurements import WEIGHT
 
 _WAIST: Final = "waist_girth_smallest"
 
@@ -195,12 +196,12 @@ def _told(
     known = subject.known.given
     waist = next(each.standard_error for each in measurements if each.name == _WAIST)
     weighed = None
-    if waist is not None and "weight" not in known and _WAIST not in known:
+    if waist is not None and WEIGHT not in known and _WAIST not in known:
         weighed = waist * error_if_known(
-            subject.prepared.measuring, shape, covariance, of=_WAIST, known="weight"
+            subject.prepared.measuring, shape, covariance, of=_WAIST, known=WEIGHT
         )
     return tuple(
-        replace(each, findings=with_what_clothes_cost(each.findings, waist, weighed))
+        replace(each, findings=with_what_clothes_cost(each.findings, each.clothing, waist, weighed))
         for each in people
     )
 

@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from fitter.fits.foretold import Foretold
+from fitter.measurement.quantity import INTERVAL_SD
 from fitter.numerics.rotations import rotation_matrices
 from fitter.optimizer.hypotheses import TriedHypotheses
 from fitter.parameters import BodyParameters
@@ -186,8 +187,8 @@ def _contradicted(told: Foretold, unit: str, who: str) -> FitWarning | None:
         code="given-contradicted",
         message=(
             f"{told.name} was given as {told.given:.1f} {unit}, but by {who} and the "
-            f"height it is {told.value:.0f} ± {1.96 * told.standard_error:.0f} {unit}. Check "
-            "this value and the height, and their units."
+            f"height it is {told.value:.0f} ± {INTERVAL_SD * told.standard_error:.0f} {unit}. "
+            "Check this value and the height, and their units."
         ),
     )
 

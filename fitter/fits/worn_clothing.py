@@ -7,8 +7,10 @@ from typing import Final
 import numpy as np
 
 from fitter.arrays import GreyImage
+from fitter.capture.clothes import what_is_loose
 from fitter.capture.finding import Code, Finding
 from fitter.energies.objective import Objective
+from fitter.measurement.quantity import INTERVAL_SD
 from fitter.observation.worn import WornRegion
 from fitter.optimizer.uncertainty import Certainty, covered_distances
 from fitter.remarks import FitWarning
@@ -98,27 +100,31 @@ def clothing_warnings(objective: Objective, said: frozenset[Clothing]) -> tuple[
 
 
 def with_what_clothes_cost(
-    findings: Sequence[Finding], waist_cm: float | None, weighed_cm: float | None
+    findings: Sequence[Finding],
+    clothing: Sequence[WornRegion],
+    waist_cm: float | None,
+    weighed_cm: float | None,
 ) -> tuple[Finding, ...]:
     """The findings; that of loose clothes with how well the waist is known, and would be.
 
     Parameters
     ----------
+    clothing
+        How each region is covered.
     waist_cm
         Standard error of the smallest waist; None where nothing is measured.
     weighed_cm
         The same if the weight were known; None if it is.
     """
     return tuple(
-        _costing(each, waist_cm, weighed_cm)
+        _costing(each, what_is_loose(clothing), waist_cm, weighed_cm)
         if each.code is Code.CLOTHES_LOOSE and waist_cm is not None
         else each
         for each in findings
     )
 
 
-def _costing(found: Finding, waist_cm: float, weighed_cm: float | None) -> Finding:
-    said, _, _ = found.reason.partition(", with a probability")
+def _costing(found: Finding, said: str, waist_cm: float, weighed_cm: float | None) -> Finding:
     remedy = "Close-fitting clothes make it surer."
     if weighed_cm is not None:
         remedy = f"Close-fitting clothes make it surer, or the weight: ± {_half(weighed_cm)} cm."
@@ -134,7 +140,7 @@ def _costing(found: Finding, waist_cm: float, weighed_cm: float | None) -> Findi
 
 def _half(standard_error: float) -> str:
     """Half the breadth of the 95 % interval."""
-    return f"{1.96 * standard_error:.0f}"
+    return f"{INTERVAL_SD * standard_error:.0f}"
 
 
 _NO_SKIN = FitWarning(

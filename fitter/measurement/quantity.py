@@ -1,6 +1,10 @@
 """What a measurement is to those who read it."""
 
 from dataclasses import dataclass
+from typing import Final
+
+INTERVAL_SD: Final = 1.959964
+"""Half of a 95 % interval, in standard errors."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

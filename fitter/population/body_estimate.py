@@ -9,7 +9,7 @@ from scipy.special import chdtrc
 from fitter.arrays import Shape, Vertices
 from fitter.energies.priors import height_extrapolation
 from fitter.measurement.anthropometry import measure
-from fitter.measurement.quantity import Measurement
+from fitter.measurement.quantity import INTERVAL_SD, Measurement
 from fitter.population.known import conditioned_population
 from fitter.population.measured_population import MeasuredPopulation
 from fitter.population.unusual_height import height_warnings
@@ -18,7 +18,6 @@ from fitter.request import KnownMeasurement
 from fitter.vocabulary.measurements import STATURE
 
 INTERVAL_PROBABILITY = 0.95
-_INTERVAL_SD = 1.959964
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -108,7 +107,7 @@ def estimate_body(
 
 
 def _estimated(measurement: Measurement, spread: float, *, given: bool) -> EstimatedMeasurement:
-    margin = _INTERVAL_SD * spread
+    margin = INTERVAL_SD * spread
     return EstimatedMeasurement(
         measurement=replace(measurement, standard_error=spread),
         low=max(measurement.value - margin, 0.0),

@@ -11,10 +11,11 @@ from typing import Final
 import numpy as np
 from scipy.stats import bootstrap
 
+from fitter.measurement.quantity import INTERVAL_SD
+
 RESAMPLES: Final = 9_999
 SEED: Final = 2009
 _FEWEST_PEOPLE: Final = 2
-_INTERVAL_SD: Final = 1.959964
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -106,7 +107,7 @@ def mean_absolute(errors_by_person: Iterable[Sequence[float]]) -> Estimate:
 
 def _margin(pair: Pair) -> float:
     assert pair.standard_error is not None
-    return _INTERVAL_SD * pair.standard_error
+    return INTERVAL_SD * pair.standard_error
 
 
 def _by_person(pairs: Iterable[Pair]) -> dict[str, list[Pair]]:

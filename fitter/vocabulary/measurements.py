@@ -14,6 +14,8 @@ from typing import Final
 STATURE: Final = "stature"
 """The measurement that a request's ``height_m`` is in metres."""
 
+WEIGHT: Final = "weight"
+
 LEAST_HEIGHT_M: Final = 1.2
 MOST_HEIGHT_M: Final = 2.3
 """What a request may say of a height, whichever request. What is within and yet unusual is taken

@@ -30,6 +30,11 @@ class Tape:
     value: float
     again: float | None
 
+    @property
+    def mean(self) -> float:
+        """Of the readings."""
+        return self.value if self.again is None else 0.5 * (self.value + self.again)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MeasuredPerson:

@@ -15,7 +15,7 @@ from fitter.fits.equipment import Equipment
 from fitter.population.body_estimate import estimate_body
 from fitter.population.validation import ErrorFigures, Estimate, Pair, error_figures, mean_absolute
 from fitter.request import KnownMeasurement
-from fitter.vocabulary.measurements import MEASUREMENT_UNITS, STATURE
+from fitter.vocabulary.measurements import MEASUREMENT_UNITS, STATURE, WEIGHT
 from service.commands.fit import PIPELINE, FitArguments, fit_request
 from service.commands.local_work import UNUSABLE_INPUT, fitted, told
 from service.commands.people_file import MeasuredPerson, read_people
@@ -26,8 +26,6 @@ from service.submissions.validation import parsed
 from service.worker.pipeline_port import UnusableInputError
 
 REPORT, PAIRS = "validation.md", "validation.csv"
-WEIGHT: Final = "weight"
-
 NULLS: Final[Mapping[str, tuple[str, ...]]] = {
     "height": (STATURE,),
     "height and weight": (STATURE, WEIGHT),
@@ -141,7 +139,7 @@ def _null_errors(
     equipment = Equipment(models=models)
     errors: dict[str, list[list[float]]] = {}
     for person in {fit.person.person: fit.person for fit in fits if fit.found}.values():
-        told_of = {name: tape.value for name, tape in person.tapes.items()}
+        told_of = {name: tape.mean for name, tape in person.tapes.items()}
         told_of[STATURE] = person.height_cm
         if not set(known) <= told_of.keys():
             continue
