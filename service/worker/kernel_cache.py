@@ -28,7 +28,7 @@ from service.process.caches import KERNELS
 LOG: Final = logging.getLogger(__name__)
 
 PACKAGE: Final = Path(next(iter(fitter.__path__)))
-SOURCES: Final = "_*_kernels.py"
+SOURCES: Final = "_*kernels.py"
 """Where kernels are compiled from, by the convention of this package."""
 
 Signature = tuple[str, str, Any]

@@ -25,6 +25,7 @@ from tests.e2e.service import (
     wait_until_ready,
 )
 from tests.installation import Installation, installed
+from tests.kernels import hand_on
 
 pytestmark = pytest.mark.slow
 
@@ -53,9 +54,10 @@ load_body_model(3)
 
 @pytest.fixture(scope="module")
 def installation(tmp_path_factory: pytest.TempPathFactory) -> Installation:
-    """The wheel, with its kernels compiled: a service's processes would do it side by side."""
+    """The wheel, with its kernels as they are compiled from the same sources."""
     folder = tmp_path_factory.mktemp("installed")
     made = installed(built(REPOSITORY, "wheel", folder / "wheel"), folder / "environment")
+    hand_on(made.packages / "fitter")
     done = made.run(made.maquette, "warm-up", cwd=folder)
     assert done.returncode == 0, done.stdout + done.stderr
     return made

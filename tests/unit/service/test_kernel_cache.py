@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from service.worker.kernel_cache import PACKAGE, SOURCES
+
 REPOSITORY = Path(__file__).parents[3]
 
 KERNELS = """
@@ -147,3 +149,9 @@ def test_another_processor_has_a_file_of_its_own(package: Path, monkeypatch):
     assert ran(package).split() == ["12.0", "1", "1"]
     assert compiled(package) == 2
     assert len(list((package / "__pycache__").glob("kernels-*"))) == 2
+
+
+def test_every_source_of_a_kernel_is_looked_at_for_changes():
+    sources = {path for path in PACKAGE.rglob("*.py") if "@njit" in path.read_text()}
+    assert sources
+    assert sources <= set(PACKAGE.rglob(SOURCES))
