@@ -24,6 +24,8 @@ def main(arguments: Sequence[str]) -> int:
     options = asked.parse_args(arguments)
     if options.repeat and not options.scan:
         asked.error("--repeat goes with --scan")
+    if options.every and not options.again:
+        asked.error("--every goes with --again")
     choice = Choice(
         cases=[case for case in CASES.values() if _is_chosen(case, options)],
         foreign=_foreign(options),

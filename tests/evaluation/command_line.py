@@ -123,8 +123,13 @@ def _add_modes(to: argparse.ArgumentParser) -> None:
             "measure people from the front, from the side and from both, foreign ones too",
         ),
         ("--strangers", "scan pictures of one person and of two: how often that is told"),
+        (
+            "--again",
+            "fit pictures changed by what nobody sees: spread of measurements, and errors stated",
+        ),
     ):
         to.add_argument(name, action="store_true", help=what)
+    to.add_argument("--every", action="store_true", help="with --again: all pictures, not a few")
     to.add_argument(
         "--repeat",
         action="store_true",

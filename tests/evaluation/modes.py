@@ -5,6 +5,15 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from fitter.vocabulary.choices import Cues, Gender
+from tests.evaluation.again import (
+    Again,
+    again,
+    again_heading,
+    again_lines,
+    again_summary,
+    asked_again,
+    pictures_again,
+)
 from tests.evaluation.capture_costs import cost_lines, costs_of, people_of
 from tests.evaluation.capture_table import capture_lines, judged_by, judgements
 from tests.evaluation.cases import PEOPLE
@@ -203,6 +212,18 @@ def strangers(choice: Choice) -> None:
         _print(stranger_lines(list(found)), f"{half.value} half")
 
 
+def seen_again(choice: Choice) -> None:
+    """The same pictures again, changed by what nobody sees."""
+    half = None if choice.options.half is None else Half(choice.options.half)
+    names = choice.options.case or pictures_again(every=choice.options.every, half=half)
+    _print([again_heading()])
+    found: list[Again] = []
+    for each in of_each(again, asked_again(names), choice.jobs):
+        _print(again_lines(each))
+        found += each
+    _print(again_summary(found), "all")
+
+
 def dressed(choice: Choice) -> None:
     """People in clothes: nothing said, clothes said to be tight and loose, the weight given."""
     for half, cases in choice.cases_by_half.items():
@@ -270,6 +291,7 @@ MODES: Mapping[str, Mode] = {
     "repeat": repeat,
     "scan": scan,
     "strangers": strangers,
+    "again": seen_again,
 }
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 
 import numpy as np
+from jaxtyping import Float
 
 from fitter.vocabulary.choices import Cues
 from tests.evaluation.scoring import Scored
@@ -62,7 +63,10 @@ def summary_lines(scored: Sequence[Scored]) -> list[str]:
 
 
 def cue_lines(scored: Sequence[Scored]) -> list[str]:
-    """Pictures whose error is smaller by SES than by SE, and how mean absolute errors differ."""
+    """Pictures whose error is smaller by SES than by SE, and how mean absolute errors differ.
+
+    With the standard error of that difference over people, who are independent.
+    """
     fits = {(each.name, each.cues): each for each in scored}
     pairs = [
         (se, fits[name, Cues.SES])
@@ -71,14 +75,21 @@ def cue_lines(scored: Sequence[Scored]) -> list[str]:
     ]
     if not pairs:
         return []
-    lines = [f"{'SES against SE':18s}{'nearer':>11s}{'SES - SE':>10s}"]
+    people = [each.person for each, _ in pairs]
+    lines = [f"{'SES against SE':18s}{'nearer':>11s}{'SES - SE':>10s}{'':>8s}"]
     for name, key, unit in MEASUREMENTS:
         se, ses = np.abs([[each.errors[key] for each in pair] for pair in pairs]).T
         change = float(np.mean(ses - se))
         worse = "  worse" if change > 0.0 else ""
-        share = _share(list(ses < se))
-        lines.append(f"{f'  {name} [{unit}]':18s}{share:>11s}{change:+10.2f}{worse}")
+        share, uncertain = _share(list(ses < se)), _standard_error(people, ses - se)
+        lines.append(f"{f'  {name} [{unit}]':18s}{share:>11s}{change:+10.2f}{uncertain:>8s}{worse}")
     return lines
+
+
+def _standard_error(people: Sequence[str], changes: Float[np.ndarray, " k"]) -> str:
+    """Of the mean over people, each with the mean over their pictures."""
+    means = [changes[np.array(people) == person].mean() for person in dict.fromkeys(people)]
+    return f"±{np.std(means, ddof=1) / len(means) ** 0.5:.2f}" if len(means) > 1 else ""
 
 
 def worst_lines(scored: Sequence[Scored], count: int = 5) -> list[str]:

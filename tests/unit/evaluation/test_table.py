@@ -119,7 +119,7 @@ def test_ses_is_compared_with_se_on_the_same_picture():
     scored += [scored_picture(Cues.SE, -2.0, case=other), scored_picture(Cues.SES, 6.0, case=other)]
     _, *lines = cue_lines(scored)
     assert len(lines) == len(MEASUREMENTS)
-    assert all(line.split()[2:] == ["1/2", "50%", "+1.00", "worse"] for line in lines)
+    assert all(line.split()[2:] == ["1/2", "50%", "+1.00", "±3.00", "worse"] for line in lines)
     assert "worse" not in "".join(cue_lines(scored[:2]))
 
 
