@@ -20,7 +20,7 @@ unexport PYTHONDONTWRITEBYTECODE
 VERSION = $(shell sed -n 's/^VERSION = "\(.*\)"$$/\1/p' service/version.py)
 
 # What fitter announces of its arguments and results, checked at every call of its quick unit tests.
-CHECKED := --jaxtyping-packages=fitter,beartype.beartype(conf=beartype.BeartypeConf(is_pep484_tower=True))
+CHECKED := -p tests.annotations --jaxtyping-packages=fitter,tests.annotations.checked
 
 .PHONY: demo setup test test-rest test-shapes test-others blender lint serve train report openapi examples docs page wheel image audit sbom release lock clean
 
@@ -36,7 +36,7 @@ test-rest: $(STAMP)
 	$(PYTEST) -m rest
 
 test-shapes: $(STAMP)
-	$(PYTEST) -m shapes "$(CHECKED)"
+	$(PYTEST) -m shapes $(CHECKED)
 
 # All tests that `make test-shapes` does not run: so CI runs each once.
 test-others: $(STAMP)

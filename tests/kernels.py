@@ -47,6 +47,9 @@ def hand_on(package: Path) -> None:
 
     from service.worker import kernel_cache
 
+    def folder_of(source: Path) -> str:
+        return str(_CacheLocator.get_suitable_cache_subpath(str(source)))
+
     kept = kernel_cache.read_kept()
     if kept is None or not kept.is_current():
         return
@@ -55,11 +58,7 @@ def hand_on(package: Path) -> None:
         here, there = kernel_cache.PACKAGE / source, package / source
         assert filecmp.cmp(here, there, shallow=False), source
         shutil.copystat(here, there)
-        folders = (
-            str(_CacheLocator.get_suitable_cache_subpath(str(each))) for each in (here, there)
-        )
-        old, new = folders
-        renamed[old] = new
+        renamed[folder_of(here)] = folder_of(there)
     files = {
         str(Path(renamed[folder]) / name): content
         for path, content in kept.files.items()

@@ -11,6 +11,7 @@ Of a civilian we draw age, stature and weight; :mod:`fitter.training.surveys.sur
 
 import json
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -76,10 +77,7 @@ def draw_civilian(statistics: CivilianStatistics, generator: np.random.Generator
     Means and covariance are linear in age between the groups' mean ages, and constant beyond.
     """
     age = generator.uniform(*AGES)
-
-    def at_age(values: Float[np.ndarray, " a"]) -> float:
-        return float(np.interp(age, statistics.age, values))
-
+    at_age = partial(np.interp, age, statistics.age)
     mean = np.array([at_age(statistics.log_stature), at_age(statistics.log_bmi)])
     entries = [at_age(statistics.log_covariance[:, i, j]) for i, j in ((0, 0), (0, 1), (1, 1))]
     root = np.linalg.cholesky([[entries[0], entries[1]], [entries[1], entries[2]]])

@@ -270,14 +270,14 @@ def test_the_simplex_searches_several_pictures_too(monkeypatch):
     from fitter.optimizer import search
 
     few = replace(
-        search.limits_of(OptimizerKind.SIMPLEX), first=20, trial=20, contest=20,
-        silhouette_and_edges=200,
+        search.limits_of(OptimizerKind.SIMPLEX), first=10, trial=10, contest=10,
+        silhouette_and_edges=150,
     )  # fmt: skip
     monkeypatch.setitem(search._LIMITS, OptimizerKind.SIMPLEX, few)
-    request = together(asked(STANDING, size=(150, 200)), asked(TURNED, size=(150, 200)))
+    request = together(asked(STANDING, size=(105, 140)), asked(TURNED, size=(105, 140)))
     result = fit(changed(request, optimizer=OptimizerKind.SIMPLEX))
     assert result.optimizer is OptimizerKind.SIMPLEX
-    assert 400 < result.evaluations < 700
+    assert 300 < result.evaluations < 500
     first, *_, last = result.stages
     assert sum(last.energies.values()) < sum(first.energies.values())
     one, other = (each.found.person.body.shape for each in result.views)

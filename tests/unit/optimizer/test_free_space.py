@@ -265,7 +265,7 @@ def test_a_given_weight_corrects_the_body_the_picture_alone_gives(scene):
 
 def test_the_simplex_holds_attributes_as_well(scene):
     objective, start = begun(scene, person(scene, dict.fromkeys(HELD, 0.0)))
-    found = minimize_simplex(objective, start, max_evaluations=200, on_energies=ignore)
+    found = minimize_simplex(objective, start, max_evaluations=100, on_energies=ignore)
     assert found.candidate.total < objective.evaluate(start).total
     values, wanted = measured(found.candidate.shape), measured(scene.truth.shape)
     assert not np.array_equal(found.candidate.shape, start[0].shape)

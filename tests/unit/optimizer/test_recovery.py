@@ -98,7 +98,7 @@ def test_the_height_coefficient_is_never_moved(scene, silhouette_fit):
 def test_the_simplex_lowers_the_same_energy_but_slower(scene):
     person, start = scene.person, [scene.start]
     newton = minimize_gauss_newton(person, start, max_evaluations=40, on_energies=ignore)
-    simplex = minimize_simplex(person, start, max_evaluations=400, on_energies=ignore)
+    simplex = minimize_simplex(person, start, max_evaluations=140, on_energies=ignore)
     assert simplex.candidate.total < person.evaluate(start).total
     assert not simplex.converged
     assert newton.candidate.total < simplex.candidate.total

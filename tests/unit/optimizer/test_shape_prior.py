@@ -57,5 +57,5 @@ def test_both_optimisers_lower_the_energy_of_the_prior(scene):
     newton = minimize_gauss_newton(other, start, max_evaluations=60, on_energies=ignore)
     assert newton.candidate.energies["shape_prior"] < 0.2 * begin
     assert np.abs(newton.candidate.shape[1:] - 1.0).mean() < 0.4
-    simplex = minimize_simplex(other, start, max_evaluations=300, on_energies=ignore)
+    simplex = minimize_simplex(other, start, max_evaluations=120, on_energies=ignore)
     assert simplex.candidate.energies["shape_prior"] < begin

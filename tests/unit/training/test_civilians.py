@@ -30,7 +30,7 @@ def test_packaged_civilians_are_those_of_the_survey(gender: str):
 def test_drawn_civilians_are_adults_of_every_age_and_build(gender: str):
     civilians = load_civilians(packaged_civilians_path(), gender)
     generator = np.random.default_rng(0)
-    drawn = [draw_civilian(civilians, generator) for _ in range(20_000)]
+    drawn = [draw_civilian(civilians, generator) for _ in range(4_000)]
     age = np.array([person.age for person in drawn])
     stature = np.array([person.stature for person in drawn])
     index = np.array([person.weight for person in drawn]) / stature**2
