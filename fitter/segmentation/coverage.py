@@ -1,7 +1,7 @@
 """What is covered: trunk and thighs of a person, by how much of them shows the skin's colour.
 
-A person wears one of few outfits: underwear, a swimsuit, trousers alone, a top with trousers, or a
-top with shorts, a skirt or a dress. Each foretells which share of chest, waist, pelvis, thighs and
+A person wears one of few outfits: underwear, a swimsuit, trousers alone, shorts alone, a top with
+trousers, or a top with shorts, a skirt or a dress. Each foretells which share of chest, waist, pelvis, thighs and
 shins shows the colour of the skin, as a beta distribution; shadows, gloss and patterns are an even
 share of outliers. Cloth may have the skin's colour: a top or a bottom then shows all of it. Bayes'
 rule over outfits and their colours gives the probability that a region is covered, and that what
@@ -51,11 +51,11 @@ class _Outfit:
     shares: Mapping[str, tuple[float, float]]
 
 
-_NONE, _MOST = (0.03, 20.0), (0.88, 12.0)
-_UNDERWEAR_PELVIS = (0.15, 5.0)
+_NONE = (0.03, 20.0)
+_UNDERWEAR_PELVIS = (0.3, 2.5)
 
-# Of the tuning halves' people in underwear chests of women show 0.41 to 0.7 and of men 0.8 to 1,
-# waists 0.28 to 1, thighs 0.14 to 0.95: light alone makes half of the differences.
+# Of the tuning halves' people in underwear chests of women show 0.37 to 0.79 and of men 0.45 to
+# 1, waists 0.13 to 1, thighs 0.35 to 1: light alone makes half of the differences.
 _BY_GENDER: Final[Mapping[str, tuple[_Outfit, ...]]] = {
     gender: (
         _Outfit(
@@ -63,7 +63,7 @@ _BY_GENDER: Final[Mapping[str, tuple[_Outfit, ...]]] = {
             covers=frozenset(),
             shares={
                 "chest": chest,
-                "waist": (0.75, 6.0),
+                "waist": waist,
                 "pelvis": _UNDERWEAR_PELVIS,
                 "thighs": (0.62, 5.0),
                 "shins": (0.82, 6.0),
@@ -74,10 +74,21 @@ _BY_GENDER: Final[Mapping[str, tuple[_Outfit, ...]]] = {
             covers=frozenset({Covers.BOTTOM}),
             shares={
                 "chest": chest,
-                "waist": (0.75, 6.0),
-                "pelvis": _UNDERWEAR_PELVIS,
+                "waist": waist,
+                "pelvis": (0.12, 8.0),
                 "thighs": _NONE,
                 "shins": _NONE,
+            },
+        ),
+        _Outfit(
+            prior=0.02,
+            covers=frozenset({Covers.BOTTOM}),
+            shares={
+                "chest": chest,
+                "waist": waist,
+                "pelvis": (0.12, 8.0),
+                "thighs": (0.12, 8.0),
+                "shins": (0.8, 5.0),
             },
         ),
         _Outfit(
@@ -103,7 +114,10 @@ _BY_GENDER: Final[Mapping[str, tuple[_Outfit, ...]]] = {
             },
         ),
     )
-    for gender, chest in (("female", (0.52, 40.0)), ("male", _MOST))
+    for gender, chest, waist in (
+        ("female", (0.57, 16.0), (0.66, 5.0)),
+        ("male", (0.93, 10.0), (0.88, 6.0)),
+    )
 }
 
 _AS_SKIN: Final[Mapping[Covers, Mapping[str, tuple[float, float]]]] = {
@@ -186,8 +200,7 @@ def coverage(skin: SkinMap, regions: PersonRegions, gender: str | None) -> Cover
             shares = dict(outfit.shares)
             for cover in like_skin:
                 shares |= _AS_SKIN[cover]
-            even, poor = (_likelihood(each, seen) for each in (shares, _in_poor_light(shares)))
-            weights.append(outfit.prior * colours * ((1.0 - POOR_LIGHT) * even + POOR_LIGHT * poor))
+            weights.append(outfit.prior * colours * _likelihood(shares, seen))
             states.append((outfit.covers, like_skin))
     probabilities = np.array(weights) / np.sum(weights)
 
@@ -221,18 +234,17 @@ def _subsets(covers: frozenset[Covers]) -> list[frozenset[Covers]]:
     return found
 
 
-def _in_poor_light(shares: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
-    return {
-        region: _IN_POOR_LIGHT if share[0] > _BARE_FROM else share
-        for region, share in shares.items()
-    }
-
-
 def _likelihood(shares: Mapping[str, tuple[float, float]], seen: Mapping[str, float]) -> float:
-    total = 1.0
+    """Of what is seen, in even or in poor light."""
+    even, poor = 1.0 - POOR_LIGHT, POOR_LIGHT
     for region, share in seen.items():
-        mean, number = shares[region]
-        at = np.clip(share, _LOWEST, _HIGHEST)
-        density = float(beta.pdf(at, mean * number, (1.0 - mean) * number))
-        total *= (1.0 - _OUTLIERS) * density + _OUTLIERS
-    return total
+        even *= _density(shares[region], share)
+        mean, _ = shares[region]
+        poor *= _density(_IN_POOR_LIGHT if mean > _BARE_FROM else shares[region], share)
+    return even + poor
+
+
+def _density(share: tuple[float, float], seen: float) -> float:
+    mean, number = share
+    at = np.clip(seen, _LOWEST, _HIGHEST)
+    return (1.0 - _OUTLIERS) * float(beta.pdf(at, mean * number, (1.0 - mean) * number)) + _OUTLIERS

@@ -71,6 +71,17 @@ def test_a_bare_chest_above_trousers_is_bare():
     assert found.bottom > 0.95
 
 
+def test_a_bare_chest_above_swim_trunks_is_bare():
+    found = of({"head": 0.8, "chest": 0.98, "spine": 0.98, "thigh": 0.1, "shin": 0.9})
+    assert found.top < 0.1
+    assert found.bottom > 0.7
+
+
+def test_a_man_s_top_of_the_skin_s_colour_is_a_top_where_it_hangs_over_his_hips():
+    found = of({"head": 0.8, "chest": 0.98, "spine": 0.98, "pelvis": 0.8})
+    assert found.top_like_skin > 0.7
+
+
 def test_a_woman_s_top_of_the_skin_s_colour_is_a_top():
     found = of({"head": 0.8, "chest": 0.98, "spine": 0.95, "pelvis": 0.9}, "female")
     assert found.top_like_skin > 0.9
