@@ -66,7 +66,7 @@ class CaptureCheck(WireModel):
     Codes: ``nobody-found``, ``several-people``, ``cut-off``, ``person-too-small``,
     ``picture-too-small``, ``other-view``, ``arms-against-trunk``, ``clothes-loose``, ``blurred``,
     ``too-dark``, ``too-bright``, ``camera-rolled``, ``camera-too-near``, ``not-standing``,
-    ``child``; others may be added.
+    ``child``, ``skin-not-found``; others may be added.
     ``not_checked`` has those that nothing can be said of. Warnings are those of a fit.
     """
 

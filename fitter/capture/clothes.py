@@ -24,13 +24,22 @@ _JOINTS: Final = {
 
 
 def clothes(capture: Capture) -> Remark | None:
-    """Whether clothes stand off the trunk or the legs."""
-    if capture.mask is None:
-        return Unchecked(code=Code.CLOTHES_LOOSE, reason="Without a detector there is no outline.")
-    if capture.clothing is None:
+    """Whether clothes stand off the trunk or the legs, or whether that cannot be seen."""
+    if capture.directions is None and (capture.mask is None or capture.stature_px is None):
         return Unchecked(
             code=Code.CLOTHES_LOOSE,
-            reason="Neither face nor hands show the colour of the person's skin.",
+            reason="There is no outline, for want of a detector, or too few joints are seen.",
+        )
+    if capture.clothing is None:
+        return Finding(
+            code=Code.SKIN_NOT_FOUND,
+            severity=Severity.HARMS,
+            reason=(
+                "Neither face nor hands show the colour of the person's skin, or the picture has "
+                "no colours: clothes are taken to be loose."
+            ),
+            remedy="Send a picture in colour with the face in sight, or say how the clothes fit.",
+            points=("nose",),
         )
     loose = _loose(capture.clothing)
     if not loose:

@@ -23,6 +23,7 @@ class Code(StrEnum):
     OTHER_VIEW = "other-view"
     ARMS_AGAINST_TRUNK = "arms-against-trunk"
     CLOTHES_LOOSE = "clothes-loose"
+    SKIN_NOT_FOUND = "skin-not-found"
     NOT_STANDING = "not-standing"
     CHILD = "child"
     BLURRED = "blurred"

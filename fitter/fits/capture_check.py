@@ -139,7 +139,10 @@ def capture_of(
 
 
 def capture_of_fit(
-    picture: Outlined, height_m: float, body: Candidate, clothing: tuple[WornRegion, ...]
+    picture: Outlined,
+    height_m: float,
+    body: Candidate,
+    clothing: tuple[WornRegion, ...] | None,
 ) -> Capture:
     """What there is to check of a picture that was fitted: what the fit has of it anyway.
 
@@ -148,7 +151,7 @@ def capture_of_fit(
     body
         As it was found in the picture.
     clothing
-        How the fit saw the clothes.
+        How the fit saw the clothes; None where it could not.
     """
     observation, view = picture.observation, picture.view
     points = scaled_clicks(view.clicks, observation.scale)

@@ -38,8 +38,9 @@ from fitter.vocabulary.choices import Clothing
 FACE_CLICKS = ("nose", "left_eye", "right_eye")
 
 LEAST_COVERED = 0.5
-"""From what probability on that trunk or legs are covered, the outline is not the body's. Of 125
-pictures of people in underwear 0.41 is the most, of 18 in clothes 0.97 the least."""
+"""From what probability on that trunk or legs are covered, the outline is not the body's. Of 96
+pictures of people in underwear, one has 0.67 and none of the others more than 0.18; of 54 in
+clothes, all but three painted on people who are seen from the side have 0.52 or more."""
 
 LOOSE_ABOVE_CLOSE, LOOSE_ABOVE_LOOSE = 0.1, 0.95
 """How often what covers the upper body is loose where what covers the legs is close or loose."""
@@ -90,7 +91,7 @@ def dressed(
         worn = worn_regions(regions, covered, bare=None, loose=None)
         return replace(objective, evidence=replace(objective.evidence, clothes=None, worn=worn))
     bare = skin.probability if said.both == {Clothing.LOOSE} else covered.bare(skin, regions)
-    loose = _loose(said, regions, bare, _joints_seen(rendering, prepared))
+    loose = _loose(said, regions, bare, _joints_seen(rendering, prepared), skin)
     cloth = ((1.0 - bare) * np.minimum(loose / LIKELY_LOOSE, 1.0)).astype(np.float32)
     fullness = CLOSE_FULLNESS + (1.0 - CLOSE_FULLNESS) * loose
     return replace(
@@ -140,7 +141,9 @@ def clothing_seen(
     if covered.anything < LEAST_COVERED:
         return worn_regions(regions, covered, bare=None, loose=None)
     bare = covered.bare(skin, regions)
-    return worn_regions(regions, covered, bare=bare, loose=_loose(said, regions, bare, joints))
+    return worn_regions(
+        regions, covered, bare=bare, loose=_loose(said, regions, bare, joints, skin)
+    )
 
 
 def where_bare(
@@ -231,14 +234,19 @@ def _loose(
     regions: PersonRegions,
     bare: GreyImage,
     joints: Mapping[str, Float[np.ndarray, "2"]],
+    skin: SkinMap,
 ) -> GreyImage:
-    """(h, w) probability that what covers a pixel's part is loose."""
+    """(h, w) probability that what covers a pixel's part is loose.
+
+    Close legs foretell a close top, but where nothing shows the skin's colour they may be bare.
+    """
     lower = _SAID.get(said.lower)
     if lower is None:
         lower = legs_are_loose(regions.person, bare, joints, regions.pixels_per_metre)
     upper = _SAID.get(said.upper)
     if upper is None:
-        upper = LOOSE_ABOVE_CLOSE + (LOOSE_ABOVE_LOOSE - LOOSE_ABOVE_CLOSE) * lower
+        like_legs = lower if skin.learnt_from else 1.0
+        upper = LOOSE_ABOVE_CLOSE + (LOOSE_ABOVE_LOOSE - LOOSE_ABOVE_CLOSE) * like_legs
     by_kind = {"pelvis": max(upper, lower)} | dict.fromkeys(_OF_LEGS, lower)
     of_part = [by_kind.get(name.rpartition("_")[2], upper) for name in regions.part_names]
     return np.array(of_part, dtype=np.float32)[nearest_part(regions)]

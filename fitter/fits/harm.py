@@ -48,6 +48,7 @@ HARM: Final[Mapping[Code, Harm]] = {
     Code.PERSON_TOO_SMALL: _SMALL,
     Code.PICTURE_TOO_SMALL: _SMALL,
     Code.CAMERA_TOO_NEAR: Harm(chest=1.6, waist=1.2, hip=1.2, weight=1.4),
+    Code.SKIN_NOT_FOUND: Harm(waist=1.3, hip=1.2, weight=1.7),
     Code.CUT_OFF: Harm(chest=1.3, waist=1.2, hip=1.2, weight=1.2),
     # What is bent hides what is measured. There are no figures: no less than the others.
     Code.NOT_STANDING: Harm(chest=1.5, waist=2.0, hip=2.0, weight=1.5),

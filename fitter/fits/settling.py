@@ -11,7 +11,7 @@ from fitter.fits.outlined import Outlined, Subject
 from fitter.fits.plausibility import plausibility
 from fitter.fits.reporting import outcome_of
 from fitter.fits.search import Found, LitView
-from fitter.fits.worn_clothing import with_ease
+from fitter.fits.worn_clothing import clothes_are_guessed, with_ease
 from fitter.optimizer.albedo_colour import albedo_rgb
 from fitter.optimizer.uncertainty import Certainty, camera_tilt, certainty, shape_covariance
 from fitter.person.fitted_person import FittedPerson
@@ -53,7 +53,8 @@ def _settled(
     )
     contradicted = contradiction(figures)
     clothing = with_ease(objective.evidence.worn, objective, certain)
-    checked = check_capture(capture_of_fit(picture, known.height_m, body, clothing))
+    seen = None if clothes_are_guessed(objective, observation.clothing.both) else clothing
+    checked = check_capture(capture_of_fit(picture, known.height_m, body, seen))
     findings = (*contradicted.findings, *checked.findings)
     verdict = contradicted.verdict
     if verdict is Verdict.PLAUSIBLE and not checked.usable:

@@ -89,14 +89,17 @@ def with_ease(
     return tuple(found)
 
 
+def clothes_are_guessed(objective: Objective, said: frozenset[Clothing]) -> bool:
+    """Whether neither the caller nor the colour of the person's skin tells what is covered."""
+    clothes = objective.evidence.clothes
+    return clothes is not None and not clothes.learnt_from and Clothing.AUTO in said
+
+
 def clothing_warnings(objective: Objective, said: frozenset[Clothing]) -> tuple[FitWarning, ...]:
     """What makes doubtful how clothes were taken; empty for tight ones."""
     clothes = objective.evidence.clothes
-    if clothes is None:
-        return ()
-    if not clothes.learnt_from:
-        return (_NO_SKIN,)
-    return (_NOT_LOOSE,) if Clothing.LOOSE in said and clothes.looks_undressed else ()
+    undressed = clothes is not None and clothes.looks_undressed
+    return (_NOT_LOOSE,) if Clothing.LOOSE in said and undressed else ()
 
 
 def with_what_clothes_cost(
@@ -142,15 +145,6 @@ def _half(standard_error: float) -> str:
     """Half the breadth of the 95 % interval."""
     return f"{INTERVAL_SD * standard_error:.0f}"
 
-
-_NO_SKIN = FitWarning(
-    code="skin-not-found",
-    message=(
-        "Neither face nor hands show the colour of the person's skin, or the picture has no "
-        "colours: which parts are bare is guessed. Click the nose or the eyes if they are seen; "
-        "send the picture in colour if there is one."
-    ),
-)
 
 _NOT_LOOSE = FitWarning(
     code="clothes-not-loose",

@@ -1,11 +1,11 @@
 """What is covered: trunk and thighs of a person, by how much of them shows the skin's colour.
 
 A person wears one of few outfits: underwear, a swimsuit, trousers alone, shorts alone, a top with
-trousers, or a top with shorts, a skirt or a dress. Each foretells which share of chest, waist, pelvis, thighs and
-shins shows the colour of the skin, as a beta distribution; shadows, gloss and patterns are an even
-share of outliers. Cloth may have the skin's colour: a top or a bottom then shows all of it. Bayes'
-rule over outfits and their colours gives the probability that a region is covered, and that what
-covers it cannot be told from skin by its colour.
+trousers, or a top with shorts, a skirt or a dress. Each foretells which share of chest, waist,
+pelvis, thighs and shins shows the colour of the skin, as a beta distribution; shadows, gloss and
+patterns are an even share of outliers. Cloth may have the skin's colour: a top or a bottom then
+shows all of it. Bayes' rule over outfits and their colours gives the probability that a region is
+covered, and that what covers it cannot be told from skin by its colour.
 """
 
 from collections.abc import Mapping
@@ -186,11 +186,13 @@ class Coverage:
 def coverage(skin: SkinMap, regions: PersonRegions, gender: str | None) -> Coverage:
     """What a person wears, from the share of skin on each region of a body near them.
 
-    Where no colour was learnt, as in a grey picture, it is what outfits are usual; of a gender that
-    is not known, it is what either wears.
+    Where no colour was learnt, as in a grey picture, trunk and legs are taken to be covered: people
+    in pictures mostly are. Of a gender that is not known, it is what either wears.
     """
+    if not skin.learnt_from:
+        return Coverage(top=1.0, bottom=1.0, top_like_skin=0.0, bottom_like_skin=0.0)
     outfits = chain(*_BY_GENDER.values()) if gender is None else _BY_GENDER[gender]
-    seen = skin_shares(skin, regions) if skin.learnt_from else {}
+    seen = skin_shares(skin, regions)
     weights: list[float] = []
     states: list[tuple[frozenset[Covers], frozenset[Covers]]] = []
     for outfit in outfits:

@@ -39,6 +39,10 @@ of :mod:`fitter.segmentation.colour_mixture`."""
 LEAST_SAMPLES = 40
 """Fewest pixels of face or hands from which a colour is learnt."""
 
+_MOSTLY_BARE, _COVERED = 0.6, 0.005
+# Where no colour tells, only head, neck and hands are taken for bare: many pixels that are
+# bare with a small probability each outweigh all that is known of loose clothes.
+
 _DARKEST = 0.004
 # Added to linear light before logarithms are taken: below it noise and compression dominate.
 _SHADE = 0.25
@@ -71,7 +75,7 @@ class SkinMap:
         of what is usual for its part.
     learnt_from
         What the skin's colour was learnt from: ``face``, ``hands`` or nothing, for instance if the
-        picture has no colours; then only the shares that are usual for the parts are known.
+        picture has no colours; then head, neck and hands are bare, as is usual, and nothing else.
     """
 
     probability: GreyImage
@@ -121,6 +125,8 @@ def skin_map(linear_rgb: Image, regions: PersonRegions) -> SkinMap:
     parts = nearest_part(regions)[person]
     prior = _bare_shares(regions.part_names)[parts]
     skin, learnt_from = _skin_colours(features, regions, parts)
+    if skin is None:
+        prior = np.where(prior > _MOSTLY_BARE, prior, _COVERED)
     nats = np.log(prior / (1.0 - prior))
     if skin is not None:
         nats = nats + _skin_over_other(features, skin, prior)

@@ -2,6 +2,8 @@
 
 import re
 
+import cv2
+import numpy as np
 import pytest
 
 from fitter.capture.finding import Code
@@ -86,6 +88,16 @@ def test_what_is_not_said_of_loose_clothes_is_seen(files, fits):
     (tight, _), (found, error) = (waist(fits[said]) for said in (Clothing.TIGHT, Clothing.AUTO))
     assert abs(found - truth) < 0.8 * abs(tight - truth)
     assert abs(found - truth) < 3.0 * error
+
+
+def test_a_picture_without_colours_cannot_tell_clothes_and_says_so(files):
+    truth = files.document["truth"][WAIST]
+    picture = cv2.imdecode(np.frombuffer(files.image, np.uint8), cv2.IMREAD_GRAYSCALE)
+    grey = cv2.imencode(".png", picture)[1].tobytes()
+    found = fit(changed(fit_request(files, Cues.SE), image=grey))
+    assert Code.SKIN_NOT_FOUND in {each.code for each in found.views[0].findings}
+    value, error = waist(found)
+    assert abs(value - truth) < 2.0 * error
 
 
 def test_of_people_in_underwear_nothing_need_be_said():

@@ -71,10 +71,14 @@ def test_close_clothes_sleeves_and_shoes_are_no_fault():
     assert clothes(capture(clothing=close)) is None
 
 
-def test_without_an_outline_or_the_skins_colour_clothes_are_not_checked():
-    told = [clothes(by_points_alone()), clothes(capture(clothing=None))]
-    assert all(isinstance(each, Unchecked) for each in told)
-    assert told[0] != told[1]
+def test_without_an_outline_clothes_are_not_checked():
+    assert isinstance(clothes(by_points_alone()), Unchecked)
+
+
+def test_without_the_skins_colour_it_is_said_that_clothes_cannot_be_seen():
+    told = clothes(capture(clothing=None))
+    assert isinstance(told, Finding)
+    assert (told.code, told.severity) == (Code.SKIN_NOT_FOUND, Severity.HARMS)
 
 
 def _places() -> dict[str, tuple[float, float]]:

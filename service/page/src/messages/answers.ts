@@ -33,14 +33,14 @@ export const WARNINGS = [
   "ambiguous-limb-facing", "body-outside-picture", "bvh-irregular", "chart-gap", "chart-overlap", "clip-cut", "clothes-not-loose", "cut-off", "different-people",
   "given-contradicted", "heights-differ", "implausible", "left-and-right-may-be-swapped", "limbs-crossed", "low-silhouette-overlap", "no-person",
   "nobody-found", "other-view", "person-too-small", "sandbox", "seen-from-behind", "segmentation-doubtful", "several-people",
-  "shading-not-used", "shoulders-and-hips-disagree", "skin-not-found", "surroundings-not-found",
+  "shading-not-used", "shoulders-and-hips-disagree", "surroundings-not-found",
   "transparency-over-white", "unusual-height", "up-uncertain",
 ] as const;
 
 /** Findings of checks of pictures, by `code`: what is wrong and what to do. */
 export const FINDINGS = [
   "nobody-found", "several-people", "cut-off", "person-too-small", "picture-too-small", "other-view",
-  "arms-against-trunk", "clothes-loose", "blurred", "too-dark", "too-bright", "camera-rolled", "camera-too-near",
+  "arms-against-trunk", "clothes-loose", "skin-not-found", "blurred", "too-dark", "too-bright", "camera-rolled", "camera-too-near",
   "not-standing", "child", "contradicted",
 ] as const;
 

@@ -24,7 +24,6 @@ const OUTLINE_DOUBTS: ReadonlySet<string> = new Set([
   "left-and-right-may-be-swapped",
   "segmentation-doubtful",
   "several-people",
-  "skin-not-found",
 ]);
 
 interface Coded {

@@ -109,11 +109,6 @@ _WARNINGS: Final = {
         "anderen: Bei einem Paar sind links und rechts vielleicht vertauscht. Gemeint sind die "
         "Seiten der Person."
     ),
-    "skin-not-found": (
-        "Weder Gesicht noch Hände zeigen die Hautfarbe der Person, oder das Bild ist nicht "
-        "farbig: Was unbekleidet ist, ist geraten. Klicken Sie Nase oder Augen, wenn sie zu sehen "
-        "sind; nehmen Sie ein farbiges Bild, wenn es eines gibt."
-    ),
     "surroundings-not-found": (
         "Es ist zu wenig bloße Fläche zu sehen, um das Licht der Umgebung von der Lampe zu "
         "trennen: Angenommen sind eine Lampe und gleichmäßiges schwaches Licht von überall."
@@ -160,6 +155,11 @@ _FINDINGS: Final = {
     "clothes-loose": (
         "Weite Kleidung: Der Körper darunter ist geschätzt. Anliegende Kleidung oder das "
         "Gewicht machen die Maße sicherer."
+    ),
+    "skin-not-found": (
+        "Weder Gesicht noch Hände zeigen die Hautfarbe der Person, oder das Bild hat keine "
+        "Farben: Die Kleidung gilt als weit. Nehmen Sie ein farbiges Bild mit dem Gesicht, oder "
+        "sagen Sie, wie die Kleidung sitzt."
     ),
     "not-standing": (
         "Die Person steht nicht gerade. Lassen Sie sie aufrecht und mit gestreckten Beinen stehen."

@@ -125,7 +125,6 @@ export const answers: Answers = {
     "shading-not-used":
       "Too little of the body is visible, unclipped and away from its outline for shading to say anything; the result is by outline alone.",
     "shoulders-and-hips-disagree": null,
-    "skin-not-found": null,
     "surroundings-not-found":
       "Too little bare surface is visible to tell the light from all round from the lamp: the light is a lamp, and the same faint light from everywhere.",
     "transparency-over-white": "The picture is partly transparent and was laid over white. If its opaque part is the person, use that as the mask.",
@@ -141,6 +140,7 @@ export const answers: Answers = {
     "other-view": null,
     "arms-against-trunk": null,
     "clothes-loose": null,
+    "skin-not-found": null,
     "not-standing": null,
     child: null,
     blurred: null,
