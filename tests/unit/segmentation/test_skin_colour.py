@@ -107,7 +107,7 @@ def test_hair_beside_the_face_does_not_teach_the_skin():
 
 
 def test_without_face_and_hands_the_trunk_is_covered_and_the_head_is_bare():
-    picture, regions = drawn({"chest": SKIN, "pelvis": SKIN, "hair": SKIN})
+    picture, regions = drawn({"chest": SKIN, "pelvis": SKIN, "face": SKIN})
     unseen = PersonRegions(
         person=regions.person,
         parts=regions.parts,
@@ -119,7 +119,7 @@ def test_without_face_and_hands_the_trunk_is_covered_and_the_head_is_bare():
     assert skin.learnt_from == ()
     assert not skin.coloured.any()
     assert within(skin, "chest") < 0.02
-    assert within(skin, "hair") == pytest.approx(0.8, abs=0.02)
+    assert within(skin, "face") == pytest.approx(0.8, abs=0.02)
 
 
 def test_off_the_person_the_map_goes_on_from_the_nearest_pixel():
