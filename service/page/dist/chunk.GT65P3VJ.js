@@ -1,1 +1,0 @@
-import{T as e,t}from"/page/chunk.VMKPDCI2.js";import{k as r}from"/page/chunk.WPAG6OT3.js";var i=r([]);async function m(){try{i.value=(await e()).map(({label:o})=>o)}catch(o){if(!(o instanceof t))throw o}}export{i as a,m as b};
