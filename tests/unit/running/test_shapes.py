@@ -4,13 +4,15 @@ import os
 import re
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
 
 from tests.parts import TESTS
 
-OPTION = re.search(r"--jaxtyping-packages=\S+", (TESTS.parent / "Makefile").read_text()).group()
+MAKEFILE = (TESTS.parent / "Makefile").read_text()
+OPTIONS = re.search(r"^CHECKED := (.+)$", MAKEFILE, re.MULTILINE)[1].split()
 
 WRITTEN = """
 import numpy as np
@@ -44,10 +46,10 @@ def test_a_result_of_another_shape_is_refused(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("options", "outcome"), [((OPTION,), "4 passed"), ((), "4 failed")], ids=["on", "off"]
+    ("options", "outcome"), [(OPTIONS, "4 passed"), ((), "4 failed")], ids=["on", "off"]
 )
 def test_what_is_announced_is_checked_where_the_option_says_so(
-    options: tuple[str, ...], outcome: str, tmp_path: Path
+    options: Sequence[str], outcome: str, tmp_path: Path
 ):
     (tmp_path / "test_written.py").write_text(WRITTEN)
     (tmp_path / "pytest.ini").write_text("[pytest]\n")
