@@ -4,7 +4,8 @@
 
 PYTHON ?= python3
 VENV := .venv
-STAMP := $(VENV)/.installed
+PACKAGES := $(VENV)/.installed
+STAMP := $(VENV)/.compiled
 SINGLE_THREADED := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
 # Tests of one file share services and fits, so whole files are dealt out; long ones come first.
 SIDE_BY_SIDE := --numprocesses 2 --dist loadfile --no-loadscope-reorder
@@ -50,7 +51,7 @@ blender: .venv-blender/.installed
 	.venv-blender/bin/python -m pip install -q --disable-pip-version-check bpy==5.0.1
 	touch $@
 
-lint: $(STAMP)
+lint: $(PACKAGES)
 	$(VENV)/bin/ruff check .
 	$(VENV)/bin/ruff format --check .
 	$(VENV)/bin/pyright
@@ -73,13 +74,15 @@ openapi: $(STAMP)
 	$(VENV)/bin/maquette openapi --output api_schemas/openapi.json
 
 # The documentation site, into service/docs_site, from where the service shows it. Its gallery and
-# tutorials run; a warning, a failing script or a dead link ends it.
-docs: $(VENV)/.documented
+# tutorials run; a warning, a failing script or a dead link ends it. It is put there when it is complete.
+docs: $(STAMP) $(VENV)/.documented
+	rm -rf $(VENV)/docs_site
+	$(SINGLE_THREADED) $(VENV)/bin/sphinx-build -q -W -b html -d $(VENV)/.doctrees service/docs $(VENV)/docs_site
+	find $(VENV)/docs_site -name '.buildinfo' -delete
 	rm -rf service/docs_site
-	$(SINGLE_THREADED) $(VENV)/bin/sphinx-build -q -W -b html -d $(VENV)/.doctrees service/docs service/docs_site
-	find service/docs_site -name '.buildinfo' -delete
+	mv $(VENV)/docs_site service/docs_site
 
-$(VENV)/.documented: $(STAMP) requirements-docs.txt
+$(VENV)/.documented: $(PACKAGES) requirements-docs.txt
 	$(VENV)/bin/python -m pip install -q --disable-pip-version-check -r requirements-docs.txt
 	touch $@
 
@@ -92,7 +95,7 @@ wheel: $(STAMP)
 	$(VENV)/bin/python -m hatchling build
 
 # Known vulnerabilities of the locked packages; says so where no list of them can be reached.
-audit: $(STAMP)
+audit: $(PACKAGES)
 	test -x .venv-audit/bin/pip-audit \
 		|| { $(PYTHON) -m venv .venv-audit && .venv-audit/bin/python -m pip install -q --disable-pip-version-check pip-audit==2.10.1; } \
 		|| echo "pip-audit cannot be installed here."
@@ -121,7 +124,12 @@ lock:
 	$(VENV)/bin/pip-compile -q --no-emit-index-url --no-emit-trusted-host --no-emit-find-links \
 		--strip-extras --extra docs -c requirements.lock -o requirements-docs.txt pyproject.toml
 
-$(STAMP): pyproject.toml service/version.py requirements.lock requirements-detector.txt
+$(STAMP): $(PACKAGES)
+	$(VENV)/bin/maquette warm-up
+	$(VENV)/bin/python -m tests.kernels
+	touch $(STAMP)
+
+$(PACKAGES): pyproject.toml service/version.py requirements.lock requirements-detector.txt
 	$(PYTHON) -c "import sys; sys.exit(sys.version_info < (3, 11) and 'Maquette needs Python 3.11 or newer; set PYTHON=...')"
 	test -x $(VENV)/bin/python || $(PYTHON) -m venv $(VENV)
 	$(VENV)/bin/python -m pip install -q --disable-pip-version-check -r requirements.lock
@@ -130,9 +138,7 @@ $(STAMP): pyproject.toml service/version.py requirements.lock requirements-detec
 	$(VENV)/bin/python -m pip install -q --disable-pip-version-check --no-deps $(ANY_PYTHON) \
 		--target "$$($(VENV)/bin/python -c 'import sysconfig; print(sysconfig.get_path("purelib"))')" \
 		-r requirements-detector.txt
-	$(VENV)/bin/maquette warm-up
-	$(VENV)/bin/python -m tests.kernels
-	touch $(STAMP)
+	touch $(PACKAGES)
 
 clean:
 	rm -rf $(VENV) .venv-audit .venv-blender maquette-data demo-output dist service/docs_site

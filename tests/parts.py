@@ -63,7 +63,10 @@ def has_none(file: Path, command: str) -> bool:
     """Whether a file can be left unread by a command, which is told by its markers."""
     if command == "not rest":
         return is_rest(file, slow=False)
-    return command == "shapes" and not is_of_shapes(file, slow=False)
+    of_shapes = is_of_shapes(file, slow=False)
+    if command == "not shapes":
+        return of_shapes and "mark.slow" not in file.read_text()
+    return command == "shapes" and not of_shapes
 
 
 @cache

@@ -29,7 +29,7 @@ class SmallDisk:
 
     def clear(self) -> None:
         """Make room again."""
-        self._filler.unlink()
+        self._filler.unlink(missing_ok=True)
 
     @property
     def _filler(self) -> Path:

@@ -7,17 +7,13 @@ from pathlib import Path
 
 import httpx
 
-from service.demo_data.sample import load_sample
 from tests.e2e.service import REPOSITORY, ended_job, started_service, wait_until_ready
+from tests.submissions import small_submissions
 
 
 def fit(client: httpx.Client) -> dict:
-    sample = load_sample()
-    files = {
-        "image": ("sample.jpg", sample.image, "image/jpeg"),
-        "request": ("request.json", sample.request, "application/json"),
-    }
-    return ended_job(client, client.post("/v1/fits", files=files))
+    (sent,) = small_submissions(1)
+    return ended_job(client, client.post("/v1/fits", files=sent.files))
 
 
 def test_files_damaged_at_any_time_are_made_anew_and_jobs_succeed(tmp_path: Path):

@@ -13,7 +13,11 @@ PRINTED_M = 1e-5
 """It prints five decimals."""
 
 
-@pytest.mark.parametrize("name", GLB_FILES)
+# It is started anew for each, and a scan's files differ from a fit's in what the bodies are like.
+OF_A_FIT = [name for name in GLB_FILES if not name.startswith("scan")]
+
+
+@pytest.mark.parametrize("name", OF_A_FIT)
 def test_inspect_finds_one_scene_with_the_body_in_it(files: Path, npm_readers: Path, name: str):
     shown = shown_by(name, files)
     tables = inspected(npm_readers, files / name)

@@ -25,13 +25,19 @@ def run(page: Path, *command: str) -> str:
     return done.stdout
 
 
+@pytest.fixture(scope="module")
+def bundle(page: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
+    """What the sources give, and what is printed of it."""
+    folder = tmp_path_factory.mktemp("bundle") / "dist"
+    return folder, run(page, "node", "build.mjs", str(folder))
+
+
 def content_of(folder: Path) -> dict[str, bytes]:
     return {file.name: file.read_bytes() for file in folder.iterdir()}
 
 
-def test_the_committed_bundle_is_built_from_the_sources(page: Path, tmp_path: Path):
-    run(page, "node", "build.mjs", str(tmp_path / "dist"))
-    built, committed = content_of(tmp_path / "dist"), content_of(PAGE / "dist")
+def test_the_committed_bundle_is_built_from_the_sources(bundle: tuple[Path, str]):
+    built, committed = content_of(bundle[0]), content_of(PAGE / "dist")
     assert sorted(built) == sorted(committed), "run `npm run build` in service/page"
     assert built == committed, "run `npm run build` in service/page"
 
@@ -44,8 +50,8 @@ def test_modules_of_the_page_do_what_their_tests_say(page: Path):
     run(page, "npm", "run", "--silent", "test")
 
 
-def test_the_page_weighs_little_until_there_is_a_result(page: Path, tmp_path: Path):
-    printed = run(page, "node", "build.mjs", str(tmp_path / "dist"))
+def test_the_page_weighs_little_until_there_is_a_result(bundle: tuple[Path, str]):
+    _, printed = bundle
     assert 100_000 < int(WEIGHED.search(printed)[1]) <= MAX_GZIPPED_BYTES, printed
 
 

@@ -48,7 +48,7 @@ def test_it_is_cyclonedx(text: str):
     validator = JsonStrictValidator(SchemaVersion.V1_6)
     assert validator.validate_str(text) is None
     damaged = json.loads(text)
-    damaged["components"][0]["licenses"] = "free"
+    damaged["components"] = [damaged["components"][0] | {"licenses": "free"}]
     assert validator.validate_str(json.dumps(damaged)) is not None
 
 

@@ -2,8 +2,11 @@
 
 import hashlib
 import time
+from collections.abc import Iterator
 from datetime import datetime, timedelta
 from pathlib import Path
+
+import pytest
 
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import (
@@ -59,45 +62,55 @@ def fitted(service: Service, resource: str) -> str:
     return answer.headers["Location"]
 
 
-def settings(**changes: object) -> dict[str, object]:
-    return {"webhook_hosts": "127.0.0.1", "sweep_interval_s": 0.3} | changes
+SETTINGS = {
+    "webhook_hosts": "127.0.0.1",
+    "sweep_interval_s": 0.3,
+    "retention_hours": RETENTION_HOURS,
+}
 
 
-@of_either
-def test_after_delete_no_byte_is_left(tmp_path: Path, resource: str):
-    with running_service(Machine(tmp_path, settings=settings())) as service:
-        path = fitted(service, resource)
-        assert service.ended(path)["state"] == "succeeded"
-        for kind in ("report", "texture"):
-            asked = {"kind": kind, "webhook": WEBHOOK}
-            answer = service.client.post(f"{path}/derivations", json=asked)
-            derived = answer.headers["Location"]
-            assert service.ended(derived)["state"] == "succeeded"
-        picture = {"image": ("p.png", scripted_image(SCRIPT), "image/png")}
-        uploaded = service.client.post("/v1/images", files=picture).headers["Location"]
-        assert traces(tmp_path) == set(TRACES)
-        assert service.client.delete(path).status_code == 204
-        assert service.client.delete(uploaded).status_code == 204
-        eventually(lambda: not traces(tmp_path), what=f"nothing is left of {set(TRACES)}")
-        eventually(lambda: not blobs_below(tmp_path), what="no file is left")
-        assert service.client.get(derived).status_code == 404
-
-
-@of_either
-def test_after_its_time_no_byte_is_left(tmp_path: Path, resource: str):
-    machine = Machine(tmp_path, settings=settings(retention_hours=RETENTION_HOURS))
+@pytest.fixture(scope="module")
+def erasing(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    """A service that sweeps; whoever uses it leaves no trace."""
+    machine = Machine(tmp_path_factory.mktemp("erasing"), settings=SETTINGS)
     with running_service(machine) as service:
-        path = fitted(service, resource)
-        job = service.ended(path)
-        ended_at, expires_at = (
-            datetime.fromisoformat(job[name]) for name in ("finished_at", "expires_at")
-        )
-        assert expires_at - ended_at == timedelta(hours=RETENTION_HOURS)
-        eventually(lambda: traces(tmp_path) == set(TRACES), what="the job was there")
-        machine.rewrite(path, expires_at=time.time())
-        eventually(lambda: service.client.get(path).status_code == 410, what="expired")
-        eventually(lambda: not traces(tmp_path), what=f"nothing is left of {set(TRACES)}")
-        eventually(lambda: not blobs_below(tmp_path), what="no file is left")
-        assert service.client.get(path).status_code == 410
-        other = {"fits": "scans", "scans": "fits"}[resource]
-        assert service.client.get(path.replace(resource, other)).status_code == 404
+        yield service
+
+
+@of_either
+def test_after_delete_no_byte_is_left(erasing: Service, resource: str):
+    service, folder = erasing, erasing.machine.data_dir
+    path = fitted(service, resource)
+    assert service.ended(path)["state"] == "succeeded"
+    for kind in ("report", "texture"):
+        asked = {"kind": kind, "webhook": WEBHOOK}
+        answer = service.client.post(f"{path}/derivations", json=asked)
+        derived = answer.headers["Location"]
+        assert service.ended(derived)["state"] == "succeeded"
+    picture = {"image": ("p.png", scripted_image(SCRIPT), "image/png")}
+    uploaded = service.client.post("/v1/images", files=picture).headers["Location"]
+    assert traces(folder) == set(TRACES)
+    assert service.client.delete(path).status_code == 204
+    assert service.client.delete(uploaded).status_code == 204
+    eventually(lambda: not traces(folder), what=f"nothing is left of {set(TRACES)}")
+    eventually(lambda: not blobs_below(folder), what="no file is left")
+    assert service.client.get(derived).status_code == 404
+
+
+@of_either
+def test_after_its_time_no_byte_is_left(erasing: Service, resource: str):
+    service, folder = erasing, erasing.machine.data_dir
+    path = fitted(service, resource)
+    job = service.ended(path)
+    ended_at, expires_at = (
+        datetime.fromisoformat(job[name]) for name in ("finished_at", "expires_at")
+    )
+    assert expires_at - ended_at == timedelta(hours=RETENTION_HOURS)
+    eventually(lambda: traces(folder) == set(TRACES), what="the job was there")
+    service.machine.rewrite(path, expires_at=time.time())
+    eventually(lambda: service.client.get(path).status_code == 410, what="expired")
+    eventually(lambda: not traces(folder), what=f"nothing is left of {set(TRACES)}")
+    eventually(lambda: not blobs_below(folder), what="no file is left")
+    assert service.client.get(path).status_code == 410
+    other = {"fits": "scans", "scans": "fits"}[resource]
+    assert service.client.get(path.replace(resource, other)).status_code == 404

@@ -4,8 +4,6 @@ import os
 import signal
 from pathlib import Path
 
-import pytest
-
 from tests.integration.service.fake_pipeline import NOBODYS_WEIGHT_KG, UNNOTICED_WEIGHT_KG
 from tests.integration.service.harness import (
     PATIENCE_S,
@@ -104,7 +102,7 @@ def test_a_picture_that_kills_its_process_is_given_up_after_three_times(
     assert service.ended(other)["state"] == "succeeded"
 
 
-def test_a_fit_past_its_time_limit_is_stopped(tmp_path: Path):
+def test_a_fit_past_its_time_limit_is_stopped_and_the_service_when_told_to(tmp_path: Path):
     note = tmp_path / "pids"
     machine = Machine(tmp_path / "data", settings={"job_time_limit_s": 0.5})
     with running_service(machine) as service:
@@ -113,19 +111,21 @@ def test_a_fit_past_its_time_limit_is_stopped(tmp_path: Path):
         assert job["state"] == "timed_out"
         assert job["problem"]["type"] == "/problems/time-limit-exceeded"
         assert not any(is_running(pid) for pid in pids_noted(note))
+        _stops_cleanly(service, signal.SIGTERM)
 
 
-def test_a_killed_workers_fit_is_run_again_by_another(machine: Machine, tmp_path: Path):
+# On Postgres too: tests.integration.service.test_many_machines and test_chaos.
+def test_a_killed_workers_fit_is_run_again_by_another(embedded: Machine, tmp_path: Path):
     note, gate = tmp_path / "pids", tmp_path / "gate"
-    with running_service(machine, api_only=True) as service:
-        with running_worker(machine) as first:
+    with running_service(embedded, api_only=True) as service:
+        with running_worker(embedded) as first:
             path = service.submit({"gate": str(gate), "note_pid": str(note)})
             (pid,) = eventually(lambda: pids_noted(note), what="the fit runs")
             first.kill()
             first.wait()
         eventually(lambda: not is_running(pid), what="the fit dies with its worker")
         gate.touch()
-        with running_worker(machine):
+        with running_worker(embedded):
             job = service.ended(path)
             assert job["state"] == "succeeded"
             assert job["attempt"] == 2
@@ -164,13 +164,15 @@ def test_killing_the_service_ends_its_worker_and_the_fit(embedded: Machine, tmp_
         assert service.ended(path)["state"] == "canceled"
 
 
-def test_accepted_jobs_survive_the_death_of_the_service(machine: Machine):
-    with running_service(machine, api_only=True) as service:
+# On either database tests.integration.service.test_chaos does the same at random.
+def test_accepted_jobs_survive_the_death_of_the_service(embedded: Machine):
+    with running_service(embedded, api_only=True) as service:
         paths = [service.submit() for _ in range(5)]
         service.process.kill()
         service.process.wait()
-    with running_service(machine) as service:
+    with running_service(embedded) as service:
         assert [service.ended(path)["state"] for path in paths] == ["succeeded"] * 5
+        _stops_cleanly(service, signal.SIGINT)
 
 
 def test_a_stopping_worker_finishes_what_it_began(embedded: Machine, tmp_path: Path):
@@ -222,13 +224,11 @@ def test_a_job_canceled_while_its_worker_is_dead_is_not_run_again(
         assert len(pids_noted(note)) == 1
 
 
-@pytest.mark.parametrize("signal_number", [signal.SIGTERM, signal.SIGINT])
-def test_the_service_stops_cleanly_when_told_to(embedded: Machine, signal_number: signal.Signals):
-    with running_service(embedded) as service:
-        worker = _worker_of(service.process.pid)
-        service.process.send_signal(signal_number)
-        service.process.wait(timeout=PATIENCE_S)
-        assert not is_running(worker)
+def _stops_cleanly(service: Service, told: signal.Signals) -> None:
+    worker = _worker_of(service.process.pid)
+    service.process.send_signal(told)
+    service.process.wait(timeout=PATIENCE_S)
+    assert not is_running(worker)
 
 
 def _worker_of(pid: int) -> int:

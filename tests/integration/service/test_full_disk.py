@@ -1,5 +1,6 @@
 """A real disk of a few megabytes that fills up: nothing is lost, and erasing always works."""
 
+import contextlib
 import hashlib
 import json
 import os
@@ -34,13 +35,39 @@ RESULTS = {"sweep_interval_s": 0.3, "worker_processes": 1, "min_free_disk_mb": R
 JSON = {"Content-Type": "application/json"}
 
 
-@pytest.fixture
-def disk(tmp_path: Path) -> Iterator[SmallDisk]:
+@contextlib.contextmanager
+def mounted_below(folder: Path) -> Iterator[SmallDisk]:
     try:
-        with small_disk(tmp_path / "disk", megabytes=60) as mounted:
+        with small_disk(folder / "disk", megabytes=60) as mounted:
             yield mounted
     except PermissionError as error:
         pytest.skip(f"no disk can be mounted here ({error})")
+
+
+@pytest.fixture
+def disk(tmp_path: Path) -> Iterator[SmallDisk]:
+    with mounted_below(tmp_path) as mounted:
+        yield mounted
+
+
+@pytest.fixture(scope="module")
+def shared(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[SmallDisk, Service]]:
+    """A service on a disk, the same for several tests."""
+    with (
+        mounted_below(tmp_path_factory.mktemp("shared")) as mounted,
+        running_service(machine_on(mounted)) as service,
+    ):
+        yield mounted, service
+
+
+@pytest.fixture
+def on_disk(shared: tuple[SmallDisk, Service]) -> Iterator[tuple[SmallDisk, Service]]:
+    """That service, with room on its disk; nothing waits or is kept afterwards."""
+    mounted, service = shared
+    yield mounted, service
+    mounted.clear()
+    for job in service.client.get("/v1/fits").raise_for_status().json()["jobs"]:
+        service.client.delete(job["links"]["self"]).raise_for_status()
 
 
 def machine_on(disk: SmallDisk, **changes: object) -> Machine:
@@ -76,48 +103,50 @@ def blobs_of(disk: SmallDisk) -> set[Path]:
     }
 
 
-def test_short_of_room_everything_that_stores_is_refused_and_the_rest_works(disk: SmallDisk):
-    with running_service(machine_on(disk)) as service:
-        key = {"Idempotency-Key": "before"}
-        fit = service.post(headers=key).headers["Location"]
-        assert service.ended(fit)["state"] == "succeeded"
-        report = service.client.post(f"{fit}/derivations", json={"kind": "report"})
-        derivation = report.headers["Location"]
-        service.ended(derivation)
-        image = upload(service, scripted_image({"kept": True})).json()["id"]
-        kept = blobs_of(disk)
+def test_short_of_room_everything_that_stores_is_refused_and_the_rest_works(
+    on_disk: tuple[SmallDisk, Service],
+):
+    disk, service = on_disk
+    key = {"Idempotency-Key": "before"}
+    fit = service.post(headers=key).headers["Location"]
+    assert service.ended(fit)["state"] == "succeeded"
+    report = service.client.post(f"{fit}/derivations", json={"kind": "report"})
+    derivation = report.headers["Location"]
+    service.ended(derivation)
+    image = upload(service, scripted_image({"kept": True})).json()["id"]
+    kept = blobs_of(disk)
 
-        disk.leave(SHORT)
-        ready = service.client.get("/healthz/ready")
-        assert (ready.status_code, ready.json()["code"]) == (503, "disk-full")
-        assert_no_room(service.post())
-        by_id = json.dumps(REQUEST | {"image_id": image})
-        assert_no_room(service.client.post("/v1/fits", content=by_id, headers=JSON))
-        assert_no_room(upload(service, scripted_image({"new": True})))
-        assert_no_room(service.client.post(f"{fit}/derivations", json={"kind": "report"}))
-        assert_no_room(service.client.post(f"{fit}/retry"))
-        assert_no_room(service.client.post(f"{derivation}/retry"))
-        assert blobs_of(disk) == kept
+    disk.leave(SHORT)
+    ready = service.client.get("/healthz/ready")
+    assert (ready.status_code, ready.json()["code"]) == (503, "disk-full")
+    assert_no_room(service.post())
+    by_id = json.dumps(REQUEST | {"image_id": image})
+    assert_no_room(service.client.post("/v1/fits", content=by_id, headers=JSON))
+    assert_no_room(upload(service, scripted_image({"new": True})))
+    assert_no_room(service.client.post(f"{fit}/derivations", json={"kind": "report"}))
+    assert_no_room(service.client.post(f"{fit}/retry"))
+    assert_no_room(service.client.post(f"{derivation}/retry"))
+    assert blobs_of(disk) == kept
 
-        assert service.post(headers=key).headers["Location"] == fit
-        assert upload(service, scripted_image({"kept": True})).status_code == 200
-        assert service.client.get(f"{fit}/result").status_code == 200
-        metrics = service.client.get("/metrics").text
-        free = float(metrics.partition("\nmaquette_disk_free_bytes ")[2].split()[0])
-        # The database's own files may have grown or shrunk since.
-        assert free == pytest.approx(disk.free_bytes, abs=BYTES_PER_MB)
-        assert free < RESERVE_MB * BYTES_PER_MB
+    assert service.post(headers=key).headers["Location"] == fit
+    assert upload(service, scripted_image({"kept": True})).status_code == 200
+    assert service.client.get(f"{fit}/result").status_code == 200
+    metrics = service.client.get("/metrics").text
+    free = float(metrics.partition("\nmaquette_disk_free_bytes ")[2].split()[0])
+    # The database's own files may have grown or shrunk since.
+    assert free == pytest.approx(disk.free_bytes, abs=BYTES_PER_MB)
+    assert free < RESERVE_MB * BYTES_PER_MB
 
-        disk.clear()
-        assert service.ended(service.submit())["state"] == "succeeded"
-        assert service.client.get("/healthz/ready").status_code == 200
+    disk.clear()
+    assert service.ended(service.submit())["state"] == "succeeded"
+    assert service.client.get("/healthz/ready").status_code == 200
 
 
-def test_what_would_break_into_the_reserve_is_refused(disk: SmallDisk):
-    with running_service(machine_on(disk), api_only=True) as service:
-        disk.leave((RESERVE_MB + 1) * BYTES_PER_MB)
-        assert service.post({"small": True}).status_code == 202
-        assert_no_room(service.post(large(1)))
+def test_what_would_break_into_the_reserve_is_refused(on_disk: tuple[SmallDisk, Service]):
+    disk, service = on_disk
+    disk.leave((RESERVE_MB + 1) * BYTES_PER_MB)
+    assert service.post({"small": True}).status_code == 202
+    assert_no_room(service.post(large(1)))
 
 
 def test_an_upload_that_finds_no_room_on_its_way_is_refused(
@@ -133,59 +162,61 @@ def test_an_upload_that_finds_no_room_on_its_way_is_refused(
         assert service.post(large(2)).status_code == 202
 
 
-def test_what_waits_is_begun_when_there_is_room_again(disk: SmallDisk, tmp_path: Path):
+def test_what_waits_is_begun_when_there_is_room_again(
+    on_disk: tuple[SmallDisk, Service], tmp_path: Path
+):
     note, gate = tmp_path / "pids", tmp_path / "gate"
-    with running_service(machine_on(disk)) as service:
-        running = service.submit({"gate": str(gate), "note_pid": str(note)})
-        waiting = [service.submit({"number": number}) for number in range(3)]
-        eventually(lambda: pids_noted(note), what="the fit runs")
-        disk.leave(SHORT)
-        gate.touch()
-        assert service.ended(running)["state"] == "succeeded"
-        assert {service.state(path) for path in waiting} == {"queued"}
-        disk.clear()
-        for path in waiting:
-            job = service.ended(path)
-            assert (job["state"], job["attempt"]) == ("succeeded", 1)
+    disk, service = on_disk
+    running = service.submit({"gate": str(gate), "note_pid": str(note)})
+    waiting = [service.submit({"number": number}) for number in range(3)]
+    eventually(lambda: pids_noted(note), what="the fit runs")
+    disk.leave(SHORT)
+    gate.touch()
+    assert service.ended(running)["state"] == "succeeded"
+    assert {service.state(path) for path in waiting} == {"queued"}
+    disk.clear()
+    for path in waiting:
+        job = service.ended(path)
+        assert (job["state"], job["attempt"]) == ("succeeded", 1)
 
 
 def test_on_a_disk_without_a_byte_all_can_be_read_and_erased_and_nothing_is_lost(
-    disk: SmallDisk, tmp_path: Path
+    on_disk: tuple[SmallDisk, Service], tmp_path: Path
 ):
     note, gate = tmp_path / "pids", tmp_path / "gate"
-    with running_service(machine_on(disk)) as service:
-        ended = [service.submit(large(number)) for number in range(4)]
-        for path in ended:
-            service.ended(path)
-        image = upload(service, scripted_image(large(9))).headers["Location"]
-        running = service.submit({"gate": str(gate), "note_pid": str(note)})
-        waiting = [service.submit({"number": number}) for number in range(2)]
-        eventually(lambda: pids_noted(note), what="the fit runs")
+    disk, service = on_disk
+    ended = [service.submit(large(number)) for number in range(4)]
+    for path in ended:
+        service.ended(path)
+    image = upload(service, scripted_image(large(9))).headers["Location"]
+    running = service.submit({"gate": str(gate), "note_pid": str(note)})
+    waiting = [service.submit({"number": number}) for number in range(2)]
+    eventually(lambda: pids_noted(note), what="the fit runs")
+    disk.leave(0)
+    assert disk.free_bytes == 0
+    assert_no_room(service.post())
+    assert service.client.get("/healthz/ready").json()["code"] == "disk-full"
+    assert service.client.get("/metrics").status_code == 200
+    assert len(service.client.get("/v1/fits").json()["jobs"]) == 7
+
+    before = blobs_of(disk)
+    for path in (ended[0], waiting[0], image, ended[1]):
+        assert service.client.delete(path).status_code == 204, path
+        assert service.client.get(path).status_code == 404
+        # Somebody else takes what has become free.
         disk.leave(0)
-        assert disk.free_bytes == 0
-        assert_no_room(service.post())
-        assert service.client.get("/healthz/ready").json()["code"] == "disk-full"
-        assert service.client.get("/metrics").status_code == 200
-        assert len(service.client.get("/v1/fits").json()["jobs"]) == 7
+    picture = hashlib.sha256(scripted_image(large(0))).hexdigest()
+    assert picture in {path.name for path in before} - {path.name for path in blobs_of(disk)}
+    assert service.client.post(f"{waiting[1]}/cancel").json()["state"] == "canceled"
 
-        before = blobs_of(disk)
-        for path in (ended[0], waiting[0], image, ended[1]):
-            assert service.client.delete(path).status_code == 204, path
-            assert service.client.get(path).status_code == 404
-            # Somebody else takes what has become free.
-            disk.leave(0)
-        picture = hashlib.sha256(scripted_image(large(0))).hexdigest()
-        assert picture in {path.name for path in before} - {path.name for path in blobs_of(disk)}
-        assert service.client.post(f"{waiting[1]}/cancel").json()["state"] == "canceled"
-
-        gate.touch()
-        disk.clear()
-        assert service.ended(running)["state"] == "succeeded"
-        assert service.ended(service.submit())["state"] == "succeeded"
-        for path in ended[2:]:
-            assert service.client.get(f"{path}/result").status_code == 200
-        ballast = disk.folder / "data" / "ballast"
-        eventually(lambda: ballast.stat().st_size == WHOLE_BYTES, what="room is held back again")
+    gate.touch()
+    disk.clear()
+    assert service.ended(running)["state"] == "succeeded"
+    assert service.ended(service.submit())["state"] == "succeeded"
+    for path in ended[2:]:
+        assert service.client.get(f"{path}/result").status_code == 200
+    ballast = disk.folder / "data" / "ballast"
+    eventually(lambda: ballast.stat().st_size == WHOLE_BYTES, what="room is held back again")
 
 
 def test_what_expires_on_a_full_disk_makes_room(disk: SmallDisk):

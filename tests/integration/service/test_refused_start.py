@@ -7,7 +7,7 @@ import socket
 import subprocess
 import sys
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -33,6 +33,9 @@ PREPARE = ("-m", "service.cli", "prepare")
 KEYS = ("-m", "service.cli", "keys", "list")
 HEALTH = ("-m", "service.cli", "health")
 ESTIMATORS = ("-m", "service.estimates", "ADDRESS")
+
+ListKeys = Callable[[str], tuple[int, str]]
+"""From a database's address to the exit status and the line that is told."""
 
 WITHIN_S = 100.0
 """Far below the two minutes a database that is away is waited for."""
@@ -75,6 +78,26 @@ def _postgres_answers() -> None:
         pytest.skip(f"no Postgres answers at 127.0.0.1:5432 ({error})")
 
 
+@pytest.fixture
+def list_keys(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> ListKeys:
+    """Have keys listed of a database that cannot be used, by this process."""
+    for name, value in QUICK.items():
+        monkeypatch.setenv(f"MAQUETTE_{name.upper()}", str(value))
+    monkeypatch.setenv("MAQUETTE_DATA_DIR", str(tmp_path))
+
+    def list_keys(url: str) -> tuple[int, str]:
+        monkeypatch.setenv("MAQUETTE_DATABASE_URL", url)
+        with pytest.raises(SystemExit) as ended:
+            main(["keys", "list"])
+        (line,) = capsys.readouterr().err.splitlines()
+        assert SECRET not in line
+        return ended.value.code, line
+
+    return list_keys
+
+
 @pytest.mark.parametrize(
     "command", [SERVE, WORKER, CHILD_WORKER, PREPARE, KEYS, HEALTH, ESTIMATORS]
 )
@@ -91,14 +114,12 @@ def test_a_data_folder_below_a_file_is_refused(command: Sequence[str], tmp_path:
     assert_refused(run(command, tmp_path, data_dir=folder), naming=f"MAQUETTE_DATA_DIR={folder}:")
 
 
-@pytest.mark.parametrize("command", [SERVE, WORKER, PREPARE, KEYS])
-def test_a_file_that_is_no_database_is_refused(command: Sequence[str], tmp_path: Path):
+def test_a_file_that_is_no_database_is_refused(tmp_path: Path):
     (tmp_path / "maquette.sqlite").write_bytes(b"no database at all " * 500)
-    assert_refused(run(command, tmp_path), naming=f"MAQUETTE_DATA_DIR={tmp_path}:")
+    assert_refused(run(SERVE, tmp_path), naming=f"MAQUETTE_DATA_DIR={tmp_path}:")
 
 
-@pytest.mark.parametrize("command", [SERVE, WORKER])
-@pytest.mark.parametrize("sandbox", [True, False])
+@pytest.mark.parametrize(("command", "sandbox"), [(SERVE, True), (WORKER, False)])
 def test_a_sandbox_and_what_is_none_have_databases_of_their_own(
     command: Sequence[str], sandbox: bool, tmp_path: Path
 ):
@@ -126,17 +147,22 @@ def test_a_database_that_does_not_exist_is_refused(command: Sequence[str], tmp_p
         (f"{SERVER}/postgres?no_such_option=1", "no_such_option"),
     ],
 )
-def test_an_address_that_no_waiting_makes_right_is_refused(url: str, told: str, tmp_path: Path):
-    line = assert_refused(run(SERVE, tmp_path, database_url=url), naming="MAQUETTE_DATABASE_URL=")
+def test_an_address_that_no_waiting_makes_right_is_refused(
+    list_keys: ListKeys, url: str, told: str
+):
+    status, line = list_keys(url)
+    assert status == REFUSED
+    assert "MAQUETTE_DATABASE_URL=" in line
     assert told in line
 
 
-def test_a_wrong_password_is_refused(tmp_path: Path):
+def test_a_wrong_password_is_refused(list_keys: ListKeys):
     words = 'password authentication failed for user "maquette"'
     with server_that_refuses("28P01", words) as port:
-        url = f"postgresql://maquette:{SECRET}@127.0.0.1:{port}/maquette"
-        done = run(SERVE, tmp_path, database_url=url)
-    assert words in assert_refused(done, naming="MAQUETTE_DATABASE_URL=")
+        status, line = list_keys(f"postgresql://maquette:{SECRET}@127.0.0.1:{port}/maquette")
+    assert status == REFUSED
+    assert "MAQUETTE_DATABASE_URL=" in line
+    assert words in line
 
 
 def test_a_server_that_is_starting_up_is_waited_for(tmp_path: Path):
@@ -157,19 +183,12 @@ def test_a_server_that_is_starting_up_is_waited_for(tmp_path: Path):
 
 
 def test_a_database_that_does_not_come_is_given_up_with_another_status(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    list_keys: ListKeys, monkeypatch: pytest.MonkeyPatch
 ):
     monkeypatch.setattr("service.process.retrying.RETRY_FOR_S", 0.0)
-    for name, value in QUICK.items():
-        monkeypatch.setenv(f"MAQUETTE_{name.upper()}", str(value))
-    monkeypatch.setenv("MAQUETTE_DATA_DIR", str(tmp_path))
-    monkeypatch.setenv("MAQUETTE_DATABASE_URL", f"postgresql://user:{SECRET}@127.0.0.1:9/none")
-    with pytest.raises(SystemExit) as ended:
-        main(["keys", "list"])
-    assert ended.value.code == os.EX_UNAVAILABLE
-    (line,) = capsys.readouterr().err.splitlines()
+    status, line = list_keys(f"postgresql://user:{SECRET}@127.0.0.1:9/none")
+    assert status == os.EX_UNAVAILABLE
     assert "the database is not available" in line
-    assert SECRET not in line
 
 
 @pytest.mark.parametrize("command", [SERVE, CHILD_WORKER, ESTIMATORS])

@@ -1,6 +1,7 @@
 import io
 import json
 from collections import Counter
+from functools import cache
 
 import numpy as np
 import pytest
@@ -8,13 +9,14 @@ from PIL import Image as PillowImage
 
 from fitter.vocabulary.choices import Gender
 from tests.evaluation.cases import CASES, DEMO, PEOPLE
+from tests.evaluation.clicks import rendering
 from tests.evaluation.dressed_people import DRESSED, IN_PAIRS
 from tests.evaluation.files import PICTURES_FOLDER, document, read_case
 from tests.evaluation.generate import SAMPLE_FOLDER
 from tests.evaluation.outfits import Wardrobe
-from tests.evaluation.people import PEOPLE_FOLDER, load_person
+from tests.evaluation.people import PEOPLE_FOLDER, load_person, rig_of_people
 from tests.evaluation.scene import PAIRED_SERIES, FocalLength, Half, Label, Series
-from tests.evaluation.staging import stage
+from tests.evaluation.staging import Staged, stage
 from tests.evaluation.stance_kinds import Kind
 from tests.unit.training.makehuman_data import needs_makehuman
 
@@ -28,6 +30,12 @@ AGAIN = "run python -m tests.evaluation.generate --documents"
 
 
 PEOPLE_CASES = [case for case in CASES.values() if case.series is Series.PEOPLE]
+
+
+@cache
+def staged_case(name: str) -> Staged:
+    """A case's person in place: for all who look at them."""
+    return stage(load_person(PEOPLE[CASES[name].person]), CASES[name])
 
 
 def test_both_halves_have_six_women_and_six_men_of_every_build():
@@ -118,9 +126,23 @@ def test_two_renderers_agree_on_where_the_person_is(name):
 
 @needs_makehuman
 @pytest.mark.parametrize("name", CASES)
+def test_everybody_stands_on_the_floor_or_on_soles_within_the_picture(name):
+    staged = staged_case(name)
+    rest = rig_of_people().surface.body(staged.person.source_vertices)
+    low = rest[:, 1] < rest[:, 1].min() + 0.1
+    feet = [staged.body[low & (sign * rest[:, 0] > 0.0), 1].min() for sign in (1.0, -1.0)]
+    # A straight free leg may still end a little above the floor, most where legs cross.
+    sole_m = 0.0 if staged.case.outfit is None else staged.case.outfit.sole_m
+    np.testing.assert_allclose(feet, sole_m, atol=0.02)
+    seen = rendering(staged)
+    assert not seen.silhouette[[0, -1]].any()
+    assert not seen.silhouette[:, [0, -1]].any()
+
+
+@needs_makehuman
+@pytest.mark.parametrize("name", CASES)
 def test_requests_and_truths_are_those_of_the_present_definitions(name):
-    staged = stage(load_person(PEOPLE[CASES[name].person]), CASES[name])
-    now = json.loads(json.dumps(document(staged)))
+    now = json.loads(json.dumps(document(staged_case(name))))
     kept = read_case(CASES[name]).document
     # Cuts are placed by the model's joints, which every training finds a little elsewhere.
     assert kept["truth"] == pytest.approx(now["truth"], abs=1.0), AGAIN

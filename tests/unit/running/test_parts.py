@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.parts import LONGEST, QUICK, TESTS
+from tests.parts import LONGEST, QUICK, TESTS, has_none
 
 WRITTEN = """
 import pytest
@@ -57,6 +57,23 @@ def test_what_one_command_leaves_the_other_runs(tmp_path: Path):
     assert "no tests ran" in quick.stdout
     assert "2 passed, 1 skipped" in rest.stdout
     assert "no such program" in rest.stdout
+
+
+def test_files_that_are_left_unread_have_none():
+    quick = TESTS / "unit" / "numerics" / "test_meshes.py"
+    both = TESTS / "unit" / "population" / "test_body_estimate.py"
+    rest = TESTS / "integration" / "test_sbom.py"
+    unread = {
+        command: [has_none(file, command) for file in (quick, both, rest)]
+        for command in ("not rest", "rest", "shapes", "not shapes", "")
+    }
+    assert unread == {
+        "not rest": [False, False, True],
+        "rest": [False, False, False],
+        "shapes": [False, False, True],
+        "not shapes": [True, False, False],
+        "": [False, False, False],
+    }
 
 
 @pytest.mark.parametrize("name", [*QUICK, *LONGEST])
