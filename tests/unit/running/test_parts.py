@@ -39,6 +39,7 @@ def run(folder: Path, *options: str, reason: str = "no such program", **variable
     )
 
 
+@pytest.mark.slow
 def test_in_ci_it_fails_and_says_why(tmp_path: Path):
     done = run(tmp_path, CI="true")
     assert done.returncode == 1, done.stdout + done.stderr
@@ -46,11 +47,13 @@ def test_in_ci_it_fails_and_says_why(tmp_path: Path):
     assert "1 failed, 2 passed" in done.stdout
 
 
+@pytest.mark.slow
 def test_what_is_not_shipped_may_be_missing_in_ci(tmp_path: Path):
     done = run(tmp_path, CI="true", reason="needs a file, which is not shipped")
     assert done.returncode == 0, done.stdout + done.stderr
 
 
+@pytest.mark.slow
 def test_what_one_command_leaves_the_other_runs(tmp_path: Path):
     # A file that is in none of the named folders is of the rest.
     quick, rest = run(tmp_path, "-m", "not rest"), run(tmp_path, "-m", "rest")

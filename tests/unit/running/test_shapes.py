@@ -45,6 +45,7 @@ def test_a_result_of_another_shape_is_refused(monkeypatch):
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("options", "outcome"), [(OPTIONS, "4 passed"), ((), "4 failed")], ids=["on", "off"]
 )

@@ -11,6 +11,8 @@ import pytest
 
 from service.worker.kernel_cache import PACKAGE, SOURCES
 
+pytestmark = pytest.mark.slow
+
 REPOSITORY = Path(__file__).parents[3]
 
 KERNELS = """

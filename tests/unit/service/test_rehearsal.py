@@ -81,6 +81,7 @@ def test_a_missing_model_is_an_error_of_its_own(tmp_path):
         rehearse(tmp_path)
 
 
+@pytest.mark.slow
 def test_a_fit_after_the_kernels_were_read_compiles_no_other(tmp_path):
     program = """
 from service.process.caches import settle_folders

@@ -1,6 +1,8 @@
 """A template written, read again, and each fault of one."""
 
 import json
+from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -8,10 +10,22 @@ import pytest
 
 from fitter.errors import MeshFolderError
 from fitter.training.articulation.part_tree import PART_NAMES
+from fitter.training.own_bodies import template_files
 from fitter.training.own_bodies.frame import BODY_FRAME
 from fitter.training.own_bodies.template import same_surface
 from fitter.training.own_bodies.template_files import read_template, write_starting_folder
 from tests.unit.training.own_bodies.bodies_folder import template
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _a_mesh_is_read_once() -> Iterator[None]:
+    """Reading takes longest; what is wrong in a mesh is in a file of its own."""
+    read = cache(template_files.read_mesh)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(
+            template_files, "read_mesh", lambda path, *, place: read(path.resolve(), place=place)
+        )
+        yield
 
 
 @pytest.fixture(scope="module")
