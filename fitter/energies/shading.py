@@ -4,6 +4,16 @@ This is the first term of Eq. 2. The smoothness of albedo and specularity depend
 through distances between neighbours, which are held while the body moves; it lives in
 :mod:`fitter.optimizer.reflectance_solve`. Vertices are weighted by area. The weighted mean over the
 visible vertices is taken, not the sum: a body must not gain by hiding.
+
+How well Eq. 1 holds differs between pictures: cloth, hair, a second lamp and a painter's hand are
+not in it. So the variance of what it leaves unexplained is an unknown of the picture, as that of
+Gaussian residuals would be, and is taken at its most probable value. With L the mean of
+ρ(r̂ - r) and n independent patches, the energy is
+
+    E = n/2 log(1 + L/L₀),
+
+whose slope n/2 / (L₀ + L) is what Eq. 2's mean weighs: little where much stays unexplained. L₀ is
+what is left on the true body.
 """
 
 from dataclasses import dataclass, replace
@@ -117,7 +127,7 @@ def shading_energy(rendering: Rendering, evidence: ShadingEvidence, scales: Ener
     chosen = np.flatnonzero(usable_vertices(rendering, evidence))
     weights = evidence.vertex_areas[chosen]
     if not weights.sum() > 0.0:
-        return scales.shading_weight
+        return _nats(1.0, scales)
     predicted = shade(
         rendering.vertices[chosen],
         rendering.vertex_normals[chosen],
@@ -127,8 +137,7 @@ def shading_energy(rendering: Rendering, evidence: ShadingEvidence, scales: Ener
         lit=evidence.lit_at(chosen),
     )
     observed = evidence.intensity.at(rendering.projected[chosen])
-    loss = geman_mcclure(predicted - observed, evidence.eta)
-    return scales.shading_weight * float(weights @ loss) / float(weights.sum())
+    return _nats(_unexplained(predicted - observed, weights, evidence.eta), scales)
 
 
 def shading_rows(
@@ -148,7 +157,8 @@ def shading_rows(
     observed, slopes = evidence.intensity.with_gradient_at(rendering.projected[chosen])
     residuals = derivatives.shading - observed
     areas = evidence.vertex_areas[chosen]
-    share = scales.shading_weight * areas / max(float(areas.sum()), 1e-12)
+    left = scales.shading_floor + _unexplained(residuals, areas, evidence.eta)
+    share = scales.shading_weight / left * areas / max(float(areas.sum()), 1e-12)
     return ShadingRows(
         residuals=residuals,
         weights=share * geman_mcclure_weights(residuals, evidence.eta),
@@ -158,6 +168,18 @@ def shading_rows(
         normal_derivatives=derivatives.by_normal,
         centre_derivatives=derivatives.by_body_centre,
     )
+
+
+def _unexplained(
+    residuals: Float[np.ndarray, " k"], areas: Float[np.ndarray, " k"], eta: float
+) -> float:
+    """L: the area-weighted mean of ρ; 1 where nothing is seen."""
+    total = float(areas.sum())
+    return float(areas @ geman_mcclure(residuals, eta)) / total if total > 0.0 else 1.0
+
+
+def _nats(unexplained: float, scales: EnergyScales) -> float:
+    return scales.shading_weight * float(np.log1p(unexplained / scales.shading_floor))
 
 
 def thinned_shading(rows: ShadingRows, limit: int) -> ShadingRows:

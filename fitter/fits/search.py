@@ -26,7 +26,12 @@ from fitter.optimizer.alternation import (
     shaded_fit,
     with_shading,
 )
-from fitter.optimizer.gauss_newton import NEARLY_SETTLED_NATS, SETTLED_NATS, Minimum
+from fitter.optimizer.gauss_newton import (
+    FIRMLY_SETTLED_NATS,
+    NEARLY_SETTLED_NATS,
+    SETTLED_NATS,
+    Minimum,
+)
 from fitter.optimizer.light_solve import guessed_lights
 from fitter.optimizer.search import BodySearch, body_search, limits_of
 from fitter.population.known_person import KnownPerson
@@ -58,7 +63,11 @@ _FIRST, _SECOND, _LAST = SMOOTHNESS_SCHEDULE
 
 OF_ONE = Schedule(
     outline_nats=SETTLED_NATS,
-    rounds=((_FIRST, NEARLY_SETTLED_NATS), (_SECOND, NEARLY_SETTLED_NATS), (_LAST, SETTLED_NATS)),
+    rounds=(
+        (_FIRST, NEARLY_SETTLED_NATS),
+        (_SECOND, NEARLY_SETTLED_NATS),
+        (_LAST, FIRMLY_SETTLED_NATS),
+    ),
     unlit_nats=None,
 )
 OF_SEVERAL = Schedule(outline_nats=0.5, rounds=((_FIRST, 0.5), (_LAST, 0.1)), unlit_nats=0.1)

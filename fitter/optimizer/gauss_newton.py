@@ -25,6 +25,10 @@ rough."""
 NEARLY_SETTLED_NATS = 0.2
 """The same of a search that another follows, about other evidence."""
 
+FIRMLY_SETTLED_NATS = 0.02
+"""The same of the last search: so far from the minimum a measurement is off by a fifth of its
+standard error, √(2 · 0.02), and by another fifth if nobody sees what changed in the picture."""
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Minimum:

@@ -33,6 +33,7 @@ from fitter.evidence.silhouette_evidence import silhouette_evidence
 from fitter.fits.prepared_model import prepared_model
 from fitter.numerics.mesh_topology import mesh_topology
 from fitter.numerics.normals import add_normal_derivative
+from fitter.numerics.robust import geman_mcclure
 from fitter.parameters import BodyParameters, Light, Reflectance
 from fitter.render.camera import Camera
 from fitter.render.contours import model_edges
@@ -307,12 +308,34 @@ def lit():
 
 
 class TestShading:
-    def test_unexplained_shading_costs_at_most_its_weight(self, lit):
+    def test_shading_costs_most_where_nothing_is_explained(self, lit):
         _, rendering, evidence = lit
-        assert 0.0 < shading_energy(rendering, evidence, SCALES) < SCALES.shading_weight
+        most = SCALES.shading_weight * np.log(1.0 + 1.0 / SCALES.shading_floor)
+        assert 0.0 < shading_energy(rendering, evidence, SCALES) < most
         dark = replace(evidence.reflectance, albedo=50.0 * evidence.reflectance.albedo)
         hopeless = shading_energy(rendering, replace(evidence, reflectance=dark), SCALES)
-        assert hopeless == pytest.approx(SCALES.shading_weight, rel=0.05)
+        assert hopeless == pytest.approx(most, rel=0.05)
+        hidden = replace(evidence, shadowed=np.ones_like(evidence.shadowed))
+        assert shading_energy(rendering, hidden, SCALES) == pytest.approx(most)
+
+    def test_what_is_explained_counts_less_where_more_stays_unexplained(self, lit):
+        _, rendering, evidence = lit
+        upper = rendering.vertices[:, 1] < np.median(rendering.vertices[:, 1])
+        albedo = np.where(upper, 50.0, 1.0) * evidence.reflectance.albedo
+        half = replace(evidence, reflectance=replace(evidence.reflectance, albedo=albedo))
+        whole, clothed = (shading_rows(rendering, each, SCALES) for each in (evidence, half))
+        skin = ~upper[whole.vertices]
+        unexplained = (
+            np.average(geman_mcclure(each.residuals, evidence.eta), weights=areas)
+            for each in (whole, clothed)
+            for areas in [evidence.vertex_areas[each.vertices]]
+        )
+        floor = SCALES.shading_floor
+        less, more = (floor + each for each in unexplained)
+        assert more > 1.2 * less
+        np.testing.assert_allclose(
+            clothed.weights[skin], less / more * whole.weights[skin], rtol=1e-12
+        )
 
     def test_rows_are_the_slope_of_the_energy(self, lit):
         operators, rendering, evidence = lit
