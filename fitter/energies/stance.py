@@ -21,6 +21,7 @@ is that at this tilt (envelope theorem), and the rows of the matrix have it elim
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from jaxtyping import Float
@@ -28,7 +29,7 @@ from jaxtyping import Float
 from fitter.arrays import Points3D
 from fitter.energies import _stance_kernels as kernels
 from fitter.energies.rows import Nuisance, PositionRows, Support
-from fitter.numerics.damped_descent import Offer, Step, damped_steps, descend
+from fitter.numerics.damped_descent import Offer, damped_steps, descend
 from fitter.vocabulary.choices import Posture
 from fitter.vocabulary.outcomes import StanceKind
 
@@ -265,22 +266,34 @@ def _descended(
     That is expectation and maximisation.
     """
 
-    def weighed(tilt: Step) -> _Weighed:
-        return _Weighed(tilt, kernels.weigh(stance, tilt, kinds))
-
     def paraboloid(now: _Weighed) -> Callable[[float], Offer[_Weighed]]:
         matrix, gradient = kernels.normal_equations(stance, now.tilt, now.weighed)
-
-        def taken(step: Step) -> _Weighed:
-            shortened = min(1.0, _LONGEST_TURN / max(float(np.abs(step).max()), 1e-12))
-            return weighed(now.tilt + shortened * step)
-
-        return damped_steps(matrix, gradient, taken, floor=0.0)
+        return damped_steps(matrix, gradient, partial(_turned, stance, kinds, now), floor=0.0)
 
     found = descend(
-        weighed(start), paraboloid, max_evaluations=_MOST_EVALUATIONS, settled=_SETTLED_NATS
+        _weighed(stance, kinds, start),
+        paraboloid,
+        max_evaluations=_MOST_EVALUATIONS,
+        settled=_SETTLED_NATS,
     )
     return found.point
+
+
+def _weighed(
+    stance: Float[np.ndarray, "9 3"], kinds: kernels.Kinds, tilt: Float[np.ndarray, "2"]
+) -> _Weighed:
+    return _Weighed(tilt, kernels.weigh(stance, tilt, kinds))
+
+
+def _turned(
+    stance: Float[np.ndarray, "9 3"],
+    kinds: kernels.Kinds,
+    now: _Weighed,
+    step: Float[np.ndarray, "2"],
+) -> _Weighed:
+    """Where a step of pitch and roll leads, which is shortened where it is long."""
+    shortened = min(1.0, _LONGEST_TURN / max(float(np.abs(step).max()), 1e-12))
+    return _weighed(stance, kinds, now.tilt + shortened * step)
 
 
 def _starts(stance: Float[np.ndarray, "9 3"]) -> list[Float[np.ndarray, "2"]]:

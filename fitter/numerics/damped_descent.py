@@ -8,6 +8,7 @@ gradient, for which :func:`damped_steps` makes the offers.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Generic, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
@@ -143,9 +144,15 @@ def damped_steps(
     an unknown has no curvature.
     """
     matrix, gradient = np.ascontiguousarray(matrix), np.ascontiguousarray(gradient)
+    return partial(_offer, matrix, gradient, taken, floor)
 
-    def offered(damping: float) -> Offer[Point]:
-        step, promised = kernels.damped_step(matrix, gradient, damping, floor)
-        return Offer(promised=promised, taken=lambda: taken(step))
 
-    return offered
+def _offer(
+    matrix: Float[np.ndarray, "n n"],
+    gradient: Float[np.ndarray, " n"],
+    taken: Callable[[Step], Point | None],
+    floor: float,
+    damping: float,
+) -> Offer[Point]:
+    step, promised = kernels.damped_step(matrix, gradient, damping, floor)
+    return Offer(promised=promised, taken=lambda: taken(step))
