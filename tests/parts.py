@@ -33,7 +33,10 @@ LONGEST = (
     "integration/service",
     "unit/evaluation/test_data.py",
     "unit/training/test_kept_populations.py",
-    # Of `make test`.
+    # Of `make test` and `make test-shapes`.
+    "unit/fits/test_fit.py",
+    "unit/optimizer/test_recovery.py",
+    "unit/training/test_measurement_figures.py",
     "unit/training/test_knee_rings.py",
     "unit/training/test_bone_centres.py",
     "unit/service/test_derivers.py",

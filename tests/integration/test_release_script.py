@@ -179,7 +179,7 @@ def test_a_python_that_was_asked_for_and_cannot_be_used_is_refused(project: Proj
 def made(project: Project) -> Path:
     """What a pretended make and two pretended Pythons are told."""
     made = project.programs / "made"
-    pretended = 'case "$*" in *.installed) mkdir -p $2/.venv/bin && '
+    pretended = 'case "$*" in *.compiled) mkdir -p $2/.venv/bin && '
     pretended += f"ln -sf {project.programs}/python3.98 $2/.venv/bin/python;; esac"
     project.program("make", f'echo "$*" >> {made}\n{pretended}')
     for name in ("python3.98", "python3.99"):
@@ -196,7 +196,7 @@ def test_the_suite_runs_once_for_each_python_in_a_clone_of_the_commit(project: P
         ("python3.98", "python3.99"), (lines[:3], lines[3:]), strict=True
     ):
         folder = f"build/release/{name}"
-        assert environment == f"-C {folder} PYTHON={name} .venv/.installed"
+        assert environment == f"-C {folder} PYTHON={name} .venv/.compiled"
         assert re.search(rf"--no-deps --no-index .* dist/{DISTRIBUTIONS[0]}$", wheel)
         assert tests == f"-C {folder} test"
         assert (project.folder / folder / "service" / "version.py").exists()
