@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from fitter.arrays import GreyImage, Image, Mask
 from fitter.detection.detector import (
     DetectedBody,
@@ -11,6 +13,7 @@ from fitter.detection.detector import (
     body_of_clicks,
     is_somebody_at,
 )
+from fitter.errors import InvalidInputError
 from fitter.observation.clicks import check_clicks, check_places, side_warnings
 from fitter.observation.colour import bytes_of_display, luminance_of
 from fitter.observation.completion import (
@@ -18,12 +21,13 @@ from fitter.observation.completion import (
     proposal_assumptions,
     scaled_clicks,
 )
-from fitter.observation.decoding import decode_picture
+from fitter.observation.decoding import decode_coverage, decode_picture
 from fitter.observation.focal_length import focal_length
-from fitter.observation.masks import decode_mask
 from fitter.observation.resampling import (
+    WorkingSize,
     display_working_picture,
     linear_working_picture,
+    working_coverage,
     working_size,
 )
 from fitter.observation.subject import check_light
@@ -160,3 +164,48 @@ def _posture(kind: ViewKind | None) -> Posture:
 
 def _is_seeded(view: View) -> bool:
     return view.mask is None and view.segmentation is SegmentationKind.SEEDED_GRABCUT
+
+
+def decode_mask(
+    data: bytes, *, width: int, height: int, size: WorkingSize, max_pixels: int
+) -> Mask:
+    """The foreground at the working size: pixels more than half of which are white.
+
+    Parameters
+    ----------
+    width, height
+        Size of the upright picture, which the mask must have.
+
+    Raises
+    ------
+    InvalidInputError
+        ``mask-size``, ``mask-without-foreground``, ``mask-without-background``, or as
+        :func:`~fitter.observation.decoding.decode_picture` with ``mask-`` for ``image-``.
+    """
+    coverage = decode_coverage(data, field="mask", max_pixels=max_pixels)
+    if coverage.shape != (height, width):
+        raise InvalidInputError(
+            code="mask-size",
+            field="mask",
+            reason=(
+                f"The mask measures {coverage.shape[1]} x {coverage.shape[0]} pixels, the upright "
+                f"picture {width} x {height}."
+            ),
+            remedy="Send a mask of the picture's size as a browser shows it.",
+        )
+    mask = working_coverage(np.ascontiguousarray(coverage), size) > 0.5
+    if not mask.any():
+        raise InvalidInputError(
+            code="mask-without-foreground",
+            field="mask",
+            reason="The mask marks no pixel as the person.",
+            remedy="Paint the person white and the rest black.",
+        )
+    if mask.all():
+        raise InvalidInputError(
+            code="mask-without-background",
+            field="mask",
+            reason="The mask marks the whole picture as the person.",
+            remedy="Paint the person white and the rest black, or leave the mask out.",
+        )
+    return mask

@@ -8,10 +8,10 @@ from typing import Final
 import sqlalchemy as sa
 from sqlalchemy import event
 from sqlalchemy.exc import ArgumentError, DBAPIError
+from sqlalchemy.schema import CreateColumn
 
 from service.engine.driver_errors import refusal
 from service.engine.facts import read_fact, write_fact
-from service.engine.migration import bring_up_to_date
 from service.engine.port import DatabaseUnusableError
 from service.engine.retrying import retry_while_database_is_away
 from service.engine.sandbox import check_apart, keep_apart
@@ -21,7 +21,7 @@ from service.engine.sqlite_file import (
     prepare_file,
     secure_file,
 )
-from service.engine.tables import JOBS
+from service.engine.tables import JOBS, METADATA
 from service.engine.transactions import read_then_write
 from service.setting_addresses import without_secrets
 
@@ -106,7 +106,7 @@ def prepare_database(url: str, *, sandbox: bool | None = None) -> None:
             prepare_file(engine)
         DBOS.migrate(url)
         with locked(engine) as connection:
-            bring_up_to_date(connection)
+            _bring_up_to_date(connection)
             write_fact(connection, SCHEMA_FACT, SCHEMA_VERSION)
             if sandbox is not None:
                 keep_apart(connection, sandbox=sandbox)
@@ -165,3 +165,27 @@ def _check_schema(engine: sa.Engine) -> None:
             "new MAQUETTE_DATA_DIR or MAQUETTE_DATABASE_URL."
         )
         raise DatabaseUnusableError(message)
+
+
+def _bring_up_to_date(connection: sa.Connection) -> None:
+    """Make the tables that are missing, and add the columns that are missing in others.
+
+    An earlier version did not make them, and its processes may still run. A version only ever adds:
+    tables, and columns that may be left out of an insert. Processes of the earlier version go on as
+    they are, and can be started again. A change that they could not live with needs another
+    ``SCHEMA_VERSION``.
+    """
+    METADATA.create_all(connection)
+    inspector = sa.inspect(connection)
+    for table in METADATA.sorted_tables:
+        there = {column["name"] for column in inspector.get_columns(table.name)}
+        for column in table.columns:
+            if column.name not in there:
+                _add(connection, column)
+
+
+def _add(connection: sa.Connection, column: sa.Column[object]) -> None:
+    dialect = connection.dialect
+    table = dialect.identifier_preparer.format_table(column.table)
+    definition = CreateColumn(column).compile(dialect=dialect)
+    connection.execute(sa.text(f"ALTER TABLE {table} ADD COLUMN {definition}"))

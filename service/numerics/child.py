@@ -6,6 +6,7 @@ pipe, on which there is nothing but the next task, and the end of the pipe is th
 (a signal on the parent's death does not serve, the parent being the fork server).
 """
 
+import contextlib
 import faulthandler
 import logging
 import os
@@ -34,7 +35,6 @@ from service.numerics.messages import (
 from service.numerics.tasks import ChildSetup, Observe, Parts, ProblemError, load_tasks
 from service.process.heap import give_back
 from service.process.logs import configure_logging, log_context
-from service.process.naming import call_process
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -51,7 +51,7 @@ times what is needed in between."""
 
 def work(setup: ChildSetup, connection: Connection) -> None:
     """Do the tasks that come, and tell the owner of each how it went."""
-    call_process(setup.name)
+    _call_process(setup.name)
     configure_logging(
         setup.log_level, setup.log_format, withhold_messages=setup.log_level != "DEBUG"
     )
@@ -139,3 +139,12 @@ def _limit(setup: ChildSetup) -> None:
     score = Path("/proc/self/oom_score_adj")
     if score.exists():
         score.write_text(str(OOM_SCORE))
+
+
+def _call_process(name: str) -> None:
+    """Name this process, in at most 15 letters; its command, which is listed, is another's.
+
+    Where there is no ``/proc`` it keeps its name.
+    """
+    with contextlib.suppress(OSError):
+        Path("/proc/self/comm").write_text(name)

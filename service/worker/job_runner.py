@@ -4,9 +4,9 @@ import contextlib
 import itertools
 import logging
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Final, NamedTuple
+from typing import Final, NamedTuple, ParamSpec, TypeVar
 
 from pydantic import ValidationError
 
@@ -24,6 +24,7 @@ from service.numerics.messages import (
     TaskMessage,
 )
 from service.process.logs import current_log_context
+from service.process.retrying import retry_with_pauses
 from service.process.tracing import StageSpans, span
 from service.settings import Settings
 from service.worker.artifacts import describe_artifact
@@ -37,9 +38,11 @@ from service.worker.endings import (
     out_of_memory,
     too_slow,
 )
-from service.worker.retrying import retry_while_storage_is_away
 from service.worker.tasks import DERIVATION, DERIVED_FROM, OPTIONS, SECONDS, STAGE_SECONDS
 from service.worker.throttled_progress import ThrottledProgress
+
+P = ParamSpec("P")
+T = TypeVar("T")
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -219,3 +222,8 @@ def _ended(received: Received) -> _Computed | AttemptResult:
         case _:
             message = f"a child sent a message of kind {received.message.kind}"
             raise OSError(message)
+
+
+def retry_while_storage_is_away(operation: Callable[P, T]) -> Callable[P, T]:
+    """Retry an operation on blobs for up to two minutes; all of them are safe to repeat."""
+    return retry_with_pauses(BlobsUnavailableError, "storage")(operation)

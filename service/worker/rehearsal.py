@@ -91,7 +91,7 @@ def rehearse_sandbox(models: Path | None, detector: Path | None = None) -> None:
         If a model is missing or damaged.
     """
     # Imported here: no other worker needs what derives.
-    from service.worker.sandbox_rehearsal import derive_all
+    from service.worker.sandbox import derive_all
 
     kept = restore_kernels()
     try:

@@ -4,13 +4,16 @@ What the pictures show is looked at by nobody. Derivations that are quick are ma
 person as everywhere, by the options of the request; the others are canned too.
 """
 
-from collections.abc import Callable
+import json
+from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import Final, cast
+from pathlib import Path
+from typing import Any, Final, cast
 
 from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivation_kinds.base import DerivedFiles
 from api_schemas.derivation_kinds.combined import CombinedOptions, CombinedResult
+from api_schemas.derivations import DerivationRequest
 from api_schemas.scans import ScanOptions
 from service.engine.port import Report
 from service.jobs.inputs import IMAGE, OVERLAY, PERSON, pictures_of
@@ -23,7 +26,7 @@ from service.worker.pipeline_port import (
 )
 from service.worker.sandbox_endings import end_as_asked, judged
 from service.worker.sandbox_forms import combined_of_fits, scan_of_views
-from service.worker.sandbox_results import CannedResults, canned_results
+from service.worker.sandbox_results import MAX_PIXELS, NOBODY, CannedResults, canned_results
 from service.worker.tasks import job_tasks
 
 
@@ -67,3 +70,39 @@ def _with_sample(
 
 
 TASKS: Final = job_tasks(run, derive)
+
+
+_AT_ONCE: Final[tuple[Mapping[str, Any], ...]] = (
+    {"kind": "pose", "pose": "standing"},
+    {"kind": "figure"},
+    {"kind": "body_composition"},
+    {"kind": "change", "since": str(NOBODY)},
+    {
+        "kind": "size",
+        "chart": {
+            "sizes": [{"label": "M", "measurements": {"chest_girth": {"low": 90.0, "high": 100.0}}}]
+        },
+    },
+)
+"""One of each kind that is made anew for every job; what it loads is then there for all."""
+
+
+def derive_all(models: Path | None, detector: Path | None) -> None:
+    """Do everything once before the first job: make the results, and what is derived from them.
+
+    Raises as :func:`service.worker.sandbox_results.canned_results` does.
+    """
+    first, *_ = canned_results(models, detector).fits.values()
+    inputs = first.derivation_inputs
+    for each in _AT_ONCE:
+        derive(
+            DerivationInput(
+                options=DerivationRequest.model_validate_json(json.dumps(each)).root,
+                inputs=inputs,
+                others=(inputs,),
+                max_pixels=MAX_PIXELS,
+                models=models,
+                detector=detector,
+            ),
+            lambda _: None,
+        )

@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 from jaxtyping import Float, Integer
+from scipy.spatial.transform import Rotation
 
 from fitter.arrays import Normals, Triangles, Vector3, Vertices
 from fitter.export.formats.glb_file import GlbFile, read_glb
-from fitter.export.formats.standing_vertices import standing_vertices
 from fitter.export.gltf_mesh import unit_normals
 
 WHITE = (1.0, 1.0, 1.0, 1.0)
@@ -82,7 +82,7 @@ def shown_body(glb: bytes) -> ShownBody:
     primitive = document["meshes"][0]["primitives"][0]
     attributes = primitive["attributes"]
     corners = file.array(primitive["indices"]).reshape(-1, 3).astype(np.int64)
-    vertices = standing_vertices(file)
+    vertices = _standing_vertices(file)
     owners = np.arange(len(vertices))
     if "_VERTEX" in attributes:
         owners = file.array(attributes["_VERTEX"])[:, 0].astype(np.int64)
@@ -134,3 +134,50 @@ def _texture(
         texels=np.column_stack([from_top[:, 0], 1.0 - from_top[:, 1]]),
         triangles=corners,
     )
+
+
+def _standing_vertices(file: GlbFile) -> Vertices:
+    """(m, 3) vertices of the file's one mesh in the axes of its scene, metres: nothing is animated.
+
+    A node's place is its own in those of the nodes above it; bones move a skin. The nodes of an
+    animated file stand as its first frame has them, and its morph targets weigh nothing there.
+    """
+    nodes = file.document["nodes"]
+    node = next(each for each in range(len(nodes)) if "mesh" in nodes[each])
+    attributes = file.document["meshes"][nodes[node]["mesh"]]["primitives"][0]["attributes"]
+    vertices = file.array(attributes["POSITION"]).astype(np.float64)
+    if "skin" in nodes[node]:
+        return _skinned(file, nodes[node]["skin"], attributes, vertices)
+    place = _place(nodes, node)
+    return vertices @ place[:3, :3].T + place[:3, 3]
+
+
+def _skinned(file: GlbFile, skin: int, attributes: dict[str, int], vertices: Vertices) -> Vertices:
+    """Vertices moved by their bones; the mesh's own node has no say."""
+    bound = file.document["skins"][skin]
+    # Stored column after column.
+    inverse_bind = file.array(bound["inverseBindMatrices"]).reshape(-1, 4, 4).transpose(0, 2, 1)
+    nodes = file.document["nodes"]
+    motions = np.stack([_place(nodes, joint) for joint in bound["joints"]]) @ inverse_bind
+    joints = file.array(attributes["JOINTS_0"])
+    weights = file.array(attributes["WEIGHTS_0"]).astype(np.float64)
+    matrices = np.einsum("mb,mbij->mij", weights, motions[joints][:, :, :3])
+    return np.einsum("mij,mj->mi", matrices[:, :, :3], vertices) + matrices[:, :, 3]
+
+
+def _place(nodes: list[dict[str, Any]], node: int) -> Float[np.ndarray, "4 4"]:
+    """From a node's axes to the scene's."""
+    place = _own_place(nodes[node])
+    for parent, each in enumerate(nodes):
+        if node in each.get("children", ()):
+            return _place(nodes, parent) @ place
+    return place
+
+
+def _own_place(node: dict[str, Any]) -> Float[np.ndarray, "4 4"]:
+    """From a node's axes to those of the node above it."""
+    place = np.eye(4)
+    if "rotation" in node:
+        place[:3, :3] = Rotation.from_quat(node["rotation"]).as_matrix()
+    place[:3, 3] = node.get("translation", 0.0)
+    return place

@@ -16,14 +16,13 @@ import numpy as np
 from jaxtyping import Float, Integer
 from scipy import sparse
 
-from fitter.arrays import Pose, Vertices
+from fitter.arrays import Pose, Rotations, Vertices
 from fitter.body.skeleton import global_rotations
-from fitter.numerics.rotations import rotation_matrices
+from fitter.numerics.rotations import rotation_matrices, rotation_vectors
 from fitter.training.articulation.part_tree import PART_NAMES, PART_PARENT
 from fitter.training.articulation.rig_drives import BoneDrives, bone_drives
 from fitter.training.articulation.scapular_rhythm import raised_shares
 from fitter.training.articulation.skinning import blend_half_dual_quaternion
-from fitter.training.articulation.twist import partial_rotations
 
 RIG_FILE = Path("rigs/standard/rig.default.json")
 WEIGHTS_FILE = Path("rigs/standard/weights.default.json")
@@ -188,3 +187,37 @@ def _parents_first(parents: Mapping[str, str]) -> tuple[str, ...]:
         ordered.extend(ready)
         waiting = [name for name in waiting if name not in ready]
     return tuple(ordered)
+
+
+def swing_and_twist(
+    vectors: Float[np.ndarray, "k 3"], axes: Float[np.ndarray, "k 3"]
+) -> tuple[Float[np.ndarray, "k 3"], Float[np.ndarray, " k"]]:
+    """Split R = S T into a twist T about an axis, applied first, and a swing S across it.
+
+    Returns
+    -------
+    swing
+        (k, 3) rotation vectors of S, perpendicular to the axes.
+    twist
+        (k,) angles of T about the axes, radians, in (-π, π].
+    """
+    angle = np.linalg.norm(vectors, axis=1)
+    half_sine = 0.5 * np.sinc(0.5 * angle / np.pi)
+    twist = 2.0 * np.arctan2(half_sine * np.einsum("ki,ki->k", vectors, axes), np.cos(angle / 2.0))
+    twist = np.where(twist > np.pi, twist - 2.0 * np.pi, twist)
+    twist = np.where(twist <= -np.pi, twist + 2.0 * np.pi, twist)
+    untwist = rotation_matrices(-twist[:, None] * axes)
+    return rotation_vectors(rotation_matrices(vectors) @ untwist), twist
+
+
+def partial_rotations(
+    vectors: Float[np.ndarray, "k 3"],
+    axes: Float[np.ndarray, "k 3"],
+    swing_share: Float[np.ndarray, " k"],
+    twist_share: Float[np.ndarray, " k"],
+) -> Rotations:
+    """Rotations S^swing_share T^twist_share."""
+    swing, twist = swing_and_twist(vectors, axes)
+    return rotation_matrices(swing_share[:, None] * swing) @ rotation_matrices(
+        (twist_share * twist)[:, None] * axes
+    )

@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 from fitter.applications.size_chart import Tolerance, chart_remarks, costs, size_chart
-from fitter.applications.size_probability import size_answer
+from fitter.applications.size_probability import gaussian_points, size_answer
 from fitter.errors import InvalidInputError
 from fitter.measurement.joint_measurements import JointMeasurements
-from fitter.numerics.gaussian_points import gaussian_points
 from fitter.vocabulary.outcomes import SizedAs
 
 WAISTS = {

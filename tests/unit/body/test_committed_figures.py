@@ -6,7 +6,7 @@ import pytest
 from fitter.body.shape_space import rest_vertices
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.numerics.meshes import enclosed_volume
-from fitter.training.report.model_figures import model_figures
+from fitter.training.report.header_figures import model_figures
 
 # How far a figure may lie from what the header says: the rounding of single precision, with room
 # for another processor's, and far below what would matter.

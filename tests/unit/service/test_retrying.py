@@ -5,7 +5,7 @@ from sqlalchemy.exc import TimeoutError as PoolTimeoutError
 from service.blobs import BlobsUnavailableError
 from service.engine.retrying import retry_while_database_is_away
 from service.process import retrying
-from service.worker.retrying import retry_while_storage_is_away
+from service.worker.job_runner import retry_while_storage_is_away
 
 STATEMENT = "UPDATE"
 

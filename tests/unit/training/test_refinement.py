@@ -4,7 +4,7 @@ import trimesh
 
 from fitter.numerics.mesh_topology import mesh_topology
 from fitter.numerics.meshes import enclosed_volume
-from fitter.training.report.refinement import (
+from fitter.training.report.refinement_effect import (
     flat_refinement,
     halved_edges,
     refined_triangles,

@@ -10,7 +10,7 @@ from fitter.body.skeleton import regress
 from fitter.numerics.rotations import rotation_vectors
 from fitter.training.articulation.part_tree import part_index
 from fitter.training.articulation.registered_bodies import RegisteredBodies
-from fitter.training.articulation.rig import Rig, bone_rotations, part_weights
+from fitter.training.articulation.rig import Rig, bone_rotations, part_weights, swing_and_twist
 from fitter.training.articulation.rig_drives import rest_axis
 from fitter.training.articulation.rigged_bodies import rigged_bodies, rigged_mesh
 from fitter.training.articulation.scapular_rhythm import (
@@ -19,7 +19,6 @@ from fitter.training.articulation.scapular_rhythm import (
     raised_shares,
     smooth_step,
 )
-from fitter.training.articulation.twist import swing_and_twist
 from tests.unit.training.makehuman_data import base_mesh, landmarks, needs_makehuman
 from tests.unit.training.rigged_neutral import mesh, neutral_body, neutral_source, rig
 

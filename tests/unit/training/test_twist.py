@@ -1,7 +1,7 @@
 import numpy as np
 
 from fitter.numerics.rotations import rotation_matrices
-from fitter.training.articulation.twist import partial_rotations, swing_and_twist
+from fitter.training.articulation.rig import partial_rotations, swing_and_twist
 
 RNG = np.random.default_rng(5)
 VECTORS = RNG.normal(scale=1.2, size=(200, 3))

@@ -8,7 +8,7 @@ import pytest
 from pxr import Usd, UsdGeom, UsdShade, UsdValidation
 
 from fitter.export.formats import converted
-from fitter.export.formats.usdz_archive import ALIGNMENT, usdz_archive
+from fitter.export.formats.usdz import ALIGNMENT, usdz_archive
 from tests.unit.export.formats.bodies import KNOWN, MICROMETRE, coloured, plain, textured
 
 ARKIT_PRIMS = {"Xform", "Mesh", "Material", "Shader"}
