@@ -26,8 +26,9 @@ NEARLY_SETTLED_NATS = 0.2
 """The same of a search that another follows, about other evidence."""
 
 FIRMLY_SETTLED_NATS = 0.02
-"""The same of the last search: so far from the minimum a measurement is off by a fifth of its
-standard error, √(2 · 0.02), and by another fifth if nobody sees what changed in the picture."""
+"""The same of the last search. So far above the minimum a measurement is a fifth of its standard
+error off, √(2 · 0.02), where it would be a third at 0.05: pictures that differ by what nobody sees
+would end apart by as much."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
