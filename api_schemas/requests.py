@@ -59,7 +59,7 @@ class LightGuess(WireModel):
 
 
 _POINTS_DESCRIPTION: Final = (
-    "Clicked points, pixels of the picture as a browser shows it. At least six of the "
+    "Clicked points, pixels of the picture as a browser shows it. At least four of the "
     "shoulders, elbows, wrists, hips, knees and ankles, two of them shoulders or hips{unless}."
 )
 _POINTS_EXAMPLE: Final = {

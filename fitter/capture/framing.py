@@ -34,8 +34,10 @@ _PARTS = {
     "right foot": ("right_heel", "right_toe"),
 }
 
-_MEASURED = {name for part in ("trunk", "left leg", "right leg") for name in _PARTS[part]}
-"""Joints without which most measurements are guesses; a part may be cut and its joints be there."""
+_NEEDED = frozenset({"left_shoulder", "right_shoulder"})
+"""Joints without which nothing is measured. Legs that are not seen stand straight below the trunk,
+which is measured by itself: of eleven people of the tuning half cut off at shins, thighs, hips and
+waist errors are 1.0 to 1.45 times what the fit says."""
 
 _LOOKED_FOR = {name for names in _PARTS.values() for name in names}
 
@@ -50,7 +52,7 @@ def wholeness(capture: Capture) -> Remark | None:
     gone = _joints_beyond(capture.joints, shape, all_known=capture.mask is not None)
     return Finding(
         code=Code.CUT_OFF,
-        severity=Severity.BLOCKS if gone & _MEASURED else Severity.HARMS,
+        severity=Severity.BLOCKS if gone & _NEEDED else Severity.HARMS,
         reason=(
             f"{len(parts)} of {len(_PARTS)} parts of the person reach to the picture's border or "
             f"beyond it: {', '.join(parts)}."

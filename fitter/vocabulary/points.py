@@ -42,10 +42,11 @@ TRUNK_POINT_NAMES: Final[tuple[LimbPointName, ...]] = (
     "right_hip",
 )
 
-MIN_LIMB_POINTS: Final = 6
+MIN_LIMB_POINTS: Final = 4
 MIN_TRUNK_POINTS: Final = 2
-"""Two trunk points and six limb points in all leave at least two whole limbs: a root to hang the
-body on, and lengths to find its depth from. A seated half figure has them, a head does not."""
+"""Two trunk points and four limb points in all leave at least two whole limbs, as of shoulders and
+elbows or of shoulders and hips: a root to hang the body on, and lengths to find its depth from. The
+upper half of a person has them, a head does not."""
 
 MIN_EXTENT: Final = 0.05
 """Points spread over less than this share of the picture's diagonal are no person to measure."""

@@ -27,8 +27,8 @@ def test_somebody_whole_is_not_cut_off():
         (("left_toe",), "left foot", Severity.HARMS),
         (("nose", "left_eye", "right_eye", "left_ear", "right_ear"), "head", Severity.HARMS),
         (("right_wrist",), "right arm", Severity.HARMS),
-        (("left_ankle", "left_toe"), "left leg, left foot", Severity.BLOCKS),
-        (("left_hip",), "trunk", Severity.BLOCKS),
+        (("left_ankle", "left_toe"), "left leg, left foot", Severity.HARMS),
+        (("left_shoulder",), "trunk", Severity.BLOCKS),
     ],
 )
 def test_parts_that_are_not_in_the_picture_are_named(missing, parts, severity):

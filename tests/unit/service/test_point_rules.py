@@ -20,7 +20,7 @@ def checked(points):
     "points",
     [
         spread(LIMB_POINT_NAMES),
-        spread(LIMB_POINT_NAMES[:6]),
+        spread(LIMB_POINT_NAMES[:4]),
         spread(LIMB_POINT_NAMES[:1] + LIMB_POINT_NAMES[3:7]) | spread(LIMB_POINT_NAMES[8:10]),
     ],
 )
@@ -31,7 +31,7 @@ def test_enough_points_are_taken(points):
 @pytest.mark.parametrize(
     ("points", "code"),
     [
-        (spread(LIMB_POINT_NAMES[:5]), "too-few-points"),
+        (spread(LIMB_POINT_NAMES[:3]), "too-few-points"),
         (spread(LIMB_POINT_NAMES[2:6] + LIMB_POINT_NAMES[7:]), "too-few-points"),
         (spread(LIMB_POINT_NAMES[2:6] + LIMB_POINT_NAMES[8:]), "too-few-points"),
         (spread(POINT_NAMES[:5]), "too-few-points"),
