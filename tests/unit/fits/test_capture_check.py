@@ -69,7 +69,7 @@ def spoilt(how: str) -> np.ndarray:
         ("blurred", "blurred", Severity.HARMS),
         ("dark", "too-dark", Severity.HARMS),
         ("rolled", "camera-rolled", Severity.HARMS),
-        ("without feet", "cut-off", Severity.BLOCKS),
+        ("without feet", "cut-off", Severity.HARMS),
         ("without a head", "cut-off", Severity.HARMS),
         ("two", "several-people", Severity.HARMS),
         ("nobody", "nobody-found", Severity.BLOCKS),
