@@ -1,9 +1,9 @@
 """How much less sure measurements are for what harms a picture: one table, by finding.
 
 For light, blur and size the factors are the root mean squares of errors over standard errors on
-spoilt pictures of 14 people of the tuning halves, 84 fits with shading: they make them one again, as of
-eleven people who are cut off at shins, thighs, hips or waist, 42 fits, where the worst of the four
-counts. A near camera has that by which errors grew in two pictures (MEASURING.md).
+spoilt pictures of 14 people of the tuning halves, 84 fits with shading: they make them one again.
+So are those of eleven people who are cut off at shins, thighs, hips or waist, 42 fits: the worst of
+the four counts. A near camera has that by which errors grew in two pictures (MEASURING.md).
 What is not in the table cost nothing measurable (a rolled camera, arms at the trunk, too much
 light), is in the fit's own errors already (loose clothes), or cannot be put in figures (another
 person was taken).

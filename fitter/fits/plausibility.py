@@ -5,12 +5,13 @@ circle, a dog or two people in one mask is how well the end of the search agrees
 (:mod:`fitter.fits.contradiction` judges it).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
 
 from fitter.energies.objective import Candidate, Objective
+from fitter.energies.silhouette import silhouette_overlap
 from fitter.evidence.correspondence_lines import LEAST_WINDOW_PX, WINDOW_M
 from fitter.evidence.loose_outline import FARTHEST_M
 from fitter.observation.observation import Observation
@@ -69,13 +70,22 @@ def plausibility(
     ``shape_nats`` is what the shape costs under its prior.
     """
     return Plausibility(
-        overlap=overlap,
+        overlap=_outline_overlap(objective, candidate, overlap),
         boundary=_clear_boundary(observation, objective, candidate),
         beyond=_beyond(objective, candidate),
         click_deviations=_click_deviations(objective, candidate),
         strain=candidate.energies["pose_prior"] + shape_nats,
         detected=observation.detected,
     )
+
+
+def _outline_overlap(objective: Objective, candidate: Candidate, overlap: float) -> float:
+    """That of the body's own outline where no skin was found: loose clothes have any outline."""
+    clothes, silhouette = objective.evidence.clothes, objective.evidence.silhouette
+    if clothes is None or clothes.learnt_from:
+        return overlap
+    bare = replace(silhouette, cloth=None, fullness=None)
+    return silhouette_overlap(candidate.rendering, bare, objective.scales)
 
 
 def _clear_boundary(observation: Observation, objective: Objective, candidate: Candidate) -> float:
