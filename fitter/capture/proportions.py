@@ -16,7 +16,12 @@ a quarter at five and two thirds at one, by their stature."""
 
 
 def proportions(capture: Capture) -> Remark | None:
-    """Whether the eyes are too far apart for the stature of a grown-up person."""
+    """Whether the eyes are too far apart for the stature of a grown-up person.
+
+    Clicks are not looked at: they lie farther apart than the detector's eyes.
+    """
+    if capture.body is None:
+        return Unchecked(code=Code.CHILD, reason="Without a detector eyes are not compared.")
     eyes = [capture.joints.get(f"{side}_eye") for side in ("left", "right")]
     if eyes[0] is None or eyes[1] is None or capture.stature_px is None:
         return Unchecked(code=Code.CHILD, reason="Both eyes are not seen.")

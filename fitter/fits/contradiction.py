@@ -90,10 +90,11 @@ def contradiction(found: Plausibility) -> Contradiction:
 def _least_boundary(found: Plausibility) -> float:
     """Share of the outline that must be seen, if the silhouette is no person's either.
 
-    People hardly told from the wall have a good silhouette, people half hidden a clear outline.
+    People hardly told from the wall have a good silhouette, people half hidden a clear outline. In
+    loose clothes every silhouette is good.
     """
     if found.overlap >= POOR_OVERLAP:
-        return 0.0
+        return LITTLE_BOUNDARY if found.clothed and not found.detected else 0.0
     is_bad = found.overlap < BAD_OVERLAP
     if found.detected:
         return LITTLE_BOUNDARY if is_bad else 0.0

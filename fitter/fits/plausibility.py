@@ -5,13 +5,12 @@ circle, a dog or two people in one mask is how well the end of the search agrees
 (:mod:`fitter.fits.contradiction` judges it).
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import cv2
 import numpy as np
 
 from fitter.energies.objective import Candidate, Objective
-from fitter.energies.silhouette import silhouette_overlap
 from fitter.evidence.correspondence_lines import LEAST_WINDOW_PX, WINDOW_M
 from fitter.evidence.loose_outline import FARTHEST_M
 from fitter.observation.observation import Observation
@@ -45,6 +44,8 @@ class Plausibility:
         Root mean square distance of the seen points from the body's own, standard deviations.
     strain
         What pose and shape cost under their priors, nats.
+    clothed
+        Whether clothes may stand off the body: they overlap with any outline.
     detected
         Whether the detector finds a person where the points are; None if it was not asked.
     """
@@ -54,6 +55,7 @@ class Plausibility:
     beyond: float
     click_deviations: float
     strain: float
+    clothed: bool
     detected: bool | None
 
 
@@ -70,22 +72,14 @@ def plausibility(
     ``shape_nats`` is what the shape costs under its prior.
     """
     return Plausibility(
-        overlap=_outline_overlap(objective, candidate, overlap),
+        overlap=overlap,
         boundary=_clear_boundary(observation, objective, candidate),
         beyond=_beyond(objective, candidate),
         click_deviations=_click_deviations(objective, candidate),
         strain=candidate.energies["pose_prior"] + shape_nats,
+        clothed=objective.evidence.clothes is not None,
         detected=observation.detected,
     )
-
-
-def _outline_overlap(objective: Objective, candidate: Candidate, overlap: float) -> float:
-    """That of the body's own outline where no skin was found: loose clothes have any outline."""
-    clothes, silhouette = objective.evidence.clothes, objective.evidence.silhouette
-    if clothes is None or clothes.learnt_from:
-        return overlap
-    bare = replace(silhouette, cloth=None, fullness=None)
-    return silhouette_overlap(candidate.rendering, bare, objective.scales)
 
 
 def _clear_boundary(observation: Observation, objective: Objective, candidate: Candidate) -> float:

@@ -189,7 +189,9 @@ def test_the_figures_of_warnings_are_those_of_the_code():
 def test_pictures_and_masks_are_refused_by_no_other_code():
     decoding_text = (ROOT / "fitter" / "observation" / "decoding.py").read_text()
     made = {f"image-{word}" for word in re.findall(r'f"\{field\}-([a-z-]+)"', decoding_text)}
-    made |= codes_of("InvalidInputError", iter([ROOT / "fitter" / "observation" / "masks.py"]))
+    made |= codes_of(
+        "InvalidInputError", iter([ROOT / "fitter" / "observation" / "observation.py"])
+    )
     made |= codes_of("FieldProblem", iter([ROOT / "service" / "submissions" / "submission.py"]))
     made |= codes_of("InvalidInputError", sources("fitter/segmentation", "fitter/pose_init"))
     assert made - set(REFUSALS) == set()

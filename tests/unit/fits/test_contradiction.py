@@ -11,9 +11,16 @@ from fitter.result import VERDICT_EXPLANATIONS
 from fitter.vocabulary.outcomes import Severity, Verdict
 
 PERSON = Plausibility(
-    overlap=0.94, boundary=0.93, beyond=0.0, click_deviations=0.6, strain=6.0, detected=None
+    overlap=0.94,
+    boundary=0.93,
+    beyond=0.0,
+    click_deviations=0.6,
+    strain=6.0,
+    clothed=False,
+    detected=None,
 )
 LANDSCAPE = replace(PERSON, overlap=0.8, boundary=0.09)
+LANDSCAPE_AS_CLOTHES = replace(PERSON, overlap=0.89, boundary=0.12, clothed=True)
 DOG = replace(PERSON, overlap=0.82, boundary=0.7, click_deviations=2.2, strain=34.0)
 TWO_IN_ONE_MASK = replace(PERSON, overlap=0.5, beyond=0.84)
 PERMUTED = replace(PERSON, overlap=0.83, boundary=0.4, click_deviations=4.6)
@@ -53,9 +60,10 @@ def test_where_neither_silhouette_nor_outline_are_a_person_s_there_is_none(detec
 
 
 def test_a_person_whom_the_detector_sees_is_never_nobody():
-    for each in (LANDSCAPE, DOG, TWO_IN_ONE_MASK, PERMUTED):
+    for each in (LANDSCAPE, LANDSCAPE_AS_CLOTHES, DOG, TWO_IN_ONE_MASK, PERMUTED):
         verdict = contradiction(replace(each, detected=True)).verdict
         assert verdict is not Verdict.NO_PERSON
+    assert contradiction(replace(LANDSCAPE_AS_CLOTHES, detected=True)).verdict is Verdict.PLAUSIBLE
     assert contradiction(replace(LANDSCAPE, detected=True)).verdict is Verdict.PLAUSIBLE
 
 
