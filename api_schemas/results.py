@@ -228,7 +228,8 @@ class Finding(WireModel):
 class WornRegion(WireModel):
     """How a region of the person is most probably covered.
 
-    ``bare`` is covered by underwear at most. ``ease_cm`` is how far loose clothes stand off the
+    ``bare`` is covered by underwear at most, a head that shows mostly skin; hair and hats are
+    ``loose``. ``ease_cm`` is how far loose clothes stand off the
     trunk, or off seat and legs, where the outline shows them; null elsewhere.
     """
 

@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from fitter.arrays import GreyImage
+from fitter.arrays import GreyImage, Mask
 from fitter.capture.clothes import what_is_loose
 from fitter.capture.finding import Code, Finding
 from fitter.energies.objective import Objective
@@ -15,7 +15,7 @@ from fitter.observation.worn import WornRegion
 from fitter.optimizer.uncertainty import Certainty, covered_distances
 from fitter.remarks import FitWarning
 from fitter.segmentation.coverage import Coverage
-from fitter.segmentation.skin_colour import LEAST_SAMPLES, PersonRegions
+from fitter.segmentation.skin_colour import LEAST_SAMPLES, PersonRegions, SkinMap
 from fitter.vocabulary.choices import BodyRegion, ClothedRegion, Clothing, Covering
 
 PARTS_OF: Final[Mapping[BodyRegion, frozenset[str]]] = {
@@ -28,6 +28,7 @@ PARTS_OF: Final[Mapping[BodyRegion, frozenset[str]]] = {
 """Parts of the body model by region, by the last word of their names."""
 
 _UNDER_TOP: Final = frozenset({BodyRegion.UPPER, BodyRegion.ARMS})
+_MOST_OF: Final = 0.5
 _EASES: Final[Mapping[BodyRegion, ClothedRegion]] = {
     BodyRegion.UPPER: ClothedRegion.UPPER,
     BodyRegion.LOWER: ClothedRegion.LOWER,
@@ -36,6 +37,7 @@ _EASES: Final[Mapping[BodyRegion, ClothedRegion]] = {
 
 def worn_regions(
     regions: PersonRegions,
+    skin: SkinMap,
     covered: Coverage,
     *,
     bare: GreyImage | None,
@@ -46,14 +48,9 @@ def worn_regions(
     ``bare`` and ``loose`` (h, w) are the probabilities that a pixel's part is bare, and that what
     covers it is loose; None of people in underwear, of whom the regions as a whole are told.
     """
-    found: list[WornRegion] = []
+    found = _head(regions, skin)
     for region, kinds in PARTS_OF.items():
-        numbers = [
-            number
-            for number, name in enumerate(regions.part_names)
-            if name.rpartition("_")[2] in kinds
-        ]
-        seen = regions.person & np.isin(regions.parts, numbers)
+        seen = _seen(regions, kinds)
         if np.count_nonzero(seen) < LEAST_SAMPLES:
             continue
         if bare is None or loose is None:
@@ -72,6 +69,24 @@ def worn_regions(
         kind = max(shares, key=shares.__getitem__)
         found.append(WornRegion(region=region, kind=kind, probability=shares[kind]))
     return tuple(found)
+
+
+def _seen(regions: PersonRegions, kinds: frozenset[str]) -> Mask:
+    """(h, w) where parts are seen, by the last words of their names."""
+    numbers = [
+        number for number, name in enumerate(regions.part_names) if name.rpartition("_")[2] in kinds
+    ]
+    return regions.person & np.isin(regions.parts, numbers)
+
+
+def _head(regions: PersonRegions, skin: SkinMap) -> list[WornRegion]:
+    """Whether skin, or hair or a hat covers most of the head that is seen."""
+    seen = _seen(regions, frozenset({"head"}))
+    if not skin.learnt_from or np.count_nonzero(seen) < LEAST_SAMPLES:
+        return []
+    shown = float(skin.coloured[seen].mean())
+    kind = Covering.BARE if shown >= _MOST_OF else Covering.LOOSE
+    return [WornRegion(region=BodyRegion.HEAD, kind=kind, probability=max(shown, 1.0 - shown))]
 
 
 def with_ease(

@@ -1,11 +1,12 @@
 """What is covered: trunk and thighs of a person, by how much of them shows the skin's colour.
 
-A person wears one of few outfits: underwear, a swimsuit, trousers alone, shorts alone, a top with
-trousers, or a top with shorts, a skirt or a dress. Each foretells which share of chest, waist,
-pelvis, thighs and shins shows the colour of the skin, as a beta distribution; shadows, gloss and
-patterns are an even share of outliers. Cloth may have the skin's colour: a top or a bottom then
-shows all of it. Bayes' rule over outfits and their colours gives the probability that a region is
-covered, and that what covers it cannot be told from skin by its colour.
+A person wears one of few outfits: underwear, a swimsuit, nothing above the hips or at all, trousers
+alone, shorts alone, a top with trousers, or a top with shorts, a skirt or a dress. Each foretells
+which share of chest, waist, pelvis, thighs and shins shows the colour of the skin, as a beta
+distribution; shadows, gloss and patterns are an even share of outliers. Cloth may have the skin's
+colour: a top or a bottom then shows all of it. Bayes' rule over outfits and their colours gives the
+probability that a region is covered, and that what covers it cannot be told from skin by its
+colour.
 """
 
 from collections.abc import Mapping
@@ -66,6 +67,17 @@ _BY_GENDER: Final[Mapping[str, tuple[_Outfit, ...]]] = {
                 "waist": waist,
                 "pelvis": _UNDERWEAR_PELVIS,
                 "thighs": (0.62, 5.0),
+                "shins": (0.82, 6.0),
+            },
+        ),
+        _Outfit(
+            prior=0.03,
+            covers=frozenset(),
+            shares={
+                "chest": (0.93, 10.0),
+                "waist": (0.88, 6.0),
+                "pelvis": (0.5, 1.5),
+                "thighs": (0.75, 4.0),
                 "shins": (0.82, 6.0),
             },
         ),

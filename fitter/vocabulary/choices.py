@@ -94,8 +94,9 @@ class Covering(StrEnum):
 
 
 class BodyRegion(StrEnum):
-    """Of what a result says how it is covered."""
+    """Of what a result says how it is covered; the head by hair or a hat."""
 
+    HEAD = "head"
     UPPER = "upper"
     ARMS = "arms"
     LOWER = "lower"

@@ -9,7 +9,7 @@ import numpy as np
 
 from tests.evaluation.dressed_scores import NOTHING_SAID, SAID, DressedScore
 from tests.evaluation.scoring import Scored
-from tests.evaluation.seen_labels import CLASSES, NOT_FOUND
+from tests.evaluation.seen_labels import CLASSES
 from tests.evaluation.table import INTERVALS, MEASUREMENTS, held
 
 LEVEL, DEVIATIONS = INTERVALS[1]
@@ -78,7 +78,7 @@ def label_lines(unsaid: Sequence[DressedScore]) -> list[str]:
             lines.append(
                 f"{name:{WIDEST_CLASS}s}{len(shares):8d}{mean:>14s}  least {min(shares):.2f}"
             )
-    return [*lines, *(f"{label.name.lower():{WIDEST_CLASS}s}not found" for label in NOT_FOUND)]
+    return lines
 
 
 def _case_line(each: DressedScore) -> str:

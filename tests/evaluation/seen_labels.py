@@ -20,12 +20,10 @@ from tests.evaluation.scoring import Fitted, resampled, working_scale
 UPPER_PARTS = frozenset({"chest", "spine", "neck", "head", "arm", "forearm", "hand"})
 """Cloth on other parts, but for feet, belongs to what covers the lower body."""
 
-NOT_FOUND = frozenset({Label.HAIR})
-"""Nothing looks for hair: it is taken for skin or for cloth."""
-
 CLASSES: Mapping[str, frozenset[int]] = {
     "person": frozenset(Label) - {Label.BACKGROUND},
     "skin": frozenset({Label.SKIN}),
+    "hair": frozenset({Label.HAIR}),
     "cloth": frozenset({Label.UPPER, Label.LOWER, Label.SHOES}),
     "upper": frozenset({Label.UPPER}),
     "lower": frozenset({Label.LOWER}),
@@ -60,7 +58,8 @@ def seen_labels(fitted: Fitted) -> Labels:
     shod = {each.region: each.kind for each in view.found.clothing}
     if shod.get(BodyRegion.FEET, Covering.BARE) is not Covering.BARE:
         labels[kind == "foot"] = Label.SHOES
-    labels[bare] = Label.SKIN
+    labels[kind == "head"] = Label.HAIR
+    labels[bare & ((kind != "head") | skin.coloured)] = Label.SKIN
     labels[~regions.person] = Label.BACKGROUND
     true = fitted.picture.labels
     assert true is not None
@@ -68,15 +67,10 @@ def seen_labels(fitted: Fitted) -> Labels:
 
 
 def label_overlaps(found: Labels, true: Labels) -> dict[str, float | None]:
-    """Intersection over union by class; None of what is neither there nor found.
-
-    Hair, which nothing looks for, counts as neither skin nor cloth.
-    """
-    bald = true != Label.HAIR
+    """Intersection over union by class; None of what is neither there nor found."""
     overlaps: dict[str, float | None] = {}
     for name, labels in CLASSES.items():
-        counted = np.ones_like(bald) if name == "person" else bald
-        here, there = (_of(each, labels) & counted for each in (found, true))
+        here, there = (_of(each, labels) for each in (found, true))
         either = int((here | there).sum())
         overlaps[name] = float((here & there).sum() / either) if either and there.any() else None
     return overlaps

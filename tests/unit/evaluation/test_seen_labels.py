@@ -11,7 +11,7 @@ def _labels(*rows: str) -> np.ndarray:
 
 
 def test_what_is_alike_overlaps_wholly_and_what_nobody_wears_is_left_out():
-    true = _labels("0113", "0134")
+    true = _labels("0113", "2134")
     overlaps = label_overlaps(true, true)
     assert overlaps.pop("shoes") is None
     assert set(overlaps) == set(CLASSES) - {"shoes"}
@@ -25,9 +25,10 @@ def test_cloth_taken_for_skin_costs_both():
     assert overlaps["person"] == 1.0
 
 
-def test_hair_counts_as_neither_skin_nor_cloth_but_as_the_person():
+def test_hair_taken_for_skin_costs_both():
     overlaps = label_overlaps(_labels("0113"), _labels("2213"))
-    assert overlaps["skin"] == overlaps["cloth"] == 1.0
+    assert overlaps["skin"] == pytest.approx(1 / 2)
+    assert overlaps["hair"] == 0.0
     assert overlaps["person"] == pytest.approx(3 / 4)
 
 

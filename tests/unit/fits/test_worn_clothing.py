@@ -1,17 +1,21 @@
 """How regions are told to be covered."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from fitter.fits.worn_clothing import worn_regions
 from fitter.segmentation.coverage import Coverage
-from fitter.segmentation.skin_colour import PersonRegions
+from fitter.segmentation.skin_colour import PersonRegions, SkinMap
 from fitter.vocabulary.choices import BodyRegion, Covering
 
-PARTS = ("chest", "left_upper_arm", "pelvis", "left_thigh", "left_shin", "left_foot")
+PARTS = ("head", "chest", "left_upper_arm", "pelvis", "left_thigh", "left_shin", "left_foot")
 SIDE = 20
 """Pixels of a part each way; the parts lie side by side."""
 
+NOTHING = np.zeros((SIDE, SIDE * len(PARTS)), dtype=np.bool_)
+NO_SKIN = SkinMap(probability=NOTHING.astype(np.float32), coloured=NOTHING, learnt_from=())
 COVERED = Coverage(top=1.0, bottom=1.0, top_like_skin=0.0, bottom_like_skin=0.0)
 
 
@@ -33,7 +37,7 @@ def of_parts(**values: float) -> np.ndarray:
 
 
 def kinds(bare: np.ndarray, loose: np.ndarray) -> dict[BodyRegion, Covering]:
-    found = worn_regions(regions(), COVERED, bare=bare, loose=loose)
+    found = worn_regions(regions(), NO_SKIN, COVERED, bare=bare, loose=loose)
     return {each.region: each.kind for each in found}
 
 
@@ -55,7 +59,7 @@ def test_shoes_are_never_loose():
 
 def test_people_in_underwear_are_bare_as_probably_as_nothing_covers_them():
     covered = Coverage(top=0.1, bottom=0.2, top_like_skin=0.0, bottom_like_skin=0.0)
-    found = worn_regions(regions(), covered, bare=None, loose=None)
+    found = worn_regions(regions(), NO_SKIN, covered, bare=None, loose=None)
     told = {each.region: each.probability for each in found}
     assert {each.kind for each in found} == {Covering.BARE}
     assert told[BodyRegion.UPPER] == pytest.approx(0.9)
@@ -63,5 +67,19 @@ def test_people_in_underwear_are_bare_as_probably_as_nothing_covers_them():
 
 
 def test_of_what_is_out_of_sight_nothing_is_told():
-    found = worn_regions(regions(unseen=("left_shin",)), COVERED, bare=None, loose=None)
+    found = worn_regions(regions(unseen=("left_shin",)), NO_SKIN, COVERED, bare=None, loose=None)
     assert BodyRegion.LEGS not in {each.region for each in found}
+
+
+@pytest.mark.parametrize(
+    ("skin_share", "kind", "probability"),
+    [(0.6, Covering.BARE, 0.6), (0.2, Covering.LOOSE, 0.8)],
+    ids=["face", "hair or a hat"],
+)
+def test_heads_are_covered_where_little_skin_shows(skin_share, kind, probability):
+    rows = np.arange(SIDE)[:, None] < round(skin_share * SIDE)
+    skin = replace(NO_SKIN, coloured=rows & (regions().parts == 0), learnt_from=("face",))
+    found = worn_regions(regions(), skin, COVERED, bare=None, loose=None)
+    (head,) = [each for each in found if each.region is BodyRegion.HEAD]
+    assert head.kind is kind
+    assert head.probability == pytest.approx(probability)
