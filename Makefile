@@ -39,9 +39,10 @@ test-rest: $(STAMP)
 test-shapes: $(STAMP)
 	$(PYTEST) -m shapes $(CHECKED)
 
-# All tests that `make test-shapes` does not run: so CI runs each once.
+# All tests that `make test-shapes` does not run: so CI runs each once. They wait for services that
+# they start for half of the time: four side by side keep two processors busy.
 test-others: $(STAMP)
-	$(PYTEST) -m "not shapes"
+	$(PYTEST) --numprocesses 4 -m "not shapes"
 
 # Blender's importer is one of the readers that tests/foreign asks; it is large and wants Python 3.11.
 blender: .venv-blender/.installed
