@@ -1,4 +1,4 @@
-import{c as j}from"/page/chunk.UDWSOI27.js";import{n as E}from"/page/chunk.6BTA3PAE.js";import"/page/chunk.DBJBPITO.js";import"/page/chunk.DHSW2F7S.js";import{a as I,b as O,c as q}from"/page/chunk.I4BVN3KQ.js";import{a as W}from"/page/chunk.HMJ2MS2C.js";import{A as x,I as _,c as A,d as b,e as F,f as k,h as g,j as R,l as u,m as C,n as G,o as z,q as f,r as M,u as B,v,w as N,x as V,y as U,z as D}from"/page/chunk.64GWOZLD.js";import"/page/chunk.F5XGFZ2T.js";var y=3.2,c=96,J=.08,S=2,Z=`
+import{c as j}from"/page/chunk.UDWSOI27.js";import{n as E}from"/page/chunk.BUZV76AB.js";import"/page/chunk.DBJBPITO.js";import"/page/chunk.DHSW2F7S.js";import{a as I,b as O,c as q}from"/page/chunk.I4BVN3KQ.js";import{a as W}from"/page/chunk.HMJ2MS2C.js";import{A as x,I as _,c as A,d as b,e as F,f as k,h as g,j as R,l as u,m as C,n as G,o as z,q as f,r as M,u as B,v,w as N,x as V,y as U,z as D}from"/page/chunk.64GWOZLD.js";import"/page/chunk.F5XGFZ2T.js";var y=3.2,c=96,J=.08,S=2,Z=`
   out vec2 vPlace;
   void main() {
     vPlace = uv;
