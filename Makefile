@@ -39,10 +39,9 @@ test-rest: $(STAMP)
 test-shapes: $(STAMP)
 	$(PYTEST) -m shapes $(CHECKED)
 
-# All tests that `make test-shapes` does not run: so CI runs each once. They wait for services that
-# they start for half of the time: four side by side keep two processors busy.
+# All tests that `make test-shapes` does not run: so CI runs each once.
 test-others: $(STAMP)
-	$(PYTEST) --numprocesses 4 -m "not shapes"
+	$(PYTEST) -m "not shapes"
 
 # Blender's importer is one of the readers that tests/foreign asks; it is large and wants Python 3.11.
 blender: .venv-blender/.installed
