@@ -23,7 +23,7 @@ VERSION = $(shell sed -n 's/^VERSION = "\(.*\)"$$/\1/p' service/version.py)
 # What fitter announces of its arguments and results, checked at every call of its quick unit tests.
 CHECKED := -p tests.annotations --jaxtyping-packages=fitter,tests.annotations.checked
 
-.PHONY: demo setup test test-rest test-shapes test-others blender lint serve train report openapi examples docs page wheel image audit sbom release lock clean
+.PHONY: demo setup test test-rest test-shapes test-others blender lint serve train report openapi examples docs page client wheel image audit sbom release lock clean
 
 demo: $(STAMP)
 	$(VENV)/bin/maquette demo
@@ -72,6 +72,7 @@ examples: $(STAMP)
 
 openapi: $(STAMP)
 	$(VENV)/bin/maquette openapi --output api_schemas/openapi.json
+	$(VENV)/bin/python -m tests.contract.request_table
 
 # The documentation site, into service/docs_site, from where the service shows it. Its gallery and
 # tutorials run; a warning, a failing script or a dead link ends it. It is put there when it is complete.
@@ -89,6 +90,11 @@ $(VENV)/.documented: $(PACKAGES) requirements-docs.txt
 # The page's sources are TypeScript: this needs Node.js and npm. Its bundle is committed.
 page:
 	cd service/page && npm ci && npm run check && npm test && npm run build
+
+# The client for TypeScript, into dist/: typed by the contract, without dependencies.
+client:
+	mkdir -p dist
+	cd api_schemas/typescript && npm ci && npm run build && npm pack --pack-destination ../../dist
 
 # Into dist/, with the source distribution that builds to the same wheel.
 wheel: $(STAMP)

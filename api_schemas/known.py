@@ -23,9 +23,22 @@ _LARGEST_NUMBER: Final = MOST_HEIGHT_M / min(factor for factor, _ in _OTHER_UNIT
 may be too large for a float."""
 
 
+_SMALLEST_CHILD_M: Final = 0.4
+"""Below it nobody is told to be a child."""
+
+
 def _metres(value: object) -> object:
-    """Name the unit a height was probably given in; other faults are told as usual."""
+    """Name the unit a height was probably given in, or a child's; other faults as usual."""
     if isinstance(value, int | float) and not isinstance(value, bool):
+        if _SMALLEST_CHILD_M <= value < LEAST_HEIGHT_M:
+            raise refusal(
+                code="out-of-range",
+                reason=(
+                    f"{value:g} m is less than {LEAST_HEIGHT_M:g} m, and the bodies are those of "
+                    "grown-up people."
+                ),
+                remedy="Measure grown-up people alone, and send their standing height in metres.",
+            )
         for factor, unit in _OTHER_UNITS if MOST_HEIGHT_M < value <= _LARGEST_NUMBER else ():
             if LEAST_HEIGHT_M <= value * factor <= MOST_HEIGHT_M:
                 raise refusal(

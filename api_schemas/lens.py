@@ -10,7 +10,9 @@ from api_schemas.base import WireModel, refusal
 class Lens(WireModel):
     """At most one focal length; without one the picture's EXIF data are asked."""
 
-    focal_length_px: float | None = Field(default=None, gt=0.0, le=1_000_000.0)
+    focal_length_px: float | None = Field(
+        default=None, gt=0.0, le=1_000_000.0, description="Focal length in pixels of the picture."
+    )
     focal_length_35mm: float | None = Field(
         default=None, ge=5.0, le=5_000.0, description="Focal length in 35 mm equivalent."
     )

@@ -20,6 +20,7 @@ from fitter.vocabulary.choices import (
     Gender,
     LightKind,
     OptimizerKind,
+    PaperEnergy,
     SegmentationKind,
     SurroundingsKind,
     ViewKind,
@@ -75,14 +76,19 @@ _POINTS_EXAMPLE: Final = {
 class Person(KnownMeasurements):
     """Who is in the pictures."""
 
-    gender: Gender
+    gender: Gender = Field(description="Which body model is fitted.")
 
 
 class PictureFacts(Lens):
     """Through which lens a picture was taken, and what its points are."""
 
-    format: PointsFormat = PointsFormat.NAMED
-    limb_facing: dict[Limb, Facing] = Field(default_factory=dict[Limb, Facing])
+    format: PointsFormat = Field(
+        default=PointsFormat.NAMED, description="Whose points they are: another's are lists."
+    )
+    limb_facing: dict[Limb, Facing] = Field(
+        default_factory=dict[Limb, Facing],
+        description="Which limbs point toward the camera, which away.",
+    )
 
 
 class SubjectOptions(PictureFacts, Person):
@@ -158,7 +164,7 @@ class PictureChoices(WireModel):
             "`limb_facing` goes before it."
         ),
     )
-    light: LightGuess = LightGuess()
+    light: LightGuess = Field(default=LightGuess(), description="Where about the light is.")
 
 
 Force = Annotated[
@@ -172,11 +178,28 @@ Force = Annotated[
 ]
 
 
+class PaperMethod(WireModel):
+    """The paper's own method: its energies alone, in the tri-map of the first body."""
+
+    energies: tuple[PaperEnergy, ...] = Field(
+        default=tuple(PaperEnergy),
+        min_length=1,
+        max_length=len(PaperEnergy),
+        description="The terms that count.",
+    )
+    free_height: bool = Field(default=False, description="Find the height too.")
+
+
 class PersonChoices(Person):
     """Who is in the pictures, and what to do."""
 
-    cues: Cues = Cues.SES
-    optimizer: OptimizerKind = OptimizerKind.GAUSS_NEWTON
+    cues: Cues = Field(
+        default=Cues.SES, description="`SE`: silhouette and edges; `SES`: shading too."
+    )
+    optimizer: OptimizerKind = Field(
+        default=OptimizerKind.GAUSS_NEWTON,
+        description="`simplex` is the paper's, and takes minutes.",
+    )
     force: Force = False
 
 
@@ -192,6 +215,11 @@ class FitChoices(PictureChoices, PictureFacts, PersonChoices):
             "pictured stands upright and still. Nothing is presumed of other pictures, where "
             "it is left out."
         ),
+    )
+    paper: PaperMethod | None = Field(
+        default=None,
+        exclude_if=lambda paper: paper is None,
+        description="Fit as the paper does; the result's `differences` say what is not as there.",
     )
 
 
@@ -239,7 +267,9 @@ class FitRequest(AskedPicture, FitChoices):
     """The JSON part ``request`` of a submission: the fit, and whom to tell of its end."""
 
     label: Label | None = Field(default=None, description=LABEL_OF_JOB, examples=["customer-4711"])
-    webhook: WebhookTarget | None = None
+    webhook: WebhookTarget | None = Field(
+        default=None, description="Where to tell of the job's end."
+    )
 
     @property
     def pictures(self) -> tuple[Self]:

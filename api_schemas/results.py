@@ -1,6 +1,10 @@
 """What a fit gives back: ``result.json``."""
 
-from pydantic import Field
+from collections.abc import Mapping
+from enum import StrEnum
+from typing import Any, Final
+
+from pydantic import ConfigDict, Field
 
 from api_schemas.base import WireModel
 from fitter.vocabulary.choices import (
@@ -115,16 +119,35 @@ class ReflectanceResult(WireModel):
     mean_specularity: float
 
 
+WITHIN_95: Final = 1.96
+"""So many standard errors to either side hold 95 % of true values."""
+
+
+def _bound(errors: float) -> Any:
+    """What follows from value and error, which alone earlier versions have stored."""
+
+    def said(measured: Mapping[str, Any]) -> float | None:
+        error = measured["standard_error"]
+        return None if error is None else round(measured["value"] + errors * error, 2)
+
+    return Field(default_factory=said)
+
+
 class Measurement(WireModel):
     """One anthropometric measurement in its unit.
 
     ``standard_error`` is null where unknown, and zero where the request gave the value exactly.
+    95 % of true values lie between ``low`` and ``high``.
     """
+
+    model_config = ConfigDict(json_schema_serialization_defaults_required=True)
 
     name: str
     value: float
     unit: str
     standard_error: float | None
+    low: float | None = _bound(-WITHIN_95)
+    high: float | None = _bound(WITHIN_95)
     given: bool = Field(description="Whether the request gave it.")
     definition: str
     source: str
@@ -160,6 +183,15 @@ class StageBody(WireModel):
 
 class Stage(StageBody, StageResult):
     """The body at the end of a stage of the fit."""
+
+
+class ResultPart(StrEnum):
+    """A part of a result that is left out unless it is asked for."""
+
+    STAGES = "stages"
+
+
+STAGES: Final = "Empty unless asked for with `include=stages`."
 
 
 class LimbFacing(WireModel):
@@ -302,6 +334,12 @@ class FitResult(ViewResult, PersonResult):
         default=(),
         exclude_if=lambda findings: not findings,
         description="As of `POST /v1/checks`; what `blocks` withholds the measurements, what "
-        "`harms` widens those that it harms. `contradicted`: no person was measured.",
+        "`harms` widens those that it harms. Not of checks: `contradicted`, no person was "
+        "measured; `covered`, something is before or beside the person.",
     )
-    stages: tuple[Stage, ...]
+    stages: tuple[Stage, ...] = Field(description=STAGES)
+    differences: tuple[str, ...] = Field(
+        default=(),
+        exclude_if=lambda differences: not differences,
+        description="From the paper, of a fit by its method.",
+    )

@@ -23,6 +23,7 @@ from api_schemas.requests import (
     PictureFacts,
 )
 from api_schemas.results import (
+    STAGES,
     Assumption,
     FitWarning,
     LimbFacing,
@@ -128,7 +129,9 @@ class ScanRequest(PersonChoices):
 
     views: Annotated[tuple[ScanViewRequest, ...], AfterValidator(_usable_together), Field(**_VIEWS)]
     label: Label | None = Field(default=None, description=LABEL_OF_JOB, examples=["customer-4711"])
-    webhook: WebhookTarget | None = None
+    webhook: WebhookTarget | None = Field(
+        default=None, description="Where to tell of the job's end."
+    )
 
     @property
     def pictures(self) -> tuple[ScanViewRequest, ...]:
@@ -233,7 +236,7 @@ class ScanResult(PersonResult):
     evaluations: int = Field(
         default=0, description="Of each picture by itself and of all together; 0 is not known."
     )
-    stages: tuple[ScanStage, ...] = ()
+    stages: tuple[ScanStage, ...] = Field(default=(), description=STAGES)
     stage_seconds: dict[str, float] = Field(default_factory=dict[str, float])
     verdict: Verdict = Field(description="The worst of the views'.")
     outcome_explanation: str = Field(description="Of the view whose verdict is the worst.")

@@ -26,6 +26,7 @@ from .request import Click as Click
 from .request import FitRequest as FitRequest
 from .request import KnownMeasurement as KnownMeasurement
 from .request import LightGuess as LightGuess
+from .request import Paper as Paper
 from .request import Person as Person
 from .request import StartingBody as StartingBody
 from .request import View as View
@@ -42,6 +43,7 @@ from .vocabulary.choices import Gender as Gender
 from .vocabulary.choices import LightKind as LightKind
 from .vocabulary.choices import OptimizerKind as OptimizerKind
 from .vocabulary.choices import OutlineKind as OutlineKind
+from .vocabulary.choices import PaperEnergy as PaperEnergy
 from .vocabulary.choices import SurroundingsKind as SurroundingsKind
 from .vocabulary.choices import ViewKind as ViewKind
 from .vocabulary.outcomes import Outcome as Outcome
@@ -78,6 +80,8 @@ __all__ = [
     "OptimizerKind",
     "Outcome",
     "OutlineKind",
+    "Paper",
+    "PaperEnergy",
     "Person",
     "PictureFit",
     "Progress",

@@ -13,6 +13,7 @@ from fitter.vocabulary.choices import (
     LightKind,
     OptimizerKind,
     OutlineKind,
+    PaperEnergy,
     SegmentationKind,
     SurroundingsKind,
     ViewKind,
@@ -166,11 +167,29 @@ class View:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Paper:
+    """The paper's own method, without what was added to it (:mod:`fitter.fits.paper`).
+
+    Attributes
+    ----------
+    energies
+        The terms that count; shading only where ``cues`` ask for it.
+    free_height
+        Whether the height is found too, as in the paper's Fig. 5, and not held.
+    """
+
+    energies: frozenset[PaperEnergy] = frozenset(PaperEnergy)
+    free_height: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Choices:
     """How a fit is done, whatever the pictures.
 
     Attributes
     ----------
+    paper
+        Fits one picture as the paper does; None as this package does.
     force
         Whether measurements are given even if the evidence contradicts a person.
     max_pixels
@@ -179,6 +198,7 @@ class Choices:
 
     optimizer: OptimizerKind = OptimizerKind.GAUSS_NEWTON
     outline: OutlineKind = OutlineKind.LINES
+    paper: Paper | None = None
     force: bool = False
     max_pixels: int = 50_000_000
 

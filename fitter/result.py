@@ -169,7 +169,8 @@ class FitResult:
     views
         The pictures in the order of the request.
     shape, shape_covariance
-        (n,), (n, n) the shape that the bodies in all pictures have, and how certain it is.
+        (n,), (n, n) the shape that the bodies in all pictures have, and how certain it is, less
+        where findings harm; the paper's own method does not say.
     canonical_vertices, triangles
         The body in the canonical pose, body frame, metres; the triangles of its vertices.
     measurements
@@ -189,11 +190,13 @@ class FitResult:
         What was assumed of the person, and what to look at in the fit as a whole.
     stage_seconds
         Wall time by stage name.
+    differences
+        What still differs from the paper, of a fit that was to be the paper's own.
     """
 
     views: tuple[FittedView, ...]
     shape: Shape
-    shape_covariance: ShapeCovariance
+    shape_covariance: ShapeCovariance | None
     canonical_vertices: Vertices
     triangles: Triangles
     measurements: tuple[Measurement, ...]
@@ -206,6 +209,7 @@ class FitResult:
     assumptions: tuple[Assumption, ...]
     warnings: tuple[FitWarning, ...]
     stage_seconds: Mapping[str, float]
+    differences: tuple[str, ...] = ()
 
     @property
     def found(self) -> PictureFit:

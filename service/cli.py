@@ -13,6 +13,7 @@ from typing import Final
 from service.commands.local_arguments import (
     add_check_arguments,
     add_fit_arguments,
+    add_paper_arguments,
     add_scan_arguments,
 )
 from service.version import VERSION
@@ -111,6 +112,12 @@ def _parser() -> argparse.ArgumentParser:
         help="default: %(default)s",
     )
     validate.set_defaults(command=_validate)
+
+    paper = commands.add_parser(
+        "paper", help="draw the paper's figures and its table from fits made here and now"
+    )
+    add_paper_arguments(paper)
+    paper.set_defaults(command=_draw_paper)
 
     demo = commands.add_parser("demo", help="start a service, fit the sample picture, show it all")
     demo.add_argument(
@@ -233,9 +240,15 @@ def _fit(parsed: argparse.Namespace) -> int:
                 "optimizer",
                 "view",
             )
-            | {name: True for name in ("complete_points", "force") if getattr(parsed, name)},
+            | {name: True for name in ("complete_points", "force") if getattr(parsed, name)}
+            | _paper(parsed),
         )
     )
+
+
+def _paper(parsed: argparse.Namespace) -> dict[str, object]:
+    said = _given(parsed, "energies") | ({"free_height": True} if parsed.free_height else {})
+    return {"paper": said} if said or parsed.paper else {}
 
 
 def _scan(parsed: argparse.Namespace) -> int:
@@ -284,6 +297,21 @@ def _validate(parsed: argparse.Namespace) -> int:
 def _given(parsed: argparse.Namespace, *names: str) -> dict[str, object]:
     """Those of these arguments that were given."""
     return {name: value for name in names if (value := getattr(parsed, name)) is not None}
+
+
+def _draw_paper(parsed: argparse.Namespace) -> int:
+    from service.commands.paper import PaperArguments, draw_paper
+    from service.startup.begin import read_settings
+
+    read_settings("paper")
+    return draw_paper(
+        PaperArguments(
+            output=parsed.output,
+            picture=parsed.picture,
+            painting=parsed.painting,
+            motion=parsed.motion,
+        )
+    )
 
 
 def _demo(parsed: argparse.Namespace) -> int:

@@ -1,16 +1,32 @@
 """What all kinds of derivations have in common on the wire."""
 
-from pydantic import ConfigDict
+from enum import StrEnum
+
+from pydantic import ConfigDict, Field
 
 from api_schemas.base import WireModel
 from api_schemas.results import Artifact
 from api_schemas.webhooks import WebhookTarget
 
 
+class BodyColours(StrEnum):
+    """What a body wears: its picture with the light in it, the albedo found in it, or one colour.
+
+    ``plain`` is one colour for each vertex, blurred over centimetres where shading was fitted, and
+    else one for all.
+    """
+
+    PICTURE = "picture"
+    ALBEDO = "albedo"
+    PLAIN = "plain"
+
+
 class DerivationOptions(WireModel):
     """What all requests for a derivation have in common."""
 
-    webhook: WebhookTarget | None = None
+    webhook: WebhookTarget | None = Field(
+        default=None, description="Where to tell of the job's end."
+    )
 
 
 class DerivedFiles(WireModel):

@@ -22,7 +22,7 @@ class FigureOptions(DerivationOptions):
 
 
 class FigureResult(DerivedFiles):
-    """``figure.png``."""
+    """``figure.png``, and the body in its new pose, ``body_reposed.glb``."""
 
     kind: Literal["figure"] = "figure"
     pose: NamedPose

@@ -5,7 +5,7 @@ from typing import Annotated, Final, Literal
 
 from pydantic import Field
 
-from api_schemas.derivation_kinds.base import DerivationOptions, DerivedFiles
+from api_schemas.derivation_kinds.base import BodyColours, DerivationOptions, DerivedFiles
 from api_schemas.results import PartRotation
 
 
@@ -42,6 +42,13 @@ class PoseOptions(DerivationOptions):
 
     kind: Literal["pose"]
     pose: NamedPose = NamedPose.REST
+    colours: BodyColours = Field(
+        default=BodyColours.PICTURE,
+        description=(
+            "What the body wears. `plain`, too, where the picture shows nothing of the body; "
+            "`albedo` needs a fit with shading."
+        ),
+    )
     rotations: dict[str, Rotation] = Field(
         default_factory=dict[str, Rotation],
         max_length=64,
@@ -55,7 +62,13 @@ class PoseOptions(DerivationOptions):
 
 
 class PoseResult(DerivedFiles):
-    """``body_reposed.glb``, standing on the ground and facing +z, and ``pose.png``."""
+    """``body_reposed.glb``, standing on the ground and facing +z, ``pose.png``, ``texture.jpg``.
+
+    The texture is in the GLB too; the file lies beside it for OBJ.
+    """
 
     kind: Literal["pose"] = "pose"
     pose: tuple[PartRotation, ...]
+    colours: BodyColours = Field(
+        default=BodyColours.PLAIN, description="What the body wears; `plain` has no texture."
+    )

@@ -12,6 +12,7 @@ from fitter.applications.motion import MovingBody
 from fitter.applications.principal_frames import PrincipalFrames, with_rest
 from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
+from fitter.export.body_texture import BodyTexture
 from fitter.export.glb import BinaryChunk, Target, pack_glb
 from fitter.export.gltf_document import Frame, Node, gltf_document
 from fitter.export.gltf_mesh import BODY_NODE, add_body_mesh, unit_normals
@@ -25,6 +26,7 @@ def morphed_glb(
     *,
     reflectance: Reflectance | None,
     albedo_rgb: Vertices | None,
+    texture: BodyTexture | None = None,
 ) -> bytes:
     """Exact SCAPE bodies as one mesh with morph targets, every frame with weights of its own."""
     document = gltf_document(
@@ -47,11 +49,13 @@ def morphed_glb(
         triangles=model.triangles,
         reflectance=reflectance,
         albedo_rgb=albedo_rgb,
+        texture=texture,
     )
+    owners = slice(None) if texture is None else texture.owners
     primitive["targets"] = [
         {
-            "POSITION": binary.add(target, target=Target.VERTEX_ATTRIBUTE, bounds=True),
-            "NORMAL": binary.add(normals, target=Target.VERTEX_ATTRIBUTE),
+            "POSITION": binary.add(target[owners], target=Target.VERTEX_ATTRIBUTE, bounds=True),
+            "NORMAL": binary.add(normals[owners], target=Target.VERTEX_ATTRIBUTE),
         }
         for target, normals in zip(
             frames.targets, _normal_targets(body, frames, model), strict=True
@@ -72,6 +76,7 @@ def skinned_glb(
     *,
     reflectance: Reflectance | None,
     albedo_rgb: Vertices | None,
+    texture: BodyTexture | None = None,
 ) -> bytes:
     """The body as a skin on its bones, for programs that go on animating: approximate."""
     # Node 0 is the mesh, the bones follow: a skinned mesh below another node is not moved by it.
@@ -102,14 +107,16 @@ def skinned_glb(
         triangles=model.triangles,
         reflectance=reflectance,
         albedo_rgb=albedo_rgb,
+        texture=texture,
     )
     attributes = primitive["attributes"]
     assert isinstance(attributes, dict)
+    owners = slice(None) if texture is None else texture.owners
     attributes["JOINTS_0"] = binary.add(
-        skin.parts.astype(np.uint16), target=Target.VERTEX_ATTRIBUTE
+        skin.parts[owners].astype(np.uint16), target=Target.VERTEX_ATTRIBUTE
     )
     attributes["WEIGHTS_0"] = binary.add(
-        skin.weights.astype(np.float32), target=Target.VERTEX_ATTRIBUTE
+        skin.weights[owners].astype(np.float32), target=Target.VERTEX_ATTRIBUTE
     )
     matrices = inverse_bind.transpose(0, 2, 1).reshape(-1, 16).astype(np.float32)
     bones = [first + part for part in range(len(model.part_names))]

@@ -1,4 +1,4 @@
-"""A fitted person set in motion: by a BVH file, or by the walk that ships with the package."""
+"""A fitted person set in motion: by a BVH file, or by a motion that ships with the package."""
 
 import math
 from collections.abc import Mapping
@@ -7,17 +7,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitter.applications.animated_glb import morphed_glb, skinned_glb
+from fitter.applications.cycle import repeated
 from fitter.applications.filmstrip import film, strip
 from fitter.applications.gltf_skin import skin_of
 from fitter.applications.grounding import grounded, sliding_m
 from fitter.applications.motion import Motion, moving_body
 from fitter.applications.motion_file import MotionFile
+from fitter.applications.named_motions import NAMED_MOTIONS
 from fitter.applications.principal_frames import principal_frames
 from fitter.applications.retarget import retarget
 from fitter.applications.rig import Rig
 from fitter.applications.up_axis import Axis
-from fitter.applications.walk import stride_of, walk
 from fitter.body.scape import ScapeEvaluator
+from fitter.export.body_texture import BodyTexture
 from fitter.export.display import png
 from fitter.person.fitted_person import FittedPerson
 from fitter.remarks import FitWarning
@@ -116,31 +118,32 @@ def motion_of_clip(
     )
 
 
-def motion_of_walk(
-    rig: Rig, *, start_s: float = 0.0, duration_s: float | None = None
+def motion_of_name(
+    rig: Rig, name: str, *, start_s: float = 0.0, duration_s: float | None = None
 ) -> ChosenMotion:
-    """A stretch of the walk that ships with the package, which has no end.
+    """A stretch of a motion that ships with the package, which has no end.
 
     Parameters
     ----------
     rig
         The person's skeleton.
+    name
+        Of :data:`~fitter.applications.named_motions.NAMED_MOTIONS`.
     start_s, duration_s
-        Which stretch; None is three strides. What is longer than there may be frames is cut, with
-        a warning.
+        Which stretch; None is as often as is usual. What is longer than there may be frames is
+        cut, with a warning.
     """
-    frame_time_s = stride_of(rig).frame_time_s
-    first = round(start_s / frame_time_s)
-    source = "the walk that ships with the package"
-    if duration_s is None:
-        return ChosenMotion(motion=walk(rig, first=first), source=source, up=None, warnings=())
-    wanted = max(1, round(duration_s / frame_time_s))
+    cycle = NAMED_MOTIONS[name](rig)
+    first = round(start_s / cycle.frame_time_s)
+    wanted = cycle.times * cycle.frames
+    if duration_s is not None:
+        wanted = max(1, round(duration_s / cycle.frame_time_s))
     frames = min(wanted, MOST_FRAMES)
     return ChosenMotion(
-        motion=walk(rig, first=first, frames=frames),
-        source=source,
+        motion=repeated(cycle, rig, first=first, frames=frames),
+        source=f"the {name.replace('_', ' ')} that ships with the package",
         up=None,
-        warnings=_told_if_cut(frames, wanted, frame_time_s),
+        warnings=_told_if_cut(frames, wanted, cycle.frame_time_s),
     )
 
 
@@ -154,8 +157,14 @@ def _told_if_cut(shown: int, wanted: int, frame_time_s: float) -> tuple[FitWarni
     return (FitWarning(code="clip-cut", message=message),)
 
 
-def animate(person: FittedPerson, evaluator: ScapeEvaluator, motion: Motion) -> Animation:
-    """Set a fitted person in motion, feet on the ground."""
+def animate(
+    person: FittedPerson,
+    evaluator: ScapeEvaluator,
+    motion: Motion,
+    *,
+    texture: BodyTexture | None = None,
+) -> Animation:
+    """Set a fitted person in motion, feet on the ground; a texture is in both GLB files."""
     model, shape = evaluator.model, person.body.shape
     body = grounded(moving_body(evaluator, shape, motion), model)
     # The film before the large files: while it is made all its pictures are in memory.
@@ -172,6 +181,7 @@ def animate(person: FittedPerson, evaluator: ScapeEvaluator, motion: Motion) -> 
             model,
             reflectance=person.reflectance,
             albedo_rgb=person.albedo_rgb,
+            texture=texture,
         ),
         "body_skinned.glb": skinned_glb(
             body,
@@ -179,6 +189,7 @@ def animate(person: FittedPerson, evaluator: ScapeEvaluator, motion: Motion) -> 
             model,
             reflectance=person.reflectance,
             albedo_rgb=person.albedo_rgb,
+            texture=texture,
         ),
     }
     way = body.roots[-1] - body.roots[0]

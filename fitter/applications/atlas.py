@@ -62,7 +62,7 @@ def atlas_of(model: BodyModel, size: int) -> Atlas:
         size=size,
         inside=inside,
         triangles=triangles,
-        weights=_barycentric(texels, _corners(model, size)[model.uv_triangles[triangles]]),
+        weights=_barycentric(texels, triangles, _corners(model, size)[model.uv_triangles]),
     )
 
 
@@ -94,18 +94,25 @@ def drawn_on(
 
 
 def _barycentric(
-    points: Float[np.ndarray, "t 2"], corners: Float[np.ndarray, "t 3 2"]
+    points: Float[np.ndarray, "t 2"],
+    triangles: Integer[np.ndarray, " t"],
+    corners: Float[np.ndarray, "f 3 2"],
 ) -> Float[np.ndarray, "t 3"]:
-    """Coordinates of points within their triangles; on an edge to rounding, never below zero."""
-    opposite = np.stack(
-        [_doubled_area(points, corners[:, k - 2], corners[:, k - 1]) for k in range(3)], axis=1
+    """Coordinates of points within their triangles; on an edge to rounding, never below zero.
+
+    The doubled area opposite a corner, (b - p) x (c - p), is b x c + p x (b - c).
+    """
+    (ahead_x, ahead_y), (behind_x, behind_y) = (
+        np.roll(corners, shift, axis=1).T for shift in (-1, 1)
     )
-    weights = np.maximum(opposite * np.sign(opposite.sum(axis=1, keepdims=True)), 0.0)
-    return weights / weights.sum(axis=1, keepdims=True)
-
-
-def _doubled_area(
-    a: Float[np.ndarray, "t 2"], b: Float[np.ndarray, "t 2"], c: Float[np.ndarray, "t 2"]
-) -> Float[np.ndarray, " t"]:
-    (bx, by), (cx, cy) = (b - a).T, (c - a).T
-    return bx * cy - by * cx
+    constant = ahead_x * behind_y - ahead_y * behind_x
+    along_x, along_y = ahead_x - behind_x, ahead_y - behind_y
+    x, y = points.T
+    opposite = np.stack(
+        [
+            constant[k, triangles] + x * along_y[k, triangles] - y * along_x[k, triangles]
+            for k in range(3)
+        ]
+    )
+    weights = np.maximum(opposite * np.sign(opposite.sum(axis=0)), 0.0)
+    return np.ascontiguousarray((weights / weights.sum(axis=0)).T)

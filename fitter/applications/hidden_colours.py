@@ -2,9 +2,10 @@
 
 Clothes and limbs go round: what is seen of a ring round the trunk or a limb tells the rest of
 that ring. The colours seen of each region of the body are therefore read as a profile along it, the
-trunk and legs from the crown down, the arms from the shoulder out. The profile is what hidden
-points show, so that a hem, a belt or a stripe runs on behind. Where hidden meets seen it follows
-what is seen, and forgets that over some centimetres.
+trunk and legs from the crown down, the arms from the shoulder out, and cut into bands of plain
+colour. That is what hidden points show, so that a hem or a belt runs on behind, and a check, a
+fold or a print does not. Where hidden meets seen its light follows what is seen
+(:func:`fitter.applications.both_sides.carried_on_light`). Regions blend where they meet.
 
 The head is no ring: its back is hair. The scalp has one colour of its own, wherever any of it is
 seen.
@@ -13,15 +14,13 @@ seen.
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
-from jaxtyping import Bool, Float, Integer
+from jaxtyping import Float, Integer
 
 from fitter.applications.rings import Region, RingCoordinates
 from fitter.applications.seen_surface import Colours, SurfacePoints, smooth_step
-from fitter.body.model import BodyModel
-from fitter.numerics.mesh_topology import mesh_topology
 from fitter.observation.colour import display_from_linear
-from fitter.optimizer.hidden_reflectance import HiddenVertices
 
 BIN_M = 0.006
 """Width of a ring: a hem is as sharp behind as this."""
@@ -37,9 +36,23 @@ MIDDLE = (0.35, 0.65)
 """Quantiles of a ring's brightness between which its colours are averaged: nipples, logos and
 shade lie outside."""
 
-SHADE_M, SHADE_LEVELS = 0.06, 0.08
-"""Of the filter along a profile: over what distance, and up to which difference of displayed
-colours (0 to 1), two rings count as the same cloth under different light."""
+SHADE_M = 0.1
+"""Along a band of plain colour, over which its rings are averaged: light from above stays, folds
+and stripes do not."""
+
+SAME_CLOTH = 10.0
+"""Difference of two bands, in CIELAB with less brightness, up to which they are one cloth or skin
+in other light."""
+
+HEM_COST = 9.0
+"""Of one more band, in squares of CIELAB metres: a band of 3 cm stays if it differs by 25 from
+what is beside it, and one of 20 cm by 10."""
+
+BRIGHTNESS_SHARE = 0.4
+"""Of differences of brightness, against those of hue and saturation, when bands are told apart."""
+
+BORDER = (0.3, 0.7)
+"""Shares of a region between which its colours turn into its neighbour's, over about 1.5 cm."""
 
 SHOULDER_M = (0.0, 0.08)
 """Along the arm, where the trunk's colours turn into its own."""
@@ -84,7 +97,7 @@ class ColourProfiles:
             bins = np.floor(along_m[own] / BIN_M).astype(np.intp)
             rings, read = _rings(bins, colours[own], weights[own], least_weight)
             positions[each] = (rings + 0.5) * BIN_M
-            found[each] = _without_shade(positions[each], read)
+            found[each] = _plain(positions[each], read)
         return cls(positions_m=positions, colours=found)
 
     @property
@@ -114,44 +127,22 @@ _INSTEAD: Mapping[Region, tuple[Region, ...]] = {
 def on_rings(
     rings: RingCoordinates,
     profiles: ColourProfiles,
-    triangles: Integer[np.ndarray, " k"],
     points: SurfacePoints,
 ) -> Colours:
-    """Colours of points on given triangles; at the shoulder the trunk's merge into the arm's."""
-    region, along_m = rings.of_points(triangles, points)
-    colours = np.empty((len(region), 3))
+    """Colours of points; at the shoulder the trunk's merge into the arm's."""
+    colours, total = np.zeros((len(points.corners), 3)), np.zeros((len(points.corners), 1))
     for each in Region:
-        own = region == each
-        colours[own] = profiles.at(each, along_m[own])
-    arms = region == Region.ARMS
-    from_trunk = profiles.at(Region.TRUNK, points.of(rings.along_m[Region.TRUNK])[arms])
-    share = smooth_step(along_m[arms], *SHOULDER_M)[:, None]
-    colours[arms] = share * colours[arms] + (1.0 - share) * from_trunk
-    return colours
-
-
-def following(
-    model: BodyModel, known: Bool[np.ndarray, " m"], differences: Float[np.ndarray, "m 3"]
-) -> Float[np.ndarray, "m 3"]:
-    """Carry on how far what is seen differs from the profile, over :data:`FORGOTTEN_M`.
-
-    Parameters
-    ----------
-    known
-        Which vertices are seen.
-    differences
-        Of their colours from the profile's; of the others without meaning.
-    """
-    edges = mesh_topology(model.triangles, vertex_count=len(model.mean_vertices)).edges
-    first, second = model.mean_vertices[edges.T]
-    lengths = np.maximum(np.linalg.norm(first - second, axis=1), 1e-4)
-    # Three edges a vertex in all directions: Σ (v_i - v_j)² / d is Σ 1.5 d |∇v|² over vertices, so
-    # that a ridge of 1.5 d / s² makes solutions decay by e over a distance s.
-    count = len(known)
-    sums = np.bincount(edges.ravel(), np.repeat(lengths, 2), count)
-    ridge = 1.5 * sums / np.bincount(edges.ravel(), minlength=count) / FORGOTTEN_M**2
-    hidden = HiddenVertices.of(known, edges, lengths, ridge=ridge)
-    return np.stack([hidden.filled(differences[:, k], toward=0.0) for k in range(3)], axis=1)
+        own = points.near(rings.shares[each] > BORDER[0])
+        of_region = points.some(own)
+        share = smooth_step(of_region.of(rings.shares[each]), *BORDER)[:, None]
+        found = profiles.at(each, of_region.of(rings.along_m[each]))
+        if each is Region.ARMS:
+            arm = smooth_step(of_region.of(rings.along_m[each]), *SHOULDER_M)[:, None]
+            trunk = profiles.at(Region.TRUNK, of_region.of(rings.along_m[Region.TRUNK]))
+            found = arm * found + (1.0 - arm) * trunk
+        colours[own] += share * found
+        total[own] += share
+    return colours / total
 
 
 def _rings(
@@ -179,12 +170,51 @@ def _rings(
     return rings[enough], means[enough]
 
 
-def _without_shade(
+def _plain(
     positions_m: Float[np.ndarray, " b"], colours: Float[np.ndarray, "b 3"]
 ) -> Float[np.ndarray, "b 3"]:
-    """The bilateral filter along a profile: folds and muscles go, hems and stripes stay."""
-    shown = display_from_linear(np.clip(colours, 0.0, 1.0))
+    """A profile cut into bands of plain colour, smooth along themselves and into those like them.
+
+    Folds, muscles, patterns and logos go, hems and broad stripes stay.
+    """
+    if not len(positions_m):
+        return colours
+    worn = _cloth_colours(colours)
+    band = _bands(worn)
+    means = np.stack([worn[band == each].mean(axis=0) for each in np.unique(band)])
+    worn = means[np.unique(band, return_inverse=True)[1]]
     apart = (positions_m[:, None] - positions_m) / SHADE_M
-    unlike = np.linalg.norm(shown[:, None] - shown, axis=2) / SHADE_LEVELS
+    unlike = np.linalg.norm(worn[:, None] - worn, axis=2) / SAME_CLOTH
     weights = np.exp(-0.5 * (apart**2 + unlike**2))
     return weights @ colours / weights.sum(axis=1, keepdims=True)
+
+
+def _cloth_colours(colours: Float[np.ndarray, "b 3"]) -> Float[np.ndarray, "b 3"]:
+    """CIELAB with less of its brightness, in which folds and shade differ most."""
+    shown = display_from_linear(np.clip(colours, 0.0, 1.0)).astype(np.float32)
+    lab = cv2.cvtColor(shown[None], cv2.COLOR_RGB2LAB)[0].astype(np.float64)
+    return lab * [BRIGHTNESS_SHARE, 1.0, 1.0]
+
+
+def _bands(values: Float[np.ndarray, "b 3"]) -> Integer[np.ndarray, " b"]:
+    """Which band of constant value each ring lies in: least squares plus :data:`HEM_COST` a cut.
+
+    Dynamic programming over the last cut before each ring (the Potts model in one dimension).
+    """
+    count = len(values)
+    sums = np.concatenate([np.zeros((1, 3)), np.cumsum(values, axis=0)])
+    squares = np.concatenate([[0.0], np.cumsum((values**2).sum(axis=1))])
+    best, cut = np.zeros(count + 1), np.zeros(count + 1, dtype=np.intp)
+    for end in range(1, count + 1):
+        starts = np.arange(end)
+        spread = squares[end] - squares[:end]
+        spread -= ((sums[end] - sums[:end]) ** 2).sum(axis=1) / (end - starts)
+        costs = best[:end] + BIN_M * spread + HEM_COST
+        cut[end] = np.argmin(costs)
+        best[end] = costs[cut[end]]
+    band = np.zeros(count, dtype=np.intp)
+    end = count
+    while end > 0:
+        band[cut[end] : end] = cut[end]
+        end = int(cut[end])
+    return band

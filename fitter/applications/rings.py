@@ -7,11 +7,13 @@ down, the arms from the shoulder out, face and neck down. Hands and scalp are on
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import IntEnum
+from functools import lru_cache
 
 import numpy as np
 from jaxtyping import Bool, Float, Integer
 
 from fitter.applications.seen_surface import SurfacePoints
+from fitter.applications.surface_field import smoothed
 from fitter.arrays import Vector3
 from fitter.body.model import BodyModel
 from fitter.body.skeleton import regress
@@ -21,6 +23,14 @@ _HAIRLINE = 0.5
 # Of the way from the eyes up to the crown.
 _NAPE_M = 0.03
 # Below the ears; hair that is cut ends there.
+_EAR_OUTWARD_M, _EAR_REACH_M = 0.003, 0.045
+# Farther out than the ears' landmarks, and that near to them in height, there are only ears.
+_FACE_SHARE = 0.35
+# Of the way from ears to nose: eyes, nose and mouth lie ahead of it.
+_LEVEL_M = 0.02
+
+BORDER_M = 0.015
+"""Over which regions blend: cut along triangles, hairline and neckline would have teeth."""
 
 
 class Region(IntEnum):
@@ -50,12 +60,22 @@ class RingCoordinates:
     along_m
         (5, m) position of each vertex along each region, metres on the mean body; hands and
         scalp have one colour only.
+    shares
+        (5, m) how far each vertex lies in each region, which blend over :data:`BORDER_M`.
+    beside
+        (m,) how far it lies beside the body's middle, of the widest of its height: 0 to 1.
+    features
+        (m,) how far eyes, nose or mouth are there: 0 to 1.
     """
 
     region: Integer[np.ndarray, " f"]
     along_m: Float[np.ndarray, "regions m"]
+    shares: Float[np.ndarray, "regions m"]
+    beside: Float[np.ndarray, " m"]
+    features: Float[np.ndarray, " m"]
 
     @classmethod
+    @lru_cache(maxsize=2)
     def of(cls, model: BodyModel) -> "RingCoordinates":
         """Of a body model, from its mean body at rest."""
         kinds = [name.removeprefix("left_").removeprefix("right_") for name in model.part_names]
@@ -66,15 +86,51 @@ class RingCoordinates:
         height = model.mean_vertices[:, 1]
         nowhere = np.zeros(len(height))
         along = np.stack([height, _along_arms(model), nowhere, height, nowhere])
-        return cls(region=region, along_m=along)
+        fields = np.stack(
+            [*(_of_vertices(model, region == each) for each in Region), _features(model)]
+        )
+        smooth = np.clip(smoothed(model, fields.T, over_m=BORDER_M).T, 0.0, 1.0)
+        shares = smooth[:-1] / smooth[:-1].sum(axis=0)
+        return cls(
+            region=region,
+            along_m=along,
+            shares=shares,
+            beside=_beside(model.mean_vertices, shares[Region.TRUNK] > 0.5),
+            features=smooth[-1],
+        )
 
     def of_points(
-        self, triangles: Integer[np.ndarray, " k"], points: SurfacePoints
+        self, points: SurfacePoints
     ) -> tuple[Integer[np.ndarray, " k"], Float[np.ndarray, " k"]]:
-        """Region of points on given triangles, and their position along it, metres."""
-        region = self.region[triangles]
+        """Region of points, and their position along it, metres."""
+        region = points.of(self.shares.T).argmax(axis=1)
         of_corners = self.along_m[region[:, None], points.corners]
-        return region, (points.weights * of_corners).sum(axis=1)
+        return region, np.einsum("kc,kc->k", points.weights, of_corners)
+
+
+def _of_vertices(model: BodyModel, triangles: Bool[np.ndarray, " f"]) -> Float[np.ndarray, " m"]:
+    """Which share of the triangles round each vertex is among those."""
+    corners, count = model.triangles.ravel(), len(model.mean_vertices)
+    own = np.bincount(corners, np.repeat(triangles, 3), count)
+    return own / np.bincount(corners, minlength=count)
+
+
+def _beside(
+    vertices: Float[np.ndarray, "m 3"], trunk: Bool[np.ndarray, " m"]
+) -> Float[np.ndarray, " m"]:
+    level = np.floor(vertices[:, 1] / _LEVEL_M).astype(np.intp)
+    level -= level.min()
+    widest = np.full(level.max() + 1, 1e-3)
+    np.maximum.at(widest, level[trunk], np.abs(vertices[trunk, 0]))
+    return np.minimum(np.abs(vertices[:, 0]) / widest[level], 1.0)
+
+
+def _features(model: BodyModel) -> Float[np.ndarray, " m"]:
+    """Which vertices lie on the front of the face."""
+    chin, ears = _landmark(model, "chin"), _middle(model, "ear")
+    _, y, z = model.mean_vertices.T
+    ahead = z > ears[2] + _FACE_SHARE * (_landmark(model, "nose")[2] - ears[2])
+    return (ahead & (y > chin[1]) & ~_under_hair(model, model.mean_vertices)).astype(np.float64)
 
 
 def _along_arms(model: BodyModel) -> Float[np.ndarray, " m"]:
@@ -89,18 +145,23 @@ def _along_arms(model: BodyModel) -> Float[np.ndarray, " m"]:
 
 
 def _under_hair(model: BodyModel, points: Float[np.ndarray, "k 3"]) -> Bool[np.ndarray, " k"]:
-    """Which points of the head hair grows on: above a line from hairline to ears, and behind."""
-    eyes, ears = (
-        0.5 * (_landmark(model, f"left_{name}") + _landmark(model, f"right_{name}"))
-        for name in ("eye", "ear")
-    )
+    """Which points of the head hair grows on.
+
+    Those above a line from hairline to ears, and behind, but for the ears.
+    """
+    eyes, ears = _middle(model, "eye"), _middle(model, "ear")
     crown = _landmark(model, "head_top")
     hairline_y = eyes[1] + _HAIRLINE * (crown[1] - eyes[1])
     slope = (hairline_y - ears[1]) / (eyes[2] - ears[2])
-    ahead = points[:, 2] - ears[2]
-    return np.where(
-        ahead > 0.0, points[:, 1] > ears[1] + slope * ahead, points[:, 1] > ears[1] - _NAPE_M
-    )
+    ahead, above = points[:, 2] - ears[2], points[:, 1] - ears[1]
+    outward = np.abs(points[:, 0]) - abs(_landmark(model, "left_ear")[0])
+    on_ear = (outward > _EAR_OUTWARD_M) & (np.abs(above) < _EAR_REACH_M)
+    return ~on_ear & np.where(ahead > 0.0, above > slope * ahead, above > -_NAPE_M)
+
+
+def _middle(model: BodyModel, name: str) -> Vector3:
+    """Between the left and the right one."""
+    return 0.5 * (_landmark(model, f"left_{name}") + _landmark(model, f"right_{name}"))
 
 
 def _landmark(model: BodyModel, name: str) -> Vector3:

@@ -6,6 +6,7 @@ from functools import cached_property
 import cv2
 import numpy as np
 from jaxtyping import Bool, Float, Integer, UInt8
+from scipy import sparse
 
 from fitter.applications.loose_hair import loose_hair
 from fitter.arrays import GreyImage, Image, Mask, Points2D, Triangles, Vertices
@@ -14,9 +15,13 @@ from fitter.numerics.vectors import unit_vectors
 from fitter.render.camera import Camera
 from fitter.render.rasterizer import DEPTH_TOLERANCE_M, Rendering, render
 
-GRAZING, SQUARE = 0.2, 0.5
+GRAZING, SQUARE = 0.2, 0.6
 """Cosines between normal and view: below the first a surface is not read from a picture, from the
 second on it is believed wholly. In between a pixel spans more and more of the surface."""
+
+TURNED_AWAY = 0.02
+"""A triangle is turned away if its corners are by more than this cosine: over it the view turns by
+less."""
 
 CONTOUR_M = 0.008
 """A fitted contour lies so far off the person's: nearer to one, a pixel may show what is behind."""
@@ -24,10 +29,15 @@ CONTOUR_M = 0.008
 LIMB_M = 0.02
 """A limb before the trunk may lie so far off its own place: beside it, the trunk may show it."""
 
-DEPTH_JUMP_M = 0.05
-"""A jump of depth within that distance is a contour, on the outline or before the body itself. A
-surface turned 75 degrees away sinks 3 cm there."""
+DEPTH_JUMP_M = 0.04
+"""A jump of depth within that distance to either side is a contour, on the outline or before the
+body itself. A surface that sinks so far there is turned away by 68 degrees, and hardly believed."""
 
+HIDDEN_M = 0.015
+"""So far behind what a pixel shows a point is hidden; up to the depth's tolerance it is seen."""
+
+LEAST_PX = 2
+"""Of all these distances: over so many pixels a camera's picture is blurred itself."""
 
 Colours = Float[np.ndarray, "k 3"]
 Beliefs = Float[np.ndarray, " k"]
@@ -49,12 +59,20 @@ class SurfacePoints:
     weights: Float[np.ndarray, "k 3"]
 
     def of(self, values: Float[np.ndarray, "m ..."]) -> Float[np.ndarray, "k ..."]:
-        """Values of vertices, interpolated."""
-        weights = self.weights.reshape(*self.weights.shape, *(1,) * (values.ndim - 1))
-        return (values[self.corners] * weights).sum(axis=1)
+        """Values of vertices, interpolated: a sparse product, as fast as memory is read."""
+        starts = np.arange(0, self.corners.size + 1, 3)
+        matrix = sparse.csr_array(
+            (self.weights.ravel(), self.corners.ravel(), starts),
+            shape=(len(self.corners), len(values)),
+        )
+        return matrix @ values
 
-    def some(self, chosen: slice) -> "SurfacePoints":
-        """A run of them."""
+    def near(self, vertices: Bool[np.ndarray, " m"]) -> Integer[np.ndarray, " n"]:
+        """Which points any of these vertices has a share in."""
+        return np.flatnonzero(self.of(vertices.astype(np.float64)) > 0.0)
+
+    def some(self, chosen: slice | Integer[np.ndarray, " n"]) -> "SurfacePoints":
+        """Some of them."""
         return SurfacePoints(corners=self.corners[chosen], weights=self.weights[chosen])
 
 
@@ -112,6 +130,12 @@ class SeenSurface:
             clear=_off_contours(rendering, shown) * _off(hair, _width_px(rendering, CONTOUR_M)),
         )
 
+    def may_show(self, points: SurfacePoints) -> Integer[np.ndarray, " n"]:
+        """Which points are not turned away for certain: all others are believed by 0."""
+        rendering = self.rendering
+        cosines = -(unit_vectors(rendering.vertices) * rendering.vertex_normals).sum(axis=1)
+        return points.near(cosines > -TURNED_AWAY)
+
     @cached_property
     def _channels(self) -> tuple[GreyImage, ...]:
         return tuple(np.ascontiguousarray(self.linear_rgb[..., k]) for k in range(3))
@@ -132,18 +156,19 @@ class SeenSurface:
         columns, rows = (np.where(inside, each, 0.0).astype(np.intp) for each in (x, y))
         depth = self.rendering.depth[rows, columns]
         far = positions[:, 2]
-        seen = inside & (far > 0.0) & (far < depth + DEPTH_TOLERANCE_M)
-        cosines = -(normals * unit_vectors(positions)).sum(axis=1)
+        before = 1.0 - smooth_step(far - depth, DEPTH_TOLERANCE_M, HIDDEN_M)
+        seen = inside & (far > 0.0)
+        cosines = -np.einsum("kd,kd->k", normals, unit_vectors(positions))
         squarely = smooth_step(cosines, GRAZING, SQUARE)
-        return np.where(seen, squarely, 0.0) * self.clear[rows, columns]
+        return np.where(seen, squarely * before, 0.0) * sample(self.clear, pixels)[0]
 
     def _pixels(self, points: SurfacePoints) -> Points2D:
         return self.rendering.camera.project(points.of(self.rendering.vertices))
 
 
 def smooth_step(
-    values: Float[np.ndarray, " k"], low: float, high: float
-) -> Float[np.ndarray, " k"]:
+    values: Float[np.ndarray, "*n"], low: float, high: float
+) -> Float[np.ndarray, "*n"]:
     """0 up to ``low``, 1 from ``high`` on, and without a corner from one to the other."""
     share = np.clip((values - low) / (high - low), 0.0, 1.0)
     return share * share * (3.0 - 2.0 * share)
@@ -180,4 +205,4 @@ def _width_px(rendering: Rendering, radius_m: float) -> int:
     """The odd width of a window of a radius on the body."""
     depth = rendering.depth[rendering.silhouette]
     metre_px = rendering.camera.focal_length_px / float(np.median(depth)) if len(depth) else 0.0
-    return 2 * max(round(radius_m * metre_px), 1) + 1
+    return 2 * max(round(radius_m * metre_px), LEAST_PX) + 1

@@ -6,27 +6,30 @@ where that is seen, and else from what is seen of the same ring round the body
 invented passes for observed.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from enum import IntEnum
 
 import numpy as np
-from jaxtyping import Integer, UInt8
+from jaxtyping import Float, Integer, UInt8
 
 from fitter.applications.atlas import Atlas, atlas_of, drawn_on
-from fitter.applications.hidden_colours import (
-    LEAST_WEIGHT,
-    ColourProfiles,
-    following,
-    on_rings,
-)
+from fitter.applications.both_sides import BothSides, carried_on_light
+from fitter.applications.hidden_colours import LEAST_WEIGHT, ColourProfiles, on_rings
 from fitter.applications.lit_surface import LitSurface
 from fitter.applications.rings import Region, RingCoordinates
 from fitter.applications.seen_surface import Beliefs, Colours, SeenSurface, SurfacePoints
+from fitter.applications.trusted_look import (
+    BELIEVED,
+    Look,
+    at_vertices,
+    face_to_leave_out,
+    trusted_look,
+    where_shown,
+)
 from fitter.arrays import Image, Mask
-from fitter.body.model import BodyModel
 from fitter.body.scape import ScapeEvaluator
 from fitter.errors import InvalidInputError
+from fitter.export.gltf_mesh import LIGHTEST
 from fitter.observation.colour import display_from_linear
 from fitter.observation.resampling import linear_working_picture, working_size
 from fitter.person.fitted_person import FittedPerson, require_model
@@ -34,17 +37,12 @@ from fitter.person.fitted_person import FittedPerson, require_model
 SIZES = (512, 1024, 2048)
 """Sides an atlas may have, texels."""
 
-BELIEVED = 0.5
-"""From this belief on a texel counts as seen."""
-
 PICTURE_PIXELS = 2_000_000
 """Of the picture that is laid on the body: then a pixel of a standing person is a millimetre, as a
 texel of the largest atlas is."""
 
-_CHUNK = 1 << 17
-
-Look = Callable[[SurfacePoints], tuple[Colours, Beliefs]]
-"""Linear colours of points, and how far each is believed."""
+MIDDLE_SHARE = 0.05
+"""How much the middle of the trunk tells of its back, against its sides."""
 
 
 class TexelOrigin(IntEnum):
@@ -118,7 +116,7 @@ def picture_texture(
     def look(points: SurfacePoints) -> tuple[Colours, Beliefs]:
         return surface.colours(points), surface.belief(points)
 
-    return _texture(look, evaluator, size)
+    return _texture(surface, look, evaluator, size, lightest=1.0)
 
 
 def albedo_texture(
@@ -161,7 +159,7 @@ def albedo_texture(
     def look(points: SurfacePoints) -> tuple[Colours, Beliefs]:
         return lit.albedo(points, surface.colours(points), surface.belief(points))
 
-    return _texture(look, evaluator, size)
+    return _texture(surface, look, evaluator, size, lightest=LIGHTEST)
 
 
 def _surface(
@@ -183,7 +181,9 @@ def _surface(
     )
 
 
-def _texture(look: Look, evaluator: ScapeEvaluator, size: int) -> Texture:
+def _texture(
+    surface: SeenSurface, look: Look, evaluator: ScapeEvaluator, size: int, *, lightest: float
+) -> Texture:
     if size not in SIZES:
         raise InvalidInputError(
             code="texture-size",
@@ -194,13 +194,17 @@ def _texture(look: Look, evaluator: ScapeEvaluator, size: int) -> Texture:
     model = evaluator.model
     atlas = atlas_of(model, size)
     points = SurfacePoints(corners=model.triangles[atlas.triangles], weights=atlas.weights)
-    found, seen, mirrored = _own_or_other_side(look, model.mirror, points)
+    sides = BothSides.of(where_shown(trusted_look(look, model), surface), model)
+    found, seen, mirrored = sides.at(points)
+    no_face = face_to_leave_out(surface, model)
+    hidden = _hidden_colours(sides, no_face, size, points, found, seen + mirrored)
+    seen, mirrored = (each * (1.0 - points.of(no_face)) for each in (seen, mirrored))
     belief = seen + mirrored
-    hidden = _hidden_colours(look, model, atlas, points, found, belief)
     colours = belief[:, None] * found + (1.0 - belief[:, None]) * hidden
-    scale = max(1.0, float(np.percentile(colours, 99.5)))
+    scale = max(1.0, float(np.percentile(colours, 99.5)) / lightest)
     origin = _origin(seen, mirrored)
-    levels = np.rint(255.0 * display_from_linear(np.clip(colours / scale, 0.0, 1.0)))
+    linear = np.clip(colours / scale, 0.0, 1.0).astype(np.float32)
+    levels = np.rint(255.0 * display_from_linear(linear))
     return Texture(
         levels=drawn_on(atlas.inside, levels.astype(np.uint8)),
         coverage=_picture_of(atlas, origin),
@@ -210,51 +214,29 @@ def _texture(look: Look, evaluator: ScapeEvaluator, size: int) -> Texture:
     )
 
 
-def _own_or_other_side(
-    look: Look, mirror: Integer[np.ndarray, " m"], points: SurfacePoints
-) -> tuple[Colours, Beliefs, Beliefs]:
-    """Colours of points, how far they are seen, and how far their mirror image is instead.
-
-    The colour is the mean of both, each by its weight; the point itself comes first.
-    """
-    parts = [
-        _own_or_other_side_of_few(look, mirror, points.some(slice(first, first + _CHUNK)))
-        for first in range(0, len(points.corners), _CHUNK)
-    ]
-    colours, seen, mirrored = (np.concatenate(part) for part in zip(*parts, strict=True))
-    return colours, seen, mirrored
-
-
-def _own_or_other_side_of_few(
-    look: Look, mirror: Integer[np.ndarray, " m"], points: SurfacePoints
-) -> tuple[Colours, Beliefs, Beliefs]:
-    colours, seen = look(points)
-    other, belief = look(SurfacePoints(corners=mirror[points.corners], weights=points.weights))
-    mirrored = (1.0 - seen) * belief
-    total = np.maximum(seen + mirrored, 1e-12)[:, None]
-    return (seen[:, None] * colours + mirrored[:, None] * other) / total, seen, mirrored
-
-
 def _hidden_colours(
-    look: Look,
-    model: BodyModel,
-    atlas: Atlas,
+    sides: BothSides,
+    no_face: Float[np.ndarray, " v"],
+    size: int,
     points: SurfacePoints,
     found: Colours,
     belief: Beliefs,
 ) -> Colours:
     """Colours for all texels, as far as they are hidden, from what is found of the others."""
+    model = sides.model
     rings = RingCoordinates.of(model)
-    region, along_m = rings.of_points(atlas.triangles, points)
+    shown = np.flatnonzero(belief >= BELIEVED)
+    region, along_m = rings.of_points(points.some(shown))
     profiles = ColourProfiles.of(
         region,
         along_m,
-        found,
-        np.where(belief >= BELIEVED, belief, 0.0),
-        least_weight=LEAST_WEIGHT * (atlas.size / 1024) ** 2,
+        found[shown],
+        belief[shown] * _near_what_is_hidden(rings, region, points.some(shown)),
+        least_weight=LEAST_WEIGHT * (size / 1024) ** 2,
     )
-    vertices, at_vertices, believed = _at_vertices(look, model)
-    known = believed >= BELIEVED
+    vertices = at_vertices(model)
+    of_vertices, seen, mirrored = sides.at(vertices)
+    known = (seen + mirrored) * (1.0 - no_face) >= BELIEVED
     if profiles.empty or not known.any():
         raise InvalidInputError(
             code="body-not-seen",
@@ -262,28 +244,19 @@ def _hidden_colours(
             reason="The picture shows nothing of the fitted body clearly enough for a texture.",
             remedy="Look at the fit's overlay; mend the clicks and fit again.",
         )
-    of_vertices = on_rings(rings, profiles, _a_triangle_of_each(model), vertices)
-    carried_on = following(model, known, at_vertices - of_vertices)
-    of_texels = on_rings(rings, profiles, atlas.triangles, points)
-    return np.maximum(of_texels + points.of(carried_on), 0.0)
+    light = carried_on_light(model, known, of_vertices, on_rings(rings, profiles, vertices))
+    return on_rings(rings, profiles, points) * np.exp(points.of(light))
 
 
-def _at_vertices(look: Look, model: BodyModel) -> tuple[SurfacePoints, Colours, Beliefs]:
-    """The vertices as points of the surface, their colours, and how far these are believed."""
-    count = len(model.mean_vertices)
-    vertices = SurfacePoints(
-        corners=np.repeat(np.arange(count)[:, None], 3, axis=1),
-        weights=np.tile([1.0, 0.0, 0.0], (count, 1)),
-    )
-    colours, seen, mirrored = _own_or_other_side(look, model.mirror, vertices)
-    return vertices, colours, seen + mirrored
+def _near_what_is_hidden(
+    rings: RingCoordinates, region: Integer[np.ndarray, " k"], points: SurfacePoints
+) -> Float[np.ndarray, " k"]:
+    """How much a point tells of the rest of its ring.
 
-
-def _a_triangle_of_each(model: BodyModel) -> Integer[np.ndarray, " m"]:
-    """One of the triangles around each vertex."""
-    triangle = np.empty(len(model.mean_vertices), dtype=np.intp)
-    triangle[model.triangles] = np.arange(len(model.triangles))[:, None]
-    return triangle
+    Of the trunk its sides do: in front there are necklines, openings, fastenings and prints.
+    """
+    beside = MIDDLE_SHARE + (1.0 - MIDDLE_SHARE) * points.of(rings.beside) ** 2
+    return np.where(region == Region.TRUNK, beside, 1.0)
 
 
 def _origin(seen: Beliefs, mirrored: Beliefs) -> UInt8[np.ndarray, " k"]:

@@ -9,15 +9,12 @@ the pelvis. A man of 1.80 m walks 1.26 m/s by them, his pelvis rises and falls b
 swinging foot stays 18 mm clear of the ground.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from fitter.applications.cycle import Cycle, Moment, repeated
 from fitter.applications.motion import Motion
-from fitter.applications.poses import Angles, angled_pose
+from fitter.applications.poses import Angles
 from fitter.applications.rig import Rig
-
-FRAMES_PER_SECOND = 30.0
 
 STANDARD_GRAVITY = 9.80665
 
@@ -29,46 +26,26 @@ walk a little faster than their legs would swing by themselves (54 strides a min
 USUAL_STRIDES = 3
 
 
-@dataclass(frozen=True, slots=True)
-class Stride:
-    """A stride of a person: how long it takes, and in how many frames it is shown."""
-
-    duration_s: float
-    frames: int
-
-    @property
-    def frame_time_s(self) -> float:
-        """Seconds from frame to frame."""
-        return self.duration_s / self.frames
-
-
-def stride_of(rig: Rig) -> Stride:
+def stride_of(rig: Rig) -> Cycle:
     """The stride at a person's own pace, by the length of the leg."""
     leg_m = float(
         np.linalg.norm(rig.bone("left_thigh", "left_shin"))
         + np.linalg.norm(rig.bone("left_shin", "left_foot"))
     )
-    duration_s = float(2.0 * np.pi * STRIDES_PER_PENDULUM * np.sqrt(leg_m / STANDARD_GRAVITY))
-    return Stride(duration_s, max(2, round(duration_s * FRAMES_PER_SECOND)))
+    return Cycle(
+        duration_s=float(2.0 * np.pi * STRIDES_PER_PENDULUM * np.sqrt(leg_m / STANDARD_GRAVITY)),
+        times=USUAL_STRIDES,
+        moment=lambda phase: Moment(angles=stride_angles(phase)),
+    )
 
 
 def walk(rig: Rig, *, first: int = 0, frames: int | None = None) -> Motion:
     """Walking on the spot, to be put on the ground (:mod:`fitter.applications.grounding`).
 
     ``frames`` of a walk without end, from the ``first`` on; frame 0 is a strike of the left heel.
-    Without a number, three whole strides: the last frame is one before the first, so that they can
-    be played in a loop.
+    Without a number, three whole strides.
     """
-    stride = stride_of(rig)
-    count = USUAL_STRIDES * stride.frames if frames is None else frames
-    phases = np.arange(first, first + count) % stride.frames / stride.frames
-    poses = np.stack([angled_pose(rig, stride_angles(phase)) for phase in phases])
-    return Motion(
-        frame_time_s=stride.frame_time_s,
-        poses=poses,
-        roots=np.zeros((len(poses), 3)),
-        lifts_m=np.zeros(len(poses)),
-    )
+    return repeated(stride_of(rig), rig, first=first, frames=frames)
 
 
 def stride_angles(phase: float) -> dict[str, Angles]:

@@ -53,6 +53,8 @@ class Capture:
         The caller's, by name; empty if there are none.
     is_chosen
         Whether the caller says who is meant, by points or otherwise.
+    is_clicked
+        Whether the caller put all points, so that none is proposed.
     view
         From where the person is said to be seen; None if nothing is said.
     focal_length_px
@@ -76,13 +78,15 @@ class Capture:
     view: ViewKind | None
     focal_length_px: float | None
     height_m: float
+    is_clicked: bool = False
     clothing: tuple[WornRegion, ...] | None = None
     directions: Directions | None = None
 
     @property
     def shows_somebody(self) -> bool:
         """Whether there is anything to check but the picture as such."""
-        return self.body is not None or (self.bodies is None and bool(self.points))
+        is_pointed_at = self.bodies is None and bool(self.points)
+        return self.body is not None or self.directions is not None or is_pointed_at
 
     @cached_property
     def joints(self) -> Joints:

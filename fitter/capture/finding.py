@@ -10,9 +10,11 @@ Box = tuple[float, float, float, float]
 
 
 class Code(StrEnum):
-    """What may be found; ``CONTRADICTED``, that no person was measured, by a fit alone.
+    """What may be found.
 
-    Where proposals of points warn of the same, they use the same code.
+    By a fit alone: ``COVERED``, that something is before or beside the person, and
+    ``CONTRADICTED``, that no person was measured. Where proposals of points warn of the same,
+    they use the same code.
     """
 
     NOBODY_FOUND = "nobody-found"
@@ -24,6 +26,7 @@ class Code(StrEnum):
     ARMS_AGAINST_TRUNK = "arms-against-trunk"
     CLOTHES_LOOSE = "clothes-loose"
     SKIN_NOT_FOUND = "skin-not-found"
+    COVERED = "covered"
     NOT_STANDING = "not-standing"
     CHILD = "child"
     BLURRED = "blurred"

@@ -14,7 +14,7 @@ from fitter.capture.finding import Code, Finding, Remark, Unchecked
 from fitter.vocabulary.choices import ViewKind
 from fitter.vocabulary.outcomes import SeenFrom, Severity
 
-FRONTAL_BREADTHS = {"shoulder": 0.71, "hip": 0.40}
+FRONTAL_BREADTHS = {"shoulder": 0.83, "hip": 0.46}
 """Breadth of the detector's joints facing the camera, of the trunk's length."""
 
 LEAST_FRONTAL = 0.65

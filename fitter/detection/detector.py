@@ -15,9 +15,11 @@ from fitter.detection.landmark_meanings import (
     INDEX_OF_POINT,
     LIMB_ENDS,
     SEEN,
+    SHOULDERS,
     SLANTS,
     spread_m,
 )
+from fitter.detection.landmark_offsets import own_pixels
 from fitter.detection.network import Network
 from fitter.detection.person_detector import DetectedPerson, PersonDetector
 from fitter.detection.weights import checked_weights
@@ -80,6 +82,8 @@ class DetectedBody:
         0 to 1, for each point.
     slants
         How the limbs slant.
+    leaning_deg
+        How far the trunk leans from the picture's vertical, in space.
     mask
         (h, w) probability that a pixel shows the person.
     """
@@ -88,6 +92,7 @@ class DetectedBody:
     points: Mapping[str, Click]
     visibility: Mapping[str, float]
     slants: DetectedSlants
+    leaning_deg: float
     mask: GreyImage
 
 
@@ -164,10 +169,11 @@ def _distance(body: DetectedBody, clicks: Mapping[str, Click]) -> float:
 
 def _proposed(person: DetectedPerson, landmarks: BodyLandmarks) -> DetectedBody:
     height, width = landmarks.mask.shape
+    pixels = own_pixels(landmarks)
     points: dict[str, Click] = {}
     visibility: dict[str, float] = {}
     for name, index in INDEX_OF_POINT.items():
-        x, y = landmarks.pixels[index].tolist()
+        x, y = pixels[index].tolist()
         if not (0.0 <= x <= width and 0.0 <= y <= height):
             continue
         seen = float(landmarks.visibility[index])
@@ -181,8 +187,18 @@ def _proposed(person: DetectedPerson, landmarks: BodyLandmarks) -> DetectedBody:
             limbs=_slants(landmarks, points),
             middle=landmarks.pixels[[INDEX_OF_POINT[hip] for hip in HIPS]].mean(axis=0),
         ),
+        leaning_deg=_leaning_deg(landmarks),
         mask=landmarks.mask,
     )
+
+
+def _leaning_deg(landmarks: BodyLandmarks) -> float:
+    shoulders, hips = (
+        landmarks.world_m[[INDEX_OF_POINT[each] for each in pair]].mean(axis=0)
+        for pair in (SHOULDERS, HIPS)
+    )
+    up = shoulders - hips
+    return float(np.degrees(np.arctan2(np.hypot(up[0], up[2]), -up[1])))
 
 
 def _slants(landmarks: BodyLandmarks, points: Mapping[str, Click]) -> dict[str, LimbSlant]:

@@ -1,9 +1,9 @@
 """What the network's landmarks are called here, and how far each can be trusted.
 
-Landmarks are where the annotators put them: BlazePose's shoulders lie 2.5 cm above ours on one
-maker's bodies and level with them on another's, its hips 3 cm above and half below. So the spreads
-cover both, and no offset is corrected. They and the slants were learned from 40 pictures of the
-evaluation's tuning half and 16 of bodies by another maker.
+Landmarks are where the annotators put them; what all bodies share of that is taken off first
+(:mod:`fitter.detection.landmark_offsets`). Spreads and slants were learned from 40 pictures of the
+evaluation's tuning half and 16 of bodies by another maker, before anything was taken off: narrower
+spreads gained nothing.
 """
 
 from collections.abc import Mapping
@@ -81,4 +81,5 @@ LIMB_ENDS: Final[Mapping[str, tuple[str, str]]] = {
     "shin": ("knee", "ankle"),
 }
 
+SHOULDERS: Final = ("left_shoulder", "right_shoulder")
 HIPS: Final = ("left_hip", "right_hip")

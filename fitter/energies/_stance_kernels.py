@@ -16,7 +16,7 @@ _STEP = 1e-20
 
 
 class Kinds(NamedTuple):
-    """Every kind of stance with every camera: means (9,), precisions (6, 9) and offsets (6,)."""
+    """Every kind of stance with every camera: means (9,), precisions (k, 9) and offsets (k,)."""
 
     means: np.ndarray
     precisions: np.ndarray

@@ -31,11 +31,14 @@ class Attributes:
         (r, n) their derivatives by the shape coefficients.
     values
         (r,) y.
+    with_height
+        Whether bodies that have these keep the height coefficient too.
     """
 
     measure: Callable[[Shape], Float[np.ndarray, " r"]]
     jacobian: Callable[[Shape], Float[np.ndarray, "r n"]]
     values: Float[np.ndarray, " r"]
+    with_height: bool = True
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

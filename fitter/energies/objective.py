@@ -11,6 +11,7 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
+from fitter.arrays import Mask
 from fitter.body.skeleton import regress
 from fitter.energies.fitting_operators import FittingOperators
 from fitter.energies.penetration import sphere_positions
@@ -51,18 +52,27 @@ Body = BodyParameters | SeenBody
 class Objective:
     """What one picture says, as a function of the body: operators, evidence and scales are fixed.
 
-    ``posture`` is what is known of how the person stands.
+    Attributes
+    ----------
+    posture
+        What is known of how the person stands.
+    counted
+        Names of the terms whose sum it is; None for all.
     """
 
     operators: FittingOperators
     evidence: PictureEvidence
     scales: EnergyScales
     posture: Posture = Posture.ANY
+    counted: frozenset[str] | None = None
 
     @property
     def terms(self) -> tuple[Term, ...]:
         """The energies whose sum it is."""
-        return terms_of(self.operators, self.evidence, self.scales)
+        terms = terms_of(self.operators, self.evidence, self.scales)
+        if self.counted is None:
+            return terms
+        return tuple(term for term in terms if term.name in self.counted)
 
     def see(self, body: Body) -> SeenBody:
         """A body posed and rendered; one that was seen before is returned as it is.
@@ -111,6 +121,20 @@ class Objective:
     def overlap(self, candidate: Candidate) -> float:
         """Intersection over union of the body's silhouette and the observed one."""
         return silhouette_overlap(candidate.rendering, self.evidence.silhouette, self.scales)
+
+    def doubting(self, region: Mask) -> "Objective":
+        """The same objective with no outline and no edge in a region (h, w)."""
+        if not region.any():
+            return self
+        evidence = self.evidence
+        return replace(
+            self,
+            evidence=replace(
+                evidence,
+                silhouette=evidence.silhouette.doubting(region),
+                edges=evidence.edges.without(region),
+            ),
+        )
 
     def with_lines(self, lines: CorrespondenceLines) -> "Objective":
         """The same objective with another outline to fit."""

@@ -57,6 +57,11 @@ def population_prior(count: int) -> ShapePrior:
     return ShapePrior(mean=np.zeros(count), precision=precision)
 
 
+def no_prior(count: int) -> ShapePrior:
+    """Nothing is known: all shapes cost the same, as in the paper."""
+    return ShapePrior(mean=np.zeros(count), precision=np.zeros((count, count)))
+
+
 def height_extrapolation(height: float) -> float:
     """By what factor a shape's variance grows because nobody surveyed was of this height.
 

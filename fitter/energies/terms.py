@@ -96,7 +96,10 @@ def shape_terms_of(prior: ShapePrior, attributes: KnownAttributes) -> tuple[Shap
         energy=partial(attribute_energy, attributes),
         equations=partial(attribute_equations, attributes),
     )
-    return (population, told) if len(attributes.standard_errors) else (population,)
+    return (
+        *((population,) if prior.precision.any() else ()),
+        *((told,) if len(attributes.standard_errors) else ()),
+    )
 
 
 def _region(evidence: PictureEvidence, scales: EnergyScales) -> Term:

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from jaxtyping import Float
 
-from fitter.arrays import GreyImage, Image, Points2D
+from fitter.arrays import GreyImage, Image, Mask, Points2D
 from fitter.evidence.sampling import sample
 
 # Canny's thresholds on 8-bit grey after smoothing; its author advises a ratio of 2 to 3. Low enough
@@ -28,6 +28,10 @@ class EdgeCostMap:
     def with_gradient_at(self, points: Points2D) -> tuple[Float[np.ndarray, " k"], Points2D]:
         """Cost and its derivative per pixel."""
         return sample(self.cost, points)
+
+    def without(self, region: Mask) -> "EdgeCostMap":
+        """The same with no image edge in a region (h, w)."""
+        return EdgeCostMap(cost=np.where(region, np.float32(1.0), self.cost))
 
 
 def edge_cost_map(display: Image, *, threshold_px: float) -> EdgeCostMap:

@@ -1,6 +1,6 @@
 """Observed intensity for shape from shading: r_i of Eq. 2, and where it can be trusted."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -45,6 +45,10 @@ class IntensityMap:
         columns = np.clip(points[:, 0].astype(int), 0, width - 1)
         rows = np.clip(points[:, 1].astype(int), 0, height - 1)
         return self.trusted[rows, columns]
+
+    def without(self, region: Mask) -> "IntensityMap":
+        """The same with nothing to trust in a region (h, w)."""
+        return replace(self, trusted=self.trusted & ~region)
 
 
 def intensity_map(luminance: GreyImage, display: Image, mask: Mask) -> IntensityMap:

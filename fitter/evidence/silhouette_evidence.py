@@ -1,6 +1,6 @@
 """What the silhouette energy needs of a segmentation: region, distances and outline."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -81,6 +81,15 @@ class SilhouetteEvidence:
     def confidence_at(self, points: Points2D) -> Float[np.ndarray, " k"]:
         """Confidence at continuous pixels."""
         return sample(self.confidence, points)[0]
+
+    @property
+    def doubtful(self) -> Mask:
+        """(h, w) where it cannot be told what is seen."""
+        return self.confidence == 0.0
+
+    def doubting(self, region: Mask) -> "SilhouetteEvidence":
+        """The same with no confidence in a region (h, w)."""
+        return replace(self, confidence=np.where(region, np.float32(0.0), self.confidence))
 
     def distance_at(self, points: Points2D) -> Float[np.ndarray, " k"]:
         """Signed distance at continuous pixels."""

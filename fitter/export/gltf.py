@@ -14,11 +14,9 @@ from fitter.arrays import PerVertex
 from fitter.body.model import BodyModel
 from fitter.body.scape import CAMERA_AXES
 from fitter.export.glb import BinaryChunk, pack_glb
-from fitter.export.gltf_camera import CAMERA_NODE, camera_description
-from fitter.export.gltf_document import Frame, Node, gltf_document
-from fitter.export.gltf_light import PUNCTUAL, light_and_node
-from fitter.export.gltf_mesh import BODY_NODE, add_body_mesh, colour_scale_of
-from fitter.export.gltf_upright import set_upright
+from fitter.export.gltf_document import Frame
+from fitter.export.gltf_mesh import add_body_mesh, colour_scale_of
+from fitter.export.gltf_pictured import pictured_document
 from fitter.export.plain_gltf import plain_glb
 from fitter.render.shadow import lamp_seen
 from fitter.result import FitResult, PictureFit
@@ -30,25 +28,14 @@ def body_posed_glb(found: PictureFit, model: BodyModel, *, lit: PerVertex | None
     ``lit`` is what :func:`lit_vertices` gives, for a caller that has it already.
     """
     person = found.person
-    nodes: list[Node] = [BODY_NODE, CAMERA_NODE]
-    shining: dict[str, object] = {}
-    if person.light is not None and person.reflectance is not None:
-        light, placement = light_and_node(
-            person.light,
-            body_centre=person.body.translation,
-            colour_scale=colour_scale_of(person.reflectance, person.albedo_rgb),
-            reflectance=person.reflectance,
-        )
-        nodes.append(placement)
-        shining = {PUNCTUAL: {"lights": [light]}}
-        lit = lit_vertices(found, model) if lit is None else lit
-    nodes, frame = set_upright(nodes, person, found.posed_vertices)
-    document = gltf_document(
-        nodes, model, name="body_posed", frame=frame, extras=_provenance(found)
+    document = pictured_document(
+        person,
+        model,
+        found.posed_vertices,
+        name="body_posed",
+        colour_scale=colour_scale_of(person.reflectance, person.albedo_rgb),
+        extras=_provenance(found),
     )
-    document["cameras"] = [camera_description(person.camera)]
-    if shining:
-        document["extensions"] = shining
     binary = BinaryChunk()
     add_body_mesh(
         document,
@@ -57,7 +44,7 @@ def body_posed_glb(found: PictureFit, model: BodyModel, *, lit: PerVertex | None
         triangles=model.triangles,
         reflectance=person.reflectance,
         albedo_rgb=person.albedo_rgb,
-        lit=lit,
+        lit=lit_vertices(found, model) if lit is None else lit,
     )
     return pack_glb(document, binary)
 

@@ -19,7 +19,11 @@ PUNCTUAL = "KHR_lights_punctual"
 def light_and_node(
     light: Light, *, body_centre: Vector3, colour_scale: float, reflectance: Reflectance
 ) -> tuple[dict[str, object], Node]:
-    """The light of Eq. 1 for KHR_lights_punctual, and the node that places it.
+    """The light of Eq. 1 as KHR_lights_punctual describes it, and the node that places it.
+
+    The node does not switch it on: viewers bring light of their own, and one more burns the body
+    out. Whoever wants the picture's light gives the node the extension ``{"light": 0}``, or makes
+    a light of the description where the node "light" stands.
 
     Eq. 1 leaves out the 1/π of a Lambertian surface, glTF does not: a surface of albedo a facing
     a light of l = 1 shines a l = (a/π)(π l), so illuminance is π l. A point light attenuated from
@@ -38,10 +42,7 @@ def light_and_node(
         extras["surroundings"] = (GLTF_SIGNS * light.surroundings).tolist()
     to_light = direction_to_light(light) * CAMERA_AXES
     illuminance = math.pi * colour_scale
-    node: Node = {
-        "name": "light",
-        "extensions": {PUNCTUAL: {"light": 0}},
-    }
+    node: Node = {"name": "light", "extras": {"light": 0}}
     if light.kind is LightKind.POINT:
         node["translation"] = (light_position(light, body_centre) * CAMERA_AXES).tolist()
         intensity = illuminance * light.distance**2

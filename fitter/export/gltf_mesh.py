@@ -3,6 +3,7 @@
 import numpy as np
 
 from fitter.arrays import Normals, PerVertex, Triangles, Vertices
+from fitter.export.body_texture import BodyTexture
 from fitter.export.glb import BinaryChunk, Target
 from fitter.export.gltf_document import Node
 from fitter.numerics.normals import summed_cross_products
@@ -19,8 +20,13 @@ DIELECTRIC_REFLECTANCE = 0.04
 """glTF's reflectance at normal incidence, which KHR_materials_specular scales."""
 
 COLOUR_PERCENTILE = 99.0
-"""Albedo is relative to a light of intensity 1 and may exceed 1, colours may not: colours are
-albedo divided by this percentile where it exceeds 1, and the light is made as much stronger."""
+"""Albedo is relative to a light of intensity 1, so that of skin may be 1 and more: it is known but
+for a factor. In files this percentile of it is at most ``LIGHTEST``, and the light is made as much
+stronger."""
+
+LIGHTEST = 0.65
+"""Linear reflectance that hardly any surface of a person exceeds (light skin has 0.4 to 0.6 in red,
+white cloth 0.7 to 0.8): brighter colours are burnt out in the light of ordinary viewers."""
 
 
 def add_body_mesh(
@@ -32,6 +38,7 @@ def add_body_mesh(
     reflectance: Reflectance | None,
     albedo_rgb: Vertices | None,
     lit: PerVertex | None = None,
+    texture: BodyTexture | None = None,
 ) -> dict[str, object]:
     """Give a document its one mesh, of the body, and its material.
 
@@ -47,6 +54,8 @@ def add_body_mesh(
         Per vertex; a neutral colour where there is none.
     lit
         Per vertex, the share of the lamp that cast shadows leave; where that is known.
+    texture
+        Shown in place of reflectance and albedo, which the file then lacks.
 
     Returns
     -------
@@ -57,21 +66,29 @@ def add_body_mesh(
     def attribute(values: np.ndarray, *, bounds: bool = False) -> int:
         return binary.add(values.astype(np.float32), target=Target.VERTEX_ATTRIBUTE, bounds=bounds)
 
-    scale = colour_scale_of(reflectance, albedo_rgb)
-    attributes = {
-        "POSITION": attribute(vertices, bounds=True),
-        "NORMAL": attribute(unit_normals(vertices, triangles)),
-    }
-    if reflectance is not None:
+    positions, normals, scale = vertices, unit_normals(vertices, triangles), 1.0
+    attributes: dict[str, int] = {}
+    if texture is not None:
+        positions, normals = vertices[texture.owners], normals[texture.owners]
+        triangles = texture.triangles
+        attributes["TEXCOORD_0"] = attribute(texture.texels)
+        attributes["_VERTEX"] = attribute(texture.owners)
+    elif reflectance is not None:
+        scale = colour_scale_of(reflectance, albedo_rgb)
         colours = _colours(reflectance, albedo_rgb)
         attributes["COLOR_0"] = attribute(np.clip(colours / scale, 0.0, 1.0))
         attributes["_ALBEDO"] = attribute(reflectance.albedo)
         attributes["_SPECULARITY"] = attribute(reflectance.specularity)
+    attributes["POSITION"] = attribute(positions, bounds=True)
+    attributes["NORMAL"] = attribute(normals)
     if lit is not None:
-        attributes["_LIT"] = attribute(lit)
-    index_type = np.uint16 if len(vertices) < np.iinfo(np.uint16).max else np.uint32
+        attributes["_LIT"] = attribute(lit if texture is None else lit[texture.owners])
+    index_type = np.uint16 if len(positions) < np.iinfo(np.uint16).max else np.uint32
     indices = binary.add(triangles.ravel().astype(index_type), target=Target.TRIANGLE_INDICES)
-    material, extensions = _material(reflectance, scale)
+    if texture is None:
+        material, extensions = _material(reflectance, scale)
+    else:
+        material, extensions = texture.described(document, binary)
     if "extensions" in document:
         extensions = ["KHR_lights_punctual", *extensions]
     if extensions:
@@ -136,4 +153,5 @@ def colour_scale_of(reflectance: Reflectance | None, albedo_rgb: Vertices | None
     """What the file's colours are divided by, and its light is multiplied by."""
     if reflectance is None:
         return 1.0
-    return max(1.0, float(np.percentile(_colours(reflectance, albedo_rgb), COLOUR_PERCENTILE)))
+    brightest = float(np.percentile(_colours(reflectance, albedo_rgb), COLOUR_PERCENTILE))
+    return max(1.0, brightest / LIGHTEST)

@@ -9,6 +9,7 @@ import numpy as np
 
 from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
+from fitter.export.body_texture import BodyTexture
 from fitter.export.glb import BinaryChunk, pack_glb
 from fitter.export.gltf_document import Frame, gltf_document
 from fitter.export.gltf_mesh import BODY_NODE, add_body_mesh
@@ -24,8 +25,9 @@ def plain_glb(
     extras: Mapping[str, object],
     reflectance: Reflectance | None = None,
     albedo_rgb: Vertices | None = None,
+    texture: BodyTexture | None = None,
 ) -> bytes:
-    """The mesh in the colours of its skin, a neutral one where they are not known.
+    """The mesh with its texture or in the colours of its skin, else in a neutral one.
 
     Parameters
     ----------
@@ -41,6 +43,8 @@ def plain_glb(
         What else is said of the body, beside its provenance; JSON values.
     reflectance, albedo_rgb
         Per vertex.
+    texture
+        Shown in their place.
     """
     standing = vertices - np.array([0.0, vertices[:, 1].min(), 0.0])
     document = gltf_document([BODY_NODE], model, name=name, frame=frame, extras=extras)
@@ -52,5 +56,6 @@ def plain_glb(
         triangles=model.triangles,
         reflectance=reflectance,
         albedo_rgb=albedo_rgb,
+        texture=texture,
     )
     return pack_glb(document, binary)

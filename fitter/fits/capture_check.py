@@ -162,11 +162,11 @@ def capture_of_fit(
         width=observation.image_camera.width,
         height=observation.image_camera.height,
         scale=observation.scale,
-        # Whether somebody is there although no detector says so, the fit judges by itself.
-        bodies=None if meant is None else observation.bodies,
+        bodies=observation.bodies,
         body=meant,
         points=observation.clicks,
         is_chosen=bool(points),
+        is_clicked=not view.complete_clicks,
         view=view.kind,
         focal_length_px=observation.camera.focal_length_px if known else None,
         height_m=height_m,

@@ -94,7 +94,9 @@ def _least_boundary(found: Plausibility) -> float:
     loose clothes every silhouette is good.
     """
     if found.overlap >= POOR_OVERLAP:
-        return LITTLE_BOUNDARY if found.clothed and not found.detected else 0.0
+        if found.detected or not found.clothed:
+            return 0.0
+        return LITTLE_BOUNDARY if found.detected is None else USUAL_BOUNDARY
     is_bad = found.overlap < BAD_OVERLAP
     if found.detected:
         return LITTLE_BOUNDARY if is_bad else 0.0

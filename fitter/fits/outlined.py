@@ -7,6 +7,7 @@ from fitter.detection.detector import Detector
 from fitter.energies.objective import Body, Objective
 from fitter.energies.picture import SeenBody
 from fitter.energies.scales import FAR_BOUNDARY_ETA_M, NEAR_BOUNDARY_ETA_M, scales_at
+from fitter.evidence.doubtful_outline import doubtful_outline
 from fitter.fits.picture_objective import (
     of_person,
     segmented,
@@ -160,8 +161,12 @@ def outlined(
         )
         body: SeenBody = tried.winner
         evaluations = nearer.evaluations + tried.evaluations
+        doubtful = doubtful_outline(
+            objective.evidence.silhouette, body.rendering, observation.display
+        )
+        objective = objective.doubting(doubtful)
         # Against a region that stays as it is, one search is enough.
-        if lines_on is not None or not is_only:
+        if lines_on is not None or doubtful.any() or not is_only:
             lined = _about(objective, body, lines_on)
             steps = contest(of_person(known, [lined]), [body])
             (body,) = steps.candidate.views
@@ -200,6 +205,10 @@ def _started(
             observation, prepared, body, fitted=True, loosely_dressed=True
         )
         objective = with_silhouette(objective, segmentation, observation, prepared, body)
+    seen = objective.see(body)
+    objective = objective.doubting(
+        doubtful_outline(objective.evidence.silhouette, seen.rendering, observation.display)
+    )
     return Outlined(
         view=view,
         observation=observation,
@@ -207,7 +216,7 @@ def _started(
         segmentation=segmentation,
         objective=objective,
         initial=body,
-        body=objective.see(body),
+        body=seen,
         limb_facing=(),
         lines_on=lines_on,
         evaluations=0,

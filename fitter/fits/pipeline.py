@@ -10,8 +10,16 @@ from fitter.energies.joint_objective import JointCandidate
 from fitter.errors import InvalidInputError
 from fitter.fits.equipment import Equipment
 from fitter.fits.foretold import foretold
-from fitter.fits.harm import widened
+from fitter.fits.harm import widened_covariance
 from fitter.fits.outlined import Outlined, Subject, outlined
+from fitter.fits.paper import (
+    as_judged,
+    differences,
+    paper_picture,
+    paper_search,
+    with_height_found,
+    without_standard_errors,
+)
 from fitter.fits.picture_objective import of_person
 from fitter.fits.progress import Observer, Stage, ignore_progress
 from fitter.fits.reporting import (
@@ -59,15 +67,29 @@ def fit(
     clock = StageClock(observer, len(request.views))
     with clock.stage(Stage.OBSERVATION):
         subject = _subject(request, equipment)
-    pictures = _outlined(request, subject, equipment, clock)
-    known, held = subject.known, subject.known.attributes.held
-    alone = _alone(request, subject, pictures)
-    start = pictures[0].body.parameters.shape if alone is None else alone.shape
-    found = search(pictures, known, held_shape(held, start), request.choices, clock)
+    paper = request.choices.paper
+    alone = None
+    if paper is None:
+        pictures = _outlined(request, subject, equipment, clock)
+        alone = _alone(request, subject, pictures)
+        held = subject.known.attributes.held
+        start = pictures[0].body.parameters.shape if alone is None else alone.shape
+        found = search(pictures, subject.known, held_shape(held, start), request.choices, clock)
+        judged = found
+    else:
+        pictures = [paper_picture(request.views[0], subject, request.choices, equipment, clock)]
+        found = paper_search(pictures[0], subject, paper, request.choices.optimizer, clock)
+        subject = with_height_found(subject, paper, found)
+        judged = as_judged(subject, found)
+    known = subject.known
     with clock.stage(Stage.MEASUREMENT):
-        people = settle(request.person.gender, subject, pictures, found)
-        shape, covariance = found.minimum.candidate.shape, people[0].person.shape_covariance
-        assert covariance is not None
+        people = settle(request.person.gender, subject, pictures, judged)
+        shape = found.minimum.candidate.shape
+        if paper is None:
+            people = _less_sure(people, subject, shape)
+        else:
+            people = without_standard_errors(people)
+        covariance = people[0].person.shape_covariance
         measurements = measure(
             subject.prepared.measuring,
             shape,
@@ -75,13 +97,12 @@ def fit(
             given=known.given,
             held=known.held,
         )
-        measurements = widened(measurements, [each.findings for each in people], known.given)
         people = _told(people, subject, shape, measurements)
         stages = _stages(subject, pictures, found, people, measurements)
         population = subject.prepared.population
         warnings = person_warnings(
             alone,
-            foretold(found.energy, found.minimum.candidate, known),
+            foretold(judged.energy, judged.minimum.candidate, known),
             dict(zip(population.names, population.units, strict=True)),
             [view.kind for view in request.views],
             [each.person.body for each in people],
@@ -106,6 +127,7 @@ def fit(
         assumptions=known.assumptions,
         warnings=known.warnings + warnings,
         stage_seconds=clock.seconds,
+        differences=() if paper is None else differences(request.choices),
     )
 
 
@@ -118,6 +140,13 @@ def _check(request: FitRequest) -> None:
             field="views",
             reason=f"A fit has 1 to {most} pictures, not {len(request.views)}.",
             remedy="Send the person from the front and from the side, and more if there are.",
+        )
+    if request.choices.paper is not None and (len(request.views) > 1 or begun):
+        raise InvalidInputError(
+            code="paper-one-picture",
+            field="paper",
+            reason="The paper fits one picture, from its clicks.",
+            remedy="Send one picture, or leave `paper` out.",
         )
     check_person(request.person)
 
@@ -178,6 +207,24 @@ def _person_alone(request: FitRequest, subject: Subject, picture: Outlined) -> F
         reflectance=None,
         albedo_rgb=None,
         shape_covariance=covariance,
+    )
+
+
+def _less_sure(
+    people: Sequence[PictureFit], subject: Subject, shape: Shape
+) -> tuple[PictureFit, ...]:
+    """The same, less sure of their shape by what harms the pictures."""
+    covariance = people[0].person.shape_covariance
+    assert covariance is not None
+    wider = widened_covariance(
+        covariance,
+        subject.prepared.measuring,
+        shape,
+        [each.findings for each in people],
+        subject.known.given,
+    )
+    return tuple(
+        replace(each, person=replace(each.person, shape_covariance=wider)) for each in people
     )
 
 

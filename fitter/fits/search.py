@@ -219,7 +219,9 @@ class _FirstLight:
 
 def _first_light(picture: Outlined, objective: Objective, seen: Candidate) -> _FirstLight:
     observation, asked = picture.observation, picture.view
-    intensity = intensity_map(observation.luminance, observation.display, picture.segmentation.mask)
+    intensity = intensity_map(
+        observation.luminance, observation.display, picture.segmentation.mask
+    ).without(objective.evidence.silhouette.doubtful)
     state: ShadingEvidence | None = None
     if asked.cues is Cues.SES:
         objective, intensity = where_bare(objective, seen, intensity)

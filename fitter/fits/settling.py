@@ -7,6 +7,7 @@ from fitter.capture.checking import check_capture
 from fitter.energies.objective import Objective
 from fitter.fits.capture_check import capture_of_fit
 from fitter.fits.contradiction import contradiction
+from fitter.fits.obstruction import obstruction
 from fitter.fits.outlined import Outlined, Subject
 from fitter.fits.plausibility import plausibility
 from fitter.fits.reporting import outcome_of
@@ -55,7 +56,15 @@ def _settled(
     clothing = with_ease(objective.evidence.worn, objective, certain)
     seen = None if clothes_are_guessed(objective, observation.clothing.both) else clothing
     checked = check_capture(capture_of_fit(picture, known.height_m, body, seen))
-    findings = (*contradicted.findings, *checked.findings)
+    model = objective.operators.model
+    obstructed = obstruction(
+        objective.evidence.silhouette,
+        body.rendering,
+        model.part_of_triangle,
+        model.part_names,
+        scale=observation.scale,
+    )
+    findings = (*contradicted.findings, *checked.findings, *obstructed)
     verdict = contradicted.verdict
     if verdict is Verdict.PLAUSIBLE and not checked.usable:
         verdict = Verdict.IMPLAUSIBLE

@@ -81,9 +81,10 @@ def check_height(height_m: float | None) -> None:
             code="out-of-range",
             field="height_m",
             reason=(
-                f"A height of {height_m:g} m is outside {LEAST_HEIGHT_M:g} to {MOST_HEIGHT_M:g} m."
+                f"A height of {height_m:g} m is outside {LEAST_HEIGHT_M:g} to {MOST_HEIGHT_M:g} m, "
+                "and the bodies are those of grown-up people."
             ),
-            remedy="Give the standing height in metres, or leave it out for the mean.",
+            remedy="Give the standing height of a grown-up person in metres.",
         )
 
 

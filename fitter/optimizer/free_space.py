@@ -1,9 +1,9 @@
 """The bodies a search may visit: all those with the held height and the held attributes.
 
-The height coefficient stays where it is. Attributes held besides it leave, at every body, the
-directions of shape in which none of them changes, the null space of their Jacobian J without its
-height column: section 4's rotation of the shape space, renewed at each body. A step along these
-directions changes an attribute in second order only, and is then projected back,
+The height coefficient stays where it is, unless it is free. Attributes held besides it leave, at
+every body, the directions of shape in which none of them changes, the null space of their Jacobian
+J without its height column: section 4's rotation of the shape space, renewed at each body. A step
+along these directions changes an attribute in second order only, and is then projected back,
 
     β⁺ = β + J⁺ (y - m(β)).
 """
@@ -38,7 +38,8 @@ class FreeSpace:
     Attributes
     ----------
     directions
-        (n, free) orthonormal changes of the shape, in columns; none changes the height coefficient.
+        (n, free) orthonormal changes of the shape, in columns; none changes the height coefficient
+        where that is held.
     height_response
         (n,) smallest change of shape per unit of the height coefficient that keeps what is held.
     held
@@ -85,9 +86,13 @@ def free_space(held: Attributes, shape: Shape) -> FreeSpace:
     """The space of changes of a shape that has what is held."""
     jacobian = held.jacobian(shape)
     slopes = jacobian[:, 1:]
-    kept = _kept_directions(slopes)
+    if held.with_height:
+        kept = _kept_directions(slopes)
+        directions = np.concatenate([np.zeros((1, kept.shape[1])), kept])
+    else:
+        directions = _kept_directions(jacobian)
     return FreeSpace(
-        directions=np.concatenate([np.zeros((1, kept.shape[1])), kept]),
+        directions=directions,
         height_response=np.concatenate([[1.0], -_inverse(slopes) @ jacobian[:, 0]]),
         held=held,
         slopes=slopes,

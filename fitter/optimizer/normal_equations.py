@@ -100,7 +100,8 @@ def normal_equations(
                 RowsWithNuisance(by_body=jacobian, weights=few.weights, nuisance=nuisance)
             )
     jacobians += [without_nuisance(kinds) for kinds in with_nuisance.values()]
-    every = np.concatenate(jacobians)
+    columns = parameters.pose.size + len(parameters.translation) + len(parameters.shape)
+    every = np.concatenate([np.zeros((0, columns)), *jacobians])
     matrix = every.T @ every
     derivative = operators.evaluator.derivative(parameters, pull)
     gradient = as_vector(replace(derivative, translation=derivative.translation + by_centre))

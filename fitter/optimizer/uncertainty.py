@@ -63,18 +63,18 @@ def certainty(objective: JointObjective, candidate: JointCandidate) -> tuple[Cer
     space = free_space(objective.attributes.held, shape)
     directions = space.directions
     known, _ = objective.shape_equations(shape)
-    matrix = directions.T @ known @ directions
+    information = known
     inverses: list[Float[np.ndarray, "own own"]] = []
     responses: list[Float[np.ndarray, "own free"]] = []
     for view, seen in zip(objective.views, candidate.views, strict=True):
         own = objective.weight * body_information(view, seen)
         inverse = np.linalg.inv(own[:-n, :-n])
-        border = own[:-n, -n:] @ directions
-        matrix = matrix + directions.T @ own[-n:, -n:] @ directions - border.T @ inverse @ border
+        border = own[:-n, -n:]
+        information = information + own[-n:, -n:] - border.T @ inverse @ border
         inverses.append(inverse)
-        responses.append(-inverse @ border)
-    free = np.linalg.inv(matrix)
-    by_height = _height_response(space, known)
+        responses.append(-inverse @ border @ directions)
+    free = np.linalg.inv(directions.T @ information @ directions)
+    by_height = _height_response(space, information)
     certain: list[Certainty] = []
     for view, seen, inverse, response in zip(
         objective.views, candidate.views, inverses, responses, strict=True
@@ -171,11 +171,14 @@ def covered_distances(
     return found
 
 
-def _height_response(space: FreeSpace, known: Float[np.ndarray, "n n"]) -> Shape:
+def _height_response(space: FreeSpace, information: Float[np.ndarray, "n n"]) -> Shape:
     """How the most probable shape changes with the height coefficient.
 
-    What is held is kept. With the precision Q of what is known, the response e that keeps what is
-    held and the free directions B, it is e - B (BᵀQB)⁻¹ BᵀQ e.
+    What is held is kept. With the precision Q of all that tells of the shape, pictures and what was
+    known, the response e that keeps what is held and the free directions B, it is
+    e - B (BᵀQB)⁻¹ BᵀQ e.
     """
     held, shapes = space.height_response, space.directions
-    return held - shapes @ np.linalg.solve(shapes.T @ known @ shapes, shapes.T @ known @ held)
+    return held - shapes @ np.linalg.solve(
+        shapes.T @ information @ shapes, shapes.T @ information @ held
+    )

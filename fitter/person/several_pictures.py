@@ -104,7 +104,7 @@ def combined_shape(people: Sequence[FittedPerson]) -> CombinedShape:
     precision = directions.T @ population_prior(len(origin)).precision @ directions / wider
     prior_step = -directions.T @ origin
     matrix, pull = precision.copy(), precision @ prior_step
-    informations = [_information(person, directions) for person in people]
+    informations = [_information(person, directions, precision) for person in people]
     for information, step in zip(informations, steps, strict=True):
         # What the picture says, without the prior: H_k - P, at whose minimum lies H_k t_k - P t_0.
         matrix += weight * (information - precision)
@@ -198,9 +198,12 @@ def _free_directions(people: Sequence[FittedPerson]) -> Float[np.ndarray, "n d"]
 
 
 def _information(
-    person: FittedPerson, directions: Float[np.ndarray, "n d"]
+    person: FittedPerson, directions: Float[np.ndarray, "n d"], precision: Float[np.ndarray, "d d"]
 ) -> Float[np.ndarray, "d d"]:
-    return np.linalg.inv(directions.T @ known_covariance(person) @ directions)
+    """H_k, no less than P: where findings widened errors, a fit may seem to say less."""
+    found = np.linalg.inv(directions.T @ known_covariance(person) @ directions)
+    values, vectors = np.linalg.eigh(0.5 * (found + found.T) - precision)
+    return precision + (vectors * np.maximum(values, 0.0)) @ vectors.T
 
 
 def _check_kinds(people: Sequence[FittedPerson]) -> None:

@@ -1,12 +1,12 @@
 """What is covered: trunk and thighs of a person, by how much of them shows the skin's colour.
 
 A person wears one of few outfits: underwear, a swimsuit, nothing above the hips or at all, trousers
-alone, shorts alone, a top with trousers, or a top with shorts, a skirt or a dress. Each foretells
-which share of chest, waist, pelvis, thighs and shins shows the colour of the skin, as a beta
-distribution; shadows, gloss and patterns are an even share of outliers. Cloth may have the skin's
-colour: a top or a bottom then shows all of it. Bayes' rule over outfits and their colours gives the
-probability that a region is covered, and that what covers it cannot be told from skin by its
-colour.
+alone, shorts alone, a top with trousers, or a top with shorts, a skirt or a dress; tops may leave
+the midriff bare, as open vests do. Each foretells which share of chest, waist, pelvis, thighs and
+shins shows the colour of the skin, as a beta distribution; shadows, gloss and patterns are an even
+share of outliers. Cloth may have the skin's colour: a top or a bottom then shows all of it. Bayes'
+rule over outfits and their colours gives the probability that a region is covered, and that what
+covers it cannot be told from skin by its colour.
 """
 
 from collections.abc import Mapping
@@ -48,6 +48,7 @@ class _Outfit:
     """``shares`` of skin by region, beta distributions by mean and number; what is covered."""
 
     prior: float
+    bare_midriff: bool = False
     covers: frozenset[Covers]
     shares: Mapping[str, tuple[float, float]]
 
@@ -125,6 +126,21 @@ _BY_GENDER: Final[Mapping[str, tuple[_Outfit, ...]]] = {
                 "shins": (0.8, 5.0),
             },
         ),
+        *(
+            _Outfit(
+                prior=0.02,
+                bare_midriff=True,
+                covers=frozenset({Covers.TOP, Covers.BOTTOM}),
+                shares={
+                    "chest": (0.3, 4.0),
+                    "waist": (0.8, 6.0),
+                    "pelvis": (0.12, 8.0),
+                    "thighs": thighs,
+                    "shins": shins,
+                },
+            )
+            for thighs, shins in ((_NONE, (0.06, 8.0)), ((0.15, 4.0), (0.8, 5.0)))
+        ),
     )
     for gender, chest, waist in (
         ("female", (0.57, 16.0), (0.66, 5.0)),
@@ -150,6 +166,11 @@ _LIKE_SKIN: Final[Mapping[str, float]] = {"chest": 0.9, "spine": 1.0, "upper_arm
 _BELIEVED: Final[Mapping[str, float]] = {"chest": 0.5, "spine": 0.1}
 """Under a top skin shows at the neckline at most: its colour elsewhere is the garment's."""
 
+_AT_MIDRIFF: Final = 0.9
+"""Of chest and waist where a top leaves the midriff bare: open vests and short tops. How often
+people wear such is a guess. Below a chest of which a quarter is skin a midriff is bare with
+probability 0.6, and was with 0.2 to 0.3 where no outfit had one."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Coverage:
@@ -161,12 +182,15 @@ class Coverage:
         That it is covered by more than underwear.
     top_like_skin, bottom_like_skin
         That it is, by cloth of the skin's colour.
+    bare_midriff
+        That the trunk is covered and the waist in sight, as under an open vest.
     """
 
     top: float
     bottom: float
     top_like_skin: float
     bottom_like_skin: float
+    bare_midriff: float = 0.0
 
     @property
     def anything(self) -> float:
@@ -192,7 +216,9 @@ class Coverage:
             like = min(hidden.get(kind, 0.0), self.bottom)
             return 1.0 - self.bottom, self.bottom - like
         told = self.top - _LIKE_SKIN.get(kind, 0.0) * self.top_like_skin
-        return 1.0 - self.top, _BELIEVED.get(kind, 1.0) * told
+        believed = _BELIEVED.get(kind, 1.0)
+        in_sight = max(_AT_MIDRIFF - believed, 0.0) * self.bare_midriff
+        return 1.0 - self.top, believed * told + in_sight
 
 
 def coverage(skin: SkinMap, regions: PersonRegions, gender: str | None) -> Coverage:
@@ -207,15 +233,22 @@ def coverage(skin: SkinMap, regions: PersonRegions, gender: str | None) -> Cover
     seen = skin_shares(skin, regions)
     weights: list[float] = []
     states: list[tuple[frozenset[Covers], frozenset[Covers]]] = []
+    midriffs: list[bool] = []
     for outfit in outfits:
         for like_skin in _subsets(outfit.covers):
+            # Where the waist is seen, the colour is that of skin.
+            if outfit.bare_midriff and Covers.TOP in like_skin:
+                continue
             colours = SAME_COLOUR ** len(like_skin)
             colours *= (1.0 - SAME_COLOUR) ** (len(outfit.covers) - len(like_skin))
+            # Less of a midriff in poor light may be that of a bare chest.
+            poor = 0.0 if outfit.bare_midriff else POOR_LIGHT
             shares = dict(outfit.shares)
             for cover in like_skin:
                 shares |= _AS_SKIN[cover]
-            weights.append(outfit.prior * colours * _likelihood(shares, seen))
+            weights.append(outfit.prior * colours * _likelihood(shares, seen, poor))
             states.append((outfit.covers, like_skin))
+            midriffs.append(outfit.bare_midriff)
     probabilities = np.array(weights) / np.sum(weights)
 
     def of(which: int, cover: Covers) -> float:
@@ -227,6 +260,7 @@ def coverage(skin: SkinMap, regions: PersonRegions, gender: str | None) -> Cover
         bottom=of(0, Covers.BOTTOM),
         top_like_skin=of(1, Covers.TOP),
         bottom_like_skin=of(1, Covers.BOTTOM),
+        bare_midriff=float(probabilities[midriffs].sum()),
     )
 
 
@@ -248,9 +282,11 @@ def _subsets(covers: frozenset[Covers]) -> list[frozenset[Covers]]:
     return found
 
 
-def _likelihood(shares: Mapping[str, tuple[float, float]], seen: Mapping[str, float]) -> float:
+def _likelihood(
+    shares: Mapping[str, tuple[float, float]], seen: Mapping[str, float], poor_light: float
+) -> float:
     """Of what is seen, in even or in poor light."""
-    even, poor = 1.0 - POOR_LIGHT, POOR_LIGHT
+    even, poor = 1.0 - poor_light, poor_light
     for region, share in seen.items():
         even *= _density(shares[region], share)
         mean, _ = shares[region]

@@ -2,8 +2,9 @@
 
 Balan and Black, "The Naked Truth", ECCV 2008: skin bounds the body tightly, clothes only
 from outside. The colour of a person's skin is not known in advance, but the clicks say where the
-face is: skin's colour is learnt from its pixels, and from hands that agree with it. The colours of
-clothes and hair are learnt from the rest of the person. A pixel is then skin with probability
+face is: skin's colour is learnt from its pixels, and from hands that agree with it; under a mask
+from what has the colour of hands or neck. The colours of clothes and hair are learnt from the rest
+of the person. A pixel is then skin with probability
 
     P = π f_skin / (π f_skin + (1 - π) f_other),
 
@@ -53,6 +54,8 @@ _BRIGHTNESS_DEVIATION = 0.8
 _WIDE, _WIDE_SHARE = 2.0, 0.1
 _UNUSUAL = 3.0
 # Deviations at which a colour is at first taken for something other than skin.
+_IN_SIGHT, _CLEARLY_MORE = 0.15, 0.5
+# Least share of a masked face that is in sight; by how many places more a colour is seen.
 _ROUNDS = 3
 _ODD_SHARE, _ODD_NATS = 0.05, 13.5
 # Colours of neither side: uniform over three by three by six units of the logarithms.
@@ -60,6 +63,7 @@ _MOST_NATS = 5.0
 _SMOOTHING_M = 0.008
 
 Features = Float32[np.ndarray, "s 3"]
+SomeFeatures = Float32[np.ndarray, "_ 3"]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -193,7 +197,8 @@ def _skin_colours(
             samples = samples[:0]
     hands = features[kinds == "hand"]
     if learnt_from:
-        hands = hands[_chroma_distance(hands, _skin_gaussian(samples)) < _UNUSUAL]
+        samples = _unmasked(samples, hands, features[kinds == "neck"])
+        hands = hands[_alike(hands, _skin_gaussian(samples))]
     if len(hands) >= LEAST_SAMPLES:
         learnt_from.append("hands")
         # Hands have more pixels than a face, and may hold something: they count at most half.
@@ -202,6 +207,32 @@ def _skin_colours(
     if not learnt_from:
         return None, ()
     return _skin_gaussian(samples), tuple(learnt_from)
+
+
+def _unmasked(face: SomeFeatures, hands: SomeFeatures, neck: SomeFeatures) -> SomeFeatures:
+    """A face's samples; under a mask those of it and of hands or neck that have their colour.
+
+    Skin has the colour that is seen on most of face, hands and neck. Only one that the face shows
+    too may take the place of its own: gloves and scarves may be alike.
+    """
+    places = [each for each in (face, hands, neck) if len(each) >= LEAST_SAMPLES]
+
+    def seen(colour: ColourMixture) -> float:
+        return sum(float(np.mean(_alike(each, colour))) for each in places)
+
+    found, least = face, seen(_skin_gaussian(face)) + _CLEARLY_MORE
+    for place in places[1:]:
+        colour = _skin_gaussian(place)
+        shown = _alike(face, colour)
+        now = seen(colour)
+        if np.mean(shown) >= _IN_SIGHT and now > least:
+            # What a mask leaves in sight of a small face is too little to learn from.
+            found, least = np.concatenate([face[shown], place[_alike(place, colour)]]), now
+    return found
+
+
+def _alike(features: Features, skin: ColourMixture) -> Bool[np.ndarray, " s"]:
+    return _chroma_distance(features, skin) < _UNUSUAL
 
 
 def _has_colours(features: Features) -> bool:

@@ -24,6 +24,15 @@ class OptimizerKind(StrEnum):
     SIMPLEX = "simplex"
 
 
+class PaperEnergy(StrEnum):
+    """The paper's terms (section 6): E1 is the sum of the first three, E2 of all."""
+
+    SILHOUETTE = "silhouette"
+    EDGES = "edges"
+    PENETRATION = "penetration"
+    SHADING = "shading"
+
+
 class OutlineKind(StrEnum):
     """What the body's contour is to meet; a mask the caller sent is always met as it is.
 

@@ -30,6 +30,7 @@ from service.api import (
 )
 from service.api.authentication import Authentication
 from service.api.body_limits import BodyLimit, BodyTimeLimit, MessageFraming
+from service.api.compression import Compression
 from service.api.context import Parts
 from service.api.credentials import KeyUses, KnownKeys, KnownTokens
 from service.api.estimates import Estimates
@@ -198,6 +199,7 @@ def _surround(
         time_limit_s=settings.body_time_limit_s,
         bytes_per_s=settings.body_bytes_per_s,
     )
+    app.add_middleware(Compression)
     app.add_middleware(RequestLimit, most=settings.max_connections)
     app.add_middleware(SecurityHeaders, cross_origin=bool(settings.allowed_origins))
     app.add_middleware(Observation, metrics=metrics)

@@ -3,6 +3,7 @@
 Parts are ranges of bytes (RFC 9110 14).
 """
 
+import hashlib
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,11 +12,12 @@ from typing import Annotated, Any, Final
 from uuid import UUID
 
 from fastapi import Header, Path, Response
+from pydantic import BaseModel
 from starlette.concurrency import run_in_threadpool
 
 from api_schemas.jobs import JobState
 from api_schemas.problems import Problem, problem
-from api_schemas.results import Artifact
+from api_schemas.results import Artifact, ResultPart
 from service.api.context import ApiContext
 from service.api.job_routes import JOB_PROBLEMS, NOT_MODIFIED, find
 from service.api.json_bodies import JSON
@@ -27,6 +29,7 @@ from service.engine.port import JobRecord, TenantJobs
 from service.jobs.inputs import RESULT
 from service.representation.csv_tables import CSV, measurements_csv_of
 from service.representation.formats import GLB, MESH_FORMATS, MTL
+from service.representation.results import told_result
 
 HTML: Final = "text/html"
 BINARY: Final = {"schema": {"type": "string", "format": "binary"}}
@@ -113,15 +116,23 @@ async def answer_artifact(
     )
 
 
-def serve_result(context: ApiContext, record: JobRecord, *, if_none_match: str | None) -> Response:
-    """Answer with the result document; 409 if the job has none."""
+def serve_result(
+    context: ApiContext,
+    record: JobRecord,
+    *,
+    kind: type[BaseModel],
+    included: frozenset[ResultPart],
+    if_none_match: str | None,
+) -> Response:
+    """Answer with the result document of this type; 409 if the job has none."""
     document = next((each for each in record.artifacts if each.name == RESULT), None)
     if record.state is not JobState.SUCCEEDED or document is None:
         raise ProblemError(no_result(record))
-    headers = file_headers(document.sha256)
-    if is_known(document.sha256, if_none_match):
+    content = told_result(stored_content(context, record, document), kind=kind, included=included)
+    tag = hashlib.sha256(content).hexdigest()
+    headers = {"ETag": f'"{tag}"'}
+    if is_known(tag, if_none_match):
         return Response(status_code=304, headers=headers)
-    content = stored_content(context, record, document)
     return Response(content, media_type=document.media_type, headers=headers)
 
 

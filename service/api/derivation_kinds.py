@@ -11,7 +11,7 @@ from uuid import UUID
 
 from api_schemas.derivation_kinds import AnyDerivationOptions, DerivationKind
 from api_schemas.derivation_kinds.animation import AnimationOptions, AnimationResult
-from api_schemas.derivation_kinds.base import DerivedFiles
+from api_schemas.derivation_kinds.base import BodyColours, DerivedFiles
 from api_schemas.derivation_kinds.body_composition import (
     BodyCompositionOptions,
     BodyCompositionResult,
@@ -95,10 +95,18 @@ def _of_figure(_: FigureOptions) -> Needs:
     return Needs(of_fit=(PERSON, IMAGE, OVERLAY))
 
 
+def _of_coloured_body(colours: BodyColours) -> tuple[str, ...]:
+    return (PERSON,) if colours is BodyColours.PLAIN else (PERSON, IMAGE, SEGMENTATION)
+
+
+def _of_pose(options: PoseOptions) -> Needs:
+    return Needs(of_fit=_of_coloured_body(options.colours))
+
+
 def _of_motion(options: AnimationOptions) -> Needs:
     is_needed = options.joints or options.up
     return Needs(
-        of_fit=(PERSON,),
+        of_fit=_of_coloured_body(options.colours),
         part=BVH,
         part_is_for="`joints` and `up` are about" if is_needed else None,
     )
@@ -150,7 +158,7 @@ _KINDS: Final[tuple[DerivationKindDefinition[Any, Any], ...]] = (
         kind=DerivationKind.POSE,
         options=PoseOptions,
         result=PoseResult,
-        needs=_of_person,
+        needs=_of_pose,
     ),
     DerivationKindDefinition(
         kind=DerivationKind.ANIMATION,

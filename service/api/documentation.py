@@ -17,6 +17,7 @@ from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
 from api_schemas.problems import problem
+from service.api.documentation_sources import SOURCES, mount_sources
 from service.api.problems import ProblemError
 from service.api.security_headers import OWN_FILES, STATIC_SITE
 
@@ -90,8 +91,11 @@ REMEDY: Final = (
 )
 
 
-def mount_site(app: FastAPI, folder: Path = FOLDER) -> None:
-    """Serve the site; where there is none, say how to get it."""
+def mount_site(app: FastAPI, folder: Path = FOLDER, sources: Path = SOURCES) -> None:
+    """Serve the site, in a clone its sources; where there are none, lead to the API or say so."""
+    if not folder.is_dir() and (sources / "index.md").is_file():
+        mount_sources(app, PATH, sources)
+        return
     if not folder.is_dir():
         for path in (PATH, f"{PATH}/{{page:path}}"):
             app.add_route(path, _absent, include_in_schema=False)
@@ -104,7 +108,9 @@ def mount_site(app: FastAPI, folder: Path = FOLDER) -> None:
     app.mount(PATH, _Site(directory=folder, html=True))
 
 
-def _absent(_: Request) -> Response:
+def _absent(request: Request) -> Response:
+    if "text/html" in request.headers.get("Accept", ""):
+        return RedirectResponse("/docs", status_code=307)
     raise ProblemError(problem("not-found", detail=ABSENT, remedy=REMEDY))
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, Final
 from uuid import UUID
 
-from fastapi import Depends, Path
+from fastapi import Depends, Path, Query
 from pydantic import BaseModel
 
 from api_schemas.base import WireModel
@@ -21,7 +21,7 @@ from api_schemas.derivations import (
 )
 from api_schemas.jobs import Job, JobPage, JobStanding
 from api_schemas.requests import FitOptions
-from api_schemas.results import FitResult
+from api_schemas.results import FitResult, ResultPart
 from api_schemas.scans import (
     Scan,
     ScanDerivation,
@@ -62,6 +62,8 @@ class JobResource:
         Types of the answers about one and about several, and the page's field that holds them.
     options, result
         Types of the request as it was understood, and of the result document.
+    included
+        The dependency that gives what of the document is asked for that is left out otherwise.
     holds, files, media_types
         What that document holds, two of the files, and the media types of those that are neither
         meshes nor JSON.
@@ -84,6 +86,7 @@ class JobResource:
     listed: str
     options: type[BaseModel]
     result: type[BaseModel]
+    included: Callable[..., frozenset[ResultPart]]
     holds: str
     files: str
     media_types: tuple[str, ...]
@@ -127,6 +130,21 @@ def _by_no_label() -> None:
     """What is derived from a fit is that fit's person's."""
 
 
+Include = Annotated[
+    list[ResultPart] | None,
+    Query(description="`stages`: the body after each stage of the fit, some 70 kB more."),
+]
+
+
+def _included(include: Include = None) -> frozenset[ResultPart]:
+    return frozenset(include or ())
+
+
+def _whole() -> frozenset[ResultPart]:
+    """What is derived is told in full."""
+    return frozenset(ResultPart)
+
+
 FITS: Final = JobResource(
     root=FIT,
     noun="fit",
@@ -142,6 +160,7 @@ FITS: Final = JobResource(
     listed="jobs",
     options=FitOptions,
     result=FitResult,
+    included=_included,
     holds="camera, pose, shape, light, measurements, what was assumed",
     files="`body_posed.glb`, `overlay.png` and so on, as the job's links name them, or "
     "`body_posed.obj`, `measurements.csv`",
@@ -165,6 +184,7 @@ SCANS: Final = JobResource(
     listed="scans",
     options=ScanOptions,
     result=ScanResult,
+    included=_included,
     holds="shape, measurements, every view's camera, pose and light",
     files="`body_canonical.glb`, `overlay_0.png` and so on, as the job's links name them, or "
     "`body_canonical.obj`, `measurements.csv`",
@@ -206,6 +226,7 @@ def _derived_from(
         listed="derivations",
         options=DerivationRequest,
         result=DerivationResult,
+        included=_whole,
         holds="what there is to say of it",
         files="`report.pdf`, `body_reposed.glb` and so on, as the job's links name them, or "
         "`body_reposed.obj`",

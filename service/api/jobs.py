@@ -12,6 +12,7 @@ from starlette.concurrency import run_in_threadpool
 
 from api_schemas.base import WireModel
 from api_schemas.jobs import JobStanding
+from api_schemas.results import ResultPart
 from service.api.acceptance import (
     ACCEPTANCE_PROBLEMS,
     IdempotencyKey,
@@ -240,10 +241,17 @@ def _add_files(router: APIRouter, of: JobResource) -> None:
     def result(
         jobs: Annotated[TenantJobs, Depends(of.jobs)],
         job_id: Annotated[UUID, of.id],
+        included: Annotated[frozenset[ResultPart], Depends(of.included)],
         context: Context,
         if_none_match: IfNoneMatch = None,
     ) -> Response:
-        return serve_result(context, find(jobs, job_id), if_none_match=if_none_match)
+        return serve_result(
+            context,
+            find(jobs, job_id),
+            kind=of.result,
+            included=included,
+            if_none_match=if_none_match,
+        )
 
     @router.get(
         f"{of.id_below}/artifacts/{{name}}",

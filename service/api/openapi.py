@@ -1,10 +1,11 @@
 """Complete the generated OpenAPI document: what FastAPI cannot know of our types."""
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from importlib.resources import files
-from typing import Any, Final
+from typing import Any, Final, cast
 
 from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
@@ -113,6 +114,9 @@ _SECURITY: dict[str, Any] = {
 }
 
 
+_REFERENCE: Final = re.compile(r'"#/components/schemas/(\w+)"')
+
+
 @cache
 def recorded_examples() -> Mapping[str, Any]:
     """Return what a sandbox was asked and what it answered, notices included.
@@ -215,12 +219,56 @@ def complete_openapi(document: dict[str, Any]) -> dict[str, Any]:
     document["x-limits"] = _LIMITS
     for name in ("HTTPValidationError", "ValidationError"):
         schemas.pop(name, None)
+    _tell_defaults(schemas)
+    _drop_titles(schemas)
     document["components"]["schemas"] = dict(sorted(schemas.items()))
     document["components"] |= _SECURITY
     share_components(document)
     # With a key or without: which of the two, the service's settings say.
     document["security"] = [{_KEY_SCHEME: []}, {}]
     return document
+
+
+def _tell_defaults(schemas: dict[str, Any]) -> None:
+    """Say in words what a field that is left out of a request is taken for.
+
+    Generators take a field with a `default` for one that is always there, as it is in answers, and
+    would have callers send all of them.
+    """
+    for name in _read(schemas, _models("validation")):
+        for field in schemas[name].get("properties", {}).values():
+            value = field.get("default")
+            if "const" in field or "default" not in field:
+                continue
+            del field["default"]
+            if isinstance(value, (str, float, bool)):
+                shown = value if isinstance(value, str) else json.dumps(value)
+                field["description"] = f"{field.get('description', '')} Default `{shown}`.".strip()
+
+
+def _drop_titles(schemas: Any) -> None:
+    """Leave out pydantic's titles, which say a field's name again."""
+    if isinstance(schemas, list):
+        for each in cast("list[Any]", schemas):
+            _drop_titles(each)
+    if isinstance(schemas, dict):
+        fields = cast("dict[str, Any]", schemas)
+        for name, field in fields.items():
+            if isinstance(field, dict) and field.get("title") == name.replace("_", " ").title():
+                del field["title"]
+            _drop_titles(field)
+
+
+def _read(schemas: dict[str, Any], models: Iterable[type[BaseModel]]) -> set[str]:
+    """The names of these types and of all that they are made of."""
+    found: set[str] = set()
+    waiting = [model.__name__ for model in models]
+    while waiting:
+        name = waiting.pop()
+        if name not in found:
+            found.add(name)
+            waiting += _REFERENCE.findall(json.dumps(schemas[name]))
+    return found
 
 
 def _complete_operation(operation: dict[str, Any]) -> None:

@@ -31,8 +31,8 @@ from service.representation.formats import (
     written_here,
 )
 
-TEXTURE_FILE: Final = "texture.png"
-"""The file next to a textured mesh that its material refers to."""
+TEXTURE_FILES: Final = frozenset({"texture.png", "texture.jpg"})
+"""What lies next to a textured mesh, that its material refers to."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,7 +81,7 @@ def renditions(record: JobRecord) -> Iterator[Rendition]:
     for artifact in record.artifacts:
         if artifact.name.endswith(GLB_ENDING):
             yield from _forms_of(artifact)
-            if TEXTURE_FILE in stored:
+            if not TEXTURE_FILES.isdisjoint(stored):
                 yield _written(artifact, MTL)
         else:
             yield _as_stored(artifact)

@@ -27,6 +27,18 @@ def add_fit_arguments(fit: argparse.ArgumentParser) -> None:
     fit.add_argument("--cues", choices=("SE", "SES"))
     fit.add_argument("--optimizer", choices=("gauss_newton", "simplex"))
     fit.add_argument(
+        "--paper", action="store_true", help="as the paper does, without what was added to it"
+    )
+    fit.add_argument(
+        "--energies",
+        nargs="+",
+        choices=("silhouette", "edges", "penetration", "shading"),
+        help="as the paper, with these terms alone",
+    )
+    fit.add_argument(
+        "--free-height", action="store_true", help="as the paper, and find the height too"
+    )
+    fit.add_argument(
         "--view",
         choices=("front", "side", "back", "other"),
         help="from where the picture shows the person, if it was taken to be measured",
@@ -84,6 +96,26 @@ def add_check_arguments(check: argparse.ArgumentParser) -> None:
     check.add_argument("--height-m", type=float, metavar="METRES")
     check.add_argument("--focal-length-px", type=float, metavar="PIXELS")
     check.add_argument("--focal-length-35mm", type=float, metavar="MM")
+
+
+def add_paper_arguments(paper: argparse.ArgumentParser) -> None:
+    """Add those of ``maquette paper``."""
+    for name, shown in (("--picture", "of Figs. 2, 3, 5, 7 and 9"), ("--painting", "of Fig. 10")):
+        paper.add_argument(
+            name,
+            type=Path,
+            nargs=2,
+            metavar=("IMAGE", "FILE"),
+            help=f"{shown}, with a JSON file of its request",
+        )
+    paper.add_argument("--motion", type=Path, metavar="BVH", help="motion capture, of Fig. 9")
+    paper.add_argument(
+        "--output",
+        type=Path,
+        default=Path("maquette-paper"),
+        metavar="DIR",
+        help="default: %(default)s",
+    )
 
 
 def _add_common(command: argparse.ArgumentParser, *, output: str) -> None:

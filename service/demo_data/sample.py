@@ -57,3 +57,39 @@ def load_scan_sample(folder: Path = FOLDER) -> ScanSample:
         images=tuple((folder / f"scan_{view}.jpg").read_bytes() for view in ("front", "side")),
         request=(folder / "scan.json").read_bytes(),
     )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SubjectSample:
+    """Somebody whose body is known, in several poses.
+
+    Attributes
+    ----------
+    pictures
+        By the pose's name.
+    measurements
+        The true ones by name, centimetres and kilograms.
+    bodies
+        An ``npz`` of true vertices as whole numbers of ``step_m``: ``canonical`` at rest, and of
+        each pose under its name, in the camera frame.
+    """
+
+    pictures: Mapping[str, PictureSample]
+    measurements: Mapping[str, float]
+    bodies: bytes
+
+
+def load_subject(folder: Path = FOLDER / "subject") -> SubjectSample:
+    """Read ``subject.json``, ``bodies.npz`` and the pictures."""
+    document = json.loads((folder / "subject.json").read_text())
+    return SubjectSample(
+        pictures={
+            name: PictureSample(
+                image=(folder / f"{name}.jpg").read_bytes(),
+                request=json.dumps(request).encode(),
+            )
+            for name, request in document["requests"].items()
+        },
+        measurements=document["measurements"],
+        bodies=(folder / "bodies.npz").read_bytes(),
+    )

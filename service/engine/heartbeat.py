@@ -81,6 +81,8 @@ class Heartbeat:
                 self._pick_up()
             except OperationalError as error:
                 LOG.warning("The database is not available (%s).", error.orig)
+                # Nothing could begin meanwhile.
+                self._dropped_since.clear()
             except Exception:
                 # The database may be unavailable and come back; the heartbeat must never stop.
                 LOG.exception("A heartbeat failed.")

@@ -25,10 +25,12 @@ from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.measurements import STATURE
 from fitter.vocabulary.points import PointName
 from service.worker.fit_results import (
+    assumption_results,
     body_result,
     camera_result,
     finding_results,
     rounded_box,
+    rounded_parameters,
     warning_results,
 )
 from service.worker.translate import SEEN, clicks
@@ -70,10 +72,7 @@ def initial_pose(
             )
             for reading in initial.limbs
         ),
-        assumptions=tuple(
-            wire_results.Assumption(quantity=each.quantity, value=each.value, reason=each.reason)
-            for each in initial.assumptions
-        ),
+        assumptions=assumption_results(initial.assumptions),
         warnings=tuple(
             wire_results.FitWarning(code=each.code, message=each.message)
             for each in initial.warnings
@@ -128,10 +127,7 @@ def capture_check(found: CaptureCheck) -> wire_checks.CaptureCheck:
         seen_from=checked.seen,
         lean_deg=None if checked.lean_deg is None else round(checked.lean_deg, 1),
         distance_m=None if checked.distance_m is None else round(checked.distance_m, 2),
-        assumptions=tuple(
-            wire_results.Assumption(quantity=each.quantity, value=each.value, reason=each.reason)
-            for each in found.assumptions
-        ),
+        assumptions=assumption_results(found.assumptions),
         warnings=tuple(
             wire_results.FitWarning(code=each.code, message=each.message) for each in found.warnings
         ),
@@ -157,11 +153,11 @@ def body_estimate(estimate: BodyEstimate, model: BodyModel) -> wire_bodies.BodyE
     measurements = tuple(
         wire_bodies.EstimatedMeasurement(
             name=each.measurement.name,
-            value=each.measurement.value,
+            value=round(each.measurement.value, 2),
             unit=each.measurement.unit,
-            standard_error=each.measurement.standard_error or 0.0,
-            low=each.low,
-            high=each.high,
+            standard_error=round(each.measurement.standard_error or 0.0, 3),
+            low=round(each.low, 2),
+            high=round(each.high, 2),
             given=each.given,
             definition=each.measurement.definition,
             source=each.measurement.source,
@@ -171,10 +167,10 @@ def body_estimate(estimate: BodyEstimate, model: BodyModel) -> wire_bodies.BodyE
     stature_cm = next(each.value for each in measurements if each.name == STATURE)
     return wire_bodies.BodyEstimate(
         gender=wire_request.Gender(model.gender),
-        height_m=stature_cm / 100.0,
-        shape=tuple(float(coefficient) for coefficient in estimate.shape),
+        height_m=round(stature_cm / 100.0, 4),
+        shape=rounded_parameters(estimate.shape),
         measurements=measurements,
-        plausibility=estimate.plausibility,
+        plausibility=round(estimate.plausibility, 4),
         body_model=str(model.header.get("checksum", "")),
         warnings=warning_results(estimate.warnings),
     )

@@ -1,7 +1,7 @@
 """What a fit has found, translated to the wire."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, cast
 from uuid import UUID
 
@@ -55,6 +55,7 @@ def fit_result(result: FitResult, *, part_names: Sequence[str]) -> wire.FitResul
         ),
         assumptions=assumption_results(view.assumptions + result.assumptions),
         warnings=warning_results(view.warnings + result.warnings),
+        differences=result.differences,
     )
 
 
@@ -66,7 +67,7 @@ def scan_result(result: FitResult, *, part_names: Sequence[str]) -> wire_scan.Sc
         **_person(result),
         verdict=worst.verdict,
         outcome_explanation=worst.outcome_explanation,
-        shape=tuple(result.shape.tolist()),
+        shape=rounded_parameters(result.shape),
         views=tuple(
             wire_scan.ScannedView(
                 **_view(view, part_names),
@@ -86,7 +87,7 @@ def scan_result(result: FitResult, *, part_names: Sequence[str]) -> wire_scan.Sc
             )
             for stage in result.stages
         ),
-        agreement=result.alone.agreement,
+        agreement=round(result.alone.agreement, 4),
         assumptions=assumption_results(result.assumptions),
         warnings=warning_results(result.warnings),
     )
@@ -103,13 +104,13 @@ def _person(result: FitResult) -> dict[str, Any]:
     """The fields of a :class:`api_schemas.results.PersonResult` that say one thing of all."""
     return {
         "gender": result.person.gender,
-        "height_m": result.found.height_m,
+        "height_m": round(result.found.height_m, 4),
         "cues": result.found.cues,
         "optimizer": result.optimizer,
-        "energies": dict(result.energies),
+        "energies": _energies(result.energies),
         "evaluations": result.evaluations,
         "measurements": measurement_results(result.measurements, result.given),
-        "stage_seconds": dict(result.stage_seconds),
+        "stage_seconds": {name: round(each, 3) for name, each in result.stage_seconds.items()},
         "artifacts": (),
     }
 
@@ -153,7 +154,7 @@ def _in_picture(found: PictureFit, part_names: Sequence[str]) -> dict[str, Any]:
         "body": body_result(person.body, part_names),
         "light": None if person.light is None else _light(person.light),
         "reflectance": None if person.reflectance is None else _reflectance(person.reflectance),
-        "silhouette_overlap": found.silhouette_overlap,
+        "silhouette_overlap": round(found.silhouette_overlap, 4),
     }
 
 
@@ -166,9 +167,9 @@ def _stage(stage: FitStage, given: Sequence[str]) -> dict[str, Any]:
     """The fields of a :class:`api_schemas.results.StageResult`."""
     return {
         "name": stage.name,
-        "energies": dict(stage.energies),
+        "energies": _energies(stage.energies),
         "measurements": tuple(
-            wire.StageMeasurement(**each.model_dump())
+            wire.StageMeasurement(**each.model_dump(exclude={"low", "high"}))
             for each in measurement_results(stage.measurements, given)
         ),
     }
@@ -177,7 +178,7 @@ def _stage(stage: FitStage, given: Sequence[str]) -> dict[str, Any]:
 def _stage_body(stage: StageBody, part_names: Sequence[str]) -> dict[str, Any]:
     """The fields of a :class:`api_schemas.results.StageBody`."""
     return {
-        "silhouette_overlap": stage.silhouette_overlap,
+        "silhouette_overlap": round(stage.silhouette_overlap, 4),
         "body": body_result(stage.body, part_names),
     }
 
@@ -185,7 +186,11 @@ def _stage_body(stage: StageBody, part_names: Sequence[str]) -> dict[str, Any]:
 def assumption_results(assumptions: Sequence[Assumption]) -> tuple[wire.Assumption, ...]:
     """Translate what was assumed."""
     return tuple(
-        wire.Assumption(quantity=each.quantity, value=each.value, reason=each.reason)
+        wire.Assumption(
+            quantity=each.quantity,
+            value=round(each.value, 4) if isinstance(each.value, float) else each.value,
+            reason=each.reason,
+        )
         for each in assumptions
     )
 
@@ -221,9 +226,9 @@ def rounded_box(box: Box | None) -> Box | None:
 def camera_result(camera: Camera) -> wire.CameraResult:
     """Translate a camera."""
     return wire.CameraResult(
-        focal_length_px=float(camera.focal_length_px),
-        centre_x=float(camera.centre_x),
-        centre_y=float(camera.centre_y),
+        focal_length_px=round(float(camera.focal_length_px), 3),
+        centre_x=round(float(camera.centre_x), 3),
+        centre_y=round(float(camera.centre_y), 3),
         width=camera.width,
         height=camera.height,
     )
@@ -237,22 +242,41 @@ def fitted_camera(camera: Camera, tilt: CameraTilt | None) -> wire.FittedCameraR
     pitch_error, roll_error = tilt.standard_errors
     return wire.FittedCameraResult(
         **plain,
-        pitch_deg=math.degrees(tilt.pitch),
-        pitch_standard_error_deg=math.degrees(pitch_error),
-        roll_deg=math.degrees(tilt.roll),
-        roll_standard_error_deg=math.degrees(roll_error),
+        pitch_deg=_degrees(tilt.pitch),
+        pitch_standard_error_deg=_degrees(pitch_error),
+        roll_deg=_degrees(tilt.roll),
+        roll_standard_error_deg=_degrees(roll_error),
     )
+
+
+def _degrees(radians: float) -> float:
+    """Fine enough that what is turned by it at some metres' distance is where the files have it."""
+    return round(math.degrees(radians), 5)
 
 
 def _stance(person: FittedPerson) -> wire.StanceResult | None:
     if person.tilt is None:
         return None
-    return wire.StanceResult(kind=person.tilt.stance, probabilities=dict(person.tilt.stances))
+    probabilities = {kind: round(each, 4) for kind, each in person.tilt.stances.items()}
+    return wire.StanceResult(kind=person.tilt.stance, probabilities=probabilities)
 
 
 def _vector(values: np.ndarray) -> wire.Vector:
-    x, y, z = (float(value) for value in values)
+    x, y, z = rounded_parameters(values)
     return (x, y, z)
+
+
+def rounded_parameters(values: np.ndarray) -> tuple[float, ...]:
+    """To a millionth of a radian, metre or standard deviation.
+
+    The surface of a body that is made of them lies where the files have it, to a micrometre or two.
+    """
+    return tuple(round(float(value), 6) for value in values)
+
+
+def _energies(energies: Mapping[str, float]) -> dict[str, float]:
+    """To a hundredth of a nat."""
+    return {name: round(energy, 2) for name, energy in energies.items()}
 
 
 def body_result(body: BodyParameters, part_names: Sequence[str]) -> wire.BodyResult:
@@ -263,44 +287,47 @@ def body_result(body: BodyParameters, part_names: Sequence[str]) -> wire.BodyRes
             for part, rotation in zip(part_names, body.pose, strict=True)
         ),
         translation_m=_vector(body.translation),
-        shape=tuple(float(coefficient) for coefficient in body.shape),
+        shape=rounded_parameters(body.shape),
     )
 
 
 def _light(light: Light) -> wire.LightResult:
     return wire.LightResult(
         kind=light.kind,
-        azimuth_deg=math.degrees(light.azimuth),
-        elevation_deg=math.degrees(light.elevation),
-        distance_m=None if light.kind is LightKind.DIRECTIONAL else light.distance,
+        azimuth_deg=_degrees(light.azimuth),
+        elevation_deg=_degrees(light.elevation),
+        distance_m=None if light.kind is LightKind.DIRECTIONAL else round(light.distance, 3),
         surroundings=None if light.surroundings is None else _surroundings(light.surroundings),
     )
 
 
 def _surroundings(surroundings: Surroundings) -> wire.SurroundingsResult:
-    e0, e1, e2, e3, e4, e5, e6, e7, e8 = surroundings.tolist()
+    e0, e1, e2, e3, e4, e5, e6, e7, e8 = rounded_parameters(surroundings)
     return wire.SurroundingsResult(coefficients=(e0, e1, e2, e3, e4, e5, e6, e7, e8))
 
 
 def _reflectance(reflectance: Reflectance) -> wire.ReflectanceResult:
     return wire.ReflectanceResult(
-        ambient=float(reflectance.ambient),
-        specular_exponent=float(reflectance.specular_exponent),
-        mean_albedo=float(reflectance.albedo.mean()),
-        mean_specularity=float(reflectance.specularity.mean()),
+        ambient=round(float(reflectance.ambient), 4),
+        specular_exponent=round(float(reflectance.specular_exponent), 2),
+        mean_albedo=round(float(reflectance.albedo.mean()), 4),
+        mean_specularity=round(float(reflectance.specularity.mean()), 4),
     )
 
 
 def measurement_results(
     measurements: Sequence[Measurement], given: Sequence[str]
 ) -> tuple[wire.Measurement, ...]:
-    """Translate measurements; ``given`` names those that were in the request."""
+    """Translate measurements, to a tenth of a millimetre and to 10 grams.
+
+    ``given`` names those that were in the request.
+    """
     return tuple(
         wire.Measurement(
             name=measurement.name,
-            value=measurement.value,
+            value=round(measurement.value, 2),
             unit=measurement.unit,
-            standard_error=measurement.standard_error,
+            standard_error=_rounded_error(measurement.standard_error),
             given=measurement.name in given,
             definition=measurement.definition,
             source=measurement.source,
@@ -309,11 +336,18 @@ def measurement_results(
     )
 
 
+def _rounded_error(error: float | None) -> float | None:
+    """To a hundredth of a millimetre, so that none but those of exact values are zero."""
+    return None if error is None else round(error, 3)
+
+
 def _limb_facing(facing: LimbFacing) -> wire.LimbFacing:
     return wire.LimbFacing(
         limb=facing.limb,
         facing=facing.facing,
         source=facing.source,
         ambiguous=facing.ambiguous,
-        alternative_energy=facing.alternative_energy,
+        alternative_energy=None
+        if facing.alternative_energy is None
+        else round(facing.alternative_energy, 2),
     )

@@ -64,9 +64,10 @@ def _with_sample(
     """The job with the picture its person was fitted to, not the one that was sent."""
     if IMAGE not in job.inputs:
         return job
-    # A person of an earlier version's sample is none of these: what is drawn of it is.
-    picture = canned.pictures.get(job.inputs[PERSON], job.inputs[OVERLAY])
-    return replace(job, inputs={**job.inputs, IMAGE: picture})
+    # A person of an earlier version's sample is none of these: what is drawn of it is, if needed.
+    picture = canned.pictures.get(job.inputs[PERSON], job.inputs.get(OVERLAY))
+    inputs = {name: content for name, content in job.inputs.items() if name != IMAGE}
+    return replace(job, inputs=inputs if picture is None else inputs | {IMAGE: picture})
 
 
 TASKS: Final = job_tasks(run, derive)

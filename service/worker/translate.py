@@ -17,6 +17,7 @@ from fitter.request import (
     FitRequest,
     KnownMeasurement,
     LightGuess,
+    Paper,
     Person,
     SaidClothing,
     View,
@@ -39,8 +40,20 @@ def fit_request(
     return FitRequest(
         person=person(options),
         views=views(options, pictures),
-        choices=Choices(optimizer=options.optimizer, force=options.force, max_pixels=max_pixels),
+        choices=Choices(
+            optimizer=options.optimizer,
+            paper=_paper(options),
+            force=options.force,
+            max_pixels=max_pixels,
+        ),
     )
+
+
+def _paper(options: wire.FitOptions | ScanOptions) -> Paper | None:
+    asked = options.paper if isinstance(options, wire.FitOptions) else None
+    if asked is None:
+        return None
+    return Paper(energies=frozenset(asked.energies), free_height=asked.free_height)
 
 
 def person(asked: wire.Person) -> Person:

@@ -14,11 +14,12 @@ from fitter.vocabulary.choices import OptimizerKind
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Search:
-    """One search of a fit."""
+    """One search of a fit, which ended where a step gained less than ``settled_nats``."""
 
     objective: JointObjective
     start: Sequence[Body]
     end: Minimum
+    settled_nats: float
 
 
 @contextmanager
@@ -36,7 +37,9 @@ def recorded_searches() -> Iterator[list[Search]]:
 
         def recorded(objective: JointObjective, start: Sequence[Body]) -> Minimum:
             end = made(objective, start)
-            found.append(Search(objective=objective, start=start, end=end))
+            found.append(
+                Search(objective=objective, start=start, end=end, settled_nats=settled_nats)
+            )
             return end
 
         return recorded

@@ -1,7 +1,7 @@
 """Gauss-Newton against the paper's simplex: the same energy from the same start."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from fitter.fits.pipeline import fit
 from fitter.optimizer.gauss_newton import Minimum, minimize_gauss_newton
@@ -83,7 +83,7 @@ def _searches(request: FitRequest) -> Mapping[str, Search]:
         fit(changed(request, outline=OutlineKind.GRABCUT))
     unshaded = [each for each in searches if not is_lit(each)]
     shaded = [each for each in searches if is_lit(each)]
-    whole = Search(objective=unshaded[-1].objective, start=searches[0].start, end=unshaded[-1].end)
+    whole = replace(unshaded[-1], start=searches[0].start)
     return {"E1": whole} | ({"E2": shaded[0]} if shaded else {})
 
 

@@ -183,7 +183,6 @@ def _life(
     recorder.ask("short", "GET", links["events"])
     recorder.ask("as-understood", "GET", links["request"])
     recorder.ask(done.get("kind", "sample"), "GET", links["result"])
-    recorder.ask("result.json", "GET", links["artifacts"]["result.json"])
     recorder.ask("first-page", "GET", f"{path}?limit=1")
     return done
 

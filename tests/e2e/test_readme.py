@@ -66,7 +66,7 @@ def test_the_curl_examples_bring_points_results_a_texture_and_other_formats(
     commands += block("checks")
     done = run(["bash", "-euo", "pipefail", "-c", commands], SERVICE=address)
     assert done.returncode == 0, done.stderr
-    assert done.stdout.count("event: end") == 3
+    assert done.stdout.count("event: end") == 2
     assert len(json.loads((clean_root / "points.json").read_text())["points"]) == 21
     check = json.loads((clean_root / "check.json").read_text())
     assert (check["usable"], check["findings"], check["seen_from"]) == (True, [], "front")

@@ -63,7 +63,7 @@ def test_a_person_is_measured_from_the_front_and_from_the_side(service: httpx.Cl
         if not each.given
     )
     person = FittedPerson.from_bytes(client.get(files["person.npz"]).content)
-    assert person.body.shape == pytest.approx(result.shape)
+    assert person.body.shape == pytest.approx(result.shape, abs=1e-6)
     assert person.shape_covariance is not None
     tapes = client.get(files["tapes.json"]).json()
     assert {each.name for each in result.measurements} - {"weight"} <= set(tapes["lines"])
@@ -72,11 +72,12 @@ def test_a_person_is_measured_from_the_front_and_from_the_side(service: httpx.Cl
     texture = ended_job(client, made)
     assert texture["state"] == "succeeded", texture
     document = client.get(texture["links"]["result"]).content
-    assert TextureResult.model_validate_json(document).seen_share > 0.2
+    # At a third of the sample's size the outline's margin takes half of what is seen (0.31).
+    assert TextureResult.model_validate_json(document).seen_share > 0.15
     report = ended_job(client, client.post(job["links"]["derivations"], json={"kind": "report"}))
     assert report["state"] == "succeeded", report
     page = client.get(report["links"]["artifacts"]["report.html"]).text
-    assert "from several pictures" in page
+    assert "from 2 pictures" in page
     composition = {"kind": "body_composition", "age_years": 70}
     share = ended_job(client, client.post(job["links"]["derivations"], json=composition))
     assert share["state"] == "succeeded", share

@@ -10,6 +10,7 @@ from tests.evaluation.cases import CASES, PEOPLE
 from tests.evaluation.command_line import parser
 from tests.evaluation.foreign import MISSING, foreign_names
 from tests.evaluation.modes import Choice, mode_of
+from tests.evaluation.nulls import null_table
 from tests.evaluation.page import write_page
 from tests.evaluation.runs import Run, score_all
 from tests.evaluation.scene import PAIRED_SERIES, Case, Half, Series
@@ -24,8 +25,12 @@ def main(arguments: Sequence[str]) -> int:
     options = asked.parse_args(arguments)
     if options.repeat and not options.scan:
         asked.error("--repeat goes with --scan")
+    if options.proposed and (options.repeat or not options.scan):
+        asked.error("--proposed goes with --scan")
     if options.every and not options.again:
         asked.error("--every goes with --again")
+    if options.kind and not options.spoilt:
+        asked.error("--kind goes with --spoilt")
     choice = Choice(
         cases=[case for case in CASES.values() if _is_chosen(case, options)],
         foreign=_foreign(options),
@@ -62,6 +67,7 @@ def _score(choice: Choice) -> None:
         print(f"\n{title}: {_counts(part)}")
         for lines in (summary_lines, trunk_lines, distance_lines, bmi_lines, worst_lines):
             print("\n".join(lines(part)))
+        print("\n".join(null_table([each.name for each in part])))
     if options.page is not None:
         print(f"\n{write_page(options.page, scored)}")
 
@@ -78,7 +84,12 @@ def _is_chosen(case: Case, options: argparse.Namespace) -> bool:
 def _foreign(options: argparse.Namespace) -> list[str]:
     """The foreign pictures that are chosen, in a folder that may not be there."""
     half = None if options.half is None else Half(options.half)
-    wanted = options.set in (None, Series.FOREIGN.value) or options.detector or options.chain
+    wanted = (
+        options.set in (None, Series.FOREIGN.value)
+        or options.detector
+        or options.paper
+        or options.chain
+    )
     if wanted and not options.case and not foreign_names():
         print(MISSING, flush=True)
     if options.case:

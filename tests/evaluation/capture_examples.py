@@ -30,12 +30,13 @@ MAX_PIXELS = 50_000_000
 WITHOUT_EXAMPLE = {
     Code.NOBODY_FOUND,
     Code.SKIN_NOT_FOUND,
+    Code.COVERED,
     Code.NOT_STANDING,
     Code.CHILD,
     Code.CONTRADICTED,
 }
-"""Everybody in the suite's pictures is grown up and stands, in colour; the last is said by fits
-alone."""
+"""Everybody in the suite's pictures is grown up and stands, in colour; no check tells what covers
+them, or that a fit is contradicted."""
 
 NEAR_M = 1.2
 WIDE_MM = 15

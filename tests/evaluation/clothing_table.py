@@ -17,6 +17,9 @@ KEYS = tuple(key for _, key, _ in MEASUREMENTS)
 
 WIDEST_CLASS = 39
 
+KNOWN = 0.05
+"""Errors of what is known are smaller: they are rounded to nothing."""
+
 
 def case_heading() -> str:
     """Above :func:`case_lines`."""
@@ -41,12 +44,17 @@ def clothing_lines(scores: Sequence[DressedScore]) -> list[str]:
     return [*lines, *label_lines(unsaid)]
 
 
+def null_heading() -> list[str]:
+    """Above :func:`null_lines` where no table with its columns is."""
+    return ["", _columns("without a picture")]
+
+
 def null_lines(nulls: Mapping[str, Sequence[Mapping[str, float]]]) -> list[str]:
     """Errors of what is said without a picture, by what is known; a dash for what is known."""
     lines: list[str] = []
     for title, errors in nulls.items():
         columns = [[each[key] for each in errors] for key in KEYS]
-        cells = [_errors(column) if np.any(np.abs(column) > 1e-6) else "-" for column in columns]
+        cells = [_errors(column) if np.any(np.abs(column) > KNOWN) else "-" for column in columns]
         line = f"{title:{WIDEST_CLASS}s}{len(errors):3d}"
         lines.append(line + "".join(f"{cell:>26s}" for cell in cells))
     return lines
@@ -92,9 +100,13 @@ def _case_line(each: DressedScore) -> str:
     return f"{line}  {each.outfit}{'  failed' if scored.failed else ''}"
 
 
-def _summary_heading(title: str) -> list[str]:
+def _columns(title: str) -> str:
     columns = "".join(f"{f'{name} {unit} (bias)':>26s}" for name, _, unit in MEASUREMENTS)
-    return [f"{title:{WIDEST_CLASS}s}{'n':>3s}{columns}{f'{LEVEL} % hold':>14s}"]
+    return f"{title:{WIDEST_CLASS}s}{'n':>3s}{columns}"
+
+
+def _summary_heading(title: str) -> list[str]:
+    return [f"{_columns(title)}{f'{LEVEL} % hold':>14s}"]
 
 
 def _summary(title: str, scored: Sequence[Scored]) -> list[str]:

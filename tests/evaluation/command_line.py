@@ -7,6 +7,7 @@ from fitter.vocabulary.choices import Clothing, OutlineKind
 from tests.evaluation.cases import CASES
 from tests.evaluation.foreign import foreign_names
 from tests.evaluation.scene import Half, Series
+from tests.evaluation.spoilt import KINDS
 from tests.evaluation.table import MEASUREMENTS
 
 
@@ -104,6 +105,7 @@ def _add_modes(to: argparse.ArgumentParser) -> None:
             "--chain",
             "from a body fitted to the true mesh to a fit that is told nothing, foreign pictures",
         ),
+        ("--paper", "fit by the paper's own method and by ours, on the same pictures"),
         ("--moved-points", "fit with the points 2 cm away from where they were, in several ways"),
         (
             "--detector",
@@ -117,6 +119,14 @@ def _add_modes(to: argparse.ArgumentParser) -> None:
             "--spoilt-scans",
             "scan people from both sides, spoilt in one way each: what a fault of pictures costs",
         ),
+        (
+            "--spoilt",
+            "measure people behind things, cropped, told wrongly, in the dark: errors, intervals",
+        ),
+        (
+            "--covers",
+            "fit people in gloves, masks, beards, stockings, dark skin, cloth of the skin's colour",
+        ),
         ("--nonsense", "fit people and what is none: how many of each the verdicts contradict"),
         (
             "--scan",
@@ -129,7 +139,15 @@ def _add_modes(to: argparse.ArgumentParser) -> None:
         ),
     ):
         to.add_argument(name, action="store_true", help=what)
+    to.add_argument(
+        "--kind", action="append", choices=KINDS, metavar="KIND", help="with --spoilt: these alone"
+    )
     to.add_argument("--every", action="store_true", help="with --again: all pictures, not a few")
+    to.add_argument(
+        "--proposed",
+        action="store_true",
+        help="with --scan: by points that the detector proposes, in place of clicks",
+    )
     to.add_argument(
         "--repeat",
         action="store_true",

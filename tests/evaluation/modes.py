@@ -3,6 +3,8 @@
 import argparse
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
+from itertools import groupby
 
 from fitter.vocabulary.choices import Cues, Gender
 from tests.evaluation.again import (
@@ -23,19 +25,15 @@ from tests.evaluation.clothes_check import clothed_pictures, clothes_lines, clot
 from tests.evaluation.clothing_table import (
     case_heading,
     clothing_lines,
-    null_lines,
     underwear_lines,
 )
 from tests.evaluation.clothing_table import (
     case_lines as dressed_lines,
 )
+from tests.evaluation.covers import asked_covers, covered_fit
+from tests.evaluation.covers_table import covers_heading, covers_line
 from tests.evaluation.detector_figures import detector_lines, hinted_fits
-from tests.evaluation.dressed import (
-    MISSING,
-    NULLS,
-    dressed_names,
-    null_errors,
-)
+from tests.evaluation.dressed import MISSING, dressed_names
 from tests.evaluation.dressed_scores import DressedScore, score_dressed, score_undressed
 from tests.evaluation.foreign import MISSING as FOREIGN_MISSING
 from tests.evaluation.foreign import foreign_half
@@ -43,10 +41,12 @@ from tests.evaluation.light_figures import InLight, in_both_lights, light_lines
 from tests.evaluation.limit_tables import limit_lines, outline_lines, several_lines
 from tests.evaluation.moved_points import moved_fits, moved_lines
 from tests.evaluation.nonsense import nonsense
+from tests.evaluation.nulls import null_rows, null_table
 from tests.evaluation.outline_limit import outline_limit
 from tests.evaluation.painted_clothes import painted_names
+from tests.evaluation.paper_method import method_errors, method_lines
 from tests.evaluation.people import load_person
-from tests.evaluation.runs import of_each, picture_of
+from tests.evaluation.runs import of_each
 from tests.evaluation.scan_tables import repeat_lines, scan_lines, worst_scan_lines
 from tests.evaluation.scans import (
     Pair,
@@ -60,10 +60,15 @@ from tests.evaluation.scans import (
 from tests.evaluation.scene import Case, Half, Series
 from tests.evaluation.several import several_pictures
 from tests.evaluation.shape_limit import shape_limit
+from tests.evaluation.spoilt import KINDS, asked_spoilt, measured
+from tests.evaluation.spoilt_table import spoilt_heading, spoilt_lines
 from tests.evaluation.stance_kinds import Kind
 from tests.evaluation.strangers import agreement_of, asked_of, stranger_lines
 from tests.evaluation.table import MEASUREMENTS, case_lines
 from tests.evaluation.verdict_table import judged_nonsense, judged_picture, verdict_lines
+
+EVERY = 2
+"""Of people in this order as many are left out."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -149,6 +154,15 @@ def detector(choice: Choice) -> None:
             _print(detector_lines([each for several in hinted for each in several]), title)
 
 
+def paper(choice: Choice) -> None:
+    """By the paper's own method, by that with what was added to it, and by ours."""
+    people = [case.name for case in choice.people_cases]
+    for title, names in (("suite", people), ("foreign", choice.foreign)):
+        if names:
+            found = of_each(method_errors, names, choice.jobs)
+            _print(method_lines([each for several in found for each in several]), title)
+
+
 def moved_points(choice: Choice) -> None:
     """With points that are not where they should be."""
     names = [*(case.name for case in choice.cases), *choice.foreign]
@@ -174,6 +188,28 @@ def spoilt_scans(choice: Choice) -> None:
         _print(cost_lines([each for several in found for each in several]), f"{half.value} half")
 
 
+def spoilt(choice: Choice) -> None:
+    """People who stand, in pictures spoilt in one way each; each kind as soon as it is fitted."""
+    for half, cases in choice.cases_by_half.items():
+        names = [each.name for each in cases if each.name.endswith(f"_{Kind.STANDING.value}")]
+        if names:
+            _print([*null_table(names), "", spoilt_heading()], f"{half.value} half")
+        for kind in choice.options.kind or KINDS:
+            found = list(of_each(measured, asked_spoilt(names, [kind]), choice.jobs))
+            _print(spoilt_lines(found))
+
+
+def covers(choice: Choice) -> None:
+    """Every second person in underwear and in clothes, with what hides skin or looks like it."""
+    for half, cases in choice.cases_by_half.items():
+        standing = [each.name for each in cases if each.name.endswith(f"_{Kind.STANDING.value}")]
+        clothed = [each.name for each in cases if each.series is Series.CLOTHED]
+        found = of_each(covered_fit, asked_covers(standing[::EVERY], clothed[::EVERY]), choice.jobs)
+        _print([covers_heading()], f"{half.value} half")
+        for _, these in groupby(found, key=lambda each: (each.dressed, each.asked.kind)):
+            _print([covers_line(list(these))])
+
+
 def verdicts(choice: Choice) -> None:
     """On people and on what is none."""
     for half in choice.halves:
@@ -194,9 +230,12 @@ def scan(choice: Choice) -> None:
             (Series.FOREIGN, foreign_pairs(half)),
         ):
             if pairs and choice.options.set in (None, series.value):
-                found = _scans(pairs, choice.jobs)
-                lines = [*scan_lines(found), *worst_scan_lines(found)]
-                _print(lines, f"{series.value} set, {half.value} half: {len(pairs)} people")
+                proposed = choice.options.proposed
+                found = _scans(pairs, choice.jobs, proposed=proposed)
+                nulls = null_table([pair.front for pair in pairs])
+                lines = [*scan_lines(found), *nulls, "", *worst_scan_lines(found)]
+                by = "proposals" if proposed else "clicks"
+                _print(lines, f"{series.value} set, {half.value} half: {len(pairs)} people, {by}")
 
 
 def repeat(choice: Choice) -> None:
@@ -229,7 +268,7 @@ def dressed(choice: Choice) -> None:
     for half, cases in choice.cases_by_half.items():
         names = [case.name for case in cases]
         scores = _dressed(names, choice.jobs, f"{half.value} half")
-        _print(_nulls(names))
+        _print(null_rows(names))
         undressed = [f"{case.person}_{Kind.STANDING.value}" for case in cases]
         _print(underwear_lines(scores, score_undressed(undressed, jobs=choice.jobs)))
 
@@ -241,7 +280,7 @@ def dressed_strangers(choice: Choice) -> None:
         print(MISSING, flush=True)
         return
     _dressed(names, choice.jobs, "dressed set")
-    _print(_nulls(names))
+    _print(null_rows(names))
 
 
 def painted_strangers(choice: Choice) -> None:
@@ -264,17 +303,6 @@ def _dressed(names: Sequence[str], jobs: int, title: str) -> list[DressedScore]:
     return scores
 
 
-def _nulls(names: Sequence[str]) -> list[str]:
-    """What errs without a picture."""
-    pictures = [picture_of(name) for name in names]
-    return null_lines(
-        {
-            title: [null_errors(picture, known) for picture in pictures]
-            for title, known in NULLS.items()
-        }
-    )
-
-
 Mode = Callable[[Choice], None]
 
 MODES: Mapping[str, Mode] = {
@@ -284,9 +312,12 @@ MODES: Mapping[str, Mode] = {
     "surroundings": surroundings,
     "chain": chain,
     "detector": detector,
+    "paper": paper,
     "moved_points": moved_points,
     "checks": checks,
     "spoilt_scans": spoilt_scans,
+    "spoilt": spoilt,
+    "covers": covers,
     "nonsense": verdicts,
     "repeat": repeat,
     "scan": scan,
@@ -314,8 +345,9 @@ def _names(choice: Choice, half: Half) -> list[str]:
     return own + [each for each in choice.foreign if foreign_half(each) is half]
 
 
-def _scans(pairs: Sequence[Pair], jobs: int) -> list[Scanned]:
-    return [each for found in of_each(scanned, pairs, jobs) for each in found]
+def _scans(pairs: Sequence[Pair], jobs: int, *, proposed: bool = False) -> list[Scanned]:
+    found = of_each(partial(scanned, proposed=proposed), pairs, jobs)
+    return [each for several in found for each in several]
 
 
 def _print(lines: Sequence[str], title: str | None = None) -> None:

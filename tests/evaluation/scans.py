@@ -130,12 +130,16 @@ def foreign_pairs(half: Half | None) -> list[Pair]:
     ]
 
 
-def scanned(pair: Pair) -> list[Scanned]:
-    """A pair by all views, without the weight and with it; clothes also said to be tight, loose."""
+def scanned(pair: Pair, *, proposed: bool = False) -> list[Scanned]:
+    """A pair by all views, without the weight and with it; clothes also said to be tight, loose.
+
+    By clicks, or by points that the detector proposes.
+    """
     pictures = {name: picture_of(name) for name in pair.kinds}
-    all_told = [Told(), Told(measurements=("weight",))]
+    all_told = [Told(proposed=proposed), Told(proposed=proposed, measurements=("weight",))]
     if pair.series is Series.CLOTHED_PAIRS:
-        all_told += [Told(clothing=said) for said in Clothing if said is not Clothing.AUTO]
+        others = [said for said in Clothing if said is not Clothing.AUTO]
+        all_told += [Told(proposed=proposed, clothing=said) for said in others]
     return [each for told in all_told for each in _by_all_views(pair, pictures, told)]
 
 

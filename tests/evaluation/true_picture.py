@@ -19,6 +19,8 @@ from tests.one_picture import changed
 class Told:
     """What a fit is told beyond its request: what the errors would be without that difficulty.
 
+    ``proposed`` is told less: no points, so that the detector proposes them.
+
     ``mask`` the person as seen, in place of segmentation; ``light`` where the search for the light
     begins; ``focal_length`` in pixels, where the picture does not give it; ``pose`` is held,
     and ``place`` with it;
@@ -35,6 +37,7 @@ class Told:
     outline: OutlineKind | None = None
     surroundings: SurroundingsKind = SurroundingsKind.UNIFORM
     clothing: Clothing = Clothing.AUTO
+    proposed: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -80,6 +83,8 @@ class TruePicture:
 def told_request(picture: TruePicture, told: Told) -> FitRequest:
     """The picture's request with what is told beside."""
     request = changed(picture.request, clothing=told.clothing)
+    if told.proposed:
+        request = changed(request, clicks={}, complete_clicks=True)
     if told.mask:
         request = changed(request, mask=encoded_mask(picture.person_mask))
     if told.outline is not None:

@@ -5,7 +5,7 @@ Axes of the file, metres. Of an animation the body is the exact SCAPE body of th
 
 import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -39,7 +39,6 @@ class Shown:
     triangles: int
     tolerance_m: float = ROUNDING_M
     cameras: int = 0
-    lights: int = 0
     texture: bool = False
     morph_targets: int = 0
     bones: int = 0
@@ -103,11 +102,11 @@ class _Results:
 
     def combined(self, number: int) -> Shown:
         body = self.of("combined")["bodies"][number - 1]
-        return self.posed(body["body"], body["image_camera"], lights=1)
+        return self.posed(body["body"], body["image_camera"])
 
     def in_view(self, number: int) -> Shown:
         view = self.of("scan")["views"][number]
-        return self.posed(view["body"], view["image_camera"], lights=1)
+        return self.posed(view["body"], view["image_camera"])
 
     def in_view_before_shading(self, number: int) -> Shown:
         camera = self.of("scan")["views"][number]["image_camera"]
@@ -116,6 +115,10 @@ class _Results:
     def textured(self, **more: Any) -> Shown:
         corners = len(self.model.uv)
         return self.posed(self.first()["body"], vertices=corners, texture=True, **more)
+
+    def dressed(self, shown: Shown) -> Shown:
+        """The same in the picture's colours, which cut the skin."""
+        return replace(shown, vertices=len(self.model.uv), texture=True)
 
     def canonical(self, shape: Iterable[float]) -> Shown:
         return self.shown(_standing(self.fitted.measuring.canonical.at(np.array(list(shape)))))
@@ -167,15 +170,17 @@ def _standing(vertices: Vertices) -> Vertices:
 
 _OF_EITHER: Mapping[str, Callable[[_Results], Shown]] = {
     "texture/body_textured.glb": lambda r: r.textured(),
-    "albedo_texture/body_textured.glb": lambda r: r.textured(lights=1),
-    "pose/body_reposed.glb": lambda r: r.upright(
-        _parameters(r.derived("pose") | {"shape": r.first()["body"]["shape"]})
+    "albedo_texture/body_textured.glb": lambda r: r.textured(),
+    "pose/body_reposed.glb": lambda r: r.dressed(
+        r.upright(_parameters(r.derived("pose") | {"shape": r.first()["body"]["shape"]}))
     ),
-    "animation/body_animated.glb": lambda r: r.animated(
-        error="morph_largest_error_mm", morph_targets=r.derived("animation")["morph_targets"]
+    "animation/body_animated.glb": lambda r: r.dressed(
+        r.animated(
+            error="morph_largest_error_mm", morph_targets=r.derived("animation")["morph_targets"]
+        )
     ),
-    "animation/body_skinned.glb": lambda r: r.animated(
-        error="skin_largest_error_mm", bones=len(r.model.part_names)
+    "animation/body_skinned.glb": lambda r: r.dressed(
+        r.animated(error="skin_largest_error_mm", bones=len(r.model.part_names))
     ),
     "caricature/body_caricature.glb": lambda r: r.turned_upright(
         _parameters(r.first()["body"] | {"shape": r.derived("caricature")["shape"]})
@@ -186,7 +191,7 @@ _OF_EITHER: Mapping[str, Callable[[_Results], Shown]] = {
 _SHOWN: Mapping[str, Callable[[_Results], Shown]] = {
     "fit/body_canonical.glb": lambda r: r.canonical(r.of("fit")["body"]["shape"]),
     "fit/body_canonical_se.glb": lambda r: r.canonical(r.before_shading()[0]["shape"]),
-    "fit/body_posed.glb": lambda r: r.posed(r.of("fit")["body"], lights=1),
+    "fit/body_posed.glb": lambda r: r.posed(r.of("fit")["body"]),
     "fit/body_posed_se.glb": lambda r: r.posed(r.before_shading()[0]),
     **_OF_EITHER,
     **{f"scan_{name}": shown for name, shown in _OF_EITHER.items()},

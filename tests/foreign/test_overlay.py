@@ -1,4 +1,4 @@
-"""The README draws the body over the picture: by trimesh, and by three.js in a browser."""
+"""The documents' examples: the body over its picture by trimesh and by three.js, a turntable."""
 
 import contextlib
 import functools
@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
-from playwright.sync_api import sync_playwright
+from playwright.sync_api import Page, sync_playwright
 
 from fitter.fits.prepared_model import prepared_model
 from fitter.person.fitted_person import FittedPerson
@@ -59,21 +59,27 @@ def test_three_js_draws_the_body_where_the_picture_has_it(
     (folder / "index.html").write_text(block("three"))
     shutil.copy(FOLDER / "sample.jpg", folder)
     (folder / "three").symlink_to(npm_readers / "node_modules" / "three")
-    faults: list[str] = []
-    with (
-        served(folder) as address,
-        sync_playwright() as playwright,
-        chromium(playwright) as browser,
-    ):
-        page = browser.new_page(viewport={"width": 720, "height": 960})
-        page.on("pageerror", lambda error: faults.append(str(error)))
-        page.goto(address)
-        page.wait_for_selector("canvas", timeout=120_000)
+    with drawn_page(folder, width=720, height=960) as page:
         # What shows through is not the body.
         page.add_style_tag(content="img { visibility: hidden } body { background: #f0f }")
         seen = np.asarray(Image.open(io.BytesIO(page.screenshot())).convert("RGB"))
-    assert faults == []
     check((seen != MAGENTA).any(axis=2), files)
+
+
+def test_the_turntable_shows_the_textured_body_turning(
+    files: Path, tmp_path: Path, npm_readers: Path
+):
+    (tmp_path / "index.html").write_text(block("turntable"))
+    shutil.copy(files / "texture" / "body_textured.glb", tmp_path)
+    (tmp_path / "three").symlink_to(npm_readers / "node_modules" / "three")
+    with drawn_page(tmp_path, width=240, height=320) as page:
+        page.wait_for_timeout(5_000)
+        seen = [
+            np.asarray(Image.open(io.BytesIO(page.screenshot())).convert("RGB"), dtype=int)
+            for _ in range(2)
+        ]
+    assert 0.05 < (np.abs(seen[0] - seen[0][0, 0]).max(axis=2) > 16).mean() < 0.5
+    assert (seen[0] != seen[1]).any()
 
 
 def check(drawn: np.ndarray, files: Path) -> None:
@@ -90,6 +96,23 @@ def check(drawn: np.ndarray, files: Path) -> None:
 
 def overlap(one: np.ndarray, other: np.ndarray) -> float:
     return (one & other).sum() / (one | other).sum()
+
+
+@contextlib.contextmanager
+def drawn_page(folder: Path, *, width: int, height: int) -> Iterator[Page]:
+    """A folder's page in Chromium once it has a canvas; no script of it may fail."""
+    faults: list[str] = []
+    with (
+        served(folder) as address,
+        sync_playwright() as playwright,
+        chromium(playwright) as browser,
+    ):
+        page = browser.new_page(viewport={"width": width, "height": height})
+        page.on("pageerror", lambda error: faults.append(str(error)))
+        page.goto(address)
+        page.wait_for_selector("canvas", timeout=120_000)
+        yield page
+    assert faults == []
 
 
 @contextlib.contextmanager

@@ -32,7 +32,7 @@ NOT_INSTALLED = (
     r"service/demo_data/(result|measuring|page_clicking|page_result)\.jpg",
     r"fitter/measurement/atlas/.*",
     r"service/docs/.*",
-    r"api_schemas/released/.*",
+    r"api_schemas/(released|typescript)/.*",
 )
 """Sources of the page, documents and their pictures, documents of earlier versions."""
 

@@ -104,6 +104,12 @@ def row(name: str) -> list[str]:
     return [each.split()[0] for each in found.split("|")]
 
 
+def written(name: str) -> list[str]:
+    """A row of the tables, whole, with its name."""
+    (found,) = re.findall(rf"^ *\| ({re.escape(name)} \|.*) \|$", TABLES, re.MULTILINE)
+    return found.split(" | ")
+
+
 def in_tables(pattern: str) -> str:
     """The one figure in a sentence of the tables."""
     (found,) = re.findall(pattern, on_one_line(TABLES))
@@ -141,6 +147,19 @@ def test_figures_of_the_models_are_those_in_their_files():
 def test_the_comparison_with_the_paper_has_the_rows_of_the_tables(name: str):
     chest, waist, _, weight = row(name)[:4]
     assert f"| {name.partition(':')[0]} | {chest} | {waist} | {weight} |" in PAGE
+
+
+def test_the_two_methods_have_the_rows_of_the_tables():
+    gained: dict[str, list[float]] = {}
+    for method in ("the paper's method", "this package's"):
+        by_cues = [written(f"{method}, {cues}") for cues in ("SE", "SES")]
+        for cells in by_cues:
+            assert f"| {' | '.join(cells)} |" in PAGE
+        outline, shaded = ([float(each.split()[0]) for each in cells[1:]] for cells in by_cues)
+        gained[method] = [round(one - other, 1) for one, other in zip(outline, shaded, strict=True)]
+    chest, _, _, weight = gained["the paper's method"]
+    sentence = rf"gains what the paper says it does: {chest} ± [\d.]+ cm of chest and {weight} ± "
+    assert re.search(sentence, on_one_line(PAGE))
 
 
 def test_sentences_have_the_figures_of_the_tables():

@@ -46,6 +46,16 @@ def test_what_is_no_person_gets_no_measurements(kind, with_detector):
     assert result.found.outcome is Outcome.POOR_FIT
 
 
+@pytest.mark.slow
+def test_noise_that_points_are_put_on_is_said_to_show_nobody():
+    # Its colours change everywhere, so that the evidence alone contradicts nothing.
+    result = fitted("noise", with_detector=True)
+    (found,) = [each for each in result.found.findings if each.code is Code.NOBODY_FOUND]
+    assert found.severity is Severity.HARMS
+    assert {each.code for each in result.found.findings} > {Code.NOBODY_FOUND}
+    assert result.found.is_plausible
+
+
 def test_who_insists_gets_measurements_and_a_warning():
     result = fitted("landscape", force=True)
     assert result.found.verdict is Verdict.NO_PERSON

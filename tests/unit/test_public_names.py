@@ -43,6 +43,8 @@ NAMES = [
     "OptimizerKind",
     "Outcome",
     "OutlineKind",
+    "Paper",
+    "PaperEnergy",
     "Person",
     "PictureFit",
     "Progress",

@@ -5,15 +5,22 @@ import json
 
 import matplotlib.pyplot as plt
 import numpy as np
+from IPython.display import HTML, Markdown, display
+from IPython.display import Image as ShownImage
 from PIL import Image
 
 from fitter import Click, FitRequest, Gender, Person, View
 from fitter.arrays import Triangles, Vertices
+from fitter.reproduction.figure import Figure
+from fitter.reproduction.index import table_html
+from fitter.reproduction.subject import Table
 from fitter.training.report.body_sheets import FRONT, SIDE, Panel, scale_for, sheet
 from service.demo_data.sample import FOLDER
 
 PX_PER_M = 170.0
 DPI = 100
+FIGURE_PX = 1100
+QUALITY = 82
 
 
 def sample_request(name: str = "sample", points: str = "request") -> FitRequest:
@@ -62,3 +69,19 @@ def bodies_picture(bodies: dict[str, Vertices], triangles: Triangles) -> np.ndar
     }
     scale = scale_for(list(bodies.values()), px_per_m=PX_PER_M)
     return sheet(groups, triangles, scale, groups_per_row=len(groups))
+
+
+def show_figure(figure: Figure) -> None:
+    """One of the paper's figures, small, with its words."""
+    picture = Image.fromarray(figure.picture)
+    picture.thumbnail((FIGURE_PX, FIGURE_PX))
+    stream = io.BytesIO()
+    picture.save(stream, "JPEG", quality=QUALITY, optimize=True)
+    display(Markdown(f"**{figure.title}**"))
+    display(ShownImage(data=stream.getvalue(), format="jpeg", alt=figure.title))
+    display(Markdown(f"{figure.caption}\n\n*Different:* {figure.differs}"))
+
+
+def show_table(table: Table) -> None:
+    """Table 1 by one method."""
+    display(HTML(table_html(table)))

@@ -17,6 +17,9 @@ declare namespace Maquette {
   /** `system` is as the visitor's system has it. */
   type Theme = "light" | "dark" | "system";
 
+  /** What a visitor may do with a result besides reading it. */
+  type Deed = "save" | "delete";
+
   interface Options {
     /** Brings a new token from your server (POST /v1/tokens); called again when one has expired. */
     token?: () => Promise<string>;
@@ -27,6 +30,8 @@ declare namespace Maquette {
     /** What you know of the visitor, who may change it. */
     subject?: Subject;
     pictures?: Pictures;
+    /** What visitors may do with their result: files to save, and Delete, are shown if it says so. None is, without it. */
+    allow?: readonly Deed[];
     /** What screen readers call the frame. */
     title?: string;
     /** Takes the frame away. */
@@ -85,6 +90,7 @@ declare namespace Maquette {
     theme?: Theme | null;
     subject?: Subject | null;
     pictures?: Pictures | null;
+    allow?: readonly Deed[] | null;
   }
 
   type ToFrame = Start | { type: "maquette:token"; token: string } | { type: "maquette:theme"; theme: Theme };

@@ -54,8 +54,8 @@ export function App() {
             {frame.history}
             {entries.value.length > 0 && <span class={`badge ${active > 0 ? "is-active" : ""}`}>{entries.value.length}</span>}
           </button>
-          <a class="head-link is-wide-only" href="/docs">
-            {frame.api}
+          <a class="head-link is-wide-only" href="/documentation/">
+            {frame.documentation}
           </a>
           <LanguageSwitch />
           <IconButton icon="theme" label={theme.value === "dark" ? frame.lightPage : frame.darkPage} onClick={toggleTheme} />

@@ -1,7 +1,7 @@
 """What changed between two fits of one person."""
 
 from collections.abc import Callable
-from dataclasses import asdict
+from dataclasses import asdict, replace
 
 from api_schemas.derivation_kinds.change import ChangeOptions, ChangeResult, MeasurementChange
 from api_schemas.results import FitWarning
@@ -36,7 +36,7 @@ def derive(
     names = options.measurements or before.measured.names
     found = changes(before.measured.of(names), after.measured.of(names))
     stature = changes(before.measured.of([STATURE]), after.measured.of([STATURE]))[0]
-    rows = tuple(MeasurementChange(**asdict(each)) for each in found)
+    rows = tuple(MeasurementChange(**asdict(_rounded(each))) for each in found)
     return DerivationOutput(
         result=ChangeResult(
             since=options.since,
@@ -46,6 +46,17 @@ def derive(
             artifacts=(),
         ),
         artifacts={"changes.csv": models_csv(rows, MeasurementChange.model_fields)},
+    )
+
+
+def _rounded(change: Change) -> Change:
+    return replace(
+        change,
+        before=round(change.before, 3),
+        after=round(change.after, 3),
+        difference=round(change.difference, 3),
+        standard_error=round(change.standard_error, 3),
+        least=round(change.least, 3),
     )
 
 

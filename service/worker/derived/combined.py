@@ -36,7 +36,7 @@ from fitter.result import FittedView
 from fitter.vocabulary.measurements import STATURE
 from service.jobs.inputs import PERSON, REQUEST, RESULT, SentPicture, pictures_of
 from service.worker.derived.person import person_and_operators, read_result
-from service.worker.fit_results import combined_picture, measurement_results
+from service.worker.fit_results import combined_picture, measurement_results, rounded_parameters
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 from service.worker.translate import known_measurements, person, views
 
@@ -94,7 +94,7 @@ def derive(
     return DerivationOutput(
         result=CombinedResult(
             pictures=len(found.views),
-            shape=tuple(found.shape.tolist()),
+            shape=rounded_parameters(found.shape),
             bodies=tuple(
                 combined_picture(
                     each.found, number=number, fit_id=fit_id, part_names=model.part_names
@@ -104,7 +104,7 @@ def derive(
                 )
             ),
             measurements=measurement_results(found.measurements, found.given),
-            agreement=fused.agreement,
+            agreement=round(fused.agreement, 4),
             warnings=_warnings(fused, options),
             artifacts=(),
         ),

@@ -8,6 +8,8 @@ from api_schemas.derivation_kinds.figure import FigureOptions, FigureResult
 from fitter.applications.figure import figure_picture
 from fitter.applications.rig import rig_of
 from fitter.export.display import png
+from fitter.export.gltf_document import Frame
+from fitter.export.plain_gltf import plain_glb
 from fitter.observation.decoding import decode_picture
 from fitter.parameters import BodyParameters
 from service.jobs.inputs import IMAGE, OVERLAY, PERSON
@@ -30,16 +32,28 @@ def derive(
     shape = person.body.shape
     pose = pose_named(rig_of(model, shape), options.pose)
     reposed = BodyParameters(pose=pose, translation=np.zeros(3), shape=shape)
+    standing = evaluator.body_frame_vertices(reposed)
     drawn = figure_picture(
         picture,
         overlay,
         evaluator.body_frame_vertices(person.body),
-        evaluator.body_frame_vertices(reposed),
+        standing,
         model.triangles,
         degrees=options.degrees,
         pose_name=options.pose.value.replace("_", " "),
     )
     return DerivationOutput(
         result=FigureResult(pose=options.pose, artifacts=()),
-        artifacts={"figure.png": png(drawn)},
+        artifacts={
+            "figure.png": png(drawn),
+            "body_reposed.glb": plain_glb(
+                standing,
+                model,
+                name="body_reposed",
+                frame=Frame.ON_THE_GROUND,
+                extras={"pose": options.pose.value},
+                reflectance=person.reflectance,
+                albedo_rgb=person.albedo_rgb,
+            ),
+        },
     )

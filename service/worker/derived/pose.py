@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from api_schemas.derivation_kinds.base import BodyColours
 from api_schemas.derivation_kinds.pose import NamedPose, PoseOptions, PoseResult
 from fitter.applications.poses import named_pose, spelled_pose
 from fitter.applications.previews import View, preview
@@ -15,6 +16,7 @@ from fitter.export.plain_gltf import plain_glb
 from fitter.parameters import BodyParameters
 from service.jobs.inputs import PERSON
 from service.worker.derived.person import person_and_operators
+from service.worker.derived.pictured_body import texture_files, texture_for
 from service.worker.fit_results import body_result
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 
@@ -37,13 +39,21 @@ def derive(
     pose = spelled_pose(rig, options.rotations, beginning=pose_named(rig, options.pose))
     body = BodyParameters(pose=pose, translation=np.zeros(3), shape=person.body.shape)
     vertices = operators.evaluator.body_frame_vertices(body)
-    observe(0.5)
+    observe(0.2)
+    texture = texture_for(
+        options.colours, person, operators.evaluator, job.inputs, max_pixels=job.max_pixels
+    )
+    observe(0.8)
     views = [
         View(label=label, vertices=vertices, degrees=degrees)
         for label, degrees in (("front", 0.0), ("side", 90.0))
     ]
     return DerivationOutput(
-        result=PoseResult(pose=body_result(body, model.part_names).pose, artifacts=()),
+        result=PoseResult(
+            pose=body_result(body, model.part_names).pose,
+            colours=BodyColours.PLAIN if texture is None else options.colours,
+            artifacts=(),
+        ),
         artifacts={
             "body_reposed.glb": plain_glb(
                 vertices,
@@ -53,7 +63,9 @@ def derive(
                 extras={"pose": options.pose.value},
                 reflectance=person.reflectance,
                 albedo_rgb=person.albedo_rgb,
+                texture=texture,
             ),
             "pose.png": png(preview(views, model.triangles)),
-        },
+        }
+        | texture_files(texture),
     )

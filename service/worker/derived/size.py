@@ -75,9 +75,9 @@ def _arguments(answer: SizeAnswer) -> tuple[SizedMeasurement, ...]:
 def _argument(said: size_arguments.SizedMeasurement) -> SizedMeasurement:
     return SizedMeasurement(
         name=said.name,
-        value=said.value,
+        value=round(said.value, 2),
         unit=said.unit,
-        standard_error=said.standard_error,
+        standard_error=round(said.standard_error, 3),
         ease=said.ease,
         low=said.low,
         high=said.high,

@@ -2,28 +2,20 @@
 
 from collections.abc import Callable
 
-import cv2
 import numpy as np
 from jaxtyping import UInt8
 
 from api_schemas.derivation_kinds.texture import TextureColours, TextureOptions, TextureResult
 from fitter.applications.own_texture import atlas_drawing, painted_texture
-from fitter.applications.texture import albedo_texture, picture_texture
 from fitter.applications.textured_glb import in_file_axes, textured_glb
-from fitter.arrays import Mask
 from fitter.energies.fitting_operators import FittingOperators
-from fitter.errors import InvalidInputError
 from fitter.export.display import png
-from fitter.observation.colour import linear_from_display
-from fitter.observation.decoding import decode_coverage, decode_picture
+from fitter.observation.decoding import decode_picture
 from fitter.person.fitted_person import FittedPerson
-from fitter.render.camera import Camera
-from service.jobs.inputs import IMAGE, PERSON, SEGMENTATION, TEXTURE
+from service.jobs.inputs import PERSON, TEXTURE
 from service.worker.derived.person import person_and_operators
+from service.worker.derived.pictured_body import picture_on
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
-
-HALF = 128
-"""Level at which the segmentation says that a pixel shows the person."""
 
 
 def derive(
@@ -71,18 +63,13 @@ def _pictured(
     job: DerivationInput[TextureOptions], person: FittedPerson, body: FittingOperators
 ) -> _Laid:
     options = job.options
-    picture = decode_picture(job.inputs[IMAGE], field="image", max_pixels=job.max_pixels)
-    mask = _person_in(job.inputs[SEGMENTATION], person.camera, max_pixels=job.max_pixels)
-    without_light = options.colours is TextureColours.ALBEDO
-    if without_light and person.light is None:
-        raise _no_light()
-    made = albedo_texture if without_light else picture_texture
-    texture = made(
+    texture = picture_on(
         person,
         body.evaluator,
-        linear_from_display(picture.pixels / 255.0),
-        mask=mask,
+        job.inputs,
+        without_light=options.colours is TextureColours.ALBEDO,
         size=options.size,
+        max_pixels=job.max_pixels,
     )
     result = TextureResult(
         colours=options.colours,
@@ -110,19 +97,3 @@ def _painted(
         artifacts=(),
     )
     return result, levels, None
-
-
-def _person_in(segmentation: bytes, camera: Camera, *, max_pixels: int) -> Mask:
-    """Where the picture shows the person; the fit's own segmentation may be smaller."""
-    levels = decode_coverage(segmentation, field="mask", max_pixels=max_pixels)
-    resized = cv2.resize(levels, (camera.width, camera.height), interpolation=cv2.INTER_LINEAR)
-    return np.asarray(resized >= HALF)
-
-
-def _no_light() -> InvalidInputError:
-    return InvalidInputError(
-        code="no-light",
-        field="colours",
-        reason="The fit found no light that could be divided out of the picture.",
-        remedy="Fit with cues SES, or ask for the colours of the picture.",
-    )

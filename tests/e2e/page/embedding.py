@@ -10,7 +10,10 @@ from typing import Any
 from tests.e2e.service import REPOSITORY
 from tests.readme import block
 
-DOCUMENT = (REPOSITORY / "service" / "docs" / "embedding.md").read_text()
+DOCUMENT = "\n".join(
+    (REPOSITORY / "service" / "docs" / name).read_text()
+    for name in ("embedding.md", "embedding_messages.md")
+)
 SERVICE = "https://measure.example"
 
 

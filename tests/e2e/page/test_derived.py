@@ -66,20 +66,21 @@ def test_another_pose_and_a_caricature_are_shown_and_what_cannot_be_is_told(look
     page.get_by_label("Pose", exact=True).select_option(label="Sitting")
     page.get_by_role("button", name="Make the other pose").click()
     turned = page.get_by_role("img", name="The body in this pose; arrow keys turn it")
-    expect(turned).to_have_attribute("data-shows", "clay", timeout=FIT_WITHIN_MS)
+    expect(turned).to_have_attribute("data-shows", "texture", timeout=FIT_WITHIN_MS)
     looking.choose("From the sides")
     expect(page.get_by_role("img", name="Other pose of the body")).to_be_visible()
     looking.choose("Caricature")
     page.get_by_label("Times").fill("1.5")
     page.get_by_role("button", name="Make the caricature").click()
-    expect(page.get_by_role("img", name="Caricature of the body")).to_be_visible(
-        timeout=FIT_WITHIN_MS
-    )
+    turned = page.get_by_role("img", name="The caricature; arrow keys turn it")
+    expect(turned).to_have_attribute("data-shows", "clay", timeout=FIT_WITHIN_MS)
+    looking.choose("Beside the body")
+    expect(page.get_by_role("img", name="Caricature of the body")).to_be_visible()
     for made in ("Other pose", "Caricature"):
         expect(page.locator(".derived > li").filter(has_text=made).first).to_be_visible()
 
 
-def test_an_animation_plays_until_it_is_held_still(
+def test_an_animation_plays_in_the_viewer_and_its_film_until_it_is_held_still(
     looking: Visitor, service: httpx.Client, bare_fit: str
 ):
     page = looking.page
@@ -91,13 +92,28 @@ def test_an_animation_plays_until_it_is_held_still(
     expect(page.get_by_text("It moves as dance.bvh says.")).to_be_visible()
     page.get_by_role("button", name="Make the animation").click()
     expect(page.get_by_role("alert")).to_contain_text("does not begin with HIERARCHY")
-    page.get_by_role("button", name="Let it walk").click()
+    looking.choose("Walk")
+    expect(page.get_by_text("It moves as dance.bvh says.")).to_have_count(0)
     page.get_by_role("button", name="Make the animation").click()
-    moving = page.get_by_role("img", name="The body in motion")
+    # In the viewer: played, stopped, sought, and turned meanwhile.
+    body = page.get_by_role("img", name="The body in motion, to turn; arrow keys turn it")
+    expect(body).to_have_attribute("data-shows", re.compile("clay|texture"), timeout=FIT_WITHIN_MS)
+    looking.wait_for_change(body, looking.pixels(body), share=0.002)
+    page.get_by_role("button", name="Stop", exact=True).click()
+    page.get_by_role("slider", name="Moment of the motion").fill("0.5")
+    early = looking.pixels(body)
+    assert np.array_equal(looking.pixels(body), early)
+    page.get_by_role("slider", name="Moment of the motion").fill("2")
+    late = looking.wait_for_change(body, early, share=0.002)
+    body.press("ArrowRight")
+    looking.wait_for_change(body, late, share=0.01)
+    looking.choose("0.25 ×")
+    looking.choose("Film")
+    moving = page.get_by_role("img", name="The body in motion", exact=True)
     expect(moving).to_have_attribute("data-shows", "animation.webp", timeout=FIT_WITHIN_MS)
     looking.wait_for_change(moving, looking.pixels(moving), share=0.002)
     made = page.locator(".derived > li").first
-    expect(made).to_contain_text("the walk that ships with the package")
+    expect(made).to_contain_text("Walk: 3.3 s, over")
     # What lies below stays where it is.
     below = page.get_by_role("button", name="body_skinned.glb")
     place = below.evaluate("button => button.offsetTop")
@@ -113,7 +129,11 @@ def test_an_animation_plays_until_it_is_held_still(
     expect(page.get_by_role("button", name="Play")).to_be_visible()
     assert page.evaluate("window.playedOn") == 0
     # What is shown cannot move: it is the file of a single frame.
-    (job,) = service.get(f"/v1/fits/{bare_fit}/derivations").json()["derivations"]
+    (job,) = (
+        each
+        for each in service.get(f"/v1/fits/{bare_fit}/derivations").json()["derivations"]
+        if each["kind"] == "animation"
+    )
     still = Image.open(io.BytesIO(service.get(job["links"]["artifacts"]["animation.png"]).content))
     assert getattr(still, "n_frames", 1) == 1
     size = moving.evaluate("image => [image.naturalWidth, image.naturalHeight]")
@@ -121,6 +141,38 @@ def test_an_animation_plays_until_it_is_held_still(
     with page.expect_download() as download:
         made.get_by_role("button", name="body_skinned.glb").click()
     assert download.value.path().read_bytes()[:4] == b"glTF"
+
+
+def test_the_motion_is_chosen_beside_the_body_and_made_once(looking: Visitor):
+    page = looking.page
+    looking.choose("Animation")
+    page.get_by_role("radio", name="Squat", exact=True).check()
+    with page.expect_request(lambda request: request.method == "POST") as sent:
+        page.get_by_role("button", name="Make the animation").click()
+    assert sent.value.post_data_json["motion"] == "squat"
+    stage = page.locator(".bench-stage")
+    body = stage.get_by_role("img", name="The body in motion, to turn; arrow keys turn it")
+    expect(body).to_have_attribute("data-shows", re.compile("clay|texture"), timeout=FIT_WITHIN_MS)
+    wave = stage.get_by_role("radio", name="Wave", exact=True)
+    expect(stage.get_by_role("radio", name="Squat", exact=True)).to_be_checked()
+    stage.get_by_role("slider", name="Moment of the motion").fill("1.3")
+    low = looking.pixels(body)
+    with page.expect_request(lambda request: request.method == "POST") as sent:
+        wave.check()
+    assert sent.value.post_data_json == {"kind": "animation", "motion": "wave"}
+    expect(stage.get_by_text("Being made: Wave")).to_be_visible()
+    made = page.locator(".derived > li").filter(has_text="Animation")
+    expect(made).to_have_count(2)
+    expect(made.first).to_contain_text("Wave: 4.2 s", timeout=FIT_WITHIN_MS)
+    expect(stage.get_by_text("Being made")).to_have_count(0)
+    stage.get_by_role("slider", name="Moment of the motion").fill("1.3")
+    looking.wait_for_change(body, low, share=0.01)
+    # What was made before is shown again.
+    stage.get_by_role("radio", name="Squat", exact=True).check()
+    expect(made.nth(1).get_by_role("button", name="Show large")).to_have_attribute(
+        "aria-pressed", "true"
+    )
+    expect(made).to_have_count(2)
 
 
 def test_a_texture_is_shown_with_where_it_comes_from(looking: Visitor):
@@ -141,9 +193,9 @@ def test_a_texture_is_shown_with_where_it_comes_from(looking: Visitor):
     assert texture.evaluate("image => image.decode().then(() => image.naturalWidth)") == 512
     looking.choose("Where from")
     expect(page.get_by_role("img", name="Where the texture comes from")).to_be_visible()
-    expect(page.get_by_text("white was seen in the picture, grey is mirrored")).to_be_visible()
+    expect(page.get_by_text("white is from the picture, grey is mirrored")).to_be_visible()
     made = page.locator(".derived > li").first
-    expect(made).to_contain_text("% of the body was seen")
+    expect(made).to_contain_text("% of the skin is from the picture")
     with page.expect_download() as download:
         made.get_by_role("button", name="body_textured.glb").click()
     assert download.value.path().read_bytes()[:4] == b"glTF"
@@ -217,18 +269,22 @@ def test_a_figure_is_drawn_from_where_one_wants(looking: Visitor):
     expect(page.get_by_role("img", name="Picture, overlay, body and new pose")).to_be_visible(
         timeout=FIT_WITHIN_MS
     )
+    looking.choose("Turn it")
+    body = page.get_by_role("img", name="The body in this pose; arrow keys turn it")
+    expect(body).to_have_attribute("data-shows", "clay")
 
 
 def test_what_was_made_is_shown_large_on_the_stage_with_a_way_back(looking: Visitor):
     page = looking.page
     stage = page.locator(".bench-stage")
+    looking.unfold_for_experts()
     looking.choose("Residual")
     looking.choose("Figure")
     page.get_by_role("button", name="Make the figure").click()
     picture = stage.get_by_role("img", name="Picture, overlay, body and new pose")
     expect(picture).to_be_visible(timeout=FIT_WITHIN_MS)
     assert picture.bounding_box()["width"] > 0.9 * stage.bounding_box()["width"]
-    expect(stage.get_by_text("Figure", exact=True)).to_be_visible()
+    expect(stage.locator("b", has_text="Figure")).to_be_visible()
     expect(looking.body).to_be_hidden()
     stage.get_by_role("button", name="Back to the body").click()
     expect(picture).to_have_count(0)
@@ -255,7 +311,7 @@ def test_a_caricature_that_is_refused_is_offered_as_strong_as_it_can_be(looking:
     with page.expect_request(lambda request: request.method == "POST") as sent:
         smaller.click()
     assert sent.value.post_data_json["factor"] == largest
-    expect(page.get_by_role("img", name="Caricature of the body")).to_be_visible(
+    expect(page.get_by_role("img", name="The caricature; arrow keys turn it")).to_be_visible(
         timeout=FIT_WITHIN_MS
     )
 
@@ -278,7 +334,7 @@ def test_that_pictures_show_different_people_is_said_before_anything_else(
     page.reload()
     looking.wait_for_result()
     card = page.locator(".derived > li")
-    expect(card.locator(".note.is-problem")).to_have_text(warning["message"])
+    expect(card.locator(".note.is-problem")).to_contain_text("seem to show different people")
     page.get_by_role("button", name="Show large: other pose").click()
     note = page.locator(".bench-stage .note.is-problem")
     canvas = page.get_by_role("img", name="The body in this pose; arrow keys turn it")

@@ -40,6 +40,8 @@ TOO_SHORT = """() => {
   const message = { type: "maquette:resize", height: 50 };
   parent.postMessage(message, "*");
 }"""
+ALLOW_ALL = """() => document.querySelector("iframe").contentWindow.postMessage(
+  { type: "maquette:start", allow: ["save", "delete"] }, "*")"""
 WAIST = re.compile(r"^Waist: \d+\.\d cm$")
 
 
@@ -65,7 +67,15 @@ def test_measurements_of_pictures_that_the_site_gave_arrive_there(
         frame.get_by_role("button", name="Measure", exact=True).click()
         expect(page.locator("#told")).to_have_text(WAIST, timeout=FIT_WITHIN_MS)
         expect(frame.locator('[data-fit][aria-busy="false"]')).to_be_attached()
-        expect(frame.locator('.body-canvas[data-shows^="picture clay"]')).to_be_visible()
+        expect(frame.locator('.body-canvas[data-shows^="canonical clay"]')).to_be_visible()
+        # A visitor reads; files and Delete are the site's to offer.
+        files = frame.get_by_role("heading", name="Files", exact=True)
+        delete = frame.get_by_role("button", name="Delete this scan")
+        for offered in (files, delete, frame.get_by_text("Save", exact=True)):
+            expect(offered).to_have_count(0)
+        page.evaluate(ALLOW_ALL)
+        for offered in (files, delete, frame.get_by_text("Save", exact=True)):
+            expect(offered).to_be_visible()
         assert serious_findings(own_frame(page), axe) == []
         fits_into_its_frame(page)
         scan = embedding.service.get("/v1/scans").raise_for_status().json()["scans"][0]

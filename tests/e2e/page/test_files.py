@@ -61,6 +61,7 @@ def test_what_cannot_be_fitted_is_told_where_it_is_chosen(visitor: Visitor, cont
     visitor.wait_for_stage()
     expect(page.get_by_role("alert")).to_have_count(0)
     # In place of a picture: the one before stays.
+    visitor.correct()
     choose(page, "Choose another picture", content(), "q.jpg")
     expect(page.get_by_role("alert")).to_contain_text(re.sub(r"^p\.", "q.", told))
     expect(page.locator(".picture-name")).to_have_text("p.jpg")
@@ -93,6 +94,7 @@ def test_a_picture_too_large_for_the_service_is_scaled_down_and_keeps_its_lens(v
     assert 11_900_000 < kept["width"] * kept["height"] <= 12_000_000
     assert kept["focal_length_35mm"] == 28
     assert kept["width"] / kept["height"] == pytest.approx(6200 / 8300, rel=1e-3)
+    visitor.correct()
     expect(page.get_by_text("Scaled down from 6200 × 8300 pixels.")).to_be_visible()
     page.get_by_role("heading", name="Lens and light").click()
     expect(page.get_by_text("Read from the picture.")).to_be_visible()
@@ -105,6 +107,7 @@ def test_a_heic_is_shown_by_way_of_the_service_and_fitted_as_it_is(visitor: Visi
     kept = answer.value.json()
     assert kept["media_type"] == "image/heic"
     visitor.wait_for_stage()
+    visitor.correct()
     expect(page.get_by_text("720 × 960")).to_be_visible()
     page.get_by_role("heading", name="Lens and light").click()
     expect(page.get_by_text("Read from the picture.")).to_be_visible()
@@ -115,7 +118,7 @@ def test_a_heic_is_shown_by_way_of_the_service_and_fitted_as_it_is(visitor: Visi
     assert visitor.sent_request()["image_id"] == kept["id"]
     # Its result is shown beside the picture in this browser as well.
     visitor.wait_for_result()
-    visitor.wait_until_drawn(placement="picture")
+    visitor.wait_until_drawn(placement="canonical")
 
 
 def test_where_no_heic_is_decoded_it_is_said_how_to_get_a_jpeg(visitor: Visitor):

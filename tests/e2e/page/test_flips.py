@@ -50,6 +50,7 @@ def test_a_limb_that_is_clicked_is_seen_turned_and_fitted_again(
     # The right one: the left lies nearly in the picture, and turned looks the same from the side.
     open_fit(visitor, finished_fit)
     page = visitor.page
+    visitor.choose("Photo")
     was = facings(visitor, finished_fit)["right_forearm"]
     wanted = OTHER[was]
     x, y = on_forearm(visitor, "right")
@@ -91,7 +92,8 @@ def test_a_preview_is_taken_back_and_turned_bodies_take_clicks_too(
 ):
     open_fit(visitor, finished_fit)
     page = visitor.page
-    visitor.choose("Turn")
+    visitor.unfold_for_experts()
+    visitor.choose("As in the picture")
     expect(visitor.body).to_have_attribute("data-limbs", "none")
     page.get_by_role("button", name="From the side", exact=True).click()
     before = visitor.wait_until_drawn(placement="turned")
@@ -103,7 +105,7 @@ def test_a_preview_is_taken_back_and_turned_bodies_take_clicks_too(
     page.get_by_role("button", name="Take back").click()
     expect(visitor.body).to_have_attribute("data-limbs", "none")
     expect(page.get_by_text("Preview, not fitted yet")).to_have_count(0)
-    expect(page.get_by_role("button", name="Change and fit again")).to_be_visible()
+    expect(page.get_by_role("button", name="Correct something")).to_be_visible()
     assert (np.abs(visitor.pixels(visitor.body) - before).max(axis=2) > 12).mean() < 0.002
     middle = box["x"] + at["x"], box["y"] + at["y"]
     page.mouse.move(*middle)
@@ -143,7 +145,7 @@ def test_the_warning_leads_to_its_limb_and_keys_do_all_of_it(
     page.keyboard.press("Enter")
     wanted = OTHER[found["right_shin"]]
     expect(visitor.body).to_have_attribute("data-limbs", f"right_shin right_shin {wanted}")
-    expect(page.locator("p[role=status]")).to_contain_text("Preview: right lower leg")
+    expect(page.locator("#page > p[role=status]")).to_contain_text("Preview: right lower leg")
     assert serious_findings(page, axe) == []
     page.keyboard.press("Enter")
     expect(visitor.body).to_have_attribute("data-limbs", "right_shin")

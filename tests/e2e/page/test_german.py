@@ -83,7 +83,6 @@ def test_from_a_sample_to_a_result_there_is_no_english(
         expect(page.get_by_role("heading", name="Ein Körper in 3D")).to_be_visible()
         expect(page.locator("html")).to_have_attribute("lang", "de")
         sound()
-        visitor.choose("Punkte gesetzt")
         page.get_by_role("button", name="Entspannt").click()
         visitor.wait_for_stage()
         expect(page.get_by_label("Körperhöhe", exact=True)).to_have_value("180,4")
@@ -98,7 +97,7 @@ def test_from_a_sample_to_a_result_there_is_no_english(
             expect(page.get_by_role("progressbar")).to_be_visible()
             sound()
         visitor.wait_for_result()
-        visitor.wait_until_drawn(placement="picture")
+        visitor.wait_until_drawn(placement="canonical")
         expect(page.get_by_role("row", name=re.compile("^Körperhöhe"))).to_contain_text("180,4")
         expect(page.get_by_role("row", name=re.compile("^Gewicht"))).to_contain_text(
             re.compile(r"\d,\d.*\d,\d – \d+,\d")
@@ -152,7 +151,6 @@ def test_what_is_wrong_is_said_in_german(browser: Browser, service: httpx.Client
         expect(page.get_by_role("heading", name="Diese Auswertung gibt es nicht")).to_be_visible()
         assert english_left(page) == []
         page.goto(f"{visitor.origin}/#/")
-        visitor.choose("Punkte gesetzt")
         page.get_by_role("button", name="Entspannt").click()
         visitor.wait_for_stage()
         page.get_by_label("Gewicht", exact=True).fill("400")

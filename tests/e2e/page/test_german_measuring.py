@@ -55,8 +55,10 @@ def test_from_the_sample_pair_to_a_size_there_is_no_english(
             expect(page.get_by_alt_text("Bild 2")).to_be_visible()
             sound(page)
         expect(page.locator('[data-fit][aria-busy="false"]')).to_be_attached(timeout=FIT_WITHIN_MS)
+        visitor.choose("Foto")
         expect(page.get_by_role("radio", name="Von der Seite", exact=True)).to_be_attached()
-        expect(page.get_by_text("Alle Punkte hat die Erkennung vorgeschlagen")).to_be_visible()
+        visitor.choose("Körper")
+        expect(page.get_by_text("Alle Punkte wurden automatisch gefunden")).to_be_visible()
         expect(page.get_by_role("row", name=re.compile("^Gewicht"))).to_contain_text(
             re.compile(r"\d,\d.*\d,\d – \d+,\d")
         )
@@ -78,7 +80,8 @@ def test_from_the_sample_pair_to_a_size_there_is_no_english(
         expect(made).to_contain_text("Zwischen manchen Größen der Tabelle ist eine Lücke")
         sound(page)
         assert serious_findings(page, axe) == []
-        page.get_by_role("radio", name="Drehen").check()
+        visitor.unfold_for_experts()
+        visitor.choose("Wie im Bild")
         expect(visitor.body).to_have_attribute("data-shows", re.compile("^turned clay"))
         sound(page)
 

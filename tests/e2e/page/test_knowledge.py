@@ -60,6 +60,7 @@ def test_a_tape_and_a_mask_reach_the_fit_and_come_back_with_it(
     expect(page.get_by_text("Hip: between 10 and 200 cm")).to_be_visible()
     expect(page.get_by_role("button", name="Correct a measurement")).to_be_disabled()
     page.get_by_label("Hip", exact=True).fill("98")
+    visitor.correct()
     page.get_by_role("heading", name="What the fit goes by").click()
     small = mask.with_name("small.png")
     small.write_bytes(_png(np.zeros((96, 128), np.uint8)))
@@ -77,7 +78,7 @@ def test_a_tape_and_a_mask_reach_the_fit_and_come_back_with_it(
     result = service.get(job["links"]["result"]).json()
     hip = next(each for each in result["measurements"] if each["name"] == "hip_girth")
     assert abs(hip["value"] - 98.0) < 2.0
-    page.get_by_role("button", name="Change and fit again").click()
+    page.get_by_role("button", name="Correct something").click()
     page.get_by_text("Known measurements").click()
     expect(page.get_by_label("Hip", exact=True)).to_have_value("98")
     expect(page.get_by_role("img", name="The border of the mask")).to_be_visible()
@@ -88,6 +89,7 @@ def test_a_tape_and_a_mask_reach_the_fit_and_come_back_with_it(
 def test_light_and_clothes_that_were_told_reach_the_fit_and_come_back_with_it(visitor: Visitor):
     page = visitor.page
     visitor.open_sample(with_points=True)
+    visitor.correct()
     # With the body come questions, which move what lies below them.
     expect(page.locator(".live-outline")).to_be_attached()
     page.get_by_role("heading", name="Lens and light").click()
@@ -120,8 +122,11 @@ def test_light_and_clothes_that_were_told_reach_the_fit_and_come_back_with_it(vi
     assert asked["light"]["azimuth_deg"] == pytest.approx(-35.3, abs=1.5)
     assert asked["light"]["elevation_deg"] == pytest.approx(30.0, abs=1.5)
     visitor.wait_for_result()
+    expect(page.get_by_text("Under loose clothes the body is only estimated")).to_be_visible()
+    page.get_by_role("heading", name="For experts").click()
     expect(page.get_by_text("from the surroundings, by direction")).to_be_visible()
-    expect(page.get_by_text("Loose clothes cover")).to_be_visible()
+    visitor.choose("Photo")
+    visitor.unfold_for_experts()
     visitor.wait_until_drawn(placement="picture")
     visitor.choose("Lit")
     lit = visitor.wait_until_drawn(placement="picture", surface="lit")
@@ -131,7 +136,7 @@ def test_light_and_clothes_that_were_told_reach_the_fit_and_come_back_with_it(vi
     changed = np.abs(lit - clay).max(axis=2) > VISIBLY
     assert changed.mean() > 0.1
     assert lit[changed].mean() > 40
-    page.get_by_role("button", name="Change and fit again").click()
+    page.get_by_role("button", name="Correct something").click()
     page.get_by_role("heading", name="Lens and light").click()
     expect(page.get_by_role("radio", name="By direction")).to_be_checked()
     page.get_by_role("heading", name="What the fit goes by").click()
@@ -142,7 +147,7 @@ def test_the_body_before_shading_can_be_seen_in_its_place(visitor: Visitor, fini
     page = visitor.page
     page.goto(f"{visitor.origin}/#/fits/{finished_fit}")
     visitor.wait_for_result()
-    visitor.choose("Upright")
+    visitor.unfold_for_experts()
     final = visitor.wait_until_drawn(placement="canonical")
     visitor.choose("Outline alone")
     outlined = visitor.wait_until_drawn(placement="canonical", cues="SE")

@@ -55,6 +55,7 @@ def wait_for_mask(visitor: Visitor, spot: tuple[float, float], *, is_person: boo
 def open_brushes(visitor: Visitor) -> None:
     page = visitor.page
     drop(visitor, WOMAN.read_bytes())
+    visitor.correct()
     page.get_by_role("button", name="Look and correct").click()
     expect(page.locator(".mask-stage")).to_have_attribute("aria-busy", "false")
     wait_for_mask(visitor, HEART, is_person=True)
@@ -79,6 +80,7 @@ def ready_to_fit(page: Page) -> None:
 def test_the_mask_is_seen_with_the_points_and_not_sent_unless_edited(visitor: Visitor):
     page = visitor.page
     drop(visitor, WOMAN.read_bytes())
+    visitor.correct()
     expect(page.get_by_role("heading", name="Mask of the person")).to_be_visible()
     expect(page.get_by_role("img", name="The picture with the mask")).to_be_visible()
     ready_to_fit(page)
@@ -214,6 +216,7 @@ def test_a_finger_paints_and_two_zoom(browser: Browser, service: httpx.Client):
 def test_loose_clothes_said_to_be_close_are_asked_about_and_never_switched(visitor: Visitor):
     page = visitor.page
     drop(visitor, CLOTHED.read_bytes())
+    visitor.correct()
     question = page.get_by_text("The clothes look loose.")
     page.get_by_role("heading", name="What the fit goes by").click()
     expect(page.get_by_role("radio", name="As seen")).to_be_checked()
@@ -232,6 +235,7 @@ def test_of_underwear_nothing_is_asked(visitor: Visitor):
     with page.expect_response("**/v1/checks") as checked:
         drop(visitor, WOMAN.read_bytes())
     assert checked.value.json()["usable"]
+    visitor.correct()
     expect(page.get_by_role("heading", name="Mask of the person")).to_be_visible()
     expect(page.get_by_text("The clothes look loose.")).not_to_be_attached()
 

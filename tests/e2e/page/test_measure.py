@@ -42,7 +42,7 @@ def test_the_sample_pair_is_measured_in_three_taps(
         page.get_by_role("button", name="Measure", exact=True).tap()
         expect(page.locator('[data-fit][aria-busy="false"]')).to_be_attached(timeout=FIT_WITHIN_MS)
         expect(page).to_have_url(re.compile(r"#/scans/[0-9a-f-]{36}$"))
-        visitor.wait_until_drawn(placement="picture")
+        visitor.wait_until_drawn(placement="canonical")
         row = page.get_by_role("row", name=re.compile("^Weight"))
         weight = float(re.search(r"Weight\s+([\d.]+)", row.inner_text())[1])
         assert 45.0 < weight < 65.0

@@ -118,7 +118,7 @@ def test_a_refused_camera_says_so_and_offers_the_file_picker(
         page = visitor.page
         page.get_by_role("link", name="Measure", exact=True).tap()
         camera = open_camera(visitor, "front")
-        expect(camera.get_by_role("alert")).to_contain_text("may not use the camera")
+        expect(camera.get_by_role("alert")).to_contain_text("The camera is blocked for this page")
         expect(camera.get_by_role("button", name="Take it in 5 s")).to_be_disabled()
         with page.expect_file_chooser() as chooser:
             camera.get_by_text("Choose a file", exact=True).tap()

@@ -65,8 +65,8 @@ def uploaded(service: httpx.Client, content: bytes) -> str:
         (truncated, "p.jpg is cut off"),
         (tiny, "p.jpg has 20 × 27 pixels; at least 64"),
         (nobody, "Nobody was found in this picture"),
-        (several, "Several people are in this picture"),
-        (lambda: FRONT, "from the side"),
+        (several, "This one shows several"),
+        (lambda: FRONT, "turn by a quarter for the side"),
     ],
     ids=["truncated", "tiny", "nobody", "several", "from another side"],
 )

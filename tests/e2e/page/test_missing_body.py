@@ -16,6 +16,7 @@ def test_the_missing_body_is_named_and_shown(visitor: Visitor, *, is_proposed: b
     if is_proposed:
         drop(visitor, WOMAN.read_bytes())
         expect(visitor.points()).to_have_count(21)
+        visitor.correct()
     else:
         visitor.open_sample()
         visitor.click_points(LIMBS)

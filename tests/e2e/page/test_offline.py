@@ -5,7 +5,7 @@ from playwright.sync_api import expect
 from tests.e2e.page.test_drafts import WOMAN, uploads
 from tests.e2e.page.visitor import LIMBS, Visitor
 
-NO_CONNECTION = "No connection to the service."
+NO_CONNECTION = "You are offline."
 
 
 def test_offline_is_said_and_all_is_sent_once_it_is_over(visitor: Visitor):
@@ -26,6 +26,7 @@ def test_a_picture_chosen_offline_is_uploaded_later(visitor: Visitor):
     visitor.open_sample()
     page.context.set_offline(True)
     page.get_by_label("Choose another picture").set_input_files(WOMAN)
+    visitor.correct()
     expect(page.get_by_text("woman.jpg")).to_be_visible()
     expect(page.get_by_text(NO_CONNECTION)).to_be_visible()
     with page.expect_response("**/v1/images") as answer:

@@ -69,7 +69,7 @@ def test_a_name_is_sent_with_its_picture_and_forgotten_with_it(
     name.fill(f" {label} ")
     assert visitor.sent_request()["label"] == label
     visitor.wait_for_result()
-    page.get_by_role("button", name="Change and fit again").click()
+    page.get_by_role("button", name="Correct something").click()
     visitor.wait_for_stage()
     expect(name).to_have_value(label)
     sample = {"name": "b.jpg", "mimeType": "image/jpeg", "buffer": load_sample().image}

@@ -92,7 +92,7 @@ def test_swapped_sides_are_asked_about_and_mended_by_one_click(clicking: Visitor
     # Left and right as one sees them, not as the person has them.
     for x, y in ((251.4, 225.2), (438.3, 220.5)):
         page.mouse.click(*clicking.on_stage(x, y))
-    question = page.get_by_text("this person turns their back to you")
+    question = page.get_by_text("These points show a person from behind")
     expect(question).to_be_visible()
     left, right = clicking.place_of("left_shoulder"), clicking.place_of("right_shoulder")
     page.get_by_role("button", name="They face me: swap").click()

@@ -83,7 +83,7 @@ def test_a_dropped_picture_becomes_a_body_by_four_taps(
     with Visitor.at(browser, str(service.base_url), device) as visitor:
         page = visitor.page
         drop(visitor, WOMAN.read_bytes())
-        expect(page.get_by_text("21 proposed")).to_be_attached()
+        expect(visitor.points()).to_have_count(21)
         page.evaluate(COUNT_TAPS)
         page.get_by_role("radio", name="Female", exact=True).check()
         height = page.get_by_label("Height", exact=True)
@@ -95,10 +95,12 @@ def test_a_dropped_picture_becomes_a_body_by_four_taps(
         assert taps <= MOST_TAPS
         assert {each["source"] for each in sent["points"].values()} == {"proposal"}
         visitor.wait_for_result()
-        visitor.wait_until_drawn(placement="picture")
+        visitor.wait_until_drawn(placement="canonical")
         expect(page.get_by_role("row", name=re.compile("^Height"))).to_contain_text("168")
         # Counted, not named.
-        expect(page.locator(".panel .note", has_text="All points were proposed")).to_be_visible()
+        expect(
+            page.locator(".panel .note", has_text="All points were found automatically")
+        ).to_be_visible()
 
 
 def test_a_point_that_is_dragged_is_a_click_and_undoing_makes_it_a_proposal_again(
@@ -106,6 +108,7 @@ def test_a_point_that_is_dragged_is_a_click_and_undoing_makes_it_a_proposal_agai
 ):
     page = visitor.page
     drop(visitor, WOMAN.read_bytes())
+    visitor.correct()
     ring = page.locator('[data-point="left_wrist"] .is-proposed')
     expect(ring).to_be_attached()
     x, y = visitor.place_of("left_wrist")
@@ -131,6 +134,7 @@ def test_doubtful_points_are_asked_about_and_nothing_waits_for_the_answers(visit
     asked = ("left_ankle", "right_wrist", "left_knee", "right_toe", "nose")
     page.route("**/v1/points", doubting(*asked))
     drop(visitor, WOMAN.read_bytes())
+    visitor.correct()
     question = page.locator(".next-name")
     expect(question).to_have_text("Is this the left ankle?")
     visitor.describe_person()
@@ -163,7 +167,8 @@ def test_clicking_is_one_tap_away_and_so_is_proposing(visitor: Visitor):
     page = visitor.page
     drop(visitor, WOMAN.read_bytes())
     expect(visitor.points()).to_have_count(21)
-    page.get_by_role("button", name="Click them myself").click()
+    visitor.correct()
+    page.locator(".panel").get_by_role("button", name="Click them myself").click()
     expect(visitor.points()).to_have_count(0)
     expect(page.locator(".next-name")).to_have_text("Left shoulder")
     page.get_by_role("button", name="Propose points").click()
@@ -195,6 +200,7 @@ def test_of_two_people_the_one_tapped_on_is_meant(visitor: Visitor):
     drop(visitor, side_by_side(WOMAN, MAN))
     boxes = page.locator("[data-person]")
     expect(boxes).to_have_count(2)
+    visitor.correct()
     chosen = page.locator(".person-box.is-chosen")
     other = page.locator(".person-box:not(.is-chosen)")
     first, second = (each.get_attribute("data-person") for each in (chosen, other))
@@ -246,6 +252,8 @@ def test_axe_finds_nothing_serious_in_questions_and_people(
         page.route("**/v1/points", doubting("left_ankle"))
         drop(visitor, side_by_side(WOMAN, MAN))
         expect(page.locator("[data-person]")).to_have_count(2)
+        assert serious_findings(page, axe) == []
+        visitor.correct()
         expect(page.get_by_role("group", name="Is this the left ankle?")).to_be_visible()
         assert serious_findings(page, axe) == []
         assert not page.evaluate("document.documentElement.scrollWidth > innerWidth")

@@ -9,9 +9,9 @@ import httpx
 import pytest
 from playwright.sync_api import Browser, Route, expect
 
-from tests.e2e.page.visitor import Visitor
+from tests.e2e.page.visitor import FIT_WITHIN_MS, PHONE, Visitor
 
-RESULT = re.compile(r"/v1/fits/[0-9a-f-]{36}/result$")
+RESULT = re.compile(r"/v1/fits/[0-9a-f-]{36}/result(\?|$)")
 GOOD_AND_SURE: dict[str, Any] = {"outcome": "converged", "verdict": "plausible"}
 
 
@@ -38,9 +38,9 @@ def test_the_first_line_says_how_good_a_fit_is_and_intervals_are_explained(
 ):
     as_if(visitor, **GOOD_AND_SURE, silhouette_overlap=0.953, warnings=[])
     open_fit(visitor, finished_fit)
-    first = visitor.page.locator(".panel-scroll p").first
+    first = visitor.page.locator(".result-head p").first
     expect(first).to_have_text("Good: body and outline overlap by 95%.")
-    expect(visitor.page.get_by_text("the truth lies within in 95% of such fits")).to_be_visible()
+    expect(visitor.page.get_by_text("the true value lies in it 95% of the time")).to_be_visible()
     expect(visitor.page.locator(".is-unreliable")).to_have_count(0)
 
 
@@ -51,10 +51,10 @@ def test_measurements_of_a_poor_fit_are_grey_and_say_why(visitor: Visitor, finis
     expect(page.locator("[data-grade]")).to_have_attribute("data-grade", "poor")
     expect(page.get_by_text("Poor: body and outline overlap by only 79%.")).to_be_visible()
     expect(page.get_by_text("Shown in grey because the body does not fit")).to_be_visible()
-    expect(page.get_by_text("the truth lies within")).to_have_count(0)
+    expect(page.get_by_text("the true value lies in it")).to_have_count(0)
     value, soft = (
         page.locator(where).first.evaluate("each => getComputedStyle(each).color")
-        for where in (".is-unreliable tbody .number", ".panel .fine")
+        for where in (".measures.is-unreliable tbody .number", ".panel .fine")
     )
     assert value == soft
 
@@ -64,7 +64,8 @@ def test_light_and_skin_of_a_body_that_the_picture_contradicts_are_not_told(
 ):
     as_if(visitor, outcome="poor_fit", verdict="implausible", measurements=[])
     open_fit(visitor, finished_fit)
-    facts = visitor.page.locator(".panel .facts").first
+    visitor.page.get_by_role("heading", name="For experts").click()
+    facts = visitor.page.locator(".experts .facts").first
     expect(facts).to_have_class("facts is-unreliable")
     expect(facts.get_by_text("Overlap with the silhouette")).to_be_visible()
     for name in ("Light", "Skin"):
@@ -132,9 +133,12 @@ def test_the_body_is_looked_at_from_its_sides_and_stands_on_a_floor(
 ):
     open_fit(visitor, finished_fit)
     page = visitor.page
+    visitor.choose("Photo")
     beside = page.get_by_role("img", name="The body from the side")
     expect(beside).to_have_attribute("data-shows", "clay")
-    visitor.choose("Turn")
+    visitor.choose("Body")
+    visitor.unfold_for_experts()
+    visitor.choose("As in the picture")
     seen = visitor.wait_until_drawn(placement="turned")
     for side in ("side", "back", "front"):
         page.get_by_role("button", name=f"From the {side}", exact=True).click()
@@ -147,7 +151,6 @@ def test_tapes_are_labelled_and_marked_from_the_table_and_from_the_body(
 ):
     open_fit(visitor, finished_fit)
     page = visitor.page
-    visitor.choose("Upright")
     labels = page.get_by_role("group", name="Measurements on the body")
     hip = labels.get_by_role("button", name=re.compile(r"^Hip \d"))
     row = page.get_by_role("row", name=re.compile(r"^Hip \d"))
@@ -169,3 +172,31 @@ def test_tapes_are_labelled_and_marked_from_the_table_and_from_the_body(
     )
     visitor.choose("in, lb")
     expect(hip).to_contain_text(str(round(float(value.split()[0]) / 2.54, 1)))
+
+
+def test_four_figures_the_tapes_and_the_skin_are_there_without_asking(
+    browser: Browser, service: httpx.Client, bare_fit: str
+):
+    """On a phone without scrolling; the skin is asked for once, by the page itself."""
+    with Visitor.at(browser, str(service.base_url), PHONE) as visitor:
+        open_fit(visitor, bare_fit)
+        page = visitor.page
+        figures = page.locator(".figures")
+        for name in ("Chest", "Waist", "Hip", "Weight"):
+            expect(figures.get_by_text(name, exact=True)).to_be_in_viewport(ratio=1)
+        expect(figures).to_contain_text(re.compile(r"Chest\s*[\d.]+ cm\s*[\d.]+ – [\d.]+"))
+        expect(visitor.body).to_be_in_viewport(ratio=1)
+        visitor.wait_until_drawn(placement="canonical")
+        beside = page.locator(".look-beside canvas")
+        expect(beside).to_have_attribute("data-shows", "texture", timeout=FIT_WITHIN_MS)
+        page.get_by_role("button", name="Show the body in its skin, large").tap()
+        skin = page.get_by_role("img", name="The textured body; arrow keys turn it")
+        expect(skin).to_have_attribute("data-shows", "texture")
+        expect(page.get_by_role("radio", name="Skin", exact=True)).to_be_checked()
+        # It is the body's own view: nothing that was made besides.
+        expect(page.get_by_role("heading", name="Make something of it")).to_be_attached()
+        expect(page.locator(".derived > li")).to_have_count(0)
+        page.reload()
+        expect(beside).to_have_attribute("data-shows", "texture")
+        made = service.get(f"/v1/fits/{bare_fit}/derivations").json()["derivations"]
+        assert [each["kind"] for each in made] == ["texture"]

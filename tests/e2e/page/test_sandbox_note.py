@@ -10,7 +10,7 @@ from playwright.sync_api import Browser, Route, expect
 from tests.e2e.page.visitor import Visitor
 
 NOTES = {
-    "en-GB": "every result is that of a sample",
+    "en-GB": "the result is that of a sample",
     "de-DE": "Jedes Ergebnis ist das eines Beispiels",
 }
 

@@ -29,7 +29,7 @@ def test_a_canvas_says_what_it_shows_once_it_has_its_size(visitor: Visitor, fini
     page = visitor.page
     page.evaluate(NOTE_SIZES)
     page.goto(f"{visitor.origin}/#/fits/{finished_fit}")
-    visitor.wait_until_drawn(placement="picture")
+    visitor.wait_until_drawn(placement="canonical")
     sizes = page.evaluate("window.sizes")
     assert sizes
     assert all(abs(drawn - seen) <= 1 for drawn, seen in sizes), sizes

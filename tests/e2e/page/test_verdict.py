@@ -47,7 +47,7 @@ def test_derivations_that_need_measurements_say_that_there_are_none(
     path = f"{fit_of_hills['links']['self']}/derivations"
     report = ended_job(service, service.post(path, json={"kind": "report"}))
     page = service.get(report["links"]["artifacts"]["report.html"]).raise_for_status().text
-    assert "Measurements are withheld" in page
+    assert "No measurements are given" in page
     combined = ended_job(
         service, service.post(path, json={"kind": "combined", "fits": [finished_fit]})
     )
@@ -69,4 +69,4 @@ def test_the_page_says_that_nobody_is_there_and_measures_anyway(
     page.get_by_role("button", name="Measure anyway").click()
     expect(page.locator(".measures").first).to_be_visible(timeout=FIT_WITHIN_MS)
     expect(page.get_by_role("heading", name="No person found")).to_be_visible()
-    expect(page.get_by_text("because the request forces them")).to_be_visible()
+    expect(page.get_by_text("You asked for measurements all the same")).to_be_visible()

@@ -21,9 +21,12 @@ def test_the_sample_becomes_a_body_with_measurements_to_be_kept_and_erased(
         expect(page).to_have_url(re.compile(r"#/fits/[0-9a-f-]{36}$"))
         expect(page.get_by_role("progressbar", name="Progress of the fit")).to_be_visible()
     visitor.wait_for_result()
-    visitor.wait_until_drawn(placement="picture")
+    visitor.wait_until_drawn(placement="canonical")
 
     # The body is drawn over its picture, lit as the fit found it, and can be turned.
+    visitor.choose("Photo")
+    visitor.wait_until_drawn(placement="picture")
+    visitor.unfold_for_experts()
     look = page.locator(".look-picture")
     opacity = page.get_by_label("Opacity of the body")
     opacity.fill("0")
@@ -33,7 +36,7 @@ def test_the_sample_becomes_a_body_with_measurements_to_be_kept_and_erased(
     visitor.choose("Residual")
     visitor.wait_for_change(look, covered, share=0.08)
     visitor.choose("Clay")
-    visitor.choose("Upright")
+    visitor.choose("Body")
     expect(page.locator(".look-free")).to_be_visible()
     upright = visitor.wait_until_drawn(placement="canonical")
     visitor.body.focus()
@@ -50,12 +53,12 @@ def test_the_sample_becomes_a_body_with_measurements_to_be_kept_and_erased(
     expect(row).to_contain_text(re.compile(r"\([+−]?[\d.]+\)"))
 
     # Where a measurement is taken is drawn on the upright body.
-    visitor.choose("Over the picture")
+    visitor.choose("Photo")
     page.get_by_role("button", name="Waist, at the navel", exact=True).click()
-    expect(page.get_by_role("radio", name="Upright", exact=True)).to_be_checked()
+    expect(page.get_by_role("radio", name="Body", exact=True)).to_be_checked()
     marked = visitor.wait_until_drawn(placement="canonical", marked="waist_girth_navel")
     page.get_by_role("button", name="Waist, at the navel", exact=True).click()
-    page.get_by_role("heading", name="Measurements").hover()
+    page.get_by_role("heading", name="All measurements").hover()
     visitor.wait_for_change(visitor.body, marked, share=0.0005)
 
     page.get_by_text("Files", exact=True).click()
@@ -79,7 +82,7 @@ def test_the_sample_becomes_a_body_with_measurements_to_be_kept_and_erased(
     with Visitor.at(browser, visitor.origin) as other:
         other.page.goto(link)
         other.wait_for_result()
-        other.page.get_by_role("button", name="Change and fit again").click()
+        other.page.get_by_role("button", name="Correct something").click()
         expect(other.points()).to_have_count(len(LIMBS))
         expect(other.page.get_by_label("Height", exact=True)).to_have_value("180.4")
     page.get_by_role("button", name="Delete this fit").click()

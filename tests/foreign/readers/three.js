@@ -52,6 +52,7 @@ const told = {
     intensity: light.intensity,
     position: light.getWorldPosition(new Vector3()).toArray(),
   })),
+  lightNode: scene.getObjectByName('light')?.getWorldPosition(new Vector3()).toArray() ?? null,
   extras: scene.userData,
 };
 

@@ -42,6 +42,7 @@ FILES = {
     ".csv": b"label,probability\r\n",
     ".glb": b"glTF",
     ".html": b"<!doctype html><p>A report.",
+    ".jpg": b"JPEG",
     ".pdf": b"%PDF-1.4",
     ".png": b"PNG",
 }

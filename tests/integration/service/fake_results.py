@@ -12,8 +12,10 @@ from api_schemas.results import (
     FittedCameraResult,
     Measurement,
     PartRotation,
+    Stage,
+    StageBody,
 )
-from api_schemas.scans import ScannedView, ScanOptions, ScanResult
+from api_schemas.scans import ScannedView, ScanOptions, ScanResult, ScanStage
 from fitter.vocabulary.outcomes import FocalLengthSource, Outcome, Verdict
 from service.jobs.inputs import BODY_POSED, OVERLAY, PERSON, SEGMENTATION, file_of
 
@@ -23,7 +25,7 @@ def fit_result(options: FitOptions) -> FitResult:
         **_person(options, points=len(options.points)),
         **_view(),
         view=options.view,
-        stages=(),
+        stages=(Stage(**_stage(), **_stage_body()),),
         assumptions=(Assumption(quantity="focal_length_px", value=700.0, reason="Unknown."),),
         warnings=(),
     )
@@ -40,7 +42,7 @@ def scan_result(options: ScanOptions) -> ScanResult:
             ScannedView(number=number, view=each.view, assumptions=(), warnings=(), **view)
             for number, each in enumerate(options.views)
         ),
-        stages=(),
+        stages=(ScanStage(**_stage(), views=(StageBody(**_stage_body()),) * len(options.views)),),
         agreement=0.5,
         assumptions=(),
         warnings=(),
@@ -102,6 +104,14 @@ def _view() -> dict[str, Any]:
         "limb_facing": (),
         "findings": (),
     }
+
+
+def _stage() -> dict[str, Any]:
+    return {"name": "SE", "energies": {"total": 2.0}, "measurements": ()}
+
+
+def _stage_body() -> dict[str, Any]:
+    return {name: _view()[name] for name in StageBody.model_fields}
 
 
 def _given(options: PersonChoices) -> tuple[Measurement, ...]:

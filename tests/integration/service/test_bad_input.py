@@ -82,6 +82,9 @@ def test_a_bad_picture_is_refused_at_once(service: Service, image, status, code)
         ({"points": POINTS | {"nose": [float("nan"), 1]}}, "points.nose.0", "not-finite"),
         ({"colour": "red"}, "colour", "unknown-field"),
         ({"light": {"surroundings": "sky"}}, "light.surroundings", "unknown-value"),
+        ({"energies": ["edges"]}, "energies", "unknown-field"),
+        ({"paper": {"energies": ["edges", "clicks"]}}, "paper.energies.1", "unknown-value"),
+        ({"paper": {"energies": []}}, "paper.energies", "wrong-length"),
     ],
 )
 def test_a_bad_option_is_refused_at_once(service: Service, changes, field, code):

@@ -68,6 +68,23 @@ def test_a_fit_without_a_service_writes_its_measurements_as_a_table(tmp_path):
     assert (row["name"], float(row["value"]), row["unit"]) == ("waist_girth", FAKE_WAIST, "cm")
 
 
+@pytest.mark.parametrize(
+    ("said", "asked"),
+    [
+        ([], None),
+        (["--paper"], {}),
+        (["--energies", "edges", "shading"], {"energies": ["edges", "shading"]}),
+        (["--paper", "--free-height"], {"free_height": True}),
+    ],
+)
+def test_the_papers_own_method_can_be_asked_for(monkeypatch, said, asked):
+    given = []
+    monkeypatch.setattr("service.commands.fit.fit_locally", lambda each: given.append(each) or 0)
+    with pytest.raises(SystemExit):
+        main(["fit", "picture.png", *said])
+    assert given[0].overrides.get("paper") == asked
+
+
 @pytest.mark.parametrize(("formats", "told"), [("fbx", "'fbx'"), ("obj,", "''"), ("glb", "'glb'")])
 def test_a_format_nobody_writes_is_named_with_those_there_are(capsys, formats, told):
     with pytest.raises(SystemExit) as ended:

@@ -197,8 +197,10 @@ def test_a_motion_comes_along_with_the_request(service: Service):
     asked = service.client.get(links["request"]).json()
     assert asked == {
         "kind": "animation",
+        "motion": "walk",
         "start_s": 1.0,
         "duration_s": None,
+        "colours": "picture",
         "joints": {},
         "up": None,
     }

@@ -12,7 +12,7 @@ from fitter.applications.animation import (
     MOST_FRAMES,
     animate,
     motion_of_clip,
-    motion_of_walk,
+    motion_of_name,
 )
 from fitter.applications.gltf_skin import skin_of
 from fitter.applications.grounding import grounded
@@ -225,21 +225,21 @@ def test_what_is_odd_in_a_file_is_told_with_what_is_in_doubt(body):
 
 
 def test_a_stretch_of_the_walk_is_what_was_asked_for(body):
-    whole = motion_of_walk(body.rig)
+    whole = motion_of_name(body.rig, "walk")
     frame_time_s = whole.motion.frame_time_s
     assert len(whole.motion.poses) == 3 * stride_of(body.rig).frames
-    found = motion_of_walk(body.rig, start_s=7 * frame_time_s, duration_s=20 * frame_time_s)
+    found = motion_of_name(body.rig, "walk", start_s=7 * frame_time_s, duration_s=20 * frame_time_s)
     np.testing.assert_allclose(found.motion.poses, whole.motion.poses[7:27])
     assert (found.motion.frame_time_s, found.warnings) == (frame_time_s, ())
     # It has no end, and no stretch lies outside of it.
-    later = motion_of_walk(body.rig, start_s=3_600.0, duration_s=1e-3).motion
+    later = motion_of_name(body.rig, "walk", start_s=3_600.0, duration_s=1e-3).motion
     assert len(later.poses) == 1
-    later = motion_of_walk(body.rig, start_s=1.0).motion
+    later = motion_of_name(body.rig, "walk", start_s=1.0).motion
     assert len(later.poses) == len(whole.motion.poses)
 
 
 def test_a_walk_that_is_too_long_is_cut_and_says_so(body):
-    found = motion_of_walk(body.rig, duration_s=20.0)
+    found = motion_of_name(body.rig, "walk", duration_s=20.0)
     assert len(found.motion.poses) == MOST_FRAMES
     (warning,) = found.warnings
     assert warning.code == "clip-cut"

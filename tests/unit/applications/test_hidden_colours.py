@@ -1,13 +1,16 @@
 """A dressed body is photographed from the front: its back must wear the same."""
 
+import cv2
 import numpy as np
 import pytest
 
 from fitter.applications.atlas import atlas_of
-from fitter.applications.hidden_colours import FORGOTTEN_M, following
+from fitter.applications.both_sides import FORGOTTEN_M
 from fitter.applications.rings import Region, RingCoordinates
 from fitter.applications.seen_surface import SurfacePoints
+from fitter.applications.surface_field import carried_on
 from fitter.applications.texture import TexelOrigin, picture_texture
+from fitter.numerics.rotations import rotation_matrices, rotation_vectors
 from fitter.observation.colour import linear_from_display
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
@@ -30,12 +33,12 @@ BORDER_M = 0.02
 class Sitter:
     """Somebody in shirt and shorts, with dark hair, in even light."""
 
-    def __init__(self) -> None:
+    def __init__(self, *, turned: float = 0.0) -> None:
         self.evaluator = packaged("female").evaluator
         self.model = self.evaluator.model
         self.rings = RingCoordinates.of(self.model)
         body = BodyParameters(
-            pose=self.model.canonical_pose.copy(),
+            pose=turned_about_vertical(self.model.canonical_pose, turned),
             translation=np.array([0.0, -0.05, 2.9]),
             shape=np.zeros(len(self.model.shape_basis)),
         )
@@ -75,6 +78,12 @@ class Sitter:
         return int(column), int(line)
 
 
+def turned_about_vertical(pose: np.ndarray, angle: float) -> np.ndarray:
+    turn = rotation_matrices(np.array([[0.0, angle, 0.0]]))
+    whole = rotation_vectors(turn @ rotation_matrices(pose[:1]))
+    return np.concatenate([whole, pose[1:]])
+
+
 @pytest.fixture(scope="module")
 def sitter() -> Sitter:
     return Sitter()
@@ -85,7 +94,7 @@ def texels(sitter, texture):
     atlas = atlas_of(sitter.model, len(texture.levels))
     points = SurfacePoints(corners=sitter.model.triangles[atlas.triangles], weights=atlas.weights)
     return (
-        sitter.rings.region[atlas.triangles],
+        sitter.rings.of_points(points)[0],
         points.of(sitter.model.mean_vertices)[:, 1],
         texture.scale * linear_from_display(texture.levels[atlas.inside] / 255.0),
         texture.coverage[atlas.inside],
@@ -162,7 +171,111 @@ def test_what_is_seen_at_a_border_is_forgotten_by_e_over_its_length(sitter):
     trunk = np.zeros(len(height), dtype=bool)
     trunk[sitter.model.triangles[sitter.rings.region == Region.TRUNK]] = True
     known = trunk & (height < -0.5)
-    carried_on = following(sitter.model, known, np.where(known, 1.0, np.nan)[:, None] * np.ones(3))
+    values = np.where(known, 1.0, np.nan)[:, None] * np.ones(3)
+    followed = carried_on(sitter.model, known, values, over_m=FORGOTTEN_M)
     shin = trunk & (np.abs(height - (-0.5 + FORGOTTEN_M)) < 0.01)
-    assert np.allclose(carried_on[known], 1.0)
-    assert carried_on[shin].mean() == pytest.approx(np.exp(-1.0), abs=0.1)
+    assert np.allclose(followed[known], 1.0)
+    assert followed[shin].mean() == pytest.approx(np.exp(-1.0), abs=0.1)
+
+
+def test_hidden_texels_lie_within_the_colours_seen_of_their_region(sitter, dressed):
+    """But for where two regions blend."""
+    region, _, colours, origin = dressed
+    atlas = atlas_of(sitter.model, 512)
+    points = SurfacePoints(corners=sitter.model.triangles[atlas.triangles], weights=atlas.weights)
+    within = points.of(sitter.rings.shares.T).max(axis=1) > 0.95
+    within &= (region != Region.ARMS) | (points.of(sitter.rings.along_m[Region.ARMS]) > 0.1)
+    for each in Region:
+        own = region == each
+        seen = colours[own & (origin == TexelOrigin.SEEN)]
+        invented = colours[own & within & (origin != TexelOrigin.SEEN)]
+        assert len(seen) > 100
+        assert len(invented) > 100
+        assert (invented > seen.min(axis=0) - 0.01).all()
+        assert (invented < seen.max(axis=0) + 0.01).all()
+
+
+def test_no_texel_has_a_colour_from_beyond_the_mask(sitter):
+    """Whose mask is narrower than the body: beside it everything is green."""
+    shown = sitter.rendering.silhouette.astype(np.uint8)
+    mask = cv2.erode(shown, np.ones((9, 9), np.uint8)) > 0
+    picture = np.where(mask[..., None], sitter.picture, [0.0, 0.9, 0.0])
+    texture = picture_texture(sitter.person, sitter.evaluator, picture, mask=mask, size=512)
+    _, _, colours, _ = texels(sitter, texture)
+    # Nothing worn is green, nor is any mixture of it.
+    assert (colours[:, 1] - np.maximum(colours[:, 0], colours[:, 2])).max() < 0.01
+
+
+def test_a_pattern_is_not_drawn_out_to_stripes_behind(sitter):
+    worn, height = sitter.worn(), sitter.model.mean_vertices[:, 1]
+    shirt = (worn == SHIRT).all(axis=1)
+    worn[shirt & (height % 0.06 < 0.03)] = [0.2, 0.35, 0.6]
+    texture = picture_texture(sitter.person, sitter.evaluator, sitter.photographed(worn), size=512)
+    region, height, colours, origin = texels(sitter, texture)
+    shirt = (region == Region.TRUNK) & (height > WAIST_M + BORDER_M)
+    shirt &= height < COLLAR_M - 0.1
+    spread = {
+        each: colours[shirt & (origin == each)].std(axis=0).max()
+        for each in (TexelOrigin.SEEN, TexelOrigin.CONTINUED)
+    }
+    assert spread[TexelOrigin.CONTINUED] < 0.4 * spread[TexelOrigin.SEEN]
+
+
+def test_ears_are_skin_under_any_hair(sitter, dressed):
+    _, _, colours, _ = dressed
+    atlas = atlas_of(sitter.model, 512)
+    points = SurfacePoints(corners=sitter.model.triangles[atlas.triangles], weights=atlas.weights)
+    rows = sitter.model.landmarks
+    row = rows.names.index("left_ear")
+    ear = sitter.model.mean_vertices[rows.indices[rows.pointers[row]]]
+    place = points.of(sitter.model.mean_vertices)
+    # The rim, behind and outward of the ear's opening.
+    rim = (place[:, 0] > ear[0] + 0.01) & (np.abs(place[:, 1] - ear[1]) < 0.02)
+    rim &= place[:, 2] < ear[2]
+    assert np.count_nonzero(rim) > 20
+    assert np.median(np.abs(colours[rim] - SKIN).max(axis=1)) < 0.1
+
+
+def near_eyes(model, places, *, within_m=0.018):
+    rows = model.landmarks
+    near = np.zeros(len(places), dtype=bool)
+    for side in ("left", "right"):
+        row = rows.names.index(f"{side}_eye")
+        eye = model.mean_vertices[rows.indices[rows.pointers[row]]]
+        near |= np.linalg.norm(places - eye, axis=1) < within_m
+    return near
+
+
+@pytest.mark.parametrize(("turned", "is_shown"), [(0.0, True), (0.5, True), (1.4, False)])
+def test_a_face_is_shown_whole_or_as_plain_skin(turned, is_shown):
+    sitter = Sitter(turned=turned)
+    worn = sitter.worn()
+    eyes = near_eyes(sitter.model, sitter.model.mean_vertices)
+    worn[eyes] = painted = [0.1, 0.6, 0.1]
+    texture = picture_texture(sitter.person, sitter.evaluator, sitter.photographed(worn), size=512)
+    atlas = atlas_of(sitter.model, 512)
+    points = SurfacePoints(corners=sitter.model.triangles[atlas.triangles], weights=atlas.weights)
+    eyes = near_eyes(sitter.model, points.of(sitter.model.mean_vertices), within_m=0.01)
+    _, _, colours, _ = texels(sitter, texture)
+    green = np.abs(colours[eyes] - painted).max(axis=1) < 0.1
+    assert green.mean() > 0.5 if is_shown else green.mean() < 0.01
+
+
+def test_fingers_that_lie_beside_the_pictures_do_not_get_what_is_behind(sitter):
+    worn, model = sitter.worn(), sitter.model
+    hands = sitter.rings.shares[Region.HANDS] > 0.5
+    lowest = hands & (model.mean_vertices[:, 1] < np.median(model.mean_vertices[hands, 1]))
+    worn[lowest] = SHIRT
+    texture = picture_texture(sitter.person, sitter.evaluator, sitter.photographed(worn), size=512)
+    region, _, colours, _ = texels(sitter, texture)
+    blue = colours[region == Region.HANDS][:, 2] > colours[region == Region.HANDS][:, 0]
+    assert blue.mean() < 0.01
+
+
+def test_hands_in_gloves_keep_them(sitter):
+    worn = sitter.worn()
+    worn[sitter.rings.shares[Region.HANDS] > 0.5] = SHIRT
+    texture = picture_texture(sitter.person, sitter.evaluator, sitter.photographed(worn), size=512)
+    region, _, colours, _ = texels(sitter, texture)
+    blue = colours[region == Region.HANDS][:, 2] > colours[region == Region.HANDS][:, 0]
+    assert blue.mean() > 0.9

@@ -22,7 +22,11 @@ def test_a_recorded_search_is_the_one_the_fit_made():
     last = searches[-1]
     assert last.end.candidate.bodies[0] is watched.found.person.body
     again = minimize_gauss_newton(
-        last.objective, last.start, max_evaluations=last.end.evaluations, on_energies=ignore
+        last.objective,
+        last.start,
+        max_evaluations=last.end.evaluations,
+        on_energies=ignore,
+        settled_nats=last.settled_nats,
     )
     assert again.candidate.total == pytest.approx(last.end.candidate.total)
 

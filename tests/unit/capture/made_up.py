@@ -15,10 +15,10 @@ WIDTH, HEIGHT = 400, 640
 FRONT = {
     "nose": (200, 80),
     "left_eye": (208, 72), "right_eye": (192, 72), "left_ear": (218, 76), "right_ear": (182, 76),
-    "left_shoulder": (254, 140), "right_shoulder": (146, 140),
+    "left_shoulder": (262, 140), "right_shoulder": (138, 140),
     "left_elbow": (310, 220), "right_elbow": (90, 220),
     "left_wrist": (340, 290), "right_wrist": (60, 290),
-    "left_hip": (230, 290), "right_hip": (170, 290),
+    "left_hip": (234, 290), "right_hip": (166, 290),
     "left_knee": (235, 420), "right_knee": (165, 420),
     "left_ankle": (238, 545), "right_ankle": (162, 545),
     "left_heel": (236, 555), "right_heel": (164, 555),
@@ -53,6 +53,7 @@ def person(**moved: tuple[float, float]) -> DetectedBody:
             },
             middle=middle,
         ),
+        leaning_deg=0.0,
         mask=outline(places).astype(np.float32),
     )
 

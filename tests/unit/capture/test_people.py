@@ -2,6 +2,8 @@
 
 from dataclasses import replace
 
+import numpy as np
+
 from fitter.capture.finding import Code, Finding, Unchecked
 from fitter.capture.people import nobody_else, somebody
 from fitter.request import Click
@@ -28,6 +30,16 @@ def test_somebody_who_is_not_where_the_points_lie_is_nobody():
     assert "where the points lie" in found.reason
 
 
+def test_in_a_fit_of_clicked_points_nobody_else_has_to_see_a_person():
+    elsewhere = capture(points={"nose": Click(x=1.0, y=1.0)}, body=None)
+    assert not elsewhere.shows_somebody
+    fitted = replace(elsewhere, directions={})
+    found = somebody(fitted)
+    assert isinstance(found, Finding)
+    assert (found.code, found.severity) == (Code.NOBODY_FOUND, Severity.HARMS)
+    assert fitted.shows_somebody
+
+
 def test_another_person_is_told_with_their_place_unless_the_caller_chose():
     two = capture(person(), person())
     found = nobody_else(two)
@@ -38,6 +50,18 @@ def test_another_person_is_told_with_their_place_unless_the_caller_chose():
     # The wrists are drawn 10 pixels beyond 60 and 340, in a working picture of half the size.
     assert found.box[0] == 2 * 50.0
     assert nobody_else(replace(two, is_chosen=True)) is None
+
+
+def test_who_cannot_be_told_from_somebody_else_is_not_measured_by_proposals():
+    alone = person()
+    mask = alone.mask.copy()
+    seen = np.flatnonzero(mask.any(axis=1))
+    mask[seen[0] : seen[len(seen) // 2]] *= 0.5
+    muddled = capture(replace(alone, mask=mask), points={"nose": Click(x=1.0, y=1.0)})
+    found = nobody_else(muddled)
+    assert isinstance(found, Finding)
+    assert (found.code, found.severity) == (Code.SEVERAL_PEOPLE, Severity.BLOCKS)
+    assert nobody_else(replace(muddled, is_clicked=True)) is None
 
 
 def test_without_a_detector_neither_is_known():

@@ -36,7 +36,9 @@ def tilted(degrees: float) -> np.ndarray:
         (posed(ACROSS, DOWN, DOWN), Severity.BLOCKS, "bends over"),
         (posed(UP, DOWN, tilted(-90.0)), Severity.BLOCKS, "kneels"),
         (posed(ACROSS, -ACROSS, -ACROSS), Severity.BLOCKS, "lies"),
-        (posed(UP, tilted(45.0), tilted(40.0)), Severity.HARMS, "sits or bends the hips"),
+        (posed(UP, tilted(42.0), tilted(40.0)), Severity.HARMS, "sits or bends the hips"),
+        (posed(UP, tilted(25.0), tilted(7.0)), Severity.HARMS, "sits or crouches"),
+        (posed(UP, tilted(31.0), tilted(6.0)), Severity.BLOCKS, "sits or crouches"),
     ],
 )
 def test_who_does_not_stand_is_told(directions, severity, said):
@@ -50,6 +52,7 @@ def test_who_does_not_stand_is_told(directions, severity, said):
 def test_who_stands_or_lifts_one_leg_stands():
     straight = posed(UP, DOWN, DOWN)
     assert posture(capture(directions=straight)) is None
+    assert posture(capture(directions=posed(UP, tilted(15.0), tilted(-5.0)))) is None
     assert posture(capture(directions={**straight, "left_thigh": tilted(90.0)})) is None
 
 
@@ -69,6 +72,16 @@ def test_before_a_fit_the_detectors_slants_tell():
         assert np.linalg.norm(direction) == pytest.approx(1.0)
 
 
+def test_of_a_fit_the_detector_is_asked_too():
+    """A body would rather stand than sit toward the camera."""
+    told = posture(capture(seen(-0.95), directions=posed(UP, DOWN, DOWN)))
+    assert isinstance(told, Finding)
+    assert told.severity is Severity.BLOCKS
+    bent = posture(capture(seen(0.1), directions=posed(UP, tilted(42.0), tilted(40.0))))
+    assert isinstance(bent, Finding)
+    assert bent.severity is Severity.HARMS
+
+
 def test_a_thigh_that_looks_short_points_at_the_camera_whatever_its_slant():
     """The made-up trunk is 150 pixels long, thighs of 40 less than a half of the least."""
     short = {f"{side}_knee": (x, 330.0) for side, x in (("left", 230.0), ("right", 170.0))}
@@ -84,6 +97,35 @@ def test_a_trunk_that_looks_short_is_bent_toward_the_camera():
     told = posture(capture(replace(seen(0.0), points=person(**low).points)))
     assert isinstance(told, Finding)
     assert "bends over" in told.reason
+
+
+@pytest.mark.parametrize(
+    ("nose_y", "severity"), [(120.0, Severity.HARMS), (160.0, Severity.BLOCKS)]
+)
+def test_whose_head_hangs_bends_over(nose_y, severity):
+    """The made-up shoulders are at 140, and the person 540 pixels tall."""
+    low = replace(seen(0.0), points=person(nose=(200.0, nose_y)).points)
+    assert posture(capture(low)) is None
+    assert posture(capture(replace(seen(0.0), leaning_deg=60.0))) is None
+    hanging = replace(low, leaning_deg=60.0)
+    told = posture(capture(hanging))
+    assert isinstance(told, Finding)
+    assert (told.code, told.severity) == (Code.NOT_STANDING, severity)
+    assert "bends over" in told.reason
+    assert posture(capture(hanging, directions=posed(UP, DOWN, DOWN))) == told
+
+
+def with_the_left_leg_alone(body: DetectedBody) -> DetectedBody:
+    """As from the side, where it hides the other."""
+    limbs = {name: slant for name, slant in body.slants.limbs.items() if "left" in name}
+    return replace(body, slants=replace(body.slants, limbs=limbs))
+
+
+def test_of_who_is_seen_from_the_side_one_leg_tells():
+    assert posture(capture(with_the_left_leg_alone(seen(0.1)))) is None
+    told = posture(capture(with_the_left_leg_alone(seen(-0.95))))
+    assert isinstance(told, Finding)
+    assert told.severity is Severity.BLOCKS
 
 
 def test_without_thighs_nothing_is_told_of_the_posture():

@@ -44,6 +44,12 @@ def test_a_focal_length_in_pixels_takes_the_place_of_another():
     assert (view.focal_length_px, view.focal_length_35mm) == (900.0, None)
 
 
+def test_proposed_points_take_the_place_of_all_clicks():
+    (view,) = told_request(PICTURE, Told(proposed=True)).views
+    assert view.complete_clicks
+    assert not view.clicks
+
+
 def test_what_is_given_are_true_measurements():
     asked = told_request(PICTURE, Told(measurements=("weight",)))
     assert asked.person.measurements == {"weight": KnownMeasurement(value=81.0)}

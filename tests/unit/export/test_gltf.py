@@ -8,6 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from fitter.export.gltf import body_canonical_glb, body_posed_glb
 from fitter.export.gltf_light import quaternion_from_z_to
+from fitter.export.gltf_mesh import LIGHTEST
 from fitter.parameters import CameraTilt
 from fitter.person.upright import upright_frame
 from fitter.render.shadow import cast_shadow
@@ -37,8 +38,13 @@ def posed(result, model):
 
 def light_of(glb):
     (light,) = glb.document["extensions"]["KHR_lights_punctual"]["lights"]
-    (node,) = [n for n in glb.document["nodes"] if "extensions" in n]
+    (node,) = [n for n in glb.document["nodes"] if n["name"] == "light"]
     return light, node
+
+
+def test_the_light_is_described_and_not_switched_on(posed):
+    assert all("extensions" not in node for node in posed.document["nodes"])
+    assert light_of(posed)[1]["extras"] == {"light": 0}
 
 
 def test_another_reader_finds_the_same_vertices_and_triangles_in_the_same_order(result, model):
@@ -100,7 +106,8 @@ def test_a_point_light_stands_and_shines_as_in_equation_1(result, posed):
     assert offset[1] < 0, "a positive elevation comes from above"
     assert offset[2] < 0, "the light is on the camera's side"
     # Illuminance at the body's centre, divided by pi, is l = 1.
-    assert light["intensity"] / POINT_LIGHT.distance**2 / np.pi == pytest.approx(1.0)
+    l_at_centre = light["intensity"] / POINT_LIGHT.distance**2 / np.pi
+    assert l_at_centre == pytest.approx(light["extras"]["colour_scale"])
     assert light["extras"]["ambient"] == result.person.reflectance.ambient
     assert light["extras"]["specular_exponent"] == result.person.reflectance.specular_exponent
 
@@ -140,7 +147,7 @@ def test_a_directional_light_shines_along_its_nodes_minus_z(model):
     )
     np.testing.assert_allclose(travels, -toward, atol=1e-12)
     assert light["type"] == "directional"
-    assert light["intensity"] == pytest.approx(np.pi)
+    assert light["intensity"] == pytest.approx(np.pi * light["extras"]["colour_scale"])
 
 
 @pytest.mark.parametrize("direction", [(0, 0, 1), (0, 0, -1), (1, 0, 0), (0.48, -0.6, -0.64)])
@@ -159,14 +166,26 @@ def test_reflectance_is_kept_per_vertex(result, posed):
         posed.attribute("_SPECULARITY"), result.person.reflectance.specularity, rtol=1e-6
     )
     grey = np.repeat(result.person.reflectance.albedo[:, None], 3, axis=1)
-    np.testing.assert_allclose(posed.attribute("COLOR_0"), grey, rtol=1e-6)
+    scale = light_of(posed)[0]["extras"]["colour_scale"]
+    np.testing.assert_allclose(scale * posed.attribute("COLOR_0"), grey, rtol=1e-6)
 
 
 def test_colours_are_used_where_they_were_estimated(model):
     m = len(model.mean_vertices)
     colours = np.random.default_rng(3).uniform(0.1, 0.9, size=(m, 3))
     glb = read_glb(body_posed_glb(result_of(model, albedo_rgb=colours).found, model))
-    np.testing.assert_allclose(glb.attribute("COLOR_0"), colours, rtol=1e-6)
+    scale = light_of(glb)[0]["extras"]["colour_scale"]
+    np.testing.assert_allclose(scale * glb.attribute("COLOR_0"), colours, rtol=1e-6)
+
+
+def test_hardly_any_colour_is_lighter_than_surfaces_of_people_are(model):
+    m = len(model.mean_vertices)
+    for brightest in (0.5, 1.0, 3.0):
+        colours = np.random.default_rng(3).uniform(0.1, brightest, size=(m, 3))
+        glb = read_glb(body_posed_glb(result_of(model, albedo_rgb=colours).found, model))
+        shown = glb.attribute("COLOR_0")
+        assert np.percentile(shown, 99.0) <= LIGHTEST + 1e-6
+        assert np.percentile(shown, 99.0) >= min(LIGHTEST, np.percentile(colours, 99.0)) - 1e-6
 
 
 def test_albedo_above_one_is_a_darker_colour_under_a_stronger_light(model):

@@ -92,5 +92,11 @@ def test_the_detector_tells_noise_of_good_outline_from_a_person():
     assert verdicts == [Verdict.PLAUSIBLE, Verdict.NO_PERSON]
 
 
+def test_clothes_that_fit_any_outline_are_no_person_s_where_the_detector_finds_nobody():
+    circle = replace(PERSON, overlap=0.9, boundary=0.26, clothed=True)
+    verdicts = [contradiction(replace(circle, detected=each)).verdict for each in (True, False)]
+    assert verdicts == [Verdict.PLAUSIBLE, Verdict.NO_PERSON]
+
+
 def test_every_contradicted_verdict_explains_itself():
     assert {*VERDICT_EXPLANATIONS, Verdict.PLAUSIBLE} == set(Verdict)

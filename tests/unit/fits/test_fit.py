@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fitter.capture.finding import Code
 from fitter.detection.detector import installed_detector
 from fitter.errors import InvalidInputError
 from fitter.fits.capture_check import CaptureQuestion, check_picture
@@ -17,6 +18,8 @@ from fitter.vocabulary.outcomes import Verdict
 from tests.benchmarks.requests import resized
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import read_case
+from tests.evaluation.runs import picture_of
+from tests.evaluation.spoilt import Asked, spoilt_request
 from tests.evaluation.suite import fit_request
 from tests.one_picture import changed, together
 
@@ -122,6 +125,16 @@ def test_a_picture_from_another_side_than_announced_withholds_measurements():
     assert turned.measurements == ()
     assert "other-view: " in turned.found.outcome_explanation
     assert "Have the person turn" in turned.found.outcome_explanation
+
+
+def test_a_box_before_the_hips_is_told(of_one):
+    """Of the same picture without it nothing is."""
+    kind = "box before the hips"
+    how = Asked(picture=STANDING, other=TURNED, kind=kind, proposed=False, seed=0)
+    request = resized(spoilt_request(picture_of(STANDING), how), width=300, height=400)
+    findings = {each.code: each for each in fit(request).views[0].findings}
+    assert "100 % at the hips" in findings[Code.COVERED].reason
+    assert Code.COVERED not in {each.code for each in of_one[0].views[0].findings}
 
 
 @pytest.mark.parametrize("segmentation", SegmentationKind)

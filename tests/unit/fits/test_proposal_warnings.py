@@ -35,6 +35,7 @@ def person(**moved: tuple[float, float]) -> DetectedBody:
         points={name: Click(x=x, y=y) for name, (x, y) in (FRONT | moved).items()},
         visibility=dict.fromkeys(FRONT, 1.0),
         slants=DetectedSlants(limbs={}, middle=np.array([100.0, 150.0])),
+        leaning_deg=0.0,
         mask=mask,
     )
 

@@ -210,7 +210,7 @@ def test_what_is_held_stays(scenes):
         assert covariance[4, 4] > 0.0
 
 
-def test_the_covariance_is_the_inverse_of_the_whole_information(scenes):
+def test_covariance_and_height_response_are_those_of_the_whole_information(scenes):
     objective = joint_of(scenes, weight=0.8)
     truth = objective.evaluate([scene.truth for scene in scenes])
     certain = certainty(objective, truth)
@@ -240,3 +240,15 @@ def test_the_covariance_is_the_inverse_of_the_whole_information(scenes):
         np.testing.assert_allclose(
             each.covariance[-n + 1 :, -n + 1 :], whole[2 * size :, 2 * size :], atol=1e-9
         )
+    by_height = np.concatenate(
+        [
+            *(part[:-n, -n] for part in parts),
+            sum(part[-n + 1 :, -n] for part in parts) + objective.shape_prior.precision[1:, 0],
+        ]
+    )
+    for each in certain:
+        assert each.height_response[0] == 1.0
+        np.testing.assert_allclose(
+            each.height_response[1:], -(whole @ by_height)[2 * size :], atol=1e-9
+        )
+        assert np.abs(each.height_response[1:]).max() > 0.01

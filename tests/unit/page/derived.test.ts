@@ -16,7 +16,8 @@ test("a request says only what its kind knows", () => {
   assert.deepEqual(KINDS.texture.request(wishes), { kind: "texture", colours: "picture", size: 512 });
   assert.deepEqual(KINDS.figure.request(wishes), { kind: "figure", pose: "standing", degrees: 45 });
   assert.deepEqual(KINDS.combined.request(wishes), { kind: "combined", fits: ["one"] });
-  assert.deepEqual(KINDS.animation.request(wishes), { kind: "animation" });
+  assert.deepEqual(KINDS.animation.request({ ...wishes, named: "squat" }), { kind: "animation", motion: "squat" });
+  assert.deepEqual(KINDS.animation.request({ ...wishes, motion: new File([], "dance.bvh") }), { kind: "animation" });
 });
 
 test("a texture of one's own is sent along, and needed", () => {

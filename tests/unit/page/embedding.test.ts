@@ -14,7 +14,7 @@ test("all of a start may be left out or be null", () => {
 test("a whole start is taken", () => {
   const pictures = { front: new Blob(), side: new Blob() };
   const subject = { gender: "female", height_m: 1.555, weight_kg: 52 };
-  assert.equal(start({ token: "mqt_1_a-b", lang: "de-AT", theme: "dark", subject, pictures }), null);
+  assert.equal(start({ token: "mqt_1_a-b", lang: "de-AT", theme: "dark", subject, pictures, allow: ["save", "delete"] }), null);
 });
 
 const REFUSED: readonly (readonly [object, string])[] = [
@@ -33,6 +33,8 @@ const REFUSED: readonly (readonly [object, string])[] = [
   [{ subject: { height_m: Number.NaN } }, "subject.height_m"],
   [{ subject: { weight_kg: 0 } }, "subject.weight_kg"],
   [{ subject: { height_cm: 180 } }, "subject.height_cm"],
+  [{ allow: "save" }, "allow"],
+  [{ allow: ["print"] }, "allow"],
   [{ pictures: new Blob() }, "pictures"],
   [{ pictures: { front: "https://shop.example/front.jpg" } }, "pictures.front"],
   [{ pictures: { back: new Blob() } }, "pictures.back"],
@@ -58,7 +60,7 @@ test("a theme is named", () => {
 
 test("measurements come with the interval that holds 95 of 100, and with none where it is unknown", () => {
   const told = { name: "waist_girth_navel", unit: "cm", given: false, definition: "", source: "" };
-  const found = { measurements: [{ ...told, value: 80, standard_error: 1 }, { ...told, value: 80, standard_error: null }], verdict: "plausible" as const, warnings: [] };
+  const found = { measurements: [{ ...told, value: 80, standard_error: 1, low: 78.04, high: 81.96 }, { ...told, value: 80, standard_error: null, low: null, high: null }], verdict: "plausible" as const, warnings: [] };
   const [sure, unsure] = resultFor("1", found).measurements;
   assert.deepEqual(sure, { name: told.name, unit: "cm", value: 80, low: 78.04, high: 81.96 });
   assert.deepEqual([unsure!.low, unsure!.high], [null, null]);

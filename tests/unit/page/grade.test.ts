@@ -23,7 +23,7 @@ test("an overlap that careless points reach too is fair", () => {
 test("a doubtful outline, and a search that was stopped, are fair however well the body covers it", () => {
   for (const doubt of [{ warnings: [{ code: "segmentation-doubtful" }] }, { outcome: "evaluation_limit" } as const]) {
     assert.equal(gradeOf({ ...FOUND, ...doubt }), "fair");
-    assert.match(qualityOf(ofOne({ ...FOUND, ...doubt })).text, /see the notes below/);
+    assert.match(qualityOf(ofOne({ ...FOUND, ...doubt })).text, /read the notes/);
   }
   assert.equal(gradeOf({ ...FOUND, warnings: [{ code: "ambiguous-limb-facing" }] }), "good");
 });
@@ -37,8 +37,8 @@ test("several pictures agree only where the result says so", () => {
   const { grade, text, agreement } = qualityOf(SEVERAL);
   assert.equal(grade, "good");
   assert.match(text, /^Good.*they agree/);
-  assert.match(agreement!, /in 84% of cases/);
-  assert.match(qualityOf({ ...SEVERAL, agreement: 1 }).agreement!, /nearly always/);
+  assert.match(agreement!, /84% of such pairs/);
+  assert.match(qualityOf({ ...SEVERAL, agreement: 1 }).agreement!, /agree very well/);
   const others = qualityOf({ ...SEVERAL, agreement: 0.003, warnings: [{ code: "different-people" }] });
   assert.equal(others.grade, "poor");
   assert.match(others.text, /contradict/);

@@ -80,7 +80,8 @@ test("people who click nothing are told nothing of points", () => {
   }
   assert.match(plainly("faults", "image-damaged")!, /beschädigt/);
   speak({ language: "en", locale: "en", messages: en });
-  assert.equal(plainly("faults", "image-damaged"), null);
+  assert.match(plainly("faults", "image-damaged")!, /damaged/);
+  assert.equal(plainly("faults", "image-too-small"), null);
 });
 
 test("pictures of the same side are told apart by numbers, others by their names alone", () => {
@@ -99,10 +100,10 @@ test("proposed points are counted, not named", () => {
   type Asked = Parameters<typeof proposedText>[1];
   const asked = (...clicked: readonly object[]) => ({ views: clicked.map((points) => ({ points })) }) as unknown as Asked;
   const both = [seen(0, "front", "nose, left_hip"), seen(1, "side", "nose")];
-  assert.match(proposedText(both, asked({}, {}))!, /^All points were proposed/);
+  assert.match(proposedText(both, asked({}, {}))!, /^All points were found/);
   const some = proposedText(both, asked({ chin: {} }, {}))!;
   // Proposals that were sent back are no clicks.
-  assert.match(proposedText(both, asked({ nose: {}, left_hip: {} }, {}))!, /^All points were proposed/);
+  assert.match(proposedText(both, asked({ nose: {}, left_hip: {} }, {}))!, /^All points were found/);
   assert.match(some, /2 of the front picture, all of the side picture/);
   assert.doesNotMatch(some, /nose|left/);
   assert.equal(proposedText([seen(0, "front", null), seen(1, "side", null)], asked({ nose: {} }, { nose: {} })), null);
@@ -111,8 +112,8 @@ test("proposed points are counted, not named", () => {
 test("a fit tells of its proposed points as a scan does, and how many while its request is not known", () => {
   const assumed = [{ quantity: "points", value: "nose, left_hip", reason: "" }];
   const told = (asked: unknown) => onePictureText(proposedOf(assumed, asked)!);
-  assert.match(told({}), /^All points were proposed/);
-  assert.match(told({ chin: {} }), /^2 points were proposed/);
-  assert.match(told(null), /^2 points were proposed/);
+  assert.match(told({}), /^All points were found/);
+  assert.match(told({ chin: {} }), /^2 points were found/);
+  assert.match(told(null), /^2 points were found/);
   assert.equal(proposedOf([], {}), null);
 });

@@ -121,6 +121,16 @@ def test_skin_is_not_believed_in_the_midst_of_a_shirt():
     assert bare[waist].max() < 0.2
 
 
+@pytest.mark.parametrize("gender", ["male", "female"])
+@pytest.mark.parametrize("legs", [{}, {"thigh": 0.1, "shin": 0.9}], ids=["trousers", "shorts"])
+def test_a_midriff_under_an_open_vest_is_bare(gender, legs):
+    skin, regions = shown({"head": 0.8, "chest": 0.25, "spine": 0.85, "upper_arm": 0.9} | legs)
+    bare = coverage(skin, regions, gender).bare(skin, regions)
+    waist = regions.parts == PARTS.index("spine")
+    assert bare[waist & skin.coloured].min() > 0.5
+    assert bare[waist & ~skin.coloured].max() < 0.2
+
+
 def test_hips_under_a_shirt_of_the_skin_s_colour_are_not_bare():
     shirt = {"head": 0.8, "chest": 0.98, "spine": 0.95, "pelvis": 0.7}
     skin, regions = shown(shirt)

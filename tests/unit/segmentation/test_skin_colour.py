@@ -94,6 +94,28 @@ def test_a_gloved_hand_does_not_teach_the_skin():
     assert within(skin, "forearm") > 0.9
 
 
+def masked(colour: tuple[float, float, float], **colours: tuple[float, float, float]):
+    """The face is hidden from the nose down."""
+    picture, regions = person((0.03, 0.05, 0.15), **colours)
+    rows, columns = REGIONS["face"]
+    picture[rows.start + 11 : rows.stop, columns] = colour
+    return picture, regions
+
+
+@pytest.mark.parametrize("mask", [(0.6, 0.6, 0.58), (0.33, 0.47, 0.56), (0.025, 0.025, 0.028)])
+def test_under_a_mask_the_skin_has_the_hand_s_colour(mask):
+    skin = skin_map(*masked(mask))
+    assert skin.learnt_from == ("face", "hands")
+    assert within(skin, "forearm") > 0.9
+    assert within(skin, "chest") < 0.1
+
+
+def test_a_glove_of_no_colour_that_the_face_shows_does_not_take_its_place():
+    skin = skin_map(*masked((0.6, 0.6, 0.58), hand=(0.3, 0.04, 0.05), pelvis=(0.3, 0.04, 0.05)))
+    assert skin.learnt_from == ("face",)
+    assert within(skin, "pelvis") < 0.1
+
+
 def test_hair_beside_the_face_does_not_teach_the_skin():
     picture, regions = person((0.02, 0.015, 0.012))
     nearer_hair = PersonRegions(

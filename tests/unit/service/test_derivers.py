@@ -10,9 +10,12 @@ import pytest
 from PIL import Image
 
 from api_schemas.derivation_kinds import DerivationKind
+from api_schemas.derivation_kinds.animation import NamedMotion
+from api_schemas.derivation_kinds.base import BodyColours
 from api_schemas.derivation_kinds.pose import NamedPose
 from api_schemas.derivation_kinds.texture import LEAST_OWN_TEXTURE, TEXTURE_SIZES
 from api_schemas.derivations import DerivationResult
+from fitter.applications.named_motions import NAMED_MOTIONS
 from fitter.applications.own_texture import LEAST_SIDE
 from fitter.applications.poses import NAMED_POSES, REST
 from fitter.applications.texture import SIZES
@@ -26,6 +29,7 @@ from service.jobs.inputs import (
     PERSON,
     REQUEST,
     RESULT,
+    SEGMENTATION,
     TEXTURE,
     of_other,
 )
@@ -50,6 +54,24 @@ MOTIONS = Path(__file__).parents[1] / "applications" / "data" / "bvh"
 
 def test_the_named_poses_of_the_wire_are_the_fitter_s():
     assert {pose.value for pose in NamedPose} == {REST, *NAMED_POSES}
+
+
+def test_the_named_motions_of_the_wire_are_the_fitter_s():
+    assert [motion.value for motion in NamedMotion] == list(NAMED_MOTIONS)
+
+
+def test_a_body_moves_as_the_named_motion_says():
+    waving, squatting = (
+        derived(kind="animation", motion=motion, start_s=1.3, duration_s=0.1)
+        for motion in ("wave", "squat")
+    )
+    assert (waving.result.motion, squatting.result.motion) == ("wave", "squat")
+    assert squatting.result.source == "the squat that ships with the package"
+    high, low = (
+        read_glb(each.artifacts["body_animated.glb"]).attribute("POSITION")[:, 1]
+        for each in (waving, squatting)
+    )
+    assert np.ptp(low) < 0.8 * np.ptp(high)
 
 
 @pytest.mark.parametrize("kind", list(DerivationKind))
@@ -117,6 +139,71 @@ def test_the_combined_body_is_one_body_near_those_of_the_fits():
     assert not result["warnings"]
     waist = next(each for each in result["measurements"] if each["name"] == "waist_girth_navel")
     assert waist["standard_error"] > 0.0
+
+
+@pytest.mark.parametrize(
+    ("asked", "files"),
+    [
+        ({"kind": "pose", "pose": "sitting"}, ["body_reposed.glb"]),
+        (
+            {"kind": "animation", "duration_s": 0.2},
+            ["body_animated.glb", "body_skinned.glb"],
+        ),
+    ],
+)
+def test_the_picture_is_on_the_body_in_new_poses(asked, files):
+    output = derived(**asked)
+    assert output.result.colours is BodyColours.PICTURE
+    model = load_body_model(packaged_model_path("female"))
+    for name in files:
+        glb = read_glb(output.artifacts[name])
+        (image,) = glb.document["images"]
+        view = glb.document["bufferViews"][image["bufferView"]]
+        encoded = glb.binary[view["byteOffset"] : view["byteOffset"] + view["byteLength"]]
+        with Image.open(io.BytesIO(encoded)) as texture:
+            assert (texture.format, texture.size) == ("JPEG", (1024, 1024))
+            levels = np.asarray(texture, dtype=int)
+        # The whole picture has this one level; but for where JPEG blurs the islands' black ends.
+        assert np.percentile(np.abs(levels - 90)[levels > 60], 99) < 4
+        owners = glb.attribute("_VERTEX").ravel().astype(int)
+        assert np.array_equal(
+            owners[: len(model.mean_vertices)], np.arange(len(model.mean_vertices))
+        )
+        corners = glb.accessor(glb.document["meshes"][0]["primitives"][0]["indices"])
+        assert np.array_equal(owners[corners.reshape(-1, 3)], model.triangles)
+        texels = glb.attribute("TEXCOORD_0")[corners.reshape(-1, 3)]
+        asked_texels = model.uv[model.uv_triangles] * [1.0, -1.0] + [0.0, 1.0]
+        assert np.abs(texels - asked_texels).max() < 1e-6
+        counts = {
+            glb.document["accessors"][accessor]["count"]
+            for attributes in (glb.attributes, *_targets(glb))
+            for accessor in attributes.values()
+        }
+        assert counts == {len(model.uv)}
+        assert "KHR_materials_unlit" in glb.document["extensionsUsed"]
+        assert "extensions" not in glb.document
+
+
+def _targets(glb):
+    return glb.document["meshes"][0]["primitives"][0].get("targets", ())
+
+
+@pytest.mark.parametrize("kind", ["pose", "animation"])
+def test_a_body_in_a_new_pose_is_plain_if_asked_for_or_if_nothing_is_seen(kind):
+    asked = {"kind": kind} | ({"duration_s": 0.1} if kind == "animation" else {})
+    plain = derived(**asked, colours="plain")
+    nowhere = derived(files={SEGMENTATION: png(66, 99, level=0)}, **asked)
+    for output in (plain, nowhere):
+        assert output.result.colours is BodyColours.PLAIN
+        for name, content in output.artifacts.items():
+            if name.endswith(".glb"):
+                assert "images" not in read_glb(content).document
+
+
+def test_albedo_of_a_fit_without_light_is_refused_in_new_poses_too():
+    with pytest.raises(UnusableInputError) as caught:
+        derived(kind="pose", colours="albedo")
+    assert (caught.value.error.code, caught.value.error.field) == ("no-light", "colours")
 
 
 def test_a_combined_body_stands_in_each_picture_in_its_pose():
@@ -256,6 +343,7 @@ def test_a_clip_moves_the_body_by_the_joints_and_the_axis_that_are_told():
         "animation.webp",
         "body_animated.glb",
         "body_skinned.glb",
+        "texture.jpg",
     }
 
 

@@ -71,8 +71,8 @@ def test_numbers_have_a_comma_and_dates_a_german_month():
     weight = measurement("weight", value=74.4, standard_error=0.0, given=True, unit="kg")
     result = fit_result(measurements=[waist, weight], height_m=1.804, gender="male")
     content = report_content(result, german(name="Zoë Groß", date="2026-03-05"))
-    assert content.title == "Körpermaße aus einem Bild"
-    assert content.subtitle.startswith("Zoë Groß, 5. März 2026, Mann, 180,4 cm, nach ")
+    assert content.title == "Körpermaße"
+    assert content.subtitle.startswith("Zoë Groß, 5. März 2026, Mann, 180,4 cm, aus einem Bild")
     found = {row.name: row for row in content.measurements}
     assert found["Taillenumfang am Nabel"].interval == "76,1 – 83,9"
     assert (found["Gewicht"].value, found["Gewicht"].interval) == ("74,4", "angegeben")

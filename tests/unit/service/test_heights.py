@@ -50,6 +50,14 @@ def test_every_request_takes_the_same_heights_and_refuses_others_alike(kind):
         assert fault_of(kind, height_m) == [("height_m", "out-of-range")]
 
 
+def test_heights_of_children_are_refused_as_such():
+    with pytest.raises(ValidationError) as caught:
+        checks.CheckRequest.model_validate({"height_m": 1.1})
+    (problem,) = field_problems(caught.value.errors())
+    assert "grown-up" in problem.reason
+    assert "grown-up" in problem.remedy
+
+
 def test_the_range_is_that_of_body_models_and_that_of_the_contract():
     range_m = (LEAST_HEIGHT_M, MOST_HEIGHT_M)
     stated = BodyModels(models=())

@@ -78,8 +78,9 @@ def test_standard_errors_of_what_follows_are_those_of_the_measurements():
     )
     found = {each.name: each for each in measured}
     for each in result["arguments"]:
-        assert each["value"] == pytest.approx(found[each["name"]].value)
-        assert each["standard_error"] == pytest.approx(found[each["name"]].standard_error, rel=1e-3)
+        of_fit = found[each["name"]]
+        assert each["value"] == pytest.approx(of_fit.value, abs=0.011)
+        assert each["standard_error"] == pytest.approx(of_fit.standard_error, abs=0.0011)
 
 
 def test_body_fat_says_why_it_is_withheld_for_the_young():
@@ -120,7 +121,7 @@ def test_a_large_difference_is_a_change_and_a_small_one_is_none():
     called = {each["name"] for each in large["changes"] if each["is_change"]}
     assert "weight" in called
     for each in large["changes"]:
-        assert each["difference"] == pytest.approx(each["after"] - each["before"])
+        assert each["difference"] == pytest.approx(each["after"] - each["before"], abs=0.021)
 
 
 def test_fewer_measurements_are_compared_by_a_smaller_least_difference():

@@ -25,7 +25,9 @@ def measurement(**changes: object) -> Measurement:
 def test_a_line_a_measurement_and_a_column_a_field():
     rows = [measurement(), measurement(name="weight", unit="kg", given=True, standard_error=None)]
     content = measurements_csv(rows)
-    assert content.startswith(b"name,value,unit,standard_error,given,definition,source\r\n")
+    assert content.startswith(
+        b"name,value,unit,standard_error,low,high,given,definition,source\r\n"
+    )
     first, second = csv.DictReader(io.StringIO(content.decode(), newline=""))
     assert (first["value"], first["unit"], first["given"]) == ("80.25", "cm", "false")
     assert first["definition"] == 'At the navel, "level".\nBreathing out.'

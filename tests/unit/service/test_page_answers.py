@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from api_schemas.derivation_kinds.animation import NamedMotion
 from api_schemas.problems import PROBLEM_TYPES
 from fitter.capture.finding import Code
 from fitter.vocabulary.measurements import CHIEF
@@ -51,12 +52,14 @@ def test_codes_are_written_somewhere_in_the_service(name: str, code_written: str
 
 def test_what_a_motion_comes_from_is_told_as_the_page_expects(code_written: str):
     page = MESSAGES.parent / "derived" / "kinds" / "animation.tsx"
-    expected = re.findall(
-        r'^const (?:SHIPPED_WALK|NAMED_JOINTS) = "(.+)";', page.read_text("utf-8"), re.MULTILINE
-    )
-    assert len(expected) == 2
-    for source in expected:
-        assert f'source = "{source}' in code_written or f'source=f"{source}' in code_written
+    (source,) = re.findall(r'^const NAMED_JOINTS = "(.+)";', page.read_text("utf-8"), re.MULTILINE)
+    assert f'source=f"{source}' in code_written
+
+
+def test_the_page_offers_every_named_motion():
+    page = MESSAGES.parent / "derived" / "kinds" / "animation.tsx"
+    (listed,) = re.findall(r"^const MOTIONS.* = \[(.*)\];", page.read_text("utf-8"), re.MULTILINE)
+    assert re.findall(r'"([a-z_]+)"', listed) == [each.value for each in NamedMotion]
 
 
 def test_the_measurements_shown_first_have_labels_in_every_language():

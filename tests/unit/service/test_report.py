@@ -37,7 +37,6 @@ def picture(caption: str, *, width: int = 60, height: int = 80) -> Picture:
 PICTURES = ReportPictures(
     overlay=picture("The body over the picture"),
     sides=tuple(picture(f"Side {number}") for number in range(4)),
-    small=(picture("Albedo"), picture("Shading")),
 )
 
 
@@ -110,16 +109,16 @@ def test_what_was_assumed_and_what_to_look_at_are_listed_or_said_to_be_nothing()
     assert assumed.facts[0][0] == "Lens"
     assert assumed.facts[0][1].startswith("50 mm. Neither the request")
     assert section(fit_result(assumptions=[]), "What was assumed").remarks == ("Nothing.",)
-    assert section(fit_result(warnings=[]), "Worth a look").remarks == ("Nothing.",)
+    assert section(fit_result(warnings=[]), "Please note").remarks == ("Nothing.",)
 
 
 def test_where_measurements_are_withheld_the_pages_say_so():
     nobody = fit_result(measurements=[], verdict="no_person", outcome="poor_fit")
     content = report_content(nobody)
     text = Elements(report_html(content, PICTURES)).text
-    assert "withheld" in text
-    assert "95 % interval" not in text
-    ((_, ended), *_) = section(nobody, "The fit").facts
+    assert "No measurements are given" in text
+    assert "Range (95 %)" not in text
+    ((_, ended), *_) = section(nobody, "How sure it is").facts
     assert ended.startswith("No person. ")
     assert pages(report_pdf(content, PICTURES)) == 1
 
@@ -130,7 +129,7 @@ def test_the_page_stands_alone_and_runs_nothing():
     tags = {tag for tag, _ in elements.found}
     assert not tags & {"script", "link", "iframe", "object", "a", "form"}
     sources = [attributes["src"] for tag, attributes in elements.found if tag == "img"]
-    assert len(sources) == 7
+    assert len(sources) == 2
     assert all(source.startswith("data:image/") for source in sources)
     assert all(attributes["alt"] for tag, attributes in elements.found if tag == "img")
     assert not re.search(rb"url\(|@import|https?:", page)
@@ -222,7 +221,7 @@ def test_what_few_ask_for_has_a_second_page():
     content = everything_measured()
     assert pages(report_pdf(content, PICTURES)) == 2
     page = Elements(report_html(content, PICTURES))
-    assert len([tag for tag, _ in page.found if tag == "table"]) == 1 + len(content.further)
+    assert len([tag for tag, _ in page.found if tag == "table"]) == 2 + len(content.further)
     assert "Armhole" in page.text
 
 
@@ -232,12 +231,14 @@ def test_signs_the_pdf_s_fonts_lack_do_not_end_it():
     assert pages(pdf) == 1
 
 
-def test_a_report_of_a_fit_without_shading_has_no_pictures_of_skin():
-    without = ReportPictures(overlay=PICTURES.overlay, sides=PICTURES.sides, small=())
-    content = report_content(fit_result(light=None, reflectance=None))
-    images = [tag for tag, _ in Elements(report_html(content, without)).found if tag == "img"]
-    assert len(images) == 5
-    assert pages(report_pdf(content, without)) == 1
+def test_the_figures_most_people_ask_for_stand_first_and_what_is_for_experts_last():
+    named = ("weight", "hip_girth", "waist_girth_smallest", "chest_girth", "neck_girth")
+    content = report_content(fit_result(measurements=[measurement(name) for name in named]))
+    assert [row.name for row in content.figures] == ["Chest", "Waist", "Hip", "Weight"]
+    assert all(row.interval for row in content.figures)
+    text = Elements(report_html(content, PICTURES)).text.partition("Body measurements")[2]
+    places = [text.index(each) for each in ("Chest", "Measurement", "How sure it is", "Light and")]
+    assert places == sorted(places)
 
 
 def scan_result(**changes: object) -> ScanResult:
@@ -249,7 +250,7 @@ def test_a_report_of_a_scan_says_what_was_found_in_every_view():
     doubtful = {"code": "segmentation-doubtful", "message": "The outline is doubtful."}
     views = [view | {"warnings": [doubtful]} for view in SCAN_RESULT["views"]]
     content = scan_content(scan_result(warnings=[warning], views=views))
-    assert content.title.endswith("from several pictures")
+    assert content.title == "Body measurements"
     assert "from 2 pictures" in content.subtitle
     pictures, _, _, warnings = content.sections
     assert [label for label, _ in pictures.facts] == ["Front", "Side"]
@@ -259,15 +260,15 @@ def test_a_report_of_a_scan_says_what_was_found_in_every_view():
     page = Elements(report_html(content, PICTURES))
     assert content.title in page.text
     assert "Agreement" in page.text
-    assert "How it ended" in page.text
+    assert "How sure it is" in page.text
 
 
 def test_measurements_of_a_scan_are_withheld_as_those_of_a_fit():
     page = Elements(report_html(scan_content(scan_result(measurements=[])), PICTURES))
-    assert "withheld" in page.text
+    assert "No measurements are given" in page.text
 
 
 @pytest.mark.parametrize(("share", "shown"), [(1.0, "100 %"), (0.084, "8 %"), (0.0002, "0.02 %")])
 def test_how_pictures_agree_is_told_in_percent(share: float, shown: str):
     _, scan, *_ = scan_content(scan_result(agreement=share)).sections
-    assert f"in {shown} of cases" in dict(scan.facts)["Agreement"]
+    assert f"{shown} of pairs" in dict(scan.facts)["Agreement"]

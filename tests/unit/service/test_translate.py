@@ -11,7 +11,7 @@ from fitter import request as fitter_request
 from fitter.detection.landmark_meanings import SPREAD_EXPONENT, spread_m
 from fitter.errors import InvalidInputError
 from fitter.fits.progress import Progress, Stage
-from fitter.vocabulary.choices import LightKind
+from fitter.vocabulary.choices import LightKind, PaperEnergy
 from fitter.vocabulary.points import POINT_NAMES
 from service.jobs.inputs import SentPicture
 from service.worker import translate
@@ -61,6 +61,15 @@ def test_clothing_may_be_said_of_a_region_alone():
     assert view.clothing == fitter_request.SaidClothing(
         upper=fitter_request.Clothing.LOOSE, lower=fitter_request.Clothing.AUTO
     )
+
+
+def test_the_papers_own_method_is_passed_on_where_it_is_asked_for():
+    assert fit_request().choices.paper is None
+    words = json.loads(REQUEST) | {"paper": {"energies": ["edges"], "free_height": True}}
+    options = FitOptions.model_validate_json(json.dumps(words))
+    asked = translate.fit_request(options, NO_PICTURE, max_pixels=7).choices.paper
+    assert asked == fitter_request.Paper(energies=frozenset({PaperEnergy.EDGES}), free_height=True)
+    assert "paper" not in json.loads(FitOptions.model_validate_json(REQUEST).model_dump_json())
 
 
 def known(**fields: object) -> dict[str, fitter_request.KnownMeasurement]:

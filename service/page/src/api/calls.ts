@@ -48,7 +48,7 @@ export async function eraseFit(which: FitRef): Promise<void> {
 }
 
 export async function getResult({ kind, links }: Fit): Promise<Result> {
-  const found = await requestJson<FitResult | ScanResult>(links.result ?? `${links.self}/result`);
+  const found = await requestJson<FitResult | ScanResult>(`${links.result ?? `${links.self}/result`}?include=stages`);
   return kind === "fit" ? resultOfFit(found as FitResult) : resultOfScan(found as ScanResult);
 }
 

@@ -1,6 +1,6 @@
 // The service's fits, of one picture, and its scans, of several, as one type: a fit of one to six pictures.
 import type { components } from "./schema";
-import type { FitOptions, FitResult, Job, Measurement, Scan, ScanOptions, ScanResult, ViewKind } from "./types";
+import type { FitOptions, FitResult, Job, Scan, ScanOptions, ScanResult, StageMeasurement, ViewKind } from "./types";
 
 type Schemas = components["schemas"];
 
@@ -35,7 +35,7 @@ export interface Result
   /** How well several pictures agree; null of one. */
   readonly agreement: number | null;
   /** The measurements by silhouette and edges alone; null where shading was not used. */
-  readonly outlined: readonly Measurement[] | null;
+  readonly outlined: readonly StageMeasurement[] | null;
   readonly energies: Readonly<Record<string, number>>;
   readonly evaluations: number;
   readonly stage_seconds: Readonly<Record<string, number>>;
@@ -84,7 +84,7 @@ export function resultOfScan(found: ScanResult): Result {
   return { ...found, views, outlined: outlined({ cues: found.cues, stages }), energies, evaluations, stage_seconds };
 }
 
-function outlined({ cues, stages }: Pick<FitResult, "cues" | "stages">): readonly Measurement[] | null {
+function outlined({ cues, stages }: Pick<FitResult, "cues" | "stages">): readonly StageMeasurement[] | null {
   if (cues !== "SES") return null;
   return stages.find((stage) => stage.name === "SE")?.measurements ?? null;
 }

@@ -1,7 +1,8 @@
 // What can be made of a finished fit: asked for, followed, looked at and kept.
-import { useState } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
+import { getDerivationResult } from "../api/calls";
 import type { Fit } from "../api/fits";
-import type { Derivation } from "../api/types";
+import type { Derivation, NamedMotion } from "../api/types";
 import { messages } from "../messages/language";
 import { Choice } from "../ui/Choice";
 import { ProblemNote } from "../ui/ProblemNote";
@@ -12,22 +13,33 @@ import { viewsOf } from "./views";
 
 interface Props {
   readonly parent: Fit;
+  /** The job of the skin, which the body shows itself: it is not listed. */
+  readonly skin: string | null;
   readonly hasLight: boolean;
   /** The id of what is shown large; null while it is the body itself. */
   readonly onStage: string | null;
   /** Shows large what can be looked at. */
   readonly onShow: (made: Derivation | null) => void;
+  /** The motion that is wanted on the stage; null once it is there, or cannot be had. */
+  readonly motion: NamedMotion | null;
+  readonly onMotionEnded: () => void;
 }
 
 /** In the order they are offered; `report` is chosen first. */
 const OFFERED = Object.keys(KINDS) as OfferedKind[];
 
-export function DerivedPanel({ parent, hasLight, onStage, onShow }: Props) {
+export function DerivedPanel({ parent, skin, hasLight, onStage, onShow, motion, onMotionEnded }: Props) {
   const { derived } = messages.value;
-  const { list, problem, start, retry, erase } = useDerivations(parent, (made) => viewsOf(made).length > 0 && onShow(made));
+  const { list, problem, start, make, retry, erase } = useDerivations(parent, (made) => viewsOf(made).length > 0 && onShow(made));
   const [kind, setKind] = useState<OfferedKind>("report");
   const [wishes, wish] = useState(FIRST_WISHES);
   const [asking, setAsking] = useState(false);
+  useEffect(() => {
+    if (!motion) return;
+    void madeBefore(list, motion)
+      .then((before) => (before ? onShow(before) : make({ kind: "animation", motion })))
+      .finally(onMotionEnded);
+  }, [motion]);
   const chosen = KINDS[kind];
   const lack = chosen.lacks?.(wishes) ?? null;
   const { Options } = chosen;
@@ -58,7 +70,7 @@ export function DerivedPanel({ parent, hasLight, onStage, onShow }: Props) {
       {lack && <p class="fine">{lack}</p>}
       {problem && <ProblemNote problem={problem} />}
       <ul class="derived">
-        {list.map((each) => (
+        {list.filter(({ id }) => id !== skin).map((each) => (
           <DerivationCard
             key={each.id}
             made={each}
@@ -75,4 +87,14 @@ export function DerivedPanel({ parent, hasLight, onStage, onShow }: Props) {
       </ul>
     </section>
   );
+}
+
+/** The animation of this motion, if there is one. */
+async function madeBefore(list: readonly Derivation[], motion: NamedMotion): Promise<Derivation | null> {
+  for (const each of list) {
+    if (each.kind !== "animation" || each.state !== "succeeded") continue;
+    const result = await getDerivationResult(each).catch(() => null);
+    if (result?.kind === "animation" && result.motion === motion) return each;
+  }
+  return null;
 }

@@ -1,17 +1,26 @@
 // What was made of a fit, large: its name, what must be known of it first, and the way back to the body.
 import { useState } from "preact/hooks";
-import type { Derivation } from "../api/types";
+import type { Derivation, NamedMotion } from "../api/types";
 import { messages } from "../messages/language";
 import { Choice } from "../ui/Choice";
 import { Icon } from "../ui/Icon";
 import { DerivedCanvas } from "../viewer/DerivedCanvas";
 import { DerivationWarnings } from "./DerivationSummary";
+import { MotionChoice } from "./kinds/animation";
 import { kindLabel, kindOf } from "./kinds";
 import { ProductPicture } from "./ProductPicture";
 import { useDerivationResult } from "./derivationResult";
 import { viewsOf } from "./views";
 
-export function ProductStage({ made, onBack }: { made: Derivation; onBack: () => void }) {
+interface Props {
+  readonly made: Derivation;
+  readonly onBack: () => void;
+  /** The motion that is to be shown in its place, while it is made. */
+  readonly motion: NamedMotion | null;
+  readonly onMotion: (motion: NamedMotion) => void;
+}
+
+export function ProductStage({ made, onBack, motion, onMotion }: Props) {
   const { derived } = messages.value;
   const views = viewsOf(made);
   const result = useDerivationResult(made);
@@ -38,12 +47,22 @@ export function ProductStage({ made, onBack }: { made: Derivation; onBack: () =>
         )}
       </div>
       {result && <DerivationWarnings of={result} />}
+      {result?.kind === "animation" && (
+        <div class="look-bar is-product">
+          <MotionChoice name="motion-shown" value={motion ?? result.motion ?? null} onChange={onMotion} />
+          {motion && (
+            <p class="fine" role="status">
+              {derived.animation.making(derived.animation.motions[motion])}
+            </p>
+          )}
+        </div>
+      )}
       {view.picture ? (
         <ProductPicture key={view.file} made={made} shows={view.picture} />
       ) : (
         <div class="look-room">
           <div class="look-free">
-            <DerivedCanvas path={made.links.artifacts![view.file]!} label={turns!.label()} />
+            <DerivedCanvas key={made.id} path={made.links.artifacts![view.file]!} label={turns!.label()} />
           </div>
           <p class="look-hint fine">{messages.value.look.hint}</p>
         </div>

@@ -14,6 +14,8 @@ export interface Derived {
   readonly problem: Problem | null;
   /** With the file that comes along, if any. */
   readonly start: (asked: DerivationRequest, part: Part | null) => Promise<void>;
+  /** As `start`, but over once it has ended. */
+  readonly make: (asked: DerivationRequest) => Promise<void>;
   readonly retry: (each: Derivation) => Promise<void>;
   readonly erase: (each: Derivation) => Promise<void>;
 }
@@ -57,6 +59,13 @@ export function useDerivations(parent: Fit, onMade: (made: Derivation) => void):
     list,
     problem,
     start: (asked, part) => attempt(async () => begin(await derive(parent, asked, part))),
+    make: (asked) =>
+      attempt(async () => {
+        const begun = await derive(parent, asked, null);
+        put(begun);
+        const ended = await follow(begun);
+        if (ended.state === "succeeded") onMade(ended);
+      }),
     retry: (each) => attempt(async () => begin(await retryDerivation(each))),
     erase: (each) =>
       attempt(async () => {

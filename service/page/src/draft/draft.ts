@@ -38,6 +38,8 @@ export const facing = signal<Readonly<Partial<Record<Limb, Facing>>>>({});
 export const cues = signal<Cues>("SES");
 /** Who is the person and who is not, white on black; null leaves it to the fit. */
 export const mask = signal<Picture | null>(null);
+/** Whether what there is to correct before a fit is shown. */
+export const isCorrecting = signal(false);
 /** Somebody said that the person turns their back. */
 export const seenFromBehind = signal(false);
 
@@ -72,6 +74,7 @@ export function usePicture(next: Picture | null): void {
     clothing.value = "auto";
     cues.value = "SES";
     seenFromBehind.value = false;
+    isCorrecting.value = false;
     useMask(null);
   });
 }

@@ -12,17 +12,25 @@ const HEAVIEST_KG = 1000;
 
 const THEMES: readonly unknown[] = ["light", "dark", "system"] satisfies readonly Maquette.Theme[];
 
+const DEEDS: readonly unknown[] = ["save", "delete"] satisfies readonly Maquette.Deed[];
+
 /** Null for a message that can be taken as a start. */
 export function faultOfStart(message: object): Refusal | null {
-  const { token, lang, theme, subject, pictures } = message as Readonly<Record<string, unknown>>;
+  const { token, lang, theme, subject, pictures, allow } = message as Readonly<Record<string, unknown>>;
   return (
-    unknownField(message, "", ["type", "token", "lang", "theme", "subject", "pictures"]) ??
+    unknownField(message, "", ["type", "token", "lang", "theme", "subject", "pictures", "allow"]) ??
     (isMissing(token) ? null : faultOfToken(token)) ??
     faultOfLanguage(lang) ??
     (isMissing(theme) ? null : faultOfTheme(theme)) ??
     faultOfSubject(subject) ??
-    faultOfPictures(pictures)
+    faultOfPictures(pictures) ??
+    (isMissing(allow) ? null : faultOfAllowed(allow))
   );
+}
+
+function faultOfAllowed(allow: unknown): Refusal | null {
+  if (Array.isArray(allow) && allow.every((each) => DEEDS.includes(each))) return null;
+  return { field: "allow", reason: `What is allowed is a list of ${DEEDS.join(" and ")}.` };
 }
 
 export function faultOfToken(token: unknown): Refusal | null {

@@ -10,7 +10,7 @@ function failure(message: string, more: Partial<Maquette.Failure> = {}): Maquett
 }
 
 function measure(element: HTMLElement, options: Maquette.Options = {}): Promise<Maquette.Result> {
-  const { token, lang, theme, subject, pictures, signal, onProgress, onResult } = options;
+  const { token, lang, theme, subject, pictures, allow, signal, onProgress, onResult } = options;
   const frame = document.createElement("iframe");
   frame.src = page.href;
   frame.title = options.title ?? (lang?.startsWith("de") ? "Körper vermessen" : "Measure a body");
@@ -51,7 +51,7 @@ function measure(element: HTMLElement, options: Maquette.Options = {}): Promise<
           silence = undefined;
           frame.onload = null;
           watching.observe(element, { attributeFilter: ["data-theme"] });
-          void withToken((found) => send({ type: "maquette:start", token: found, lang, theme: theme ?? followed(), subject, pictures }));
+          void withToken((found) => send({ type: "maquette:start", token: found, lang, theme: theme ?? followed(), subject, pictures, allow }));
           break;
         case "maquette:token-needed":
           if (!token) reject(failure("The service asks for a token: give measure() the option `token`.", { field: "token" }));

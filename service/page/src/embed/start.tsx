@@ -13,6 +13,7 @@ import { languageOf, load } from "../messages/language";
 import { MEASURE_ADDRESS, go } from "../route";
 import { useTheme } from "../ui/theme";
 import { EmbedView } from "./EmbedView";
+import { allow } from "./allowed";
 import { startTelling } from "./outcome";
 import { listen, tell } from "./parent";
 import { faultOfStart, faultOfTheme, faultOfToken } from "./reading";
@@ -43,7 +44,7 @@ export function startEmbedding(root: HTMLElement): void {
 async function start(message: Maquette.Start, root: HTMLElement): Promise<void> {
   const fault = faultOfStart(message);
   if (fault) return refuse(fault);
-  const { token, lang, theme, subject, pictures } = message;
+  const { token, lang, theme, subject, pictures, allow: allowed } = message;
   const spoken = lang ? languageOf(lang) : null;
   if (spoken) await load(spoken);
   const opened = await openedPictures(pictures ?? {});
@@ -51,6 +52,7 @@ async function start(message: Maquette.Start, root: HTMLElement): Promise<void> 
   if (theme) useTheme(theme);
   if (token) takeToken(token);
   batch(() => {
+    if (allowed) allow(allowed);
     if (subject) loadPerson({ ...subject, gender: subject.gender ?? undefined });
     for (const name of PLACE_NAMES) {
       const picture = opened[name];

@@ -6,6 +6,7 @@ import { answered } from "../ui/answered";
 
 export function Findings({ findings }: { findings: readonly Finding[] }) {
   const { findings: words } = messages.value.measure;
+  if (findings.length === 0) return null;
   return (
     <ul class="findings">
       {findings.map(({ code, severity, reason, remedy }) => (

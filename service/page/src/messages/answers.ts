@@ -40,7 +40,7 @@ export const WARNINGS = [
 /** Findings of checks of pictures, by `code`: what is wrong and what to do. */
 export const FINDINGS = [
   "nobody-found", "several-people", "cut-off", "person-too-small", "picture-too-small", "other-view",
-  "arms-against-trunk", "clothes-loose", "skin-not-found", "blurred", "too-dark", "too-bright", "camera-rolled", "camera-too-near",
+  "arms-against-trunk", "clothes-loose", "skin-not-found", "covered", "blurred", "too-dark", "too-bright", "camera-rolled", "camera-too-near",
   "not-standing", "child", "contradicted",
 ] as const;
 

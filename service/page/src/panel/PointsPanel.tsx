@@ -10,7 +10,6 @@ import type { Place, Points } from "../points/placed";
 import { countProposed, hasProposed, isAllProposed } from "../points/proposed";
 import { redo, undo } from "../points/timeline";
 import { IconButton } from "../ui/IconButton";
-import { ProblemNote } from "../ui/ProblemNote";
 import { Served } from "../ui/Served";
 import { answered } from "../ui/answered";
 import { BodyLink } from "./BodyLink";
@@ -49,7 +48,6 @@ export function PointsPanel() {
       </div>
       <ProposalWarnings />
       {!isProposed && <SideNote />}
-      {liveProblem.value && <ProblemNote problem={liveProblem.value} />}
       <Doubts />
       <PointList />
       <PointFiles />

@@ -67,10 +67,10 @@ function Persons({ count, chosen }: { count: number; chosen: number | null }) {
 function Ways() {
   const nobody = proposal.value?.person === null;
   const offersProposal = !isProposing.value && !nobody && !isAllProposed(points.value);
-  if (!hasProposed(points.value) && !offersProposal) return null;
+  const offersClicks = isProposing.value || Object.keys(points.value.placed).length > 0;
   return (
     <div class="row">
-      {hasProposed(points.value) && <ClickAll kind="button is-small" />}
+      {offersClicks && <ClickAll kind="button is-small" />}
       {offersProposal && (
         <button class="button is-small" type="button" onClick={() => propose()}>
           {messages.value.panel.proposal.propose}

@@ -1,15 +1,12 @@
 // The start: what this is, how good, what becomes of pictures, and the ways in.
 import { useSignal } from "@preact/signals";
-import { canPropose } from "../draft/proposing";
 import { messages } from "../messages/language";
 import { AccuracyLine } from "../start/AccuracyLine";
 import { GoOn } from "../start/GoOn";
 import { KeptLine } from "../start/KeptLine";
 import { Turning } from "../start/Turning";
 import { Ways } from "../start/Ways";
-import { Choice } from "../ui/Choice";
 import { openFile, openProblem, trySample } from "./open";
-import type { Beginning } from "./open";
 
 const SAMPLES = [
   { name: "sample", width: 720, height: 960 },
@@ -60,32 +57,19 @@ export function Start() {
 
 function Samples() {
   const { samples } = messages.value.start;
-  const beginning = useSignal<Beginning>("placed");
   return (
     <section class="samples" aria-labelledby="samples-title">
       <h2 id="samples-title">{samples.title}</h2>
       <ul>
         {SAMPLES.map(({ name, width, height }) => (
           <li key={name}>
-            <button type="button" onClick={() => void trySample(name, beginning.value)}>
+            <button type="button" onClick={() => void trySample(name)}>
               <img src={`/page/${name}.jpg`} alt={samples.pictured[name]} width={width} height={height} />
               <span>{samples.labels[name]}</span>
             </button>
           </li>
         ))}
       </ul>
-      <Choice
-        name="sample-points"
-        legend={samples.points}
-        quiet
-        options={[
-          { value: "placed", label: samples.placed },
-          ...(canPropose.value ? [{ value: "proposed" as const, label: samples.proposed }] : []),
-          { value: "open", label: samples.open },
-        ]}
-        value={beginning.value}
-        onChange={(value) => (beginning.value = value)}
-      />
     </section>
   );
 }

@@ -1,5 +1,6 @@
 // Send the draft.
 import { useSignal } from "@preact/signals";
+import { useEffect } from "preact/hooks";
 import { submitFit, uploadImage } from "../api/calls";
 import { problemFrom } from "../api/client";
 import { UNREACHABLE, isCutOff } from "../api/connection";
@@ -7,6 +8,7 @@ import type { Problem } from "../api/types";
 import { oneOf, person, picture, todo, uploaded } from "../draft/draft";
 import { liveBody } from "../draft/live";
 import { labelOf } from "../draft/person";
+import { isProposing } from "../draft/proposing";
 import { draftedChoices, draftedSubject } from "../draft/request";
 import { uploadProblem } from "../draft/uploading";
 import { assumed, remember, seen, thumbnailOf } from "../history/store";
@@ -18,9 +20,12 @@ import { ProblemNote } from "../ui/ProblemNote";
 import { discard } from "./open";
 
 export function SubmitBar() {
-  const { frame, panel } = messages.value;
+  const { frame, panel, person: { todo: missing } } = messages.value;
   const problem = useSignal<Problem | null>(null);
   const sending = useSignal(false);
+  /** Somebody wants the fit as soon as the points are there. */
+  const isEager = useSignal(false);
+  const waits = todo.value === missing.points && isProposing.value;
   const send = async () => {
     const subject = draftedSubject();
     const shown = picture.value;
@@ -53,6 +58,23 @@ export function SubmitBar() {
       sending.value = false;
     }
   };
+  const begin = () => {
+    if (waits) isEager.value = true;
+    else void send();
+  };
+  useEffect(() => {
+    if (!isEager.value || waits) return;
+    isEager.value = false;
+    void send();
+  }, [isEager.value, waits]);
+  // Enter in a field of the person is the button.
+  useEffect(() => {
+    const listen = ({ key, target }: KeyboardEvent) => {
+      if (key === "Enter" && target instanceof HTMLInputElement && target.inputMode === "decimal" && !sending.value) begin();
+    };
+    addEventListener("keydown", listen);
+    return () => removeEventListener("keydown", listen);
+  });
   // That nothing is reached is said for as long as it is so.
   const fault = [problem.value, uploadProblem.value].find((each) => each && each.code !== UNREACHABLE);
   return (
@@ -64,8 +86,8 @@ export function SubmitBar() {
       )}
       {fault && <ProblemNote problem={fault} />}
       {oneOf.value && <p class="fine">{panel.oneOfSeveral}</p>}
-      <button class="button is-primary is-wide" type="button" disabled={todo.value !== null || sending.value} onClick={send}>
-        {sending.value ? frame.sending : (todo.value ?? panel.submit)}
+      <button class="button is-primary is-wide" type="button" disabled={(todo.value !== null && !waits) || sending.value || isEager.value} onClick={begin}>
+        {sending.value ? frame.sending : isEager.value ? panel.finding : waits ? panel.submit : (todo.value ?? panel.submit)}
       </button>
     </div>
   );

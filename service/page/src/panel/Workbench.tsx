@@ -1,36 +1,42 @@
-// Where a fit is prepared: the picture on the left, what is known on the right. On phones all is below one another, the
-// person first: without a gender nothing follows the clicks.
+// Where a fit is prepared: the picture, who is in it, one button; all else is behind "Correct something".
 import { useEffect } from "preact/hooks";
-import { isAsleep, picture, points, upcoming } from "../draft/draft";
+import { isAsleep, isCorrecting, picture, points, upcoming } from "../draft/draft";
 import { isRestoring } from "../draft/lasting";
+import { liveProblem } from "../draft/live";
+import { isProposing } from "../draft/proposing";
 import { isEditing } from "../mask/edits";
-import { MaskSection } from "../mask/MaskSection";
-import { MaskStage } from "../mask/MaskStage";
 import { messages } from "../messages/language";
+import { isEnough } from "../points/placed";
 import { hasProposed } from "../points/proposed";
 import { isFull } from "../stage/full";
 import { Stage } from "../stage/Stage";
+import { ProblemNote } from "../ui/ProblemNote";
+import { later } from "../ui/later";
 import { isNarrow } from "../ui/narrow";
-import { EvidencePanel } from "./EvidencePanel";
-import { FacingPanel } from "./FacingPanel";
-import { LensPanel } from "./LensPanel";
-import { LightPanel } from "./LightPanel";
-import { MaskPanel } from "./MaskPanel";
 import { openFile, openProblem } from "./open";
-import { sizeOf } from "./size";
 import { PersonPanel } from "./PersonPanel";
-import { NextLine, PointsPanel } from "./PointsPanel";
 import { Start } from "./Start";
 import { SubmitBar } from "./SubmitBar";
+
+const Corrections = later(() => import("./Corrections").then((loaded) => loaded.Corrections), null);
+const NextLine = later(() => import("./PointsPanel").then((loaded) => loaded.NextLine), null);
+const MaskStage = later(() => import("../mask/MaskStage").then((loaded) => loaded.MaskStage), null);
 
 export function Workbench() {
   const { panel } = messages.value;
   const shown = picture.value;
+  // Nobody proposes them: they are clicked.
+  const hasToClick = shown !== null && !isProposing.value && !isEnough(points.value);
   useEffect(() => {
     if (shown) isAsleep.value = false;
   }, [shown]);
+  useEffect(() => {
+    if (hasToClick) isCorrecting.value = true;
+  }, [hasToClick]);
   useEffect(() => () => void (isFull.value = false), []);
   if (!shown) return isRestoring.value ? <main class="waiting" aria-busy="true" /> : <Start />;
+  const corrects = isCorrecting.value;
+  const look = ["bench-stage", upcoming.value ? "" : "is-settled", hasProposed(points.value) ? "is-proposed" : "", isFull.value ? "is-full" : "", corrects ? "" : "is-plain"];
   return (
     <main
       class="bench"
@@ -47,63 +53,36 @@ export function Workbench() {
           <PersonPanel />
         </div>
       )}
-      <div class={`bench-stage ${upcoming.value ? "" : "is-settled"} ${hasProposed(points.value) ? "is-proposed" : ""} ${isFull.value ? "is-full" : ""}`}>
+      <div class={look.join(" ")}>
         {isEditing.value ? (
           <MaskStage />
         ) : (
           <>
-            <NextLine />
+            {corrects && <NextLine />}
             <Stage />
           </>
         )}
       </div>
       <div class="panel" inert={isFull.value}>
         <div class="panel-scroll">
-          <section class="section is-tight" aria-label={panel.picture}>
-            <div class="picture-line">
-              <span class="picture-name">{shown.name}</span>
-              <span class="count">
-                {sizeOf(shown)}
-              </span>
-              <label class="link">
-                {panel.replace}
-                <input
-                  class="unseen"
-                  type="file"
-                  accept="image/*"
-                  aria-label={panel.another}
-                  onChange={(event) => {
-                    const file = event.currentTarget.files?.[0];
-                    event.currentTarget.value = "";
-                    if (file) void openFile(file);
-                  }}
-                />
-              </label>
-            </div>
-            {shown.scaledFrom && <p class="fine">{panel.scaled(sizeOf(shown.scaledFrom))}</p>}
-            {openProblem.value && (
+          {openProblem.value && (
+            <div class="section is-tight">
               <p class="note is-problem" role="alert">
                 {openProblem.value}
               </p>
-            )}
-          </section>
+            </div>
+          )}
           {!isNarrow.value && <PersonPanel />}
-          <PointsPanel />
-          <MaskSection />
-          <FacingPanel />
-          <details class="section fold-section">
+          {liveProblem.value && (
+            <div class="section is-tight">
+              <ProblemNote problem={liveProblem.value} />
+            </div>
+          )}
+          <details class="corrections" open={corrects} onToggle={({ currentTarget }) => (isCorrecting.value = currentTarget.open)}>
             <summary>
-              <h2>{panel.lensAndLight}</h2> <span class="count">{panel.optional}</span>
+              <h2>{panel.correct}</h2> <span class="count">{panel.correctWhat}</span>
             </summary>
-            <LensPanel />
-            <LightPanel />
-          </details>
-          <details class="section fold-section">
-            <summary>
-              <h2>{panel.evidence}</h2> <span class="count">{panel.optional}</span>
-            </summary>
-            <EvidencePanel />
-            <MaskPanel />
+            {corrects && <Corrections />}
           </details>
         </div>
         <SubmitBar />

@@ -4,7 +4,7 @@ import { getAsked, getFile } from "../api/calls";
 import { askedOfView } from "../api/fits";
 import type { Fit } from "../api/fits";
 import type { FitOptions } from "../api/types";
-import { change, oneOf, person, points, useMask, usePicture } from "../draft/draft";
+import { change, isCorrecting, oneOf, person, points, useMask, usePicture } from "../draft/draft";
 import { openPicture } from "../draft/chosen";
 import { shownPicture } from "../draft/picture";
 import type { Picture } from "../draft/picture";
@@ -15,9 +15,6 @@ import { skipRest } from "../points/placed";
 import { PREPARE_ADDRESS, go, isMeasuring } from "../route";
 
 export const openProblem = signal<string | null>(null);
-
-/** Whose points there are once a picture is open. */
-export type Beginning = "proposed" | "placed" | "open";
 
 export async function openFile(
   file: Blob,
@@ -33,19 +30,17 @@ export async function openFile(
   });
 }
 
-/** A sample by the name of its files. */
-export async function trySample(name: string, beginning: Beginning): Promise<void> {
+/** A sample by the name of its files, with its points. */
+export async function trySample(name: string): Promise<void> {
   await open(async () => {
     const [opened, asked] = await Promise.all([
       fetch(`/page/${name}.jpg`)
         .then((answer) => answer.blob())
         .then((file) => openPicture(file, `${name}.jpg`)),
-      beginning === "placed" ? fetch(`/page/${name}.json`).then((answer) => answer.json() as Promise<FitOptions>) : null,
+      fetch(`/page/${name}.json`).then((answer) => answer.json() as Promise<FitOptions>),
     ]);
     return () => {
       use(opened);
-      if (beginning === "proposed") proposeFirst();
-      if (!asked) return;
       loadDraft(asked);
       // Its points are all there are: none is asked for.
       change(skipRest(points.value));
@@ -68,6 +63,7 @@ export async function openAgain(fit: Fit, number: number, picture: Picture): Pro
     loadDraft(askedOfView(asked, number));
     person.value = { ...person.value, label: fit.label ?? "" };
     useMask(mask);
+    isCorrecting.value = true;
     // The service proposed all of them.
     if (Object.keys(points.value.placed).length === 0) proposeFirst();
   });

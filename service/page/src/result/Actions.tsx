@@ -5,6 +5,7 @@ import { problemFrom } from "../api/client";
 import type { Fit } from "../api/fits";
 import type { Problem } from "../api/types";
 import type { Picture } from "../draft/picture";
+import { may } from "../embed/allowed";
 import { forget } from "../history/store";
 import { messages } from "../messages/language";
 import { beginning, go, isEmbedded } from "../route";
@@ -59,7 +60,7 @@ export function Actions({ fit, pictures }: { fit: Fit; pictures: readonly Pictur
       ) : (
         <div class="submit-row">
           <button
-            class="button is-primary grow"
+            class="button grow"
             type="button"
             disabled={pictures.length === 0}
             onClick={() => attempt(() => changeAgain(fit, pictures))}
@@ -67,7 +68,7 @@ export function Actions({ fit, pictures }: { fit: Fit; pictures: readonly Pictur
             {own.again}
           </button>
           {!isEmbedded && <IconButton icon={copied.value ? "check" : "link"} label={copied.value ? words.copied : own.copy} onClick={copy} />}
-          <IconButton icon="trash" label={own.delete} onClick={question.ask} buttonRef={question.asker} />
+          {may("delete") && <IconButton icon="trash" label={own.delete} onClick={question.ask} buttonRef={question.asker} />}
         </div>
       )}
     </div>

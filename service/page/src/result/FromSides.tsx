@@ -7,10 +7,10 @@ const SIDES: readonly Side[] = ["front", "side", "back"];
 export function FromSides({ onLook }: { onLook: (from: { readonly side: Side }) => void }) {
   const { look } = messages.value;
   return (
-    <div class="row" role="group" aria-label={look.from}>
+    <div class="row from-sides" role="group" aria-label={look.from}>
       {SIDES.map((side) => (
-        <button key={side} class="button is-small" type="button" onClick={() => onLook({ side })}>
-          {look.sides[side]}
+        <button key={side} class="button is-small" type="button" aria-label={look.sides[side]} onClick={() => onLook({ side })}>
+          {look.sideNames[side]}
         </button>
       ))}
     </div>

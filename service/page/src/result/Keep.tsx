@@ -1,4 +1,4 @@
-// What most people want to keep: the table, the body as a mesh, and the body in their own room.
+// What most people want to keep: the table, the body as a mesh, with its skin too, and the body in their own room.
 import { useSignal } from "@preact/signals";
 import { getFile } from "../api/calls";
 import { problemFrom } from "../api/client";
@@ -15,8 +15,16 @@ import { roomLink, thisDevice } from "./room";
 
 const BODY = "body_canonical.glb";
 const MESHES = ["glb", "obj", "usdz"] as const;
+const TEXTURED = "body_textured.glb";
 
-export function Keep({ fit, hasTable }: { fit: Fit; hasTable: boolean }) {
+interface Props {
+  readonly fit: Fit;
+  readonly hasTable: boolean;
+  /** Where the body with its skin is; null until it is made. */
+  readonly skin: string | null;
+}
+
+export function Keep({ fit, hasTable, skin }: Props) {
   const { keep: words } = messages.value.files;
   const problem = useSignal<Problem | null>(null);
   const save = async (name: string, path: string) => {
@@ -31,8 +39,11 @@ export function Keep({ fit, hasTable }: { fit: Fit; hasTable: boolean }) {
   const room = body ? roomLink(body, thisDevice(apiKey.value !== null)) : null;
   const [table, tablePath] = tableOf(fit);
   return (
-    <section class="section" aria-labelledby="keep-title">
-      <h2 id="keep-title">{words.title}</h2>
+    <details class="keep">
+      <summary class="button is-primary is-small">
+        <Icon name="download" />
+        {words.title}
+      </summary>
       <div class="row">
         {hasTable && (
           <button class="button is-small" type="button" onClick={() => save(table, tablePath)}>
@@ -53,10 +64,16 @@ export function Keep({ fit, hasTable }: { fit: Fit; hasTable: boolean }) {
               {words.mesh(ending.toUpperCase())}
             </button>
           ))}
+        {skin && (
+          <button class="button is-small" type="button" title={words.skinTitle} onClick={() => save(TEXTURED, skin)}>
+            <Icon name="download" />
+            {words.skin}
+          </button>
+        )}
       </div>
       {room && <InRoom fit={fit} {...room} />}
       {problem.value && <ProblemNote problem={problem.value} />}
-    </section>
+    </details>
   );
 }
 

@@ -1,8 +1,9 @@
-// The body over its picture, from every side, or upright; its surface lit as Eq. 1 has it or in parts.
+// The body upright with its tapes, in its own skin, or over its picture; what experts look at is folded.
 import { useSignal } from "@preact/signals";
 import { useState } from "preact/hooks";
 import { nameOfView } from "../api/fits";
 import type { Fit, Result } from "../api/fits";
+import type { Skin } from "../derived/skin";
 import type { Picture } from "../draft/picture";
 import { facingsOf, isEmpty } from "../flip/flips";
 import type { TurnedLimb } from "../flip/flips";
@@ -16,18 +17,24 @@ import { BodyCanvas } from "../viewer/BodyCanvas";
 import type { Placement } from "../viewer/BodyScene";
 import type { Cues } from "../api/types";
 import type { Surface } from "../viewer/surface";
+import { DerivedCanvas } from "../viewer/DerivedCanvas";
 import { MaskOutline } from "../ui/MaskOutline";
 import { SideView } from "../viewer/SideView";
 import type { TapeEnds } from "../viewer/Tapes";
 import type { Side } from "../viewer/Turntable";
+import { may } from "../embed/allowed";
+import { Share } from "../share/ShareLater";
 import { FromSides } from "./FromSides";
 import { TapeLabels } from "./TapeLabels";
 import { isComparable, useBodiesBeforeShading, usePictureOf } from "./files";
 import type { ResultFiles } from "./files";
 
-const PLACEMENTS = ["picture", "turned", "canonical"] as const;
-const SURFACES = ["lit", "clay", "albedo", "specularity", "shading", "residual"] as const;
+const POSES = ["canonical", "turned"] as const;
+const SURFACES = ["clay", "lit", "albedo", "specularity", "shading", "residual"] as const;
 const BODIES = ["SES", "SE"] as const;
+
+/** What is on the stage: the body in one of its places, or its skin. */
+export type Shown = Placement | "skin";
 
 interface Props {
   readonly fit: Fit;
@@ -40,8 +47,9 @@ interface Props {
   readonly onChoose: (number: number) => void;
   /** While something else is on the stage: what was chosen here stays chosen. */
   readonly hidden: boolean;
-  readonly placement: Placement;
-  readonly onPlace: (placement: Placement) => void;
+  readonly shown: Shown;
+  readonly onShow: (shown: Shown) => void;
+  readonly skin: Skin;
   readonly turning: Turning;
   /** Null where nothing is known of how limbs slant. */
   readonly onFlip: ((limb: TurnedLimb) => void) | null;
@@ -51,11 +59,12 @@ interface Props {
 }
 
 export function Look(props: Props) {
-  const { fit, result, files, picture, chosen: wanted, onChoose, hidden, placement, onPlace, turning, onFlip, measure, onPoint, onMeasure } = props;
+  const { fit, result, files, picture, chosen: wanted, onChoose, hidden, shown, onShow, skin, turning, onFlip, measure, onPoint, onMeasure } = props;
   const { number } = files;
-  const { limbs, look } = messages.value;
+  const { derived, limbs, look } = messages.value;
   const { flips, pointedAt } = turning;
-  const hasSkin = files.posed.light !== null;
+  const isSkin = shown === "skin";
+  const placement = isSkin ? "canonical" : shown;
   const [surface, setSurface] = useState<Surface>("clay");
   const [opacity, setOpacity] = useState(0.85);
   const [lines, setLines] = useState(false);
@@ -68,17 +77,29 @@ export function Look(props: Props) {
   const ends = useSignal<readonly TapeEnds[]>([]);
   const comparable = isComparable(fit);
   const outlined = useBodiesBeforeShading(fit, number, comparable && (body === "SE" || surface === "change"));
-  const surfaces: readonly Surface[] = !hasSkin || body === "SE" ? ["clay"] : comparable ? [...SURFACES, "change"] : SURFACES;
+  const surfaces: readonly Surface[] = files.posed.light === null || body === "SE" ? ["clay"] : comparable ? [...SURFACES, "change"] : SURFACES;
   const over = placement === "picture";
-  const turns = placement !== "canonical" && body === "SES";
+  const turns = !isSkin && placement !== "canonical" && body === "SES";
   const found = pointedAt && facingsOf(result.views[number]!)[pointedAt];
   const overlay = usePictureOf(fit, nameOfView(fit, "overlay.png", number), (lines || failed) && over);
   const segmentation = usePictureOf(fit, nameOfView(fit, "segmentation.png", number), mask && over);
+  const views = [
+    { value: "body", ...look.views.body },
+    ...(skin.state === "none" ? [] : [{ value: "skin" as const, ...look.views.skin }]),
+    { value: "picture", ...look.views.picture },
+  ] as const;
   return (
     <div class="look" hidden={hidden} style={{ "--ratio": String(picture.width / picture.height) }}>
       <div class="look-bar">
-        <Choice name="placement" legend={look.view} quiet options={PLACEMENTS.map((value) => ({ value, ...look.placements[value] }))} value={placement} onChange={onPlace} />
-        {placement !== "canonical" && result.views.length > 1 && (
+        <Choice
+          name="view"
+          legend={look.view}
+          quiet
+          options={views}
+          value={isSkin || over ? shown : "body"}
+          onChange={(value) => onShow(value === "body" ? "canonical" : value)}
+        />
+        {shown !== "canonical" && !isSkin && result.views.length > 1 && (
           <Choice
             name="picture"
             legend={look.whichPicture}
@@ -88,10 +109,26 @@ export function Look(props: Props) {
             onChange={(at) => onChoose(Number(at))}
           />
         )}
-        {!over && <FromSides onLook={setFrom} />}
+        {over ? (
+          <label class="slider">
+            <span>{look.body}</span>
+            <input
+              type="range"
+              min="0"
+              max="1"
+              step="0.01"
+              value={opacity}
+              aria-label={look.opacity}
+              onInput={(event) => setOpacity(Number(event.currentTarget.value))}
+            />
+            <output>{percent(opacity)}</output>
+          </label>
+        ) : (
+          <FromSides onLook={setFrom} />
+        )}
       </div>
       <div class="look-room">
-        <div class={over ? "look-picture" : "look-free"}>
+        <div class={over ? "look-picture" : "look-free"} hidden={isSkin}>
           {over && <img src={overlay ?? picture.url} alt={look.picture} />}
           {failed ? (
             <p class="note is-problem" role="alert">
@@ -123,6 +160,22 @@ export function Look(props: Props) {
           )}
           {over && mask && segmentation && <MaskOutline url={segmentation} label={look.silhouetteLabel} />}
         </div>
+        {isSkin && (
+          <div class="look-free">
+            {skin.path ? (
+              <DerivedCanvas path={skin.path} label={derived.texture.turned} like={files} turns from={from} />
+            ) : (
+              <div class="look-loading" role="status">
+                {look.skinComes}
+              </div>
+            )}
+          </div>
+        )}
+        {shown === "canonical" && skin.path && (
+          <button class="look-beside" type="button" aria-label={look.showSkin} onClick={() => onShow("skin")}>
+            <DerivedCanvas path={skin.path} label={derived.texture.turned} like={files} turns small />
+          </button>
+        )}
         {over && !failed && <SideView posed={files.posed} canonical={files.canonical} flips={flips} />}
         {turns && !isEmpty(flips) && <p class="look-badge">{limbs.badge}</p>}
         {turns && pointedAt && found && (
@@ -130,68 +183,64 @@ export function Look(props: Props) {
             {hoverWords(pointedAt, found, flips)}
           </p>
         )}
+        {may("save") && <Share fit={fit} files={files} picture={picture.element} skin={skin} />}
         {!over && <p class="look-hint fine">{look.hint}</p>}
       </div>
-      {surface === "change" && (
+      {surface === "change" && !isSkin && (
         <p class="look-legend fine">
           {look.changed} <b class="is-outward">{look.outward}</b>, <b class="is-inward">{look.inward}</b>; {look.fullColour}
         </p>
       )}
-      <div class="look-bar">
-        <Choice
-          name="surface"
-          legend={look.surface}
-          quiet
-          options={surfaces.map((value) => ({ value, ...look.surfaces[value] }))}
-          value={surface}
-          onChange={setSurface}
-        />
-        {comparable && (
-          <Choice
-            name="compared"
-            legend={look.found}
-            quiet
-            options={BODIES.map((value) => ({ value, ...look.bodies[value] }))}
-            value={body}
-            onChange={(value) => {
-              setBody(value);
-              if (value === "SE") setSurface("clay");
-            }}
-          />
-        )}
-        {over && (
-          <>
-            <label class="slider">
-              <span>{look.body}</span>
-              <input
-                type="range"
-                min="0"
-                max="1"
-                step="0.01"
-                value={opacity}
-                aria-label={look.opacity}
-                onInput={(event) => setOpacity(Number(event.currentTarget.value))}
-              />
-              <output>{percent(opacity)}</output>
-            </label>
-            <label class="check">
-              <input type="checkbox" checked={mask} onChange={(event) => setMask(event.currentTarget.checked)} />
-              {look.silhouette}
-            </label>
-            <label class="check">
-              <input
-                type="checkbox"
-                checked={lines}
-                onChange={(event) => {
-                  setLines(event.currentTarget.checked);
-                  if (event.currentTarget.checked) setOpacity(0);
+      {!isSkin && (
+        <details class="look-experts">
+          <summary>{look.experts}</summary>
+          <div class="look-bar">
+            {!over && (
+              <Choice name="placement" legend={look.pose} quiet options={POSES.map((value) => ({ value, ...look.poses[value] }))} value={placement} onChange={onShow} />
+            )}
+            <Choice
+              name="surface"
+              legend={look.surface}
+              quiet
+              options={surfaces.map((value) => ({ value, ...look.surfaces[value] }))}
+              value={surface}
+              onChange={setSurface}
+            />
+            {comparable && (
+              <Choice
+                name="compared"
+                legend={look.found}
+                quiet
+                options={BODIES.map((value) => ({ value, ...look.bodies[value] }))}
+                value={body}
+                onChange={(value) => {
+                  setBody(value);
+                  if (value === "SE") setSurface("clay");
                 }}
               />
-              {look.outline}
-            </label>
-          </>
-        )}
-      </div>
+            )}
+            {over && (
+              <>
+                <label class="check">
+                  <input type="checkbox" checked={mask} onChange={(event) => setMask(event.currentTarget.checked)} />
+                  {look.silhouette}
+                </label>
+                <label class="check">
+                  <input
+                    type="checkbox"
+                    checked={lines}
+                    onChange={(event) => {
+                      setLines(event.currentTarget.checked);
+                      if (event.currentTarget.checked) setOpacity(0);
+                    }}
+                  />
+                  {look.outline}
+                </label>
+              </>
+            )}
+          </div>
+        </details>
+      )}
     </div>
   );
 }

@@ -1,6 +1,6 @@
 // The measurements with their intervals, and what shading changed in them.
 import { useState } from "preact/hooks";
-import type { Measurement } from "../api/types";
+import type { Measurement, StageMeasurement } from "../api/types";
 import { person } from "../draft/draft";
 import { inUnits } from "../draft/person";
 import { percent } from "../messages/figures";
@@ -11,7 +11,7 @@ import { INTERVAL_SHARE, definitionOf, difference, furtherMeasures, isChief, mea
 interface Props {
   readonly measurements: readonly Measurement[];
   /** The same by silhouette and edges alone, where they can be compared. */
-  readonly before: readonly Measurement[] | null;
+  readonly before: readonly StageMeasurement[] | null;
   /** Whether the body they are of fits its picture. */
   readonly reliable?: boolean;
   readonly pointedAt: string | null;
@@ -63,7 +63,7 @@ export function Measures({ measurements, before, reliable = true, pointedAt, onP
   return (
     <section class="section" aria-labelledby="measures-title">
       <header class="section-head">
-        <h2 id="measures-title">{words.measurements}</h2>
+        <h2 id="measures-title">{words.allMeasurements}</h2>
         <Choice
           name="result-units"
           legend={frame.units}

@@ -1,4 +1,4 @@
-// What there is to say of one picture: how well the body fits it, what is in doubt, its lens and its light.
+// What there is to say of one picture: what is in doubt, and for experts its lens and its light.
 import type { FitResult } from "../api/types";
 import type { FittedView, Result } from "../api/fits";
 import { Findings } from "../measure/Findings";
@@ -27,14 +27,8 @@ interface Props extends Pick<FactsProps, "onSayWhich"> {
 }
 
 export function OfPicture({ view, views, asked, onSayWhich }: Props) {
-  const { result: words } = messages.value;
   const isOfSeveral = views.length > 1;
   const explained = explanationOf(view, isOfSeveral) ?? <Served text={view.outcome_explanation} />;
-  const { image_camera: camera } = view;
-  // Of a body that is not the picture's, light and skin say nothing.
-  const { light, reflectance } = isContradicted(view) ? NOTHING : view;
-  const mm = (camera.focal_length_px * 43.27) / Math.hypot(camera.width, camera.height);
-  const facts = gradeOf(view) === "poor" ? "facts is-unreliable" : "facts";
   // Of several pictures it is said once how many points were proposed in each.
   const assumptions = isOfSeveral ? view.assumptions.filter(({ quantity }) => quantity !== PROPOSED_POINTS) : view.assumptions;
   return (
@@ -45,28 +39,40 @@ export function OfPicture({ view, views, asked, onSayWhich }: Props) {
       <WarningNotes warnings={view.warnings.filter(({ code }) => code !== OPEN_FACING)} views={views} />
       <OpenLimbs view={view} onSayWhich={onSayWhich} />
       <AssumptionNotes assumptions={assumptions} asked={asked} />
-      <dl class={facts}>
-        <dt>{words.overlap}</dt>
-        <dd>{percent(view.silhouette_overlap, 1)}</dd>
-        <dt>{words.lens}</dt>
-        <dd>{words.lensOf(measured(mm, "millimeter"), words.sources[view.focal_length_source])}</dd>
-        {light && (
-          <>
-            <dt>{words.light}</dt>
-            <dd>{lightWords(light)}</dd>
-          </>
-        )}
-        {reflectance && (
-          <>
-            <dt>{words.skin}</dt>
-            <dd>
-              {words.skinOf(percent(reflectance.mean_albedo), percent(reflectance.mean_specularity))}
-              {!light?.surroundings && `; ${words.ambient(decimal(reflectance.ambient, 2))}`}
-            </dd>
-          </>
-        )}
-      </dl>
     </>
+  );
+}
+
+/** How well the body covers the person, with which lens, in which light and of which skin. */
+export function PictureFacts({ view }: Pick<Props, "view">) {
+  const { result: words } = messages.value;
+  const { image_camera: camera } = view;
+  // Of a body that is not the picture's, light and skin say nothing.
+  const { light, reflectance } = isContradicted(view) ? NOTHING : view;
+  const mm = (camera.focal_length_px * 43.27) / Math.hypot(camera.width, camera.height);
+  const facts = gradeOf(view) === "poor" ? "facts is-unreliable" : "facts";
+  return (
+    <dl class={facts}>
+      <dt>{words.overlap}</dt>
+      <dd>{percent(view.silhouette_overlap, 1)}</dd>
+      <dt>{words.lens}</dt>
+      <dd>{words.lensOf(measured(mm, "millimeter"), words.sources[view.focal_length_source])}</dd>
+      {light && (
+        <>
+          <dt>{words.light}</dt>
+          <dd>{lightWords(light)}</dd>
+        </>
+      )}
+      {reflectance && (
+        <>
+          <dt>{words.skin}</dt>
+          <dd>
+            {words.skinOf(percent(reflectance.mean_albedo), percent(reflectance.mean_specularity))}
+            {!light?.surroundings && `; ${words.ambient(decimal(reflectance.ambient, 2))}`}
+          </dd>
+        </>
+      )}
+    </dl>
   );
 }
 

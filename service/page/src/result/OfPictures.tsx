@@ -4,12 +4,7 @@ import { messages } from "../messages/language";
 import type { FactsProps } from "./Facts";
 import { OfPicture, hasNotes } from "./OfPicture";
 
-interface Props extends FactsProps {
-  /** Correct the points of a picture; null until it is there, and where they cannot be. */
-  readonly onCorrect: ((number: number) => void) | null;
-}
-
-export function OfPictures({ result: { views }, onSayWhich, onCorrect }: Props) {
+export function OfPictures({ result: { views }, onSayWhich, onCorrect }: FactsProps) {
   const titles = viewTitles(views);
   return (
     <>

@@ -1,9 +1,11 @@
 // What came out: to look at on the left, to read on the right.
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { Fit, Result } from "../api/fits";
-import type { Derivation } from "../api/types";
+import type { Derivation, NamedMotion } from "../api/types";
 import { DerivedPanel } from "../derived/DerivedPanelLater";
-import { ProductStage } from "../derived/ProductStage";
+import { ProductStage } from "../derived/ProductStageLater";
+import { useSkin } from "../derived/skin";
+import { may } from "../embed/allowed";
 import type { Picture } from "../draft/picture";
 import { LimbList, goToLimb, openList } from "../flip/LimbList";
 import { PreviewBar } from "../flip/PreviewBar";
@@ -15,20 +17,21 @@ import { openAgain } from "../panel/open";
 import { isEmbedded } from "../route";
 import { useEscape } from "../ui/escape";
 import { ProblemNote } from "../ui/ProblemNote";
-import type { Placement } from "../viewer/BodyScene";
 import { Actions } from "./Actions";
 import { Downloads } from "./Downloads";
-import { Facts } from "./Facts";
+import { Facts, ForExperts, Quality } from "./Facts";
+import { Figures } from "./Figures";
 import { OfPictures } from "./OfPictures";
 import { useResultFiles } from "./files";
 import { Keep } from "./Keep";
 import { Loading } from "./Loading";
 import { Look } from "./Look";
+import type { Shown } from "./Look";
 import { Measures, rowOf } from "./Measures";
 import { Withheld } from "./Withheld";
 import { changeAgain, measureAnyway } from "./again";
 import { gradeOf } from "./grade";
-import { headingOf } from "./outcome";
+import { headingOf, isContradicted } from "./outcome";
 
 const NO_VIEWS: Result["views"] = [];
 
@@ -38,12 +41,17 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
   const { result, files, loaded, problem } = useResultFiles(fit, wanted);
   const [pointedAt, pointAt] = useState<string | null>(null);
   const [shown, show] = useState<string | null>(null);
-  const [placement, setPlacement] = useState<Placement>("picture");
+  const [looked, lookAt] = useState<Shown | null>(null);
   const [product, setProduct] = useState<Derivation | null>(null);
+  const [motion, wishMotion] = useState<NamedMotion | null>(null);
   const [sought, seek] = useState<TurnedLimb | null>(null);
   const number = files?.number ?? wanted;
   const views = result?.views ?? NO_VIEWS;
   const view = views[number];
+  const isReliable = views.every((each) => gradeOf(each) !== "poor");
+  // A body that does not fit is judged over its picture.
+  const onStage = looked ?? (isReliable ? "canonical" : "picture");
+  const skin = useSkin(fit, result !== null && !isContradicted(result));
   const picture = pictures[number] ?? null;
   const turning = useFlips(views, number);
   const stage = useRef<HTMLDivElement>(null);
@@ -71,6 +79,8 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
     const limb = limbs.find(isTurnedLimb);
     if (!limb) return void (correct ? correct(of) : changeAgain(fit, pictures));
     want(of);
+    // Upright, all limbs hang down.
+    lookAt("picture");
     seek(limb);
   };
   if (problem) {
@@ -87,11 +97,19 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
     openList();
     turning.flip(limb);
   };
-  const facts = result && { fit, result, onSayWhich: picture && sayWhich };
+  const facts = result && { fit, result, onSayWhich: picture && sayWhich, onCorrect: correct };
   return (
     <main class="bench is-result" aria-busy={files === null || number !== wanted} data-fit={fit.id}>
+      <header class="result-head">
+        <div class="result-title">
+          <h1 class="title">{result ? headingOf(result) : words.body}</h1>
+          {result && may("save") && <Keep fit={fit} hasTable={result.measurements.length > 0} skin={skin.path} />}
+        </div>
+        {result ? <Quality result={result} /> : <p class="fine">{words.loading}</p>}
+        {result && result.measurements.length > 0 && <Figures measurements={result.measurements} reliable={isReliable} />}
+      </header>
       <div class="bench-stage" ref={stage}>
-        {product && <ProductStage key={product.id} made={product} onBack={() => setProduct(null)} />}
+        {product && <ProductStage key={product.kind} made={product} onBack={() => setProduct(null)} motion={motion} onMotion={wishMotion} />}
         {result && files && picture ? (
           <Look
             fit={fit}
@@ -101,8 +119,9 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
             chosen={wanted}
             onChoose={want}
             hidden={product !== null}
-            placement={placement}
-            onPlace={setPlacement}
+            shown={onStage}
+            onShow={lookAt}
+            skin={skin}
             turning={turning}
             onFlip={knowsLimbs ? flipOnBody : null}
             measure={pointedAt ?? shown}
@@ -118,11 +137,24 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
       </div>
       <div class="panel">
         <div class="panel-scroll">
-          <section class="section">
-            <h1 class="title">{result ? headingOf(result) : words.body}</h1>
-            {facts ? <Facts {...facts} /> : <p class="fine">{words.loading}</p>}
-          </section>
-          {facts && views.length > 1 && <OfPictures {...facts} onCorrect={correct} />}
+          {facts && <Facts {...facts} />}
+          {facts && views.length > 1 && <OfPictures {...facts} />}
+          {result && result.measurements.length === 0 && <Withheld onAnyway={() => measureAnyway(fit)} />}
+          {result && result.measurements.length > 0 && (
+            <Measures
+              measurements={result.measurements}
+              before={result.outlined}
+              reliable={isReliable}
+              pointedAt={pointedAt ?? shown}
+              onPoint={pointAt}
+              onShow={(name) => {
+                show(shown === name ? null : name);
+                lookAt("canonical");
+                setProduct(null);
+                toStage();
+              }}
+            />
+          )}
           {view && knowsLimbs && (
             <LimbList
               view={view}
@@ -132,42 +164,29 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
               onPoint={turning.point}
               onFlip={(limb) => {
                 // Upright, all limbs hang down.
-                if (placement === "canonical") setPlacement("turned");
+                if (onStage !== "picture") lookAt("turned");
                 setProduct(null);
                 turning.flip(limb);
                 toStage();
               }}
             />
           )}
-          {result && result.measurements.length === 0 && <Withheld onAnyway={() => measureAnyway(fit)} />}
-          {result && result.measurements.length > 0 && (
-            <Measures
-              measurements={result.measurements}
-              before={result.outlined}
-              reliable={views.every((each) => gradeOf(each) !== "poor")}
-              pointedAt={pointedAt ?? shown}
-              onPoint={pointAt}
-              onShow={(name) => {
-                show(shown === name ? null : name);
-                setPlacement("canonical");
-                setProduct(null);
-                toStage();
-              }}
-            />
-          )}
-          {result && <Keep fit={fit} hasTable={result.measurements.length > 0} />}
-          {result && (
+          {result && may("save") && (
             <DerivedPanel
               parent={fit}
+              skin={skin.id}
               hasLight={views[0]!.light !== null}
               onStage={product?.id ?? null}
+              motion={motion}
+              onMotionEnded={() => wishMotion(null)}
               onShow={(made) => {
                 setProduct(made);
                 if (made) toStage();
               }}
             />
           )}
-          {result && <Downloads fit={fit} result={result} />}
+          {result && <ForExperts result={result} />}
+          {result && may("save") && <Downloads fit={fit} result={result} />}
         </div>
         {areAllEmpty(turning.all) ? (
           <Actions fit={fit} pictures={pictures} />

@@ -1,6 +1,6 @@
 // Measurements as a person reads them.
 import { MEASUREMENTS } from "../api/limits";
-import type { Measurement } from "../api/types";
+import type { Measurement, StageMeasurement } from "../api/types";
 import { feetAndInches } from "../draft/feet";
 import type { Person } from "../draft/person";
 import { plainName, wordFor } from "../messages/catalogue";
@@ -58,7 +58,7 @@ export interface Shown {
   readonly interval: string | null;
 }
 
-export function shown(measurement: Measurement, units: Person["units"]): Shown {
+export function shown(measurement: StageMeasurement, units: Person["units"]): Shown {
   const { factor, unit } = inUnit(measurement.unit, units);
   const isInFeet = units === "imperial" && measurement.name === STATURE;
   const text = (value: number) => (isInFeet ? feetAndInches(value / CM_PER_M, 1) : decimal(value * factor, 1));
@@ -74,7 +74,7 @@ export function shown(measurement: Measurement, units: Person["units"]): Shown {
   };
 }
 
-export function difference(measurement: Measurement, other: Measurement, units: Person["units"]): string {
+export function difference(measurement: Measurement, other: Pick<Measurement, "value">, units: Person["units"]): string {
   const { factor } = inUnit(measurement.unit, units);
   const by = (measurement.value - other.value) * factor;
   return Math.abs(by) < 0.05 ? decimal(0, 1) : `${by > 0 ? "+" : "−"}${decimal(Math.abs(by), 1)}`;

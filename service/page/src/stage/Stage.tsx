@@ -1,7 +1,7 @@
 // The picture with its points: where a person clicks.
 import { untracked, useSignal, useSignalEffect } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { adjust, mask, picture, points, selected, timeline, upcoming } from "../draft/draft";
+import { adjust, isCorrecting, mask, picture, points, selected, timeline, upcoming } from "../draft/draft";
 import { proposalWord } from "../draft/proposing";
 import { isEdited, shownMask } from "../mask/edits";
 import { MaskLayer } from "../mask/MaskLayer";
@@ -104,7 +104,7 @@ export function Stage() {
           {stage.keys}
         </p>
       </div>
-      <StageTools lies={lies} />
+      {isCorrecting.value && <StageTools lies={lies} />}
     </div>
   );
 }

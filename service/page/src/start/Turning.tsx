@@ -1,5 +1,5 @@
 // The first sample's body from all sides, as a strip of views drawn in advance (tests/evaluation/turning_body.py):
-// it is there before the viewer is loaded. Whoever wants little motion sees it stand.
+// it is there before the viewer is loaded. A tap holds it; whoever wants little motion sees it stand.
 import { useSignal } from "@preact/signals";
 import { messages } from "../messages/language";
 
@@ -8,13 +8,12 @@ export function Turning() {
   const isHeld = useSignal(false);
   return (
     <figure class="turning">
-      <div class="turning-frame" role="img" aria-label={turning.label}>
-        <div class={`turning-strip ${isHeld.value ? "is-held" : ""}`} />
-      </div>
-      <figcaption class="fine">{turning.caption}</figcaption>
-      <button class="button is-small turning-switch" type="button" onClick={() => (isHeld.value = !isHeld.value)}>
-        {isHeld.value ? turning.turn : turning.hold}
+      <button class="turning-switch" type="button" aria-label={turning.label} aria-pressed={isHeld.value} title={turning.hold} onClick={() => (isHeld.value = !isHeld.value)}>
+        <span class="turning-frame">
+          <span class={`turning-strip ${isHeld.value ? "is-held" : ""}`} />
+        </span>
       </button>
+      <figcaption class="fine">{turning.caption}</figcaption>
     </figure>
   );
 }

@@ -7,12 +7,30 @@ import { messages } from "../messages/language";
 import { ProblemNote } from "../ui/ProblemNote";
 import type { DerivedScene } from "./DerivedScene";
 import { readGlb } from "./glb";
+import type { GlbBody } from "./glb";
+import { MotionBar } from "./MotionBar";
+import { lengthOf, readMotion } from "./motion";
+import type { Side } from "./Turntable";
 
-export function DerivedCanvas({ path, label }: { path: string; label: string }) {
+interface Props {
+  readonly path: string;
+  readonly label: string;
+  /** The fit's own bodies, where this one stands as the posed one does: it is seen from its front. */
+  readonly like?: { readonly posed: GlbBody; readonly canonical: GlbBody | null };
+  /** Whether it turns by itself until somebody turns it; not for those who want calm. */
+  readonly turns?: boolean;
+  /** To be looked at alone. */
+  readonly small?: boolean;
+  /** From where it is to be looked at, anew with each object. */
+  readonly from?: { readonly side: Side } | null;
+}
+
+export function DerivedCanvas({ path, label, like, turns = false, small = false, from = null }: Props) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const scene = useRef<DerivedScene | null>(null);
   const [problem, setProblem] = useState<Problem | null>(null);
   const [failed, setFailed] = useState(false);
+  const [moving, setMoving] = useState<{ readonly scene: DerivedScene; readonly length: number } | null>(null);
 
   useEffect(() => {
     const target = canvas.current!;
@@ -21,16 +39,22 @@ export function DerivedCanvas({ path, label }: { path: string; label: string }) 
       scene.current?.resize(entry!.contentRect.width, entry!.contentRect.height);
     });
     const open = async () => {
-      const [file, { DerivedScene }] = await Promise.all([getFile(path), import("./DerivedScene")]);
-      const body = readGlb(await file.arrayBuffer());
+      const [file, { DerivedScene }, { facingOf }] = await Promise.all([getFile(path), import("./DerivedScene"), import("./facing")]);
+      const content = await file.arrayBuffer();
+      const body = readGlb(content);
+      const motion = readMotion(content);
       const image = body.texture && (await createImageBitmap(body.texture));
       if (gone) return;
+      const facing = like ? facingOf(like.posed, like.canonical) : 0;
       try {
-        scene.current = new DerivedScene(target, body, image);
+        scene.current = new DerivedScene(target, body, image, { azimuth: facing, facing, stands: !like || like.posed.upright !== null });
+        if (motion) scene.current.take(motion);
         observer.observe(target);
       } catch {
-        setFailed(true);
+        return setFailed(true);
       }
+      if (motion) setMoving({ scene: scene.current, length: lengthOf(motion) });
+      if (turns && !matchMedia("(prefers-reduced-motion: reduce)").matches) scene.current.turnByItself();
     };
     open().catch((error) => gone || setProblem(problemFrom(error)));
     return () => {
@@ -40,19 +64,26 @@ export function DerivedCanvas({ path, label }: { path: string; label: string }) 
       scene.current = null;
     };
   }, [path]);
+  useEffect(() => {
+    if (from) scene.current?.lookAtSide(from.side);
+  }, [from]);
 
-  if (problem) return <ProblemNote problem={problem} />;
-  if (failed) return <p class="note is-problem">{messages.value.look.noWebglToTurn}</p>;
+  if (problem) return small ? null : <ProblemNote problem={problem} />;
+  if (failed) return small ? null : <p class="note is-problem">{messages.value.look.noWebglToTurn}</p>;
+  if (small) return <canvas ref={canvas} aria-hidden="true" />;
   return (
-    <canvas
-      ref={canvas}
-      class="derived-canvas"
-      tabIndex={0}
-      role="img"
-      aria-label={messages.value.look.derived(label)}
-      onKeyDown={(event) => {
-        if (scene.current?.turnBy(event.key)) event.preventDefault();
-      }}
-    />
+    <>
+      <canvas
+        ref={canvas}
+        class="derived-canvas"
+        tabIndex={0}
+        role="img"
+        aria-label={messages.value.look.derived(label)}
+        onKeyDown={(event) => {
+          if (scene.current?.turnBy(event.key)) event.preventDefault();
+        }}
+      />
+      {moving && <MotionBar {...moving} />}
+    </>
   );
 }

@@ -1,4 +1,4 @@
-// A body by itself, to be turned: with its texture, or as clay.
+// A body by itself on a floor, to be turned: with its texture, or as clay; it may turn by itself.
 import {
   AmbientLight,
   Box3,
@@ -14,38 +14,51 @@ import {
   Vector3,
   WebGLRenderer,
 } from "three";
+import { Floor } from "./Floor";
 import type { GlbBody } from "./glb";
-import { Turntable } from "./Turntable";
+import { momentOf } from "./motion";
+import type { Motion } from "./motion";
+import { SIDES, Turntable } from "./Turntable";
+import type { Side } from "./Turntable";
 
+/** Of the vertices of a body in motion, by which its shadow is drawn. */
+const EVERY_NTH = 6;
 const CLAY = 0xdfd3c5;
 /** A little from the left, so that a form that is lit shows its relief. */
 const KEY_FROM = new Vector3(-0.5, 0.6, 1);
 
 interface View {
-  /** What sets the body upright; null of one that stands. */
-  readonly upright: GlbBody["upright"];
-  /** Radians to the right of its front. */
+  /** From where it is seen first, radians to the right of +z. */
   readonly azimuth: number;
+  /** Where it faces, radians to the right of +z. */
+  readonly facing: number;
+  /** Whether it stands on something: not where the camera's tilt is not known. */
+  readonly stands: boolean;
 }
-
-const FRONT: View = { upright: null, azimuth: 0 };
 
 export class DerivedScene {
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly table: Turntable;
   private readonly mesh: Mesh<BufferGeometry, MeshBasicMaterial | MeshLambertMaterial>;
+  private readonly floor: Floor | null;
+  private motion: Motion | null = null;
   private scheduled = 0;
   /** Nothing is drawn before the canvas' size is known: it would be shown stretched. */
   private isSized = false;
 
-  constructor(canvas: HTMLCanvasElement, body: GlbBody, image: ImageBitmap | null, { upright, azimuth }: View = FRONT) {
+  constructor(
+    canvas: HTMLCanvasElement,
+    body: GlbBody,
+    image: ImageBitmap | null,
+    private readonly view: View,
+  ) {
     this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: true });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
     this.renderer.setClearColor(0, 0);
     this.mesh = new Mesh(geometryOf(body), materialOf(body, image));
     // Not its vertices: they are others' as well.
-    if (upright) this.mesh.quaternion.fromArray(upright);
+    if (body.upright) this.mesh.quaternion.fromArray(body.upright);
     this.table = new Turntable(canvas, () => this.draw());
     // A finger turns sideways; up and down it scrolls the page, which the canvas may fill.
     canvas.style.touchAction = "pan-y";
@@ -53,8 +66,12 @@ export class DerivedScene {
     key.position.copy(KEY_FROM);
     this.table.camera.add(key);
     this.scene.add(this.mesh, this.table.camera, new AmbientLight(0xffffff, 0.9));
-    const box = new Box3().setFromObject(this.mesh, true);
-    this.table.lookAt({ centre: box.getCenter(new Vector3()), size: box.getSize(new Vector3()) }, azimuth);
+    this.floor = view.stands ? new Floor() : null;
+    if (this.floor) {
+      this.scene.add(this.floor.mesh);
+      this.layFloor();
+    }
+    this.lookFrom(view.azimuth);
   }
 
   /** Another shape of the same mesh. */
@@ -67,6 +84,47 @@ export class DerivedScene {
       attribute.needsUpdate = true;
     }
     this.draw();
+  }
+
+  /** From now on it can be shown in the moments of a motion. */
+  take(motion: Motion): void {
+    const { geometry } = this.mesh;
+    geometry.morphTargetsRelative = true;
+    geometry.morphAttributes.position = motion.targets.map(({ positions }) => new BufferAttribute(positions, 3));
+    geometry.morphAttributes.normal = motion.targets.map(({ normals }) => new BufferAttribute(normals, 3));
+    this.mesh.updateMorphTargets();
+    this.motion = motion;
+    this.showMoment(0);
+    this.lookFrom(this.view.azimuth);
+  }
+
+  /** As it is so many seconds from the motion's beginning. It stays where it is looked at, and the floor passes under it. */
+  showMoment(seconds: number): void {
+    if (!this.motion) return;
+    const { weights, place: [x, y, z], rotation } = momentOf(this.motion, seconds);
+    this.mesh.morphTargetInfluences!.splice(0, weights.length, ...weights);
+    this.mesh.quaternion.fromArray(rotation).normalize();
+    this.mesh.position.set(0, y!, 0);
+    this.floor?.passUnder(x!, z!);
+    this.layFloor(EVERY_NTH);
+    this.draw();
+  }
+
+  /** The whole body from a side of its own. */
+  lookAtSide(side: Side): void {
+    this.lookFrom(this.view.facing + SIDES[side]);
+    this.draw();
+  }
+
+  /** The whole body from so many radians to the right of +z, drawn at once. */
+  turnTo(azimuth: number): void {
+    this.lookFrom(azimuth);
+    this.render();
+  }
+
+  /** Turn by itself, until somebody turns it. */
+  turnByItself(): void {
+    this.table.turnByItself();
   }
 
   turnBy(key: string): boolean {
@@ -85,10 +143,26 @@ export class DerivedScene {
   dispose(): void {
     cancelAnimationFrame(this.scheduled);
     this.table.dispose();
+    this.floor?.dispose();
     this.mesh.geometry.dispose();
     this.mesh.material.map?.dispose();
     this.mesh.material.dispose();
     this.renderer.dispose();
+  }
+
+  private lookFrom(azimuth: number): void {
+    const box = new Box3().setFromObject(this.mesh, true);
+    this.table.lookAt({ centre: box.getCenter(new Vector3()), size: box.getSize(new Vector3()) }, azimuth);
+  }
+
+  private layFloor(every = 1): void {
+    if (!this.floor) return;
+    this.mesh.updateMatrixWorld();
+    const count = Math.floor(this.mesh.geometry.getAttribute("position").count / every);
+    const vertices = Array.from({ length: count }, (_, i) => this.mesh.getVertexPosition(every * i, new Vector3()).applyMatrix4(this.mesh.matrixWorld));
+    // What moves keeps its floor: the ground is at y = 0.
+    const centre = this.motion ? new Vector3() : new Box3().setFromPoints(vertices).getCenter(new Vector3());
+    this.floor.layUnder(vertices, centre, this.motion ? 0 : undefined);
   }
 
   private draw(): void {

@@ -1,5 +1,5 @@
 // The floor a body stands on: lines half a metre apart that fade away, darker where the body is near.
-import { DataTexture, GLSL3, LinearFilter, Mesh, PlaneGeometry, RedFormat, ShaderMaterial } from "three";
+import { DataTexture, GLSL3, LinearFilter, Mesh, PlaneGeometry, RedFormat, ShaderMaterial, Vector2 } from "three";
 import type { Vector3 } from "three";
 
 const SIDE_M = 3.2;
@@ -21,11 +21,12 @@ const FRAGMENT = /* glsl */ `
   in vec2 vPlace;
   uniform sampler2D near;
   uniform float side;
+  uniform vec2 walked;
   out vec4 colour;
   void main() {
     vec2 metres = (vPlace - 0.5) * side;
     float fade = 1.0 - smoothstep(0.25, 1.0, length(metres) / (0.5 * side));
-    vec2 cell = abs(fract(metres / 0.5 + 0.5) - 0.5) * 0.5;
+    vec2 cell = abs(fract((metres + walked) / 0.5 + 0.5) - 0.5) * 0.5;
     vec2 width = max(fwidth(metres), vec2(0.004));
     vec2 line = 1.0 - smoothstep(vec2(0.0), width, cell);
     float dark = texture(near, vec2(vPlace.x, 1.0 - vPlace.y)).r;
@@ -47,14 +48,13 @@ export class Floor {
       fragmentShader: FRAGMENT,
       transparent: true,
       depthWrite: false,
-      uniforms: { near: { value: this.near }, side: { value: SIDE_M } },
+      uniforms: { near: { value: this.near }, side: { value: SIDE_M }, walked: { value: new Vector2() } },
     });
     this.mesh = new Mesh(new PlaneGeometry(SIDE_M, SIDE_M).rotateX(-Math.PI / 2), material);
   }
 
-  /** Lie under a body of these vertices, which stand in the world; y is up. */
-  layUnder(vertices: readonly Vector3[], centre: Vector3): void {
-    const ground = vertices.reduce((least, { y }) => Math.min(least, y), Infinity);
+  /** Lie under a body of these vertices, which stand in the world; y is up, and the ground where the lowest is unless it is known. */
+  layUnder(vertices: readonly Vector3[], centre: Vector3, ground = vertices.reduce((least, { y }) => Math.min(least, y), Infinity)): void {
     this.mesh.position.set(centre.x, ground, centre.z);
     const weights = new Float32Array(CELLS * CELLS);
     for (const { x, y, z } of vertices) {
@@ -68,6 +68,11 @@ export class Floor {
     const soft = blurred(blurred(weights));
     soft.forEach((weight, i) => (values[i] = Math.min(255, Math.round(255 * weight))));
     this.near.needsUpdate = true;
+  }
+
+  /** A body that stays here has gone so far: the lines pass under it. */
+  passUnder(x: number, z: number): void {
+    this.mesh.material.uniforms.walked!.value.set(x, -z);
   }
 
   dispose(): void {

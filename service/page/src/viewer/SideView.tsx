@@ -26,7 +26,8 @@ export function SideView({ posed, canonical, flips }: Props) {
     Promise.all([import("./DerivedScene"), import("./facing"), import("./Turntable")]).then(
       ([{ DerivedScene }, { facingOf }, { SIDES }]) => {
         if (gone) return;
-        scene = new DerivedScene(canvas.current!, posed, null, { upright: posed.upright, azimuth: facingOf(posed, canonical) + SIDES.side });
+        const facing = facingOf(posed, canonical);
+        scene = new DerivedScene(canvas.current!, posed, null, { azimuth: facing + SIDES.side, facing, stands: false });
         observer.observe(canvas.current!);
         shown.current = scene;
         if (!isEmpty(wanted.current)) reshape();

@@ -7,6 +7,9 @@ const MARGIN = 1.24;
 /** How near the camera may come to looking straight down or up, as a sine. */
 const STEEPEST = 0.98;
 const STEP = 0.12;
+const SECONDS_PER_MINUTE = 60;
+/** Once round, by itself. */
+const TURN_S = 14;
 const STEPS: Readonly<Record<string, readonly [number, number]>> = {
   ArrowLeft: [-STEP, 0],
   ArrowRight: [STEP, 0],
@@ -29,12 +32,34 @@ export class Turntable {
   private readonly controls: OrbitControls;
   /** How the body is looked at, until somebody turns it. */
   private looked: readonly [Standing, number] | null = null;
+  private turning = 0;
 
-  constructor(canvas: HTMLCanvasElement, onChange: () => void) {
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    onChange: () => void,
+  ) {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enablePan = false;
+    this.controls.zoomToCursor = true;
     this.controls.addEventListener("change", onChange);
-    this.controls.addEventListener("start", () => (this.looked = null));
+    this.controls.addEventListener("start", () => this.taken());
+  }
+
+  /** Turn by itself, while it is shown, until somebody turns it. */
+  turnByItself(): void {
+    this.controls.autoRotate = true;
+    this.controls.autoRotateSpeed = SECONDS_PER_MINUTE / TURN_S;
+    let before = performance.now();
+    const step = (now: number) => {
+      if (this.looked && this.canvas.checkVisibility()) {
+        this.controls.update((now - before) / 1000);
+        // A step round the body is still the whole of it.
+        this.looked = [this.looked[0], this.controls.getAzimuthalAngle()];
+      }
+      before = now;
+      this.turning = requestAnimationFrame(step);
+    };
+    this.turning = requestAnimationFrame(step);
   }
 
   set enabled(enabled: boolean) {
@@ -71,7 +96,7 @@ export class Turntable {
     const side = new Vector3().crossVectors(this.camera.up, offset).normalize();
     offset.applyAxisAngle(this.camera.up, step[0]).applyAxisAngle(side, step[1]);
     if (Math.abs(offset.clone().normalize().y) <= STEEPEST) {
-      this.looked = null;
+      this.taken();
       this.camera.position.copy(centre).add(offset);
       this.controls.update();
     }
@@ -79,6 +104,14 @@ export class Turntable {
   }
 
   dispose(): void {
+    cancelAnimationFrame(this.turning);
     this.controls.dispose();
+  }
+
+  /** Somebody turns it from now on. */
+  private taken(): void {
+    this.looked = null;
+    this.controls.autoRotate = false;
+    cancelAnimationFrame(this.turning);
   }
 }

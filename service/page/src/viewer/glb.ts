@@ -45,7 +45,8 @@ export interface GlbBody {
 interface Document {
   accessors: { bufferView: number; componentType: number; count: number; type: string; byteOffset?: number }[];
   bufferViews: { byteOffset?: number; byteLength: number }[];
-  meshes: { primitives: { attributes: Record<string, number>; indices: number }[] }[];
+  meshes: { primitives: { attributes: Record<string, number>; indices: number; targets?: { POSITION: number; NORMAL: number }[] }[] }[];
+  animations?: { channels: { sampler: number; target: { path: string } }[]; samplers: { input: number; output: number }[] }[];
   materials?: { extensions?: { KHR_materials_unlit?: object } }[];
   images?: { bufferView: number; mimeType: string }[];
   nodes: { name?: string; translation?: [number, number, number]; rotation?: [number, number, number, number] }[];
@@ -66,14 +67,20 @@ const FLOAT = 5126;
 const UNSIGNED_SHORT = 5123;
 const WIDTHS: Readonly<Record<string, number>> = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4 };
 
-export function readGlb(content: ArrayBuffer): GlbBody {
+export interface GlbParts {
+  readonly document: Document;
+  /** Where the buffer begins. */
+  readonly binary: number;
+  readonly array: (accessor: number) => Float32Array | Uint16Array | Uint32Array;
+  readonly floats: (accessor: number) => Float32Array;
+}
+
+export function glbParts(content: ArrayBuffer): GlbParts {
   const header = new DataView(content);
   if (header.getUint32(0, true) !== MAGIC) throw new Error("This is no GLB file.");
   const jsonLength = header.getUint32(12, true);
   const document = JSON.parse(new TextDecoder().decode(new Uint8Array(content, 20, jsonLength))) as Document;
   const binary = 20 + jsonLength + 8;
-  const primitive = document.meshes[0]!.primitives[0]!;
-
   const array = (index: number) => {
     const accessor = document.accessors[index]!;
     const start = binary + (document.bufferViews[accessor.bufferView]!.byteOffset ?? 0) + (accessor.byteOffset ?? 0);
@@ -82,6 +89,12 @@ export function readGlb(content: ArrayBuffer): GlbBody {
     if (accessor.componentType === UNSIGNED_SHORT) return new Uint16Array(content.slice(start, start + 2 * length));
     return new Uint32Array(content.slice(start, start + 4 * length));
   };
+  return { document, binary, array, floats: (index) => array(index) as Float32Array };
+}
+
+export function readGlb(content: ArrayBuffer): GlbBody {
+  const { document, binary, array } = glbParts(content);
+  const primitive = document.meshes[0]!.primitives[0]!;
   const floats = (name: string) => {
     const index = primitive.attributes[name];
     return index === undefined ? null : (array(index) as Float32Array);

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Final
 
@@ -66,24 +66,29 @@ class MeasurementGroup:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Section:
-    """A heading with facts, each a label and a text, and remarks."""
+    """A heading with facts, each a label and a text, and remarks.
+
+    What is ``for_experts`` stands after all else.
+    """
 
     heading: str
     facts: tuple[tuple[str, str], ...] = ()
     remarks: tuple[str, ...] = ()
+    for_experts: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReportContent:
     """The page without its pictures; plain text throughout.
 
-    Without measurements the table's ``withheld`` stands in their place. ``measurements`` are the
-    chief ones, ``further`` all others.
+    Without measurements the table's ``withheld`` stands in their place. ``figures`` are those that
+    most people ask for and stand first, ``measurements`` the chief ones, ``further`` all others.
     """
 
     wording: Wording
     title: str
     subtitle: str
+    figures: tuple[MeasurementRow, ...]
     measurements: tuple[MeasurementRow, ...]
     further: tuple[MeasurementGroup, ...]
     sections: tuple[Section, ...]
@@ -100,9 +105,8 @@ def report_content(
     return ReportContent(
         wording=wording,
         title=wording.title,
-        subtitle=wording.subtitle.format(
-            about=about(result.gender, result.height_m, options), cues=wording.cues[result.cues]
-        ),
+        subtitle=wording.subtitle.format(about=about(result.gender, result.height_m, options)),
+        figures=figure_rows(result.measurements, options),
         measurements=chief_rows(result.measurements, options, numbers),
         further=further_groups(result.measurements, options),
         sections=(
@@ -130,6 +134,19 @@ def chief_rows(
         measurement_row(each, options, number=numbers.get(each.name))
         for each in measurements
         if each.name in CHIEF
+    )
+
+
+def figure_rows(
+    measurements: Sequence[Measurement], options: ReportOptions
+) -> tuple[MeasurementRow, ...]:
+    """Those that most people ask for, by their short names."""
+    found = {each.name: each for each in measurements}
+    names = WORDINGS[options.language].table.figures
+    return tuple(
+        replace(measurement_row(found[name], options, number=None), name=short)
+        for name, short in names.items()
+        if name in found
     )
 
 
@@ -183,7 +200,7 @@ def _light_and_skin(
 ) -> Section:
     said, number = wording.light, wording.figures.number
     if light is None or reflectance is None:
-        return Section(heading=said.heading, remarks=(said.not_estimated,))
+        return Section(heading=said.heading, remarks=(said.not_estimated,), for_experts=True)
     across = (said.from_right if light.azimuth_deg > 0 else said.from_left).format(
         degrees=number(abs(light.azimuth_deg), ".0f")
     )
@@ -210,6 +227,7 @@ def _light_and_skin(
             (said.gloss, said.mirrors.format(percent=gloss)),
             (said.all_round, all_round),
         ),
+        for_experts=True,
     )
 
 

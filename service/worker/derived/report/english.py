@@ -3,7 +3,7 @@
 from typing import Final
 
 from api_schemas.derivation_kinds.report import Language
-from fitter.vocabulary.choices import Cues, Gender, ViewKind
+from fitter.vocabulary.choices import Gender, ViewKind
 from fitter.vocabulary.measurements import Group
 from fitter.vocabulary.outcomes import FocalLengthSource, Outcome, Verdict
 from service.worker.derived.report.english_measures import MEASUREMENTS
@@ -49,28 +49,32 @@ ENGLISH: Final = Wording(
             *("August", "September", "October", "November", "December"),
         ),
     ),
-    title="Body measurements from one picture",
-    scan_title="Body and measurements from several pictures",
+    title="Body measurements",
+    scan_title="Body measurements",
     footnote=(
-        "Measured on the body standing upright, right limbs. In about 95 of 100 such fits of "
-        "people in close-fitting clothes the true value lies within the interval. This is no "
-        "medical device."
+        "Measured on the upright body, at its right arm and leg. For people in close-fitting "
+        "clothes the true value lies in the range 95 times in 100. This is not a medical device."
     ),
     genders={Gender.FEMALE: "woman", Gender.MALE: "man"},
-    cues={Cues.SE: "outline and edges", Cues.SES: "outline, edges and shading"},
-    subtitle="{about}, by {cues}",
-    scan_subtitle="{about}, from {count} pictures by {cues}",
+    subtitle="{about}, from one picture",
+    scan_subtitle="{about}, from {count} pictures",
     measurements=MEASUREMENTS,
     table=TableWords(
         number="No.",
         measurement="Measurement",
         value="Value",
         unit="Unit",
-        interval="95 % interval",
+        interval="Range (95 %)",
         not_known="not known",
         given="given",
         exact="exact",
-        withheld=("Measurements are withheld: the reasons are below."),
+        withheld=("No measurements are given: the reasons are below."),
+        figures={
+            "chest_girth": "Chest",
+            "waist_girth_smallest": "Waist",
+            "hip_girth": "Hip",
+            "weight": "Weight",
+        },
         groups={group: group.value for group in Group},
     ),
     light=LightWords(
@@ -92,10 +96,10 @@ ENGLISH: Final = Wording(
         of_lamp_on_mean="{percent} % of the lamp's on the mean",
     ),
     fit=FitWords(
-        fit="The fit",
-        scan="The scan",
+        fit="How sure it is",
+        scan="How sure it is",
         pictures="The pictures",
-        how_it_ended="How it ended",
+        how_it_ended="Result",
         ended={
             Outcome.CONVERGED: "The body fits the picture as well as it can.",
             Outcome.EVALUATION_LIMIT: (
@@ -124,7 +128,7 @@ ENGLISH: Final = Wording(
             Verdict.NO_PERSON: "The picture shows no person where the points are.",
         },
         overlap="Overlap",
-        overlap_of="{percent} % of body and outline",
+        overlap_of="body and person overlap by {percent} %",
         overlap_in_view="overlap {percent} %",
         lens="Lens",
         lens_of="{millimetres} mm as on 35 mm film, {source}",
@@ -137,7 +141,7 @@ ENGLISH: Final = Wording(
         picture="Picture",
         pixels="{width} × {height} pixels",
         agreement="Agreement",
-        agreement_of="Pictures of one person differ as much as these in {percent} % of cases.",
+        agreement_of="{percent} % of pairs of pictures of one person differ more than these.",
         views={
             ViewKind.FRONT: "Front",
             ViewKind.SIDE: "Side",
@@ -147,7 +151,7 @@ ENGLISH: Final = Wording(
     ),
     remarks=RemarkWords(
         assumed="What was assumed",
-        warned="Worth a look",
+        warned="Please note",
         nothing="Nothing.",
         quantities={
             "height_m": "Height",
@@ -164,16 +168,11 @@ ENGLISH: Final = Wording(
     ),
     pictures=PictureWords(
         overlay="The body over the picture",
-        other_overlay="The body over another picture",
         sides={
             "from the camera": "From the camera",
             "from the right of the picture": "From the right of the picture",
             "from behind": "From behind",
             "from the left of the picture": "From the left of the picture",
-        },
-        skin={
-            "albedo.png": "The skin without the light",
-            "shading.png": "The skin in the light, with its gloss",
         },
         tapes="Where the tapes lie",
         tape_sides={"front": "From the front", "side": "From the side", "back": "From behind"},

@@ -3,7 +3,7 @@
 from typing import Final
 
 from api_schemas.derivation_kinds.report import Language
-from fitter.vocabulary.choices import Cues, Gender, ViewKind
+from fitter.vocabulary.choices import Gender, ViewKind
 from fitter.vocabulary.measurements import Group
 from fitter.vocabulary.outcomes import FocalLengthSource, Outcome, Verdict
 from service.worker.derived.report.german_measures import MEASUREMENTS
@@ -27,28 +27,33 @@ GERMAN: Final = Wording(
             *("August", "September", "Oktober", "November", "Dezember"),
         ),
     ),
-    title="Körpermaße aus einem Bild",
-    scan_title="Körper und Maße aus mehreren Bildern",
+    title="Körpermaße",
+    scan_title="Körpermaße",
     footnote=(
-        "Gemessen am aufrecht stehenden Körper, an den rechten Gliedmaßen. In etwa 95 von 100 "
-        "solchen Auswertungen von Menschen in anliegender Kleidung liegt der wahre Wert im "
-        "Intervall. Dies ist kein Medizinprodukt."
+        "Gemessen am aufrechten Körper, an rechtem Arm und Bein. Bei Menschen in anliegender "
+        "Kleidung liegt der wahre Wert in 95 von 100 Fällen im Bereich. Dies ist kein "
+        "Medizinprodukt."
     ),
     genders={Gender.FEMALE: "Frau", Gender.MALE: "Mann"},
-    cues={Cues.SE: "Umriss und Kanten", Cues.SES: "Umriss, Kanten und Schattierung"},
-    subtitle="{about}, nach {cues}",
-    scan_subtitle="{about}, aus {count} Bildern nach {cues}",
+    subtitle="{about}, aus einem Bild",
+    scan_subtitle="{about}, aus {count} Bildern",
     measurements=MEASUREMENTS,
     table=TableWords(
         number="Nr.",
         measurement="Maß",
         value="Wert",
         unit="Einheit",
-        interval="95-%-Intervall",
+        interval="Bereich (95 %)",
         not_known="nicht bekannt",
         given="angegeben",
         exact="genau",
-        withheld="Maße sind zurückgehalten; die Gründe stehen unten.",
+        withheld="Es sind keine Maße angegeben; die Gründe stehen unten.",
+        figures={
+            "chest_girth": "Brust",
+            "waist_girth_smallest": "Taille",
+            "hip_girth": "Hüfte",
+            "weight": "Gewicht",
+        },
         groups={
             Group.OVERALL: "Körperhöhe und Gewicht",
             Group.GIRTHS: "Umfänge",
@@ -76,10 +81,10 @@ GERMAN: Final = Wording(
         of_lamp_on_mean="im Mittel {percent} % des Lampenlichts",
     ),
     fit=FitWords(
-        fit="Die Auswertung",
-        scan="Der Scan",
+        fit="Wie sicher es ist",
+        scan="Wie sicher es ist",
         pictures="Die Bilder",
-        how_it_ended="Wie es ausging",
+        how_it_ended="Ergebnis",
         ended={
             Outcome.CONVERGED: "Der Körper passt so gut zum Bild, wie er kann.",
             Outcome.EVALUATION_LIMIT: (
@@ -109,7 +114,7 @@ GERMAN: Final = Wording(
             Verdict.NO_PERSON: "An den Punkten zeigt das Bild keine Person.",
         },
         overlap="Deckung",
-        overlap_of="{percent} % von Körper und Umriss",
+        overlap_of="Körper und Person decken sich zu {percent} %",
         overlap_in_view="Deckung {percent} %",
         lens="Objektiv",
         lens_of="{millimetres} mm bezogen auf Kleinbild, {source}",
@@ -123,7 +128,7 @@ GERMAN: Final = Wording(
         pixels="{width} × {height} Pixel",
         agreement="Übereinstimmung",
         agreement_of=(
-            "Bilder einer Person unterscheiden sich in {percent} % der Fälle so sehr wie diese."
+            "{percent} % der Bilderpaare einer Person unterscheiden sich mehr als diese."
         ),
         views={
             ViewKind.FRONT: "Von vorn",
@@ -135,16 +140,11 @@ GERMAN: Final = Wording(
     remarks=REMARKS,
     pictures=PictureWords(
         overlay="Der Körper über dem Bild",
-        other_overlay="Der Körper über einem weiteren Bild",
         sides={
             "from the camera": "Von der Kamera aus",
             "from the right of the picture": "Von rechts im Bild",
             "from behind": "Von hinten",
             "from the left of the picture": "Von links im Bild",
-        },
-        skin={
-            "albedo.png": "Die Haut ohne das Licht",
-            "shading.png": "Die Haut im Licht, mit ihrem Glanz",
         },
         tapes="Wo gemessen wird",
         tape_sides={"front": "Von vorn", "side": "Von der Seite", "back": "Von hinten"},

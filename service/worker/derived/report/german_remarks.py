@@ -161,6 +161,11 @@ _FINDINGS: Final = {
         "Farben: Die Kleidung gilt als weit. Nehmen Sie ein farbiges Bild mit dem Gesicht, oder "
         "sagen Sie, wie die Kleidung sitzt."
     ),
+    "covered": (
+        "Etwas verdeckt oder berührt die Person oder sieht ihr ähnlich: Ein Teil des Umrisses "
+        "zählt nicht, die Maße sind weniger sicher. Vor und neben der Person soll nichts und "
+        "niemand sein."
+    ),
     "not-standing": (
         "Die Person steht nicht gerade. Lassen Sie sie aufrecht und mit gestreckten Beinen stehen."
     ),

@@ -27,25 +27,28 @@ header { border-bottom: 2px solid #1c1c1c; margin-bottom: 14px; padding-bottom: 
 h1 { font-size: 22px; font-weight: 600; margin: 0; }
 header p { color: #555; margin: 2px 0 0; }
 h2 { font-size: 13px; font-weight: 600; margin: 0 0 4px; }
-.top { display: grid; gap: 18px; grid-template-columns: 41fr 59fr; }
+.figures { grid-template-columns: repeat(4, 1fr); margin-bottom: 14px; }
+.figures b { font-size: 24px; font-weight: 600; letter-spacing: -0.02em; }
+.figures dd + dd { color: #555; font-size: 12px; }
+.pictures { display: grid; gap: 18px; grid-template-columns: 1fr 1fr; align-items: start; }
+.pictures svg { display: block; width: 100%; height: auto; max-height: 420px; }
+.chief { display: grid; gap: 0 24px; grid-template-columns: 1fr 1fr; margin-top: 12px;
+  align-items: start; }
 .notes { display: grid; gap: 12px 24px; grid-template-columns: 1fr 1fr; margin-top: 12px; }
 figure { margin: 0; }
 figure img { display: block; width: 100%; height: auto; max-height: 420px; object-fit: contain;
   object-position: left top; }
 figcaption, footer { color: #555; font-size: 11px; }
-.sides { display: grid; gap: 6px; grid-template-columns: repeat(4, 1fr); margin-top: 12px; }
 .tapes { margin-top: 16px; }
 .tapes p { color: #555; font-size: 11px; }
 .tapes div { display: flex; gap: 10px; align-items: flex-end; margin-top: 4px; }
 .tapes svg { display: block; width: 100%; height: auto; }
-.tapes path { fill: none; stroke: #a2441f; stroke-width: 4; stroke-linejoin: round; }
-.tapes path.other { stroke: #c9a48f; stroke-width: 2; }
-.tapes circle { fill: #fff; stroke: #a2441f; stroke-width: 2; }
-.tapes text { font-size: 25px; text-anchor: middle; fill: #1c1c1c; }
+:is(.tapes, .pictures) path { fill: none; stroke: #a2441f; stroke-width: 4;
+  stroke-linejoin: round; }
+:is(.tapes, .pictures) path.other { stroke: #c9a48f; stroke-width: 2; }
+:is(.tapes, .pictures) circle { fill: #fff; stroke: #a2441f; stroke-width: 2; }
+:is(.tapes, .pictures) text { font-size: 25px; text-anchor: middle; fill: #1c1c1c; }
 .further { columns: 2; column-gap: 24px; margin-top: 12px; }
-.small { display: flex; gap: 8px; margin: 6px 0; }
-.small figure { width: 42%; }
-.small img { max-height: 150px; object-position: left top; }
 table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
 th, td { border-bottom: 1px solid #ddd; padding: 2px 0 2px 8px; text-align: right; }
 th[scope=row], th:first-child { padding-left: 0; text-align: left; font-weight: 400; }
@@ -60,15 +63,16 @@ section { break-inside: avoid; }
 section { margin-bottom: 8px; }
 section p { margin: 0 0 3px; }
 footer { border-top: 1px solid #ddd; margin-top: 12px; padding-top: 5px; }
-@media (max-width: 640px) { .top, .notes { grid-template-columns: 1fr; } .further { columns: 1; } }
+@media (max-width: 640px) {
+  .pictures, .chief, .notes { grid-template-columns: 1fr; } .further { columns: 1; }
+  .figures { grid-template-columns: 1fr 1fr; gap: 8px; } }
 @media print {
   body { font-size: 8.5pt; line-height: 1.3; max-width: none; padding: 0; }
   h1 { font-size: 15pt; } h2 { font-size: 9pt; }
   figcaption, footer, thead th { font-size: 7pt; }
-  .top, .notes { gap: 4mm; } .top { grid-template-columns: 41fr 59fr; }
-  .notes { grid-template-columns: 1fr 1fr; }
-  figure img { max-height: 92mm; } .small img { max-height: 32mm; }
-  .sides img { max-height: 66mm; } th, td { padding: 0.35mm 0 0.35mm 2mm; }
+  .pictures, .chief, .notes { gap: 0 5mm; grid-template-columns: 1fr 1fr; }
+  .figures { grid-template-columns: repeat(4, 1fr); } .figures b { font-size: 18pt; }
+  figure img, .pictures svg { max-height: 98mm; } th, td { padding: 0.35mm 0 0.35mm 2mm; }
   dt { max-width: 32mm; }
   .tapes, .further { break-before: page; } .tapes + .further { break-before: auto; }
   .tapes div { max-width: 168mm; }
@@ -79,22 +83,30 @@ footer { border-top: 1px solid #ddd; margin-top: 12px; padding-top: 5px; }
 def report_html(content: ReportContent, pictures: ReportPictures) -> bytes:
     """Write the page; the same report gives the same bytes."""
     words = content.wording
-    light, *others = content.sections
+    rows, middle = content.measurements, (len(content.measurements) + 1) // 2
+    first, *others = [each for each in content.sections if not each.for_experts]
+    experts = [each for each in content.sections if each.for_experts]
+    second = _tapes_figure(pictures.tapes[0]) if pictures.tapes else _figure(pictures.sides[0])
     body = f"""<header><h1>{escape(content.title)}</h1><p>{escape(content.subtitle)}</p></header>
 <main>
-<div class="top">
+{_figures(content.figures)}
+<div class="pictures">
 {_figure(pictures.overlay)}
-{_measurements(content.measurements, words.table)}
+{second}
 </div>
-<div class="sides">{"".join(_figure(each) for each in pictures.sides)}</div>
+<div class="chief">
+{_measurements(rows[:middle], words.table)}
+{_measurements(rows[middle:], words.table) if rows[middle:] else ""}
+</div>
 <div class="notes">
-{_section(light, "".join(_figure(each) for each in pictures.small))}
+{_section(first)}
 <div>
 {"".join(_section(each) for each in others)}
 </div>
 </div>
 {_tapes(pictures.tapes, words.pictures)}
 {_further(content.further, words.table)}
+{"".join(_section(each) for each in experts)}
 </main>
 <footer>{escape(words.footnote)}</footer>"""
     page = f"""<!doctype html>
@@ -111,6 +123,16 @@ def report_html(content: ReportContent, pictures: ReportPictures) -> bytes:
 </html>
 """
     return page.encode()
+
+
+def _figures(rows: tuple[MeasurementRow, ...]) -> str:
+    """What most people ask for, large."""
+    each = "".join(
+        f"<div><dt>{escape(row.name)}</dt><dd><b>{escape(row.value)}</b> {escape(row.unit)}</dd>"
+        f"<dd>{escape(row.interval)}</dd></div>"
+        for row in rows
+    )
+    return f'<dl class="figures">{each}</dl>' if rows else ""
 
 
 def _figure(picture: Picture) -> str:
@@ -157,14 +179,13 @@ def _number(row: MeasurementRow) -> str:
     return f'<td class="no">{"" if row.number is None else row.number}</td>'
 
 
-def _section(section: Section, figures: str = "") -> str:
+def _section(section: Section) -> str:
     facts = "".join(
         f"<dt>{escape(label)}</dt><dd>{escape(text)}</dd>" for label, text in section.facts
     )
     remarks = "".join(f"<p>{escape(remark)}</p>" for remark in section.remarks)
     return (
         f"<section><h2>{escape(section.heading)}</h2>"
-        + (f'<div class="small">{figures}</div>' if figures else "")
         + (f"<dl>{facts}</dl>" if facts else "")
         + f"{remarks}</section>\n"
     )

@@ -32,9 +32,10 @@ GUTTER: Final = 5 * mm
 
 HEADER_BASELINE: Final = PAGE_HEIGHT - MARGIN - 5 * mm
 TOP: Final = HEADER_BASELINE - 10 * mm
-TOP_HEIGHT: Final = 96 * mm
-SIDES_HEIGHT: Final = 68 * mm
-SKIN_HEIGHT: Final = 42 * mm
+FIGURES_HEIGHT: Final = 19 * mm
+PICTURES_HEIGHT: Final = 104 * mm
+TABLE_HEIGHT: Final = 74 * mm
+WITHHELD_HEIGHT: Final = 8 * mm
 CAPTION_HEIGHT: Final = 4.5 * mm
 FOOTER_HEIGHT: Final = 10 * mm
 TAPES_HEADING: Final = 11 * mm
@@ -47,6 +48,7 @@ RULE: Final = HexColor("#dddddd")
 TEXT: Final = ParagraphStyle(
     "text", fontName="Helvetica", fontSize=8, leading=10, textColor=INK, spaceAfter=1
 )
+FIGURE_SIZE: Final = 19
 NAME: Final = ParagraphStyle("name", parent=TEXT, leading=9.6, spaceAfter=0)
 LABEL: Final = ParagraphStyle("label", parent=TEXT, textColor=GREY)
 HEADING: Final = ParagraphStyle(
@@ -66,37 +68,72 @@ def report_pdf(content: ReportContent, pictures: ReportPictures) -> bytes:
     canvas.setAuthor("Maquette")
     _header(canvas, content)
 
-    left = 0.41 * (WIDTH - GUTTER)
-    _picture(canvas, pictures.overlay, MARGIN, TOP, left, TOP_HEIGHT)
-    table_left = MARGIN + left + GUTTER
-    _fill(
-        canvas,
-        [_measurements(content.measurements, WIDTH - left - GUTTER, content.wording.table)],
-        (table_left, TOP - TOP_HEIGHT, WIDTH - left - GUTTER, TOP_HEIGHT),
-    )
-
-    sides_top = TOP - TOP_HEIGHT - 3 * mm
-    _row(canvas, pictures.sides, MARGIN, sides_top, WIDTH, SIDES_HEIGHT)
-
-    notes_top = sides_top - SIDES_HEIGHT - 2 * mm
-    notes_bottom = MARGIN + FOOTER_HEIGHT
+    top = TOP
+    if content.figures:
+        _figures(canvas, content.figures, top)
+        top -= FIGURES_HEIGHT
     half = (WIDTH - GUTTER) / 2
-    light, *others = content.sections
-    skin_height = SKIN_HEIGHT if pictures.small else 0.0
-    skin_top = notes_bottom + skin_height
-    _row(canvas, pictures.small, MARGIN, skin_top, half, skin_height)
-    _fill(canvas, _section(light, half), (MARGIN, skin_top, half, notes_top - skin_top))
-    _fill(
-        canvas,
-        [part for section in others for part in _section(section, half)],
-        (MARGIN + half + GUTTER, notes_bottom, half, notes_top - notes_bottom),
-    )
+    _picture(canvas, pictures.overlay, MARGIN, top, half, PICTURES_HEIGHT)
+    _beside(canvas, pictures, MARGIN + half + GUTTER, top, half)
+    top -= PICTURES_HEIGHT + 2 * mm
+    top -= _chief(canvas, content, top)
+    bottom = MARGIN + FOOTER_HEIGHT
+    first, *others = [each for each in content.sections if not each.for_experts]
+    for number, sections in enumerate(([first], others)):
+        parts = [part for section in sections for part in _section(section, half)]
+        _fill(canvas, parts, (MARGIN + number * (half + GUTTER), bottom, half, top - bottom))
     _footer(canvas, content.wording)
     canvas.showPage()
     if content.further or pictures.tapes:
         _second_page(canvas, content, pictures)
     canvas.save()
     return stream.getvalue()
+
+
+def _figures(canvas: Canvas, rows: tuple[MeasurementRow, ...], top: float) -> None:
+    """What most people ask for, large and in columns."""
+    step = WIDTH / len(rows)
+    for number, row in enumerate(rows):
+        left = MARGIN + number * step
+        canvas.setFillColor(GREY)
+        canvas.setFont("Helvetica", 8)
+        canvas.drawString(left, top - 3 * mm, _shown(row.name))
+        canvas.drawString(left, top - 14 * mm, _shown(row.interval))
+        canvas.setFillColor(INK)
+        canvas.setFont("Helvetica-Bold", FIGURE_SIZE)
+        canvas.drawString(left, top - 10 * mm, _shown(row.value))
+        after = left + canvas.stringWidth(_shown(row.value), "Helvetica-Bold", FIGURE_SIZE)
+        canvas.setFont("Helvetica", 9)
+        canvas.drawString(after + 1 * mm, top - 10 * mm, _shown(row.unit))
+
+
+def _beside(
+    canvas: Canvas, pictures: ReportPictures, left: float, top: float, width: float
+) -> None:
+    """The second picture: the upright body with its tapes, or as it stands where there are none."""
+    box = (left, top, width, PICTURES_HEIGHT)
+    if pictures.tapes:
+        draw_tapes(canvas, pictures.tapes[:1], box, caption=_caption)
+    else:
+        _picture(canvas, pictures.sides[0], *box)
+
+
+def _chief(canvas: Canvas, content: ReportContent, top: float) -> float:
+    """The chief measurements in two columns of one width; returns how much height they take."""
+    rows, table = content.measurements, content.wording.table
+    half = (WIDTH - GUTTER) / 2
+    if not rows:
+        _fill(
+            canvas, [Paragraph(_text(table.withheld), TEXT)], (MARGIN, top - 8 * mm, WIDTH, 8 * mm)
+        )
+        return 8 * mm
+    middle = (len(rows) + 1) // 2
+    for number, part in enumerate((rows[:middle], rows[middle:])):
+        if part:
+            left = MARGIN + number * (half + GUTTER)
+            box = (left, top - TABLE_HEIGHT, half, TABLE_HEIGHT)
+            _fill(canvas, [_measurements(part, half, table, numbered=True)], box)
+    return TABLE_HEIGHT
 
 
 def _second_page(canvas: Canvas, content: ReportContent, pictures: ReportPictures) -> None:
@@ -119,7 +156,7 @@ def _second_page(canvas: Canvas, content: ReportContent, pictures: ReportPicture
 
 
 def _further(canvas: Canvas, content: ReportContent, top: float) -> None:
-    """What else was measured, in two columns: groups as they come, the fuller column first."""
+    """What else was measured, in two columns: groups as they come, what is for experts last."""
     half = (WIDTH - GUTTER) / 2
     columns: tuple[list[MeasurementGroup], list[MeasurementGroup]] = ([], [])
     rows = sum(len(group.rows) for group in content.further)
@@ -134,9 +171,16 @@ def _further(canvas: Canvas, content: ReportContent, top: float) -> None:
             for group in groups
             for part in (
                 Paragraph(_text(group.heading), HEADING),
-                _measurements(group.rows, half, content.wording.table),
+                _measurements(group.rows, half, content.wording.table, numbered=False),
             )
         ]
+        if number == 1:
+            flowables += [
+                part
+                for section in content.sections
+                if section.for_experts
+                for part in _section(section, half)
+            ]
         left = MARGIN + number * (half + GUTTER)
         _fill(canvas, flowables, (left, bottom, half, top - bottom))
 
@@ -156,20 +200,6 @@ def _header(canvas: Canvas, content: ReportContent) -> None:
     canvas.setStrokeColor(INK)
     canvas.setLineWidth(1)
     canvas.line(MARGIN, HEADER_BASELINE - 7 * mm, MARGIN + WIDTH, HEADER_BASELINE - 7 * mm)
-
-
-def _row(
-    canvas: Canvas,
-    pictures: tuple[Picture, ...],
-    left: float,
-    top: float,
-    width: float,
-    height: float,
-) -> None:
-    """Draw pictures side by side."""
-    for number, picture in enumerate(pictures):
-        step = width / len(pictures)
-        _picture(canvas, picture, left + number * step, top, step - 1 * mm, height)
 
 
 def _picture(
@@ -213,9 +243,9 @@ def _fill(
     frame.add(KeepInFrame(width, height, flowables, mode="shrink"), canvas)
 
 
-def _measurements(rows: tuple[MeasurementRow, ...], width: float, words: TableWords) -> Flowable:
-    if not rows:
-        return Paragraph(_text(words.withheld), TEXT)
+def _measurements(
+    rows: tuple[MeasurementRow, ...], width: float, words: TableWords, *, numbered: bool
+) -> Flowable:
     numbers = ["" if row.number is None else str(row.number) for row in rows]
     cells: list[list[str | Flowable]] = [
         [words.measurement, words.value, words.unit, words.interval]
@@ -226,7 +256,7 @@ def _measurements(rows: tuple[MeasurementRow, ...], width: float, words: TableWo
         for row in rows
     ]
     shares = [0.44, 0.14, 0.12, 0.30]
-    if any(numbers):
+    if numbered:
         cells = [
             [number, *row] for number, row in zip([words.number, *numbers], cells, strict=True)
         ]

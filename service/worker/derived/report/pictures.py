@@ -11,7 +11,7 @@ from PIL import Image
 from fitter.arrays import Points2D
 from fitter.export.display import png
 from fitter.export.views import sides_pictures
-from service.jobs.inputs import OTHER_OVERLAYS, OVERLAY, PERSON
+from service.jobs.inputs import OVERLAY, PERSON
 from service.worker.derived.person import person_and_operators
 from service.worker.derived.report.tape_drawing import Tag, TapeDrawing
 from service.worker.derived.report.wording import PictureWords
@@ -50,13 +50,12 @@ class TapePicture:
 class ReportPictures:
     """All pictures of the page.
 
-    ``small`` are albedo and shading, none after SE; of a scan they are its other views. ``tapes``
-    are in one scale, and none where measurements are withheld.
+    ``sides`` are the body from four sides, ``tapes`` its sides with tapes, in one scale, and none
+    where measurements are withheld.
     """
 
     overlay: Picture
     sides: tuple[Picture, ...]
-    small: tuple[Picture, ...]
     tapes: tuple[TapePicture, ...] = ()
 
 
@@ -88,18 +87,6 @@ def report_pictures(
     return ReportPictures(
         overlay=_photograph(inputs[OVERLAY], words.overlay),
         sides=_sides(inputs[PERSON], words, models),
-        small=(
-            *(
-                _drawing(inputs[name], caption)
-                for name, caption in words.skin.items()
-                if name in inputs
-            ),
-            *(
-                _photograph(inputs[name], words.other_overlay)
-                for name in OTHER_OVERLAYS
-                if name in inputs
-            ),
-        ),
         tapes=() if drawing is None else _tapes(drawing, words),
     )
 

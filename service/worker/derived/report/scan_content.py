@@ -12,6 +12,7 @@ from service.worker.derived.report.content import (
     about,
     assumed,
     chief_rows,
+    figure_rows,
     further_groups,
     how_it_ended,
     lens,
@@ -41,8 +42,8 @@ def scan_content(
         subtitle=wording.scan_subtitle.format(
             about=about(result.gender, result.height_m, options),
             count=len(views),
-            cues=wording.cues[result.cues],
         ),
+        figures=figure_rows(result.measurements, options),
         measurements=chief_rows(result.measurements, options, numbers),
         further=further_groups(result.measurements, options),
         sections=(

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from api_schemas.derivation_kinds.report import Language
 from api_schemas.results import Assumption, FitWarning
-from fitter.vocabulary.choices import Cues, Gender, ViewKind
+from fitter.vocabulary.choices import Gender, ViewKind
 from fitter.vocabulary.measurements import Group
 from fitter.vocabulary.outcomes import FocalLengthSource, Outcome, Verdict
 
@@ -44,6 +44,7 @@ class TableWords:
     given: str
     exact: str
     withheld: str
+    figures: Mapping[str, str]
     groups: Mapping[Group, str]
 
 
@@ -114,9 +115,7 @@ class PictureWords:
     """Captions."""
 
     overlay: str
-    other_overlay: str
     sides: Mapping[str, str]
-    skin: Mapping[str, str]
     tapes: str
     tape_sides: Mapping[str, str]
     tapes_note: str
@@ -132,7 +131,6 @@ class Wording:
     scan_title: str
     footnote: str
     genders: Mapping[Gender, str]
-    cues: Mapping[Cues, str]
     subtitle: str
     scan_subtitle: str
     measurements: Mapping[str, str]

@@ -40,7 +40,7 @@ class Known:
 def coloured() -> Known:
     """A body before the camera, each vertex in its own colour."""
     model = bar_model()
-    colours = np.random.default_rng(3).uniform(0.05, 0.9, (len(model.mean_vertices), 3))
+    colours = np.random.default_rng(3).uniform(0.05, 0.6, (len(model.mean_vertices), 3))
     result = result_of(model, albedo_rgb=colours)
     return Known(
         glb=body_posed_glb(result.found, model),

@@ -23,5 +23,5 @@ export const caricature: Kind<CaricatureWishes> = {
     refusal: messages.value.derived.caricature.refused(typed(largest, 2)),
     make: messages.value.derived.caricature.smaller(typed(largest, 2)),
   }),
-  turns: { file: "body_caricature.glb", label: () => messages.value.derived.caricature.turned },
+  turns: { file: "body_caricature.glb", label: () => messages.value.derived.caricature.turned, first: true },
 };

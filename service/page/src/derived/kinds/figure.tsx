@@ -24,6 +24,7 @@ export const figure: Kind<FigureWishes> = {
     </>
   ),
   pictures: [{ file: "figure.png", alt: () => messages.value.derived.figure.pictured }],
+  turns: { file: "body_reposed.glb", label: () => messages.value.derived.pose.turned },
 };
 
 /** How far the onlooker has walked round the body, to the right of the picture. */

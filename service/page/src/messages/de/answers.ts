@@ -138,6 +138,7 @@ export const answers: TranslatedAnswers = {
     "arms-against-trunk": "Zwischen Arm und Rumpf ist kaum Hintergrund zu sehen. Die Arme sollen vom Körper abstehen, an den Hüften mindestens eine Handbreit.",
     "clothes-loose": "Weite Kleidung: Der Körper darunter ist geschätzt. Anliegende Kleidung oder das Gewicht machen die Maße sicherer.",
     "skin-not-found": "Weder Gesicht noch Hände zeigen die Hautfarbe der Person, oder das Bild hat keine Farben: Die Kleidung gilt als weit. Nehmen Sie ein farbiges Bild mit dem Gesicht, oder sagen Sie, wie die Kleidung sitzt.",
+    covered: "Etwas verdeckt oder berührt die Person oder sieht ihr ähnlich: Ein Teil des Umrisses zählt nicht, die Maße sind weniger sicher. Vor und neben der Person soll nichts und niemand sein.",
     "not-standing": "Die Person steht nicht gerade. Lassen Sie sie aufrecht und mit gestreckten Beinen stehen.",
     child: "Nach den Proportionen ist dies ein Kind. Gemessen werden können nur Erwachsene.",
     blurred: "Das Bild ist unscharf. Halten Sie die Kamera ruhig, stellen Sie auf die Person scharf, und sorgen Sie für mehr Licht.",

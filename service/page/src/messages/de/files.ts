@@ -3,10 +3,12 @@ import type { Messages } from "../catalogue";
 
 export const files: Messages["files"] = {
   keep: {
-    title: "Mitnehmen",
+    title: "Sichern",
     table: "Maße (CSV)",
     mesh: (format) => `Körper (${format})`,
     meshes: { glb: "Für das Web und die meisten Programme", obj: "Für Programme, die nichts anderes kennen", usdz: "Für iPhone, iPad und Mac" },
+    skin: "Körper mit Haut (GLB)",
+    skinTitle: "In den Farben des Bildes",
     room: "Im eigenen Zimmer ansehen",
   },
   title: "Dateien",

@@ -33,7 +33,7 @@ export const fit: Messages["fit"] = {
       notShown: "Diese Auswertung lässt sich nicht zeigen",
       another: "Neue beginnen",
       change: "Punkte ändern und erneut versuchen",
-      again: "Ändern und neu auswerten",
+      again: "Etwas berichtigen",
       endings: {
         failed: "Es wurde kein Körper gefunden",
         canceled: "Die Auswertung wurde abgebrochen",
@@ -51,7 +51,7 @@ export const fit: Messages["fit"] = {
       notShown: "Dieser Scan lässt sich nicht zeigen",
       another: "Jemanden messen",
       change: "Bilder ändern und neu messen",
-      again: "Ändern und neu messen",
+      again: "Etwas berichtigen",
       endings: {
         failed: "Es konnte niemand gemessen werden",
         canceled: "Der Scan wurde abgebrochen",

@@ -9,7 +9,7 @@ export const frame: Messages["frame"] = {
   fresh: "Neu",
   measure: "Messen",
   history: "Verlauf",
-  api: "API",
+  documentation: "Dokumentation",
   lightPage: "Helle Darstellung",
   darkPage: "Dunkle Darstellung",
   close: "Schließen",
@@ -41,14 +41,14 @@ export const frame: Messages["frame"] = {
   },
   assumed: {
     lens: (length) => `Angenommen wird ein Objektiv von ${length} (bezogen auf Kleinbild): Weder Sie noch das Bild nennen es.`,
-    height: (height) => `Angenommen wird eine Körperhöhe von ${height}: Es ist keine angegeben.`,
-    allPoints: "Alle Punkte hat die Erkennung vorgeschlagen; sie sind weniger sicher als Klicks.",
+    height: (height) => `Angenommen wird eine Körperhöhe von ${height}. Geben Sie die richtige an: Alles andere folgt ihr.`,
+    allPoints: "Alle Punkte wurden automatisch gefunden. Prüfen Sie sie, wenn etwas falsch aussieht.",
     points: (count) =>
       plural(count, {
-        one: "Einen Punkt hat die Erkennung vorgeschlagen; er ist weniger sicher als ein Klick.",
-        other: `${count} Punkte hat die Erkennung vorgeschlagen; sie sind weniger sicher als Klicks.`,
+        one: "Ein Punkt wurde automatisch gefunden. Prüfen Sie ihn, wenn etwas falsch aussieht.",
+        other: `${count} Punkte wurden automatisch gefunden. Prüfen Sie sie, wenn etwas falsch aussieht.`,
       }),
-    pointsOf: (pictures) => `Die Erkennung hat Punkte vorgeschlagen; sie sind weniger sicher als Klicks: ${pictures.join(", ")}.`,
+    pointsOf: (pictures) => `Punkte wurden automatisch gefunden: ${pictures.join(", ")}.`,
     other: (quantity, value) => `Angenommen wird ${quantity} ${value}.`,
   },
   fields: {

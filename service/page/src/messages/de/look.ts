@@ -3,14 +3,23 @@ import type { Messages } from "../catalogue";
 
 export const look: Messages["look"] = {
   view: "Ansicht",
-  placements: {
-    picture: { label: "Über dem Bild", title: "Wie die Kamera ihn sah" },
-    turned: { label: "Drehen", title: "Ziehen dreht, Mausrad oder zwei Finger holen näher" },
-    canonical: { label: "Aufrecht", title: "In der Haltung, in der gemessen wird" },
+  views: {
+    body: { label: "Körper", title: "Aufrecht, mit Maßbändern, wo gemessen wird" },
+    skin: { label: "Haut", title: "In den Farben des Bildes, wie die Person dort steht" },
+    picture: { label: "Foto", title: "Der Körper über dem Bild" },
   },
+  experts: "Für Fachleute",
+  pose: "Haltung",
+  poses: {
+    canonical: { label: "Aufrecht", title: "In der Haltung, in der gemessen wird" },
+    turned: { label: "Wie im Bild", title: "In der Haltung des Bildes" },
+  },
+  skinComes: "Die Haut wird gemacht …",
+  showSkin: "Den Körper mit seiner Haut groß zeigen",
   whichPicture: "Bild",
   from: "Ansehen",
   sides: { front: "Von vorn", side: "Von der Seite", back: "Von hinten" },
+  sideNames: { front: "Vorn", side: "Seite", back: "Hinten" },
   side: "Von der Seite",
   fromSide: "Der Körper von der Seite",
   tapes: "Maße am Körper",
@@ -46,5 +55,13 @@ export const look: Messages["look"] = {
   outline: "Umriss und Kanten des Körpers",
   turned: "Der Körper in 3D; die Pfeiltasten drehen ihn",
   over: "Der Körper über dem Bild",
+  share: {
+    title: "Zum Teilen",
+    film: "Kurzen Film teilen: Der Körper dreht sich einmal",
+    pair: "Bild teilen: das Foto neben dem Körper",
+    filming: "Eine Drehung wird gefilmt …",
+    now: "Jetzt teilen",
+    failed: "Das konnte dieser Browser nicht machen.",
+  },
   derived: (body) => `${body}; die Pfeiltasten drehen ihn`,
 };

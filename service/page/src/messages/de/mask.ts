@@ -24,7 +24,7 @@ export const mask: Messages["mask"] = {
     "Malen Sie durch Ziehen; mit Umschalttaste verschieben Sie das Bild. Pfeiltasten bewegen den Pinsel, mit Umschalttaste um zehn Pixel; Eingabe tupft, X wechselt den Pinsel, eckige Klammern seine Größe, Plus und Minus vergrößern und verkleinern, 0 zeigt das ganze Bild, Strg Z nimmt zurück.",
   tooLarge: "Dieser Browser kann keine Maske zeichnen, die so groß ist wie das Bild. Verwenden Sie ein kleineres Bild, oder verwerfen Sie die Änderungen.",
   loose: {
-    question: "Die Kleidung sieht weit aus. Soll der Körper innerhalb ihres Umrisses gesucht werden?",
+    question: "Die Kleidung sieht weit aus. Ist sie es?",
     yes: "Ja, weite Kleidung",
     said: "Die Kleidung gilt als weit.",
   },

@@ -98,12 +98,12 @@ export const measure: Messages["measure"] = {
   quality: {
     contradicted: "Ein Bild zeigt keine Person, wie es soll: Nehmen Sie es neu auf.",
     differentPeople: "Die Bilder widersprechen sich: Trauen Sie diesen Maßen nicht.",
-    poor: "Schlecht: Ein Bild sollte neu aufgenommen werden. Siehe unten.",
-    fair: "Mittel: Die Bilder könnten besser sein. Siehe unten.",
-    good: "Gut: An den Bildern ist nichts auszusetzen, und sie passen zueinander.",
-    rarely: (share) => `So verschieden wie diese sind Bilder einer Person nur in ${share} der Fälle. Prüfen Sie, ob beide dieselbe Person zeigen, gleich gekleidet.`,
-    nearlyAlways: "Bilder einer Person sind fast immer verschiedener als diese.",
-    often: (share) => `So verschieden wie diese sind Bilder einer Person in ${share} der Fälle.`,
+    poor: "Schlecht: Nehmen Sie ein Bild neu auf. Die Hinweise sagen, welches.",
+    fair: "Mittel: Mit besseren Bildern werden die Maße besser. Die Hinweise sagen, wie.",
+    good: "Gut: Die Bilder sind in Ordnung und passen zueinander.",
+    rarely: (share) => `Die beiden Bilder passen nicht zueinander: Bei einer Person kommt das nur in ${share} der Fälle vor. Prüfen Sie, ob beide dieselbe Person zeigen, gleich gekleidet.`,
+    nearlyAlways: "Die beiden Bilder passen sehr gut zueinander.",
+    often: (share) => `Die beiden Bilder passen so gut zueinander wie meist bei einer Person: ${share} solcher Paare unterscheiden sich mehr.`,
   },
   proposed: {
     all: (picture) => `alle im ${picture}`,
@@ -117,6 +117,7 @@ export const measure: Messages["measure"] = {
     },
     warnings: {
       "ambiguous-limb-facing": "Nach diesem Bild könnte ein Arm oder ein Bein ebenso gut andersherum geneigt sein. Wenn Sie es neu aufnehmen, stehen Sie, wie die guten Bilder es zeigen.",
+      "cut-off": "Die Person reicht bis an den Rand des Bildes. Gehen Sie zurück, bis rings um sie Platz ist.",
       "different-people": "Die Bilder scheinen verschiedene Personen zu zeigen. Prüfen Sie, ob beide dieselbe Person zeigen, gleich gekleidet.",
       "left-and-right-may-be-swapped": "Links und rechts sind vielleicht verwechselt. Nehmen Sie das Bild neu auf, so gedreht, wie die guten Bilder es zeigen.",
       "low-silhouette-overlap": "Der Körper deckt wenig von der Person im Bild. Nehmen Sie es neu auf, vor einer Wand in anderer Farbe.",

@@ -19,10 +19,9 @@ export const start: Messages["start"] = {
     draft: "Was Sie geklickt und eingegeben haben, bleibt mit dem Bild auch in diesem Browser, bis Sie es absenden.",
   },
   turning: {
-    label: "Der im ersten Beispiel gefundene Körper von allen Seiten",
+    label: "Der Körper aus dem ersten Beispiel von allen Seiten; drücken hält ihn an",
     caption: "Gefunden im ersten Beispiel",
-    hold: "Anhalten",
-    turn: "Drehen",
+    hold: "Drücken hält ihn an",
   },
   samples: {
     title: "Kein Bild zur Hand? Probieren Sie eines von diesen",
@@ -32,10 +31,6 @@ export const start: Messages["start"] = {
       woman: "Eine Frau steht aufrecht, Arme und Beine abgespreizt",
       arm_across: "Ein schwerer Mann hält einen Arm vor den Bauch",
     },
-    points: "Punkte des Beispiels",
-    placed: "Punkte gesetzt",
-    proposed: "Punkte vorgeschlagen",
-    open: "Ich klicke sie",
   },
   notShown: (name) => `${name} ist kein Bild, das dieser Browser zeigen kann. Nehmen Sie JPEG, PNG oder WebP.`,
   heic: (name) =>

@@ -1,10 +1,12 @@
 // The files of a result and of what is made of it.
 export const files = {
   keep: {
-    title: "Take it with you",
+    title: "Save",
     table: "Measurements (CSV)",
     mesh: (format: string) => `Body (${format})`,
     meshes: { glb: "For the web and for most programs", obj: "For programs that know nothing else", usdz: "For iPhone, iPad and Mac" },
+    skin: "Body with its skin (GLB)",
+    skinTitle: "In the colours of the picture",
     room: "See it in your room",
   },
   title: "Files",

@@ -4,11 +4,11 @@ import { plural } from "../figures";
 export const frame = {
   description: "A body, posed and measured, from one picture and a few clicks.",
   start: "Maquette: start",
-  sandbox: "This is a sandbox for developers: every result is that of a sample, whatever picture is sent.",
+  sandbox: "This is a sandbox for developers: whatever picture is sent, the result is that of a sample.",
   fresh: "New",
   measure: "Measure",
   history: "Fits",
-  api: "API",
+  documentation: "Documentation",
   lightPage: "Light page",
   darkPage: "Dark page",
   close: "Close",
@@ -18,7 +18,7 @@ export const frame = {
   unknown: "unknown",
   key: {
     title: "This service asks for a key",
-    origin: "Whoever runs it makes keys with",
+    origin: "Whoever runs the service makes keys with",
     label: "API key",
     kept: "It is kept in this tab until you close it.",
     use: "Use this key",
@@ -27,7 +27,7 @@ export const frame = {
     title: "Fits and scans of this browser",
     none: "None yet.",
     takeOff: (name: string) => `Take ${name} off this list`,
-    note: "Only this browser knows the list. The service erases them after a while; deleting one erases it at once.",
+    note: "Only this browser knows this list. The service erases results after a while; if you delete one, at once.",
     running: (stage: string, percent: string) => `${stage}, ${percent}`,
     states: {
       queued: "Waiting",
@@ -39,16 +39,16 @@ export const frame = {
     },
   },
   assumed: {
-    lens: (length: string) => `A lens of ${length} (as on 35 mm film) is assumed: neither you nor the picture name it.`,
-    height: (height: string) => `A height of ${height} is assumed: none was given.`,
-    allPoints: "All points were proposed by the detector, and they are less sure than clicks.",
+    lens: (length: string) => `A lens of ${length} (as on 35 mm film) is assumed, since the picture does not name it.`,
+    height: (height: string) => `A height of ${height} is assumed. Give the real one: all else follows it.`,
+    allPoints: "All points were found automatically. Check them if something looks wrong.",
     points: (count: number) =>
       plural(count, {
-        one: "One point was proposed by the detector, and it is less sure than a click.",
-        other: `${count} points were proposed by the detector, and they are less sure than clicks.`,
+        one: "One point was found automatically. Check it if something looks wrong.",
+        other: `${count} points were found automatically. Check them if something looks wrong.`,
       }),
     /** By picture, of each how many. */
-    pointsOf: (pictures: readonly string[]) => `Points were proposed by the detector, and they are less sure than clicks: ${pictures.join(", ")}.`,
+    pointsOf: (pictures: readonly string[]) => `Points were found automatically: ${pictures.join(", ")}.`,
     other: (quantity: string, value: string) => `${quantity} ${value} is assumed.`,
   },
   fields: {

@@ -1,7 +1,7 @@
 // Limbs that point the other way: shown first, then fitted again.
 export const limbs = {
   title: "Limbs: toward you or away",
-  help: "One picture hardly tells whether a limb comes toward the camera or points away from it. Click the limb on the body or choose it here, and it is shown the other way. Then fit again.",
+  help: "One picture hardly tells whether a limb comes toward the camera or points away. Click a limb on the body, or choose it here, to turn it. Then fit again.",
   facings: { toward: "toward you", away: "away from you" },
   isOpen: "uncertain",
   /** Of a limb that was turned. */

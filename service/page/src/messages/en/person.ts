@@ -11,9 +11,9 @@ export const person = {
   weight: "Weight",
   symbols: { cm: "cm", ft: "ft", in: "in", kg: "kg", lb: "lb" },
   heightHeld: "Height is held exactly as given.",
-  meanHeight: "Without a height the mean of the gender is assumed.",
-  assumedHeight: (height: string) => `Without a height ${height} are assumed.`,
-  weightHelps: "If you know it, the weight helps most: one view does not show how deep a body is.",
+  meanHeight: "Give the height if you know it: all measurements follow it.",
+  assumedHeight: (height: string) => `No height given: ${height} is assumed, and all measurements follow it.`,
+  weightHelps: "If you know the weight, give it: it helps most, since one picture does not show how deep a body is.",
   faults: {
     number: "A number is needed here.",
     height: (low: string, high: string) => `Between ${low} and ${high}, please.`,
@@ -22,7 +22,7 @@ export const person = {
   },
   known: "Known measurements",
   given: (count: number) => `${count} given`,
-  tapeTrust: "On bare skin or close to it. A tape is trusted to 1 cm.",
+  tapeTrust: "Measured on bare skin or thin clothes. They are taken to be right within 1 cm.",
   words: {
     female: "Woman",
     male: "Man",

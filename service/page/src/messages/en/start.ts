@@ -10,17 +10,16 @@ export const start = {
     one: { title: "One picture", text: "A photograph or painting, in any stance." },
     two: { title: "Front and side", text: "Two photographs of a person standing: measures best.", go: "Take or choose two" },
   },
-  otherWays: "You can also drop a picture here, or paste one. On a phone the camera is offered.",
+  otherWays: "You can also drop a picture here, or paste one. On a phone you can use the camera.",
   kept: {
     erased: (duration: string) => `Pictures go to this service and nowhere else. They are erased, with their results, ${duration} after the last use.`,
     untold: "Pictures go to this service and nowhere else. They are erased, with their results, some time after the last use.",
-    draft: "Until you send it, the picture is kept in this browser too, with what you clicked and typed.",
+    draft: "Until you send it, your picture and what you typed stay in this browser.",
   },
   turning: {
-    label: "The body found in the first sample, seen from all sides",
+    label: "The body found in the first sample, seen from all sides; press to hold it still",
     caption: "Found in the first sample",
-    hold: "Hold still",
-    turn: "Turn",
+    hold: "Press to hold it still",
   },
   samples: {
     title: "No picture at hand? Try one of these",
@@ -30,10 +29,6 @@ export const start = {
       woman: "A woman stands upright, arms and legs apart",
       arm_across: "A heavy man holds an arm before his belly",
     },
-    points: "Points of the sample",
-    placed: "With points placed",
-    proposed: "Points proposed",
-    open: "I click them",
   },
   notShown: (name: string) => `${name} is not a picture this browser can show. Take a JPEG, PNG or WebP.`,
   heic: (name: string) =>

@@ -1,0 +1,231 @@
+"""Motions that ship with the package, by name: the walk, and four that stay on one spot.
+
+Each is a few postures in clinical angles (:mod:`fitter.applications.poses`), within the ranges of
+:mod:`fitter.body.joint_limits`. From one to the next joints move by the course of least jerk, as
+people's hands do from point to point (T. Flash and N. Hogan, "The coordination of arm movements",
+1985). Timing and postures are ours.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+
+import numpy as np
+
+from fitter.applications.cycle import Cycle, Moment
+from fitter.applications.poses import NAMED_POSES, Angles
+from fitter.applications.rig import Rig
+from fitter.applications.walk import STANDARD_GRAVITY, stride_of
+
+Held = dict[str, Angles]
+
+_STANDING: Held = dict(NAMED_POSES["standing"])
+
+
+def least_jerk(share: float) -> float:
+    """The way that is made of a movement in a share of its time: 10 s³ - 15 s⁴ + 6 s⁵."""
+    return share**3 * (10.0 - 15.0 * share + 6.0 * share**2)
+
+
+def _within(value: float, start: float, end: float) -> float:
+    """Which share of a stretch has passed: 0 before it, 1 after it."""
+    return min(1.0, max(0.0, (value - start) / (end - start)))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Key:
+    """A posture and when it is reached; parts that are not named are held as when standing."""
+
+    time_s: float
+    held: Held
+
+
+def _keyed(keys: Sequence[Key], *, duration_s: float, times: int) -> Cycle:
+    """A motion by its postures; after the last it goes back to the first."""
+    around = (*keys, Key(time_s=duration_s, held=keys[0].held))
+
+    def moment(phase: float) -> Moment:
+        time_s = phase * duration_s
+        after = next(place for place, key in enumerate(around) if key.time_s > time_s)
+        before, next_ = around[after - 1], around[after]
+        share = least_jerk((time_s - before.time_s) / (next_.time_s - before.time_s))
+        return Moment(angles=_between(_STANDING | before.held, _STANDING | next_.held, share))
+
+    return Cycle(duration_s=duration_s, times=times, moment=moment)
+
+
+def _between(first: Held, second: Held, share: float) -> dict[str, Angles]:
+    still = Angles()
+    return {
+        part: _mixed(first.get(part, still), second.get(part, still), share)
+        for part in (*first, *(part for part in second if part not in first))
+    }
+
+
+def _mixed(first: Angles, second: Angles, share: float) -> Angles:
+    return Angles(
+        flexion=first.flexion + share * (second.flexion - first.flexion),
+        abduction=first.abduction + share * (second.abduction - first.abduction),
+        twist=first.twist + share * (second.twist - first.twist),
+    )
+
+
+def _both(**limbs: Angles) -> dict[str, Angles]:
+    return {f"{side}_{limb}": held for side in ("left", "right") for limb, held in limbs.items()}
+
+
+def _waving(elbow: float, *, lean: float) -> dict[str, Angles]:
+    """The right hand beside the head: the upper arm level and turned out, the elbow bent."""
+    return {
+        "right_upper_arm": Angles(flexion=6, abduction=84, twist=82),
+        "right_forearm": Angles(flexion=elbow),
+        "right_hand": Angles(abduction=0.25 * (elbow - 90.0), twist=-30),
+        "chest": Angles(abduction=2),
+        "head": Angles(abduction=lean),
+    }
+
+
+def _wave(_: Rig) -> Cycle:
+    out, inward = _waving(68, lean=3), _waving(112, lean=4)
+    swings = [Key(time_s=0.8 + 0.32 * place, held=(inward, out)[place % 2]) for place in range(7)]
+    return _keyed(
+        [Key(time_s=0.0, held={}), *swings, Key(time_s=3.7, held={})], duration_s=4.2, times=1
+    )
+
+
+_UPRIGHT = _both(thigh=Angles(abduction=7, twist=14), foot=Angles(twist=7))
+"""Feet apart, before a squat."""
+
+_SQUATTING = _both(
+    upper_arm=Angles(flexion=132, abduction=8),
+    forearm=Angles(flexion=8),
+    thigh=Angles(flexion=104, abduction=10, twist=18),
+    shin=Angles(flexion=95),
+    foot=Angles(flexion=19, twist=8),
+) | {
+    "spine": Angles(flexion=14),
+    "chest": Angles(flexion=7),
+    "neck": Angles(flexion=-18),
+    "head": Angles(flexion=-14),
+}
+"""Thighs level, arms forward for balance, the whole sole on the ground."""
+
+SQUATTING_LEAN_DEG = 29.0
+
+WIDER_DEG = 10.0
+"""Four times by how much thighs go farther apart half-way down: feet stay where they are."""
+
+
+def _squat(_: Rig) -> Cycle:
+    def moment(phase: float) -> Moment:
+        down, up = least_jerk(_within(phase, 0.10, 0.50)), least_jerk(_within(phase, 0.60, 1.0))
+        depth = down - up
+        angles = _between(_STANDING | _UPRIGHT, _STANDING | _SQUATTING, depth)
+        wider = WIDER_DEG * depth * (1.0 - depth)
+        for thigh in ("left_thigh", "right_thigh"):
+            held = angles[thigh]
+            angles[thigh] = replace(held, abduction=held.abduction + wider)
+        return Moment(angles=angles, lean=SQUATTING_LEAN_DEG * depth)
+
+    return Cycle(duration_s=2.9, times=2, moment=moment)
+
+
+JUMP_S = 0.26
+"""In the air, of each jump: 8 cm high."""
+
+GROUND_S = 0.30
+"""On the ground between two jumps."""
+
+ARMS_AFTER = 0.13
+"""Of the motion: arms swing all the while, half-way up as legs are half-way apart."""
+
+
+def _jumping_jack(_: Rig) -> Cycle:
+    """Legs together and arms down, then apart and arms up, by jumps of free fall."""
+    duration_s = 2.0 * (JUMP_S + GROUND_S)
+
+    def moment(phase: float) -> Moment:
+        half, time_s = divmod(phase * duration_s, JUMP_S + GROUND_S)
+        in_air = max(0.0, time_s - GROUND_S)
+        share = least_jerk(in_air / JUMP_S)
+        spread = share if half == 0.0 else 1.0 - share
+        # Knees give as they land and straighten to jump; in the air toes point down.
+        bent = float(np.sin(np.pi * time_s / GROUND_S)) if in_air == 0.0 else 0.0
+        pointed = float(np.sin(np.pi * in_air / JUMP_S))
+        # Bent legs reach less far out.
+        apart = 3.0 + 17.0 * spread + 1.5 * bent
+        raised = 0.5 - 0.5 * float(np.cos(2.0 * np.pi * (phase - ARMS_AFTER)))
+        return Moment(
+            angles=_both(
+                upper_arm=Angles(flexion=4, abduction=10.0 + 148.0 * raised, twist=40.0 * raised),
+                forearm=Angles(flexion=14),
+                thigh=Angles(flexion=3.0 + 15.0 * bent, abduction=apart, twist=8),
+                shin=Angles(flexion=4.0 + 28.0 * bent),
+                foot=Angles(flexion=1.0 + 13.0 * bent - 26.0 * pointed, twist=apart),
+            ),
+            lift_m=0.5 * STANDARD_GRAVITY * in_air * (JUMP_S - in_air),
+        )
+
+    return Cycle(duration_s=duration_s, times=4, moment=moment)
+
+
+STEPS = 8
+"""Of one turn on the spot."""
+
+STEP_S = 0.55
+
+
+def _turn(_: Rig) -> Cycle:
+    """Once round to the left on the spot, the feet by turns; each stands while it carries."""
+    step = 360.0 / STEPS
+
+    def moment(phase: float) -> Moment:
+        number, share = divmod(phase * STEPS, 1.0)
+        # Both feet stand for the first fifth of a step.
+        share = _within(share, 0.2, 1.0)
+        # Nothing turns before the swinging foot is off the ground.
+        turned = least_jerk(_within(share, 0.15, 0.85))
+        pelvis = step * (number + turned)
+        # The foot that carries stands where it was put: ahead of the pelvis by half a step, then
+        # behind it; the other one overtakes it meanwhile.
+        carrying = step * (number + 0.5) - pelvis
+        swinging = step * (turned - 0.5)
+        high = float(np.sin(np.pi * share)) ** 2
+        left, right = (swinging, carrying) if number % 2 == 0 else (carrying, swinging)
+        raised = {True: high, False: 0.0}
+        angles = dict(_STANDING)
+        angles |= _leg("left", 7.0 + left, raised[number % 2 == 0])
+        angles |= _leg("right", 7.0 - right, raised[number % 2 == 1])
+        ahead = 6.0 * (turned - turned**2) * 4.0
+        sway = 10.0 * high * (1.0 if number % 2 == 0 else -1.0)
+        angles |= {
+            "chest": Angles(twist=0.5 * ahead),
+            "neck": Angles(flexion=4, twist=ahead),
+            "head": Angles(twist=ahead),
+            "left_upper_arm": Angles(flexion=2.0 - sway, abduction=10),
+            "right_upper_arm": Angles(flexion=2.0 + sway, abduction=10),
+        }
+        return Moment(angles=angles, turn=pelvis)
+
+    return Cycle(duration_s=STEPS * STEP_S, times=1, moment=moment)
+
+
+def _leg(side: str, twist: float, raised: float) -> dict[str, Angles]:
+    """A leg turned outward, and raised by a share of a step."""
+    return {
+        f"{side}_thigh": Angles(flexion=2.0 + 24.0 * raised, abduction=3, twist=twist),
+        f"{side}_shin": Angles(flexion=4.0 + 48.0 * raised),
+        f"{side}_foot": Angles(flexion=2.0 + 16.0 * raised, twist=3),
+    }
+
+
+NAMED_MOTIONS: Mapping[str, Callable[[Rig], Cycle]] = MappingProxyType(
+    {
+        "walk": stride_of,
+        "wave": _wave,
+        "turn": _turn,
+        "squat": _squat,
+        "jumping_jack": _jumping_jack,
+    }
+)
+"""By name, the motion of a person without end."""

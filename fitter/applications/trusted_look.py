@@ -1,0 +1,125 @@
+"""What a picture shows of a body, less what cannot be right of its parts.
+
+A face is believed as a whole or not at all: half of one, mirrored, is nobody's. And hands are of
+the face's skin or in gloves: a hand that is partly skin and partly something else lies beside the
+picture's, before what is behind it.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from fitter.applications.rings import Region, RingCoordinates
+from fitter.applications.seen_surface import (
+    Beliefs,
+    Colours,
+    SeenSurface,
+    SurfacePoints,
+    smooth_step,
+)
+from fitter.arrays import Vector3
+from fitter.body.model import BodyModel
+from fitter.numerics.vectors import unit_vectors
+
+Look = Callable[[SurfacePoints], tuple[Colours, Beliefs]]
+"""Linear colours of points, and how far each is believed."""
+
+BELIEVED = 0.5
+"""From this belief on a point counts as seen."""
+
+MOST_TURNED_DEG = 55.0
+"""A face turned farther from the camera shows less than half of itself, and that in profile."""
+
+LEAST_OF_FACE = 0.35
+"""Mean belief of the half of a face that is seen better, from which the face is believed."""
+
+LEAST_SKIN = 40
+"""Seen vertices of face and neck, from which the colour of skin is known."""
+
+LEAST_BARE = 0.25
+"""Of the seen hands, that is skin's colour: hands with less are in gloves."""
+
+CHROMA = (0.4, 0.8)
+"""Skin whose channels are in the same ratio to the face's within the first (of logarithms, shade
+leaves it) is believed, beyond the second it is something else."""
+
+LEAST_HAND = 0.001
+"""Share of a hand from which a vertex counts as one's: regions fade out without an end."""
+
+_DARKEST = 0.004
+# Of linear light; below it noise dominates.
+
+
+def trusted_look(look: Look, model: BodyModel) -> Look:
+    """Less belief where the picture cannot show the hands."""
+    rings = RingCoordinates.of(model)
+    vertices = at_vertices(model)
+    colours, belief = look(vertices)
+    skin = _skin_of_bare_hands(colours, belief >= BELIEVED, rings)
+    if skin is None:
+        return look
+    hands = rings.shares[Region.HANDS]
+
+    def trusted(points: SurfacePoints) -> tuple[Colours, Beliefs]:
+        colours, belief = look(points)
+        near = points.near(hands > LEAST_HAND)
+        off = smooth_step(_away(colours[near], skin), *CHROMA)
+        belief[near] *= 1.0 - points.some(near).of(hands) * off
+        return colours, belief
+
+    return trusted
+
+
+def where_shown(look: Look, surface: SeenSurface) -> Look:
+    """The same look, at those points alone that the picture may show; 0 at all others."""
+
+    def looked(points: SurfacePoints) -> tuple[Colours, Beliefs]:
+        shown = surface.may_show(points)
+        colours, belief = np.zeros((len(points.corners), 3)), np.zeros(len(points.corners))
+        colours[shown], belief[shown] = look(points.some(shown))
+        return colours, belief
+
+    return looked
+
+
+def at_vertices(model: BodyModel) -> SurfacePoints:
+    """The vertices as points of the surface."""
+    count = len(model.mean_vertices)
+    return SurfacePoints(
+        corners=np.repeat(np.arange(count)[:, None], 3, axis=1),
+        weights=np.tile([1.0, 0.0, 0.0], (count, 1)),
+    )
+
+
+def face_to_leave_out(surface: SeenSurface, model: BodyModel) -> Float[np.ndarray, " m"]:
+    """How far each vertex belongs to a face that is not seen as one; 0 for all where it is."""
+    features, x = RingCoordinates.of(model).features, model.mean_vertices[:, 0]
+    belief = surface.belief(at_vertices(model))
+    halves = [np.average(belief, weights=features * own) for own in (x >= 0.0, x <= 0.0)]
+    rendering = surface.rendering
+    ahead, to_face = unit_vectors(
+        np.stack([features @ rendering.vertex_normals, features @ rendering.vertices])
+    )
+    turned = np.degrees(np.arccos(np.clip(-ahead @ to_face, -1.0, 1.0)))
+    if max(halves) >= LEAST_OF_FACE and turned <= MOST_TURNED_DEG:
+        return np.zeros_like(features)
+    return features
+
+
+def _skin_of_bare_hands(
+    colours: Colours, seen: Bool[np.ndarray, " m"], rings: RingCoordinates
+) -> Vector3 | None:
+    """The face's colour, unless it is unknown or the hands are in gloves."""
+    face, hands = (seen & (rings.shares[each] > 0.5) for each in (Region.FACE, Region.HANDS))
+    if np.count_nonzero(face) < LEAST_SKIN or not hands.any():
+        return None
+    skin = np.median(colours[face], axis=0)
+    bare = _away(colours[hands], skin) < CHROMA[0]
+    return skin if bare.mean() >= LEAST_BARE else None
+
+
+def _away(colours: Colours, skin: Vector3) -> Float[np.ndarray, " k"]:
+    """How far the ratios of the channels are from skin's."""
+    ratio = np.maximum(colours, _DARKEST) / np.maximum(skin, _DARKEST)
+    return np.ptp(np.log(ratio.T), axis=0)

@@ -1,0 +1,116 @@
+"""``maquette paper``: the paper's figures and its table, drawn from fits made here and now."""
+
+import io
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+from rich.console import Console
+
+from api_schemas.requests import FitRequest
+from fitter import request as fitter_request
+from fitter.applications.motion_file import read_motion
+from fitter.errors import InvalidInputError
+from fitter.export.display import png
+from fitter.reproduction.drawing import Pictures, Reproduction, reproduce
+from fitter.reproduction.figure import Figure
+from fitter.reproduction.index import PRINTED_TABLE, index_html, table_csv
+from fitter.reproduction.subject import PosedTruth, Subject
+from service.commands.fit import request_from_file
+from service.commands.local_work import UNUSABLE_INPUT, told
+from service.demo_data.sample import PictureSample, load_sample, load_subject
+from service.jobs.inputs import SentPicture
+from service.process.caches import settle_folders
+from service.settings import Settings
+from service.submissions.submission import check_submission
+from service.submissions.validation import parsed
+from service.worker import translate
+from service.worker.kernel_cache import kept_kernels
+from service.worker.pipeline_port import UnusableInputError
+
+_HIDING: Final = "occluded"
+"""The subject's pose in which an arm hides part of the trunk."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PaperArguments:
+    """The command line's arguments: what takes the place of the packaged pictures, and is added.
+
+    ``picture`` and ``painting`` are each an image and a points file that is a whole request.
+    """
+
+    output: Path
+    picture: tuple[Path, Path] | None = None
+    painting: tuple[Path, Path] | None = None
+    motion: Path | None = None
+
+
+def draw_paper(arguments: PaperArguments) -> int:
+    """Draw all figures into the output folder, with a page of them; return the exit status."""
+    console = Console()
+    drawn = told(console, lambda: _drawn(arguments, console))
+    if drawn is None:
+        return UNUSABLE_INPUT
+    (arguments.output / "index.html").write_text(index_html(drawn))
+    (arguments.output / "table_1.csv").write_text(table_csv((*drawn.tables, PRINTED_TABLE)))
+    console.print(f"{arguments.output / 'index.html'} shows them all.", highlight=False)
+    return 0
+
+
+def packaged_pictures() -> Pictures:
+    """Those that ship with the package, without a painting."""
+    sample, subject = load_sample(), load_subject()
+    with np.load(io.BytesIO(subject.bodies), allow_pickle=False) as bodies:
+        step_m = float(bodies["step_m"])
+        true = {name: step_m * bodies[name] for name in ("canonical", *subject.pictures)}
+    return Pictures(
+        portrait=_request(PictureSample(image=sample.image, request=sample.request)),
+        subject=Subject(
+            pictures=tuple(
+                PosedTruth(name=name, request=_request(picture), posed=true[name])
+                for name, picture in subject.pictures.items()
+            ),
+            canonical=true["canonical"],
+            measurements=subject.measurements,
+        ),
+        hiding=list(subject.pictures).index(_HIDING),
+    )
+
+
+def _drawn(arguments: PaperArguments, console: Console) -> Reproduction:
+    settle_folders()
+    pictures = packaged_pictures()
+    given = {
+        name: _request(PictureSample(image=image.read_bytes(), request=_asked(points)))
+        for name, files in (("portrait", arguments.picture), ("painting", arguments.painting))
+        if files is not None
+        for image, points in [files]
+    }
+    pictures = replace(pictures, **given)
+    arguments.output.mkdir(parents=True, exist_ok=True)
+
+    def keep(figure: Figure) -> None:
+        path = arguments.output / f"{figure.name}.png"
+        path.write_bytes(png(figure.picture))
+        console.print(f"{path}: {figure.title}", highlight=False)
+
+    try:
+        if arguments.motion is not None:
+            pictures = replace(pictures, motion=read_motion(arguments.motion.read_bytes()))
+        with kept_kernels():
+            return reproduce(pictures, keep)
+    except InvalidInputError as error:
+        raise UnusableInputError(translate.field_problem(error)) from error
+
+
+def _asked(points: Path) -> bytes:
+    return request_from_file(points.read_text(), {})
+
+
+def _request(picture: PictureSample) -> fitter_request.FitRequest:
+    """Check a request as the service does, and translate it."""
+    asked = parsed(FitRequest, picture.request, whole="request", called="what is asked for")
+    sent, settings = [SentPicture(picture.image, None)], Settings()
+    checked = check_submission(asked, sent, max_pixels=settings.max_pixels)
+    return translate.fit_request(checked.options, sent, max_pixels=settings.max_pixels)

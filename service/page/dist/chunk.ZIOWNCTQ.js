@@ -1,1 +1,0 @@
-import{T as e,t}from"/page/chunk.CXUOWDDA.js";import{k as r}from"/page/chunk.DHSW2F7S.js";var i=r([]);async function m(){try{i.value=(await e()).map(({label:o})=>o)}catch(o){if(!(o instanceof t))throw o}}export{i as a,m as b};

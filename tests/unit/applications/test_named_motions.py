@@ -1,0 +1,112 @@
+import numpy as np
+import pytest
+
+from fitter.applications.cycle import repeated
+from fitter.applications.grounding import grounded, sliding_m, sole_vertices
+from fitter.applications.motion import moving_body
+from fitter.applications.named_motions import JUMP_S, NAMED_MOTIONS, least_jerk
+from fitter.applications.rig import beyond_limits
+from fitter.applications.walk import STANDARD_GRAVITY
+from fitter.numerics.rotations import rotation_matrices
+from tests.unit.applications.bodies import packaged
+
+GENDERS = ("female", "male")
+ON_THE_SPOT = [name for name in NAMED_MOTIONS if name != "walk"]
+
+
+def motion_of(body, name):
+    cycle = NAMED_MOTIONS[name](body.rig)
+    return repeated(cycle, body.rig, frames=cycle.frames)
+
+
+def moving(body, name):
+    return grounded(moving_body(body.evaluator, body.shape, motion_of(body, name)), body.model)
+
+
+def centre_of_volume(vertices, triangles):
+    """Σ V (a + b + c) / 4 over tetrahedra to the origin, by their signed volumes V."""
+    corners = vertices[triangles].astype(float)
+    volumes = np.einsum("fi,fi->f", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))
+    return (volumes[:, None] * corners.sum(axis=1) / 4.0).sum(axis=0) / volumes.sum()
+
+
+def test_least_jerk_begins_and_ends_at_rest_half_way_in_half_the_time():
+    assert [least_jerk(share) for share in (0.0, 0.5, 1.0)] == [0.0, 0.5, 1.0]
+    assert least_jerk(1e-3) < 1e-7
+    assert 1.0 - least_jerk(1.0 - 1e-3) < 1e-7
+
+
+@pytest.mark.parametrize("gender", GENDERS)
+@pytest.mark.parametrize("name", list(NAMED_MOTIONS))
+def test_every_frame_is_within_the_limits_of_the_joints(name, gender):
+    body = packaged(gender)
+    assert {beyond_limits(body.rig, pose) for pose in motion_of(body, name).poses} == {None}
+
+
+@pytest.mark.parametrize("gender", GENDERS)
+@pytest.mark.parametrize("name", ON_THE_SPOT)
+def test_it_stays_on_the_ground_and_on_the_spot(name, gender):
+    body = packaged(gender)
+    found = moving(body, name)
+    lowest = [found.vertices(frame)[:, 1].min() for frame in range(len(found.shapes))]
+    np.testing.assert_allclose(lowest, found.motion.lifts_m, atol=1e-6)
+    assert sliding_m(found, body.model) < 0.0035
+    way = np.abs(found.roots[-1] - found.roots[0])[[0, 2]]
+    assert way.max() < 0.02
+
+
+@pytest.mark.parametrize("name", ON_THE_SPOT)
+def test_frames_follow_each_other_and_the_first_follows_the_last(name):
+    body = packaged("female")
+    found = moving(body, name)
+    bodies = np.stack([found.vertices(frame) for frame in range(len(found.shapes))])
+    steps = np.linalg.norm(np.diff(np.concatenate([bodies, bodies[:1]]), axis=0), axis=2)
+    assert steps.max() < 0.25
+    assert steps[-1].max() <= 1.05 * steps.max()
+
+
+@pytest.mark.parametrize("gender", GENDERS)
+def test_who_squats_keeps_the_balance_with_level_thighs(gender):
+    body = packaged(gender)
+    found = moving(body, "squat")
+    soles = sole_vertices(body.model)
+    heights = [found.vertices(frame)[:, 1].max() for frame in range(len(found.shapes))]
+    assert min(heights) < 0.75 * max(heights)
+    for frame in range(0, len(found.shapes), 4):
+        vertices = found.vertices(frame)
+        on_ground = vertices[soles][vertices[soles, 1] < 0.01]
+        centre = centre_of_volume(vertices, body.model.triangles)
+        assert on_ground[:, 2].min() < centre[2] < on_ground[:, 2].max()
+        assert on_ground[:, 0].min() < centre[0] < on_ground[:, 0].max()
+
+
+def test_who_waves_has_the_right_hand_beside_the_head_and_moves_it_to_and_fro():
+    body = packaged("male")
+    found = moving(body, "wave")
+    hand = np.unique(
+        body.model.triangles[body.model.part_of_triangle == body.rig.index("right_hand")]
+    )
+    places = np.stack(
+        [found.vertices(frame)[hand].mean(axis=0) for frame in range(len(found.shapes))]
+    )
+    swinging = places[places[:, 1] > 0.85 * found.vertices(0)[:, 1].max()]
+    assert len(swinging) > 0.4 * len(places)
+    assert np.ptp(swinging[:, 0]) > 0.2
+    turns = np.diff(np.sign(np.diff(swinging[:, 0])))
+    assert np.count_nonzero(turns) >= 5
+
+
+def test_who_turns_goes_once_round_to_the_left():
+    facing = rotation_matrices(motion_of(packaged("male"), "turn").poses[:, 0])[:, :, 2]
+    angles = np.unwrap(np.arctan2(facing[:, 0], facing[:, 2]))
+    assert (np.diff(angles) > -1e-9).all()
+    assert angles[-1] == pytest.approx(2.0 * np.pi, abs=0.05)
+
+
+def test_jumps_are_falls():
+    motion = motion_of(packaged("male"), "jumping_jack")
+    highest = STANDARD_GRAVITY * JUMP_S**2 / 8.0
+    assert motion.lifts_m.max() == pytest.approx(highest, rel=0.05)
+    fall = np.diff(motion.lifts_m, 2) / motion.frame_time_s**2
+    in_air = (motion.lifts_m[:-2] > 0) & (motion.lifts_m[1:-1] > 0) & (motion.lifts_m[2:] > 0)
+    np.testing.assert_allclose(fall[in_air], -STANDARD_GRAVITY, rtol=1e-6)

@@ -1,0 +1,95 @@
+"""Where an outline may be that of something else, on drawn boxes."""
+
+import numpy as np
+import pytest
+
+from fitter.evidence.doubtful_outline import AROUND_M, OFF_M, THING_M, doubtful_outline
+from fitter.evidence.edge_cost import EdgeCostMap
+from fitter.evidence.silhouette_evidence import silhouette_evidence
+from tests.unit.evidence.drawn_pictures import HEIGHT, PIXELS_PER_METRE, SKIN, WALL, WIDTH, boxes
+
+BODY = (130.0, 190.0)
+THING = np.array([0.2, 0.3, 0.7], dtype=np.float32)
+rows, columns = np.indices((HEIGHT, WIDTH))
+OFF_PX, AROUND_PX = OFF_M * PIXELS_PER_METRE, AROUND_M * PIXELS_PER_METRE
+
+
+def body() -> np.ndarray:
+    return boxes(BODY)[0].silhouette
+
+
+def block(top: int, bottom: int, left: int, right: int) -> np.ndarray:
+    return (rows >= top) & (rows < bottom) & (columns >= left) & (columns < right)
+
+
+def shown(person: np.ndarray, *things: np.ndarray) -> np.ndarray:
+    display = np.where(person[..., None], SKIN, WALL).astype(np.float32)
+    for thing in things:
+        display[thing] = THING
+    return display
+
+
+def doubtful(
+    mask: np.ndarray,
+    display: np.ndarray,
+    confidence: np.ndarray | None = None,
+    cloth: np.ndarray | None = None,
+) -> np.ndarray:
+    return doubtful_outline(silhouette_evidence(mask, confidence, cloth), boxes(BODY)[0], display)
+
+
+@pytest.mark.parametrize("change_px", [0, 3])
+def test_an_outline_near_the_body_is_not_doubted(change_px: int):
+    assert change_px < OFF_PX
+    tall = np.flatnonzero(body().any(axis=1))
+    wider = block(tall[0], tall[-1] + 1, 130 - change_px, 190 + change_px)
+    assert not doubtful(wider, shown(wider)).any()
+
+
+def test_a_thing_before_the_person_is_followed_by_its_colour_from_where_it_sticks_out():
+    thing = block(100, 140, 115, 205)
+    found = doubtful(body() | thing, shown(body(), thing))
+    assert found[thing].all()
+    assert not found[: 100 - int(AROUND_PX) - 1].any()
+    assert not found[141 + int(AROUND_PX) :].any()
+
+
+def test_what_has_the_persons_colours_is_doubted_where_it_sticks_out_alone():
+    arm = block(42, 54, 50, 160)
+    found = doubtful(body() | arm, shown(body() | arm))
+    assert found[arm & (columns < 120)].all()
+    # Farther away than a thing that covers the person reaches, the body has its colour too.
+    assert np.hypot(200 - 54, 190 - 130) > THING_M * PIXELS_PER_METRE
+    assert not found[:, 150:].any()
+
+
+def test_what_is_missing_deep_inside_the_body_is_doubted():
+    bag = block(90, 130, 100, 160)
+    found = doubtful(body() & ~bag, shown(body(), bag))
+    border = block(95, 125, 129, 131)
+    assert found[bag & body() & (columns > 131 + OFF_PX)].all()
+    assert found[border].mean() > 0.5
+    assert not found[160:].any()
+
+
+def test_speckle_and_what_lies_at_hair_and_hands_is_not_doubted():
+    speck, hair = block(100, 103, 200, 203), block(60, 90, 195, 225)
+    sure = np.where(hair, np.float32(0.05), np.float32(1.0))
+    mask = body() | speck | hair
+    assert not doubtful(mask, shown(mask), sure).any()
+    assert doubtful(mask, shown(mask)).any()
+
+
+def test_loose_clothes_may_stand_off():
+    skirt = block(100, 140, 115, 205)
+    mask = body() | skirt
+    assert not doubtful(mask, shown(body(), skirt), cloth=skirt.astype(np.float32)).any()
+
+
+def test_no_outline_and_no_edge_counts_where_there_is_doubt():
+    region = block(0, 100, 0, WIDTH)
+    silhouette = silhouette_evidence(body()).doubting(region)
+    np.testing.assert_array_equal(silhouette.doubtful, region)
+    np.testing.assert_array_equal(silhouette.confidence, np.where(region, 0.0, 1.0))
+    edges = EdgeCostMap(cost=np.full((HEIGHT, WIDTH), 0.25, dtype=np.float32)).without(region)
+    np.testing.assert_array_equal(edges.cost, np.where(region, np.float32(1.0), np.float32(0.25)))
