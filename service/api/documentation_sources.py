@@ -19,7 +19,10 @@ from service.api.problems import not_found
 from service.api.security_headers import STATIC_SITE
 
 SOURCES: Final = Path(__file__).parents[1] / "docs"
-PICTURES: Final = (".jpg", ".png", ".svg", ".webp")
+PICTURES: Final = ("service/demo_data", "fitter/measurement/atlas")
+"""Folders of the clone whose pictures pages show: others may hold pictures of people."""
+
+ENDINGS: Final = (".jpg", ".png", ".svg", ".webp")
 
 _FRONT_MATTER: Final = re.compile(r"\A---\n.*?\n---\n", re.DOTALL)
 _DIRECTIVE: Final = re.compile(r"^```\{(\w[\w-]*)\}(.*?)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -64,8 +67,10 @@ class SourceSite:
 
     def page(self, name: str) -> str | None:
         """The page of this name, without an ending, as HTML; None if there is none."""
-        source = (self._sources / f"{name}.md").resolve()
-        if not source.is_relative_to(self._sources.resolve()) or not source.is_file():
+        address = f"{self._path}/{name}.html"
+        pages = self._sources.rglob("*.md")
+        source = next((each for each in pages if self._address(each) == address), None)
+        if source is None:
             return None
         body = _HEADING.sub(_anchored, self._markdown.render(self._text(source)))
         title = html.escape(self._title(source))
@@ -78,10 +83,10 @@ class SourceSite:
         )
 
     def picture(self, name: str) -> Path | None:
-        """A picture of the repository that pages show."""
-        file = (self._root / name).resolve()
-        is_shown = file.is_relative_to(self._root.resolve()) and file.suffix in PICTURES
-        return file if is_shown and file.is_file() else None
+        """A picture that pages show, by its path in the clone; None if there is none."""
+        files = (each for folder in PICTURES for each in (self._root / folder).iterdir())
+        shown = (each for each in files if each.suffix in ENDINGS)
+        return next((each for each in shown if str(each.relative_to(self._root)) == name), None)
 
     def _text(self, source: Path) -> str:
         text = _CARD.sub(r"\n**\1.**", _FRONT_MATTER.sub("", source.read_text()))

@@ -9,7 +9,7 @@ import httpx
 import pytest
 from fastapi import FastAPI
 
-from service.api import documentation
+from service.api import documentation, documentation_sources
 from service.api.problems import install_problem_handlers
 
 Get = Callable[..., httpx.Response]
@@ -118,7 +118,23 @@ def test_every_page_of_the_sources_is_shown_and_every_link_leads_somewhere(clone
 
 @pytest.mark.parametrize(
     "path",
-    ["../../README.html", "%2e%2e/%2e%2e/README.html", "files/service/cli.py", "files/x.png"],
+    [
+        *("../../README.html", "%2e%2e/%2e%2e/README.html", "files/service/cli.py", "files/x.png"),
+        *("%00.html", "files/%00.png", f"{300 * 'long'}.html", f"files/{300 * 'long'}.png"),
+    ],
 )
 def test_a_clone_shows_pages_and_their_pictures_alone(clone: Get, path: str):
     assert clone(f"/documentation/{path}").status_code == 404
+
+
+def test_a_clone_shows_no_pictures_but_those_of_its_pages(tmp_path: Path):
+    shown, other = tmp_path / documentation_sources.PICTURES[0], tmp_path / "maquette-fit"
+    sources = tmp_path / "service" / "docs"
+    for folder in (sources, other, *(tmp_path / each for each in documentation_sources.PICTURES)):
+        folder.mkdir(parents=True)
+    (sources / "index.md").write_text("# Maquette")
+    for folder in (shown, other):
+        (folder / "overlay.png").write_bytes(b"PNG")
+    clone = getting(tmp_path / "nowhere", sources)
+    assert clone(f"/documentation/files/{documentation_sources.PICTURES[0]}/overlay.png").is_success
+    assert clone("/documentation/files/maquette-fit/overlay.png").status_code == 404
