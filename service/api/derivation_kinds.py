@@ -26,15 +26,12 @@ from api_schemas.derivation_kinds.size import SizeOptions, SizeResult
 from api_schemas.derivation_kinds.texture import TextureColours, TextureOptions, TextureResult
 from service.api.derivation_parts import ATLAS, BVH, TABLE, FormPart
 from service.jobs.inputs import (
-    ALBEDO,
     IMAGE,
     OF_EACH_FIT,
-    OTHER_OVERLAYS,
     OVERLAY,
     PERSON,
     RESULT,
     SEGMENTATION,
-    SHADING,
     TAPES,
 )
 
@@ -88,7 +85,7 @@ def _of_measurements(_: AnyDerivationOptions) -> Needs:
 
 
 def _of_report(_: ReportOptions) -> Needs:
-    return Needs(of_fit=(RESULT, PERSON, OVERLAY, TAPES, ALBEDO, SHADING, *OTHER_OVERLAYS))
+    return Needs(of_fit=(RESULT, PERSON, OVERLAY, TAPES))
 
 
 def _of_figure(_: FigureOptions) -> Needs:

@@ -20,8 +20,6 @@ PERSON: Final = "person.npz"
 SEGMENTATION: Final = "segmentation.png"
 OVERLAY: Final = "overlay.png"
 BODY_POSED: Final = "body_posed.glb"
-ALBEDO: Final = "albedo.png"
-SHADING: Final = "shading.png"
 TAPES: Final = "tapes.json"
 SANDBOX: Final = "sandbox"
 """What a sandbox was asked to make of the job (:mod:`service.jobs.sandbox`)."""
@@ -100,11 +98,8 @@ OF_EACH_FIT: Final = (
 )
 """What a combined body has copies of, of every fit or scan, so far as it is there."""
 
-OTHER_OVERLAYS: Final = tuple(file_of(OVERLAY, number) for number in range(1, MOST_VIEWS))
-"""Those of a scan's views besides the first; no fit has any."""
-
 OF_FIRST_VIEW: Final[Mapping[str, str]] = {IMAGE: image_of(0), MASK: mask_of(0)} | {
-    name: file_of(name, 0) for name in (OVERLAY, SEGMENTATION, ALBEDO, SHADING)
+    name: file_of(name, 0) for name in (OVERLAY, SEGMENTATION)
 }
 """What a scan has where a fit has its picture and what was made of it; the person of ``person.npz``
 stands in the first one too."""

@@ -8,6 +8,7 @@ from typing import Final
 
 from api_schemas.derivation_kinds.report import ReportOptions
 from api_schemas.results import (
+    WITHIN_95,
     Assumption,
     CameraResult,
     Finding,
@@ -31,9 +32,6 @@ from service.worker.derived.report.wording import (
     warning_in_words,
 )
 from service.worker.derived.report.wordings import WORDINGS
-
-WITHIN_95: Final = 1.96
-"""Standard errors on either side of a value that make a 95 % interval."""
 
 DIAGONAL_35MM: Final = 43.27
 """Diagonal of the 24 x 36 mm frame, to which the 35 mm equivalent of a focal length refers."""

@@ -123,10 +123,9 @@ def _chief(canvas: Canvas, content: ReportContent, top: float) -> float:
     rows, table = content.measurements, content.wording.table
     half = (WIDTH - GUTTER) / 2
     if not rows:
-        _fill(
-            canvas, [Paragraph(_text(table.withheld), TEXT)], (MARGIN, top - 8 * mm, WIDTH, 8 * mm)
-        )
-        return 8 * mm
+        box = (MARGIN, top - WITHHELD_HEIGHT, WIDTH, WITHHELD_HEIGHT)
+        _fill(canvas, [Paragraph(_text(table.withheld), TEXT)], box)
+        return WITHHELD_HEIGHT
     middle = (len(rows) + 1) // 2
     for number, part in enumerate((rows[:middle], rows[middle:])):
         if part:
