@@ -37,7 +37,9 @@ STYLE: Final = """
 :root { color-scheme: light dark; font: 16px/1.55 system-ui, sans-serif; }
 body { display: grid; grid-template-columns: 15rem minmax(0, 52rem); gap: 3rem; }
 body { margin: 0 auto; max-width: 72rem; padding: 1.5rem; }
-nav { font-size: 0.9rem; }
+nav { font-size: 0.9rem; grid-column: 1; grid-row: 1; }
+main { grid-column: 2; }
+.to-pages { display: none; }
 nav p { margin: 1.2rem 0 0.3rem; opacity: 0.7; }
 nav a { display: block; padding: 0.15rem 0; }
 a { color: light-dark(#0b57d0, #8ab4f8); text-decoration: none; }
@@ -48,7 +50,7 @@ code { font-size: 0.88em; }
 table { border-collapse: collapse; display: block; overflow-x: auto; }
 td, th { border-bottom: 1px solid light-dark(#ddd, #444); padding: 0.35rem 0.8rem 0.35rem 0; }
 td, th { text-align: left; vertical-align: top; }
-@media (max-width: 50rem) { body { display: block; } }
+@media (max-width: 50rem) { body, .to-pages { display: block; } }
 """
 
 
@@ -79,7 +81,9 @@ class SourceSite:
             '<meta name="viewport" content="width=device-width, initial-scale=1">'
             f'<title>{title}</title><link rel="icon" href="data:,">'
             f'<link rel="stylesheet" href="{self._path}/style.css">'
-            f"<nav>{''.join(self._navigation())}</nav><main>{body}</main></html>"
+            # Where there is one column, the page comes before the list of all of them.
+            f'<main><a class="to-pages" href="#pages">All pages</a>{body}</main>'
+            f'<nav id="pages">{"".join(self._navigation())}</nav></html>'
         )
 
     def picture(self, name: str) -> Path | None:

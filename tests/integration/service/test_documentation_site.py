@@ -116,6 +116,12 @@ def test_every_page_of_the_sources_is_shown_and_every_link_leads_somewhere(clone
     assert written - generated <= shown
 
 
+def test_a_page_comes_before_the_list_of_all_pages_which_phones_show_below_it(clone: Get):
+    page = clone("/documentation/guide/front_end.html").text
+    assert page.index("<h1 id=") < page.index('<nav id="pages">')
+    assert '<a class="to-pages" href="#pages">' in page
+
+
 @pytest.mark.parametrize(
     "path",
     [
