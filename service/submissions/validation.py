@@ -1,6 +1,7 @@
 """Pydantic's errors as field problems: which field, what is wrong, what to do."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
+from difflib import get_close_matches
 from typing import Any, Final, TypeVar
 
 from pydantic import BaseModel, ValidationError
@@ -63,7 +64,7 @@ def parsed(kind: type[Model], text: bytes, *, whole: str, called: str) -> Model:
     try:
         return kind.model_validate_json(text)
     except ValidationError as error:
-        errors = field_problems(error.errors(), whole=whole)
+        errors = field_problems(error.errors(), whole=whole, names=kind.model_fields)
         if not any(each.code == "invalid-json" for each in errors):
             raise refused(*errors) from error
         first = errors[0]
@@ -80,15 +81,28 @@ def parsed(kind: type[Model], text: bytes, *, whole: str, called: str) -> Model:
 
 
 def field_problems(
-    errors: Sequence[ErrorDetails], *, whole: str = "request"
+    errors: Sequence[ErrorDetails], *, whole: str = "request", names: Collection[str] = ()
 ) -> tuple[FieldProblem, ...]:
-    """Translate validation errors; ``whole`` names what is at fault when no field is."""
-    return tuple(_field_problem(error, whole) for error in errors)
+    """Translate validation errors.
+
+    Parameters
+    ----------
+    errors
+        What pydantic found.
+    whole
+        Names what is at fault when no field is.
+    names
+        The fields there are, to tell which one an unknown field was meant to be.
+    """
+    return tuple(_field_problem(error, whole, names) for error in errors)
 
 
-def _field_problem(error: ErrorDetails, whole: str) -> FieldProblem:
+def _field_problem(error: ErrorDetails, whole: str, names: Collection[str]) -> FieldProblem:
     context: Context = error.get("ctx", {})
     code, remedy = _code_and_remedy(error["type"], context)
+    if code == "unknown-field" and len(error["loc"]) == 1:
+        meant = get_close_matches(str(error["loc"][0]), names, n=1)
+        remedy = f"Remove it, or correct its name: {meant[0]}?" if meant else remedy
     return FieldProblem(
         field=_said_field(context, error["loc"]) or _field(error["loc"]) or whole,
         code=code,
