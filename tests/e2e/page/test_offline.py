@@ -6,6 +6,7 @@ from tests.e2e.page.test_drafts import WOMAN, uploads
 from tests.e2e.page.visitor import LIMBS, Visitor
 
 NO_CONNECTION = "You are offline."
+GOES_ON = "There is no connection. The service goes on"
 
 
 def test_offline_is_said_and_all_is_sent_once_it_is_over(visitor: Visitor):
@@ -46,3 +47,21 @@ def test_a_service_that_does_not_answer_is_tried_again(visitor: Visitor):
     assert answer.value.ok
     expect(page.get_by_text(NO_CONNECTION)).to_have_count(0)
     assert uploads(visitor) >= 2
+
+
+def test_a_fit_whose_news_breaks_off_is_shown_once_there_is_a_connection_again(visitor: Visitor):
+    page = visitor.page
+    visitor.open_sample(with_points=True)
+    visitor.wait_for_whole_picture()
+    page.route("**/v1/fits/*/events", lambda route: route.abort())
+    page.route("**/v1/fits/*/cancel", lambda route: route.abort())
+    visitor.let_fits_take_minutes()
+    visitor.submit()
+    expect(page.get_by_text(GOES_ON)).to_be_visible()
+    page.get_by_role("button", name="Cancel").click()
+    expect(page.get_by_role("button", name="Cancel")).to_be_enabled()
+    page.unroute("**/v1/fits/*/events")
+    page.unroute("**/v1/fits/*/cancel")
+    expect(page.get_by_text(GOES_ON)).to_have_count(0)
+    page.get_by_role("button", name="Cancel").click()
+    expect(page.get_by_role("heading", name="The fit was canceled")).to_be_visible()

@@ -33,6 +33,13 @@ test("what the picture contradicts is poor, whatever the overlap", () => {
   assert.equal(gradeOf({ ...FOUND, outcome: "poor_fit", silhouette_overlap: 0.8 }), "poor");
 });
 
+test("a body that covers the person, in a picture that contradicts it, is not blamed on its overlap", () => {
+  const { grade, text } = qualityOf(ofOne({ ...FOUND, verdict: "implausible" }));
+  assert.equal(grade, "poor");
+  assert.doesNotMatch(text, /overlap|%/);
+  assert.match(qualityOf(ofOne({ ...FOUND, verdict: "implausible", silhouette_overlap: 0.7 })).text, /only 70%/);
+});
+
 test("several pictures agree only where the result says so", () => {
   const { grade, text, agreement } = qualityOf(SEVERAL);
   assert.equal(grade, "good");

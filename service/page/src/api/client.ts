@@ -1,5 +1,5 @@
 // One way to ask the service: same origin, key if there is one, problems as errors.
-import { UNREACHABLE, isReached } from "./connection";
+import { UNREACHABLE, isReached, pause, pauseMs } from "./connection";
 import { accepted, apiKey, askForKey } from "./key";
 import type { Problem } from "./types";
 
@@ -38,6 +38,22 @@ export function jsonBody(value: unknown): RequestInit {
     headers: { "Content-Type": "application/json" },
     body: JSON.stringify(value),
   };
+}
+
+/** Ask, and while the service is not reached, ask again after ever longer pauses. */
+export async function untilReached<T>(ask: () => Promise<T>, leaving: AbortSignal): Promise<T> {
+  for (let attempts = 0; ; attempts++) {
+    try {
+      return await ask();
+    } catch (error) {
+      if (leaving.aborted || !isUnreachable(error)) throw error;
+      await pause(pauseMs(attempts), leaving);
+    }
+  }
+}
+
+export function isUnreachable(error: unknown): boolean {
+  return error instanceof ProblemError && error.problem.code === UNREACHABLE;
 }
 
 /** What to tell of any error; null for those that are none (an abandoned request). */

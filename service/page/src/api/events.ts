@@ -1,5 +1,5 @@
 // A job's events to their end, resumed where a connection broke off.
-import { request } from "./client";
+import { request, untilReached } from "./client";
 import { EventParser } from "./sse";
 import type { EventData } from "./types";
 
@@ -9,7 +9,7 @@ export async function* jobEvents(path: string, signal: AbortSignal): AsyncGenera
   let seen = "";
   for (;;) {
     const headers: Record<string, string> = seen === "" ? {} : { "Last-Event-ID": seen };
-    const response = await request(path, { headers, signal });
+    const response = await untilReached(() => request(path, { headers, signal }), signal);
     const reader = response.body!.pipeThrough(new TextDecoderStream()).getReader();
     const parser = new EventParser();
     try {

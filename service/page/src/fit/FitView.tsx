@@ -2,7 +2,7 @@
 import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { cancelFit, getAsked, getPicture } from "../api/calls";
-import { problemFrom } from "../api/client";
+import { isUnreachable, problemFrom, untilReached } from "../api/client";
 import type { Fit, FitRef } from "../api/fits";
 import type { Problem } from "../api/types";
 import { person } from "../draft/draft";
@@ -40,21 +40,21 @@ export function FitView({ which }: { which: FitRef }) {
   const isKnown = fit !== undefined;
   useEffect(() => {
     if (!fit) return undefined;
-    let gone = false;
+    const leaving = new AbortController();
     let shown: readonly Picture[] = [];
     const drop = () => shown.forEach(({ url }) => URL.revokeObjectURL(url));
-    openedPictures(fit)
+    untilReached(() => openedPictures(fit), leaving.signal)
       .then((opened) => {
         shown = opened;
-        if (gone) return drop();
+        if (leaving.signal.aborted) return drop();
         pictures.value = opened;
         const { name, element } = opened[0]!;
         // Opened by its link: from now on this browser knows it as well.
         remember({ kind: fit.kind, id, name, startedAt: fit.created_at, thumbnail: thumbnailOf(element) });
       })
-      .catch(fail);
+      .catch((error) => leaving.signal.aborted || fail(error));
     return () => {
-      gone = true;
+      leaving.abort();
       drop();
     };
   }, [id, isKnown]);
@@ -63,8 +63,16 @@ export function FitView({ which }: { which: FitRef }) {
   if (!fit) return <main class="waiting" aria-busy="true" />;
   if (fit.state === "succeeded") return <ResultView fit={fit} pictures={pictures.value} />;
   if (isActive(fit)) {
-    const cancel = () => cancelFit(fit).then(seen, fail);
-    return <Progress fit={fit} pictures={pictures.value} onCancel={() => void cancel()} />;
+    const cancel = async () => {
+      try {
+        seen(await cancelFit(fit));
+        return true;
+      } catch (error) {
+        if (!isUnreachable(error)) fail(error);
+        return false;
+      }
+    };
+    return <Progress fit={fit} pictures={pictures.value} cancel={cancel} />;
   }
   return <Ended fit={fit} pictures={pictures.value} />;
 }

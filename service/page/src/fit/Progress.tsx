@@ -1,6 +1,7 @@
 // A fit on its way: its stages, which picture they are at, and its energies as they go down.
 import { useState } from "preact/hooks";
 import { getAsked } from "../api/calls";
+import { isCutOff } from "../api/connection";
 import type { Fit } from "../api/fits";
 import type { Picture } from "../draft/picture";
 import { assumed } from "../history/store";
@@ -16,10 +17,11 @@ import { readings } from "./watch";
 interface Props {
   readonly fit: Fit;
   readonly pictures: readonly Picture[];
-  readonly onCancel: () => void;
+  /** Whether the service was told. */
+  readonly cancel: () => Promise<boolean>;
 }
 
-export function Progress({ fit, pictures, onCancel }: Props) {
+export function Progress({ fit, pictures, cancel }: Props) {
   const { fit: words } = messages.value;
   const [stopping, setStopping] = useState(fit.cancel_requested);
   const asked = useAsked(fit.id, () => getAsked(fit));
@@ -54,6 +56,11 @@ export function Progress({ fit, pictures, onCancel }: Props) {
                 {fit.view === null ? words.together : words.alone(fit.view + 1)}
               </p>
             )}
+            {isCutOff.value && (
+              <p class="note" role="status">
+                {words.cutOff}
+              </p>
+            )}
             <AssumptionNotes assumptions={assumed.value[fit.id] ?? []} asked={asked?.views[0]?.points ?? null} />
             <ol class="stages">
               {STAGES.map((stage, i) => (
@@ -77,7 +84,7 @@ export function Progress({ fit, pictures, onCancel }: Props) {
             disabled={stopping}
             onClick={() => {
               setStopping(true);
-              onCancel();
+              void cancel().then(setStopping);
             }}
           >
             {stopping ? words.stopping : words.cancel}

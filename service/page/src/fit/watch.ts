@@ -1,6 +1,7 @@
 // Fits that are looked at: where each stands, and its energies as they go down.
 import { signal } from "@preact/signals";
 import { getFit } from "../api/calls";
+import { untilReached } from "../api/client";
 import { jobEvents } from "../api/events";
 import type { FitRef } from "../api/fits";
 import type { EventData, JobState, Problem } from "../api/types";
@@ -36,7 +37,7 @@ export async function watch(which: FitRef, signal: AbortSignal): Promise<void> {
     if (isActive(fit)) seen(fit);
     note(fit.id, data);
   }
-  seen(await getFit(which));
+  seen(await untilReached(() => getFit(which), signal));
 }
 
 function note(id: string, data: EventData): void {

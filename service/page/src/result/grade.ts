@@ -55,6 +55,7 @@ function qualityOfView(view: JudgedView): Quality {
   const { grades } = messages.value.result;
   const overlap = percent(view.silhouette_overlap);
   const grade = gradeOf(view);
+  if (isContradicted(view) && view.silhouette_overlap > GOOD_OVERLAP) return { grade, text: grades.contradicted, agreement: null };
   if (grade !== "fair") return { grade, text: grades[grade](overlap), agreement: null };
   // Where the overlap is good, something else is in doubt, which a note tells.
   const text = view.silhouette_overlap <= GOOD_OVERLAP ? grades.fair(overlap, percent(GOOD_OVERLAP)) : grades.doubted(overlap);

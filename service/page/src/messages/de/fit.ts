@@ -25,6 +25,7 @@ export const fit: Messages["fit"] = {
     attributes: "Bekannte Maße",
   },
   queued: "Die Auswertung wartet",
+  cutOff: "Keine Verbindung zum Dienst. Er rechnet weiter; das Ergebnis sehen Sie, sobald die Verbindung wieder da ist.",
   of: {
     fit: {
       running: "Der Körper wird bestimmt",

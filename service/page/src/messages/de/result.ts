@@ -16,6 +16,7 @@ export const result: Messages["result"] = {
     good: (overlap) => `Gut: Körper und Umriss überdecken sich zu ${overlap}.`,
     fair: (overlap, usual) => `Mittel: Körper und Umriss überdecken sich zu ${overlap}; bei guten Auswertungen zu mehr als ${usual}.`,
     doubted: (overlap) => `Mittel: Körper und Umriss überdecken sich zu ${overlap}, aber lesen Sie die Hinweise darunter.`,
+    contradicted: "Schlecht: Was nicht stimmt, sagen die Hinweise. Verlassen Sie sich nicht auf diesen Körper.",
     poor: (overlap) => `Schlecht: Körper und Umriss überdecken sich nur zu ${overlap}. Verlassen Sie sich nicht auf diesen Körper.`,
   },
   unreliable: "Grau, weil der Körper nicht zum Bild passt: Verlassen Sie sich nicht auf diese Werte.",

@@ -101,8 +101,8 @@ export const answers: Answers = {
     "ambiguous-limb-facing": "The picture fits about as well with some limbs slanting the other way. Say which under “Toward you or away”.",
     "body-outside-picture": "A part of the person is outside the picture. What is not seen is inferred from the rest.",
     "bvh-irregular": null,
-    "chart-gap": null,
-    "chart-overlap": null,
+    "chart-gap": "Between some sizes of the chart there is a gap. A body in it gets the nearer size, where too small counts twice.",
+    "chart-overlap": "Some sizes of the chart overlap. A body in both gets the size whose middle is nearer.",
     "clip-cut": "Only a part of the motion is shown: it is longer than an animation may be.",
     "clothes-not-loose":
       "This looks like underwear or swimwear. If nothing loose covers the body, say that the clothes are close-fitting: girths may be several centimetres too small otherwise.",

@@ -23,6 +23,7 @@ export const fit = {
     attributes: "Known measures",
   },
   queued: "Waiting for its turn",
+  cutOff: "There is no connection. The service goes on; you see the result when the connection is back.",
   /** What a fit of one picture, and one of several (a scan), are called. */
   of: {
     fit: {

@@ -15,6 +15,7 @@ export const result = {
     good: (overlap: string) => `Good: body and outline overlap by ${overlap}.`,
     fair: (overlap: string, usual: string) => `Fair: body and outline overlap by ${overlap}; good fits reach more than ${usual}.`,
     doubted: (overlap: string) => `Fair: body and outline overlap by ${overlap}, but read the notes.`,
+    contradicted: "Poor: the notes say what is wrong. Do not rely on this body.",
     poor: (overlap: string) => `Poor: body and outline overlap by only ${overlap}. Do not rely on this body.`,
   },
   unreliable: "Shown in grey because the body does not fit the picture. Do not rely on these values.",
