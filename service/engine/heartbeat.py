@@ -42,6 +42,7 @@ class Heartbeat:
         executions: Executions,
         slots: WorkerSlots,
         is_able: Callable[[], bool],
+        monotonic: Callable[[], float] = time.monotonic,
     ) -> None:
         self._database = database
         self._executor_id = executor_id
@@ -50,6 +51,7 @@ class Heartbeat:
         self._executions = executions
         self._slots = slots
         self._is_able = is_able
+        self._monotonic = monotonic
         self._watch = WorkerWatch(dead_after_s=dead_after_s)
         self._process = this_process()
         self._stopped = threading.Event()
@@ -153,7 +155,7 @@ class Heartbeat:
         """
         not_begun = set(self._slots.not_begun())
         dropped = (self._claims.held() - set(self._slots.held())) | not_begun
-        now = time.monotonic()
+        now = self._monotonic()
         self._dropped_since = {each: self._dropped_since.get(each, now) for each in dropped}
         for job_id, since in list(self._dropped_since.items()):
             if now - since >= DROPPED_AFTER_S:

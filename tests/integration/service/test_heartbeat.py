@@ -2,7 +2,6 @@
 
 import contextlib
 import threading
-import time
 from collections.abc import Iterator
 from typing import Any
 
@@ -11,27 +10,27 @@ import sqlalchemy as sa
 from sqlalchemy import event
 from sqlalchemy.exc import OperationalError
 
-from service.engine import heartbeat
 from service.engine.claims import Claims
 from service.engine.database import open_database, prepare_database
 from service.engine.executions import Executions
-from service.engine.heartbeat import Heartbeat
+from service.engine.heartbeat import DROPPED_AFTER_S, Heartbeat
 from service.engine.worker_slots import WorkerSlots
 from tests.integration.service.harness import Machine, eventually
 from tests.stored_jobs import insert_job
-
-DROPPED_AFTER_S = 1.0
-BEATS_S = 0.3
-"""Longer than several beats, and shorter than what is dropped is left."""
 
 AWAY = OperationalError("SELECT 1", {}, ConnectionError("The server is away."))
 
 
 class Worker:
-    """A worker that has claimed a job which has not begun, and its heartbeat."""
+    """A worker that has claimed a job which has not begun, and its heartbeat.
+
+    Time is what ``now_s`` says.
+    """
 
     def __init__(self, database: sa.Engine) -> None:
         self.database = database
+        self.now_s = 0.0
+        self.beats = 0
         with database.begin() as connection:
             insert_job(connection, "job", turn=1)
         self.claims = Claims(database, executor_id="worker", retention_s=60.0)
@@ -44,12 +43,22 @@ class Worker:
             claims=self.claims,
             executions=Executions(database),
             slots=self.slots,
-            is_able=lambda: True,
+            is_able=self._count,
+            monotonic=lambda: self.now_s,
         )
         self.heartbeat.register()
         assert self.claims.take(1) == ["job"]
         self.slots.take("job")
         self.heartbeat.start()
+
+    def _count(self) -> bool:
+        self.beats += 1
+        return True
+
+    def beat(self) -> None:
+        """Wait until all has been done once that a heartbeat does."""
+        before = self.beats
+        eventually(lambda: self.beats >= before + 2, what="a whole heartbeat")
 
     @contextlib.contextmanager
     def no_database(self) -> Iterator[None]:
@@ -69,8 +78,7 @@ class Worker:
 
 
 @pytest.fixture
-def worker(embedded: Machine, monkeypatch: pytest.MonkeyPatch) -> Iterator[Worker]:
-    monkeypatch.setattr(heartbeat, "DROPPED_AFTER_S", DROPPED_AFTER_S)
+def worker(embedded: Machine) -> Iterator[Worker]:
     url = f"sqlite:///{embedded.data_dir / 'maquette.sqlite'}"
     prepare_database(url)
     database = open_database(url)
@@ -81,16 +89,21 @@ def worker(embedded: Machine, monkeypatch: pytest.MonkeyPatch) -> Iterator[Worke
 
 
 def test_a_job_that_does_not_begin_is_put_back(worker: Worker):
-    eventually(lambda: not worker.claims.held(), what="the job is put back")
+    worker.beat()
+    assert worker.claims.held() == {"job"}
+    worker.now_s = DROPPED_AFTER_S
+    worker.beat()
+    assert not worker.claims.held()
     assert worker.slots.held() == ()
 
 
 def test_a_job_that_could_not_begin_while_the_database_was_away_is_kept(worker: Worker):
-    time.sleep(BEATS_S)
+    worker.beat()
     with worker.no_database():
-        time.sleep(1.5 * DROPPED_AFTER_S)
-    time.sleep(BEATS_S)
+        worker.now_s = 2.0 * DROPPED_AFTER_S
+    worker.beat()
     assert worker.claims.held() == {"job"}
     worker.slots.begin("job")
-    time.sleep(1.5 * DROPPED_AFTER_S)
+    worker.now_s = 4.0 * DROPPED_AFTER_S
+    worker.beat()
     assert worker.claims.held() == {"job"}
