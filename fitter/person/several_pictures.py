@@ -219,7 +219,7 @@ def _check_kinds(people: Sequence[FittedPerson]) -> None:
             raise _unusable(
                 index,
                 "The fit does not say how certain its shape is.",
-                "Fit the picture again.",
+                "Fit the picture again, without `paper`.",
             )
         if (person.gender, person.model_checksum) != (first.gender, first.model_checksum):
             raise _unusable(

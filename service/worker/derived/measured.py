@@ -51,7 +51,9 @@ def measured_person(
     person, _ = person_and_operators(inputs[PERSON], models)
     if person.shape_covariance is None:
         raise _unusable(
-            field, "The fit does not say how certain its shape is.", "Fit the picture again."
+            field,
+            "The fit does not say how certain its shape is.",
+            "Fit the picture again, without `paper`.",
         )
     given = [each for each in told.measurements if each.given]
     return MeasuredPerson(

@@ -156,3 +156,12 @@ def test_a_fit_of_another_gender_is_nobody_s_earlier_one():
     with pytest.raises(UnusableInputError) as caught:
         derived(kind="change", since=FITS[0], files={of_other(PERSON, 0): man.to_bytes()})
     assert (caught.value.error.code, caught.value.error.field) == ("fits-unusable", "since")
+
+
+@pytest.mark.parametrize("kind", ["size", "change", "combined"])
+def test_of_a_fit_by_the_papers_method_which_states_no_errors_the_remedy_is_another_fit(kind: str):
+    unsure = replace(person(), shape_covariance=None).to_bytes()
+    with pytest.raises(UnusableInputError) as caught:
+        derived(kind=kind, files={PERSON: unsure}, **NEEDED[kind])
+    assert caught.value.error.code == "fits-unusable"
+    assert "without `paper`" in caught.value.error.remedy
