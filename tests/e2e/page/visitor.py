@@ -28,7 +28,7 @@ SETTLED = {"reduced_motion": "reduce"}
 SAMPLE_SIZE = (720, 960)
 SAMPLES = {"At ease": "sample", "Upright": "woman", "An arm across": "arm_across"}
 STAGE_MARGIN = 16
-GIVEN_UP_AFTER_MS = 25_000
+GIVEN_UP_AFTER_MS = 60_000
 """Guards against hanging, on machines that are busy: what is there is not waited for."""
 
 FIT_WITHIN_MS = 900_000

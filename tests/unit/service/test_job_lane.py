@@ -93,11 +93,11 @@ def test_without_a_job_it_ends():
 
 
 def test_one_that_was_taken_is_not_ended_for_having_waited():
-    kept = lane(jobs=50, kept_s=0.05)
+    kept = lane(jobs=50, kept_s=0.5)
     first, process, _ = new_child()
     kept.keep(first, SHOP)
     assert kept.take(SHOP) is first
-    time.sleep(0.2)
+    time.sleep(0.7)
     assert process.is_running
 
 
