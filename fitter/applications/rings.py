@@ -118,6 +118,7 @@ def _of_vertices(model: BodyModel, triangles: Bool[np.ndarray, " f"]) -> Float[n
 def _beside(
     vertices: Float[np.ndarray, "m 3"], trunk: Bool[np.ndarray, " m"]
 ) -> Float[np.ndarray, " m"]:
+    """How far vertices lie beside the middle, of the trunk's widest at their height."""
     level = np.floor(vertices[:, 1] / _LEVEL_M).astype(np.intp)
     level -= level.min()
     widest = np.full(level.max() + 1, 1e-3)

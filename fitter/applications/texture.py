@@ -216,7 +216,7 @@ def _texture(
 
 def _hidden_colours(
     sides: BothSides,
-    no_face: Float[np.ndarray, " v"],
+    no_face: Float[np.ndarray, " m"],
     size: int,
     points: SurfacePoints,
     found: Colours,

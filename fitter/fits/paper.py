@@ -204,20 +204,20 @@ def _with_shading(
         return found
     now, evaluations, still = first, found.evaluations, False
     minimum = found.minimum
+    last = len(SMOOTHNESS_SCHEDULE) - 1
     for number in range(MOST_ROUNDS):
-        last = number >= len(SMOOTHNESS_SCHEDULE) - 1
         state = next_shading(
             view,
             now,
             state,
-            smoothness=SMOOTHNESS_SCHEDULE[-1] if last else SMOOTHNESS_SCHEDULE[number],
+            smoothness=SMOOTHNESS_SCHEDULE[min(number, last)],
             light_is_new=number == 0,
         )
         minimum = search(with_shading(objective, [state]), [now])
         evaluations += minimum.evaluations
         before, (now,) = now, minimum.candidate.views
         still = _moved_m(before, now) < STILL_M
-        if last and still:
+        if still and number >= last:
             break
     return replace(
         found,

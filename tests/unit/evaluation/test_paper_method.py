@@ -37,17 +37,17 @@ def test_errors_are_absolute_and_their_spread_is_that_of_people():
 @pytest.mark.slow
 def test_additions_are_energies_of_their_own(monkeypatch: pytest.MonkeyPatch):
     """What was added for one method is gone for the next."""
-    seen: list[tuple[frozenset[str], bool]] = []
+    seen: list[frozenset[str]] = []
     plain = paper.of_person
 
     def looked_at(known, views):
-        seen.extend((view.counted, False) for view in views if view.counted is not None)
+        seen.extend(view.counted for view in views if view.counted is not None)
         return plain(known, views)
 
     monkeypatch.setattr(paper, "of_person", looked_at)
     errors = method_errors("woman_young_heavy_standing")
     assert len(errors) == len(METHODS) * len(Cues)
-    counts = [counted >= ADDED_TERMS for counted, _ in seen]
+    counts = [counted >= ADDED_TERMS for counted in seen]
     # Each of four methods asks for E1 and for E2; two of them count the clicks and the priors.
     assert counts == [False] * 4 + [True] * 4
     by = {(each.method, each.cues): each.errors["weight"] for each in errors}
