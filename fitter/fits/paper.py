@@ -85,7 +85,7 @@ _NO_BONES: Final = np.zeros((0, 2, 2))
 _DIFFERENCES: Final = (
     "The body models are learned from MakeHuman's bodies, not from laser scans.",
     "Shapes are compared by vertices and four measurements, not by triangles' deformations.",
-    "The search moves 4,800 of the 12,440 vertices and compares the shading of 3,800.",
+    "The search moves 4,800 to 4,900 of 12,440 vertices, and compares 3,800 to 3,900 by shading.",
     "The best reading of the clicks by joint limits is refined on the clicks before the search.",
     "The tri-map's band is 5 % of the picture's width, within 4 to 8 % of the person's size.",
     "GrabCut learns its first colours from the pixels that the tri-map is sure of.",

@@ -16,7 +16,7 @@ from fitter.render.contours import model_edges
 from fitter.render.rasterizer import render
 from fitter.request import Choices, FitRequest, Paper
 from fitter.result import FitResult
-from fitter.vocabulary.choices import Cues, OptimizerKind, PaperEnergy
+from fitter.vocabulary.choices import Cues, Gender, OptimizerKind, PaperEnergy
 from tests.benchmarks.requests import resized
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import read_case
@@ -142,6 +142,15 @@ def test_the_height_is_held_unless_it_is_free(by_outline: FitResult):
 def test_the_result_says_what_still_differs(by_outline: FitResult):
     assert all(each.endswith(".") for each in by_outline.differences)
     assert any("Gauss-Newton" in each for each in by_outline.differences)
+    (vertices,) = (each for each in by_outline.differences if "vertices, and" in each)
+    for gender in Gender:
+        prepared = prepared_model(gender)
+        whole, searched = (
+            len(each.model.mean_vertices) for each in (prepared.operators, prepared.searched)
+        )
+        shaded = len(prepared.searched.shaded.vertices)
+        for count in (whole, round(searched, -2), round(shaded, -2)):
+            assert f"{count:,}" in vertices
 
 
 def test_the_simplex_lowers_the_same_energy(monkeypatch: pytest.MonkeyPatch):
