@@ -10,8 +10,9 @@ from fitter.body.pose_prior import pose_prior
 from fitter.body.scape import ScapeEvaluator
 from fitter.body.skeleton import regress
 from fitter.export.display import to_levels
+from fitter.fits.pipeline import PACKAGED
 from fitter.fits.prepared_model import prepared_model
-from fitter.observation.completion import scaled_clicks
+from fitter.observation.observation import observe
 from fitter.parameters import BodyParameters
 from fitter.pose_init.click_problem import click_problem
 from fitter.pose_init.head import turn_head
@@ -46,9 +47,10 @@ def figure_2(request: FitRequest, result: FitResult) -> Figure:
     (view,), (found,) = request.views, result.views
     prepared = prepared_model(request.person.gender)
     evaluator, camera = prepared.operators.evaluator, found.camera
-    scale = camera.focal_length_px / found.found.person.camera.focal_length_px
-    named = scaled_clicks(view.clicks, scale)
-    clicks = clicked_points(named)
+    observation = observe(
+        view, max_pixels=request.choices.max_pixels, detector=PACKAGED.detector_for(view)
+    )
+    clicks = clicked_points(observation.clicks)
     shape = result.stages[0].bodies[0].body.shape
     refined = initialize_pose(
         evaluator, camera=camera, clicks=clicks, shape=shape, limb_facing=view.limb_facing

@@ -13,6 +13,7 @@ from fitter.evidence.intensity import IntensityMap, intensity_map
 from fitter.export.antialiasing import render_finely, vertex_pictures
 from fitter.export.display import to_levels
 from fitter.fits.picture_objective import silhouette_and_edges
+from fitter.fits.pipeline import PACKAGED
 from fitter.fits.prepared_model import prepared_model
 from fitter.numerics.meshes import vertex_areas
 from fitter.observation.observation import observe
@@ -142,9 +143,9 @@ def refit(request: FitRequest, result: FitResult, specular_exponent: float | Non
     (view,), light = result.views, result.person.light
     assert light is not None
     prepared = prepared_model(request.person.gender)
+    (asked,) = request.views
     observation = observe(
-        replace(request.views[0], complete_clicks=False),
-        max_pixels=request.choices.max_pixels,
+        asked, max_pixels=request.choices.max_pixels, detector=PACKAGED.detector_for(asked)
     )
     mask = view.pictures.segmentation
     objective = silhouette_and_edges(

@@ -13,14 +13,17 @@ FIGURES = ("2", "3", "4", "5", "6", "7", "8", "8_ours", "9", "10")
 
 
 def test_every_figure_and_the_table_are_drawn(tmp_path):
-    """Also of a picture that is given as a painting."""
+    """Of a picture whose points are proposed, and of one that is given as a painting."""
     sample = load_woman()
     (tmp_path / "painting.jpg").write_bytes(sample.image)
     (tmp_path / "painting.json").write_bytes(sample.request)
     out = tmp_path / "out"
+    proposed = json.loads(sample.request) | {"points": "auto"}
+    (tmp_path / "proposed.json").write_text(json.dumps(proposed))
     painting = ["--painting", str(tmp_path / "painting.jpg"), str(tmp_path / "painting.json")]
+    picture = ["--picture", str(tmp_path / "painting.jpg"), str(tmp_path / "proposed.json")]
     with pytest.raises(SystemExit) as ended:
-        main(["paper", "--output", str(out), *painting])
+        main(["paper", "--output", str(out), *painting, *picture])
     assert ended.value.code == 0
     page = (out / "index.html").read_text()
     for number in FIGURES:
