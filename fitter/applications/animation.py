@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitter.applications.animated_glb import morphed_glb, skinned_glb
-from fitter.applications.cycle import repeated
+from fitter.applications.cycle import motion_of_cycle
 from fitter.applications.filmstrip import film, strip
 from fitter.applications.gltf_skin import skin_of
 from fitter.applications.grounding import grounded, sliding_m
@@ -140,7 +140,7 @@ def motion_of_name(
         wanted = max(1, round(duration_s / cycle.frame_time_s))
     frames = min(wanted, MOST_FRAMES)
     return ChosenMotion(
-        motion=repeated(cycle, rig, first=first, frames=frames),
+        motion=motion_of_cycle(cycle, rig, first=first, frames=frames),
         source=f"the {name.replace('_', ' ')} that ships with the package",
         up=None,
         warnings=_told_if_cut(frames, wanted, cycle.frame_time_s),

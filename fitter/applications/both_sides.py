@@ -10,8 +10,8 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from fitter.applications.seen_surface import Beliefs, Colours, SurfacePoints
-from fitter.applications.surface_field import carried_on
-from fitter.applications.trusted_look import BELIEVED, Look, at_vertices
+from fitter.applications.surface_field import extend_values
+from fitter.applications.trusted_look import BELIEVED, DARKEST, Look, at_vertices
 from fitter.body.model import BodyModel
 
 FORGOTTEN_M = 0.06
@@ -19,9 +19,6 @@ FORGOTTEN_M = 0.06
 
 MOST_RATIO = 0.6
 """Logarithm of the most that light differs by: more is another colour, which is not carried on."""
-
-DARKEST = 0.004
-"""Of linear light; below it noise dominates."""
 
 _CHUNK = 1 << 17
 
@@ -45,7 +42,7 @@ class BothSides:
         """A look, with the difference between the sides where it shows both."""
         colours, seen = look(at_vertices(model))
         both = (seen >= BELIEVED) & (seen[model.mirror] >= BELIEVED)
-        ratios = carried_on_light(model, both, colours, colours[model.mirror])
+        ratios = extend_light(model, both, colours, colours[model.mirror])
         return cls(look=look, model=model, ratios=ratios)
 
     def at(self, points: SurfacePoints) -> tuple[Colours, Beliefs, Beliefs]:
@@ -70,7 +67,7 @@ class BothSides:
         return (seen[:, None] * colours + mirrored[:, None] * other) / total, seen, mirrored
 
 
-def carried_on_light(
+def extend_light(
     model: BodyModel, known: Bool[np.ndarray, " m"], colours: Colours, others: Colours
 ) -> Float[np.ndarray, "m 3"]:
     """Logarithms of what makes other colours of vertices these, as far as light does.
@@ -81,4 +78,4 @@ def carried_on_light(
     lit = known & (np.abs(ratios).max(axis=1) < MOST_RATIO)
     if not lit.any():
         return np.zeros_like(ratios)
-    return carried_on(model, lit, ratios, over_m=FORGOTTEN_M)
+    return extend_values(model, lit, ratios, over_m=FORGOTTEN_M)

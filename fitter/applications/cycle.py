@@ -63,7 +63,7 @@ class Cycle:
         return self.duration_s / self.frames
 
 
-def repeated(cycle: Cycle, rig: Rig, *, first: int = 0, frames: int | None = None) -> Motion:
+def motion_of_cycle(cycle: Cycle, rig: Rig, *, first: int = 0, frames: int | None = None) -> Motion:
     """Frames of a motion without end, from the ``first`` on, on one spot.
 
     Without a number, as often as is usual: the last frame is one before the first, so that they

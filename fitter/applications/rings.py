@@ -13,7 +13,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Integer
 
 from fitter.applications.seen_surface import SurfacePoints
-from fitter.applications.surface_field import smoothed
+from fitter.applications.surface_field import smooth_values
 from fitter.arrays import Vector3
 from fitter.body.model import BodyModel
 from fitter.body.skeleton import regress
@@ -89,7 +89,7 @@ class RingCoordinates:
         fields = np.stack(
             [*(_of_vertices(model, region == each) for each in Region), _features(model)]
         )
-        smooth = np.clip(smoothed(model, fields.T, over_m=BORDER_M).T, 0.0, 1.0)
+        smooth = np.clip(smooth_values(model, fields.T, over_m=BORDER_M).T, 0.0, 1.0)
         shares = smooth[:-1] / smooth[:-1].sum(axis=0)
         return cls(
             region=region,

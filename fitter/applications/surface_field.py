@@ -15,7 +15,7 @@ from fitter.numerics.mesh_topology import mesh_topology
 from fitter.optimizer.hidden_reflectance import HiddenVertices
 
 
-def smoothed(
+def smooth_values(
     model: BodyModel, values: Float[np.ndarray, "m k"], *, over_m: float
 ) -> Float[np.ndarray, "m k"]:
     """Each value as the mean of those around it, whose weight falls by e over a distance."""
@@ -29,7 +29,7 @@ def smoothed(
     return np.asarray(linalg.splu(matrix).solve(ridge[:, None] * values))
 
 
-def carried_on(
+def extend_values(
     model: BodyModel,
     known: Bool[np.ndarray, " m"],
     values: Float[np.ndarray, "m k"],

@@ -13,7 +13,7 @@ import numpy as np
 from jaxtyping import Float, Integer, UInt8
 
 from fitter.applications.atlas import Atlas, atlas_of, drawn_on
-from fitter.applications.both_sides import BothSides, carried_on_light
+from fitter.applications.both_sides import BothSides, extend_light
 from fitter.applications.hidden_colours import LEAST_WEIGHT, ColourProfiles, on_rings
 from fitter.applications.lit_surface import LitSurface
 from fitter.applications.rings import Region, RingCoordinates
@@ -22,9 +22,9 @@ from fitter.applications.trusted_look import (
     BELIEVED,
     Look,
     at_vertices,
+    distrust_hands,
     face_to_leave_out,
-    trusted_look,
-    where_shown,
+    limit_to_shown,
 )
 from fitter.arrays import Image, Mask
 from fitter.body.scape import ScapeEvaluator
@@ -194,7 +194,7 @@ def _texture(
     model = evaluator.model
     atlas = atlas_of(model, size)
     points = SurfacePoints(corners=model.triangles[atlas.triangles], weights=atlas.weights)
-    sides = BothSides.of(where_shown(trusted_look(look, model), surface), model)
+    sides = BothSides.of(limit_to_shown(distrust_hands(look, model), surface), model)
     found, seen, mirrored = sides.at(points)
     no_face = face_to_leave_out(surface, model)
     hidden = _hidden_colours(sides, no_face, size, points, found, seen + mirrored)
@@ -244,7 +244,7 @@ def _hidden_colours(
             reason="The picture shows nothing of the fitted body clearly enough for a texture.",
             remedy="Look at the fit's overlay; mend the clicks and fit again.",
         )
-    light = carried_on_light(model, known, of_vertices, on_rings(rings, profiles, vertices))
+    light = extend_light(model, known, of_vertices, on_rings(rings, profiles, vertices))
     return on_rings(rings, profiles, points) * np.exp(points.of(light))
 
 

@@ -47,11 +47,11 @@ leaves it) is believed, beyond the second it is something else."""
 LEAST_HAND = 0.001
 """Share of a hand from which a vertex counts as one's: regions fade out without an end."""
 
-_DARKEST = 0.004
-# Of linear light; below it noise dominates.
+DARKEST = 0.004
+"""Of linear light; below it noise dominates."""
 
 
-def trusted_look(look: Look, model: BodyModel) -> Look:
+def distrust_hands(look: Look, model: BodyModel) -> Look:
     """Less belief where the picture cannot show the hands."""
     rings = RingCoordinates.of(model)
     vertices = at_vertices(model)
@@ -71,7 +71,7 @@ def trusted_look(look: Look, model: BodyModel) -> Look:
     return trusted
 
 
-def where_shown(look: Look, surface: SeenSurface) -> Look:
+def limit_to_shown(look: Look, surface: SeenSurface) -> Look:
     """The same look, at those points alone that the picture may show; 0 at all others."""
 
     def looked(points: SurfacePoints) -> tuple[Colours, Beliefs]:
@@ -121,5 +121,5 @@ def _skin_of_bare_hands(
 
 def _away(colours: Colours, skin: Vector3) -> Float[np.ndarray, " k"]:
     """How far the ratios of the channels are from skin's."""
-    ratio = np.maximum(colours, _DARKEST) / np.maximum(skin, _DARKEST)
+    ratio = np.maximum(colours, DARKEST) / np.maximum(skin, DARKEST)
     return np.ptp(np.log(ratio.T), axis=0)

@@ -11,7 +11,7 @@ swinging foot stays 18 mm clear of the ground.
 
 import numpy as np
 
-from fitter.applications.cycle import Cycle, Moment, repeated
+from fitter.applications.cycle import Cycle, Moment, motion_of_cycle
 from fitter.applications.motion import Motion
 from fitter.applications.poses import Angles
 from fitter.applications.rig import Rig
@@ -45,7 +45,7 @@ def walk(rig: Rig, *, first: int = 0, frames: int | None = None) -> Motion:
     ``frames`` of a walk without end, from the ``first`` on; frame 0 is a strike of the left heel.
     Without a number, three whole strides.
     """
-    return repeated(stride_of(rig), rig, first=first, frames=frames)
+    return motion_of_cycle(stride_of(rig), rig, first=first, frames=frames)
 
 
 def stride_angles(phase: float) -> dict[str, Angles]:

@@ -29,7 +29,7 @@ from service.engine.port import JobRecord, TenantJobs
 from service.jobs.inputs import RESULT
 from service.representation.csv_tables import CSV, measurements_csv_of
 from service.representation.formats import GLB, MESH_FORMATS, MTL
-from service.representation.results import told_result
+from service.representation.results import result_json
 
 HTML: Final = "text/html"
 BINARY: Final = {"schema": {"type": "string", "format": "binary"}}
@@ -128,7 +128,7 @@ def serve_result(
     document = next((each for each in record.artifacts if each.name == RESULT), None)
     if record.state is not JobState.SUCCEEDED or document is None:
         raise ProblemError(no_result(record))
-    content = told_result(stored_content(context, record, document), kind=kind, included=included)
+    content = result_json(stored_content(context, record, document), kind=kind, included=included)
     tag = hashlib.sha256(content).hexdigest()
     headers = {"ETag": f'"{tag}"'}
     if is_known(tag, if_none_match):

@@ -5,7 +5,7 @@ from pydantic import BaseModel
 from api_schemas.results import ResultPart
 
 
-def told_result(stored: bytes, *, kind: type[BaseModel], included: frozenset[ResultPart]) -> bytes:
+def result_json(stored: bytes, *, kind: type[BaseModel], included: frozenset[ResultPart]) -> bytes:
     """Return the document as JSON without the parts that are not ``included``.
 
     What earlier versions did not write is filled in, and what later ones added passed over.

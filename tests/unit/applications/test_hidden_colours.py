@@ -8,7 +8,7 @@ from fitter.applications.atlas import atlas_of
 from fitter.applications.both_sides import FORGOTTEN_M
 from fitter.applications.rings import Region, RingCoordinates
 from fitter.applications.seen_surface import SurfacePoints
-from fitter.applications.surface_field import carried_on
+from fitter.applications.surface_field import extend_values
 from fitter.applications.texture import TexelOrigin, picture_texture
 from fitter.numerics.rotations import rotation_matrices, rotation_vectors
 from fitter.observation.colour import linear_from_display
@@ -172,7 +172,7 @@ def test_what_is_seen_at_a_border_is_forgotten_by_e_over_its_length(sitter):
     trunk[sitter.model.triangles[sitter.rings.region == Region.TRUNK]] = True
     known = trunk & (height < -0.5)
     values = np.where(known, 1.0, np.nan)[:, None] * np.ones(3)
-    followed = carried_on(sitter.model, known, values, over_m=FORGOTTEN_M)
+    followed = extend_values(sitter.model, known, values, over_m=FORGOTTEN_M)
     shin = trunk & (np.abs(height - (-0.5 + FORGOTTEN_M)) < 0.01)
     assert np.allclose(followed[known], 1.0)
     assert followed[shin].mean() == pytest.approx(np.exp(-1.0), abs=0.1)

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from fitter.applications.cycle import repeated
+from fitter.applications.cycle import motion_of_cycle
 from fitter.applications.grounding import grounded, sliding_m, sole_vertices
 from fitter.applications.motion import moving_body
 from fitter.applications.named_motions import JUMP_S, NAMED_MOTIONS, least_jerk
@@ -16,7 +16,7 @@ ON_THE_SPOT = [name for name in NAMED_MOTIONS if name != "walk"]
 
 def motion_of(body, name):
     cycle = NAMED_MOTIONS[name](body.rig)
-    return repeated(cycle, body.rig, frames=cycle.frames)
+    return motion_of_cycle(cycle, body.rig, frames=cycle.frames)
 
 
 def moving(body, name):

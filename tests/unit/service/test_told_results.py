@@ -4,7 +4,7 @@ import json
 
 from api_schemas.requests import FitOptions
 from api_schemas.results import FitResult, ResultPart
-from service.representation.results import told_result
+from service.representation.results import result_json
 from tests.integration.service.fake_results import fit_result
 from tests.integration.service.harness import REQUEST
 
@@ -13,7 +13,7 @@ STORED = fit_result(FitOptions.model_validate_json(json.dumps(REQUEST)))
 
 def told(document: dict[str, object], *parts: ResultPart) -> dict[str, object]:
     stored = json.dumps(document).encode()
-    return json.loads(told_result(stored, kind=FitResult, included=frozenset(parts)))
+    return json.loads(result_json(stored, kind=FitResult, included=frozenset(parts)))
 
 
 def test_a_stored_document_is_told_whole_where_all_parts_are_asked_for():
