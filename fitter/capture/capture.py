@@ -54,7 +54,7 @@ class Capture:
     is_chosen
         Whether the caller says who is meant, by points or otherwise.
     is_clicked
-        Whether the caller put all points, so that none is proposed.
+        Whether somebody put all points: none is a proposal, not even one that was sent back.
     view
         From where the person is said to be seen; None if nothing is said.
     focal_length_px

@@ -166,7 +166,7 @@ def capture_of_fit(
         body=meant,
         points=observation.clicks,
         is_chosen=bool(points),
-        is_clicked=not view.complete_clicks,
+        is_clicked=all(each.spread_m is None for each in observation.clicks.values()),
         view=view.kind,
         focal_length_px=observation.camera.focal_length_px if known else None,
         height_m=height_m,

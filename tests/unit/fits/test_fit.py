@@ -137,6 +137,19 @@ def test_a_box_before_the_hips_is_told(of_one):
     assert Code.COVERED not in {each.code for each in of_one[0].views[0].findings}
 
 
+@pytest.mark.parametrize(("spread_m", "is_told"), [(None, False), (0.03, True)])
+def test_proposals_that_are_sent_back_are_no_clicks(spread_m, is_told):
+    """Before somebody else the detector's points go astray."""
+    who, other = "man_middle_aged_middling_standing", "woman_young_thin_standing"
+    how = Asked(picture=who, other=other, kind="neighbour behind", proposed=False, seed=0)
+    request = changed(spoilt_request(picture_of(who), how), cues=Cues.SE)
+    clicks = {
+        name: replace(click, spread_m=spread_m) for name, click in request.views[0].clicks.items()
+    }
+    findings = {each.code for each in fit(changed(request, clicks=clicks)).views[0].findings}
+    assert (Code.SEVERAL_PEOPLE in findings) is is_told
+
+
 @pytest.mark.parametrize("segmentation", SegmentationKind)
 def test_every_picture_is_checked_as_before_a_fit(segmentation):
     """Without a detector by the clicks."""
