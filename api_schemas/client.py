@@ -80,14 +80,36 @@ class Maquette:
         """Close its connections."""
         self._client.close()
 
-    def fit(self, picture: Picture, request: Request, *, mask: Picture | None = None) -> Job:
-        """Send one picture, and a mask that is white on the person; the job may have ended."""
-        return self._send("/v1/fits", {"image": picture, "mask": mask}, request, Job)
+    def fit(
+        self,
+        picture: Picture,
+        request: Request,
+        *,
+        mask: Picture | None = None,
+        idempotency_key: str | None = None,
+    ) -> Job:
+        """Send one picture, and a mask that is white on the person; the job may have ended.
 
-    def scan(self, pictures: Sequence[Picture], request: Request) -> Scan:
-        """Send two to six pictures of one person, in the order of the request's ``views``."""
+        The same key with the same content gives the same job, however often it is sent.
+        """
+        parts = {"image": picture, "mask": mask}
+        return self._send("/v1/fits", parts, request, Job, idempotency_key)
+
+    def scan(
+        self,
+        pictures: Sequence[Picture],
+        request: Request,
+        *,
+        masks: Sequence[Picture | None] = (),
+        idempotency_key: str | None = None,
+    ) -> Scan:
+        """Send two to six pictures of one person, in the order of the request's ``views``.
+
+        ``masks`` are in the same order, None for pictures without one; the key as for a fit.
+        """
         parts = {f"image_{number}": picture for number, picture in enumerate(pictures)}
-        return self._send("/v1/scans", parts, request, Scan)
+        parts |= {f"mask_{number}": mask for number, mask in enumerate(masks)}
+        return self._send("/v1/scans", parts, request, Scan, idempotency_key)
 
     def wait_for(
         self, job: AnyJob, *, on_progress: Callable[[AnyJob], None] = lambda _: None
@@ -133,6 +155,7 @@ class Maquette:
         pictures: Mapping[str, Picture | None],
         request: Request,
         kind: type[Model],
+        idempotency_key: str | None,
     ) -> Model:
         asked = (
             request.model_dump_json(exclude_unset=True)
@@ -144,8 +167,10 @@ class Maquette:
             if picture is not None:
                 content = picture.read_bytes() if isinstance(picture, Path) else picture
                 files[name] = (name, content, "application/octet-stream")
-        waiting = {"Prefer": f"wait={WAIT_S}"}
-        return _read(kind, self._call("POST", path, files=files, headers=waiting))
+        headers = {"Prefer": f"wait={WAIT_S}"}
+        if idempotency_key is not None:
+            headers["Idempotency-Key"] = idempotency_key
+        return _read(kind, self._call("POST", path, files=files, headers=headers))
 
     def _call(self, method: str, path: str, **sent: Any) -> httpx.Response:
         answer = self._client.request(method, path, **sent)

@@ -46,6 +46,20 @@ def test_two_pictures_are_one_scan(maquette: Maquette):
     assert [view.view for view in maquette.result(scan).views] == ["front", "side"]
 
 
+def test_a_scan_may_have_a_mask_of_one_picture(maquette: Maquette):
+    pictures = [scripted_image(), scripted_image({"n": 1})]
+    scan = maquette.scan(pictures, SCAN, masks=[None, scripted_image()])
+    assert [each.mask is not None for each in scan.links.views] == [False, True]
+
+
+def test_what_is_sent_again_with_its_key_is_the_same_job(maquette: Maquette):
+    first, again = (
+        maquette.fit(scripted_image(), KNOWN, idempotency_key="as before") for _ in range(2)
+    )
+    assert first.id == again.id
+    assert maquette.fit(scripted_image(), KNOWN).id != first.id
+
+
 def test_who_waits_longer_than_an_answer_does_is_told_how_far_it_is(
     maquette: Maquette, monkeypatch: pytest.MonkeyPatch
 ):
