@@ -15,7 +15,7 @@ from jaxtyping import Float
 
 from fitter.arrays import Points2D
 from fitter.detection.body_landmarks import BodyLandmarks
-from fitter.detection.landmark_meanings import HIPS, INDEX_OF_POINT
+from fitter.detection.landmark_meanings import HIPS, INDEX_OF_POINT, SHOULDERS
 
 OFFSETS_M: Final[Mapping[str, tuple[float, float, float]]] = {
     "ear": (-0.017, 0.020, 0.021),
@@ -41,7 +41,6 @@ ankle 3 to 5. Putting them apart, or trusting the far side less, brings no weigh
 truth (DECISIONS.md, "What a fit takes from the detector").
 """
 
-_SHOULDERS: Final = ("left_shoulder", "right_shoulder")
 _SCALED_BY: Final = [
     INDEX_OF_POINT[f"{side}_{name}"]
     for side in ("left", "right")
@@ -67,7 +66,7 @@ def own_pixels(landmarks: BodyLandmarks) -> Points2D:
 def _trunk_frame(world_m: Float[np.ndarray, "33 3"]) -> Float[np.ndarray, "3 3"]:
     """Rows left, up and forward of the trunk, in camera axes."""
     left_shoulder, right_shoulder, left_hip, right_hip = (
-        world_m[INDEX_OF_POINT[name]] for name in (*_SHOULDERS, *HIPS)
+        world_m[INDEX_OF_POINT[name]] for name in (*SHOULDERS, *HIPS)
     )
     up = left_shoulder + right_shoulder - left_hip - right_hip
     up = up / np.linalg.norm(up)
