@@ -20,7 +20,7 @@ from tests.e2e.page.embedded import (
 )
 from tests.e2e.page.embedding import DOCUMENT
 from tests.e2e.page.test_for_everyone import axe, serious_findings
-from tests.e2e.page.visitor import FIT_WITHIN_MS, PHONE
+from tests.e2e.page.visitor import FIT_WITHIN_MS, LABELS_ARE_SEEN, PHONE
 from tests.readme import block
 
 __all__ = ("axe", "embedding")
@@ -42,6 +42,7 @@ TOO_SHORT = """() => {
 }"""
 ALLOW_ALL = """() => document.querySelector("iframe").contentWindow.postMessage(
   { type: "maquette:start", allow: ["save", "delete"] }, "*")"""
+MOST_STAGE_PX = 680
 WAIST = re.compile(r"^Waist: \d+\.\d cm$")
 
 
@@ -68,6 +69,10 @@ def test_measurements_of_pictures_that_the_site_gave_arrive_there(
         expect(page.locator("#told")).to_have_text(WAIST, timeout=FIT_WITHIN_MS)
         expect(frame.locator('[data-fit][aria-busy="false"]')).to_be_attached()
         expect(frame.locator('.body-canvas[data-shows^="canonical clay"]')).to_be_visible()
+        own_frame(page).wait_for_function(LABELS_ARE_SEEN)
+        stage = frame.locator(".bench-stage").bounding_box()
+        assert stage is not None
+        assert stage["height"] <= MOST_STAGE_PX
         # A visitor reads; files and Delete are the site's to offer.
         files = frame.get_by_role("heading", name="Files", exact=True)
         delete = frame.get_by_role("button", name="Delete this scan")

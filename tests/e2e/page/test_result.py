@@ -9,7 +9,7 @@ import httpx
 import pytest
 from playwright.sync_api import Browser, Route, expect
 
-from tests.e2e.page.visitor import FIT_WITHIN_MS, PHONE, Visitor
+from tests.e2e.page.visitor import FIT_WITHIN_MS, LABELS_ARE_SEEN, PHONE, Visitor
 
 RESULT = re.compile(r"/v1/fits/[0-9a-f-]{36}/result(\?|$)")
 GOOD_AND_SURE: dict[str, Any] = {"outcome": "converged", "verdict": "plausible"}
@@ -200,3 +200,26 @@ def test_four_figures_the_tapes_and_the_skin_are_there_without_asking(
         expect(beside).to_have_attribute("data-shows", "texture")
         made = service.get(f"/v1/fits/{bare_fit}/derivations").json()["derivations"]
         assert [each["kind"] for each in made] == ["texture"]
+
+
+@pytest.mark.parametrize("locale", ["en-US", "de-DE"])
+def test_on_the_narrowest_phone_nothing_is_wider_than_the_window(
+    browser: Browser, service: httpx.Client, finished_fit: str, locale: str
+):
+    narrow = {"viewport": {"width": 320, "height": 568}}
+    with Visitor.at(browser, str(service.base_url), narrow, locale=locale) as visitor:
+        visitor.page.goto(f"{visitor.origin}/#/fits/{finished_fit}")
+        visitor.wait_for_result()
+        assert not visitor.page.evaluate("document.documentElement.scrollWidth > innerWidth")
+
+
+def test_no_label_of_a_tape_lies_below_the_skin(
+    browser: Browser, service: httpx.Client, finished_fit: str
+):
+    window = {"viewport": {"width": 1024, "height": 768}}
+    with Visitor.at(browser, str(service.base_url), window) as visitor:
+        visitor.page.goto(f"{visitor.origin}/#/fits/{finished_fit}")
+        visitor.wait_for_result()
+        for side in ("From the side", "From the back"):
+            visitor.page.get_by_role("button", name=side).click()
+            visitor.page.wait_for_function(LABELS_ARE_SEEN)

@@ -66,6 +66,14 @@ PICTURE_IS_WHOLE = """(margin) => {
   const room = Math.min(stage.width - picture.width, stage.height - picture.height);
   return Math.abs(room - 2 * margin) < 1;
 }"""
+LABELS_ARE_SEEN = """() => {
+  const boxOf = (each) => each.getBoundingClientRect();
+  const of = (what) => [...document.querySelectorAll(what)].map(boxOf);
+  const [beside] = of(".look-beside");
+  const labels = of(".tape-label");
+  return beside && labels.length > 0 && labels.every(({ bottom, right, top }) =>
+    right <= beside.left || bottom <= beside.top || top >= beside.bottom);
+}"""
 RESULT_IS_SHOWN = """() => {
   const shown = document.querySelector(".bench[data-fit]:has(.body-canvas)");
   return shown !== null && /^#[/](fits|scans)[/]/.test(location.hash) &&

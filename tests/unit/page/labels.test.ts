@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { placedLabels } from "../../../service/page/src/viewer/labels";
 
-const ROOM = { width: 600, height: 400, step: 20 };
+const ROOM = { width: 600, height: 400, step: 20, covered: 0 };
 
 function tape(name: string, x: number, y: number, half = 30) {
   return { name, left: [x - half, y], right: [x + half, y] } as const;
@@ -30,4 +30,12 @@ test("tapes of an arm are told on its own side, those of the trunk fill up the o
   assert.equal(sideOf["right arm"], "left");
   assert.equal(sideOf["left arm"], "right");
   assert.notEqual(sideOf.hip, sideOf.waist);
+});
+
+test("labels of the right column stay above what covers its foot", () => {
+  const tapes = [100, 500].flatMap((x) => Array.from({ length: 6 }, (_, i) => tape(`tape ${i} at ${x}`, x, 340 + i)));
+  const labels = placedLabels(tapes, { ...ROOM, covered: 150 });
+  const lowest = (side: string) => Math.max(...labels.filter((each) => each.side === side).map(({ y }) => y));
+  assert.equal(lowest("right"), 240);
+  assert.equal(lowest("left"), 390);
 });

@@ -156,7 +156,7 @@ export function Look(props: Props) {
             />
           )}
           {placement === "canonical" && !failed && (
-            <TapeLabels ends={ends} measurements={result.measurements} marked={measure} onPoint={onPoint} onShow={onMeasure} />
+            <TapeLabels ends={ends} measurements={result.measurements} marked={measure} hasSkin={skin.path !== null} onPoint={onPoint} onShow={onMeasure} />
           )}
           {over && mask && segmentation && <MaskOutline url={segmentation} label={look.silhouetteLabel} />}
         </div>

@@ -15,12 +15,14 @@ interface Room {
   readonly height: number;
   /** From one label's middle to the next. */
   readonly step: number;
+  /** So much of the right column, from the lower edge, something else covers. */
+  readonly covered: number;
 }
 
 /** Tapes whose middle is nearer to the body's than this share of the width may be told on either side. */
 const CENTRAL = 0.05;
 
-export function placedLabels(ends: readonly TapeEnds[], { width, height, step }: Room): Placed[] {
+export function placedLabels(ends: readonly TapeEnds[], { width, height, step, covered }: Room): Placed[] {
   if (ends.length === 0) return [];
   const middle = ends.reduce((sum, { left, right }) => sum + (left[0] + right[0]) / 2, 0) / ends.length;
   const sides = { left: [] as Placed[], right: [] as Placed[] };
@@ -31,7 +33,7 @@ export function placedLabels(ends: readonly TapeEnds[], { width, height, step }:
   // The fuller column gets none while the other has room.
   const central = ends.filter(isCentral).sort((a, b) => a.left[1] - b.left[1]);
   for (const each of central) add(sides.left.length < sides.right.length ? "left" : "right", each);
-  return [...apart(sides.left, height, step), ...apart(sides.right, height, step)];
+  return [...apart(sides.left, height, step), ...apart(sides.right, height - covered, step)];
 }
 
 /** From the top down each at least a step below the one before, then from the bottom up where they ran out of the room. */
