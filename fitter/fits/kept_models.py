@@ -75,13 +75,13 @@ def _key(source: Path) -> str:
     # By its name too: a man's file under a woman's name is at fault.
     digest = hashlib.sha256(source.name.encode())
     digest.update(source.read_bytes())
-    digest.update(_code())
+    digest.update(code_digest())
     return digest.hexdigest()
 
 
 @cache
-def _code() -> bytes:
-    """A digest of everything but the model that what is prepared depends on."""
+def code_digest() -> bytes:
+    """A digest of the fitter's code, and of the packages by whose functions models are prepared."""
     digest = hashlib.sha256(f"{sys.version} {platform.machine()}".encode())
     for package in _PACKAGES:
         digest.update(f"{package} {version(package)}".encode())

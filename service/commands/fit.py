@@ -113,7 +113,7 @@ def warm_up(*, pipeline: str = PIPELINE) -> int:
     if PERSON in output.artifacts:
         # A caricature asks where a surface runs through itself, which no fit does.
         settings = Settings()
-        with kept_kernels():
+        with kept_kernels(rehearsed=True):
             load_pipeline(pipeline).derive(
                 DerivationInput(
                     options=CaricatureOptions(kind="caricature", factor=1.1),

@@ -4,6 +4,8 @@ Numba keeps what it compiles in hundreds of files, and runs what it finds in the
 truncated one ends the process, a changed one computes something else. So its own cache lasts only
 as long as the folder of a process and those that it forks (:mod:`service.process.work_folder`).
 What is in it after a rehearsal is kept in one file, beside the code or in the user's cache.
+A command keeps what it had to compile too, which may be less than fits need: the file says which
+code was rehearsed, and a service that finds none or other code rehearses once.
 That file is read as it was written or not at all, and whoever decodes pictures never writes it.
 """
 
@@ -13,7 +15,7 @@ import logging
 import os
 import pickle
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from importlib.metadata import version
@@ -22,6 +24,7 @@ from typing import Any, Final
 
 import fitter
 from fitter.fits.kept_models import VARIABLE as USERS_CACHE
+from fitter.fits.kept_models import code_digest
 from fitter.numerics.checked_file import DamagedFileError, check, write_checked
 from service.process.caches import KERNELS
 
@@ -31,6 +34,9 @@ PACKAGE: Final = Path(next(iter(fitter.__path__)))
 SOURCES: Final = "_*kernels.py"
 """Where kernels are compiled from, by the convention of this package."""
 
+FORMAT: Final = 2
+"""Of the file: raised whenever :class:`KeptKernels` changes."""
+
 Signature = tuple[str, str, Any]
 """A kernel's module and name, and the types that it is compiled for."""
 
@@ -39,20 +45,26 @@ Signature = tuple[str, str, Any]
 class KeptKernels:
     """What is kept: the files of Numba's cache by name, and what is compiled in them.
 
-    ``sources`` are the stamps of the files that they were compiled from.
+    ``sources`` are the stamps of the files that they were compiled from; ``rehearsed`` is the
+    digest of the fitter's code whose rehearsal compiled all that it calls, empty if there was none.
     """
 
+    rehearsed: bytes
     sources: Mapping[str, tuple[int, int]]
     signatures: tuple[Signature, ...]
     files: Mapping[str, bytes]
 
     def is_current(self) -> bool:
-        """Whether nothing would have to be compiled anew."""
+        """Whether nothing of it would have to be compiled anew."""
         return self.sources == _sources()
+
+    def is_complete(self) -> bool:
+        """Whether it is current, and a fit with the code of now would not have to compile more."""
+        return self.is_current() and self.rehearsed == code_digest()
 
 
 def make_kernels_ready(compile_all: Callable[[], bool]) -> None:
-    """Have all kernels compiled in this process, by reading what is kept where it is current.
+    """Have all kernels compiled in this process, by reading what is kept where it is complete.
 
     Where it is not, ``compile_all`` is run and says whether it came to its end; only then what it
     compiled is kept. Whatever it does should not stay in memory: it is run in a child where the
@@ -63,10 +75,10 @@ def make_kernels_ready(compile_all: Callable[[], bool]) -> None:
         compile_all()
         return
     kept = restore_kernels()
-    if kept is None or not kept.is_current():
-        _do_in_child(lambda: keep_kernels() if compile_all() else None)
+    if kept is None or not kept.is_complete():
+        _do_in_child(lambda: keep_kernels(kept, rehearsed=True) if compile_all() else None)
         kept = read_kept()
-    if kept is None or not kept.is_current():
+    if kept is None or not kept.is_complete():
         compile_all()
         return
     for module, name, types in kept.signatures:
@@ -87,8 +99,10 @@ def _do_in_child(work: Callable[[], object]) -> None:
 
 
 @contextmanager
-def kept_kernels() -> Iterator[None]:
+def kept_kernels(*, rehearsed: bool = False) -> Iterator[None]:
     """Restore the kernels for the work of a command, and keep what it had to compile.
+
+    ``rehearsed`` says that this process has then made all that a rehearsal makes.
 
     Nothing of either where Numba was loaded before it had a folder for this process.
     """
@@ -97,8 +111,13 @@ def kept_kernels() -> Iterator[None]:
         return
     kept = restore_kernels()
     yield
-    if kept is None or not kept.is_current() or set(_signatures()) - set(kept.signatures):
-        keep_kernels(also=() if kept is None else kept.signatures)
+    if (
+        kept is None
+        or not kept.is_current()
+        or (rehearsed and not kept.is_complete())
+        or set(_signatures()) - set(kept.signatures)
+    ):
+        keep_kernels(kept, rehearsed=rehearsed)
 
 
 def restore_kernels() -> KeptKernels | None:
@@ -112,18 +131,24 @@ def restore_kernels() -> KeptKernels | None:
     return kept
 
 
-def keep_kernels(*, also: Iterable[Signature] = ()) -> None:
-    """Keep what is compiled for this process, where that can be written, and what others have."""
+def keep_kernels(before: KeptKernels | None, *, rehearsed: bool) -> None:
+    """Keep what is compiled for this process, where that can be written.
+
+    So is what was restored ``before``, unless kernels have changed since.
+    """
     signatures = tuple(_signatures())
     if not signatures:
         return
-    signatures = tuple(dict.fromkeys((*signatures, *filter(_is_there, also))))
+    digest = code_digest() if rehearsed else b""
+    if before is not None and before.is_current():
+        signatures = tuple(dict.fromkeys((*signatures, *before.signatures)))
+        digest = digest or before.rehearsed
     files = {
         str(path.relative_to(_folder())): path.read_bytes()
         for pattern in ("*.nbi", "*.nbc")
         for path in _folder().rglob(pattern)
     }
-    kept = KeptKernels(sources=_sources(), signatures=signatures, files=files)
+    kept = KeptKernels(rehearsed=digest, sources=_sources(), signatures=signatures, files=files)
     for path in _places():
         try:
             write_checked(path, [pickle.dumps(kept)])
@@ -135,17 +160,25 @@ def keep_kernels(*, also: Iterable[Signature] = ()) -> None:
 
 
 def read_kept() -> KeptKernels | None:
-    """Return what is kept for this processor and these versions; None if there is nothing."""
+    """Return what is kept for this processor and these versions; None if there is nothing.
+
+    What is complete goes first: beside the code may lie less, where only others can write.
+    """
+    first: KeptKernels | None = None
     for path in _places():
         try:
             with path.open("rb") as file:
                 check(file)
-                return pickle.load(file)
+                kept: KeptKernels = pickle.load(file)
         except FileNotFoundError:
             continue
         except (DamagedFileError, OSError) as error:
             LOG.warning("Compiled kernels in %s are made anew: %s", path.parent, error)
-    return None
+            continue
+        if kept.is_complete():
+            return kept
+        first = first or kept
+    return first
 
 
 def _folder() -> Path:
@@ -168,7 +201,8 @@ def _key() -> str:
     if features is None:
         with suppress(RuntimeError):
             features = binding.get_host_cpu_features().flatten()
-    parts = (sys.version, version("numba"), version("llvmlite"), PACKAGE, processor, features)
+    versions = (FORMAT, sys.version, version("numba"), version("llvmlite"))
+    parts = (*versions, PACKAGE, processor, features)
     return hashlib.sha256("\n".join(map(str, parts)).encode()).hexdigest()[:16]
 
 
@@ -179,13 +213,6 @@ def _sources() -> dict[str, tuple[int, int]]:
         str(path.relative_to(PACKAGE)): (stamp.st_mtime_ns, stamp.st_size)
         for path, stamp in stamps.items()
     }
-
-
-def _is_there(signature: Signature) -> bool:
-    module, name, _ = signature
-    with suppress(ImportError):
-        return hasattr(importlib.import_module(module), name)
-    return False
 
 
 def _signatures() -> Iterator[Signature]:

@@ -96,8 +96,8 @@ def rehearse_sandbox(models: Path | None, detector: Path | None = None) -> None:
     kept = restore_kernels()
     try:
         derive_all(models, detector)
-        if kept is None or not kept.is_current():
-            keep_kernels()
+        if kept is None or not kept.is_complete():
+            keep_kernels(kept, rehearsed=True)
     except ModelFileError:
         raise
     except Exception:

@@ -70,7 +70,7 @@ def test_another_model_name_or_code_is_prepared_anew(folder, source, monkeypatch
     elif changed == "name":
         source = source.rename(source.with_name("other.npz"))
     else:
-        monkeypatch.setattr(kept_models, "_code", lambda: b"other code")
+        monkeypatch.setattr(kept_models, "code_digest", lambda: b"other code")
     assert kept(source, lambda: "after") == "after"
 
 

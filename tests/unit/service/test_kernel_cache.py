@@ -37,6 +37,8 @@ fitter.__path__.append(str(folder))
 from service.worker import kernel_cache
 
 kernel_cache.PACKAGE = folder
+if "--other-code" in sys.argv:
+    kernel_cache.code_digest = lambda: b"other"
 from service.process.caches import KERNELS, settle_folders
 
 settle_folders()
@@ -48,6 +50,16 @@ def compile_all():
     compiled.append(os.getpid())
     (folder / "compiled").open("a").write("x")
     return "--fails" not in sys.argv
+
+if "--command" in sys.argv:
+    with kernel_cache.kept_kernels():
+        from fitter._some_kernels import quadrupled
+        quadrupled(1)
+    sys.exit()
+if "--warm-up" in sys.argv:
+    with kernel_cache.kept_kernels(rehearsed=True):
+        compile_all()
+    sys.exit()
 
 kernel_cache.make_kernels_ready(compile_all)
 from fitter._some_kernels import quadrupled
@@ -75,11 +87,11 @@ def package(packed: tuple[Path, Path]) -> Path:
     return folder
 
 
-def ran(package: Path, *arguments: str, tells: str = "") -> str:
+def ran(package: Path, *arguments: str, tells: str = "", users: Path | None = None) -> str:
     done = subprocess.run(
         [sys.executable, "-c", textwrap.dedent(PROGRAM), str(package), *arguments],
         cwd=REPOSITORY,
-        env=os.environ | {"FITTER_CACHE_DIR": "", "PYTHONDONTWRITEBYTECODE": "1"},
+        env=os.environ | {"FITTER_CACHE_DIR": str(users or ""), "PYTHONDONTWRITEBYTECODE": "1"},
         capture_output=True,
         text=True,
         check=True,
@@ -131,6 +143,54 @@ def test_what_was_compiled_by_a_rehearsal_that_failed_is_not_kept(package: Path)
     kept_file(package).unlink()
     ran(package, "--fails")
     assert not list((package / "__pycache__").glob("kernels-*"))
+
+
+def test_what_a_command_compiled_is_kept_and_completed_once_by_a_rehearsal(package: Path):
+    kept_file(package).unlink()
+    ran(package, "--command")
+    assert compiled(package) == 1
+    assert ran(package).split() == ["12.0", "2", "2"]
+    assert compiled(package) == 2
+    assert ran(package).split() == ["12.0", "2", "2"]
+    assert compiled(package) == 2
+
+
+def test_what_a_command_adds_leaves_complete_what_was_complete(package: Path):
+    ran(package, "--command")
+    assert ran(package).split() == ["12.0", "2", "2"]
+    assert compiled(package) == 1
+
+
+def test_what_is_complete_in_the_users_cache_goes_before_less_beside_the_code(
+    package: Path, tmp_path: Path
+):
+    shutil.move(kept_file(package), tmp_path)
+    ran(package, "--command")
+    assert ran(package, users=tmp_path).split() == ["12.0", "1", "1"]
+    assert compiled(package) == 1
+
+
+def test_after_a_warm_up_nothing_is_rehearsed(package: Path):
+    kept_file(package).unlink()
+    ran(package, "--command")
+    ran(package, "--warm-up")
+    assert compiled(package) == 2
+    assert ran(package).split() == ["12.0", "2", "2"]
+    assert compiled(package) == 2
+
+
+def test_other_code_around_the_same_kernels_is_rehearsed_once(package: Path):
+    for _ in range(2):
+        assert ran(package, "--other-code").split() == ["12.0", "1", "1"]
+        assert compiled(package) == 2
+
+
+def test_a_command_after_a_change_of_kernels_keeps_none_of_their_old_signatures(package: Path):
+    changed = KERNELS.replace("doubled(value)", "doubled(value, times)").replace("2.0", "times")
+    changed = changed.replace("doubled(doubled(value, times))", "doubled(doubled(value, 2.0), 2.0)")
+    (package / "_some_kernels.py").write_text(changed)
+    ran(package, "--command")
+    assert ran(package).split() == ["12.0", "2", "2"]
 
 
 def test_where_nothing_can_be_read_or_kept_everything_is_compiled(package: Path):
