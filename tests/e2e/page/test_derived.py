@@ -70,7 +70,7 @@ def test_another_pose_and_a_caricature_are_shown_and_what_cannot_be_is_told(look
     looking.choose("From the sides")
     expect(page.get_by_role("img", name="Other pose of the body")).to_be_visible()
     looking.choose("Caricature")
-    page.get_by_label("Times").fill("1.5")
+    page.get_by_label("Exaggeration").fill("1.5")
     page.get_by_role("button", name="Make the caricature").click()
     turned = page.get_by_role("img", name="The caricature; arrow keys turn it")
     expect(turned).to_have_attribute("data-shows", "clay", timeout=FIT_WITHIN_MS)
@@ -221,6 +221,24 @@ def test_a_texture_of_ones_own_is_laid_on_the_body(looking: Visitor, tmp_path: P
     assert (green > 1.5 * np.maximum(red, blue)).mean() > 0.02
 
 
+def test_a_texture_made_before_is_neither_the_skin_nor_hidden(
+    visitor: Visitor, service: httpx.Client, bare_fit: str
+):
+    page = visitor.page
+    derivations = f"/v1/fits/{bare_fit}/derivations"
+    small = {"kind": "texture", "colours": "picture", "size": 512}
+    before = ended_job(service, service.post(derivations, json=small))
+    page.goto(f"{visitor.origin}/#/fits/{bare_fit}")
+    visitor.wait_for_result()
+    skin = page.locator(".look-beside canvas")
+    expect(skin).to_have_attribute("data-shows", "texture", timeout=FIT_WITHIN_MS)
+    expect(page.locator(".derived > li")).to_have_count(1)
+    expect(page.locator(".derived > li")).to_contain_text("Texture")
+    made = service.get(derivations).json()["derivations"]
+    asked = [service.get(each["links"]["request"]).json()["size"] for each in made]
+    assert (made[-1]["id"], asked) == (before["id"], [1024, 512])
+
+
 def test_fits_of_one_person_are_offered_and_combined(looking: Visitor, service: httpx.Client):
     """Of the fits this browser knows: one told the same of the person, one another height."""
     page = looking.page
@@ -300,7 +318,7 @@ def test_what_was_made_is_shown_large_on_the_stage_with_a_way_back(looking: Visi
 def test_a_caricature_that_is_refused_is_offered_as_strong_as_it_can_be(looking: Visitor):
     page = looking.page
     looking.choose("Caricature")
-    page.get_by_label("Times").fill("5")
+    page.get_by_label("Exaggeration").fill("5")
     page.get_by_role("button", name="Make the caricature").click()
     smaller = page.get_by_role("button", name=re.compile(r"^Make it [\d.]+ times$"))
     expect(smaller).to_be_visible(timeout=FIT_WITHIN_MS)

@@ -11,6 +11,20 @@ from playwright.sync_api import Download, Locator, expect
 from tests.e2e.page.visitor import FIT_WITHIN_MS, VISIBLY, Visitor
 
 WITHOUT_RECORDER = "delete window.MediaRecorder"
+COUNT_WHAT_IS_OPEN = """
+window.open_bitmaps = 0;
+window.filmed_tracks = [];
+const { captureStream } = HTMLCanvasElement.prototype;
+HTMLCanvasElement.prototype.captureStream = function (...rate) {
+  const stream = captureStream.apply(this, rate);
+  window.filmed_tracks.push(...stream.getTracks());
+  return stream;
+};
+const decode = window.createImageBitmap;
+window.createImageBitmap = (...of) => (window.open_bitmaps++, decode(...of));
+const { close } = ImageBitmap.prototype;
+ImageBitmap.prototype.close = function () { window.open_bitmaps--; close.call(this); };
+void 0;"""
 SHEET = """
 window.taken = [];
 window.refusals = 0;
@@ -90,6 +104,29 @@ def test_the_body_is_filmed_turning_once(looking: Visitor):
     assert max(turned) > 0.02
     # Round again, as far as frames were recorded.
     assert turned[-1] < max(turned)
+
+
+def test_a_film_leaves_nothing_open(looking: Visitor):
+    page = looking.page
+    # The film is then one of the skin, whose texture is decoded for it.
+    skin = page.locator(".look-beside canvas")
+    expect(skin).to_have_attribute("data-shows", "texture", timeout=FIT_WITHIN_MS)
+    page.evaluate(COUNT_WHAT_IS_OPEN)
+    with page.expect_download(timeout=FIT_WITHIN_MS):
+        film(looking).click()
+        page.wait_for_function("() => window.open_bitmaps === 1")
+    expect(film(looking)).to_be_enabled()
+    assert page.evaluate("window.open_bitmaps") == 0
+    assert page.evaluate("window.filmed_tracks.map((track) => track.readyState)") == ["ended"]
+
+
+def test_words_stand_beside_the_icons_where_there_is_room(looking: Visitor):
+    words = sharing(looking).get_by_text("Share a short film", exact=True)
+    expect(words).to_be_visible()
+    expect(film(looking)).to_have_attribute("title", "Share a short film: the body turns once")
+    looking.page.set_viewport_size({"width": 390, "height": 844})
+    expect(film(looking)).to_be_visible()
+    expect(words).to_be_hidden()
 
 
 def test_a_browser_that_films_nothing_gives_a_picture(looking: Visitor):

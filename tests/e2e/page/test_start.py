@@ -38,6 +38,19 @@ def test_the_first_screen_tells_all_without_scrolling(
         expect(page.get_by_role("heading", name="Measure a person")).to_be_visible()
 
 
+def test_a_phone_is_not_told_to_drop_pictures(browser: Browser, service: httpx.Client):
+    for device, is_phone in ((DESK, False), (PHONE, True)):
+        with Visitor.at(browser, str(service.base_url), device) as visitor:
+            page = visitor.page
+            take = page.get_by_label("Take or choose a picture", exact=True)
+            expect(take).to_have_count(1 if is_phone else 0)
+            expect(page.get_by_text("drop a picture here")).to_have_count(0 if is_phone else 1)
+            # Once, in the head or where that has no room for it at the foot.
+            documentation = page.get_by_role("link", name="Documentation")
+            expect(documentation).to_have_count(1)
+            expect(documentation).to_be_visible()
+
+
 def test_the_figures_are_a_link_away(browser: Browser, service: httpx.Client, axe: str):
     with Visitor.at(browser, str(service.base_url)) as visitor:
         page = visitor.page

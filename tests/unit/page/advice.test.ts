@@ -13,6 +13,7 @@ const VIEW: Advised["views"][number] = {
   warnings: [],
   views: [],
   limb_facing: [],
+  assumptions: [],
 } as unknown as Advised["views"][number];
 
 const advised = (view: object, weightGiven = false): Advised => ({
@@ -38,4 +39,11 @@ test("what is surely wrong comes before what would only help", () => {
   assert.equal(adviceOf(advised(open)), "limbs");
   assert.equal(adviceOf(advised({})), "weight");
   assert.equal(adviceOf(advised({}, true)), "points");
+});
+
+test("nobody is told to swap points that nobody clicked", () => {
+  const swapped = { warnings: [{ code: "left-and-right-may-be-swapped" }] };
+  const proposed = (value: string) => ({ ...swapped, assumptions: [{ quantity: "points", value, reason: "" }] });
+  assert.equal(adviceOf(advised(proposed("left_eye, left_shoulder, right_shoulder, left_hip, right_hip"))), "points");
+  assert.equal(adviceOf(advised(proposed("left_eye, left_shoulder, right_shoulder, left_hip"))), "sides");
 });

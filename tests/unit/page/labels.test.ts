@@ -39,3 +39,10 @@ test("labels of the right column stay above what covers its foot", () => {
   assert.equal(lowest("right"), 240);
   assert.equal(lowest("left"), 390);
 });
+
+test("a tape on the outside of the measured leg stands on its side, however many are on that arm and leg", () => {
+  const limbs = Array.from({ length: 6 }, (_, i) => tape(`right arm ${i}`, 200, 100 + 20 * i, 10));
+  const trunk = Array.from({ length: 8 }, (_, i) => tape(`trunk ${i}`, 300, 100 + 20 * i));
+  const labels = placedLabels([...limbs, ...trunk, tape("outseam", 240, 300, 15)], { ...ROOM, width: 1000 });
+  assert.equal(labels.find(({ name }) => name === "outseam")!.side, "left");
+});

@@ -61,8 +61,15 @@ function fitOf(kind: FitKind, told: Job | Scan): Fit {
   return kind === "fit" ? fitOfJob(told as Job) : fitOfScan(told as Scan);
 }
 
+/** All of them, newest first. */
 export async function listDerivations({ links }: Fit): Promise<readonly Derivation[]> {
-  return (await requestJson<DerivationPage>(`${links.self}/derivations`)).derivations;
+  const list: Derivation[] = [];
+  for (let path: string | null = `${links.self}/derivations`; path; ) {
+    const page: DerivationPage = await requestJson(path);
+    list.push(...page.derivations);
+    path = page.next;
+  }
+  return list;
 }
 
 /** Ask for a derivation; `part` is the file it goes by, under the name of its form part. */
@@ -77,6 +84,11 @@ export function derive({ links }: Fit, asked: DerivationRequest, part: { name: s
 
 export function getDerivation(path: string): Promise<Derivation> {
   return requestJson(path);
+}
+
+/** What was asked for. */
+export function getAskedDerivation({ links }: Derivation): Promise<DerivationRequest> {
+  return requestJson(links.request);
 }
 
 export function getDerivationResult({ links }: Derivation): Promise<DerivationResult> {

@@ -6,6 +6,7 @@ import { GoOn } from "../start/GoOn";
 import { KeptLine } from "../start/KeptLine";
 import { Turning } from "../start/Turning";
 import { Ways } from "../start/Ways";
+import { isTouched } from "../ui/touch";
 import { openFile, openProblem, trySample } from "./open";
 
 const SAMPLES = [
@@ -15,7 +16,7 @@ const SAMPLES = [
 ] as const;
 
 export function Start() {
-  const { start } = messages.value;
+  const { frame, start } = messages.value;
   const over = useSignal(false);
   return (
     <main class="start">
@@ -41,7 +42,7 @@ export function Start() {
         <Turning />
         <div class="drop-text">
           <Ways />
-          <p class="fine">{start.otherWays}</p>
+          {!isTouched && <p class="fine">{start.otherWays}</p>}
           <KeptLine />
           {openProblem.value && (
             <p class="note is-problem" role="alert">
@@ -51,6 +52,9 @@ export function Start() {
         </div>
       </div>
       <Samples />
+      <a class="is-narrow-only" href="/documentation/">
+        {frame.documentation}
+      </a>
     </main>
   );
 }

@@ -6,7 +6,7 @@ import { person } from "../draft/draft";
 import { messages } from "../messages/language";
 import { placedLabels } from "../viewer/labels";
 import type { TapeEnds } from "../viewer/Tapes";
-import { measureLabel, shown } from "./reading";
+import { measureLabel, shortLabel, shown } from "./reading";
 
 interface Props {
   readonly ends: Signal<readonly TapeEnds[]>;
@@ -68,7 +68,7 @@ export function TapeLabels({ ends, measurements, marked, hasSkin, onPoint, onSho
             onBlur={() => onPoint(null)}
             onClick={() => onShow(name)}
           >
-            <span>{measureLabel(name)}</span> <b>{value}</b> {isWide && <small>{unit}</small>}
+            <span>{shortLabel(name)}</span> <b>{value}</b> {isWide && <small>{unit}</small>}
           </button>
         );
       })}

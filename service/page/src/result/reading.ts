@@ -21,6 +21,11 @@ export function measureLabel(name: string): string {
   return wordFor(messages.value.measures.labels, name) ?? capitalised(plainName(name));
 }
 
+/** What stands beside the body, where there is room for a word or two. */
+export function shortLabel(name: string): string {
+  return wordFor(messages.value.measures.short, name) ?? measureLabel(name);
+}
+
 /** How a measurement is taken. */
 export function definitionOf({ name, definition }: Pick<Measurement, "name" | "definition">): string {
   return answered("definitions", name) ?? definition;

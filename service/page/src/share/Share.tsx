@@ -42,8 +42,8 @@ export function Share({ fit, files, picture, skin }: Props) {
   const isBusy = state === "film" || state === "pair";
   return (
     <div class="look-share" role="group" aria-label={words.title}>
-      {(skin.path || upright) && <IconButton icon="film" label={words.film} disabled={isBusy} onClick={() => void make("film", film)} />}
-      {posed.camera && <IconButton icon="pair" label={words.pair} disabled={isBusy} onClick={() => void make("pair", pair)} />}
+      {(skin.path || upright) && <IconButton icon="film" label={words.film} words={words.shortFilm} disabled={isBusy} onClick={() => void make("film", film)} />}
+      {posed.camera && <IconButton icon="pair" label={words.pair} words={words.shortPair} disabled={isBusy} onClick={() => void make("pair", pair)} />}
       {ready && (
         <button class="button is-small is-primary" type="button" onClick={() => void give(ready)}>
           {words.now}

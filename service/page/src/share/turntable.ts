@@ -57,7 +57,16 @@ function filmType({ canvas }: Sheet): string | null {
 
 /** Null if nothing was recorded. */
 async function filmed({ canvas }: Sheet, type: string, paint: (turned: number) => void): Promise<File | null> {
-  const recorder = new MediaRecorder(canvas.captureStream(FRAMES_PER_SECOND), { mimeType: type, videoBitsPerSecond: BITS_PER_SECOND });
+  const stream = canvas.captureStream(FRAMES_PER_SECOND);
+  try {
+    return await recorded(stream, type, paint);
+  } finally {
+    for (const track of stream.getTracks()) track.stop();
+  }
+}
+
+async function recorded(stream: MediaStream, type: string, paint: (turned: number) => void): Promise<File | null> {
+  const recorder = new MediaRecorder(stream, { mimeType: type, videoBitsPerSecond: BITS_PER_SECOND });
   const pieces: Blob[] = [];
   recorder.ondataavailable = ({ data }) => pieces.push(data);
   const ended = new Promise<void>((resolve, reject) => {

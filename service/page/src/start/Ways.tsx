@@ -3,9 +3,10 @@ import { messages } from "../messages/language";
 import { openFile } from "../panel/open";
 import { MEASURE_ADDRESS } from "../route";
 import { Icon } from "../ui/Icon";
+import { isTouched } from "../ui/touch";
 
 export function Ways() {
-  const { ways, choose } = messages.value.start;
+  const { ways, choose, take } = messages.value.start;
   return (
     <ul class="start-ways">
       <li>
@@ -13,7 +14,7 @@ export function Ways() {
         <p>{ways.one.text}</p>
         <label class="button is-primary">
           <Icon name="picture" />
-          {choose}
+          {isTouched ? take : choose}
           <input
             class="unseen"
             type="file"

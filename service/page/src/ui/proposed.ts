@@ -13,12 +13,16 @@ export interface Proposed {
 
 /** Null where somebody clicked every point. `asked` are the points of the request, null while they are not known. */
 export function proposedOf(assumptions: InitialPose["assumptions"], asked: unknown): Proposed | null {
-  const named = assumptions.find(({ quantity }) => quantity === PROPOSED_POINTS)?.value;
-  if (typeof named !== "string") return null;
-  const names = named.split(", ");
+  const names = namesOfProposed(assumptions);
+  if (names.length === 0) return null;
   // A proposal that was sent back is among the proposed points, and no click.
   const isAll = typeof asked === "object" && asked !== null && Object.keys(asked).every((name) => names.includes(name));
   return { count: names.length, isAll };
+}
+
+export function namesOfProposed(assumptions: InitialPose["assumptions"]): readonly string[] {
+  const named = assumptions.find(({ quantity }) => quantity === PROPOSED_POINTS)?.value;
+  return typeof named === "string" ? named.split(", ") : [];
 }
 
 export function proposedText({ count, isAll }: Proposed): string {

@@ -44,7 +44,7 @@ export function DerivedCanvas({ path, label, like, turns = false, small = false,
       const body = readGlb(content);
       const motion = readMotion(content);
       const image = body.texture && (await createImageBitmap(body.texture));
-      if (gone) return;
+      if (gone) return image?.close();
       const facing = like ? facingOf(like.posed, like.canonical) : 0;
       try {
         scene.current = new DerivedScene(target, body, image, { azimuth: facing, facing, stands: !like || like.posed.upright !== null });

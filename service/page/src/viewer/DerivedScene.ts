@@ -50,7 +50,7 @@ export class DerivedScene {
   constructor(
     canvas: HTMLCanvasElement,
     body: GlbBody,
-    image: ImageBitmap | null,
+    private readonly image: ImageBitmap | null,
     private readonly view: View,
   ) {
     this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: true });
@@ -147,6 +147,7 @@ export class DerivedScene {
     this.mesh.geometry.dispose();
     this.mesh.material.map?.dispose();
     this.mesh.material.dispose();
+    this.image?.close();
     this.renderer.dispose();
   }
 

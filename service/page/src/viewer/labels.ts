@@ -24,7 +24,8 @@ const CENTRAL = 0.05;
 
 export function placedLabels(ends: readonly TapeEnds[], { width, height, step, covered }: Room): Placed[] {
   if (ends.length === 0) return [];
-  const middle = ends.reduce((sum, { left, right }) => sum + (left[0] + right[0]) / 2, 0) / ends.length;
+  // The median: the measured arm and leg would draw a mean to their side.
+  const middle = ends.map(({ left, right }) => (left[0] + right[0]) / 2).sort((a, b) => a - b)[ends.length >> 1]!;
   const sides = { left: [] as Placed[], right: [] as Placed[] };
   const add = (side: "left" | "right", { name, ...end }: TapeEnds) => sides[side].push({ name, side, y: end[side][1], at: end[side] });
   const aside = (each: TapeEnds) => (each.left[0] + each.right[0]) / 2 - middle;

@@ -15,7 +15,13 @@ export const FIRST_CARICATURE: CaricatureWishes = { factor: 2 };
 export const caricature: Kind<CaricatureWishes> = {
   request: ({ factor }) => ({ kind: "caricature", factor, exaggerated: "looks" }),
   Options: ({ wishes: { factor }, onWish }) => (
-    <Slider label={messages.value.derived.caricature.times} range={FACTORS} value={factor} text={typed(factor, 2)} onInput={(factor) => onWish({ factor })} />
+    <Slider
+      label={messages.value.derived.caricature.strength}
+      range={FACTORS}
+      value={factor}
+      text={messages.value.derived.caricature.times(typed(factor, 2))}
+      onInput={(factor) => onWish({ factor })}
+    />
   ),
   pictures: [{ file: "caricature.png", label: () => messages.value.derived.caricature.beside, alt: () => messages.value.derived.caricature.pictured }],
   smaller: (largest) => ({

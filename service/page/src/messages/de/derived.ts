@@ -141,7 +141,8 @@ export const derived: Messages["derived"] = {
     beside: "Neben dem Körper",
     refused: (largest) => `Eine so starke Karikatur würde sich umstülpen oder durch sich selbst laufen. Die stärkste dieses Körpers hat den Faktor ${largest}.`,
     smaller: (largest) => `Mit Faktor ${largest} erstellen`,
-    times: "Faktor",
+    strength: "Übertreibung",
+    times: (factor) => `${factor} ×`,
     pictured: "Karikatur des Körpers", turned: "Die Karikatur",
   },
   combined: {

@@ -8,7 +8,7 @@ export const look: Messages["look"] = {
     skin: { label: "Haut", title: "In den Farben des Bildes, wie die Person dort steht" },
     picture: { label: "Foto", title: "Der Körper über dem Bild" },
   },
-  experts: "Für Fachleute",
+  experts: "Haltung, Oberfläche und Umriss",
   pose: "Haltung",
   poses: {
     canonical: { label: "Aufrecht", title: "In der Haltung, in der gemessen wird" },
@@ -57,7 +57,9 @@ export const look: Messages["look"] = {
   over: "Der Körper über dem Bild",
   share: {
     title: "Zum Teilen",
+    shortFilm: "Kurzen Film teilen",
     film: "Kurzen Film teilen: Der Körper dreht sich einmal",
+    shortPair: "Bild teilen",
     pair: "Bild teilen: das Foto neben dem Körper",
     filming: "Eine Drehung wird gefilmt …",
     now: "Jetzt teilen",

@@ -77,4 +77,15 @@ export const measures: Messages["measures"] = {
     hip_breadth: "Hüftbreite",
     hip_depth: "Gesäßtiefe",
   },
+  /** Beside the body. */
+  short: {
+    back_shoulder_width: "Schultern, hinten",
+    waist_girth_smallest: "Taille",
+    waist_girth_navel: "Taille am Nabel",
+    upper_arm_girth: "Oberarm",
+    wrist_girth: "Handgelenk",
+    thigh_girth: "Oberschenkel",
+    sleeve_length: "Ärmellänge",
+    outseam: "Beinlänge außen",
+  },
 };

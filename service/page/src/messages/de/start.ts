@@ -7,12 +7,13 @@ export const start: Messages["start"] = {
     `Von vorn und von der Seite weichen die Umfänge von Brust, Taille und Hüfte im Mittel um ${least} bis ${most} ab, auf gerenderten Bildern von ${people} Personen, auf die nichts abgestimmt wurde.`,
   figures: "Alle Zahlen",
   choose: "Bild wählen",
+  take: "Foto machen oder Bild wählen",
   goOn: { with: (picture) => `Weiter mit ${picture}`, discard: "Verwerfen" },
   ways: {
     one: { title: "Ein Bild", text: "Ein Foto oder Gemälde, in beliebiger Haltung." },
     two: { title: "Von vorn und von der Seite", text: "Zwei Fotos einer stehenden Person: misst am genauesten.", go: "Zwei Bilder wählen" },
   },
-  otherWays: "Sie können ein Bild auch hierher ziehen oder einfügen. Auf dem Telefon steht die Kamera zur Wahl.",
+  otherWays: "Sie können ein Bild auch hierher ziehen oder einfügen.",
   kept: {
     erased: (duration) => `Bilder gehen nur an diesen Dienst. Sie werden mit ihren Ergebnissen ${duration} nach der letzten Verwendung gelöscht.`,
     untold: "Bilder gehen nur an diesen Dienst. Sie werden mit ihren Ergebnissen einige Zeit nach der letzten Verwendung gelöscht.",

@@ -126,7 +126,8 @@ export const derived = {
     beside: "Beside the body",
     refused: (largest: string) => `That is too strong: the body would run through itself. The most for this body is ${largest} times.`,
     smaller: (largest: string) => `Make it ${largest} times`,
-    times: "Times",
+    strength: "Exaggeration",
+    times: (factor: string) => `${factor} ×`,
     pictured: "Caricature of the body", turned: "The caricature",
   },
   combined: {

@@ -6,7 +6,7 @@ export const look = {
     skin: { label: "Skin", title: "In the colours of the picture, as it stands there" },
     picture: { label: "Photo", title: "The body over the picture" },
   },
-  experts: "For experts",
+  experts: "Pose, surface and outline",
   pose: "Pose",
   poses: {
     canonical: { label: "Upright", title: "In the pose it is measured in" },
@@ -55,7 +55,9 @@ export const look = {
   over: "The body over the picture",
   share: {
     title: "To share",
+    shortFilm: "Share a short film",
     film: "Share a short film: the body turns once",
+    shortPair: "Share a picture",
     pair: "Share a picture: the photo beside the body",
     filming: "Filming one turn …",
     now: "Share it now",

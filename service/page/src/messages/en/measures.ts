@@ -76,4 +76,15 @@ export const measures = {
     hip_breadth: "Hip breadth",
     hip_depth: "Hip depth",
   },
+  /** Beside the body. */
+  short: {
+    back_shoulder_width: "Shoulders, back",
+    waist_girth_smallest: "Waist",
+    waist_girth_navel: "Waist, at the navel",
+    upper_arm_girth: "Upper arm",
+    wrist_girth: "Wrist",
+    thigh_girth: "Thigh",
+    sleeve_length: "Sleeve length",
+    outseam: "Outseam",
+  },
 } as const;

@@ -5,12 +5,13 @@ export const start = {
     `From front and side, girths of chest, waist and hip are ${least} to ${most} off on average, in rendered pictures of ${people} people it was never tuned on.`,
   figures: "All figures",
   choose: "Choose a picture",
+  take: "Take or choose a picture",
   goOn: { with: (picture: string) => `Go on with ${picture}`, discard: "Discard it" },
   ways: {
     one: { title: "One picture", text: "A photograph or painting, in any stance." },
     two: { title: "Front and side", text: "Two photographs of a person standing: measures best.", go: "Take or choose two" },
   },
-  otherWays: "You can also drop a picture here, or paste one. On a phone you can use the camera.",
+  otherWays: "You can also drop a picture here, or paste one.",
   kept: {
     erased: (duration: string) => `Pictures go to this service and nowhere else. They are erased, with their results, ${duration} after the last use.`,
     untold: "Pictures go to this service and nowhere else. They are erased, with their results, some time after the last use.",

@@ -1,1 +1,0 @@
-import{N as e,l as t}from"/page/chunk.VS5M5K64.js";import{k as r}from"/page/chunk.UTCU72ZA.js";var i=r([]);async function m(){try{i.value=(await e()).map(({label:o})=>o)}catch(o){if(!(o instanceof t))throw o}}export{i as a,m as b};

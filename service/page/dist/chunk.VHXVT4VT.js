@@ -1,1 +1,0 @@
-import{e as t}from"/page/chunk.3ECVCPVQ.js";import{b as n}from"/page/chunk.OXKUYNWD.js";function f(r){let{light:o}=n.value.panel,e=t(Math.abs(r));return r>0?o.fromRight(e):o.fromLeft(e)}function g(r){let{light:o}=n.value.panel,e=t(Math.abs(r));return r>0?o.fromAbove(e):o.fromBelow(e)}export{f as a,g as b};
