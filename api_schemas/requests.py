@@ -4,9 +4,9 @@ from collections.abc import Mapping, Sequence
 from enum import StrEnum
 from typing import Annotated, Any, Final, Self
 
-from pydantic import Field, WithJsonSchema
+from pydantic import Field, WithJsonSchema, model_validator
 
-from api_schemas.base import WireModel
+from api_schemas.base import WireModel, refusal
 from api_schemas.images import ImageId
 from api_schemas.known import KnownMeasurements
 from api_schemas.labels import LABEL_OF_JOB, Label
@@ -270,6 +270,19 @@ class FitRequest(AskedPicture, FitChoices):
     webhook: WebhookTarget | None = Field(
         default=None, description="Where to tell of the job's end."
     )
+
+    @model_validator(mode="after")
+    def _some_term_counts(self) -> Self:
+        if self.paper is None or self.cues is Cues.SES:
+            return self
+        if set(self.paper.energies) == {PaperEnergy.SHADING}:
+            raise refusal(
+                code="wrong-length",
+                reason="No term counts: shading counts with the cues 'SES' alone.",
+                field="paper.energies",
+                remedy="Send 'SES' in 'cues', or another term in 'paper.energies'.",
+            )
+        return self
 
     @property
     def pictures(self) -> tuple[Self]:

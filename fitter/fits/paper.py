@@ -5,12 +5,16 @@ that body (3.2), and moved to the minimum of
 
     E1 = E_Si + E_Eg + E_Pn    and of    E2 = E1 + E_Sh    (section 6)
 
-and of nothing else: clicks, pose, stance and shape cost nothing once the search runs. For E2 light,
-reflectance and body alternate from the first body on, λ falling, until the body stays where it is
-(section 5). Any of the four terms may be left out.
+and of nothing else: clicks, pose, stance and shape cost nothing once the search runs. Bodies have
+what is known exactly (section 4); what is given with a standard error sets the first body alone.
+For E2 light, reflectance and body alternate from the first body on, λ falling, until the body stays
+where it is (section 5). Any of the four terms may be left out.
 
-What a fit says besides, its verdict and the camera's tilt, is judged as that of every fit. The
-paper states no errors, and neither does a fit by its method.
+The verdict, the findings and the camera's tilt come of the final body under the priors and limits
+of ordinary fits, but of less evidence: clothes count as tight, and no detector looks unless points
+are to be proposed. Where all are clicked, nothing is found by it, such as that the picture shows
+nobody at the points, or several people. The paper states no errors, and neither does a fit by its
+method.
 """
 
 from collections.abc import Sequence
@@ -20,6 +24,7 @@ from typing import Final
 import numpy as np
 
 from fitter.body.shape_space import height_of_shape
+from fitter.energies.attributes import NOTHING_KNOWN
 from fitter.energies.joint_objective import JointObjective
 from fitter.energies.objective import Candidate, Objective
 from fitter.energies.priors import no_prior
@@ -27,7 +32,6 @@ from fitter.energies.scales import FAR_BOUNDARY_ETA_M
 from fitter.evidence.intensity import IntensityMap, intensity_map
 from fitter.evidence.silhouette_evidence import silhouette_evidence
 from fitter.fits.equipment import Equipment
-from fitter.fits.initial_body import limb_readings
 from fitter.fits.outlined import Outlined, Subject
 from fitter.fits.picture_objective import of_person, silhouette_and_edges
 from fitter.fits.prepared_model import PreparedModel
@@ -95,6 +99,7 @@ _DIFFERENCES: Final = (
     "The specular exponent is 12, not estimated, and ambient light no more than the darkest skin.",
     "A weak prior takes the lamp to be 3 m away, and cast shadows take no part.",
     "Without a first light of the caller's, six are tried.",
+    "Measurements given with a standard error set the first body, and count no more in the search.",
     "Reflectance is found by reweighted least squares, not by gradient descent.",
 )
 _BY_GRADIENT: Final = (
@@ -229,7 +234,7 @@ def _with_shading(
 
 
 def as_judged(subject: Subject, found: Found) -> Found:
-    """The same bodies under all terms of an ordinary fit, by which every fit is judged."""
+    """The same bodies under all terms of an ordinary fit that the picture has evidence for."""
     everything = of_person(
         subject.known, [replace(view, counted=None) for view in found.objective.views]
     )
@@ -298,26 +303,25 @@ def _energy(
     picture: Outlined, subject: Subject, paper: Paper, counted: frozenset[str]
 ) -> JointObjective:
     """The sum of these terms, over bodies that have what is held."""
-    known = subject.known.attributes
-    held = replace(known.held, with_height=not paper.free_height)
+    held = replace(subject.known.attributes.held, with_height=not paper.free_height)
     return replace(
         of_person(subject.known, [replace(picture.objective, counted=counted)]),
         shape_prior=no_prior(len(subject.known.shape)),
-        attributes=replace(known, held=held),
+        attributes=replace(NOTHING_KNOWN, held=held),
     )
 
 
 def _limb_facing(initial: InitialPose, view: View) -> tuple[LimbFacing, ...]:
-    """As the best reading has it: no other is tried on the picture."""
+    """As the best reading has it: no other is tried on the picture, so that none is close."""
     return tuple(
         LimbFacing(
-            limb=each.limb,
-            facing=each.facing,
-            source=FacingSource.CALLER if each.limb in view.limb_facing else FacingSource.PRIOR,
-            ambiguous=each.ambiguous,
+            limb=limb,
+            facing=facing,
+            source=FacingSource.CALLER if limb in view.limb_facing else FacingSource.PRIOR,
+            ambiguous=False,
             alternative_energy=None,
         )
-        for each in limb_readings(initial.hypotheses, view.limb_facing)
+        for limb, facing in initial.hypotheses[0].facing.items()
     )
 
 

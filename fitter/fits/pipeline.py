@@ -40,8 +40,9 @@ from fitter.optimizer.uncertainty import certainty, shape_covariance
 from fitter.person.fitted_person import FittedPerson
 from fitter.person.several_pictures import MOST_PICTURES, CombinedShape, combined_shape
 from fitter.population.known_person import known_person
-from fitter.request import FitRequest
+from fitter.request import FitRequest, Paper, View
 from fitter.result import FitResult, FitStage, FittedView, PictureFit, Pictures, StageBody
+from fitter.vocabulary.choices import Cues, PaperEnergy
 from fitter.vocabulary.measurements import WEIGHT
 
 _WAIST: Final = "waist_girth_smallest"
@@ -141,14 +142,27 @@ def _check(request: FitRequest) -> None:
             reason=f"A fit has 1 to {most} pictures, not {len(request.views)}.",
             remedy="Send the person from the front and from the side, and more if there are.",
         )
-    if request.choices.paper is not None and (len(request.views) > 1 or begun):
+    paper = request.choices.paper
+    if paper is not None and (len(request.views) > 1 or begun):
         raise InvalidInputError(
             code="paper-one-picture",
             field="paper",
             reason="The paper fits one picture, from its clicks.",
             remedy="Send one picture, or leave `paper` out.",
         )
+    if paper is not None and not any(_counted(paper, view) for view in request.views):
+        raise InvalidInputError(
+            code="wrong-length",
+            field="paper.energies",
+            reason="No term counts: shading counts with the cues `SES` alone.",
+            remedy="Set `cues` to `SES`, or `paper.energies` to other terms as well.",
+        )
     check_person(request.person)
+
+
+def _counted(paper: Paper, view: View) -> frozenset[PaperEnergy]:
+    """The terms that count, of which shading is one only where the cues say so."""
+    return paper.energies - (set() if view.cues is Cues.SES else {PaperEnergy.SHADING})
 
 
 def _subject(request: FitRequest, equipment: Equipment) -> Subject:

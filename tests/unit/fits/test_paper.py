@@ -14,7 +14,7 @@ from fitter.fits.pipeline import fit
 from fitter.fits.prepared_model import prepared_model
 from fitter.render.contours import model_edges
 from fitter.render.rasterizer import render
-from fitter.request import Choices, FitRequest, Paper
+from fitter.request import Choices, FitRequest, KnownMeasurement, Paper
 from fitter.result import FitResult
 from fitter.vocabulary.choices import Cues, Gender, OptimizerKind, PaperEnergy
 from tests.benchmarks.requests import resized
@@ -131,6 +131,23 @@ def test_no_prior_holds_the_body_and_no_error_is_stated(by_outline: FitResult):
     assert ours.differences == ()
 
 
+def test_a_measurement_with_an_error_sets_the_first_body_and_has_no_term():
+    request = asked(Paper())
+    known = {"weight": KnownMeasurement(value=60.0, standard_error=0.5)}
+    person = replace(request.person, measurements=known)
+    result = fit(replace(request, person=person))
+    assert set(result.energies) == {each.value for each in E1}
+    first = {each.name: each.value for each in result.stages[0].measurements}
+    assert first["weight"] == pytest.approx(60.0, abs=1.0)
+    assert any("with a standard error" in each for each in result.differences)
+
+
+def test_no_limb_is_ambiguous_where_no_other_reading_is_tried(by_outline: FitResult):
+    (view,) = by_outline.views
+    assert not any(each.ambiguous for each in view.limb_facing)
+    assert "ambiguous-limb-facing" not in {each.code for each in view.warnings}
+
+
 def test_the_height_is_held_unless_it_is_free(by_outline: FitResult):
     assert measured(by_outline)["stature"] == pytest.approx(HEIGHT_CM, abs=0.1)
     free = fit(asked(Paper(free_height=True)))
@@ -163,6 +180,12 @@ def test_the_simplex_lowers_the_same_energy(monkeypatch: pytest.MonkeyPatch):
     assert set(result.energies) == {each.value for each in E1}
     assert result.found.outcome.value == "evaluation_limit"
     assert any("60,000" in each for each in result.differences)
+
+
+def test_a_fit_of_no_term_is_refused():
+    with pytest.raises(InvalidInputError) as refused:
+        fit(asked(Paper(energies=frozenset({PaperEnergy.SHADING}))))
+    assert refused.value.field == "paper.energies"
 
 
 def test_several_pictures_are_refused():
