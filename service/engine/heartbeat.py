@@ -12,11 +12,11 @@ from collections.abc import Callable, Collection
 from typing import Final
 
 import sqlalchemy as sa
-from sqlalchemy.exc import OperationalError
 
 from service.engine.claims import Claims
 from service.engine.executions import Executions
 from service.engine.liveness import WORKERS_SEEN, WorkerWatch, this_process
+from service.engine.retrying import ABSENCES
 from service.engine.tables import UNABLE_WORKERS, WORKERS
 from service.engine.upsert import insert_or_update
 from service.engine.worker_slots import WorkerSlots
@@ -81,8 +81,9 @@ class Heartbeat:
                 self._beat()
                 self._take_over()
                 self._pick_up()
-            except OperationalError as error:
-                LOG.warning("The database is not available (%s).", error.orig)
+            except ABSENCES as error:
+                cause = getattr(error, "orig", None) or error
+                LOG.warning("The database is not available (%s).", cause)
                 # Nothing could begin meanwhile.
                 self._dropped_since.clear()
             except Exception:

@@ -8,7 +8,8 @@ from typing import Any
 import pytest
 import sqlalchemy as sa
 from sqlalchemy import event
-from sqlalchemy.exc import OperationalError
+from sqlalchemy.exc import OperationalError, SQLAlchemyError
+from sqlalchemy.exc import TimeoutError as PoolTimeoutError
 
 from service.engine.claims import Claims
 from service.engine.database import open_database, prepare_database
@@ -19,6 +20,7 @@ from tests.integration.service.harness import Machine, eventually
 from tests.stored_jobs import insert_job
 
 AWAY = OperationalError("SELECT 1", {}, ConnectionError("The server is away."))
+NO_CONNECTION = PoolTimeoutError("QueuePool limit of size 8 overflow 0 reached")
 
 
 class Worker:
@@ -61,13 +63,13 @@ class Worker:
         eventually(lambda: self.beats >= before + 2, what="a whole heartbeat")
 
     @contextlib.contextmanager
-    def no_database(self) -> Iterator[None]:
+    def no_database(self, fault: SQLAlchemyError) -> Iterator[None]:
         """Refuse every statement, as while the server is away."""
         refused = threading.Event()
 
         def refuse(*_: Any) -> None:
             refused.set()
-            raise AWAY
+            raise fault
 
         event.listen(self.database, "before_cursor_execute", refuse)
         try:
@@ -97,9 +99,12 @@ def test_a_job_that_does_not_begin_is_put_back(worker: Worker):
     assert worker.slots.held() == ()
 
 
-def test_a_job_that_could_not_begin_while_the_database_was_away_is_kept(worker: Worker):
+@pytest.mark.parametrize("fault", [AWAY, NO_CONNECTION], ids=["refused", "no connection free"])
+def test_a_job_that_could_not_begin_while_the_database_was_away_is_kept(
+    worker: Worker, fault: SQLAlchemyError
+):
     worker.beat()
-    with worker.no_database():
+    with worker.no_database(fault):
         worker.now_s = 2.0 * DROPPED_AFTER_S
     worker.beat()
     assert worker.claims.held() == {"job"}
