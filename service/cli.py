@@ -72,9 +72,11 @@ def _parser() -> argparse.ArgumentParser:
         default="fits",
         help="metrics: opens /metrics and nothing else (default: %(default)s)",
     )
-    actions.add_parser("list", help="list all keys")
+    listing = actions.add_parser("list", help="list all keys")
     revoke = actions.add_parser("revoke", help="make a key useless")
     revoke.add_argument("id", help="the part of the key between the underscores")
+    for action in (create, listing, revoke):
+        action.add_argument("--data-dir", type=Path, help="that of the service")
     keys.set_defaults(command=_keys)
 
     health = commands.add_parser("health", help="exit with 0 if the service here is ready")
@@ -192,7 +194,7 @@ def _keys(parsed: argparse.Namespace) -> int:
     from service.engine.keys import Role
     from service.startup.begin import read_settings, run_told, warn_of_unknown_names
 
-    settings = read_settings("keys")
+    settings = read_settings("keys", _given(parsed, "data_dir"))
     warn_of_unknown_names()
     commands: dict[str, Callable[[], int]] = {
         "create": lambda: keys.create_key(settings, tenant=parsed.tenant, role=Role(parsed.role)),
@@ -303,14 +305,15 @@ def _draw_paper(parsed: argparse.Namespace) -> int:
     from service.commands.paper import PaperArguments, draw_paper
     from service.startup.begin import read_settings
 
-    read_settings("paper")
+    settings = read_settings("paper")
     return draw_paper(
         PaperArguments(
             output=parsed.output,
             picture=parsed.picture,
             painting=parsed.painting,
             motion=parsed.motion,
-        )
+        ),
+        settings,
     )
 
 

@@ -11,8 +11,7 @@ swinging foot stays 18 mm clear of the ground.
 
 import numpy as np
 
-from fitter.applications.cycle import Cycle, Moment, motion_of_cycle
-from fitter.applications.motion import Motion
+from fitter.applications.cycle import Cycle, Moment
 from fitter.applications.poses import Angles
 from fitter.applications.rig import Rig
 
@@ -27,7 +26,11 @@ USUAL_STRIDES = 3
 
 
 def stride_of(rig: Rig) -> Cycle:
-    """The stride at a person's own pace, by the length of the leg."""
+    """Walking on the spot at a person's own pace, by the length of the leg.
+
+    To be put on the ground (:mod:`fitter.applications.grounding`). Frame 0 is a strike of the left
+    heel.
+    """
     leg_m = float(
         np.linalg.norm(rig.bone("left_thigh", "left_shin"))
         + np.linalg.norm(rig.bone("left_shin", "left_foot"))
@@ -37,15 +40,6 @@ def stride_of(rig: Rig) -> Cycle:
         times=USUAL_STRIDES,
         moment=lambda phase: Moment(angles=stride_angles(phase)),
     )
-
-
-def walk(rig: Rig, *, first: int = 0, frames: int | None = None) -> Motion:
-    """Walking on the spot, to be put on the ground (:mod:`fitter.applications.grounding`).
-
-    ``frames`` of a walk without end, from the ``first`` on; frame 0 is a strike of the left heel.
-    Without a number, three whole strides.
-    """
-    return motion_of_cycle(stride_of(rig), rig, first=first, frames=frames)
 
 
 def stride_angles(phase: float) -> dict[str, Angles]:

@@ -5,10 +5,11 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 from fitter.applications.animation import motion_of_clip
+from fitter.applications.cycle import motion_of_cycle
 from fitter.applications.motion import Motion
 from fitter.applications.motion_file import MotionFile
 from fitter.applications.rig import rig_of
-from fitter.applications.walk import walk
+from fitter.applications.walk import stride_of
 from fitter.fits.pipeline import fit
 from fitter.fits.prepared_model import prepared_model
 from fitter.reproduction.ambiguities import figure_4, figure_5, fit_by_paper
@@ -113,4 +114,6 @@ def _fit(request: FitRequest) -> FitResult:
 def _motion(result: FitResult, source: MotionFile | None) -> Motion:
     model = prepared_model(result.person.gender).operators.model
     rig = rig_of(model, result.person.body.shape)
-    return walk(rig) if source is None else motion_of_clip(source, rig).motion
+    if source is None:
+        return motion_of_cycle(stride_of(rig), rig)
+    return motion_of_clip(source, rig).motion

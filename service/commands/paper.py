@@ -46,10 +46,10 @@ class PaperArguments:
     motion: Path | None = None
 
 
-def draw_paper(arguments: PaperArguments) -> int:
+def draw_paper(arguments: PaperArguments, settings: Settings) -> int:
     """Draw all figures into the output folder, with a page of them; return the exit status."""
     console = Console()
-    drawn = told(console, lambda: _drawn(arguments, console))
+    drawn = told(console, lambda: _drawn(arguments, settings, console))
     if drawn is None:
         return UNUSABLE_INPUT
     (arguments.output / "index.html").write_text(index_html(drawn))
@@ -58,17 +58,17 @@ def draw_paper(arguments: PaperArguments) -> int:
     return 0
 
 
-def packaged_pictures() -> Pictures:
+def packaged_pictures(settings: Settings) -> Pictures:
     """Those that ship with the package, without a painting."""
     sample, subject = load_sample(), load_subject()
     with np.load(io.BytesIO(subject.bodies), allow_pickle=False) as bodies:
         step_m = float(bodies["step_m"])
         true = {name: step_m * bodies[name] for name in ("canonical", *subject.pictures)}
     return Pictures(
-        portrait=_request(PictureSample(image=sample.image, request=sample.request)),
+        portrait=_request(PictureSample(image=sample.image, request=sample.request), settings),
         subject=Subject(
             pictures=tuple(
-                PosedTruth(name=name, request=_request(picture), posed=true[name])
+                PosedTruth(name=name, request=_request(picture, settings), posed=true[name])
                 for name, picture in subject.pictures.items()
             ),
             canonical=true["canonical"],
@@ -78,11 +78,11 @@ def packaged_pictures() -> Pictures:
     )
 
 
-def _drawn(arguments: PaperArguments, console: Console) -> Reproduction:
+def _drawn(arguments: PaperArguments, settings: Settings, console: Console) -> Reproduction:
     settle_folders()
-    pictures = packaged_pictures()
+    pictures = packaged_pictures(settings)
     given = {
-        name: _request(PictureSample(image=image.read_bytes(), request=_asked(points)))
+        name: _request(PictureSample(image=image.read_bytes(), request=_asked(points)), settings)
         for name, files in (("portrait", arguments.picture), ("painting", arguments.painting))
         if files is not None
         for image, points in [files]
@@ -108,9 +108,9 @@ def _asked(points: Path) -> bytes:
     return request_from_file(points.read_text(), {})
 
 
-def _request(picture: PictureSample) -> fitter_request.FitRequest:
+def _request(picture: PictureSample, settings: Settings) -> fitter_request.FitRequest:
     """Check a request as the service does, and translate it."""
     asked = parsed(FitRequest, picture.request, whole="request", called="what is asked for")
-    sent, settings = [SentPicture(picture.image, None)], Settings()
+    sent = [SentPicture(picture.image, None)]
     checked = check_submission(asked, sent, max_pixels=settings.max_pixels)
     return translate.fit_request(checked.options, sent, max_pixels=settings.max_pixels)

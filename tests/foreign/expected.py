@@ -12,10 +12,11 @@ from typing import Any
 
 import numpy as np
 
+from fitter.applications.cycle import motion_of_cycle
 from fitter.applications.grounding import grounded
 from fitter.applications.motion import moving_body
 from fitter.applications.rig import rig_of
-from fitter.applications.walk import walk
+from fitter.applications.walk import stride_of
 from fitter.arrays import Vertices
 from fitter.fits.prepared_model import PreparedModel, prepared_model
 from fitter.parameters import BodyParameters, CameraTilt
@@ -134,7 +135,8 @@ class _Results:
     def animated(self, *, error: str, **more: Any) -> Shown:
         """The walk that ships with the package, by exact SCAPE."""
         shape = np.array(self.first()["body"]["shape"])
-        motion = walk(rig_of(self.model, shape))
+        rig = rig_of(self.model, shape)
+        motion = motion_of_cycle(stride_of(rig), rig)
         body = grounded(moving_body(self.evaluator, shape, motion), self.model)
         last = len(body.shapes) - 1
         stated_m = 1e-3 * self.derived("animation")[error]

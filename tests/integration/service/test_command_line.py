@@ -281,6 +281,25 @@ def test_the_exported_contract_can_be_printed(tmp_path):
     assert json.loads((tmp_path / "openapi.json").read_text())["openapi"].startswith("3.1")
 
 
+def test_keys_are_those_of_the_data_folder_that_is_named(tmp_path, capsys):
+    for action in (["create", "shop"], ["list"]):
+        with pytest.raises(SystemExit) as ended:
+            main(["keys", *action, "--data-dir", str(tmp_path / "shop")])
+        assert ended.value.code == 0
+    assert " shop fits created" in capsys.readouterr().out
+    assert (tmp_path / "shop" / "maquette.sqlite").exists()
+
+
+def test_the_paper_is_not_fitted_without_a_term(tmp_path, capsys):
+    (tmp_path / "p.png").write_bytes(scripted_image())
+    (tmp_path / "p.json").write_text(json.dumps(REQUEST))
+    given = [str(tmp_path / "p.png"), "--points", str(tmp_path / "p.json"), "--cues", "SE"]
+    with pytest.raises(SystemExit) as ended:
+        main(["fit", *given, "--energies", "shading", "--output", str(tmp_path / "out")])
+    assert ended.value.code == 2
+    assert "paper.energies" in capsys.readouterr().out
+
+
 def test_a_port_in_use_is_said_so_with_what_to_do(capsys):
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))

@@ -14,13 +14,14 @@ from fitter.applications.animation import (
     motion_of_clip,
     motion_of_name,
 )
+from fitter.applications.cycle import motion_of_cycle
 from fitter.applications.gltf_skin import skin_of
 from fitter.applications.grounding import grounded
 from fitter.applications.motion import moving_body, unturned
 from fitter.applications.motion_file import read_motion
 from fitter.applications.poses import named_pose
 from fitter.applications.principal_frames import ERROR_GOAL_M, principal_frames
-from fitter.applications.walk import stride_of, walk
+from fitter.applications.walk import stride_of
 from fitter.parameters import BodyParameters
 from fitter.person.fitted_person import FittedPerson
 from fitter.vocabulary.choices import Gender
@@ -38,7 +39,7 @@ def body():
 @pytest.fixture(scope="module")
 def moving(body):
     """A stride, turning a little, so that the whole body's rotation matters."""
-    motion = walk(body.rig, frames=stride_of(body.rig).frames)
+    motion = motion_of_cycle(stride_of(body.rig), body.rig, frames=stride_of(body.rig).frames)
     motion.poses[:, 0, 1] = np.linspace(0.0, 1.0, len(motion.poses))
     return grounded(moving_body(body.evaluator, body.shape, motion), body.model)
 
@@ -259,7 +260,9 @@ def animation(body):
         reflectance=reflectance_of(body.model),
         albedo_rgb=None,
     )
-    return animate(person, body.evaluator, walk(body.rig, frames=stride_of(body.rig).frames))
+    stride = stride_of(body.rig)
+    motion = motion_of_cycle(stride, body.rig, frames=stride.frames)
+    return animate(person, body.evaluator, motion)
 
 
 def test_an_animation_states_in_its_files_what_it_reports(animation):

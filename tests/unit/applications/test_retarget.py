@@ -7,12 +7,13 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from fitter.applications.clip import stretch_of
+from fitter.applications.cycle import motion_of_cycle
 from fitter.applications.grounding import grounded, sliding_m
 from fitter.applications.motion import MovingBody, moving_body
 from fitter.applications.motion_file import read_motion
 from fitter.applications.poses import NAMED_POSES, named_pose
 from fitter.applications.retarget import Retargeted, retarget
-from fitter.applications.walk import stride_of, walk
+from fitter.applications.walk import stride_of
 from fitter.body.skeleton import global_rotations, posed_joints
 from tests.unit.applications.bodies import packaged
 from tests.unit.applications.bvh_files import MIXAMO, NAMES, bvh_of
@@ -32,7 +33,7 @@ def body():
 @pytest.fixture(scope="module")
 def walking(body):
     """Two strides on the ground."""
-    motion = walk(body.rig, frames=2 * stride_of(body.rig).frames)
+    motion = motion_of_cycle(stride_of(body.rig), body.rig, frames=2 * stride_of(body.rig).frames)
     return grounded(moving_body(body.evaluator, body.shape, motion), body.model)
 
 
@@ -165,7 +166,7 @@ def test_bones_of_limbs_point_where_the_sources_do(body, walking):
 def test_a_walk_comes_back_nearly_as_it_was(gender):
     """What cannot be seen of joints' positions is taken from how people stand and walk."""
     body = packaged(gender)
-    motion = walk(body.rig, frames=2 * stride_of(body.rig).frames)
+    motion = motion_of_cycle(stride_of(body.rig), body.rig, frames=2 * stride_of(body.rig).frames)
     made = grounded(moving_body(body.evaluator, body.shape, motion), body.model)
     found = retargeted(written(body, made), body.rig).motion
     apart = apart_deg(body.rig, motion.poses, found.poses)

@@ -1,11 +1,12 @@
 import numpy as np
 import pytest
 
+from fitter.applications.cycle import motion_of_cycle
 from fitter.applications.grounding import grounded, sliding_m, sole_vertices
 from fitter.applications.motion import Motion, moving_body
 from fitter.applications.poses import named_pose
 from fitter.applications.rig import beyond_limits
-from fitter.applications.walk import stride_angles, stride_of, walk
+from fitter.applications.walk import stride_angles, stride_of
 from tests.unit.applications.bodies import packaged
 
 WINTER_SPEED_M_S = (0.9, 1.7)
@@ -19,12 +20,12 @@ def body(request):
 
 @pytest.fixture(scope="module")
 def walking(body):
-    motion = walk(body.rig, frames=2 * stride_of(body.rig).frames)
+    motion = motion_of_cycle(stride_of(body.rig), body.rig, frames=2 * stride_of(body.rig).frames)
     return grounded(moving_body(body.evaluator, body.shape, motion), body.model)
 
 
 def test_every_frame_is_within_the_limits_of_the_joints(body):
-    stride = walk(body.rig, frames=stride_of(body.rig).frames)
+    stride = motion_of_cycle(stride_of(body.rig), body.rig, frames=stride_of(body.rig).frames)
     assert {beyond_limits(body.rig, pose) for pose in stride.poses} == {None}
 
 

@@ -15,6 +15,7 @@ from fitter.reproduction.index import PRINTED_TABLE, index_html, table_cells, ta
 from fitter.reproduction.subject import COLUMNS
 from service.commands.paper import packaged_pictures
 from service.demo_data.sample import load_subject
+from service.settings import Settings
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import PICTURES_FOLDER, read_case
 from tests.evaluation.people_table import PEOPLE
@@ -55,7 +56,7 @@ def test_the_subject_is_one_on_whom_nothing_was_chosen(tmp_path):
 
 @pytest.mark.parametrize("number", range(3))
 def test_the_true_bodies_are_those_that_the_pictures_show(number: int):
-    picture = packaged_pictures().subject.pictures[number]
+    picture = packaged_pictures(Settings()).subject.pictures[number]
     (view,) = picture.request.views
     files = read_case(CASES[f"{PERSON}_{picture.name}"])
     height, width = decode_picture(view.image, field="image", max_pixels=10**7).pixels.shape[:2]

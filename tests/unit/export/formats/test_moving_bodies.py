@@ -7,11 +7,12 @@ import pytest
 import trimesh
 
 from fitter.applications.animated_glb import morphed_glb, skinned_glb
+from fitter.applications.cycle import motion_of_cycle
 from fitter.applications.gltf_skin import skin_of
 from fitter.applications.grounding import grounded
 from fitter.applications.motion import moving_body
 from fitter.applications.principal_frames import principal_frames
-from fitter.applications.walk import stride_of, walk
+from fitter.applications.walk import stride_of
 from fitter.export.formats import converted
 from tests.unit.applications.bodies import packaged
 
@@ -24,7 +25,7 @@ def body():
 @pytest.fixture(scope="module")
 def moving(body):
     """A stride that begins turned away and off the middle."""
-    motion = walk(body.rig, frames=stride_of(body.rig).frames)
+    motion = motion_of_cycle(stride_of(body.rig), body.rig, frames=stride_of(body.rig).frames)
     motion.poses[:, 0, 1] = np.linspace(1.0, 2.0, len(motion.poses))
     motion.roots[:, 0] += 0.5
     return grounded(moving_body(body.evaluator, body.shape, motion), body.model)
