@@ -32,14 +32,20 @@ _ACTIVE: Final = (JobState.QUEUED, JobState.RUNNING)
 
 AnyJob = TypeVar("AnyJob", Job, Scan)
 Model = TypeVar("Model", bound=BaseModel)
-Picture = Path | bytes
+Picture = Path | str | bytes
+"""A file, by its path, or its content."""
+
 Request = BaseModel | Mapping[str, Any]
 
 
 class MaquetteError(Exception):
-    """The service refused a call, or a job has no result; ``problem`` says why and what to do."""
+    """The service refused a call or does not answer, or a job has no result.
 
-    def __init__(self, message: str, *, status: int, problem: Problem | None) -> None:
+    ``problem`` says why and what to do, ``status`` is that of HTTP; both are None where nothing
+    answers.
+    """
+
+    def __init__(self, message: str, *, status: int | None, problem: Problem | None) -> None:
         super().__init__(message)
         self.status = status
         self.problem = problem
@@ -165,7 +171,7 @@ class Maquette:
         files = {"request": ("request.json", asked.encode(), "application/json")}
         for name, picture in pictures.items():
             if picture is not None:
-                content = picture.read_bytes() if isinstance(picture, Path) else picture
+                content = picture if isinstance(picture, bytes) else Path(picture).read_bytes()
                 files[name] = (name, content, "application/octet-stream")
         headers = {"Prefer": f"wait={WAIT_S}"}
         if idempotency_key is not None:
@@ -173,7 +179,14 @@ class Maquette:
         return _read(kind, self._call("POST", path, files=files, headers=headers))
 
     def _call(self, method: str, path: str, **sent: Any) -> httpx.Response:
-        answer = self._client.request(method, path, **sent)
+        try:
+            answer = self._client.request(method, path, **sent)
+        except httpx.TransportError as error:
+            message = (
+                f"{self._client.base_url} does not answer ({error}). Check the address, and that "
+                "the service runs."
+            )
+            raise MaquetteError(message, status=None, problem=None) from error
         if answer.is_success:
             return answer
         is_problem = answer.headers.get("Content-Type", "").startswith(PROBLEM_MEDIA_TYPE)

@@ -166,8 +166,22 @@ Points = Annotated[_Named | _Numbers | _Rows | _Landmarks, Discriminator(_points
 Auto = Literal["auto"]
 AUTO: Final[Auto] = "auto"
 
+
+def _auto(value: object) -> object:
+    if value == AUTO:
+        return value
+    raise refusal(
+        code="unknown-value",
+        reason="The only word that may stand for points is 'auto'.",
+        remedy=(
+            'Send "auto", or an object of points as {"left_shoulder": [x, y], ...}, or a list '
+            "with its 'format'."
+        ),
+    )
+
+
 PointsOrAuto = Annotated[
-    _Named | _Numbers | _Rows | _Landmarks | Annotated[Auto, Tag("[auto]")],
+    _Named | _Numbers | _Rows | _Landmarks | Annotated[Auto, BeforeValidator(_auto), Tag("[auto]")],
     Discriminator(_points_or_auto_kind),
 ]
 """Points, or the word that has the service propose all of them.

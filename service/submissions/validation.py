@@ -32,6 +32,7 @@ _REMEDIES: Final[Mapping[str, tuple[str, Callable[[Context], str]]]] = {
     "extra_forbidden": ("unknown-field", lambda _: "Remove it, or correct its name."),
     "enum": ("unknown-value", lambda context: f"Use {context['expected']}."),
     "literal_error": ("unknown-value", lambda context: f"Use {context['expected']}."),
+    "float_type": ("wrong-kind", lambda _: "Send a number without quotes, such as 1.8."),
     "finite_number": ("not-finite", lambda _: "Send a finite number."),
     "too_long": ("wrong-length", lambda context: f"Send at most {context['max_length']} values."),
     "too_short": (

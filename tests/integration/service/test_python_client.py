@@ -1,5 +1,6 @@
 """The client of this package against a running service."""
 
+import socket
 from pathlib import Path
 
 import pytest
@@ -39,6 +40,21 @@ def test_a_request_may_be_of_the_packages_own_type_and_have_a_mask(maquette: Maq
     asked = FitRequest(gender=Gender.FEMALE, height_m=1.7, points=AUTO)
     job = maquette.fit(scripted_image(), asked, mask=scripted_image())
     assert job.links.mask is not None
+
+
+def test_a_string_is_the_path_of_a_file(maquette: Maquette, tmp_path: Path):
+    picture = tmp_path / "picture.png"
+    picture.write_bytes(scripted_image())
+    assert maquette.wait_for(maquette.fit(str(picture), KNOWN, mask=str(picture))).links.mask
+
+
+def test_who_does_not_answer_is_named():
+    with socket.socket() as bound:  # to a port where nothing listens
+        bound.bind(("127.0.0.1", 0))
+        address = f"http://127.0.0.1:{bound.getsockname()[1]}"
+        with Maquette(address) as client, pytest.raises(MaquetteError, match=address) as away:
+            client.fit(b"", KNOWN)
+    assert (away.value.status, away.value.problem) == (None, None)
 
 
 def test_two_pictures_are_one_scan(maquette: Maquette):

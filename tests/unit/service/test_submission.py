@@ -127,6 +127,7 @@ def test_checking_twice_changes_nothing():
             "two-focal-lengths",
         ),
         ({"cues": "S"}, "cues", "unknown-value"),
+        ({"cues": "SE", "paper": {"energies": ["shading"]}}, "paper.energies", "wrong-length"),
         ({"clothing": "baggy"}, "clothing", "unknown-value"),
         ({"limb_facing": {"left_forearm": "up"}}, "limb_facing.left_forearm", "unknown-value"),
         ({"limb_facing": {"tail": "away"}}, "limb_facing.tail", "unknown-value"),
@@ -146,6 +147,25 @@ def test_a_misspelt_point_is_one_fault_that_offers_every_name():
     (error,) = caught.value.problem.errors
     assert error.field == "points.left_sholder"
     assert all(f"'{name}'" in error.remedy for name in POINT_NAMES)
+
+
+def remedy(**changes: object) -> str:
+    with pytest.raises(RefusedError) as caught:
+        check(**changes)
+    return caught.value.problem.errors[0].remedy
+
+
+def test_remedies_say_what_to_send():
+    assert "without quotes, such as 1.8" in remedy(height_m="1.80")
+    assert '"auto", or an object of points' in remedy(points="automatic")
+    assert "'SES'" in remedy(cues="SE", paper={"energies": ["shading"]})
+
+
+@pytest.mark.parametrize(("cues", "energies"), [("SES", ["shading"]), ("SE", ["shading", "edges"])])
+def test_the_papers_method_is_accepted_where_a_term_counts(cues: str, energies: list[str]):
+    paper = check(cues=cues, paper={"energies": energies}).options.paper
+    assert paper is not None
+    assert list(paper.energies) == energies
 
 
 def test_all_faults_are_told_at_once():
