@@ -164,6 +164,17 @@ def outlined(
         doubtful = doubtful_outline(
             objective.evidence.silhouette, body.rendering, observation.display
         )
+        if doubtful.any():
+            # What a body farther off explains, such as a belly that no search has reached yet, is
+            # the person's own.
+            further = contest(of_person(known, [far]), [body])
+            (reaching,) = further.candidate.views
+            evaluations += further.evaluations
+            doubtful &= doubtful_outline(
+                objective.evidence.silhouette, reaching.rendering, observation.display
+            )
+            if not doubtful.any():
+                body = reaching
         objective = objective.doubting(doubtful)
         # Against a region that stays as it is, one search is enough.
         if lines_on is not None or doubtful.any() or not is_only:
