@@ -165,16 +165,15 @@ def outlined(
             objective.evidence.silhouette, body.rendering, observation.display
         )
         if doubtful.any():
-            # What a body farther off explains, such as a belly that no search has reached yet, is
-            # the person's own.
             further = contest(of_person(known, [far]), [body])
             (reaching,) = further.candidate.views
             evaluations += further.evaluations
-            doubtful &= doubtful_outline(
+            still = doubtful_outline(
                 objective.evidence.silhouette, reaching.rendering, observation.display
             )
-            if not doubtful.any():
-                body = reaching
+            if not still.any():
+                # It was the person's own, such as a belly that no search had reached.
+                doubtful, body = still, reaching
         objective = objective.doubting(doubtful)
         # Against a region that stays as it is, one search is enough.
         if lines_on is not None or doubtful.any() or not is_only:

@@ -18,6 +18,7 @@ from fitter.vocabulary.outcomes import Verdict
 from tests.benchmarks.requests import resized
 from tests.evaluation.cases import CASES
 from tests.evaluation.files import read_case
+from tests.evaluation.phone_cases import PHONE_PAIRS
 from tests.evaluation.runs import picture_of
 from tests.evaluation.spoilt import Asked, spoilt_request
 from tests.evaluation.suite import fit_request
@@ -148,6 +149,21 @@ def test_proposals_that_are_sent_back_are_no_clicks(spread_m, is_told):
     }
     findings = {each.code for each in fit(changed(request, clicks=clicks)).views[0].findings}
     assert (Code.SEVERAL_PEOPLE in findings) is is_told
+
+
+def test_a_belly_that_the_first_body_does_not_reach_is_the_persons_own():
+    """It stood so far off that body that the whole of it was doubted."""
+    pair = PHONE_PAIRS["phone_man_old_heavy"]
+    front, side = picture_of(pair.front.name), picture_of(pair.side.name)
+    found = fit(
+        together(
+            changed(front.request, kind=ViewKind.FRONT, cues=Cues.SE),
+            changed(side.request, kind=ViewKind.SIDE, cues=Cues.SE),
+        )
+    )
+    assert Code.COVERED not in {each.code for view in found.views for each in view.findings}
+    waist = {each.name: each.value for each in found.measurements}["waist_girth_smallest"]
+    assert waist == pytest.approx(side.truth.measurements["waist_girth_smallest"], abs=4.0)
 
 
 @pytest.mark.parametrize("segmentation", SegmentationKind)
