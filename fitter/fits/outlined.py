@@ -164,7 +164,7 @@ def outlined(
         doubtful = doubtful_outline(
             objective.evidence.silhouette, body.rendering, observation.display
         )
-        if doubtful.any():
+        if doubtful.any() and not is_loosely_dressed(objective):
             further = contest(of_person(known, [far]), [body])
             (reaching,) = further.candidate.views
             evaluations += further.evaluations
