@@ -156,7 +156,7 @@ def test_the_body_before_shading_can_be_seen_in_its_place(visitor: Visitor, fini
     expect(page.get_by_role("radio", name="Albedo", exact=True)).to_have_count(0)
     visitor.choose("With shading")
     again = visitor.wait_until_drawn(placement="canonical")
-    assert np.array_equal(again, final)
+    assert (np.abs(again - final).max(axis=2) > 12).mean() < 0.0002
     visitor.choose("Change")
     changed = visitor.wait_until_drawn(placement="canonical", surface="change")
     red, _, blue = np.moveaxis(changed, 2, 0)
