@@ -149,7 +149,7 @@ def test_whatever_the_result_says_is_text_on_the_page():
 @pytest.mark.parametrize("language", list(Language))
 def test_names_are_those_of_the_page(language: Language):
     page = REPOSITORY / "service" / "page" / "src" / "messages" / language / "measures.ts"
-    _, _, labels = page.read_text().partition("labels: {")
+    labels = page.read_text().partition("labels: {")[2].partition("\n  },")[0]
     named = WORDINGS[language].measurements
     assert dict(re.findall(r'(\w+): "(.*?)"', labels)) == named
     assert {definition.about.name for definition in load_definitions()} <= named.keys()
