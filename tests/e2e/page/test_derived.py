@@ -3,13 +3,14 @@
 import io
 import json
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import httpx
 import numpy as np
 import pytest
 from PIL import Image
-from playwright.sync_api import Route, expect
+from playwright.sync_api import Request, Route, expect
 
 from service.demo_data.sample import load_sample
 from tests.e2e.page.visitor import FIT_WITHIN_MS, VISIBLY, Visitor
@@ -26,6 +27,11 @@ NOTE_PLAYING_ON = """(moving) => {
 }"""
 
 
+def asks_for(kind: str) -> Callable[[Request], bool]:
+    """Whether a request does: the page asks for the skin by itself, at any time."""
+    return lambda request: f'"kind":"{kind}"' in (request.post_data or "")
+
+
 @pytest.fixture
 def looking(visitor: Visitor, bare_fit: str) -> Visitor:
     """Someone before a fit of which nothing is made yet."""
@@ -39,7 +45,7 @@ def test_a_report_is_made_kept_and_erased(looking: Visitor):
     made = page.locator(".derived > li")
     looking.choose("Report")
     page.get_by_label("Name in the heading, if you like").fill("Ada L.")
-    with page.expect_request(lambda request: request.method == "POST") as sent:
+    with page.expect_request(asks_for("report")) as sent:
         page.get_by_role("button", name="Make the report").click()
     asked = sent.value.post_data_json
     assert (asked["name"], asked["units"], asked["language"]) == ("Ada L.", "metric", "en")
@@ -146,7 +152,7 @@ def test_the_motion_is_chosen_beside_the_body_and_made_once(looking: Visitor):
     page = looking.page
     looking.choose("Animation")
     page.get_by_role("radio", name="Squat", exact=True).check()
-    with page.expect_request(lambda request: request.method == "POST") as sent:
+    with page.expect_request(asks_for("animation")) as sent:
         page.get_by_role("button", name="Make the animation").click()
     assert sent.value.post_data_json["motion"] == "squat"
     stage = page.locator(".bench-stage")
@@ -156,7 +162,7 @@ def test_the_motion_is_chosen_beside_the_body_and_made_once(looking: Visitor):
     expect(stage.get_by_role("radio", name="Squat", exact=True)).to_be_checked()
     stage.get_by_role("slider", name="Moment of the motion").fill("1.3")
     low = looking.pixels(body)
-    with page.expect_request(lambda request: request.method == "POST") as sent:
+    with page.expect_request(asks_for("animation")) as sent:
         wave.check()
     assert sent.value.post_data_json == {"kind": "animation", "motion": "wave"}
     expect(stage.get_by_text("Being made: Wave")).to_be_visible()
@@ -325,7 +331,7 @@ def test_a_caricature_that_is_refused_is_offered_as_strong_as_it_can_be(looking:
     expect(page.get_by_role("button", name="Try again")).to_have_count(0)
     largest = float(re.search(r"[\d.]+", smaller.inner_text())[0])
     assert 1.0 < largest < 5.0
-    with page.expect_request(lambda request: request.method == "POST") as sent:
+    with page.expect_request(asks_for("caricature")) as sent:
         smaller.click()
     assert sent.value.post_data_json["factor"] == largest
     expect(page.get_by_role("img", name="The caricature; arrow keys turn it")).to_be_visible(
