@@ -8,13 +8,11 @@ from api_schemas.derivation_kinds.figure import FigureOptions, FigureResult
 from fitter.applications.figure import figure_picture
 from fitter.applications.rig import rig_of
 from fitter.export.display import png
-from fitter.export.gltf_document import Frame
-from fitter.export.plain_gltf import plain_glb
 from fitter.observation.decoding import decode_picture
 from fitter.parameters import BodyParameters
 from service.jobs.inputs import IMAGE, OVERLAY, PERSON
 from service.worker.derived.person import person_and_operators
-from service.worker.derived.pose import pose_named
+from service.worker.derived.pose import pose_named, reposed_glb
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 
 
@@ -46,14 +44,6 @@ def derive(
         result=FigureResult(pose=options.pose, artifacts=()),
         artifacts={
             "figure.png": png(drawn),
-            "body_reposed.glb": plain_glb(
-                standing,
-                model,
-                name="body_reposed",
-                frame=Frame.ON_THE_GROUND,
-                extras={"pose": options.pose.value},
-                reflectance=person.reflectance,
-                albedo_rgb=person.albedo_rgb,
-            ),
+            "body_reposed.glb": reposed_glb(standing, model, person, options.pose),
         },
     )

@@ -9,11 +9,14 @@ from api_schemas.derivation_kinds.pose import NamedPose, PoseOptions, PoseResult
 from fitter.applications.poses import named_pose, spelled_pose
 from fitter.applications.previews import View, preview
 from fitter.applications.rig import Rig, rig_of
-from fitter.arrays import Pose
+from fitter.arrays import Pose, Vertices
+from fitter.body.model import BodyModel
+from fitter.export.body_texture import BodyTexture
 from fitter.export.display import png
 from fitter.export.gltf_document import Frame
 from fitter.export.plain_gltf import plain_glb
 from fitter.parameters import BodyParameters
+from fitter.person.fitted_person import FittedPerson
 from service.jobs.inputs import PERSON
 from service.worker.derived.person import person_and_operators
 from service.worker.derived.pictured_body import texture_files, texture_for
@@ -26,6 +29,26 @@ def pose_named(rig: Rig, name: NamedPose) -> Pose:
     if name is NamedPose.REST:
         return np.zeros((len(rig.part_names), 3))
     return named_pose(rig, name.value)
+
+
+def reposed_glb(
+    vertices: Vertices,
+    model: BodyModel,
+    person: FittedPerson,
+    name: NamedPose,
+    texture: BodyTexture | None = None,
+) -> bytes:
+    """A person's body on the ground in a pose, which is named in the file."""
+    return plain_glb(
+        vertices,
+        model,
+        name="body_reposed",
+        frame=Frame.ON_THE_GROUND,
+        extras={"pose": name.value},
+        reflectance=person.reflectance,
+        albedo_rgb=person.albedo_rgb,
+        texture=texture,
+    )
 
 
 def derive(
@@ -55,16 +78,7 @@ def derive(
             artifacts=(),
         ),
         artifacts={
-            "body_reposed.glb": plain_glb(
-                vertices,
-                model,
-                name="body_reposed",
-                frame=Frame.ON_THE_GROUND,
-                extras={"pose": options.pose.value},
-                reflectance=person.reflectance,
-                albedo_rgb=person.albedo_rgb,
-                texture=texture,
-            ),
+            "body_reposed.glb": reposed_glb(vertices, model, person, options.pose, texture),
             "pose.png": png(preview(views, model.triangles)),
         }
         | texture_files(texture),
