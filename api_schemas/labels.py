@@ -5,13 +5,12 @@ two of them look alike, turn what follows around, or end a line of somebody's lo
 """
 
 import re
-from datetime import datetime
 from typing import Annotated, Final
 
 from pydantic import AfterValidator, Field
 from pydantic_core import PydanticCustomError
 
-from api_schemas.base import WireModel, refusal
+from api_schemas.base import refusal
 
 LONGEST: Final = 80
 
@@ -98,20 +97,3 @@ LABEL_OF_JOB: Final = (
     "What you call the person, for instance an id of yours: lists can be filtered by it. It is "
     "kept as it was sent, cannot be changed, and is erased with the job."
 )
-
-
-class LabelledPerson(WireModel):
-    """Everything that has one label."""
-
-    label: str
-    fits: int = Field(ge=0, description="How many fits have it.")
-    scans: int = Field(ge=0, description="How many scans have it.")
-    latest: str = Field(description="Path of the newest of them, whether or not it has ended.")
-    latest_at: datetime = Field(description="When that was accepted.")
-
-
-class PeoplePage(WireModel):
-    """People in the order of their labels; ``next`` is the path of the following page."""
-
-    people: tuple[LabelledPerson, ...]
-    next: str | None

@@ -79,7 +79,7 @@ async def make_token(request: Request, context: Context) -> NewToken:
     12 at a time for each of these jobs. It sees its own jobs and pictures alone. These belong to
     the key's tenant, who sees them too; requests count as those of the key. It ends at its
     `expires_at`, or within seconds when it or the key is revoked. It may neither make nor list
-    tokens, list people, nor ask for notices (`webhook`).
+    tokens, nor ask for notices (`webhook`).
 
     Where the service asks for no keys there is nothing that a token could stand for, and the answer
     is a 404 whose code is `authentication-off`.

@@ -16,7 +16,6 @@ from service.api.readiness import Readiness
 from service.blobs import BlobStore
 from service.engine.browser_token_port import BrowserToken, BrowserTokens
 from service.engine.image_port import TenantImages
-from service.engine.people_port import TenantPeople
 from service.engine.port import FIT, SCAN, JobEngine, TenantJobs
 from service.process.disk import Disk
 from service.settings import Settings
@@ -57,7 +56,7 @@ class Parts:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ApiContext(Parts):
-    """The parts, and for one request its tenant's ``jobs``, fits and scans, ``images``, ``people``.
+    """The parts, and for one request its tenant's ``jobs``, fits and scans, and ``images``.
 
     ``key_id`` is the key it came with, None where none are asked for; ``token`` the browser's token
     that stands for it, if it does: then jobs and images are that token's alone.
@@ -68,7 +67,6 @@ class ApiContext(Parts):
     token: BrowserToken | None
     jobs: Mapping[str, TenantJobs]
     images: TenantImages
-    people: TenantPeople
     request_id: str | None
 
 
@@ -84,7 +82,6 @@ def _context(request: Request) -> ApiContext:
         token=caller.token,
         jobs={root: engine.of(caller.tenant, root, token=token_id) for root in (FIT, SCAN)},
         images=engine.images_of(caller.tenant, token=token_id),
-        people=engine.people_of(caller.tenant),
         request_id=getattr(request.state, "request_id", None),
     )
 

@@ -72,7 +72,6 @@ TAGS: Final[Sequence[Mapping[str, str]]] = (
     {"name": "scans", "description": "Jobs that measure a person from several pictures."},
     {"name": "results", "description": "What a fit that has succeeded found, and its files."},
     {"name": "derivations", "description": "Jobs that make something of a fit or a scan."},
-    {"name": "people", "description": "The labels of fits and scans."},
     {"name": "tokens", "description": "What browsers use in place of a key."},
     {"name": "images", "description": "Pictures that are uploaded once, for any number of fits."},
     {"name": "estimates", "description": "Points, initial poses and bodies, answered at once."},

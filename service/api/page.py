@@ -19,7 +19,6 @@ ROUTER: Final = APIRouter(include_in_schema=False)
 LINKS: Final = {
     "fits": "/v1/fits",
     "scans": "/v1/scans",
-    "people": "/v1/people",
     "tokens": "/v1/tokens",
     "images": "/v1/images",
     "initial_poses": "/v1/initial-poses",

@@ -19,7 +19,6 @@ from service.engine.facts import read_fact, touch_fact
 from service.engine.image_port import ImageQuota
 from service.engine.images import StoredImages
 from service.engine.liveness import WORKERS_SEEN, WorkerWatch
-from service.engine.people import StoredPeople
 from service.engine.port import FIT, EngineStatistics, EngineUnavailableError, WorkerStatus
 from service.engine.queue import APPLICATION
 from service.engine.statistics import read_durations, read_outcomes
@@ -119,10 +118,6 @@ class DbosJobEngine:
             quota=self._image_quota,
             ballast=self._ballast,
         )
-
-    def people_of(self, tenant: str) -> StoredPeople:
-        """Return the people whom a tenant has labelled fits or scans with."""
-        return StoredPeople(tenant, self._database)
 
     @available
     def last_events(self, job_ids: Sequence[str]) -> dict[str, int]:

@@ -10,7 +10,6 @@ from api_schemas.jobs import EventData, EventKind, JobState, WebhookState
 from api_schemas.problems import Problem
 from api_schemas.results import Artifact
 from service.engine.image_port import TenantImages
-from service.engine.people_port import TenantPeople
 
 FIT: Final = "fit"
 SCAN: Final = "scan"
@@ -282,10 +281,6 @@ class JobEngine(Protocol):
 
     def images_of(self, tenant: str, *, token: str | None = None) -> TenantImages:
         """Return the uploaded pictures of a tenant; with a token those uploaded with it."""
-        ...
-
-    def people_of(self, tenant: str) -> TenantPeople:
-        """Return the people whom a tenant has labelled fits or scans with."""
         ...
 
     def last_events(self, job_ids: Sequence[str]) -> dict[str, int]:

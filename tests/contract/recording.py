@@ -217,7 +217,6 @@ def _estimates(
 
 def _whole_service(recorder: Recorder, metrics_key: str) -> None:
     recorder.ask("both", "GET", "/v1/body-models")
-    recorder.ask("first-page", "GET", "/v1/people?limit=1")
     recorder.ask("live", "GET", "/healthz/live")
     recorder.ask("ready", "GET", "/healthz/ready")
     recorder.ask("no-result", "GET", "/problems/no-result")

@@ -79,8 +79,8 @@ def ended_fits(service: Service) -> list[str]:
 
 
 def contents(service: Service, paths: list[str]) -> Mapping[str, bytes]:
-    """Everything that a caller can fetch of these fits, and of whom they are."""
-    found = {"people": service.client.get("/v1/people").raise_for_status().content}
+    """Everything that a caller can fetch of these fits."""
+    found: dict[str, bytes] = {}
     for path in paths:
         links = [path, f"{path}/request", f"{path}/image", f"{path}/result"]
         result = service.client.get(f"{path}/result").raise_for_status().json()

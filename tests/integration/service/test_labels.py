@@ -1,13 +1,10 @@
-"""Fits and scans by person: labelled, listed, counted, erased, each tenant's for itself."""
+"""Fits and scans by person: labelled, listed, erased, each tenant's for itself."""
 
-from datetime import datetime
 from typing import Any
-from urllib.parse import quote
 from uuid import uuid4
 
 import pytest
 
-from api_schemas.labels import PeoplePage
 from service.engine.dbos_jobs import DbosJobEngine
 from service.engine.port import FIT, SCAN, NewJob, StoredBlob, SubmitOutcome
 from tests.integration.service.harness import REQUEST, Machine, Service
@@ -76,7 +73,6 @@ def test_an_erased_job_is_no_more_among_those_of_its_label(either: Service):
     either.ended(path)
     assert either.client.delete(path).status_code == 204
     assert listed(either, "fits", label) == []
-    assert label not in [each.label for each in people(either)]
 
 
 def test_the_same_key_with_another_label_is_another_request(service: Service):
@@ -100,42 +96,6 @@ def test_a_label_that_cannot_be_is_refused_wherever_it_is_sent(service: Service,
     assert checked(service.post(request={**REQUEST, "label": label}), 422).field == "label"
 
 
-def people(service: Service, *, limit: int = 200) -> list[Any]:
-    """All people, over all pages."""
-    found = []
-    path: str | None = f"/v1/people?limit={limit}"
-    while path is not None:
-        page = PeoplePage.model_validate_json(service.client.get(path).content)
-        found += page.people
-        path = page.next
-    return found
-
-
-def test_people_are_counted_with_their_newest_job(either: Service):
-    service = either
-    labels = sorted(name() for _ in range(3))
-    fits = [fit(service, label) for label in (labels[1], labels[0], labels[1])]
-    scan = submit_scan(service, request={**SCAN_REQUEST, "label": labels[0]})
-    fit(service, None)
-    for limit in (1, 200):
-        found = [each for each in people(service, limit=limit) if each.label in labels]
-        assert [(each.label, each.fits, each.scans, each.latest) for each in found] == [
-            (labels[0], 1, 1, scan),
-            (labels[1], 2, 0, fits[2]),
-        ]
-    newest = service.job(fits[2])["created_at"]
-    assert found[1].latest_at == datetime.fromisoformat(newest)
-
-
-def test_a_page_of_people_after_one_who_is_not_there_goes_on(service: Service):
-    label = name()
-    fit(service, label)
-    page = service.client.get(f"/v1/people?cursor={quote(label[:-1])}&limit=200").json()
-    assert label in [each["label"] for each in page["people"]]
-    problem = checked(service.client.get("/v1/people", params={"cursor": "a\nb"}), 422)
-    assert problem.field == "cursor"
-
-
 def accept(engine: DbosJobEngine, tenant: str, root: str, job_id: str, label: str) -> None:
     blob = StoredBlob(digest="0" * 64, media_type="application/json")
     jobs = engine.of(tenant, root)
@@ -153,24 +113,5 @@ def test_a_tenant_sees_its_own_labels_alone(machine: Machine):
         ours = engine.of("ours").jobs(limit=9, before=None, state=None, label="Anna")
         assert [job.id for job in ours] == ["1"]
         assert engine.of("ours", SCAN).jobs(limit=9, before=None, state=None, label="Ben") == []
-        (anna,) = engine.people_of("ours").people(limit=9, after=None)
-        assert (anna.label, anna.fits, anna.scans, anna.latest_id) == ("Anna", 1, 0, "1")
-        theirs = engine.people_of("theirs").people(limit=9, after="Anna")
-        assert [each.label for each in theirs] == ["Ben"]
-        assert engine.people_of("nobody").people(limit=9, after=None) == []
-    finally:
-        engine.close()
-
-
-def test_labels_are_sorted_by_their_characters_in_any_database(machine: Machine):
-    engine = engine_of(machine)
-    labels = ["b", "B", "a", "ä", "Z", "10", "9", "山"]
-    try:
-        for number, label in enumerate(labels):
-            accept(engine, "ours", FIT, str(number), label)
-        found = engine.people_of("ours").people(limit=99, after=None)
-        assert [each.label for each in found] == sorted(labels)
-        rest = engine.people_of("ours").people(limit=99, after="a")
-        assert [each.label for each in rest] == ["b", "ä", "山"]
     finally:
         engine.close()

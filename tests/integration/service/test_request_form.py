@@ -22,7 +22,6 @@ def port_of(service: Service) -> int:
     [
         ("/v1/fits", ("limit", "cursor", "state", "label")),
         ("/v1/scans", ("limit", "cursor", "state", "label")),
-        ("/v1/people", ("limit", "cursor")),
         (f"/v1/fits/{'0' * 8}-0000-0000-0000-{'0' * 12}/derivations", ("limit", "state")),
     ],
 )

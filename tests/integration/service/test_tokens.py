@@ -58,7 +58,6 @@ def test_a_token_makes_fits_and_scans_and_reads_them(guarded: Guarded):
     ("method", "path"),
     [
         ("POST", "/v1/tokens"),
-        ("GET", "/v1/people"),
         ("GET", "/metrics"),
         ("GET", "/v1/fitsandmore"),
         ("GET", "/v1"),

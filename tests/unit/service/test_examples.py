@@ -17,7 +17,6 @@ from api_schemas.derivations import (
 from api_schemas.images import ImagePage, UploadedImage
 from api_schemas.initial_poses import InitialPose, InitialPoseRequest
 from api_schemas.jobs import Job, JobPage
-from api_schemas.labels import PeoplePage
 from api_schemas.problems import ProblemType
 from api_schemas.proposals import PointsOfImage, PointsProposal
 from api_schemas.requests import FitOfImage, FitOptions
@@ -61,7 +60,6 @@ KINDS = {
     "submit_scan": Scan,
     "retry_scan": Scan,
     "list_scans": ScanPage,
-    "list_people": PeoplePage,
     "make_token": NewToken,
     "list_tokens": TokenPage,
     "get_token": Token,
