@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 
 from tests.contract.compatibility import breaking_changes, may_break
-from tests.contract.document import FOLDER, REPOSITORY, Document, exported
+from tests.contract.document import FOLDER, Document, exported
 
 
 def version(document: Document) -> tuple[int, ...]:
@@ -71,11 +71,6 @@ def test_released_documents_are_named_by_their_versions():
 def test_callers_of_the_newest_release_are_not_broken_unless_the_version_says_so():
     changes = breaking_changes(NEWEST, exported(), renamed=RENAMED)
     assert changes == [] or may_break(NEWEST, exported()), "raise VERSION, or take them back"
-
-
-def test_every_operation_that_has_another_name_is_listed_in_the_changelog():
-    unreleased = (REPOSITORY / "CHANGELOG.md").read_text().partition("\n## 1.0.0")[0]
-    assert [name for name in RENAMED.values() if f"`{name}`" not in unreleased] == []
 
 
 def test_nothing_breaks_where_nothing_changes():
