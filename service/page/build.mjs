@@ -1,6 +1,6 @@
 // Bundles src/ into a folder of files that are served as they are: `node build.mjs [FOLDER]`.
 // The same sources give the same bytes: a test builds anew and compares.
-import { copyFile, readFile, readdir, rm, writeFile, mkdir } from "node:fs/promises";
+import { readFile, readdir, rm, writeFile, mkdir } from "node:fs/promises";
 import { createHash } from "node:crypto";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -35,19 +35,6 @@ const { metafile } = await build({
   legalComments: "none",
   metafile: true,
 });
-
-// For other sites, whose address of it stays: no hash.
-await build({
-  absWorkingDir: here,
-  entryPoints: ["src/embed/site.ts"],
-  outfile: join(folder, "embed.js"),
-  bundle: true,
-  minify: true,
-  format: "iife",
-  target: ["es2022"],
-  legalComments: "none",
-});
-await copyFile(join(here, "src/embed/embed.d.ts"), join(folder, "embed.d.ts"));
 
 const outputs = Object.entries(metafile.outputs).map(([path, output]) => ({
   name: path.split("/").pop(),
@@ -85,9 +72,6 @@ const loaded = (name) => [
     .imports.filter((each) => each.kind === "import-statement")
     .flatMap((each) => loaded(each.path.split("/").pop())),
 ];
-const heavier = outputs
-  .filter(({ entry: point }) => point?.startsWith("src/messages/"))
-  .sort((a, b) => weights.get(b.name) - weights.get(a.name))[0].entry;
 const assets = [...weights.keys()].filter((name) => /\.(html|css|woff2|webp)$/.test(name));
 const WAYS = {
   "with one picture": ["src/panel/Workbench.tsx"],
@@ -95,7 +79,7 @@ const WAYS = {
 };
 console.log(`${total(weights.keys())} bytes gzipped in all`);
 for (const [way, screens] of Object.entries(WAYS)) {
-  const points = ["src/main.tsx", "src/viewer/BodyScene.ts", heavier, ...screens];
+  const points = ["src/main.tsx", "src/viewer/BodyScene.ts", ...screens];
   const names = new Set([...assets, ...points.flatMap((point) => loaded(entry(point).name))]);
   console.log(`${total(names)} bytes gzipped before a first result ${way}`);
 }

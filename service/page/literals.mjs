@@ -26,7 +26,7 @@ for (const { place, text } of found) console.error(`${place}: ${JSON.stringify(t
 process.exitCode = found.length > 0 ? 1 : 0;
 
 function look(node, source) {
-  // What is typed into a terminal is the same in every language.
+  // What is typed into a terminal is no message.
   if (ts.isJsxElement(node) && node.openingElement.tagName.getText() === "code") return;
   if (ts.isJsxText(node)) note(node, node.text, source);
   if (ts.isJsxExpression(node) && node.expression && !ts.isJsxAttribute(node.parent)) shown(node.expression, source);

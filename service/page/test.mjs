@@ -21,8 +21,6 @@ try {
     target: "node20",
     loader: { ".bin": "binary" },
     nodePaths: [join(here, "node_modules")],
-    // The page speaks before its modules do.
-    inject: [join(tests, "speaking.ts")],
     // What a browser has and Node has not.
     banner: { js: "globalThis.sessionStorage ??= { getItem: () => null };" },
     logLevel: "warning",

@@ -5,26 +5,23 @@ import { entries, fits } from "./history/store";
 import { FitView } from "./fit/FitView";
 import { isActive } from "./fit/watch";
 import { Start } from "./panel/Start";
-import { MEASURE_ADDRESS, START_ADDRESS, isMeasuring, isOnAccuracy, isPreparing, openFit, openPerson } from "./route";
-import { messages } from "./messages/language";
+import { MEASURE_ADDRESS, START_ADDRESS, isMeasuring, isOnAccuracy, isPreparing, openFit } from "./route";
+import { messages } from "./messages";
 import { isFull } from "./stage/full";
 import { announcement } from "./ui/announce";
 import { Icon } from "./ui/Icon";
 import { IconButton } from "./ui/IconButton";
 import { KeyDialog } from "./ui/KeyDialog";
-import { LanguageSwitch } from "./ui/LanguageSwitch";
 import { later } from "./ui/later";
-import { SandboxNote } from "./ui/SandboxNote";
 import { theme, toggleTheme } from "./ui/theme";
 
 const AccuracyView = later(() => import("./accuracy/AccuracyView").then((loaded) => loaded.AccuracyView));
 const HistoryPanel = later(() => import("./history/HistoryPanel").then((loaded) => loaded.HistoryPanel), null);
 const MeasureView = later(() => import("./measure/MeasureView").then((loaded) => loaded.MeasureView));
-const PersonView = later(() => import("./people/PersonView").then((loaded) => loaded.PersonView));
 const Workbench = later(() => import("./panel/Workbench").then((loaded) => loaded.Workbench));
 
 export function App() {
-  const { frame } = messages.value;
+  const { frame } = messages;
   const showsHistory = useSignal(false);
   const fit = openFit.value;
   const active = Object.values(fits.value).filter(isActive).length;
@@ -57,11 +54,9 @@ export function App() {
           <a class="head-link is-wide-only" href="/documentation/">
             {frame.documentation}
           </a>
-          <LanguageSwitch />
           <IconButton icon="theme" label={theme.value === "dark" ? frame.lightPage : frame.darkPage} onClick={toggleTheme} />
         </nav>
       </header>
-      <SandboxNote />
       <Screen fit={fit} />
       {showsHistory.value && <HistoryPanel onClose={() => (showsHistory.value = false)} />}
       <KeyDialog />
@@ -74,7 +69,6 @@ export function App() {
 
 function Screen({ fit }: { fit: FitRef | null }) {
   if (fit) return <FitView key={fit.id} which={fit} />;
-  if (openPerson.value !== null) return <PersonView key={openPerson.value} label={openPerson.value} />;
   if (isOnAccuracy.value) return <AccuracyView />;
   if (isMeasuring.value) return <MeasureView />;
   return isPreparing.value ? <Workbench /> : <Start />;

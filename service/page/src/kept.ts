@@ -1,5 +1,4 @@
-// What this browser keeps for the page. A browser may forbid that, most likely in a frame of another site: then
-// nothing is kept, and the page works on.
+// What this browser keeps for the page. A browser may forbid that: then nothing is kept, and the page works on.
 
 type Storage = "localStorage" | "sessionStorage";
 

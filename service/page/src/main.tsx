@@ -8,28 +8,19 @@ import { startCheckingClothes } from "./mask/clothes";
 import { startMasks } from "./mask/edits";
 import { startProposingMasks } from "./mask/proposed";
 import { startMeasuring } from "./measure/places";
-import { startSpeaking } from "./messages/language";
 import { listenForPaste } from "./panel/open";
-import { isEmbedded } from "./route";
 import { startFilling } from "./stage/full";
 import { startForgetting } from "./ui/forgetting";
 
-await startSpeaking();
 startMeasuring();
 startForgetting();
-const root = document.getElementById("page")!;
-if (isEmbedded) {
-  const { startEmbedding } = await import("./embed/start");
-  startEmbedding(root);
-} else {
-  startWatchingConnection();
-  startLive();
-  startProposing();
-  startProposingMasks();
-  startMasks();
-  startFilling();
-  startCheckingClothes();
-  void startLasting();
-  listenForPaste();
-  render(<App />, root);
-}
+startWatchingConnection();
+startLive();
+startProposing();
+startProposingMasks();
+startMasks();
+startFilling();
+startCheckingClothes();
+void startLasting();
+listenForPaste();
+render(<App />, document.getElementById("page")!);

@@ -46,7 +46,7 @@ NOT_INSTALLED = {
 
 
 def drop(visitor: Visitor, picture: bytes, *, on: str = ".drop") -> None:
-    # The page is there once its language is.
+    # The load event does not await the page's modules.
     expect(visitor.page.locator(on)).to_be_visible()
     visitor.page.evaluate(DROP, [on, base64.b64encode(picture).decode()])
     visitor.wait_for_stage()

@@ -129,12 +129,11 @@ def test_on_a_phone_the_person_comes_first_then_picture_and_points(
         expect(chosen).to_be_checked()
 
 
-@pytest.mark.parametrize("language", ["en", "de"])
 @pytest.mark.parametrize("device", [PHONE, SMALL_PHONE], ids=["phone", "small phone"])
 def test_what_each_point_is_can_be_read_whole_above_the_picture(
-    browser: Browser, service: httpx.Client, device: dict[str, Any], language: str
+    browser: Browser, service: httpx.Client, device: dict[str, Any]
 ):
-    with Visitor.at(browser, str(service.base_url), device, locale=language) as visitor:
+    with Visitor.at(browser, str(service.base_url), device) as visitor:
         page = visitor.page
         # Without a detector all points are clicked.
         refused = {"status": 404, "content_type": "application/problem+json"}

@@ -101,7 +101,7 @@ class Visitor:
         someone.listen()
         try:
             someone.page.goto(someone.origin + "/")
-            # The page is shown once its language is there, which the load event does not await.
+            # The load event does not await the page's modules.
             someone.page.locator("main").wait_for()
             yield someone
             violations = someone.page.evaluate("window.violations")

@@ -5,9 +5,6 @@ import { faultsOfPlaces, isErased, isUnusable, viewNamedFirst, withViews } from 
 import { placesOf } from "../../../service/page/src/measure/places";
 import { plainly } from "../../../service/page/src/measure/plainly";
 import { proposedText } from "../../../service/page/src/measure/proposed";
-import { de } from "../../../service/page/src/messages/de";
-import { en } from "../../../service/page/src/messages/en";
-import { speak } from "../../../service/page/src/messages/language";
 import { proposedOf, proposedText as onePictureText } from "../../../service/page/src/ui/proposed";
 import { viewLabels, viewTitles } from "../../../service/page/src/measure/views";
 
@@ -71,15 +68,10 @@ test("a warning about one view begins with it", () => {
 });
 
 test("people who click nothing are told nothing of points", () => {
-  for (const words of [en, de]) {
-    speak({ language: words === en ? "en" : "de", locale: "en", messages: words });
-    for (const code of ["several-people", "ambiguous-limb-facing", "low-silhouette-overlap"]) {
-      assert.doesNotMatch(plainly("warnings", code)!, /click|point(s)\b|mask|klick|punkt|maske|“/i, code);
-    }
-    assert.match(plainly("faults", "person-not-found")!, /Nobody|niemand/);
+  for (const code of ["several-people", "ambiguous-limb-facing", "low-silhouette-overlap"]) {
+    assert.doesNotMatch(plainly("warnings", code)!, /click|point(s)\b|mask|“/i, code);
   }
-  assert.match(plainly("faults", "image-damaged")!, /beschädigt/);
-  speak({ language: "en", locale: "en", messages: en });
+  assert.match(plainly("faults", "person-not-found")!, /Nobody/);
   assert.match(plainly("faults", "image-damaged")!, /damaged/);
   assert.equal(plainly("faults", "image-too-small"), null);
 });

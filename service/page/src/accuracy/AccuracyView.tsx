@@ -1,12 +1,12 @@
 // How good measurements are, in figures: what the first screen's sentence is taken from.
 import { decimal, measured } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { START_ADDRESS } from "../route";
 import { LOOSE_WAIST, PAIR, PEOPLE, SINGLE } from "./figures";
 import type { Errors } from "./figures";
 
 export function AccuracyView() {
-  const { accuracy } = messages.value;
+  const { accuracy } = messages;
   return (
     <main class="accuracy">
       <h1>{accuracy.title}</h1>
@@ -30,7 +30,7 @@ interface TableProps<Row extends string> {
 }
 
 function ErrorTable<Row extends string>({ words, rows }: TableProps<Row>) {
-  const { columns, given } = messages.value.accuracy;
+  const { columns, given } = messages.accuracy;
   return (
     <div class="accuracy-scroll">
       <table class="accuracy-table">

@@ -3,7 +3,7 @@ import type { ServiceIndex } from "./service_index";
 import { jsonBody, request, requestJson } from "./client";
 import { askedOfFit, fitOfJob, fitOfScan, pathOf, resultOfFit, resultOfScan } from "./fits";
 import type { Asked, Fit, FitKind, FitRef, Result } from "./fits";
-import type { CaptureCheck, CheckOfImage, Derivation, DerivationPage, DerivationRequest, DerivationResult, FitOfImage, FitOptions, FitResult, InitialPose, InitialPoseRequest, Job, JobPage, LabelledPerson, PeoplePage, PointsOfImage, PointsProposal, Scan, ScanOfImages, ScanPage, ScanResult, UploadedImage } from "./types";
+import type { CaptureCheck, CheckOfImage, Derivation, DerivationPage, DerivationRequest, DerivationResult, FitOfImage, FitOptions, FitResult, InitialPose, InitialPoseRequest, Job, PointsOfImage, PointsProposal, Scan, ScanOfImages, ScanResult, UploadedImage } from "./types";
 
 export function getIndex(): Promise<ServiceIndex> {
   return requestJson("/", { headers: { Accept: "application/json" } });
@@ -119,26 +119,4 @@ export async function getFile(path: string, onBytes?: (count: number) => void): 
     onBytes(piece.value.length);
   }
   return new Blob(pieces, { type: response.headers.get("Content-Type") ?? "" });
-}
-
-/** All people that have fits or scans, by their labels. */
-export async function listPeople(): Promise<readonly LabelledPerson[]> {
-  const pages = await allPages<PeoplePage>(`/v1/people?limit=${PAGE}`);
-  return pages.flatMap(({ people }) => people);
-}
-
-/** All fits of a person, of however many pictures, newest first. */
-export async function listFits(label: string): Promise<readonly Fit[]> {
-  const asked = `limit=${PAGE}&label=${encodeURIComponent(label)}`;
-  const [fits, scans] = await Promise.all([allPages<JobPage>(`/v1/fits?${asked}`), allPages<ScanPage>(`/v1/scans?${asked}`)]);
-  const all = [...fits.flatMap(({ jobs }) => jobs.map(fitOfJob)), ...scans.flatMap((page) => page.scans.map(fitOfScan))];
-  return all.sort((one, other) => other.created_at.localeCompare(one.created_at));
-}
-
-const PAGE = 100;
-
-async function allPages<Page extends { readonly next: string | null }>(first: string): Promise<readonly Page[]> {
-  const pages: Page[] = [];
-  for (let path: string | null = first; path !== null; path = pages.at(-1)!.next) pages.push(await requestJson<Page>(path));
-  return pages;
 }

@@ -1,6 +1,6 @@
 // One way to ask the service: same origin, key if there is one, problems as errors.
 import { UNREACHABLE, isReached, pause, pauseMs } from "./connection";
-import { accepted, apiKey, askForKey } from "./key";
+import { apiKey, askForKey } from "./key";
 import type { Problem } from "./types";
 
 type OwnProblem = "page-error" | "unexpected-answer" | "unreachable";
@@ -19,7 +19,6 @@ export async function request(path: string, init: RequestInit = {}): Promise<Res
   for (;;) {
     const presented = apiKey.value;
     const response = await send(path, init, presented);
-    if (response.status !== 401) accepted.value = presented;
     if (response.ok) return response;
     const error = await problemOf(response, path);
     if (response.status !== 401) throw error;

@@ -6,9 +6,6 @@ const PLACE = "maquette.key";
 
 export const apiKey = signal<string | null>(kept(PLACE, "sessionStorage"));
 
-/** The last key that the service took. */
-export const accepted = signal<string | null>(null);
-
 /** Why a key is asked for at this moment; null while none is. */
 export const keyQuestion = signal<string | null>(null);
 
@@ -22,11 +19,6 @@ export function askForKey(reason: string): Promise<void> {
 
 export function useKey(key: string): void {
   keep(PLACE, key, "sessionStorage");
-  present(key);
-}
-
-/** From now on send this key, or a token in its place; it is kept nowhere. */
-export function present(key: string | null): void {
   apiKey.value = key;
   keyQuestion.value = null;
   const resumed = waiting;

@@ -3,5 +3,4 @@ export interface ServiceIndex {
   readonly retention_hours: number | null;
   readonly max_pixels: number | null;
   readonly max_upload_bytes: number | null;
-  readonly sandbox?: boolean;
 }

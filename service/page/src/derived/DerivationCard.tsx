@@ -1,7 +1,7 @@
 // One thing made of a fit: where it stands, what there is to know of it, the way to the stage, its files.
 import type { Derivation, DerivationRequest } from "../api/types";
 import { isActive } from "../fit/watch";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { FileButton } from "../result/FileButton";
 import { tableOf, usePictureOf } from "../result/files";
 import { IconButton } from "../ui/IconButton";
@@ -23,7 +23,7 @@ interface Props {
 }
 
 export function DerivationCard({ made, isOnStage, onShow, onRetry, onMake, onErase }: Props) {
-  const { derived, frame } = messages.value;
+  const { derived, frame } = messages;
   const inSentence = wordInSentence(made.kind);
   const done = made.state === "succeeded";
   const kind = kindOf(made.kind);
@@ -76,7 +76,7 @@ export function DerivationCard({ made, isOnStage, onShow, onRetry, onMake, onEra
 
 /** Its first picture, small, which leads to the stage. */
 function ToStage({ made, isOnStage, onShow }: Pick<Props, "made" | "isOnStage" | "onShow">) {
-  const { derived } = messages.value;
+  const { derived } = messages;
   const small = viewsOf(made).find(({ picture }) => picture)?.picture;
   const url = usePictureOf(made, small?.still ?? small?.file ?? "", small !== undefined);
   return (

@@ -1,7 +1,6 @@
 // What there is to say of what was made: warnings, which come first, and what its kind tells.
 import type { DerivationResult } from "../api/types";
 import { entries } from "../history/store";
-import { Served } from "../ui/Served";
 import { answered } from "../ui/answered";
 
 /** Of what contradicts a result altogether. */
@@ -15,7 +14,7 @@ export function DerivationWarnings({ of: result }: { of: DerivationResult }) {
     <>
       {warnings.map(({ code, message }) => (
         <p class={CONTRADICTIONS.has(code) ? "note is-problem" : "note"} key={code + message}>
-          {answered("warnings", code) ?? <Served text={withNames(message)} />}
+          {answered("warnings", code) ?? withNames(message)}
         </p>
       ))}
     </>

@@ -3,7 +3,7 @@ import { useEffect, useState } from "preact/hooks";
 import { getDerivationResult } from "../api/calls";
 import type { Fit } from "../api/fits";
 import type { Derivation, NamedMotion } from "../api/types";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { Choice } from "../ui/Choice";
 import { ProblemNote } from "../ui/ProblemNote";
 import { FIRST_WISHES, KINDS, type OfferedKind, kindLabel } from "./kinds";
@@ -29,7 +29,7 @@ interface Props {
 const OFFERED = Object.keys(KINDS) as OfferedKind[];
 
 export function DerivedPanel({ parent, skin, hasLight, onStage, onShow, motion, onMotionEnded }: Props) {
-  const { derived } = messages.value;
+  const { derived } = messages;
   const { list, problem, start, make, retry, erase } = useDerivations(parent, (made) => viewsOf(made).length > 0 && onShow(made));
   const [kind, setKind] = useState<OfferedKind>("report");
   const [wishes, wish] = useState(FIRST_WISHES);

@@ -8,7 +8,7 @@ import { entries, fits, seen } from "../history/store";
 import type { Entry } from "../history/store";
 import { LIMITS } from "../api/limits";
 import { moment } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { toldAlike } from "./sameperson";
 
 interface Props {
@@ -18,7 +18,7 @@ interface Props {
 }
 
 export function OtherFits({ fit, chosen, onChoose }: Props) {
-  const { combined } = messages.value.derived;
+  const { combined } = messages.derived;
   const { found, searching } = useOtherFits(fit);
   return (
     <fieldset class="others" aria-busy={searching}>

@@ -1,6 +1,6 @@
 // One of the poses that have names.
 import type { NamedPose } from "../api/types";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 
 const POSES: readonly NamedPose[] = ["standing", "relaxed", "walking", "sitting", "arms_raised", "a_pose", "t_pose", "rest"];
 
@@ -10,7 +10,7 @@ interface Props {
 }
 
 export function PoseChoice({ pose, onChoose }: Props) {
-  const { poses } = messages.value.derived;
+  const { poses } = messages.derived;
   return (
     <div class="field">
       <label for="pose">{poses.label}</label>

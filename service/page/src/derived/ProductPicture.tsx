@@ -1,7 +1,7 @@
 // A picture of what was made; one that moves can be held still, and is for those who want calm.
 import { useState } from "preact/hooks";
 import type { Derivation } from "../api/types";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { usePictureOf } from "../result/files";
 import type { Shows } from "./kinds/kind";
 
@@ -29,7 +29,7 @@ export function ProductPicture({ made, shows: { file, still, alt, caption } }: {
           {caption && <p class="fine">{caption()}</p>}
           {still && (
             <button class="button is-small" type="button" onClick={() => hold(!held)}>
-              {held ? messages.value.derived.play : messages.value.derived.hold}
+              {held ? messages.derived.play : messages.derived.hold}
             </button>
           )}
         </div>

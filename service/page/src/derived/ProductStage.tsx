@@ -1,7 +1,7 @@
 // What was made of a fit, large: its name, what must be known of it first, and the way back to the body.
 import { useState } from "preact/hooks";
 import type { Derivation, NamedMotion } from "../api/types";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { Choice } from "../ui/Choice";
 import { Icon } from "../ui/Icon";
 import { DerivedCanvas } from "../viewer/DerivedCanvas";
@@ -21,7 +21,7 @@ interface Props {
 }
 
 export function ProductStage({ made, onBack, motion, onMotion }: Props) {
-  const { derived } = messages.value;
+  const { derived } = messages;
   const views = viewsOf(made);
   const result = useDerivationResult(made);
   const [file, choose] = useState(views[0]!.file);
@@ -64,7 +64,7 @@ export function ProductStage({ made, onBack, motion, onMotion }: Props) {
           <div class="look-free">
             <DerivedCanvas key={made.id} path={made.links.artifacts![view.file]!} label={turns!.label()} />
           </div>
-          <p class="look-hint fine">{messages.value.look.hint}</p>
+          <p class="look-hint fine">{messages.look.hint}</p>
         </div>
       )}
     </section>

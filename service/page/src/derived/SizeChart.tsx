@@ -1,7 +1,7 @@
 // A size chart, to be typed or chosen as a file.
 import { TAPE_NAMES } from "../draft/person";
 import type { TapeName } from "../draft/person";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { measureLabel } from "../result/reading";
 import { FileChoice } from "./FileChoice";
 import type { TypedChart, TypedSize } from "./chart";
@@ -14,7 +14,7 @@ interface Props {
 }
 
 export function SizeChart({ chart, file, onType, onChoose }: Props) {
-  const { size: words } = messages.value.derived;
+  const { size: words } = messages.derived;
   const choice = <FileChoice label={file ? words.another : words.choose} accept=".csv,.tsv,.txt,text/csv" onChoose={onChoose} />;
   if (file) {
     return (
@@ -46,7 +46,7 @@ export function SizeChart({ chart, file, onType, onChoose }: Props) {
 
 function ChartTable({ chart, onType }: Pick<Props, "chart" | "onType">) {
   const { columns, sizes } = chart;
-  const { size: words } = messages.value.derived;
+  const { size: words } = messages.derived;
   const change = (row: number, changed: Partial<TypedSize>) =>
     onType({ ...chart, sizes: sizes.map((each, number) => (number === row ? { ...each, ...changed } : each)) });
   const rename = (column: number, name: TapeName) =>

@@ -1,6 +1,6 @@
 // What of a product can be looked at: its pictures, and its body to be turned.
 import type { Derivation } from "../api/types";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { kindLabel, kindOf } from "./kinds";
 import type { Shows } from "./kinds/kind";
 
@@ -24,6 +24,6 @@ export function viewsOf({ kind: name, links }: Derivation): readonly View[] {
   }));
   const { turns } = kind;
   if (!turns || !files.includes(turns.file)) return pictures;
-  const turned = { file: turns.file, label: messages.value.derived.turn, picture: null };
+  const turned = { file: turns.file, label: messages.derived.turn, picture: null };
   return turns.first ? [turned, ...pictures] : [...pictures, turned];
 }

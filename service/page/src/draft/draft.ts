@@ -2,7 +2,7 @@
 import { batch, computed, signal } from "@preact/signals";
 import type { FitRef } from "../api/fits";
 import type { Clothing, Cues, Facing, Limb, LightGuess, Surroundings, UploadedImage } from "../api/types";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import type { PointName } from "../points/catalogue";
 import { NO_POINTS, isEnough, nextDoubt, nextPoint } from "../points/placed";
 import type { Points } from "../points/placed";
@@ -86,7 +86,7 @@ export function useMask(next: Picture | null): void {
 
 /** Why there can be no fit yet, as a thing to do; null when there can. */
 export const todo = computed<string | null>(() => {
-  const { todo } = messages.value.person;
+  const { todo } = messages.person;
   if (!picture.value) return todo.picture;
   if (person.value.gender === null) return todo.gender;
   if (heightFault(person.value) !== null) return todo.height;

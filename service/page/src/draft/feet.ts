@@ -1,6 +1,6 @@
 // Heights in feet and inches: as people type them, and as they are told.
 import { decimal, typed } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 
 export const INCH_M = 0.0254;
 const PER_FOOT = 12;
@@ -48,5 +48,5 @@ export function feetTexts(heightM: number): { height: string; inches: string } {
 export function feetAndInches(heightM: number, digits: number): string {
   const inches = Number((heightM / INCH_M).toFixed(digits));
   const feet = Math.floor(inches / PER_FOOT);
-  return `${decimal(feet)} ${messages.value.person.symbols.ft} ${decimal(inches - feet * PER_FOOT, digits)}`;
+  return `${decimal(feet)} ${messages.person.symbols.ft} ${decimal(inches - feet * PER_FOOT, digits)}`;
 }

@@ -1,7 +1,7 @@
 // HEIC, what phones take and most browsers do not show: the service has it as it is, and gives it back as a JPEG to show.
 import { getPicture, uploadImage } from "../api/calls";
 import { problemFrom } from "../api/client";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { answered } from "../ui/answered";
 import { fitting } from "./fitting";
 import { asJpeg } from "./jpeg";
@@ -32,6 +32,6 @@ function reason(name: string, error: unknown): string {
   const problem = problemFrom(error);
   if (!problem) return String(error);
   const [first = problem] = problem.errors ?? [];
-  if (first.code === NOT_DECODED) return messages.value.start.heic(name);
-  return messages.value.frame.ofField(name, answered("faults", first.code) ?? problem.detail);
+  if (first.code === NOT_DECODED) return messages.start.heic(name);
+  return messages.frame.ofField(name, answered("faults", first.code) ?? problem.detail);
 }

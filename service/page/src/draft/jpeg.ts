@@ -1,6 +1,6 @@
 // A picture as a JPEG of this browser, upright, and small enough for the service.
 import { getIndex } from "../api/calls";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { focalLength35mm, withFocalLength } from "./exif";
 import { shownPicture } from "./picture";
 import type { Picture } from "./picture";
@@ -39,7 +39,7 @@ export async function asJpeg(picture: Picture, bytes: Uint8Array, mostPixels = S
   context.drawImage(element, 0, 0, canvas.width, canvas.height);
   URL.revokeObjectURL(url);
   const plain = await new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, "image/jpeg", QUALITY));
-  if (!plain) throw new Error(messages.value.start.notConverted);
+  if (!plain) throw new Error(messages.start.notConverted);
   const lens = focalLength35mm(bytes);
   const written = await shownPicture(lens === null ? plain : withFocalLength(plain, lens), name);
   return { ...written, scaledFrom: scale < 1 ? { width, height } : null };

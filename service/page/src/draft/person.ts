@@ -2,7 +2,7 @@
 import { LIMITS } from "../api/limits";
 import type { FitOptions, Gender, KnownMeasurements } from "../api/types";
 import { decimal, measured, typed } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { INCH_M, feetAndInches, feetTexts, read, readInches } from "./feet";
 
 export interface Person {
@@ -14,8 +14,6 @@ export interface Person {
   readonly weight: string;
   /** What a tape said, by the measurement's name. */
   readonly tape: Readonly<Partial<Record<TapeName, string>>>;
-  /** What the person is called, to find them again. */
-  readonly label: string;
 }
 
 /** What people know of themselves, in the order it is asked for. */
@@ -31,7 +29,7 @@ export const TAPE_NAMES = [
 ] as const;
 export type TapeName = (typeof TAPE_NAMES)[number];
 
-export const NOBODY: Person = { gender: null, units: "metric", height: "", inches: "", weight: "", tape: {}, label: "" };
+export const NOBODY: Person = { gender: null, units: "metric", height: "", inches: "", weight: "", tape: {} };
 
 /** How far a tape errs: what it says is not held exactly. */
 const TAPE_ERROR_CM = 1;
@@ -57,7 +55,7 @@ export function heightFault(person: Person): string | null {
   if (height === null) return null;
   const [low, high] = LIMITS.heightM;
   if (height >= low && height <= high) return null;
-  const { faults } = messages.value.person;
+  const { faults } = messages.person;
   if (Number.isNaN(height)) return faults.number;
   if (person.units === "metric") return faults.height(decimal(low * 100), heightInWords(high, "metric"));
   const [least, most] = [Math.ceil(low / INCH_M), Math.floor(high / INCH_M)].map((inches) => heightInWords(inches * INCH_M, "imperial"));
@@ -67,7 +65,7 @@ export function heightFault(person: Person): string | null {
 export function weightFault(person: Person): string | null {
   const weight = weightKg(person);
   if (weight === null || (weight > 0 && weight <= 1000)) return null;
-  return messages.value.person.faults.weight;
+  return messages.person.faults.weight;
 }
 
 export function inches(cm: number): number {
@@ -110,12 +108,6 @@ export function tapeTexts(known: KnownMeasurements, units: Person["units"]): Per
   return texts;
 }
 
-/** The label as the API wants it; nothing where there is none. */
-export function labelOf({ label }: Person): { readonly label?: string } {
-  const said = label.trim();
-  return said === "" ? {} : { label: said };
-}
-
 /** The same person in the other units. */
 export function inUnits(person: Person, units: Person["units"]): Person {
   if (units === person.units) return person;
@@ -144,7 +136,7 @@ export function heightInWords(height: number, units: Person["units"]): string {
 
 /** The person of a request, to tell fits apart by: "Woman, 165 cm". */
 export function personInWords(asked: Pick<FitOptions, "gender" | "height_m">, units: Person["units"]): string {
-  const { words } = messages.value.person;
+  const { words } = messages.person;
   const who = words[asked.gender];
   if (asked.height_m == null) return who;
   const { height } = heightTexts(asked.height_m, "metric");
@@ -152,7 +144,7 @@ export function personInWords(asked: Pick<FitOptions, "gender" | "height_m">, un
 }
 
 function symbols() {
-  return messages.value.person.symbols;
+  return messages.person.symbols;
 }
 
 export function weightText(weight: number | null, units: Person["units"]): string {

@@ -1,6 +1,6 @@
 // A picture as this browser shows it.
 import type { UploadedImage } from "../api/types";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 
 export interface Picture {
   readonly name: string;
@@ -27,7 +27,7 @@ export async function shownPicture(file: Blob, name: string, shown = file): Prom
     await element.decode();
   } catch {
     URL.revokeObjectURL(url);
-    throw new Error(messages.value.start.notShown(name));
+    throw new Error(messages.start.notShown(name));
   }
   const { naturalWidth: width, naturalHeight: height } = element;
   return { name, file, shown, url, element, width, height, kept: null, scaledFrom: null };

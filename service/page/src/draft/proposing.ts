@@ -4,7 +4,7 @@ import { proposePoints } from "../api/calls";
 import { problemFrom } from "../api/client";
 import type { PointsProposal, Problem } from "../api/types";
 import { listed } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { NO_POINTS } from "../points/placed";
 import { countProposed, isAllProposed, personAt, proposedPoints } from "../points/proposed";
 import { announce } from "../ui/announce";
@@ -35,7 +35,7 @@ export const others = computed(() => {
 
 /** What is to be known at once, while it holds. */
 export const proposalWord = computed(() => {
-  const { stage } = messages.value;
+  const { stage } = messages;
   if (isProposing.value) return stage.proposing;
   const isEmpty = Object.keys(points.value.placed).length === 0;
   if (proposal.value?.person === null && isEmpty) return stage.nobody;
@@ -117,7 +117,7 @@ export function startProposing(): void {
 function take(found: PointsProposal, wanted: Wish): void {
   proposal.value = found;
   if (found.person === null) {
-    announce(messages.value.stage.nobody);
+    announce(messages.stage.nobody);
     return;
   }
   // Who has begun to click goes on.
@@ -129,7 +129,7 @@ function take(found: PointsProposal, wanted: Wish): void {
 }
 
 function inWords(found: PointsProposal): string {
-  const { stage, points: words } = messages.value;
+  const { stage, points: words } = messages;
   const people = found.persons.length > 1 ? [stage.severalFound(found.persons.length)] : [];
   const doubts = doubted.value ? [stage.lookAt(listed(points.value.doubts.map((name) => words.labels[name])))] : [];
   return [...people, stage.proposed(countProposed(points.value)), ...doubts].join(" ");

@@ -1,6 +1,6 @@
 // Total energy over a fit's progress, on a logarithmic scale, and its terms now.
 import { decimal } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { termLabel } from "./stages";
 import type { Reading } from "./watch";
 
@@ -9,7 +9,7 @@ const HEIGHT = 120;
 const PAD = 6;
 
 export function EnergyChart({ readings }: { readings: readonly Reading[] }) {
-  const { misfit } = messages.value.fit;
+  const { misfit } = messages.fit;
   const last = readings.at(-1);
   if (!last) return <p class="fine chart-empty">{misfit.empty}</p>;
   const logs = readings.map((reading) => Math.log(Math.max(reading.total, 1e-3)));

@@ -12,11 +12,11 @@ import type { Picture } from "../draft/picture";
 import { entries, fits, forget, remember, seen, thumbnailOf } from "../history/store";
 import { faultsOf } from "../measure/faults";
 import { PictureProblem } from "../measure/PictureProblem";
-import { wordFor } from "../messages/catalogue";
-import { messages } from "../messages/language";
+import { wordFor } from "../messages/words";
+import { messages } from "../messages";
 import { changeAgain } from "../result/again";
 import { ResultView } from "../result/ResultView";
-import { beginning, go, isEmbedded } from "../route";
+import { beginning, go } from "../route";
 import { ProblemNote } from "../ui/ProblemNote";
 import { Progress } from "./Progress";
 import { isActive, trouble, watch } from "./watch";
@@ -89,7 +89,7 @@ async function nameOf(fit: Fit): Promise<string> {
 }
 
 function Trouble({ which, problem }: { which: FitRef; problem: Problem }) {
-  const { fit: words, frame } = messages.value;
+  const { fit: words, frame } = messages;
   const { kind, id } = which;
   const gone = problem.status === 404 || problem.status === 410;
   return (
@@ -112,12 +112,9 @@ function Trouble({ which, problem }: { which: FitRef; problem: Problem }) {
             {words.forget}
           </button>
         ) : (
-          // In a frame the site would have to begin again as well.
-          !isEmbedded && (
-            <button class="button" type="button" onClick={() => location.reload()}>
-              {frame.tryAgain}
-            </button>
-          )
+          <button class="button" type="button" onClick={() => location.reload()}>
+            {frame.tryAgain}
+          </button>
         )}
       </div>
     </main>
@@ -125,7 +122,7 @@ function Trouble({ which, problem }: { which: FitRef; problem: Problem }) {
 }
 
 function Ended({ fit, pictures }: { fit: Fit; pictures: readonly Picture[] }) {
-  const { of, picture: pictureWords } = messages.value.fit;
+  const { of, picture: pictureWords } = messages.fit;
   const words = of[fit.kind];
   const fault = useSignal<Problem | null>(null);
   const { views, rest } = fit.problem ? faultsOf(fit.problem) : { views: new Map<number, Problem>(), rest: null };

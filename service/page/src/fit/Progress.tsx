@@ -6,7 +6,7 @@ import type { Fit } from "../api/fits";
 import type { Picture } from "../draft/picture";
 import { assumed } from "../history/store";
 import { percent } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { AssumptionNotes } from "../ui/AssumptionNotes";
 import { Icon } from "../ui/Icon";
 import { useAsked } from "../ui/asked";
@@ -22,7 +22,7 @@ interface Props {
 }
 
 export function Progress({ fit, pictures, cancel }: Props) {
-  const { fit: words } = messages.value;
+  const { fit: words } = messages;
   const [stopping, setStopping] = useState(fit.cancel_requested);
   const asked = useAsked(fit.id, () => getAsked(fit));
   const list = readings.value[fit.id] ?? [];

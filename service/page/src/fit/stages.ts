@@ -1,6 +1,6 @@
 // The stages and terms of a fit as a person reads them.
-import { plainName, wordFor } from "../messages/catalogue";
-import { messages } from "../messages/language";
+import { plainName, wordFor } from "../messages/words";
+import { messages } from "../messages";
 
 /** In the order they run. */
 export const STAGES = [
@@ -14,10 +14,10 @@ export const STAGES = [
 ] as const;
 
 export function termLabel(name: string): string {
-  return wordFor(messages.value.fit.terms, name) ?? plainName(name);
+  return wordFor(messages.fit.terms, name) ?? plainName(name);
 }
 
 export function stageLabel(name: string): string {
   const stage = STAGES.find((each) => each === name);
-  return stage ? messages.value.fit.stages[stage].label : plainName(name);
+  return stage ? messages.fit.stages[stage].label : plainName(name);
 }

@@ -3,7 +3,7 @@ import type { FittedView } from "../api/fits";
 import type { Facing } from "../api/types";
 import { pictureOf } from "../measure/views";
 import { capitalised } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { TURNED_LIMBS, facingsOf } from "./flips";
 import type { Flips, TurnedLimb } from "./flips";
 
@@ -20,7 +20,7 @@ interface Props {
 const LIST = "limbs";
 
 export function LimbList({ view, isOfSeveral, flips, pointedAt, onPoint, onFlip }: Props) {
-  const { frame, limbs: words, points } = messages.value;
+  const { frame, limbs: words, points } = messages;
   const found = facingsOf(view);
   const open = new Set(view.limb_facing.filter(({ ambiguous }) => ambiguous).map(({ limb }) => limb));
   const isKnown = (limb: TurnedLimb): limb is TurnedLimb => found[limb] !== undefined;

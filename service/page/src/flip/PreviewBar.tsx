@@ -3,7 +3,7 @@ import { useSignal } from "@preact/signals";
 import { problemFrom } from "../api/client";
 import type { Fit, FittedView } from "../api/fits";
 import type { Problem } from "../api/types";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { fitWithFlips } from "../result/again";
 import { ProblemNote } from "../ui/ProblemNote";
 import type { FlipsOfViews } from "./flips";
@@ -17,7 +17,7 @@ interface Props {
 }
 
 export function PreviewBar({ fit, views, flips, onTakeBack }: Props) {
-  const { frame, limbs: words } = messages.value;
+  const { frame, limbs: words } = messages;
   const problem = useSignal<Problem | null>(null);
   const sending = useSignal(false);
   const send = async () => {

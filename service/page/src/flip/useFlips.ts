@@ -1,7 +1,7 @@
 // The limbs that are seen turned the other way, in each picture of a fit, and the one pointed at.
 import { useState } from "preact/hooks";
 import type { FittedView } from "../api/fits";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { announce } from "../ui/announce";
 import { NO_FLIPS, areAllEmpty, facingsOf, flipped } from "./flips";
 import type { Flips, FlipsOfViews, TurnedLimb } from "./flips";
@@ -22,7 +22,7 @@ export function useFlips(views: readonly FittedView[], number: number): Turning 
   const [all, setAll] = useState<FlipsOfViews>({});
   const [pointedAt, point] = useState<TurnedLimb | null>(null);
   const change = (next: FlipsOfViews) => {
-    const { limbs: words } = messages.value;
+    const { limbs: words } = messages;
     setAll(next);
     announce(areAllEmpty(next) ? words.takenBack : words.preview(inWords(next, views)));
   };

@@ -3,13 +3,13 @@ import type { FittedView } from "../api/fits";
 import type { Facing } from "../api/types";
 import { pictureTitle } from "../measure/views";
 import { capitalised, listed } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { isEmpty } from "./flips";
 import type { Flips, FlipsOfViews, TurnedLimb } from "./flips";
 
 /** Within a sentence; of several pictures each with its name. */
 export function inWords(flips: FlipsOfViews, views: readonly Pick<FittedView, "view">[]): string {
-  const { ofField } = messages.value.frame;
+  const { ofField } = messages.frame;
   const told = views.flatMap(({ view }, number) => {
     const own = flips[number];
     if (!own || isEmpty(own)) return [];
@@ -19,13 +19,13 @@ export function inWords(flips: FlipsOfViews, views: readonly Pick<FittedView, "v
 }
 
 function inWordsOfOne(flips: Flips): string {
-  const { limbs: words, points } = messages.value;
+  const { limbs: words, points } = messages;
   return listed(Object.entries(flips).map(([limb, facing]) => words.turned[facing](points.limbs[limb as TurnedLimb])));
 }
 
 /** Of the limb under the pointer: which way it points, and what a click does. */
 export function hoverWords(limb: TurnedLimb, found: Facing, flips: Flips): string {
-  const { limbs: words, points } = messages.value;
+  const { limbs: words, points } = messages;
   const say = flips[limb] ? words.hoverBack : words.hover;
   return say(capitalised(points.limbs[limb]), words.facings[flips[limb] ?? found]);
 }

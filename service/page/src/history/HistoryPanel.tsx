@@ -1,23 +1,20 @@
 // This browser's fits, newest first, each where it stands.
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useRef } from "preact/hooks";
 import { getFit } from "../api/calls";
 import { ProblemError } from "../api/client";
 import { stageLabel } from "../fit/stages";
 import { isActive } from "../fit/watch";
 import { moment, percent } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { fitAddress, go, openFit } from "../route";
 import { IconButton } from "../ui/IconButton";
-import { PersonFilter } from "./PersonFilter";
 import { entries, fits, forget, seen } from "./store";
 import type { Entry } from "./store";
 
 const LOOK_EVERY_MS = 2000;
 
 export function HistoryPanel({ onClose }: { onClose: () => void }) {
-  const { frame, people } = messages.value;
-  const [whose, setWhose] = useState<string | null>(null);
-  const shown = entries.value.filter((entry) => whose === null || fits.value[entry.id]?.label === whose);
+  const { frame } = messages;
   const dialog = useRef<HTMLDialogElement>(null);
   useEffect(() => dialog.current!.showModal(), []);
   useEffect(() => {
@@ -54,15 +51,8 @@ export function HistoryPanel({ onClose }: { onClose: () => void }) {
           <IconButton icon="close" label={frame.close} onClick={() => dialog.current!.close()} />
         </header>
         {entries.value.length === 0 && <p class="fine">{frame.list.none}</p>}
-        <PersonFilter
-          labels={entries.value.flatMap((entry) => fits.value[entry.id]?.label ?? [])}
-          chosen={whose}
-          onChoose={setWhose}
-          onLeave={() => dialog.current!.close()}
-        />
-        {whose !== null && shown.length === 0 && <p class="fine">{people.noneHere}</p>}
         <ul class="history">
-          {shown.map((entry) => (
+          {entries.value.map((entry) => (
             <li key={entry.id} class={openFit.value?.id === entry.id ? "is-open" : ""}>
               <a
                 href={fitAddress(entry)}
@@ -75,7 +65,6 @@ export function HistoryPanel({ onClose }: { onClose: () => void }) {
                 <img src={entry.thumbnail} alt="" width="48" height="64" />
                 <span>
                   <b>{entry.name}</b>
-                  {fits.value[entry.id]?.label && <small>{fits.value[entry.id]!.label}</small>}
                   <small>{moment(entry.startedAt)}</small>
                   <small>{standing(entry)}</small>
                 </span>
@@ -93,7 +82,7 @@ export function HistoryPanel({ onClose }: { onClose: () => void }) {
 function standing({ id }: Entry): string {
   const fit = fits.value[id];
   if (!fit) return "…";
-  const { list } = messages.value.frame;
+  const { list } = messages.frame;
   if (fit.state === "running") return list.running(stageLabel(fit.stage ?? "observation"), percent(fit.progress));
   return list.states[fit.state];
 }

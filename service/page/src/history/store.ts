@@ -23,14 +23,6 @@ export const fits = signal<Readonly<Record<string, Fit>>>({});
 /** What was assumed of fits begun on this page, by id, as the initial body already told. */
 export const assumed = signal<Readonly<Record<string, Assumptions>>>({});
 
-let isKept = true;
-
-/** From now on the list is empty and as long-lived as the page: whoever else used this browser is nobody's business. */
-export function keepNothing(): void {
-  isKept = false;
-  entries.value = [];
-}
-
 export function remember(entry: Entry): void {
   if (entries.value.some((each) => each.id === entry.id)) return;
   keep([entry, ...entries.value].slice(0, MOST));
@@ -55,7 +47,7 @@ export function thumbnailOf(element: HTMLImageElement): string {
 
 function keep(list: readonly Entry[]): void {
   entries.value = list;
-  if (isKept) keepText(PLACE, JSON.stringify(list));
+  keepText(PLACE, JSON.stringify(list));
 }
 
 function load(): readonly Entry[] {

@@ -1,11 +1,11 @@
 // Asks where clothes look loose: one line and one button.
 import { clothing } from "../draft/draft";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { announce } from "../ui/announce";
 import { looksLoose } from "./clothes";
 
 export function LooseClothesNote() {
-  const { loose } = messages.value.mask;
+  const { loose } = messages.mask;
   if (!looksLoose()) return null;
   const accept = () => {
     clothing.value = "loose";

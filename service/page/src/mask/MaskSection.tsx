@@ -1,7 +1,7 @@
 // The mask before the fit, small beside the picture, and the way to its brushes.
 import { useLayoutEffect, useMemo, useRef } from "preact/hooks";
 import { mask, picture } from "../draft/draft";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import type { Size, View } from "../stage/view";
 import { isEdited, isEditing, resetMask, shownMask } from "./edits";
 import { LooseClothesNote } from "./LooseClothesNote";
@@ -10,7 +10,7 @@ import { MaskLayer } from "./MaskLayer";
 const PREVIEW: Size = { width: 96, height: 128 };
 
 export function MaskSection() {
-  const { mask: words } = messages.value;
+  const { mask: words } = messages;
   const shown = shownMask.value;
   if (!shown) return null;
   const state = isEdited.value ? words.edited : mask.value ? words.chosen : words.proposed;
@@ -59,7 +59,7 @@ function Preview() {
   return (
     <div class="mask-preview">
       <canvas ref={canvas} aria-hidden="true" />
-      <MaskLayer mask={shownMask.value!} view={view} size={PREVIEW} label={messages.value.mask.preview} />
+      <MaskLayer mask={shownMask.value!} view={view} size={PREVIEW} label={messages.mask.preview} />
     </div>
   );
 }

@@ -2,7 +2,7 @@
 import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { picture } from "../draft/draft";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { redo, undo } from "../points/timeline";
 import { listen } from "../stage/gestures";
 import { usePictureView } from "../stage/pictureView";
@@ -17,7 +17,7 @@ import { draw, extended, FIRST_RADIUS, radiusPx, strokeAt } from "./strokes";
 import type { Brush, Stroke } from "./strokes";
 
 export function MaskStage() {
-  const { mask: words } = messages.value;
+  const { mask: words } = messages;
   const shown = picture.value!;
   const mask = shownMask.value;
   const lies = usePictureView(shown);

@@ -1,7 +1,7 @@
 // What a mask is edited with, beside the picture.
 import type { Signal } from "@preact/signals";
 import { decimal } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { redo, undo } from "../points/timeline";
 import type { PictureView } from "../stage/pictureView";
 import { ViewButtons } from "../stage/ViewButtons";
@@ -19,7 +19,7 @@ interface Props {
 }
 
 export function MaskTools({ brush, share, lies, onDone }: Props) {
-  const { mask: words } = messages.value;
+  const { mask: words } = messages;
   const { past, future } = strokes.value;
   return (
     <div class="mask-tools" role="toolbar" aria-label={words.tools}>

@@ -1,7 +1,7 @@
 // The mask of the draft: proposed or chosen, and what brushes did to it.
 import { computed, effect, signal } from "@preact/signals";
 import { mask, picture } from "../draft/draft";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { advance, begin } from "../points/timeline";
 import { drawnMask, maskFile, shownScale } from "./canvas";
 import type { DrawnMask } from "./canvas";
@@ -69,6 +69,6 @@ export async function maskToSend(): Promise<Blob | null> {
   const image = base.value;
   if (!isEdited.value || !shown || !image) return mask.value?.file ?? null;
   const file = await maskFile(drawnMask(image, strokes.value.present, shown, 1));
-  if (!file) throw new Error(messages.value.mask.tooLarge);
+  if (!file) throw new Error(messages.mask.tooLarge);
   return file;
 }

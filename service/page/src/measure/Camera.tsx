@@ -1,7 +1,7 @@
 // The camera over the whole screen: a silhouette to match, a level, a countdown. It is off as soon as this is gone.
 import { useEffect, useRef, useState } from "preact/hooks";
 import { seconds as inSeconds } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { Choice } from "../ui/Choice";
 import { IconButton } from "../ui/IconButton";
 import { allowSound, beep } from "./beep";
@@ -23,7 +23,7 @@ interface Props {
 }
 
 export function Camera({ view, onTaken, onClose }: Props) {
-  const { frame, measure } = messages.value;
+  const { frame, measure } = messages;
   const { camera: words } = measure;
   const dialog = useRef<HTMLDialogElement>(null);
   const video = useRef<HTMLVideoElement>(null);

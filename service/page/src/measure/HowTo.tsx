@@ -1,6 +1,6 @@
 // Good pictures and bad ones, side by side: what the checks would say of each before it is taken.
 import { useSignal } from "@preact/signals";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 
 /** In the order of the strip of pictures that `tests/evaluation/measuring_sheet.py` draws; bad ones by what the checks answer. */
 const GOOD = ["front", "armsForward", "armsHanging"] as const;
@@ -17,7 +17,7 @@ const HEIGHT = 160;
 const EDGE = 1;
 
 export function HowTo() {
-  const { howto } = messages.value;
+  const { howto } = messages;
   const opened = useSignal(false);
   return (
     <details class="measure-rules howto" onToggle={(event) => (opened.value ||= event.currentTarget.open)}>

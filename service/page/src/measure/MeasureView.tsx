@@ -2,10 +2,10 @@
 import { useSignal } from "@preact/signals";
 import { canPropose } from "../draft/proposing";
 import { loadPerson } from "../draft/request";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { openFile } from "../panel/open";
 import { PersonPanel } from "../panel/PersonPanel";
-import { START_ADDRESS, isEmbedded } from "../route";
+import { START_ADDRESS } from "../route";
 import { ProblemNote } from "../ui/ProblemNote";
 import { HowTo } from "./HowTo";
 import { measureTodo, PLACES, PLACE_NAMES, putPicture } from "./places";
@@ -14,7 +14,7 @@ import { leftOut, measure, scanProblem } from "./send";
 import { pictureOf } from "./views";
 
 export function MeasureView() {
-  const { measure: words } = messages.value;
+  const { measure: words } = messages;
   const isEmpty = PLACE_NAMES.every((name) => PLACES[name].picture.value === null);
   return (
     <main class="measure">
@@ -36,7 +36,7 @@ export function MeasureView() {
               <PlaceCard key={name} place={PLACES[name]} />
             ))}
           </div>
-          {isEmpty && !isEmbedded && (
+          {isEmpty && (
             <p class="fine">
               {words.noPictures}{" "}
               <button class="link" type="button" onClick={() => void trySamplePair()}>
@@ -52,7 +52,7 @@ export function MeasureView() {
 }
 
 function Rules() {
-  const { rules } = messages.value.measure;
+  const { rules } = messages.measure;
   return (
     <details class="measure-rules">
       <summary>{rules.title}</summary>
@@ -67,31 +67,29 @@ function Rules() {
 
 /** Without proposals somebody has to click points, which is done picture by picture. */
 function NoDetector() {
-  const { noDetector: words } = messages.value.measure;
+  const { noDetector: words } = messages.measure;
   const front = PLACES.front.picture.value;
   return (
     <div class="note is-problem" role="alert">
       <strong>{words.title}</strong>
       <p>{words.why}</p>
-      {!isEmbedded && (
-        <div class="row">
-          {front ? (
-            <button class="button is-small" type="button" onClick={() => void openFile(front.file, front.name, "open")}>
-              {words.openFront}
-            </button>
-          ) : (
-            <a class="button is-small" href={START_ADDRESS}>
-              {words.toEditor}
-            </a>
-          )}
-        </div>
-      )}
+      <div class="row">
+        {front ? (
+          <button class="button is-small" type="button" onClick={() => void openFile(front.file, front.name, "open")}>
+            {words.openFront}
+          </button>
+        ) : (
+          <a class="button is-small" href={START_ADDRESS}>
+            {words.toEditor}
+          </a>
+        )}
+      </div>
     </div>
   );
 }
 
 function MeasureBar() {
-  const { frame, measure: words, result } = messages.value;
+  const { frame, measure: words, result } = messages;
   const sending = useSignal(false);
   const asks = useSignal(false);
   const blocked = PLACE_NAMES.filter((name) => PLACES[name].check.value?.usable === false);

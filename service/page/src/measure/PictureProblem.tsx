@@ -1,8 +1,7 @@
 // Why a picture cannot be measured. Which one it is says the place where this stands.
 import type { Problem } from "../api/types";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { ProblemNote } from "../ui/ProblemNote";
-import { Served } from "../ui/Served";
 import { plainly } from "./plainly";
 
 export function PictureProblem({ problem }: { problem: Problem }) {
@@ -10,9 +9,9 @@ export function PictureProblem({ problem }: { problem: Problem }) {
   if (errors.length === 0) return <ProblemNote problem={problem} />;
   return (
     <div class="note is-problem" role="alert">
-      <strong>{messages.value.measure.unusable}</strong>
+      <strong>{messages.measure.unusable}</strong>
       {errors.map(({ field, code, reason, remedy }) => (
-        <p key={field + code}>{plainly("faults", code) ?? <Served text={`${reason} ${remedy}`} />}</p>
+        <p key={field + code}>{plainly("faults", code) ?? `${reason} ${remedy}`}</p>
       ))}
     </div>
   );

@@ -2,7 +2,7 @@
 import { useSignal } from "@preact/signals";
 import { Icon } from "../ui/Icon";
 import { canPropose } from "../draft/proposing";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { Camera } from "./Camera";
 import { Findings } from "./Findings";
 import { hasCamera } from "./lens";
@@ -17,7 +17,7 @@ import { Silhouette } from "./Silhouette";
 import { pictureOf, viewLabel } from "./views";
 
 export function PlaceCard({ place }: { place: Place }) {
-  const { place: words } = messages.value.measure;
+  const { place: words } = messages.measure;
   const films = useSignal(false);
   const fault = useSignal<string | null>(null);
   const { name } = place;
@@ -35,7 +35,7 @@ export function PlaceCard({ place }: { place: Place }) {
   return (
     <section class="place" aria-labelledby={`place-${name}`} data-place={name}>
       <h2 id={`place-${name}`}>{viewLabel(name)}</h2>
-      <div class="place-picture">{picture ? <img src={picture.url} alt={messages.value.measure.ofPicture(pictureOf(name))} /> : <Silhouette view={name} />}</div>
+      <div class="place-picture">{picture ? <img src={picture.url} alt={messages.measure.ofPicture(pictureOf(name))} /> : <Silhouette view={name} />}</div>
       <div class="place-words">
         {!picture && <p>{words.stances[name]}</p>}
         {fault.value && (
@@ -43,7 +43,7 @@ export function PlaceCard({ place }: { place: Place }) {
             {fault.value}
           </p>
         )}
-        {picture?.scaledFrom && <p class="fine">{messages.value.panel.scaled(sizeOf(picture.scaledFrom))}</p>}
+        {picture?.scaledFrom && <p class="fine">{messages.panel.scaled(sizeOf(picture.scaledFrom))}</p>}
         <Said place={place} />
         <div class="row">
           {hasCamera() ? (
@@ -70,7 +70,7 @@ export function PlaceCard({ place }: { place: Place }) {
 
 /** What is known of the picture so far. */
 function Said({ place }: { place: Place }) {
-  const { place: words } = messages.value.measure;
+  const { place: words } = messages.measure;
   const { picture, problem, check, isChecking } = place;
   if (!picture.value) return null;
   if (problem.value) return <PictureProblem problem={problem.value} />;

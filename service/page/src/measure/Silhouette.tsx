@@ -1,5 +1,5 @@
 // How to stand, drawn: from the front with arms and legs apart, from the side with the arms stretched forward.
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import type { PlaceName } from "./places";
 
 const BOX = "0 0 120 220";
@@ -27,7 +27,7 @@ const SHAPES: Readonly<Record<PlaceName, readonly (readonly [path: string, width
 
 export function Silhouette({ view }: { view: PlaceName }) {
   return (
-    <svg class="silhouette" viewBox={BOX} role="img" aria-label={messages.value.measure.place.drawn[view]}>
+    <svg class="silhouette" viewBox={BOX} role="img" aria-label={messages.measure.place.drawn[view]}>
       <g class="silhouette-body">
         {SHAPES[view].map(([path, width]) => (
           <path key={path} d={path} stroke-width={width} />

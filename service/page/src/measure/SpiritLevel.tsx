@@ -1,5 +1,5 @@
 // Whether the phone is level, drawn as the line that would be: nothing where the browser does not tell.
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { levelWord, useTilt } from "./level";
 
 export function SpiritLevel({ facesUser }: { facesUser: boolean }) {
@@ -9,7 +9,7 @@ export function SpiritLevel({ facesUser }: { facesUser: boolean }) {
   return (
     <p class={`camera-level ${word ? "" : "is-level"}`}>
       <i style={{ rotate: `${-tilt.roll}deg` }} aria-hidden="true" />
-      {word ?? messages.value.measure.level.level}
+      {word ?? messages.measure.level.level}
     </p>
   );
 }

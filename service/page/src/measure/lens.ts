@@ -1,6 +1,6 @@
 // The camera of the browser: its stream, and a picture from it.
 import { signal } from "@preact/signals";
-import type { Messages } from "../messages/catalogue";
+import type { messages } from "../messages";
 
 export type Side = "environment" | "user";
 
@@ -27,7 +27,7 @@ export function closeCamera(stream: MediaStream | null): void {
 }
 
 /** What stands in the way of the camera. */
-export type CameraTrouble = keyof Messages["measure"]["camera"]["troubles"];
+export type CameraTrouble = keyof typeof messages.measure.camera.troubles;
 
 export function cameraTrouble(error: unknown): CameraTrouble {
   const name = error instanceof DOMException ? error.name : "";

@@ -1,6 +1,6 @@
 // How far a phone is tilted, from its orientation; nothing where the browser does not tell.
 import { useEffect, useState } from "preact/hooks";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 
 export interface Tilt {
   /** Degrees by which the picture's top leans to the right. */
@@ -31,7 +31,7 @@ export function tiltOf(beta: number, gamma: number, screenAngle: number): Tilt {
 
 /** What to do so that the phone is level; null when it is. */
 export function levelWord({ roll, pitch }: Tilt, facesUser: boolean): string | null {
-  const { level } = messages.value.measure;
+  const { level } = messages.measure;
   if (Math.abs(roll) > LEVEL_ROLL_DEG) return roll > 0 ? level.left : level.right;
   if (Math.abs(pitch) <= LEVEL_PITCH_DEG) return null;
   return pitch > 0 === facesUser ? level.down : level.up;

@@ -9,7 +9,7 @@ import { heightFault, heightM, tapeFault, weightFault } from "../draft/person";
 import { openPicture } from "../draft/chosen";
 import type { Picture } from "../draft/picture";
 import { canPropose } from "../draft/proposing";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { announce } from "../ui/announce";
 import { answered } from "../ui/answered";
 import { NOT_INSTALLED, isUnusable } from "./faults";
@@ -47,7 +47,7 @@ const PAUSE_MS = 250;
 
 /** Why nothing can be measured yet, as a thing to do; null when it can. */
 export const measureTodo = computed<string | null>(() => {
-  const { measure, person: said } = messages.value;
+  const { measure, person: said } = messages;
   if (person.value.gender === null) return said.todo.gender;
   if (heightM(person.value) === null) return measure.todo.height;
   if (heightFault(person.value) !== null) return said.todo.height;
@@ -146,6 +146,6 @@ function take(each: Place, found: CaptureCheck): void {
   each.isChecking.value = false;
   each.check.value = found;
   const [first] = found.findings;
-  const { place: words } = messages.value.measure;
+  const { place: words } = messages.measure;
   announce(words.told(viewLabel(each.name), first ? (answered("findings", first.code) ?? first.reason) : words.good));
 }

@@ -1,6 +1,6 @@
 // Of how many points of several pictures nobody said where they are.
 import type { Asked, FittedView } from "../api/fits";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { proposedOf } from "../ui/proposed";
 import { pictureOf } from "./views";
 
@@ -8,7 +8,7 @@ type Viewed = Pick<FittedView, "number" | "view" | "assumptions">;
 
 /** Null where somebody clicked every point. */
 export function proposedText(views: readonly Viewed[], asked: Pick<Asked, "views">): string | null {
-  const { frame, measure } = messages.value;
+  const { frame, measure } = messages;
   const counts = views.map(({ number, view, assumptions }) => ({ view, proposed: proposedOf(assumptions, asked.views[number]?.points ?? {}) }));
   const told = counts.flatMap(({ view, proposed }) => {
     if (!proposed) return [];

@@ -5,7 +5,6 @@ import { problemFrom } from "../api/client";
 import type { Fit } from "../api/fits";
 import type { Gender, Problem, ScanOfImages } from "../api/types";
 import { person } from "../draft/draft";
-import { labelOf } from "../draft/person";
 import { describedPerson, loadPerson } from "../draft/request";
 import { seen } from "../history/store";
 import { MEASURE_ADDRESS, fitAddress, go } from "../route";
@@ -47,14 +46,13 @@ export async function measure(): Promise<void> {
 
 async function submitted(gender: Gender): Promise<Fit> {
   const views = await Promise.all(PLACE_NAMES.map(async (name) => ({ view: name, points: "auto" as const, image_id: await imageOf(name) })));
-  return submitScan({ ...describedPerson(gender, person.value), ...labelOf(person.value), cues: "SES", force: false, views: views as ScanOfImages["views"] });
+  return submitScan({ ...describedPerson(gender, person.value), cues: "SES", force: false, views: views as ScanOfImages["views"] });
 }
 
 /** The pictures of a fit and its person, to be changed and sent again; what is wrong with them is told where it belongs. */
 export async function reopen(fit: Fit): Promise<void> {
   const asked = await getAsked(fit);
   loadPerson(asked);
-  person.value = { ...person.value, label: fit.label ?? "" };
   takeUpSent();
   const order = placesOf(asked.views);
   for (const name of PLACE_NAMES) {

@@ -2,15 +2,15 @@
 import type { FittedView } from "../api/fits";
 import type { ViewKind } from "../api/types";
 import { capitalised } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 
 export function viewLabel(view: ViewKind): string {
-  return messages.value.measure.views[view].label;
+  return messages.measure.views[view].label;
 }
 
 /** Within a sentence, without its article. */
 export function pictureOf(view: ViewKind): string {
-  return messages.value.measure.views[view].picture;
+  return messages.measure.views[view].picture;
 }
 
 /** As a heading, or before what is said of it. */
@@ -27,13 +27,13 @@ export function viewLabels(views: readonly Viewed[]): readonly string[] {
 
 /** The same as headings. */
 export function viewTitles(views: readonly Viewed[]): readonly string[] {
-  const { ofPicture } = messages.value.measure;
+  const { ofPicture } = messages.measure;
   return distinct(views, (view) => ofPicture(pictureOf(view)));
 }
 
 /** Those of the same view are numbered. */
 function distinct(views: readonly Viewed[], name: (view: ViewKind) => string): readonly string[] {
-  const { viewNumber } = messages.value.measure;
+  const { viewNumber } = messages.measure;
   return views.map(({ view }, number) => {
     const called = name(view ?? "other");
     const alike = views.filter((other) => other.view === view);

@@ -1,5 +1,6 @@
-// Numbers, units, dates and plurals as the language spoken writes them.
-import { locale } from "./language";
+// Numbers, units, dates and plurals as English writes them.
+/** English as this browser writes it: its region says how numbers and dates look. */
+const LOCALE = globalThis.navigator?.languages?.find((tag) => tag.startsWith("en")) ?? "en";
 
 type Unit = "centimeter" | "meter" | "millimeter" | "kilogram" | "foot" | "inch" | "kilobyte" | "megabyte";
 
@@ -41,33 +42,28 @@ export function duration(hours: number): string {
 }
 
 export function moment(iso: string): string {
-  return new Intl.DateTimeFormat(locale.value, { dateStyle: "medium", timeStyle: "short" }).format(new Date(iso));
-}
-
-/** A day without its hour, as short as it is written. */
-export function day(iso: string): string {
-  return new Intl.DateTimeFormat(locale.value, { dateStyle: "medium" }).format(new Date(iso));
+  return new Intl.DateTimeFormat(LOCALE, { dateStyle: "medium", timeStyle: "short" }).format(new Date(iso));
 }
 
 export function listed(parts: readonly string[]): string {
-  return new Intl.ListFormat(locale.value).format(parts);
+  return new Intl.ListFormat(LOCALE).format(parts);
 }
 
 /** One of them. */
 export function either(parts: readonly string[]): string {
-  return new Intl.ListFormat(locale.value, { type: "disjunction" }).format(parts);
+  return new Intl.ListFormat(LOCALE, { type: "disjunction" }).format(parts);
 }
 
 /** The form that goes with a count. */
 export function plural(count: number, forms: { readonly one: string; readonly other: string }): string {
-  return new Intl.PluralRules(locale.value).select(count) === "one" ? forms.one : forms.other;
+  return new Intl.PluralRules(LOCALE).select(count) === "one" ? forms.one : forms.other;
 }
 
-/** As a sentence begins; German keeps its capitals elsewhere. */
+/** As a sentence begins. */
 export function capitalised(text: string): string {
-  return text.charAt(0).toLocaleUpperCase(locale.value) + text.slice(1);
+  return text.charAt(0).toLocaleUpperCase(LOCALE) + text.slice(1);
 }
 
 function number(options: Intl.NumberFormatOptions): Intl.NumberFormat {
-  return new Intl.NumberFormat(locale.value, options);
+  return new Intl.NumberFormat(LOCALE, options);
 }

@@ -1,11 +1,11 @@
 // Without a gender there is no outline: what is missing, and the way to it.
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { isFull } from "../stage/full";
 
 export function BodyLink() {
   return (
     <button class="link" type="button" onClick={show}>
-      {messages.value.panel.points.outlineNeedsBody}
+      {messages.panel.points.outlineNeedsBody}
     </button>
   );
 }

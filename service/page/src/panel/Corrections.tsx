@@ -1,7 +1,7 @@
 // All that can be corrected before a fit: the picture, its points, the mask, limbs, the lens and the light.
 import { picture } from "../draft/draft";
 import { MaskSection } from "../mask/MaskSection";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { EvidencePanel } from "./EvidencePanel";
 import { FacingPanel } from "./FacingPanel";
 import { LensPanel } from "./LensPanel";
@@ -12,7 +12,7 @@ import { PointsPanel } from "./PointsPanel";
 import { sizeOf } from "./size";
 
 export function Corrections() {
-  const { panel } = messages.value;
+  const { panel } = messages;
   const shown = picture.value!;
   return (
     <>

@@ -1,7 +1,7 @@
 // Asks about proposed points one by one; nothing waits for the answers.
 import { useEffect, useRef } from "preact/hooks";
 import { change, picture, points, selected } from "../draft/draft";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { sideOf } from "../points/catalogue";
 import type { PointName } from "../points/catalogue";
 import { ask, confirm, nextDoubt, setHidden, skip } from "../points/placed";
@@ -14,11 +14,11 @@ const CLOSE_UP_PX = 116;
 const SHOWN_SHARE = 0.16;
 
 export function questionOf(name: PointName): string {
-  return messages.value.points.question[name];
+  return messages.points.question[name];
 }
 
 export function DoubtQuestion({ name }: { name: PointName }) {
-  const { panel, points: words } = messages.value;
+  const { panel, points: words } = messages;
   return (
     <>
       <p class="next-kicker">{panel.doubt.look(points.value.doubts.length)}</p>
@@ -31,7 +31,7 @@ export function DoubtQuestion({ name }: { name: PointName }) {
 }
 
 export function DoubtAnswers({ name }: { name: PointName }) {
-  const { doubt } = messages.value.panel;
+  const { doubt } = messages.panel;
   return (
     <div class="row" role="group" aria-label={questionOf(name)}>
       <button class="button is-small" type="button" onClick={() => answer(confirm(points.value, name))}>
@@ -67,7 +67,7 @@ function answer(next: Points): void {
   change(next);
   selected.value = null;
   const following = nextDoubt(next);
-  announce(following ? questionOf(following) : messages.value.panel.doubt.noMore);
+  announce(following ? questionOf(following) : messages.panel.doubt.noMore);
   // Its buttons are gone: keys go on at the picture.
   if (!following) document.querySelector<HTMLElement>(".stage")?.focus({ preventScroll: true });
 }
@@ -77,5 +77,5 @@ function move(name: PointName): void {
   change(ask(points.value, name));
   selected.value = name;
   document.querySelector<HTMLElement>(".stage")?.focus({ preventScroll: true });
-  announce(messages.value.panel.doubt.clickWhere(messages.value.points.named[name]));
+  announce(messages.panel.doubt.clickWhere(messages.points.named[name]));
 }

@@ -1,10 +1,10 @@
 // By what the body is found: by its outline alone, or by its shading as well; and what covers it.
 import { clothing, cues } from "../draft/draft";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { Choice } from "../ui/Choice";
 
 export function EvidencePanel() {
-  const { cues: byWhat, clothes } = messages.value.panel;
+  const { cues: byWhat, clothes } = messages.panel;
   return (
     <div class="subsection">
       <Choice

@@ -2,13 +2,13 @@
 import type { Facing, Limb } from "../api/types";
 import { facing, upcoming } from "../draft/draft";
 import { liveBody } from "../draft/live";
-import { plainName, wordFor } from "../messages/catalogue";
+import { plainName, wordFor } from "../messages/words";
 import { capitalised } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { Choice } from "../ui/Choice";
 
 export function FacingPanel() {
-  const { panel, points } = messages.value;
+  const { panel, points } = messages;
   const words = panel.facing;
   const said = facing.value;
   const limbs = liveBody.value?.limbs ?? [];

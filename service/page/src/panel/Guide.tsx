@@ -1,5 +1,5 @@
 // A small figure that shows which point is meant. It faces the viewer: its left is on the right.
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { sideOf } from "../points/catalogue";
 import type { PointName } from "../points/catalogue";
 import type { Points } from "../points/placed";
@@ -39,7 +39,7 @@ const CLOSE_UPS: Readonly<Partial<Record<PointName, string>>> = {
 };
 
 export function Guide({ next, points }: { next: PointName | null; points: Points }) {
-  const { guide } = messages.value.panel;
+  const { guide } = messages.panel;
   const closeUp = next && CLOSE_UPS[next];
   return (
     <div class="guides">
@@ -72,7 +72,7 @@ function CloseUp({ next, box }: { next: PointName; box: string }) {
       {isHip && (
         <>
           <path class="guide-wrong" d="M44 96h36" />
-          <text class="guide-word" x="62" y="94">{messages.value.panel.guide.notWaist}</text>
+          <text class="guide-word" x="62" y="94">{messages.panel.guide.notWaist}</text>
           <path class="guide-bone" d="M53 113 50 158M71 113 74 158M53 113h18" />
         </>
       )}

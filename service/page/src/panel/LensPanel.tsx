@@ -1,13 +1,12 @@
 // Through which lens: from the picture's own data, chosen by eye, or assumed.
 import { focalLength, uploaded } from "../draft/draft";
-import type { Messages } from "../messages/catalogue";
 import { measured } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 
 const SHORTEST_MM = 16;
 const LONGEST_MM = 200;
 const ASSUMED_MM = 50;
-const LENSES: readonly (readonly [number, keyof Messages["panel"]["lens"]["kinds"]])[] = [
+const LENSES: readonly (readonly [number, keyof typeof messages.panel.lens.kinds])[] = [
   [20, "veryWide"],
   [32, "phone"],
   [42, "wide"],
@@ -17,7 +16,7 @@ const LENSES: readonly (readonly [number, keyof Messages["panel"]["lens"]["kinds
 ];
 
 export function LensPanel() {
-  const { lens } = messages.value.panel;
+  const { lens } = messages.panel;
   const exif = uploaded.value?.focal_length_35mm ?? null;
   const chosen = focalLength.value;
   const shown = chosen ?? exif ?? ASSUMED_MM;
@@ -59,5 +58,5 @@ export function LensPanel() {
 }
 
 function lensOf(mm: number): string {
-  return messages.value.panel.lens.kinds[LENSES.find(([below]) => mm < below)![1]];
+  return messages.panel.lens.kinds[LENSES.find(([below]) => mm < below)![1]];
 }

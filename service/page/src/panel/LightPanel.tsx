@@ -2,7 +2,7 @@
 import { useLayoutEffect, useRef } from "preact/hooks";
 import type { LightGuess } from "../api/types";
 import { cues, light, surroundings } from "../draft/draft";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { Choice } from "../ui/Choice";
 import { fromHeight, fromSide } from "../ui/direction";
 import { drawBall, lightAt } from "./ball";
@@ -11,7 +11,7 @@ const SIDE_PX = 96;
 const STEP_DEG = 5;
 
 export function LightPanel() {
-  const { light: words } = messages.value.panel;
+  const { light: words } = messages.panel;
   const guess = light.value;
   return (
     <div class="subsection">
@@ -64,7 +64,7 @@ export function LightPanel() {
 }
 
 function Ball({ guess }: { guess: LightGuess | null }) {
-  const { light: words } = messages.value.panel;
+  const { light: words } = messages.panel;
   const canvas = useRef<HTMLCanvasElement>(null);
   // Before it is shown: what it says and what is seen are never of two lights.
   useLayoutEffect(() => drawBall(canvas.current!, guess), [guess]);
@@ -113,7 +113,7 @@ function Ball({ guess }: { guess: LightGuess | null }) {
 
 function wordsFor({ azimuth_deg, elevation_deg }: LightGuess): string {
   const [azimuth, elevation] = [azimuth_deg ?? 0, elevation_deg ?? 0];
-  const across = Math.abs(azimuth) < 3 ? [messages.value.panel.light.straight] : [fromSide(azimuth)];
+  const across = Math.abs(azimuth) < 3 ? [messages.panel.light.straight] : [fromSide(azimuth)];
   const along = Math.abs(elevation) < 3 ? [] : [fromHeight(elevation)];
   return [...across, ...along].join(", ");
 }

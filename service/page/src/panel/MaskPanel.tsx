@@ -2,11 +2,11 @@
 import { useSignal } from "@preact/signals";
 import { mask, picture, useMask } from "../draft/draft";
 import { openPicture } from "../draft/chosen";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { sizeOf } from "./size";
 
 export function MaskPanel() {
-  const { mask: words } = messages.value.panel;
+  const { mask: words } = messages.panel;
   const fault = useSignal<string | null>(null);
   const chosen = mask.value;
   const open = async (file: File) => {
@@ -57,5 +57,5 @@ export function MaskPanel() {
 function misfit(cut: { width: number; height: number }): string | null {
   const shown = picture.value!;
   if (cut.width === shown.width && cut.height === shown.height) return null;
-  return messages.value.panel.mask.misfit(sizeOf(cut), sizeOf(shown));
+  return messages.panel.mask.misfit(sizeOf(cut), sizeOf(shown));
 }

@@ -3,8 +3,7 @@ import { person } from "../draft/draft";
 import { liveBody } from "../draft/live";
 import { TAPE_NAMES, TAPE_RANGE_CM, heightFault, heightInWords, heightM, inUnits, inches, tapeFault, weightFault } from "../draft/person";
 import { decimal, measured } from "../messages/figures";
-import { messages } from "../messages/language";
-import { LabelField } from "../people/LabelField";
+import { messages } from "../messages";
 import { measureLabel } from "../result/reading";
 import { Choice } from "../ui/Choice";
 
@@ -16,7 +15,7 @@ interface Words {
 
 /** Without other `words`, those for one picture. */
 export function PersonPanel({ words }: { words?: Words }) {
-  const { frame, person: said } = messages.value;
+  const { frame, person: said } = messages;
   const known = person.value;
   const metric = known.units === "metric";
   const faults = { height: heightFault(known), weight: weightFault(known) };
@@ -101,23 +100,20 @@ export function PersonPanel({ words }: { words?: Words }) {
       <p id="weight-note" class={`fine ${faults.weight ? "is-fault" : ""}`}>
         {faults.weight ?? words?.weight ?? said.weightHelps}
       </p>
-      <div class="folds">
-        <Tape />
-        <LabelField />
-      </div>
+      <Tape />
     </section>
   );
 }
 
 function assumedHeight(): string {
   const body = liveBody.value;
-  const { person: said } = messages.value;
+  const { person: said } = messages;
   return body ? said.assumedHeight(heightInWords(body.height_m, person.value.units)) : said.meanHeight;
 }
 
 /** What was measured with a tape. */
 function Tape() {
-  const { frame, person: said } = messages.value;
+  const { frame, person: said } = messages;
   const known = person.value;
   const fault = tapeFault(known);
   const metric = known.units === "metric";

@@ -1,13 +1,13 @@
 // Points read from a file, and kept in one.
 import { useSignal } from "@preact/signals";
 import { change, picture, points, selected } from "../draft/draft";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { cocoFile, readPoints } from "../points/coco";
 import { NO_POINTS } from "../points/placed";
 import { saveFile } from "../ui/save";
 
 export function PointFiles() {
-  const { points: words } = messages.value.panel;
+  const { points: words } = messages.panel;
   const fault = useSignal<string | null>(null);
   const count = Object.keys(points.value.placed).length;
   return (

@@ -2,7 +2,7 @@
 import { change, doubted, person, picture, points, seenFromBehind, selected, timeline, todo, upcoming } from "../draft/draft";
 import { liveBody, liveProblem } from "../draft/live";
 import { listed } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { POINT_NAMES, sideOf } from "../points/catalogue";
 import type { PointName } from "../points/catalogue";
 import { ask, leave, missing, remove, skip, skipRest, swapSides, toggleHidden } from "../points/placed";
@@ -10,7 +10,6 @@ import type { Place, Points } from "../points/placed";
 import { countProposed, hasProposed, isAllProposed } from "../points/proposed";
 import { redo, undo } from "../points/timeline";
 import { IconButton } from "../ui/IconButton";
-import { Served } from "../ui/Served";
 import { answered } from "../ui/answered";
 import { BodyLink } from "./BodyLink";
 import { DoubtAnswers, DoubtCloseUp, DoubtQuestion, questionOf } from "./DoubtQuestion";
@@ -23,7 +22,7 @@ import { Ways } from "./Ways";
 const FAR_OFF_SHARE = 0.03;
 
 export function PointsPanel() {
-  const { points: words } = messages.value.panel;
+  const { points: words } = messages.panel;
   const next = upcoming.value;
   const doubt = doubted.value;
   // What is wrong with all of them comes before the questions about each.
@@ -59,13 +58,13 @@ export function PointsPanel() {
 function inAll(all: Points): string {
   const count = Object.keys(all.placed).length;
   const proposed = countProposed(all);
-  const { points: words } = messages.value.panel;
+  const { points: words } = messages.panel;
   if (proposed === 0) return words.placed(count);
   return proposed === count ? words.proposed(count) : words.someProposed(proposed, count);
 }
 
 function Next({ name }: { name: PointName }) {
-  const { panel, points: named } = messages.value;
+  const { panel, points: named } = messages;
   const words = panel.points;
   const side = sideOf(name);
   const { limbs, trunk } = missing(points.value);
@@ -99,7 +98,7 @@ function Next({ name }: { name: PointName }) {
 }
 
 function whichSide(side: "left" | "right"): string {
-  const { points: words } = messages.value.panel;
+  const { points: words } = messages.panel;
   return (seenFromBehind.value ? words.ownBehind : words.ownFacing)[side];
 }
 
@@ -110,7 +109,7 @@ export function NextLine() {
   if (!name && hasProposed(points.value)) return <ProposedLine />;
   if (!name) return <DoneLine />;
   const side = sideOf(name);
-  const { panel, points: named } = messages.value;
+  const { panel, points: named } = messages;
   return (
     <div class={`next-line is-guided is-${side}`} aria-hidden="true">
       <Guide next={name} points={points.value} />
@@ -127,7 +126,7 @@ export function NextLine() {
 function DoneLine() {
   return (
     <div class="next-line">
-      <b>{messages.value.panel.points.allDone}</b>
+      <b>{messages.panel.points.allDone}</b>
       {person.value.gender === null && <BodyLink />}
     </div>
   );
@@ -145,7 +144,7 @@ function DoubtLine({ name }: { name: PointName }) {
 }
 
 function ProposedLine() {
-  const { points: words } = messages.value.panel;
+  const { points: words } = messages.panel;
   return (
     <div class="next-line">
       <ClickAll kind="link" />
@@ -156,13 +155,13 @@ function ProposedLine() {
 }
 
 function needed(limbs: number, trunk: number): string {
-  const { points: words } = messages.value.panel;
+  const { points: words } = messages.panel;
   if (limbs === 0 && trunk === 0) return words.plenty;
   return limbs === 0 ? words.trunkNeeded(trunk) : words.needed(limbs);
 }
 
 function Complete() {
-  const { points: words } = messages.value.panel;
+  const { points: words } = messages.panel;
   const proposed = hasProposed(points.value);
   const isDrawn = person.value.gender !== null;
   return (
@@ -181,7 +180,7 @@ function Complete() {
 
 /** Points that lie far from where the body can have them. */
 function Doubts() {
-  const { panel, points: named } = messages.value;
+  const { panel, points: named } = messages;
   const body = liveBody.value;
   const shown = picture.value;
   if (!body && todo.value === null && !liveProblem.value) return <p class="fine">{panel.points.bodyFollows}</p>;
@@ -193,7 +192,7 @@ function Doubts() {
   return (
     <div class="note" role="status">
       {warnings.map((warning) => (
-        <p key={warning.code}>{answered("warnings", warning.code) ?? <Served text={warning.message} />}</p>
+        <p key={warning.code}>{answered("warnings", warning.code) ?? warning.message}</p>
       ))}
       {far.length > 0 && (
         <p>{panel.points.unreached(listed(far.map(([name]) => named.named[name])))}</p>
@@ -203,7 +202,7 @@ function Doubts() {
 }
 
 function PointList() {
-  const { panel, points: named } = messages.value;
+  const { panel, points: named } = messages;
   const words = panel.points;
   return (
     <details class="fold">

@@ -2,11 +2,10 @@
 // What changes is announced by whoever changes it: these notes are no status of their own.
 import { points } from "../draft/draft";
 import { canPropose, clickAll, isProposing, others, proposal, proposalProblem, proposalWord, propose } from "../draft/proposing";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { hasProposed, isAllProposed } from "../points/proposed";
 import { sideDoubt } from "../points/sides";
 import { ProblemNote } from "../ui/ProblemNote";
-import { Served } from "../ui/Served";
 import { answered } from "../ui/answered";
 
 /** These are told in another way: by the note itself, by boxes, by a question. */
@@ -35,7 +34,7 @@ export function ProposalWarnings() {
   return (
     <div class="note">
       {warnings.map((warning) => (
-        <p key={warning.code}>{answered("warnings", warning.code) ?? <Served text={warning.message} />}</p>
+        <p key={warning.code}>{answered("warnings", warning.code) ?? warning.message}</p>
       ))}
     </div>
   );
@@ -44,7 +43,7 @@ export function ProposalWarnings() {
 export function ClickAll({ kind }: { kind: "button is-small" | "link" }) {
   return (
     <button class={kind} type="button" onClick={clickAll}>
-      {messages.value.panel.proposal.clickAll}
+      {messages.panel.proposal.clickAll}
     </button>
   );
 }
@@ -52,11 +51,11 @@ export function ClickAll({ kind }: { kind: "button is-small" | "link" }) {
 function Persons({ count, chosen }: { count: number; chosen: number | null }) {
   return (
     <div class="note">
-      <p>{messages.value.stage.several(count)}</p>
+      <p>{messages.stage.several(count)}</p>
       <div class="row">
         {Array.from({ length: count }, (_, i) => (
           <button key={i} class="button is-small" type="button" aria-pressed={i === chosen} onClick={() => propose(i)}>
-            {messages.value.panel.proposal.person(i + 1)}
+            {messages.panel.proposal.person(i + 1)}
           </button>
         ))}
       </div>
@@ -73,7 +72,7 @@ function Ways() {
       {offersClicks && <ClickAll kind="button is-small" />}
       {offersProposal && (
         <button class="button is-small" type="button" onClick={() => propose()}>
-          {messages.value.panel.proposal.propose}
+          {messages.panel.proposal.propose}
         </button>
       )}
     </div>

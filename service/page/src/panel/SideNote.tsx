@@ -1,10 +1,10 @@
 // Asks, where left and right look swapped, and mends it by one click.
 import { change, points, seenFromBehind } from "../draft/draft";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { sideDoubt, swapped } from "../points/sides";
 
 export function SideNote() {
-  const { sides } = messages.value.panel;
+  const { sides } = messages.panel;
   const doubt = sideDoubt(points.value);
   if (!doubt || (doubt.kind === "behind" && seenFromBehind.value)) return null;
   return (

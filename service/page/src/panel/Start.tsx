@@ -1,6 +1,6 @@
 // The start: what this is, how good, what becomes of pictures, and the ways in.
 import { useSignal } from "@preact/signals";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { AccuracyLine } from "../start/AccuracyLine";
 import { GoOn } from "../start/GoOn";
 import { KeptLine } from "../start/KeptLine";
@@ -16,7 +16,7 @@ const SAMPLES = [
 ] as const;
 
 export function Start() {
-  const { frame, start } = messages.value;
+  const { frame, start } = messages;
   const over = useSignal(false);
   return (
     <main class="start">
@@ -60,7 +60,7 @@ export function Start() {
 }
 
 function Samples() {
-  const { samples } = messages.value.start;
+  const { samples } = messages.start;
   return (
     <section class="samples" aria-labelledby="samples-title">
       <h2 id="samples-title">{samples.title}</h2>

@@ -5,22 +5,21 @@ import { submitFit, uploadImage } from "../api/calls";
 import { problemFrom } from "../api/client";
 import { UNREACHABLE, isCutOff } from "../api/connection";
 import type { Problem } from "../api/types";
-import { oneOf, person, picture, todo, uploaded } from "../draft/draft";
+import { oneOf, picture, todo, uploaded } from "../draft/draft";
 import { liveBody } from "../draft/live";
-import { labelOf } from "../draft/person";
 import { isProposing } from "../draft/proposing";
 import { draftedChoices, draftedSubject } from "../draft/request";
 import { uploadProblem } from "../draft/uploading";
 import { assumed, remember, seen, thumbnailOf } from "../history/store";
 import { maskToSend } from "../mask/edits";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { fitWithPicture } from "../result/again";
 import { fitAddress, go } from "../route";
 import { ProblemNote } from "../ui/ProblemNote";
 import { discard } from "./open";
 
 export function SubmitBar() {
-  const { frame, panel, person: { todo: missing } } = messages.value;
+  const { frame, panel, person: { todo: missing } } = messages;
   const problem = useSignal<Problem | null>(null);
   const sending = useSignal(false);
   /** Somebody wants the fit as soon as the points are there. */
@@ -38,11 +37,10 @@ export function SubmitBar() {
       const cutOut = await maskToSend();
       const cut = cutOut && (await upload(cutOut));
       const asked = { ...subject, ...draftedChoices() };
-      const called = labelOf(person.value);
       if (oneOf.value) {
-        await fitWithPicture(oneOf.value, asked, called.label, cut?.id ?? null);
+        await fitWithPicture(oneOf.value, asked, cut?.id ?? null);
       } else {
-        const fit = await submitFit({ ...asked, image_id: kept.id, ...called, ...(cut ? { mask_id: cut.id } : {}) });
+        const fit = await submitFit({ ...asked, image_id: kept.id, ...(cut ? { mask_id: cut.id } : {}) });
         seen(fit);
         assumed.value = { ...assumed.value, [fit.id]: liveBody.value?.assumptions ?? [] };
         remember({ kind: fit.kind, id: fit.id, name: shown.name, startedAt: fit.created_at, thumbnail: thumbnailOf(shown.element) });

@@ -1,8 +1,8 @@
 // What a mouse, fingers and keys do on the picture.
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 
 export function Ways() {
-  const { ways } = messages.value.panel;
+  const { ways } = messages.panel;
   return (
     <details class="fold">
       <summary>{ways.title}</summary>

@@ -5,7 +5,7 @@ import { isRestoring } from "../draft/lasting";
 import { liveProblem } from "../draft/live";
 import { isProposing } from "../draft/proposing";
 import { isEditing } from "../mask/edits";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { isEnough } from "../points/placed";
 import { hasProposed } from "../points/proposed";
 import { isFull } from "../stage/full";
@@ -23,7 +23,7 @@ const NextLine = later(() => import("./PointsPanel").then((loaded) => loaded.Nex
 const MaskStage = later(() => import("../mask/MaskStage").then((loaded) => loaded.MaskStage), null);
 
 export function Workbench() {
-  const { panel } = messages.value;
+  const { panel } = messages;
   const shown = picture.value;
   // Nobody proposes them: they are clicked.
   const hasToClick = shown !== null && !isProposing.value && !isEnough(points.value);

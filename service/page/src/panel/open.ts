@@ -4,13 +4,13 @@ import { getAsked, getFile } from "../api/calls";
 import { askedOfView } from "../api/fits";
 import type { Fit } from "../api/fits";
 import type { FitOptions } from "../api/types";
-import { change, isCorrecting, oneOf, person, points, useMask, usePicture } from "../draft/draft";
+import { change, isCorrecting, oneOf, points, useMask, usePicture } from "../draft/draft";
 import { openPicture } from "../draft/chosen";
 import { shownPicture } from "../draft/picture";
 import type { Picture } from "../draft/picture";
 import { forgetProposal, proposeFirst } from "../draft/proposing";
 import { loadDraft } from "../draft/request";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { skipRest } from "../points/placed";
 import { PREPARE_ADDRESS, go, isMeasuring } from "../route";
 
@@ -18,7 +18,7 @@ export const openProblem = signal<string | null>(null);
 
 export async function openFile(
   file: Blob,
-  name = file instanceof File ? file.name : messages.value.start.picture,
+  name = file instanceof File ? file.name : messages.start.picture,
   beginning: "proposed" | "open" = "proposed",
 ): Promise<void> {
   await open(async () => {
@@ -53,7 +53,7 @@ export async function openAgain(fit: Fit, number: number, picture: Picture): Pro
   const { mask: maskPath } = fit.pictures[number]!;
   const [asked, mask, opened] = await Promise.all([
     getAsked(fit),
-    maskPath ? getFile(maskPath).then((file) => shownPicture(file, messages.value.start.maskOfFit)) : null,
+    maskPath ? getFile(maskPath).then((file) => shownPicture(file, messages.start.maskOfFit)) : null,
     // Its own: the fit's view lets go of the one it shows.
     shownPicture(picture.file, picture.name, picture.shown),
   ]);
@@ -61,7 +61,6 @@ export async function openAgain(fit: Fit, number: number, picture: Picture): Pro
     use(opened);
     oneOf.value = fit.pictures.length > 1 ? { kind: fit.kind, id: fit.id, number } : null;
     loadDraft(askedOfView(asked, number));
-    person.value = { ...person.value, label: fit.label ?? "" };
     useMask(mask);
     isCorrecting.value = true;
     // The service proposed all of them.
@@ -73,7 +72,7 @@ export function listenForPaste(): void {
   addEventListener("paste", (event) => {
     if (isMeasuring.value) return;
     const file = [...(event.clipboardData?.files ?? [])].find((each) => each.type.startsWith("image/"));
-    if (file) void openFile(file, messages.value.start.pasted);
+    if (file) void openFile(file, messages.start.pasted);
   });
 }
 

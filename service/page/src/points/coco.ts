@@ -1,6 +1,6 @@
 // Points from files and to files: COCO's annotation JSON, detectors' lists, and our own.
 import { POINTS } from "../api/limits";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { isPointName } from "./catalogue";
 import type { PointName } from "./catalogue";
 import { NO_POINTS } from "./placed";
@@ -17,10 +17,10 @@ export function readPoints(text: string): Points {
   try {
     content = JSON.parse(text);
   } catch {
-    throw new Error(messages.value.points.files.notJson);
+    throw new Error(messages.points.files.notJson);
   }
   const placed = placedIn(content);
-  if (Object.keys(placed).length === 0) throw new Error(messages.value.points.files.expected);
+  if (Object.keys(placed).length === 0) throw new Error(messages.points.files.expected);
   return { ...NO_POINTS, placed };
 }
 

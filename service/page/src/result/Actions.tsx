@@ -5,10 +5,9 @@ import { problemFrom } from "../api/client";
 import type { Fit } from "../api/fits";
 import type { Problem } from "../api/types";
 import type { Picture } from "../draft/picture";
-import { may } from "../embed/allowed";
 import { forget } from "../history/store";
-import { messages } from "../messages/language";
-import { beginning, go, isEmbedded } from "../route";
+import { messages } from "../messages";
+import { beginning, go } from "../route";
 import { announce } from "../ui/announce";
 import { IconButton } from "../ui/IconButton";
 import { ProblemNote } from "../ui/ProblemNote";
@@ -18,7 +17,7 @@ import { changeAgain } from "./again";
 const COPIED_MS = 2000;
 
 export function Actions({ fit, pictures }: { fit: Fit; pictures: readonly Picture[] }) {
-  const { fit: { of }, result: words } = messages.value;
+  const { fit: { of }, result: words } = messages;
   const own = of[fit.kind];
   const problem = useSignal<Problem | null>(null);
   const copied = useSignal(false);
@@ -67,8 +66,8 @@ export function Actions({ fit, pictures }: { fit: Fit; pictures: readonly Pictur
           >
             {own.again}
           </button>
-          {!isEmbedded && <IconButton icon={copied.value ? "check" : "link"} label={copied.value ? words.copied : own.copy} onClick={copy} />}
-          {may("delete") && <IconButton icon="trash" label={own.delete} onClick={question.ask} buttonRef={question.asker} />}
+          <IconButton icon={copied.value ? "check" : "link"} label={copied.value ? words.copied : own.copy} onClick={copy} />
+          <IconButton icon="trash" label={own.delete} onClick={question.ask} buttonRef={question.asker} />
         </div>
       )}
     </div>

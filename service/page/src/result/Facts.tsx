@@ -5,7 +5,7 @@ import { termLabel } from "../fit/stages";
 import { proposedText } from "../measure/proposed";
 import { viewTitles } from "../measure/views";
 import { decimal, seconds } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { AssumptionNotes } from "../ui/AssumptionNotes";
 import { useAsked } from "../ui/asked";
 import { OfPicture, PictureFacts } from "./OfPicture";
@@ -48,7 +48,7 @@ export function Facts({ fit, result, onSayWhich, onCorrect }: FactsProps) {
 }
 
 function AdviceNote({ result, onCorrect }: Pick<FactsProps, "result" | "onCorrect">) {
-  const { result: words } = messages.value;
+  const { result: words } = messages;
   const advice = adviceOf(result);
   if (!advice) return null;
   return (
@@ -72,7 +72,7 @@ function withoutFound({ warnings, views }: Result): Result["warnings"] {
 export function ForExperts({ result }: Pick<FactsProps, "result">) {
   const { cues, energies, evaluations, stage_seconds, views } = result;
   const { agreement } = qualityOf(result);
-  const { result: words } = messages.value;
+  const { result: words } = messages;
   const titles = viewTitles(views);
   return (
     <details class="section fold-section experts">

@@ -1,7 +1,7 @@
 // The four figures most people ask for, with their ranges.
 import type { Measurement } from "../api/types";
 import { person } from "../draft/draft";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { shown } from "./reading";
 
 const FIGURES = ["chest_girth", "waist_girth_smallest", "hip_girth", "weight"] as const;
@@ -13,7 +13,7 @@ interface Props {
 }
 
 export function Figures({ measurements, reliable }: Props) {
-  const { figures, given } = messages.value.result;
+  const { figures, given } = messages.result;
   const { units } = person.value;
   return (
     <dl class={reliable ? "figures" : "figures is-unreliable"}>

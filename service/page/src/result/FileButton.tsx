@@ -3,9 +3,9 @@ import { useSignal } from "@preact/signals";
 import { getFile } from "../api/calls";
 import { problemFrom } from "../api/client";
 import type { Problem } from "../api/types";
-import { wordFor } from "../messages/catalogue";
+import { wordFor } from "../messages/words";
 import { measured } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { Icon } from "../ui/Icon";
 import { ProblemNote } from "../ui/ProblemNote";
 import { saveFile } from "../ui/save";
@@ -17,7 +17,7 @@ const FORMATS = ["obj", "ply", "stl", "usdz"];
 const TEXTURED = "body_textured.glb";
 
 export function FileButton({ name, path, bytes }: { name: string; path: string; bytes?: number }) {
-  const { labels } = messages.value.files;
+  const { labels } = messages.files;
   const problem = useSignal<Problem | null>(null);
   const keep = async (kept: string, from: string) => {
     try {

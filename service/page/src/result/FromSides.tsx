@@ -1,11 +1,11 @@
 // From where the body is looked at.
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import type { Side } from "../viewer/Turntable";
 
 const SIDES: readonly Side[] = ["front", "side", "back"];
 
 export function FromSides({ onLook }: { onLook: (from: { readonly side: Side }) => void }) {
-  const { look } = messages.value;
+  const { look } = messages;
   return (
     <div class="row from-sides" role="group" aria-label={look.from}>
       {SIDES.map((side) => (

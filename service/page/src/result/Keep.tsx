@@ -6,7 +6,7 @@ import { apiKey } from "../api/key";
 import { nameOfView } from "../api/fits";
 import type { Fit } from "../api/fits";
 import type { Problem } from "../api/types";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { Icon } from "../ui/Icon";
 import { ProblemNote } from "../ui/ProblemNote";
 import { saveFile } from "../ui/save";
@@ -25,7 +25,7 @@ interface Props {
 }
 
 export function Keep({ fit, hasTable, skin }: Props) {
-  const { keep: words } = messages.value.files;
+  const { keep: words } = messages.files;
   const problem = useSignal<Problem | null>(null);
   const save = async (name: string, path: string) => {
     try {
@@ -79,7 +79,7 @@ export function Keep({ fit, hasTable, skin }: Props) {
 
 /** iOS takes a link for one to a body in the room only if a picture is all it holds. */
 function InRoom({ fit, href, rel }: { fit: Fit; href: string; rel?: "ar" }) {
-  const { keep: words } = messages.value.files;
+  const { keep: words } = messages.files;
   const url = usePictureOf(fit, nameOfView(fit, "views.png", 0), rel === "ar");
   return (
     <p class="in-room">

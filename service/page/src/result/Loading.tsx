@@ -1,10 +1,10 @@
 // In place of the body until it has come: the picture, or the room for it, and how much is there.
 import type { Picture } from "../draft/picture";
 import { percent } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 
 export function Loading({ picture, loaded }: { picture: Picture | null; loaded: number }) {
-  const { look } = messages.value;
+  const { look } = messages;
   return (
     <div class="look">
       <div class="look-room">
@@ -16,7 +16,7 @@ export function Loading({ picture, loaded }: { picture: Picture | null; loaded: 
 }
 
 export function LoadingNote({ loaded }: { loaded: number }) {
-  const { look } = messages.value;
+  const { look } = messages;
   return (
     <div class="look-loading">
       <span>{look.loading(percent(loaded))}</span>

@@ -11,7 +11,7 @@ import type { Turning } from "../flip/useFlips";
 import { hoverWords } from "../flip/words";
 import { viewLabels } from "../measure/views";
 import { percent } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { Choice } from "../ui/Choice";
 import { BodyCanvas } from "../viewer/BodyCanvas";
 import type { Placement } from "../viewer/BodyScene";
@@ -22,8 +22,6 @@ import { MaskOutline } from "../ui/MaskOutline";
 import { SideView } from "../viewer/SideView";
 import type { TapeEnds } from "../viewer/Tapes";
 import type { Side } from "../viewer/Turntable";
-import { may } from "../embed/allowed";
-import { Share } from "../share/ShareLater";
 import { FromSides } from "./FromSides";
 import { TapeLabels } from "./TapeLabels";
 import { isComparable, useBodiesBeforeShading, usePictureOf } from "./files";
@@ -61,7 +59,7 @@ interface Props {
 export function Look(props: Props) {
   const { fit, result, files, picture, chosen: wanted, onChoose, hidden, shown, onShow, skin, turning, onFlip, measure, onPoint, onMeasure } = props;
   const { number } = files;
-  const { derived, limbs, look } = messages.value;
+  const { derived, limbs, look } = messages;
   const { flips, pointedAt } = turning;
   const isSkin = shown === "skin";
   const placement = isSkin ? "canonical" : shown;
@@ -183,7 +181,6 @@ export function Look(props: Props) {
             {hoverWords(pointedAt, found, flips)}
           </p>
         )}
-        {may("save") && <Share fit={fit} files={files} picture={picture.element} skin={skin} />}
         {!over && <p class="look-hint fine">{look.hint}</p>}
       </div>
       {surface === "change" && !isSkin && (

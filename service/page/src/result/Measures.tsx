@@ -4,9 +4,9 @@ import type { Measurement, StageMeasurement } from "../api/types";
 import { person } from "../draft/draft";
 import { inUnits } from "../draft/person";
 import { percent } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { Choice } from "../ui/Choice";
-import { INTERVAL_SHARE, definitionOf, difference, furtherMeasures, isChief, measureLabel, shown } from "./reading";
+import { INTERVAL_SHARE, difference, furtherMeasures, isChief, measureLabel, shown } from "./reading";
 
 interface Props {
   readonly measurements: readonly Measurement[];
@@ -21,7 +21,7 @@ interface Props {
 }
 
 export function Measures({ measurements, before, reliable = true, pointedAt, onPoint, onShow }: Props) {
-  const { frame, person: said, result: words } = messages.value;
+  const { frame, person: said, result: words } = messages;
   const [compared, setCompared] = useState(false);
   const { units } = person.value;
   const further = furtherMeasures(measurements);
@@ -41,7 +41,7 @@ export function Measures({ measurements, before, reliable = true, pointedAt, onP
           <button
             type="button"
             class="measure-name"
-            title={definitionOf(measurement)}
+            title={measurement.definition}
             onClick={() => onShow(measurement.name)}
             onFocus={() => onPoint(measurement.name)}
             onBlur={() => onPoint(null)}
@@ -117,7 +117,7 @@ export function rowOf(name: string): string {
 }
 
 export function MeasuresHead({ compared = false }: { readonly compared?: boolean }) {
-  const { head } = messages.value.result;
+  const { head } = messages.result;
   return (
     <thead>
       <tr>

@@ -2,13 +2,12 @@
 import type { FitResult } from "../api/types";
 import type { FittedView, Result } from "../api/fits";
 import { Findings } from "../measure/Findings";
-import { plainName, wordFor } from "../messages/catalogue";
+import { plainName, wordFor } from "../messages/words";
 import { decimal, listed, measured, percent } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { AssumptionNotes } from "../ui/AssumptionNotes";
 import { fromHeight, fromSide } from "../ui/direction";
 import { PROPOSED_POINTS } from "../ui/proposed";
-import { Served } from "../ui/Served";
 import type { FactsProps } from "./Facts";
 import { WarningNotes } from "./WarningNotes";
 import { gradeOf } from "./grade";
@@ -28,7 +27,7 @@ interface Props extends Pick<FactsProps, "onSayWhich"> {
 
 export function OfPicture({ view, views, asked, onSayWhich }: Props) {
   const isOfSeveral = views.length > 1;
-  const explained = explanationOf(view, isOfSeveral) ?? <Served text={view.outcome_explanation} />;
+  const explained = explanationOf(view, isOfSeveral) ?? view.outcome_explanation;
   // Of several pictures it is said once how many points were proposed in each.
   const assumptions = isOfSeveral ? view.assumptions.filter(({ quantity }) => quantity !== PROPOSED_POINTS) : view.assumptions;
   return (
@@ -45,7 +44,7 @@ export function OfPicture({ view, views, asked, onSayWhich }: Props) {
 
 /** How well the body covers the person, with which lens, in which light and of which skin. */
 export function PictureFacts({ view }: Pick<Props, "view">) {
-  const { result: words } = messages.value;
+  const { result: words } = messages;
   const { image_camera: camera } = view;
   // Of a body that is not the picture's, light and skin say nothing.
   const { light, reflectance } = isContradicted(view) ? NOTHING : view;
@@ -88,7 +87,7 @@ export function hasNotes({ verdict, outcome, findings, warnings, limb_facing, as
 }
 
 function OpenLimbs({ view, onSayWhich }: Pick<Props, "view" | "onSayWhich">) {
-  const { points, result: words } = messages.value;
+  const { points, result: words } = messages;
   const open = view.limb_facing.filter(({ ambiguous }) => ambiguous);
   if (open.length === 0) return null;
   return (
@@ -105,7 +104,7 @@ function OpenLimbs({ view, onSayWhich }: Pick<Props, "view" | "onSayWhich">) {
 }
 
 function lightWords({ kind, azimuth_deg, elevation_deg, distance_m, surroundings }: NonNullable<FitResult["light"]>): string {
-  const { result: words } = messages.value;
+  const { result: words } = messages;
   const away = kind === "point" && distance_m !== null ? words.lightAway(measured(distance_m, "meter", 1)) : words.lightFar;
   const light = [fromSide(azimuth_deg), fromHeight(elevation_deg), away].join(", ");
   return surroundings ? words.lightAround(light) : light;

@@ -1,6 +1,6 @@
 // What there is to say of each of several pictures; folded where it is good.
 import { viewTitles } from "../measure/views";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import type { FactsProps } from "./Facts";
 import { OfPicture, hasNotes } from "./OfPicture";
 
@@ -17,7 +17,7 @@ export function OfPictures({ result: { views }, onSayWhich, onCorrect }: FactsPr
             <OfPicture view={view} views={views} asked={null} onSayWhich={onSayWhich} />
             {onCorrect && (
               <button class="button is-small" type="button" onClick={() => onCorrect(view.number)}>
-                {messages.value.result.correct}
+                {messages.result.correct}
               </button>
             )}
           </div>

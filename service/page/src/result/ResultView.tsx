@@ -5,16 +5,14 @@ import type { Derivation, NamedMotion } from "../api/types";
 import { DerivedPanel } from "../derived/DerivedPanelLater";
 import { ProductStage } from "../derived/ProductStageLater";
 import { useSkin } from "../derived/skin";
-import { may } from "../embed/allowed";
 import type { Picture } from "../draft/picture";
 import { LimbList, goToLimb, openList } from "../flip/LimbList";
 import { PreviewBar } from "../flip/PreviewBar";
 import { areAllEmpty, isTurnedLimb } from "../flip/flips";
 import type { TurnedLimb } from "../flip/flips";
 import { useFlips } from "../flip/useFlips";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { openAgain } from "../panel/open";
-import { isEmbedded } from "../route";
 import { useEscape } from "../ui/escape";
 import { ProblemNote } from "../ui/ProblemNote";
 import { Actions } from "./Actions";
@@ -36,7 +34,7 @@ import { headingOf, isContradicted } from "./outcome";
 const NO_VIEWS: Result["views"] = [];
 
 export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Picture[] }) {
-  const { result: words } = messages.value;
+  const { result: words } = messages;
   const [wanted, want] = useState(0);
   const { result, files, loaded, problem } = useResultFiles(fit, wanted);
   const [pointedAt, pointAt] = useState<string | null>(null);
@@ -73,8 +71,7 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
     [!areAllEmpty(turning.all), turning.takeBack],
     [shown !== null, () => show(null)],
   ]);
-  // In a frame there is no bench to correct them on.
-  const correct = picture && !isEmbedded ? (of: number) => void openAgain(fit, of, pictures[of]!) : null;
+  const correct = picture ? (of: number) => void openAgain(fit, of, pictures[of]!) : null;
   const sayWhich = (limbs: readonly string[], of: number) => {
     const limb = limbs.find(isTurnedLimb);
     if (!limb) return void (correct ? correct(of) : changeAgain(fit, pictures));
@@ -103,7 +100,7 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
       <header class="result-head">
         <div class="result-title">
           <h1 class="title">{result ? headingOf(result) : words.body}</h1>
-          {result && may("save") && <Keep fit={fit} hasTable={result.measurements.length > 0} skin={skin.path} />}
+          {result && <Keep fit={fit} hasTable={result.measurements.length > 0} skin={skin.path} />}
         </div>
         {result ? <Quality result={result} /> : <p class="fine">{words.loading}</p>}
         {result && result.measurements.length > 0 && <Figures measurements={result.measurements} reliable={isReliable} />}
@@ -171,7 +168,7 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
               }}
             />
           )}
-          {result && may("save") && (
+          {result && (
             <DerivedPanel
               parent={fit}
               skin={skin.id}
@@ -186,7 +183,7 @@ export function ResultView({ fit, pictures }: { fit: Fit; pictures: readonly Pic
             />
           )}
           {result && <ForExperts result={result} />}
-          {result && may("save") && <Downloads fit={fit} result={result} />}
+          {result && <Downloads fit={fit} result={result} />}
         </div>
         {areAllEmpty(turning.all) ? (
           <Actions fit={fit} pictures={pictures} />

@@ -3,7 +3,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import type { Signal } from "@preact/signals";
 import type { Measurement } from "../api/types";
 import { person } from "../draft/draft";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { placedLabels } from "../viewer/labels";
 import type { TapeEnds } from "../viewer/Tapes";
 import { measureLabel, shortLabel, shown } from "./reading";
@@ -47,7 +47,7 @@ export function TapeLabels({ ends, measurements, marked, hasSkin, onPoint, onSho
   const labels = placedLabels(told, { ...room, step: STEP_PX, covered: hasSkin && room.isWhole ? SKIN_PX : 0 });
   const width = isWide ? LABEL_PX : NARROW_LABEL_PX;
   return (
-    <div class="tape-labels" ref={layer} role="group" aria-label={messages.value.look.tapes}>
+    <div class="tape-labels" ref={layer} role="group" aria-label={messages.look.tapes}>
       <svg aria-hidden="true">
         {labels.map(({ name, side, y, at }) => (
           <line key={name} class={name === marked ? "is-marked" : ""} x1={side === "left" ? MARGIN_PX + width : room.width - MARGIN_PX - width} y1={y} x2={at[0]} y2={at[1]} />

@@ -3,8 +3,7 @@ import type { Result } from "../api/fits";
 import { viewNamedFirst, withViews } from "../measure/faults";
 import { plainly } from "../measure/plainly";
 import { pictureTitle } from "../measure/views";
-import { messages } from "../messages/language";
-import { Served } from "../ui/Served";
+import { messages } from "../messages";
 import { answered } from "../ui/answered";
 
 type Props = Pick<Result, "warnings" | "views">;
@@ -19,7 +18,7 @@ export function WarningNotes({ warnings, views }: Props) {
         const view = views[viewNamedFirst(message) ?? -1]?.view;
         return (
           <p class="note" key={code + message}>
-            {said === null ? <Served text={withViews(message, views)} /> : view ? messages.value.frame.ofField(pictureTitle(view), said) : said}
+            {said === null ? withViews(message, views) : view ? messages.frame.ofField(pictureTitle(view), said) : said}
           </p>
         );
       })}

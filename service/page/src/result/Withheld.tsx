@@ -2,12 +2,12 @@
 import { useSignal } from "@preact/signals";
 import { problemFrom } from "../api/client";
 import type { Problem } from "../api/types";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { ProblemNote } from "../ui/ProblemNote";
 
 /** `onAnyway` asks once more, by force; null until it can. */
 export function Withheld({ onAnyway }: { onAnyway: (() => Promise<void>) | null }) {
-  const { frame, result: words } = messages.value;
+  const { frame, result: words } = messages;
   const problem = useSignal<Problem | null>(null);
   const sending = useSignal(false);
   const send = async () => {

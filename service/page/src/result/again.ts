@@ -27,12 +27,12 @@ export function fitWithFlips(fit: Fit, flips: FlipsOfViews): Promise<void> {
 }
 
 /** With the person and one of several pictures as they were prepared anew. */
-export async function fitWithPicture({ number, ...which }: FitRef & { readonly number: number }, prepared: FitOptions, label: string | undefined, maskId: string | null): Promise<void> {
+export async function fitWithPicture({ number, ...which }: FitRef & { readonly number: number }, prepared: FitOptions, maskId: string | null): Promise<void> {
   const fit = await getFit(which);
   const { views, ...whole } = askedOfFit(prepared);
   const pictures = fit.pictures.map(({ image, mask }, at) => (at === number ? { image } : { image, mask }));
   const corrected = (view: AskedView, at: number) => (at === number ? { view: view.view, ...views[0]!, ...(maskId ? { mask_id: maskId } : {}) } : view);
-  await fitAgain({ ...fit, label: label ?? null, pictures }, (asked) => ({ ...asked, ...whole, views: asked.views.map(corrected) }));
+  await fitAgain({ ...fit, pictures }, (asked) => ({ ...asked, ...whole, views: asked.views.map(corrected) }));
 }
 
 /** Fit the same pictures again, with their points and masks, and go there. */

@@ -2,7 +2,7 @@
 import type { FittedView, Result } from "../api/fits";
 import type { Finding } from "../api/types";
 import { percent } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { isContradicted } from "./outcome";
 
 export type Grade = "good" | "fair" | "poor";
@@ -52,7 +52,7 @@ export function gradeOf(view: JudgedView): Grade {
 }
 
 function qualityOfView(view: JudgedView): Quality {
-  const { grades } = messages.value.result;
+  const { grades } = messages.result;
   const overlap = percent(view.silhouette_overlap);
   const grade = gradeOf(view);
   if (isContradicted(view) && view.silhouette_overlap > GOOD_OVERLAP) return { grade, text: grades.contradicted, agreement: null };
@@ -63,7 +63,7 @@ function qualityOfView(view: JudgedView): Quality {
 }
 
 function qualityOfSeveral(result: Judged, share: number): Quality {
-  const { quality } = messages.value.measure;
+  const { quality } = messages.measure;
   const findings = result.views.flatMap(({ findings }) => findings);
   const agreement = agreementText(share);
   if (isContradicted(result)) return { grade: "poor", text: quality.contradicted, agreement: null };
@@ -75,13 +75,13 @@ function qualityOfSeveral(result: Judged, share: number): Quality {
 }
 
 function agreementText(share: number): string {
-  const { quality } = messages.value.measure;
+  const { quality } = messages.measure;
   if (share < USUAL_AGREEMENT) return quality.rarely(shareText(share));
   return share >= 0.995 ? quality.nearlyAlways : quality.often(shareText(share));
 }
 
 /** Small shares with a digit: one in a thousand is not none. */
 function shareText(share: number): string {
-  if (share < 0.0005) return messages.value.derived.lessThan(percent(0.001, 1));
+  if (share < 0.0005) return messages.derived.lessThan(percent(0.001, 1));
   return percent(share, share < 0.0095 ? 1 : 0);
 }

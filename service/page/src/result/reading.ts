@@ -3,10 +3,9 @@ import { MEASUREMENTS } from "../api/limits";
 import type { Measurement, StageMeasurement } from "../api/types";
 import { feetAndInches } from "../draft/feet";
 import type { Person } from "../draft/person";
-import { plainName, wordFor } from "../messages/catalogue";
+import { plainName, wordFor } from "../messages/words";
 import { capitalised, decimal } from "../messages/figures";
-import { messages } from "../messages/language";
-import { answered } from "../ui/answered";
+import { messages } from "../messages";
 
 const CM_PER_INCH = 2.54;
 const CM_PER_M = 100;
@@ -18,17 +17,12 @@ export const WITHIN_95 = 1.96;
 export const INTERVAL_SHARE = 0.95;
 
 export function measureLabel(name: string): string {
-  return wordFor(messages.value.measures.labels, name) ?? capitalised(plainName(name));
+  return wordFor(messages.measures.labels, name) ?? capitalised(plainName(name));
 }
 
 /** What stands beside the body, where there is room for a word or two. */
 export function shortLabel(name: string): string {
-  return wordFor(messages.value.measures.short, name) ?? measureLabel(name);
-}
-
-/** How a measurement is taken. */
-export function definitionOf({ name, definition }: Pick<Measurement, "name" | "definition">): string {
-  return answered("definitions", name) ?? definition;
+  return wordFor(messages.measures.short, name) ?? measureLabel(name);
 }
 
 /** What most people ask for: shown first, and drawn on the body before one is chosen. */
@@ -48,7 +42,7 @@ export function furtherMeasures<M extends { readonly name: string }>(measurement
   const further = measurements.filter((each) => !isChief(each.name));
   return GROUPS
     .map((group) => ({
-      heading: messages.value.measures.groups[group],
+      heading: messages.measures.groups[group],
       members: further.filter((each) => MEASUREMENTS.groups[group].includes(each.name)),
     }))
     .filter((group) => group.members.length > 0);

@@ -1,7 +1,7 @@
 // Over the picture: the live body's outline, the skeleton, the points.
 import { doubted, points, selected } from "../draft/draft";
 import { liveBody } from "../draft/live";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { BONES, sideOf } from "../points/catalogue";
 import type { PointName } from "../points/catalogue";
 import { toStage } from "./view";
@@ -18,7 +18,7 @@ interface Props {
 }
 
 export function ClickLayer({ view, size, dragged }: Props) {
-  const { points: words, stage } = messages.value;
+  const { points: words, stage } = messages;
   const { placed } = points.value;
   const at = (name: PointName) => placed[name] && toStage(view, placed[name]);
   return (

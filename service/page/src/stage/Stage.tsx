@@ -5,7 +5,7 @@ import { adjust, isCorrecting, mask, picture, points, selected, timeline, upcomi
 import { proposalWord } from "../draft/proposing";
 import { isEdited, shownMask } from "../mask/edits";
 import { MaskLayer } from "../mask/MaskLayer";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import type { PointName } from "../points/catalogue";
 import { place } from "../points/placed";
 import { hasProposed } from "../points/proposed";
@@ -25,7 +25,7 @@ import type { Spot } from "./view";
 const GRIP_PX = { mouse: 10, touch: 22 };
 
 export function Stage() {
-  const { points: words, stage } = messages.value;
+  const { points: words, stage } = messages;
   const shown = picture.value!;
   const lies = usePictureView(shown);
   const { box, size, view, pan, pinch } = lies;

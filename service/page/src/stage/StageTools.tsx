@@ -1,6 +1,6 @@
 // What is done to the points without keys, beside the picture: over it they would lie on what is to be tapped.
 import { change, points, selected, timeline, upcoming } from "../draft/draft";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { isEnough, skip, skipRest, toggleHidden } from "../points/placed";
 import { undo } from "../points/timeline";
 import { IconButton } from "../ui/IconButton";
@@ -8,7 +8,7 @@ import type { PictureView } from "./pictureView";
 import { ViewButtons } from "./ViewButtons";
 
 export function StageTools({ lies }: { lies: PictureView }) {
-  const { points: words, stage } = messages.value;
+  const { points: words, stage } = messages;
   const next = upcoming.value;
   const chosen = selected.value;
   const where = chosen && points.value.placed[chosen];

@@ -1,5 +1,5 @@
 // Nearer, farther, the whole picture, and the whole screen for it.
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { IconButton } from "../ui/IconButton";
 import { isFull } from "./full";
 import type { PictureView } from "./pictureView";
@@ -7,7 +7,7 @@ import type { PictureView } from "./pictureView";
 const BUTTON_ZOOM = 1.5;
 
 export function ViewButtons({ of: { zoom, whole } }: { of: PictureView }) {
-  const { stage } = messages.value;
+  const { stage } = messages;
   const full = isFull.value;
   return (
     <>

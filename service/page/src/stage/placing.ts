@@ -1,7 +1,7 @@
 // What a click, a drag or a key does to the points.
 import { change, points, selected, upcoming } from "../draft/draft";
 import { choosePersonAt } from "../draft/proposing";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import type { PointName } from "../points/catalogue";
 import { place } from "../points/placed";
 import { announce } from "../ui/announce";
@@ -27,7 +27,7 @@ export function tap(at: Spot, view: View, picture: Size): void {
 export function placeNext(name: PointName, x: number, y: number): void {
   change(place(points.value, name, x, y));
   const next = upcoming.value;
-  const { points: words, stage } = messages.value;
+  const { points: words, stage } = messages;
   announce(stage.placed(words.labels[name], next ? stage.next(words.labels[next]) : stage.allPlaced));
 }
 

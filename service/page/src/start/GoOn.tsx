@@ -1,11 +1,11 @@
 // A fit that is being prepared already: back to it, or rid of it.
 import { picture } from "../draft/draft";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { discard } from "../panel/open";
 import { PREPARE_ADDRESS } from "../route";
 
 export function GoOn() {
-  const { goOn } = messages.value.start;
+  const { goOn } = messages.start;
   const shown = picture.value;
   if (!shown) return null;
   return (

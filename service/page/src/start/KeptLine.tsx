@@ -3,13 +3,13 @@ import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { getIndex } from "../api/calls";
 import { duration } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 
 /** Null until the service has told; the sentence then names no time. */
 const retentionHours = signal<number | null>(null);
 
 export function KeptLine() {
-  const { kept } = messages.value.start;
+  const { kept } = messages.start;
   useEffect(() => {
     if (retentionHours.value !== null) return;
     getIndex().then(

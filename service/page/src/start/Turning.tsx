@@ -1,10 +1,10 @@
 // The first sample's body from all sides, as a strip of views drawn in advance (tests/evaluation/turning_body.py):
 // it is there before the viewer is loaded. A tap holds it; whoever wants little motion sees it stand.
 import { useSignal } from "@preact/signals";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 
 export function Turning() {
-  const { turning } = messages.value.start;
+  const { turning } = messages.start;
   const isHeld = useSignal(false);
   return (
     <figure class="turning">

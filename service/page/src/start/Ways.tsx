@@ -1,12 +1,12 @@
 // The two ways in: one picture, or front and side.
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { openFile } from "../panel/open";
 import { MEASURE_ADDRESS } from "../route";
 import { Icon } from "../ui/Icon";
 import { isTouched } from "../ui/touch";
 
 export function Ways() {
-  const { ways, choose, take } = messages.value.start;
+  const { ways, choose, take } = messages.start;
   return (
     <ul class="start-ways">
       <li>

@@ -3,9 +3,8 @@ import type { InitialPose } from "../api/types";
 import { person } from "../draft/draft";
 import { heightInWords } from "../draft/person";
 import { measured } from "../messages/figures";
-import { messages } from "../messages/language";
-import { Served } from "./Served";
-import { answered, fieldName } from "./answered";
+import { messages } from "../messages";
+import { fieldName } from "./answered";
 import { PROPOSED_POINTS, proposedOf, proposedText } from "./proposed";
 
 export type Assumptions = InitialPose["assumptions"];
@@ -32,14 +31,14 @@ export function AssumptionNotes({ assumptions, asked }: Props) {
 }
 
 function Assumed({ assumption: { quantity, value, reason } }: { assumption: Assumptions[number] }) {
-  const { assumed } = messages.value.frame;
+  const { assumed } = messages.frame;
   if (quantity === "focal_length_35mm" && typeof value === "number") return <>{assumed.lens(measured(value, "millimeter"))}</>;
   if (quantity === "height_m" && typeof value === "number") return <>{assumed.height(heightInWords(value, person.value.units))}</>;
   // How the outline was taken was the caller's choice: its reason says it all.
-  if (quantity === TOLD) return <>{answered("assumptions", quantity) ?? <Served text={reason} />}</>;
+  if (quantity === TOLD) return <>{reason}</>;
   return (
     <>
-      {assumed.other(fieldName(quantity), String(value))} <Served text={reason} />
+      {assumed.other(fieldName(quantity), String(value))} {reason}
     </>
   );
 }

@@ -21,8 +21,6 @@ const PATHS = {
   again: "M15.5 8A6 6 0 1 0 16 11M16 4v4h-4",
   body: "M10 4.5h.01M6 8.5h8M10 8.5V12M10 12l-2.5 5M10 12l2.5 5",
   list: "M7 5h10M7 10h10M7 15h10M3.5 5h.01M3.5 10h.01M3.5 15h.01",
-  film: "M3 6h9v8H3zM12 9l5-2.5v7L12 11",
-  pair: "M3 4h6v12H3zM11 4h6v12h-6zM14 7.5h.01M12.8 10h2.4M14 10v3",
   theme: "M10 3a7 7 0 1 0 0 14zM10 3a7 7 0 0 1 0 14",
 } as const;
 

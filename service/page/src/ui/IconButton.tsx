@@ -5,15 +5,13 @@ import type { IconName } from "./Icon";
 interface Props {
   readonly icon: IconName;
   readonly label: string;
-  /** What is written beside the icon where there is room; the label begins with it. */
-  readonly words?: string;
   readonly onClick: () => void;
   readonly pressed?: boolean;
   readonly disabled?: boolean;
   readonly buttonRef?: Ref<HTMLButtonElement>;
 }
 
-export function IconButton({ icon, label, words, onClick, pressed, disabled = false, buttonRef }: Props) {
+export function IconButton({ icon, label, onClick, pressed, disabled = false, buttonRef }: Props) {
   return (
     <button
       ref={buttonRef}
@@ -26,7 +24,6 @@ export function IconButton({ icon, label, words, onClick, pressed, disabled = fa
       onClick={onClick}
     >
       <Icon name={icon} />
-      {words && <span>{words}</span>}
     </button>
   );
 }

@@ -1,15 +1,13 @@
 // Asks for an API key when the service wants one.
 import { useEffect, useRef } from "preact/hooks";
 import { keyQuestion, useKey } from "../api/key";
-import { messages } from "../messages/language";
-import { Served } from "./Served";
-import { answered } from "./answered";
+import { messages } from "../messages";
 
 export function KeyDialog() {
   const dialog = useRef<HTMLDialogElement>(null);
   const field = useRef<HTMLInputElement>(null);
   const reason = keyQuestion.value;
-  const { key } = messages.value.frame;
+  const { key } = messages.frame;
   useEffect(() => {
     if (reason !== null && !dialog.current!.open) dialog.current!.showModal();
     if (reason === null) dialog.current!.close();
@@ -26,7 +24,7 @@ export function KeyDialog() {
       >
         <h2 id="key-title">{key.title}</h2>
         <p>
-          {answered("faults", "unauthorized") ?? <Served text={reason ?? ""} />} {key.origin} <code>maquette keys create</code>.
+          {reason} {key.origin} <code>maquette keys create</code>.
         </p>
         <label class="field">
           <span>{key.label}</span>

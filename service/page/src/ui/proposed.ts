@@ -1,6 +1,6 @@
 // Of how many points nobody said where they are: their names tell nobody anything.
 import type { InitialPose } from "../api/types";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 
 /** The assumption that names proposed points, one after the other. */
 export const PROPOSED_POINTS = "points";
@@ -26,6 +26,6 @@ export function namesOfProposed(assumptions: InitialPose["assumptions"]): readon
 }
 
 export function proposedText({ count, isAll }: Proposed): string {
-  const { assumed } = messages.value.frame;
+  const { assumed } = messages.frame;
   return isAll ? assumed.allPoints : assumed.points(count);
 }

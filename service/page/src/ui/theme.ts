@@ -26,11 +26,6 @@ effect(() => {
   document.documentElement.dataset.theme = theme.value;
 });
 
-/** For as long as the page is open. */
-export function useTheme(choice: ThemeChoice): void {
-  chosen.value = choice;
-}
-
 export function toggleTheme(): void {
   chosen.value = theme.value === "dark" ? "light" : "dark";
   keep(PLACE, chosen.value);

@@ -3,7 +3,7 @@ import { useEffect, useRef } from "preact/hooks";
 import type { Cues } from "../api/types";
 import { NO_FLIPS } from "../flip/flips";
 import type { Flips, TurnedLimb } from "../flip/flips";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import type { BodyScene, Placement, PosedAndUpright } from "./BodyScene";
 import type { GlbBody } from "./glb";
 import type { Surface } from "./surface";
@@ -106,7 +106,7 @@ export function BodyCanvas(props: Props) {
       style={limb ? { opacity, cursor: "pointer" } : { opacity }}
       tabIndex={turned ? 0 : -1}
       role="img"
-      aria-label={turned ? messages.value.look.turned : messages.value.look.over}
+      aria-label={turned ? messages.look.turned : messages.look.over}
       onPointerDown={({ clientX: x, clientY: y }) => (pressed.current = { x, y })}
       onPointerMove={({ clientX, clientY, pointerType, buttons }) => {
         // A finger points at nothing before it taps, and a body that is being turned is not pointed at.

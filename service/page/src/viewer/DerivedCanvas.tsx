@@ -3,7 +3,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { getFile } from "../api/calls";
 import { problemFrom } from "../api/client";
 import type { Problem } from "../api/types";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { ProblemNote } from "../ui/ProblemNote";
 import type { DerivedScene } from "./DerivedScene";
 import { readGlb } from "./glb";
@@ -69,7 +69,7 @@ export function DerivedCanvas({ path, label, like, turns = false, small = false,
   }, [from]);
 
   if (problem) return small ? null : <ProblemNote problem={problem} />;
-  if (failed) return small ? null : <p class="note is-problem">{messages.value.look.noWebglToTurn}</p>;
+  if (failed) return small ? null : <p class="note is-problem">{messages.look.noWebglToTurn}</p>;
   if (small) return <canvas ref={canvas} aria-hidden="true" />;
   return (
     <>
@@ -78,7 +78,7 @@ export function DerivedCanvas({ path, label, like, turns = false, small = false,
         class="derived-canvas"
         tabIndex={0}
         role="img"
-        aria-label={messages.value.look.derived(label)}
+        aria-label={messages.look.derived(label)}
         onKeyDown={(event) => {
           if (scene.current?.turnBy(event.key)) event.preventDefault();
         }}

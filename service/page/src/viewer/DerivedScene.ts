@@ -116,12 +116,6 @@ export class DerivedScene {
     this.draw();
   }
 
-  /** The whole body from so many radians to the right of +z, drawn at once. */
-  turnTo(azimuth: number): void {
-    this.lookFrom(azimuth);
-    this.render();
-  }
-
   /** Turn by itself, until somebody turns it. */
   turnByItself(): void {
     this.table.turnByItself();

@@ -1,7 +1,7 @@
 // A motion played, stopped, sought and slowed down.
 import { useEffect, useState } from "preact/hooks";
 import { seconds } from "../messages/figures";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import { Choice } from "../ui/Choice";
 import type { DerivedScene } from "./DerivedScene";
 
@@ -14,7 +14,7 @@ interface Props {
 }
 
 export function MotionBar({ scene, length }: Props) {
-  const { motion: words } = messages.value.derived;
+  const { motion: words } = messages.derived;
   const [plays, play] = useState(() => !matchMedia("(prefers-reduced-motion: reduce)").matches);
   const [speed, setSpeed] = useState<(typeof SPEEDS)[number]>("1");
   const [at, seek] = useState(0);

@@ -2,7 +2,7 @@
 import { useEffect, useRef } from "preact/hooks";
 import { isEmpty } from "../flip/flips";
 import type { Flips } from "../flip/flips";
-import { messages } from "../messages/language";
+import { messages } from "../messages";
 import type { DerivedScene } from "./DerivedScene";
 import type { GlbBody } from "./glb";
 
@@ -42,7 +42,7 @@ export function SideView({ posed, canonical, flips }: Props) {
     };
   }, [posed, canonical]);
   useEffect(reshape, [flips]);
-  const { look } = messages.value;
+  const { look } = messages;
   return (
     <figure class="side-view">
       <canvas ref={canvas} role="img" aria-label={look.fromSide} />

@@ -1,7 +1,7 @@
 // The body in motion.
 import type { NamedMotion } from "../../api/types";
 import { measured, seconds } from "../../messages/figures";
-import { messages } from "../../messages/language";
+import { messages } from "../../messages";
 import { Choice } from "../../ui/Choice";
 import { FileChoice } from "../FileChoice";
 import type { Kind, OptionProps } from "./kind";
@@ -37,7 +37,7 @@ export const animation: Kind<AnimationWishes> = {
 };
 
 function words() {
-  return messages.value.derived.animation;
+  return messages.derived.animation;
 }
 
 function sourceOf(source: string): string {

@@ -1,6 +1,6 @@
 // Caricatures.
 import { typed } from "../../messages/figures";
-import { messages } from "../../messages/language";
+import { messages } from "../../messages";
 import { Slider } from "../Slider";
 import type { Kind } from "./kind";
 
@@ -16,18 +16,18 @@ export const caricature: Kind<CaricatureWishes> = {
   request: ({ factor }) => ({ kind: "caricature", factor, exaggerated: "looks" }),
   Options: ({ wishes: { factor }, onWish }) => (
     <Slider
-      label={messages.value.derived.caricature.strength}
+      label={messages.derived.caricature.strength}
       range={FACTORS}
       value={factor}
-      text={messages.value.derived.caricature.times(typed(factor, 2))}
+      text={messages.derived.caricature.times(typed(factor, 2))}
       onInput={(factor) => onWish({ factor })}
     />
   ),
-  pictures: [{ file: "caricature.png", label: () => messages.value.derived.caricature.beside, alt: () => messages.value.derived.caricature.pictured }],
+  pictures: [{ file: "caricature.png", label: () => messages.derived.caricature.beside, alt: () => messages.derived.caricature.pictured }],
   smaller: (largest) => ({
     request: { kind: "caricature", factor: largest, exaggerated: "looks" },
-    refusal: messages.value.derived.caricature.refused(typed(largest, 2)),
-    make: messages.value.derived.caricature.smaller(typed(largest, 2)),
+    refusal: messages.derived.caricature.refused(typed(largest, 2)),
+    make: messages.derived.caricature.smaller(typed(largest, 2)),
   }),
-  turns: { file: "body_caricature.glb", label: () => messages.value.derived.caricature.turned, first: true },
+  turns: { file: "body_caricature.glb", label: () => messages.derived.caricature.turned, first: true },
 };

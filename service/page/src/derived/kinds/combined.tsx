@@ -1,9 +1,9 @@
 // One body from several pictures.
 import type { CombinedResult } from "../../api/types";
 import { person } from "../../draft/draft";
-import { messages } from "../../messages/language";
+import { messages } from "../../messages";
 import { MeasuresHead } from "../../result/Measures";
-import { definitionOf, furtherMeasures, isChief, measureLabel, shown } from "../../result/reading";
+import { furtherMeasures, isChief, measureLabel, shown } from "../../result/reading";
 import { OtherFits } from "../OtherFits";
 import { percent } from "../percent";
 import type { Kind } from "./kind";
@@ -38,7 +38,7 @@ export const combined: Kind<CombinedWishes> = {
 };
 
 function words() {
-  return messages.value.derived.combined;
+  return messages.derived.combined;
 }
 
 function Measurements({ of: measurements }: { of: CombinedResult["measurements"] }) {
@@ -47,13 +47,13 @@ function Measurements({ of: measurements }: { of: CombinedResult["measurements"]
     const { value, unit, interval } = shown(measurement, units);
     return (
       <tr key={measurement.name}>
-        <th scope="row" title={definitionOf(measurement)}>
+        <th scope="row" title={measurement.definition}>
           {measureLabel(measurement.name)}
         </th>
         <td class="number">
           {value} <small>{unit}</small>
         </td>
-        <td class="number interval">{interval ?? (measurement.given ? messages.value.result.given : "–")}</td>
+        <td class="number interval">{interval ?? (measurement.given ? messages.result.given : "–")}</td>
       </tr>
     );
   };

@@ -1,7 +1,7 @@
 // Figures as in the paper.
 import type { NamedPose } from "../../api/types";
 import { degrees as angle } from "../../messages/figures";
-import { messages } from "../../messages/language";
+import { messages } from "../../messages";
 import { PoseChoice } from "../PoseChoice";
 import { Slider } from "../Slider";
 import type { Kind } from "./kind";
@@ -20,16 +20,16 @@ export const figure: Kind<FigureWishes> = {
   Options: ({ wishes: { pose, degrees }, onWish }) => (
     <>
       <PoseChoice pose={pose} onChoose={(pose) => onWish({ pose })} />
-      <Slider label={messages.value.derived.figure.from} range={DEGREES} value={degrees} text={viewText(degrees)} onInput={(degrees) => onWish({ degrees })} />
+      <Slider label={messages.derived.figure.from} range={DEGREES} value={degrees} text={viewText(degrees)} onInput={(degrees) => onWish({ degrees })} />
     </>
   ),
-  pictures: [{ file: "figure.png", alt: () => messages.value.derived.figure.pictured }],
-  turns: { file: "body_reposed.glb", label: () => messages.value.derived.pose.turned },
+  pictures: [{ file: "figure.png", alt: () => messages.derived.figure.pictured }],
+  turns: { file: "body_reposed.glb", label: () => messages.derived.pose.turned },
 };
 
 /** How far the onlooker has walked round the body, to the right of the picture. */
 function viewText(degrees: number): string {
-  const { figure: words } = messages.value.derived;
+  const { figure: words } = messages.derived;
   if (degrees === 0) return words.front;
   if (Math.abs(degrees) === 180) return words.behind;
   return degrees > 0 ? words.right(angle(degrees)) : words.left(angle(-degrees));

@@ -1,8 +1,8 @@
 // What can be made of a finished fit, as a person reads it: one module a kind.
 import type { DerivationKind } from "../../api/types";
-import { plainName } from "../../messages/catalogue";
+import { plainName } from "../../messages/words";
 import { capitalised } from "../../messages/figures";
-import { messages } from "../../messages/language";
+import { messages } from "../../messages";
 import { FIRST_ANIMATION, animation } from "./animation";
 import { FIRST_CARICATURE, caricature } from "./caricature";
 import { FIRST_COMBINED, combined } from "./combined";
@@ -48,12 +48,12 @@ export function kindOf(kind: string): Kind<Wishes> | null {
 }
 
 export function kindLabel(kind: string): string {
-  return isOffered(kind) ? messages.value.derived.kinds[kind].label : capitalised(plainName(kind));
+  return isOffered(kind) ? messages.derived.kinds[kind].label : capitalised(plainName(kind));
 }
 
 /** As it stands within a sentence. */
 export function wordInSentence(kind: string): string {
-  return isOffered(kind) ? messages.value.derived.kinds[kind].inSentence : plainName(kind);
+  return isOffered(kind) ? messages.derived.kinds[kind].inSentence : plainName(kind);
 }
 
 function isOffered(kind: string): kind is OfferedKind {

@@ -1,6 +1,6 @@
 // The report.
 import { person } from "../../draft/draft";
-import { language, messages } from "../../messages/language";
+import { messages } from "../../messages";
 import type { Kind, OptionProps } from "./kind";
 
 interface ReportWishes {
@@ -16,7 +16,6 @@ export const report: Kind<ReportWishes> = {
   request: ({ name }) => ({
     kind: "report",
     units: person.value.units,
-    language: language.value,
     date: today(),
     ...(name.trim() ? { name: name.trim() } : {}),
   }),
@@ -25,7 +24,7 @@ export const report: Kind<ReportWishes> = {
 };
 
 function Heading({ wishes: { name }, onWish }: OptionProps<ReportWishes>) {
-  const { report: words } = messages.value.derived;
+  const { report: words } = messages.derived;
   return (
     <div class="field">
       <label for="report-name">{words.name}</label>

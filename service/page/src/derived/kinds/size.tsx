@@ -1,7 +1,7 @@
 // The size of a chart that the person takes.
 import type { SizeResult } from "../../api/types";
 import { decimal, either, measured, typed } from "../../messages/figures";
-import { messages } from "../../messages/language";
+import { messages } from "../../messages";
 import { measureLabel } from "../../result/reading";
 import { EMPTY_CHART, chartCsv } from "../chart";
 import type { TypedChart } from "../chart";
@@ -17,7 +17,7 @@ interface SizeWishes {
 
 type Argument = SizeResult["arguments"][number];
 
-const words = () => messages.value.derived.size;
+const words = () => messages.derived.size;
 
 export const FIRST_SIZE: SizeWishes = { chart: EMPTY_CHART, chartFile: null };
 

@@ -1,7 +1,7 @@
 // Textures: of the picture, or of one's own.
 import type { TextureColours, TextureSize } from "../../api/types";
 import { LIMITS } from "../../api/limits";
-import { messages } from "../../messages/language";
+import { messages } from "../../messages";
 import { Choice } from "../../ui/Choice";
 import { FileChoice } from "../FileChoice";
 import { percent } from "../percent";
@@ -43,7 +43,7 @@ export const texture: Kind<TextureWishes> = {
 };
 
 function words() {
-  return messages.value.derived.texture;
+  return messages.derived.texture;
 }
 
 function TextureChoice({ hasLight, wishes, onWish }: OptionProps<TextureWishes>) {

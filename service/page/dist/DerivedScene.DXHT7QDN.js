@@ -1,1 +1,0 @@
-import{a}from"/page/chunk.SLYDX2IU.js";import"/page/chunk.5YVEHBYU.js";import"/page/chunk.4O32MGM3.js";import"/page/chunk.X3NQCHRP.js";import"/page/chunk.UEXDQ7EF.js";import"/page/chunk.64GWOZLD.js";import"/page/chunk.F5XGFZ2T.js";export{a as DerivedScene};

@@ -1,1 +1,0 @@
-import{e as t}from"/page/chunk.ZXLSCFV5.js";import{b as n}from"/page/chunk.W6YZAJLP.js";function f(r){let{light:o}=n.value.panel,e=t(Math.abs(r));return r>0?o.fromRight(e):o.fromLeft(e)}function g(r){let{light:o}=n.value.panel,e=t(Math.abs(r));return r>0?o.fromAbove(e):o.fromBelow(e)}export{f as a,g as b};

@@ -1,1 +1,0 @@
-import{O as e,l as t}from"/page/chunk.X5TBK2KH.js";import{k as r}from"/page/chunk.UTCU72ZA.js";var i=r([]);async function m(){try{i.value=(await e()).map(({label:o})=>o)}catch(o){if(!(o instanceof t))throw o}}export{i as a,m as b};

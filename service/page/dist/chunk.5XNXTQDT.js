@@ -1,1 +1,0 @@
-import{b as t}from"/page/chunk.W6YZAJLP.js";function i(r,e){let s=t.value.answers[r]??{};return Object.hasOwn(s,e)?s[e]:null}function c(r){let{frame:e,measures:s,points:l}=t.value,a={...l.labels,...s.labels,...e.fields},n=r.replace(/^(points|measurements)\./,"").replace(/\.(value|standard_error)$/,"");return Object.hasOwn(a,n)?a[n]:n.replaceAll("_"," ")}export{i as a,c as b};

@@ -1,1 +1,0 @@
-import{a as t}from"/page/chunk.GJGHBIDF.js";import{a as o}from"/page/chunk.7IUW4LU2.js";function p({icon:r,label:n,words:e,onClick:a,pressed:l,disabled:i=!1,buttonRef:d}){return o("button",{ref:d,type:"button",class:"icon-button","aria-label":n,title:n,"aria-pressed":l,disabled:i,onClick:a,children:[o(t,{name:r}),e&&o("span",{children:e})]})}export{p as a};

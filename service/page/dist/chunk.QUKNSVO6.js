@@ -1,1 +1,0 @@
-import{a as n,b as s}from"/page/chunk.DBJBPITO.js";import{b as e}from"/page/chunk.W6YZAJLP.js";var i=["observation","initial_pose","segmentation","silhouette_and_edges","shading","measurement","export"];function l(t){return n(e.value.fit.terms,t)??s(t)}function m(t){let r=i.find(o=>o===t);return r?e.value.fit.stages[r].label:s(t)}export{i as a,l as b,m as c};
