@@ -22,7 +22,6 @@ from fitter.vocabulary.choices import (
     OptimizerKind,
     PaperEnergy,
     SegmentationKind,
-    SurroundingsKind,
     ViewKind,
 )
 from fitter.vocabulary.points import PointName
@@ -47,16 +46,12 @@ class LightGuess(WireModel):
 
     Azimuth 0 and elevation 0 is a light at the camera's side of the body; positive azimuth comes
     from the right of the picture, positive elevation from above.
-
-    ``surroundings`` is no guess: the same ambient light everywhere, or light that differs by
-    direction, as nine spherical harmonics, with the shadows the body casts on itself.
     """
 
     kind: LightKind = LightKind.POINT
     azimuth_deg: float | None = Field(default=None, ge=-180.0, le=180.0)
     elevation_deg: float | None = Field(default=None, ge=-90.0, le=90.0)
     distance_m: float | None = Field(default=None, gt=0.0, le=100.0)
-    surroundings: SurroundingsKind = SurroundingsKind.UNIFORM
 
 
 _POINTS_DESCRIPTION: Final = (

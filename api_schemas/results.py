@@ -86,18 +86,6 @@ class BodyResult(WireModel):
     shape: tuple[float, ...]
 
 
-class SurroundingsResult(WireModel):
-    """Light from all round, as second-order spherical harmonics of what a matt surface gets.
-
-    With n = (x, y, z) a surface's unit normal in the camera frame (x right, y down, z along the
-    view), E(n) = 0.282095 e0 + 0.488603 (e1 y + e2 z + e3 x) + 1.092548 (e4 xy + e5 yz + e7 xz)
-    + 0.315392 e6 (3z² - 1) + 0.546274 e8 (x² - y²) is its irradiance over π, relative to the light
-    at the body's centre: brightness is albedo (E + light seen) + gloss.
-    """
-
-    coefficients: tuple[float, float, float, float, float, float, float, float, float]
-
-
 class LightResult(WireModel):
     """The light found; angles as in the request, distance from the body's centre."""
 
@@ -105,9 +93,6 @@ class LightResult(WireModel):
     azimuth_deg: float
     elevation_deg: float
     distance_m: float | None = Field(description="Null for a directional light.")
-    surroundings: SurroundingsResult | None = Field(
-        default=None, description="Null where ambient light is the same everywhere."
-    )
 
 
 class ReflectanceResult(WireModel):

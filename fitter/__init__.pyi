@@ -44,7 +44,6 @@ from .vocabulary.choices import LightKind as LightKind
 from .vocabulary.choices import OptimizerKind as OptimizerKind
 from .vocabulary.choices import OutlineKind as OutlineKind
 from .vocabulary.choices import PaperEnergy as PaperEnergy
-from .vocabulary.choices import SurroundingsKind as SurroundingsKind
 from .vocabulary.choices import ViewKind as ViewKind
 from .vocabulary.outcomes import Outcome as Outcome
 from .vocabulary.outcomes import Verdict as Verdict
@@ -89,7 +88,6 @@ __all__ = [
     "Stage",
     "StageBody",
     "StartingBody",
-    "SurroundingsKind",
     "Verdict",
     "View",
     "ViewKind",

@@ -10,9 +10,6 @@ from fitter.arrays import PerVertex, Pose, Shape, Vector3
 from fitter.vocabulary.choices import LightKind
 from fitter.vocabulary.outcomes import StanceKind
 
-Surroundings = Float[np.ndarray, "9"]
-"""Light from all around: the coefficients e of :mod:`fitter.render.surroundings`."""
-
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class BodyParameters:
@@ -98,16 +95,12 @@ class Light:
         Radians.
     distance
         Metres from the body's centre; meaningless and infinite for a directional light.
-    surroundings
-        The light from all around relative to l = 1, camera frame; None where it is the constant
-        ambient b of Eq. 1.
     """
 
     kind: LightKind
     azimuth: float
     elevation: float
     distance: float
-    surroundings: Surroundings | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -119,7 +112,7 @@ class Reflectance:
     albedo, specularity
         (m,) per vertex, >= 0.
     ambient
-        b, >= 0; 0 where the light has surroundings.
+        b, >= 0.
     specular_exponent
         α, >= 1.
     """

@@ -15,7 +15,6 @@ from fitter.vocabulary.choices import (
     OutlineKind,
     PaperEnergy,
     SegmentationKind,
-    SurroundingsKind,
     ViewKind,
 )
 
@@ -64,16 +63,12 @@ class KnownMeasurement:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LightGuess:
-    """The caller's coarse first light (section 5); the angles are those of ``Light``, radians.
-
-    ``surroundings`` is no guess but what model of light is fitted.
-    """
+    """The caller's coarse first light (section 5); the angles are those of ``Light``, radians."""
 
     kind: LightKind = LightKind.POINT
     azimuth: float | None = None
     elevation: float | None = None
     distance: float | None = None
-    surroundings: SurroundingsKind = SurroundingsKind.UNIFORM
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -130,10 +130,9 @@ def albedo_texture(
     """The same with the light divided out by Eq. 1, so that the body can be lit anew.
 
     Eq. 1 adds the same ambient light b to skin and to black cloth, so that subtracting it leaves
-    cloth nothing. Here it is what surroundings of b / a' light let a surface of the typical albedo
-    a' reflect: a = (r - s (h . n)^alpha l) / ((l . n) l + b / a'), the same for skin. The hue is
-    the picture's: the light is taken as white. Shadows, cast and attached, count as hidden, but not
-    where surroundings were fitted, which take the place of b / a' and say what shines there.
+    cloth nothing. Here it is what light of b / a' from all round lets a surface of the typical
+    albedo a' reflect: a = (r - s (h . n)^alpha l) / ((l . n) l + b / a'), the same for skin. The
+    hue is the picture's: the light is taken as white. Shadows, cast and attached, count as hidden.
 
     Parameters
     ----------

@@ -56,10 +56,6 @@ class ShadingEvidence:
         has no cast shadows, and a body fitted to one bulges to turn away from the light.
     eta
         η₁ in units of luminance.
-    lit
-        (m,) share of the lamp that each vertex sees: 0 in a cast shadow, which only the
-        surroundings light, and a half near its border, which real lights blur. None where shadows
-        are left out.
     """
 
     intensity: IntensityMap
@@ -69,15 +65,10 @@ class ShadingEvidence:
     vertex_areas: PerVertex
     shadowed: Bool[np.ndarray, " m"]
     eta: float
-    lit: PerVertex | None = None
 
     def about(self, body_centre: Vector3) -> "ShadingEvidence":
         """The same with the light about another place of the body's root joint."""
         return replace(self, body_centre=body_centre)
-
-    def lit_at(self, vertices: Integer[np.ndarray, " k"]) -> Float[np.ndarray, " k"] | None:
-        """``lit`` of some vertices."""
-        return None if self.lit is None else self.lit[vertices]
 
     def reflectance_of(self, vertices: Integer[np.ndarray, " k"]) -> Reflectance:
         """The reflectance of some vertices, in their order."""
@@ -114,14 +105,6 @@ def usable_vertices(rendering: Rendering, evidence: ShadingEvidence) -> Bool[np.
     return _seen_among(rendering.vertex_visible & taking_part, rendering, evidence.intensity)
 
 
-def explained_vertices(rendering: Rendering, evidence: ShadingEvidence) -> Bool[np.ndarray, " m"]:
-    """Usable vertices and, where shadows are not left out, those well inside one."""
-    if evidence.lit is None:
-        return usable_vertices(rendering, evidence)
-    known = (evidence.vertex_areas > 0.0) & (~evidence.shadowed | (evidence.lit == 0.0))
-    return _seen_among(rendering.vertex_visible & known, rendering, evidence.intensity)
-
-
 def shading_energy(rendering: Rendering, evidence: ShadingEvidence, scales: EnergyScales) -> float:
     """Data term of E_Sh in nats."""
     chosen = np.flatnonzero(usable_vertices(rendering, evidence))
@@ -134,7 +117,6 @@ def shading_energy(rendering: Rendering, evidence: ShadingEvidence, scales: Ener
         light=evidence.light,
         body_centre=evidence.body_centre,
         reflectance=evidence.reflectance_of(chosen),
-        lit=evidence.lit_at(chosen),
     )
     observed = evidence.intensity.at(rendering.projected[chosen])
     return _nats(_unexplained(predicted - observed, weights, evidence.eta), scales)
@@ -152,7 +134,6 @@ def shading_rows(
         light=evidence.light,
         body_centre=evidence.body_centre,
         reflectance=evidence.reflectance_of(chosen),
-        lit=evidence.lit_at(chosen),
     )
     observed, slopes = evidence.intensity.with_gradient_at(rendering.projected[chosen])
     residuals = derivatives.shading - observed

@@ -3,11 +3,11 @@
 from collections.abc import Sequence
 from functools import lru_cache
 
-from fitter.arrays import PerVertex, Vertices
+from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
 from fitter.export.antialiasing import render_finely, vertex_pictures
 from fitter.export.display import png
-from fitter.export.gltf import body_canonical_glb, body_posed_glb, lit_vertices
+from fitter.export.gltf import body_canonical_glb, body_posed_glb
 from fitter.export.pictures import (
     drawing_camera,
     drawing_picture,
@@ -69,9 +69,8 @@ def _files_of(
 ) -> dict[str, bytes]:
     found, person = view.found, view.found.person
     camera = drawing_camera(person.camera)
-    lit = lit_vertices(found, model)
     files = {
-        "body_posed.glb": body_posed_glb(found, model, lit=lit),
+        "body_posed.glb": body_posed_glb(found, model),
         "segmentation.png": png(mask_levels(view.pictures.segmentation, view.camera, camera)),
         "overlay.png": overlay_png(found, model=model, image=image),
         "views.png": png(
@@ -86,7 +85,7 @@ def _files_of(
     }
     if view.pictures.trimap is not None:
         files["trimap.png"] = png(trimap_levels(view.pictures.trimap, view.camera, camera))
-    return files | _reflectance_pictures(found, model, lit)
+    return files | _reflectance_pictures(found, model)
 
 
 def overlay_png(found: PictureFit, *, model: BodyModel, image: bytes) -> bytes:
@@ -110,13 +109,8 @@ def _topology(model: BodyModel) -> MeshTopology:
     return mesh_topology(model.triangles, vertex_count=len(model.mean_vertices))
 
 
-def _reflectance_pictures(
-    found: PictureFit, model: BodyModel, lit: PerVertex | None
-) -> dict[str, bytes]:
-    """Fig. 7: albedo, the Lambertian part of Eq. 1, and all of it, as the camera sees them.
-
-    With surroundings where the light has them, and then with cast shadows.
-    """
+def _reflectance_pictures(found: PictureFit, model: BodyModel) -> dict[str, bytes]:
+    """Fig. 7: albedo, the Lambertian part of Eq. 1, and all of it, as the camera sees them."""
     light, reflectance = found.person.light, found.person.reflectance
     if light is None or reflectance is None:
         return {}
@@ -127,7 +121,6 @@ def _reflectance_pictures(
         light=light,
         body_centre=found.person.body.translation,
         specular_exponent=reflectance.specular_exponent,
-        lit=lit,
     )
     lambertian = reflectance.ambient + reflectance.albedo * terms.diffuse
     colour = found.person.albedo_rgb

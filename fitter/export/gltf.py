@@ -3,14 +3,10 @@
 ``body_posed.glb`` lies in the camera frame with glTF's axes (OpenCV x diag(1, -1, -1): x right,
 y up, looking along -z), metres, so that its camera node is the identity, under a node that sets all
 of it upright (:mod:`fitter.export.gltf_upright`); it carries camera, light, and reflectance per
-vertex. Light from all round, where it was found as spherical harmonics, is the light's extra
-``surroundings`` (:mod:`fitter.render.surroundings`, in the camera's axes), and what cast shadows
-leave of the lamp the vertex attribute ``_LIT``. ``body_canonical.glb`` lies in the
-body frame (y up, facing +z) in the canonical pose with its feet on y = 0. Vertex order is the body
-model's, in both.
+vertex. ``body_canonical.glb`` lies in the body frame (y up, facing +z) in the canonical pose with
+its feet on y = 0. Vertex order is the body model's, in both.
 """
 
-from fitter.arrays import PerVertex
 from fitter.body.model import BodyModel
 from fitter.body.scape import CAMERA_AXES
 from fitter.export.glb import BinaryChunk, pack_glb
@@ -18,15 +14,11 @@ from fitter.export.gltf_document import Frame
 from fitter.export.gltf_mesh import add_body_mesh, colour_scale_of
 from fitter.export.gltf_pictured import pictured_document
 from fitter.export.plain_gltf import plain_glb
-from fitter.render.shadow import lamp_seen
 from fitter.result import FitResult, PictureFit
 
 
-def body_posed_glb(found: PictureFit, model: BodyModel, *, lit: PerVertex | None = None) -> bytes:
-    """The posed body with its camera, light and reflectance.
-
-    ``lit`` is what :func:`lit_vertices` gives, for a caller that has it already.
-    """
+def body_posed_glb(found: PictureFit, model: BodyModel) -> bytes:
+    """The posed body with its camera, light and reflectance."""
     person = found.person
     document = pictured_document(
         person,
@@ -44,25 +36,8 @@ def body_posed_glb(found: PictureFit, model: BodyModel, *, lit: PerVertex | None
         triangles=model.triangles,
         reflectance=person.reflectance,
         albedo_rgb=person.albedo_rgb,
-        lit=lit_vertices(found, model) if lit is None else lit,
     )
     return pack_glb(document, binary)
-
-
-def lit_vertices(found: PictureFit, model: BodyModel) -> PerVertex | None:
-    """Per vertex, the share of the lamp that cast shadows leave; None where there is no light.
-
-    None, too, for a light without surroundings: under Eq. 1 nothing is in shadow.
-    """
-    person = found.person
-    if person.light is None or person.reflectance is None:
-        return None
-    return lamp_seen(
-        found.posed_vertices,
-        model.triangles,
-        light=person.light,
-        body_centre=person.body.translation,
-    )
 
 
 def body_canonical_glb(result: FitResult, model: BodyModel) -> bytes:

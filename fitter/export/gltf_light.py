@@ -10,7 +10,6 @@ from fitter.body.scape import CAMERA_AXES
 from fitter.export.gltf_document import Node
 from fitter.parameters import Light, Reflectance
 from fitter.render.light import direction_to_light, light_position
-from fitter.render.surroundings import GLTF_SIGNS
 from fitter.vocabulary.choices import LightKind
 
 PUNCTUAL = "KHR_lights_punctual"
@@ -38,8 +37,6 @@ def light_and_node(
         "specular_exponent": reflectance.specular_exponent,
         "colour_scale": colour_scale,
     }
-    if light.surroundings is not None:
-        extras["surroundings"] = (GLTF_SIGNS * light.surroundings).tolist()
     to_light = direction_to_light(light) * CAMERA_AXES
     illuminance = math.pi * colour_scale
     node: Node = {"name": "light", "extras": {"light": 0}}

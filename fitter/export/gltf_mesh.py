@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from fitter.arrays import Normals, PerVertex, Triangles, Vertices
+from fitter.arrays import Normals, Triangles, Vertices
 from fitter.export.body_texture import BodyTexture
 from fitter.export.glb import BinaryChunk, Target
 from fitter.export.gltf_document import Node
@@ -37,7 +37,6 @@ def add_body_mesh(
     triangles: Triangles,
     reflectance: Reflectance | None,
     albedo_rgb: Vertices | None,
-    lit: PerVertex | None = None,
     texture: BodyTexture | None = None,
 ) -> dict[str, object]:
     """Give a document its one mesh, of the body, and its material.
@@ -52,8 +51,6 @@ def add_body_mesh(
         The body, in the axes of the file.
     reflectance, albedo_rgb
         Per vertex; a neutral colour where there is none.
-    lit
-        Per vertex, the share of the lamp that cast shadows leave; where that is known.
     texture
         Shown in place of reflectance and albedo, which the file then lacks.
 
@@ -81,8 +78,6 @@ def add_body_mesh(
         attributes["_SPECULARITY"] = attribute(reflectance.specularity)
     attributes["POSITION"] = attribute(positions, bounds=True)
     attributes["NORMAL"] = attribute(normals)
-    if lit is not None:
-        attributes["_LIT"] = attribute(lit if texture is None else lit[texture.owners])
     index_type = np.uint16 if len(positions) < np.iinfo(np.uint16).max else np.uint32
     indices = binary.add(triangles.ravel().astype(index_type), target=Target.TRIANGLE_INDICES)
     if texture is None:

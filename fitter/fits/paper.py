@@ -63,7 +63,6 @@ from fitter.vocabulary.choices import (
     OptimizerKind,
     PaperEnergy,
     SegmentationKind,
-    SurroundingsKind,
 )
 from fitter.vocabulary.measurements import STATURE
 from fitter.vocabulary.outcomes import FacingSource
@@ -130,7 +129,6 @@ def paper_picture(
         clothing=Clothing.TIGHT,
         segmentation=SegmentationKind.GRABCUT,
         slant_hints=False,
-        light=replace(view.light, surroundings=SurroundingsKind.UNIFORM),
     )
     with of_view.stage(Stage.OBSERVATION):
         observation = observe(
@@ -202,9 +200,7 @@ def _with_shading(
     """Section 5: light, reflectance and body in turn, until the body stays where it is."""
     (view,) = objective.views
     first = view.evaluate(picture.body)
-    state = first_shading(
-        view, first, intensity, guessed_lights(picture.view.light), SurroundingsKind.UNIFORM
-    )
+    state = first_shading(view, first, intensity, guessed_lights(picture.view.light))
     if state is None:
         return found
     now, evaluations, still = first, found.evaluations, False

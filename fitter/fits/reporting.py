@@ -20,7 +20,7 @@ from fitter.pose_init.initial_pose import PoseHypothesis
 from fitter.remarks import FitWarning
 from fitter.request import Choices, View
 from fitter.result import LimbFacing, PictureFit
-from fitter.vocabulary.choices import Cues, Facing, SurroundingsKind, ViewKind
+from fitter.vocabulary.choices import Cues, Facing, ViewKind
 from fitter.vocabulary.outcomes import FacingSource, Outcome, Verdict
 
 POOR_OVERLAP = 0.85
@@ -124,11 +124,7 @@ def shading_warnings(view: View, found: PictureFit) -> tuple[FitWarning, ...]:
     """What was asked for about the light but could not be found."""
     if view.cues is not Cues.SES:
         return ()
-    light = found.person.light
-    if light is None:
-        return (_SHADING_NOT_USED,)
-    wanted = view.light.surroundings is SurroundingsKind.SPHERICAL_HARMONICS
-    return (_SURROUNDINGS_NOT_FOUND,) if wanted and light.surroundings is None else ()
+    return (_SHADING_NOT_USED,) if found.person.light is None else ()
 
 
 def person_warnings(
@@ -209,13 +205,5 @@ _SHADING_NOT_USED = FitWarning(
     message=(
         "Too little of the body is visible, unclipped and away from its outline for shading to "
         "say anything; the result is that of silhouette and edges."
-    ),
-)
-
-_SURROUNDINGS_NOT_FOUND = FitWarning(
-    code="surroundings-not-found",
-    message=(
-        "Too little bare surface is visible to tell the light from all round from the lamp: the "
-        "light is that of Eq. 1, a lamp and a constant."
     ),
 )

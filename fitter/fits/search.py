@@ -226,7 +226,7 @@ def _first_light(picture: Outlined, objective: Objective, seen: Candidate) -> _F
     if asked.cues is Cues.SES:
         objective, intensity = where_bare(objective, seen, intensity)
         lights = guessed_lights(asked.light)
-        state = first_shading(objective, seen, intensity, lights, asked.light.surroundings)
+        state = first_shading(objective, seen, intensity, lights)
     return _FirstLight(objective=objective, intensity=intensity, state=state)
 
 

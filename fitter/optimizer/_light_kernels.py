@@ -1,24 +1,50 @@
 """Compiled sums of the search for the light; :mod:`fitter.optimizer.light_solve` documents them."""
 
 from math import exp, log, sqrt
-from typing import no_type_check
+from typing import NamedTuple, no_type_check
 
 import numpy as np
 from numba import njit
 
 
+class LitPoints(NamedTuple):
+    """Points (k, 3) of a surface, what was observed there, and the reflectance to scale, (k,)."""
+
+    positions: np.ndarray
+    normals: np.ndarray
+    observed: np.ndarray
+    weights: np.ndarray
+    albedo: np.ndarray
+    specularity: np.ndarray
+
+
+class Lamp(NamedTuple):
+    """The light of Eq. 1: where it is, whether it has a place, and the exponent of its gloss."""
+
+    direction: np.ndarray
+    source: np.ndarray
+    distance: float
+    is_point: bool
+    exponent: float
+
+
+class Levels(NamedTuple):
+    """The ambient light, and the scales of albedo and specularity."""
+
+    ambient: float
+    albedo: float
+    specularity: float
+
+
 @no_type_check
 @njit(cache=True, nogil=True, error_model="numpy")
-def data_energy(
-    positions, normals, observed, weights, albedo, specularity, around, levels, scales,
-    direction, source, distance, is_point, exponent, eta,
-):  # fmt: skip
+def data_energy(points, lamp, levels, eta):
     """Σ_i w_i ρ_η(r_i - observed_i); see :func:`normal_equations`."""
+    positions, normals, observed, weights, albedo, specularity = points
+    direction, source, distance, is_point, exponent = lamp
     total = 0.0
     for i in range(observed.size):
-        predicted = 0.0
-        for c in range(levels.size):
-            predicted += around[i, c] * levels[c]
+        predicted = levels.ambient
         x, y, z = positions[i, 0], positions[i, 1], positions[i, 2]
         nx, ny, nz = normals[i, 0], normals[i, 1], normals[i, 2]
         lx, ly, lz = direction[0], direction[1], direction[2]
@@ -30,13 +56,13 @@ def data_energy(
             strength = (distance / away) ** 2
         cosine = lx * nx + ly * ny + lz * nz
         if cosine > 0.0:
-            predicted += scales[0] * albedo[i] * strength * cosine
+            predicted += levels.albedo * albedo[i] * strength * cosine
             to_camera = 1.0 / sqrt(x * x + y * y + z * z)
             hx, hy, hz = lx - x * to_camera, ly - y * to_camera, lz - z * to_camera
             mirror = (hx * nx + hy * ny + hz * nz) / sqrt(hx * hx + hy * hy + hz * hz)
             if mirror > 0.0:
                 gloss = strength * exp(exponent * log(mirror))
-                predicted += scales[1] * specularity[i] * gloss
+                predicted += levels.specularity * specularity[i] * gloss
         squared = (predicted - observed[i]) ** 2
         total += weights[i] * squared / (eta * eta + squared)
     return total
@@ -44,28 +70,23 @@ def data_energy(
 
 @no_type_check
 @njit(cache=True, nogil=True, error_model="numpy")
-def normal_equations(
-    positions, normals, observed, weights, albedo, specularity, around, levels, scales,
-    direction, direction_by_angles, source, distance, is_point, exponent, eta,
-):  # fmt: skip
+def normal_equations(points, lamp, direction_by_angles, levels, eta):
     """Jᵀ W J and Jᵀ W (r - observed) of Eq. 1 with the weights of Geman and McClure's function.
 
-    ``albedo`` and ``specularity`` (k,) are those of the lamp's light, with the share of the lamp
-    that each point sees, and have ``scales`` (2,); ``around`` (k, c) times ``levels`` (c,) is what
-    comes from elsewhere. The columns are those of ``light_columns``.
+    The columns are those of ``light_columns``.
     """
-    columns = 5 + levels.size
+    positions, normals, observed, weights, albedo, specularity = points
+    direction, source, distance, is_point, exponent = lamp
+    columns = 6
     matrix = np.zeros((columns, columns))
     gradient = np.zeros(columns)
     row = np.zeros(columns)
     to_light = np.empty(3)
     halfway = np.empty(3)
     for i in range(observed.size):
-        predicted = 0.0
-        for c in range(levels.size):
-            row[3 + c] = around[i, c]
-            predicted += around[i, c] * levels[c]
-        row[0] = row[1] = row[2] = row[columns - 2] = row[columns - 1] = 0.0
+        predicted = levels.ambient
+        row[0] = row[1] = row[2] = row[4] = row[5] = 0.0
+        row[3] = 1.0
         away = 1.0
         strength = 1.0
         to_camera = 0.0
@@ -97,7 +118,8 @@ def normal_equations(
             diffuse = strength * cosine
             specular = 0.0
             by_mirror = 0.0
-            matt, glossy = scales[0] * albedo[i], scales[1] * specularity[i]
+            matt = levels.albedo * albedo[i]
+            glossy = levels.specularity * specularity[i]
             if mirror > 0.0:
                 specular = strength * exp(exponent * log(mirror))
                 by_mirror = glossy * exponent * specular / mirror
@@ -125,8 +147,8 @@ def normal_equations(
                     row[angle] += reach * slope * direction_by_angles[angle, axis]
             if is_point:
                 row[2] += 2.0 * lit
-            row[columns - 2] = albedo[i] * diffuse
-            row[columns - 1] = specularity[i] * specular
+            row[4] = albedo[i] * diffuse
+            row[5] = specularity[i] * specular
         residual = predicted - observed[i]
         total = eta * eta + residual * residual
         weight = weights[i] * 2.0 * eta * eta / (total * total)

@@ -13,7 +13,7 @@ from jaxtyping import Float, Integer
 from fitter.arrays import Vertices
 from fitter.energies.joint_objective import JointCandidate, JointObjective
 from fitter.energies.objective import Candidate, Objective
-from fitter.energies.shading import ShadingEvidence, explained_vertices, seen_vertices
+from fitter.energies.shading import ShadingEvidence, seen_vertices, usable_vertices
 from fitter.evidence.intensity import IntensityMap
 from fitter.numerics.mesh_parts import grown, mesh_part
 from fitter.numerics.surface_sample import SurfaceSample
@@ -22,8 +22,6 @@ from fitter.optimizer.hidden_reflectance import HiddenVertices
 from fitter.optimizer.light_step import (
     darkest,
     first_state,
-    first_surroundings,
-    with_explained_shadows,
     with_new_light,
     with_new_shadows,
 )
@@ -36,16 +34,12 @@ from fitter.optimizer.search import BodySearch
 from fitter.optimizer.whole_body import on_whole_body
 from fitter.parameters import Light, Reflectance
 from fitter.render.reflectance import shading_terms
-from fitter.vocabulary.choices import SurroundingsKind
 
 SMOOTHNESS_SCHEDULE = (40.0, 14.0, 5.0)
 """λ₁ = λ₂ of each round, relative to data weights with a mean of one per vertex: a step of albedo
 between two neighbours costs as much as this many vertices left wholly unexplained. With a lower
 last value (0.3) the albedo absorbs what the shape should explain; chosen on the evaluation's tuning
 half."""
-
-SHADOW_ROUNDS = 1
-"""Times that light and reflectance are found with the shadows, for a light with surroundings."""
 
 REPORTED_SMOOTHNESS = 0.3
 """λ₁ = λ₂ of the reflectance that is reported, once the body no longer moves: at 5, dark cloth may
@@ -70,8 +64,6 @@ _MARGIN_RINGS = 3
 """Rings of vertices around those seen that get an albedo too: a search may bring them into view."""
 
 _LEAST_USABLE = 200
-_LEAST_FOR_SURROUNDINGS = 150
-# Sampled vertices: 70 are seen of a face alone, 300 or more of a body in loose clothes.
 
 Round = tuple[float, BodySearch]
 """λ₁ = λ₂, and the search for the bodies."""
@@ -171,21 +163,11 @@ def first_shading(
     start: Candidate,
     intensity: IntensityMap,
     lights: tuple[Light, ...],
-    surroundings: SurroundingsKind,
 ) -> ShadingEvidence | None:
-    """The first light on the minimum of E1; None if too little is seen to tell anything.
-
-    ``surroundings`` is how light from all around is modelled: Eq. 1's constant, or spherical
-    harmonics, which also tell the albedo inside a cast shadow. Too small a surface cannot tell them
-    from the lamp; then Eq. 1's constant is used.
-    """
+    """The first light on the minimum of E1; None if too little is seen to tell anything."""
     if np.count_nonzero(seen_vertices(start.rendering, intensity)) < _LEAST_USABLE:
         return None
-    state = first_state(objective, start, intensity, lights)
-    told = np.count_nonzero(explained_vertices(start.rendering, state))
-    if surroundings is SurroundingsKind.SPHERICAL_HARMONICS and told >= _LEAST_FOR_SURROUNDINGS:
-        state = first_surroundings(objective, start, state)
-    return state
+    return first_state(objective, start, intensity, lights)
 
 
 def next_shading(
@@ -213,8 +195,6 @@ def shaded_fit(objective: Objective, final: Candidate, state: ShadingEvidence) -
     """
     state = state.about(final.parameters.translation)
     objective, now, reported = on_whole_body(objective, final, state)
-    if state.light.surroundings is not None:
-        reported = _with_shadows_explained(objective, now, reported)
     reported = _with_new_reflectance(
         objective, now, reported, REPORTED_SMOOTHNESS, REPORTED_GRADUATION
     )
@@ -233,22 +213,6 @@ def shaded_fit(objective: Objective, final: Candidate, state: ShadingEvidence) -
     )
 
 
-def _with_shadows_explained(
-    objective: Objective, candidate: Candidate, state: ShadingEvidence
-) -> ShadingEvidence:
-    """Find surroundings that also explain the lamp's shadows, now that the body is fixed.
-
-    Light and reflectance in turn: nothing separates surroundings from the lamp like its shadow.
-    """
-    for _ in range(SHADOW_ROUNDS):
-        state = with_explained_shadows(objective, candidate, state)
-        state = _with_new_reflectance(
-            objective, candidate, state, SMOOTHNESS_SCHEDULE[-1], REFINEMENT
-        )
-        state = with_new_light(candidate, state)
-    return with_explained_shadows(objective, candidate, state)
-
-
 def _with_new_reflectance(
     objective: Objective,
     candidate: Candidate,
@@ -257,10 +221,10 @@ def _with_new_reflectance(
     graduation: tuple[tuple[float, int], ...],
 ) -> ShadingEvidence:
     rendering, sample = candidate.rendering, objective.operators.shaded
-    explained = explained_vertices(rendering, state)
-    part = mesh_part(grown(explained[sample.vertices], sample.edges, _MARGIN_RINGS), sample.edges)
+    usable = usable_vertices(rendering, state)
+    part = mesh_part(grown(usable[sample.vertices], sample.edges, _MARGIN_RINGS), sample.edges)
     chosen = sample.vertices[part.vertices]
-    seen = explained[chosen]
+    seen = usable[chosen]
     intensity = np.zeros(len(chosen))
     intensity[seen] = state.intensity.at(rendering.projected[chosen[seen]])
     weights = np.where(seen, state.vertex_areas[chosen], 0.0)
@@ -271,7 +235,6 @@ def _with_new_reflectance(
         light=state.light,
         body_centre=state.body_centre,
         specular_exponent=state.reflectance.specular_exponent,
-        lit=state.lit_at(chosen),
     )
     lengths = _edge_lengths(rendering.vertices[sample.vertices], sample.edges)
     albedo_level = max(float(np.median(state.reflectance.albedo[sample.vertices])), 1e-3)
@@ -281,7 +244,7 @@ def _with_new_reflectance(
         intensity=intensity,
         weights=weights,
         edges=part.edges,
-        ambient_limit=darkest(intensity[seen]) if state.light.surroundings is None else 0.0,
+        ambient_limit=darkest(intensity[seen]),
         edge_lengths=lengths[part.edge_ids],
         albedo_smoothness=smoothness,
         specularity_smoothness=smoothness,
@@ -331,7 +294,7 @@ def _hidden(objective: Objective, candidate: Candidate, state: ShadingEvidence) 
     """The vertices that took no part in the search for the reflectance."""
     edges = objective.operators.topology.edges
     lengths = _edge_lengths(candidate.vertices, edges)
-    return HiddenVertices.of(explained_vertices(candidate.rendering, state), edges, lengths)
+    return HiddenVertices.of(usable_vertices(candidate.rendering, state), edges, lengths)
 
 
 def _edge_lengths(vertices: Vertices, edges: Integer[np.ndarray, "e 2"]) -> Float[np.ndarray, " e"]:

@@ -11,10 +11,8 @@ from fitter.energies.objective import Candidate
 from fitter.energies.rows import Nuisance, ShadingRows
 from fitter.energies.shading import ShadingEvidence
 from fitter.optimizer.light_solve import (
-    AMBIENT_COLUMNS,
     DISTANCE_SPREAD,
     light_columns,
-    surroundings_prior,
 )
 from fitter.render.rasterizer import Rendering
 from fitter.render.reflectance import shade_with_derivatives
@@ -25,7 +23,7 @@ _RIDGE = 1e-6
 def light_nuisance(candidate: Candidate, evidence: ShadingEvidence, rows: ShadingRows) -> Nuisance:
     """The light's unknowns in rows of shading, and what is known of them.
 
-    The light's direction and distance, the ambient light or the surroundings, and one scale each
+    The light's direction and distance, the ambient light, and one scale each
     for albedo and specularity are free, as in :mod:`fitter.optimizer.light_solve`.
     """
     evidence = evidence.about(candidate.parameters.translation)
@@ -33,20 +31,14 @@ def light_nuisance(candidate: Candidate, evidence: ShadingEvidence, rows: Shadin
     # A directional light has no distance: its column is zero, and this row keeps it regular.
     distance = np.zeros((1, slopes.shape[1]))
     distance[0, 2] = 1.0 / DISTANCE_SPREAD
-    known = [distance]
-    if evidence.light.surroundings is not None:
-        _, uneven = surroundings_prior(evidence.light.surroundings)
-        even = np.zeros((len(uneven), slopes.shape[1]))
-        even[:, AMBIENT_COLUMNS] = uneven
-        known.append(even)
-    diagonal = rows.weights @ slopes**2 + (np.concatenate(known) ** 2).sum(axis=0)
-    known.append(np.diag(np.sqrt(_RIDGE * (diagonal + 1.0))))
-    return Nuisance(name="light", slopes=slopes, known=np.concatenate(known), held_in_search=True)
+    diagonal = rows.weights @ slopes**2 + (distance**2).sum(axis=0)
+    known = np.concatenate([distance, np.diag(np.sqrt(_RIDGE * (diagonal + 1.0)))])
+    return Nuisance(name="light", slopes=slopes, known=known, held_in_search=True)
 
 
 def light_slopes(
     rendering: Rendering, evidence: ShadingEvidence, vertices: Integer[np.ndarray, " k"]
-) -> Float[np.ndarray, "k columns"]:
+) -> Float[np.ndarray, "k 6"]:
     """Derivatives of Eq. 1 at vertices, in the columns of :func:`light_columns`."""
     reflectance = evidence.reflectance_of(vertices)
     slopes = shade_with_derivatives(
@@ -55,12 +47,10 @@ def light_slopes(
         light=evidence.light,
         body_centre=evidence.body_centre,
         reflectance=reflectance,
-        lit=evidence.lit_at(vertices),
     )
     return light_columns(
         slopes,
         evidence.light,
-        normals=rendering.vertex_normals[vertices],
         albedo=reflectance.albedo,
         specularity=reflectance.specularity,
     )

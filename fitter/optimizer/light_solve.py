@@ -2,10 +2,6 @@
 
 The unknowns are azimuth, elevation and distance, the ambient light, and one scale each for albedo
 and specularity; without the scales the light would be judged by a reflectance fitted to another.
-
-A light with surroundings has nine coefficients in place of the ambient light. Brightness is linear
-in their products with the albedo's scale, so these products are solved for. Their prior
-(:func:`surroundings_prior`) keeps band 1 from being mistaken for the lamp.
 """
 
 from collections.abc import Callable
@@ -16,19 +12,9 @@ from jaxtyping import Float
 
 from fitter.numerics.damped_descent import Offer, damped_steps, descend
 from fitter.numerics.robust import geman_mcclure_weights
-from fitter.optimizer.light_sums import LightSums
-from fitter.optimizer.lit_surface import LightEstimate, LitSurface
-from fitter.parameters import Light, Surroundings
+from fitter.optimizer.lit_surface import LightEstimate, LightSums, LitSurface
+from fitter.parameters import Light
 from fitter.render.reflectance import ShadingDerivatives, shading_terms
-from fitter.render.surroundings import (
-    BAND_OF,
-    BAND_TRANSFER,
-    COUNT,
-    harmonics,
-    irradiance,
-    mean_irradiance,
-    without_negative_light,
-)
 from fitter.request import LightGuess
 from fitter.vocabulary.choices import LightKind
 
@@ -39,16 +25,6 @@ DISTANCE_SPREAD = 0.6
 _DISTANCE_RANGE_M = (1.0, 30.0)
 _ELEVATION_RANGE = (-1.45, 1.45)
 _DISTANCE_PRIOR_WEIGHT = 2e-3
-
-SURROUNDINGS_SPREAD = 0.3
-"""Standard deviation of each radiance coefficient of bands 1 and 2 over that of band 0."""
-
-_SURROUNDINGS_PRIOR_WEIGHT = 2e-3
-AMBIENT_COLUMNS = slice(3, -2)
-"""Columns of :func:`light_columns` for the ambient light or the surroundings."""
-
-_LEAST_SURROUNDINGS, _LEAST_LAMP = 0.01, 0.02
-"""As shares of the lamp's light and of the surroundings': their ratio stays finite."""
 
 _FIRST_DAMPING = 0.1
 _FLOOR = 1e-12
@@ -67,7 +43,7 @@ def estimate_light(surface: LitSurface, start: LightEstimate, *, iterations: int
 
     ``iterations`` is how many steps are tried at most.
     """
-    sums = LightSums(surface, surrounded=start.light.surroundings is not None)
+    sums = LightSums(surface)
 
     def evaluated(estimate: LightEstimate) -> LightEstimate:
         return replace(estimate, energy=sums.energy(estimate) + _prior(estimate))
@@ -93,7 +69,7 @@ def estimate_light(surface: LitSurface, start: LightEstimate, *, iterations: int
 
 def _normal_equations(
     sums: LightSums, now: LightEstimate
-) -> tuple[Float[np.ndarray, "c c"], Float[np.ndarray, " c"]]:
+) -> tuple[Float[np.ndarray, "6 6"], Float[np.ndarray, "6"]]:
     """Those of what is seen, with what is known of lights."""
     matrix, gradient = sums.normal_equations(now)
     if now.light.kind is LightKind.POINT:
@@ -103,11 +79,6 @@ def _normal_equations(
     else:
         matrix[2, :] = matrix[:, 2] = 0.0
         matrix[2, 2], gradient[2] = 1.0, 0.0
-    if now.light.surroundings is not None:
-        away, slopes = surroundings_prior(now.albedo_scale * now.light.surroundings)
-        weight = 2.0 * _SURROUNDINGS_PRIOR_WEIGHT
-        matrix[AMBIENT_COLUMNS, AMBIENT_COLUMNS] += weight * slopes.T @ slopes
-        gradient[AMBIENT_COLUMNS] += weight * slopes.T @ away
     return matrix, gradient
 
 
@@ -150,7 +121,6 @@ def _with_linear_scales(surface: LitSurface, light: Light) -> LightEstimate:
         light=light,
         body_centre=surface.body_centre,
         specular_exponent=surface.specular_exponent,
-        lit=surface.lit,
     )
     columns = np.stack(
         [
@@ -178,67 +148,40 @@ def _with_linear_scales(surface: LitSurface, light: Light) -> LightEstimate:
 
 
 def _prior(estimate: LightEstimate) -> float:
-    """What is known of a light without seeing what it lights."""
-    cost = 0.0
-    if estimate.light.surroundings is not None:
-        uneven, _ = surroundings_prior(estimate.light.surroundings)
-        cost += _SURROUNDINGS_PRIOR_WEIGHT * float(uneven @ uneven)
+    """The cost of a light before what it lights is seen."""
     if estimate.light.kind is LightKind.DIRECTIONAL:
-        return cost
+        return 0.0
     away = np.log(estimate.light.distance / _USUAL_DISTANCE_M) / DISTANCE_SPREAD
-    return cost + _DISTANCE_PRIOR_WEIGHT * float(away * away)
+    return _DISTANCE_PRIOR_WEIGHT * float(away * away)
 
 
 def light_columns(
     derivatives: ShadingDerivatives,
     light: Light,
     *,
-    normals: Float[np.ndarray, "k 3"],
     albedo: Float[np.ndarray, " k"],
     specularity: Float[np.ndarray, " k"],
-) -> Float[np.ndarray, "k columns"]:
+) -> Float[np.ndarray, "k 6"]:
     """Derivatives of Eq. 1 by azimuth, elevation, log distance, ambient light and two scales.
 
     The scales multiply ``albedo`` and ``specularity``; a directional light has no distance, so that
-    column is zero. Surroundings have nine columns, by the products of their coefficients with the
-    albedo's scale, in place of the ambient light's; the scale then applies to the lamp alone.
+    column is zero.
     """
     point = light.kind is LightKind.POINT
-    by_albedo, ambient = derivatives.by_albedo, np.ones((len(albedo), 1))
-    if light.surroundings is not None:
-        by_albedo = by_albedo - irradiance(light.surroundings, normals)
-        ambient = albedo[:, None] * harmonics(normals)
     return np.column_stack(
         [
             derivatives.by_light[:, 0],
             derivatives.by_light[:, 1],
             light.distance * derivatives.by_light[:, 2] if point else np.zeros(len(albedo)),
-            ambient,
-            albedo * by_albedo,
+            np.ones(len(albedo)),
+            albedo * derivatives.by_albedo,
             specularity * derivatives.by_specularity,
         ]
     )
 
 
-def surroundings_prior(
-    surroundings: Surroundings,
-) -> tuple[Float[np.ndarray, "8"], Float[np.ndarray, "8 9"]]:
-    """How many standard deviations bands 1 and 2 are from zero, and the derivatives.
-
-    Half the sum of their squares is in nats. They are relative to band 0, so that the scale of the
-    coefficients does not matter.
-    """
-    level = max(surroundings[0], 1e-12)
-    spread = SURROUNDINGS_SPREAD * np.array(BAND_TRANSFER)[BAND_OF[1:]]
-    away = surroundings[1:] / (spread * level)
-    slopes = np.zeros((COUNT - 1, COUNT))
-    slopes[:, 0] = -away / level
-    slopes[:, 1:] = np.diag(1.0 / (spread * level))
-    return away, slopes
-
-
 def _stepped(
-    now: LightEstimate, step: Float[np.ndarray, " columns"], ambient_limit: float
+    now: LightEstimate, step: Float[np.ndarray, "6"], ambient_limit: float
 ) -> LightEstimate:
     light = now.light
     turn = np.clip(step[:2], -0.5, 0.5)
@@ -252,26 +195,10 @@ def _stepped(
     moved = Light(
         kind=light.kind, azimuth=float(azimuth), elevation=float(elevation), distance=distance
     )
-    albedo_scale = max(now.albedo_scale + float(step[-2]), 0.0)
-    specularity_scale = max(now.specularity_scale + float(step[-1]), 0.0)
-    if light.surroundings is None:
-        ambient = min(max(now.ambient + float(step[3]), 0.0), ambient_limit)
-    else:
-        moved, albedo_scale = _surrounded(
-            moved, now.albedo_scale * light.surroundings + step[AMBIENT_COLUMNS], albedo_scale
-        )
-        ambient = 0.0
     return LightEstimate(
         light=moved,
-        ambient=ambient,
-        albedo_scale=albedo_scale,
-        specularity_scale=specularity_scale,
+        ambient=min(max(now.ambient + float(step[3]), 0.0), ambient_limit),
+        albedo_scale=max(now.albedo_scale + float(step[4]), 0.0),
+        specularity_scale=max(now.specularity_scale + float(step[5]), 0.0),
         energy=now.energy,
     )
-
-
-def _surrounded(lamp: Light, products: Surroundings, albedo_scale: float) -> tuple[Light, float]:
-    """A lamp with surroundings, from their products with the albedo's scale, and that scale."""
-    products = without_negative_light(products, least=max(_LEAST_SURROUNDINGS * albedo_scale, 1e-9))
-    albedo_scale = max(albedo_scale, _LEAST_LAMP * mean_irradiance(products))
-    return replace(lamp, surroundings=products / albedo_scale), albedo_scale

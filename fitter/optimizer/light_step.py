@@ -3,10 +3,10 @@
 from dataclasses import replace
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Float
 
 from fitter.energies.objective import Candidate, Objective
-from fitter.energies.shading import ShadingEvidence, explained_vertices, seen_vertices
+from fitter.energies.shading import ShadingEvidence, seen_vertices, usable_vertices
 from fitter.evidence.intensity import IntensityMap
 from fitter.numerics.mesh_parts import grown
 from fitter.optimizer.light_solve import (
@@ -15,9 +15,7 @@ from fitter.optimizer.light_solve import (
 )
 from fitter.optimizer.lit_surface import LightEstimate, LitSurface
 from fitter.parameters import Light, Reflectance
-from fitter.render.reflectance import shading_terms
-from fitter.render.shadow import PENUMBRA_RINGS, cast_shadow, penumbra
-from fitter.render.surroundings import uniform_surroundings
+from fitter.render.shadow import cast_shadow
 
 SPECULAR_EXPONENT = 12.0
 """α of everybody: skin's gloss. Chosen picture by picture from 6, 12, 24 and 48, it changed with
@@ -31,8 +29,9 @@ off; at 8 it was 4 and 6, and nearly the same from every guess."""
 _LIGHT_ITERATIONS = 10
 _TRIAL_POINTS = 500
 """Points of the surface on which guesses are compared: a light has seven unknowns."""
-# Share of the lamp's light to begin with where Eq. 1 found no ambient light.
-_LEAST_FIRST_SURROUNDINGS = 0.02
+_PENUMBRA_RINGS = 2
+"""Edges of the mesh that a shadow's border may be off, and blurred."""
+
 _LEAST_LIT = 30
 # A few vertices lie on hair or cloth or in a fold; this percentile is taken as the darkest skin.
 _DARKEST_PERCENTILE = 3.0
@@ -44,8 +43,7 @@ def first_state(
     intensity: IntensityMap,
     lights: tuple[Light, ...],
 ) -> ShadingEvidence:
-    """The first light, with uniform albedo and specularity (section 5), under Eq. 1 itself."""
-    lights = tuple(replace(light, surroundings=None) for light in lights)
+    """The first light, with uniform albedo and specularity (section 5)."""
     m = len(candidate.vertices)
     chosen = seen_vertices(candidate.rendering, intensity)
     observed = intensity.at(candidate.rendering.projected[chosen])
@@ -80,29 +78,9 @@ def first_state(
     )
 
 
-def first_surroundings(
-    objective: Objective, candidate: Candidate, state: ShadingEvidence
-) -> ShadingEvidence:
-    """The first light with surroundings: Eq. 1's ambient light of a uniform albedo, then improved.
-
-    The lamp comes first: surroundings that are free from the start would take some of its light.
-    """
-    reflectance = state.reflectance
-    level = reflectance.ambient / max(float(reflectance.albedo[0]), 1e-6)
-    light = replace(
-        state.light,
-        surroundings=uniform_surroundings(max(level, _LEAST_FIRST_SURROUNDINGS)),
-    )
-    state = replace(state, light=light, reflectance=replace(reflectance, ambient=0.0))
-    state = with_new_shadows(objective, candidate, state)
-    return with_new_light(candidate, state, widening=_FIRST_LIGHT_WIDENING)
-
-
-def with_new_light(
-    candidate: Candidate, state: ShadingEvidence, *, widening: float = _LIGHT_WIDENING
-) -> ShadingEvidence:
+def with_new_light(candidate: Candidate, state: ShadingEvidence) -> ShadingEvidence:
     """The light that best explains a body with the state's reflectance, up to its scales."""
-    surface = _lit_surface(candidate, replace(state, eta=widening * state.eta))
+    surface = _lit_surface(candidate, replace(state, eta=_LIGHT_WIDENING * state.eta))
     found = estimate_light(
         surface,
         LightEstimate(
@@ -133,47 +111,16 @@ def with_new_shadows(
 
     If shadows cover everything that is seen, the light is wrong, and they stay as they were.
     """
-    shadowed = _in_shadow(objective, candidate, state)
-    edges = objective.operators.topology.edges
-    renewed = replace(state, shadowed=grown(shadowed, edges, PENUMBRA_RINGS))
-    left = np.count_nonzero(explained_vertices(candidate.rendering, renewed))
-    return renewed if left >= _LEAST_LIT else state
-
-
-def with_explained_shadows(
-    objective: Objective, candidate: Candidate, state: ShadingEvidence
-) -> ShadingEvidence:
-    """The same with surroundings, which explain the inside of a shadow: only its border stays out.
-
-    For the light and reflectance that are reported. While the body is being found shadows are left
-    out all the same: where they fall depends on the body, and on what it does not model, like hair.
-    """
-    shadowed = _in_shadow(objective, candidate, state)
-    edges = objective.operators.topology.edges
-    lamp = shading_terms(
-        candidate.vertices,
-        candidate.rendering.vertex_normals,
-        light=replace(state.light, surroundings=None),
-        body_centre=state.body_centre,
-        specular_exponent=state.reflectance.specular_exponent,
-    )
-    blurred = penumbra(shadowed, lamp.diffuse > 0.0, edges)
-    return replace(
-        state,
-        shadowed=grown(shadowed, edges, PENUMBRA_RINGS),
-        lit=np.where(blurred, 0.5, 1.0 - shadowed),
-    )
-
-
-def _in_shadow(
-    objective: Objective, candidate: Candidate, state: ShadingEvidence
-) -> Bool[np.ndarray, " m"]:
-    return cast_shadow(
+    shadowed = cast_shadow(
         candidate.vertices,
         objective.operators.model.triangles,
         light=state.light,
         body_centre=state.body_centre,
     )
+    edges = objective.operators.topology.edges
+    renewed = replace(state, shadowed=grown(shadowed, edges, _PENUMBRA_RINGS))
+    left = np.count_nonzero(usable_vertices(candidate.rendering, renewed))
+    return renewed if left >= _LEAST_LIT else state
 
 
 def darkest(observed: Float[np.ndarray, " k"]) -> float:
@@ -182,7 +129,7 @@ def darkest(observed: Float[np.ndarray, " k"]) -> float:
 
 
 def _lit_surface(candidate: Candidate, state: ShadingEvidence) -> LitSurface:
-    chosen = np.flatnonzero(explained_vertices(candidate.rendering, state))
+    chosen = np.flatnonzero(usable_vertices(candidate.rendering, state))
     weights = state.vertex_areas[chosen]
     observed = state.intensity.at(candidate.rendering.projected[chosen])
     return LitSurface(
@@ -196,5 +143,4 @@ def _lit_surface(candidate: Candidate, state: ShadingEvidence) -> LitSurface:
         body_centre=state.body_centre,
         specular_exponent=state.reflectance.specular_exponent,
         eta=state.eta,
-        lit=state.lit_at(chosen),
     )

@@ -1,4 +1,4 @@
-"""A surface whose brightness was observed, and a light that may explain it."""
+"""A surface whose brightness was observed, a light that may explain it, and how well it does."""
 
 from dataclasses import dataclass, replace
 
@@ -6,7 +6,10 @@ import numpy as np
 from jaxtyping import Float
 
 from fitter.arrays import Vector3
+from fitter.optimizer import _light_kernels as kernels
 from fitter.parameters import Light
+from fitter.render.light import direction_derivatives, direction_to_light, light_position
+from fitter.vocabulary.choices import LightKind
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -14,8 +17,7 @@ class LitSurface:
     """Surface points with what was observed there; camera frame, metres.
 
     ``weights`` sum to one; ``albedo`` and ``specularity`` are held except for a common scale each;
-    ``ambient_limit`` is as in :class:`fitter.optimizer.reflectance_solve.ReflectanceProblem`;
-    ``lit`` is the share of the lamp that each sees, None where no cast shadow is known.
+    ``ambient_limit`` is as in :class:`fitter.optimizer.reflectance_solve.ReflectanceProblem`.
     """
 
     positions: Float[np.ndarray, "k 3"]
@@ -28,7 +30,6 @@ class LitSurface:
     body_centre: Vector3
     specular_exponent: float
     eta: float
-    lit: Float[np.ndarray, " k"] | None = None
 
     def thinned(self, limit: int) -> "LitSurface":
         """About ``limit`` of the points, at even steps, standing for all."""
@@ -46,7 +47,6 @@ class LitSurface:
             weights=weights / total,
             albedo=self.albedo[chosen],
             specularity=self.specularity[chosen],
-            lit=None if self.lit is None else self.lit[chosen],
         )
 
 
@@ -64,3 +64,54 @@ class LightEstimate:
     def total(self) -> float:
         """The energy, as searches ask for it."""
         return self.energy
+
+
+class LightSums:
+    """Sums over a surface in the search for its light, without the terms that only it needs."""
+
+    def __init__(self, surface: LitSurface) -> None:
+        self._surface = surface
+        self._points = kernels.LitPoints(
+            positions=np.ascontiguousarray(surface.positions),
+            normals=np.ascontiguousarray(surface.normals),
+            observed=np.ascontiguousarray(surface.observed, dtype=np.float64),
+            weights=surface.weights,
+            albedo=surface.albedo,
+            specularity=surface.specularity,
+        )
+
+    def energy(self, estimate: LightEstimate) -> float:
+        """Σ_i w_i ρ_η(r_i - observed_i)."""
+        return kernels.data_energy(
+            self._points, self._lamp(estimate.light), _levels(estimate), self._surface.eta
+        )
+
+    def normal_equations(
+        self, estimate: LightEstimate
+    ) -> tuple[Float[np.ndarray, "6 6"], Float[np.ndarray, "6"]]:
+        """Jᵀ W J and Jᵀ W r of half the reweighted squares, in the columns of ``light_columns``."""
+        return kernels.normal_equations(
+            self._points,
+            self._lamp(estimate.light),
+            direction_derivatives(estimate.light),
+            _levels(estimate),
+            self._surface.eta,
+        )
+
+    def _lamp(self, light: Light) -> kernels.Lamp:
+        is_point = light.kind is LightKind.POINT
+        return kernels.Lamp(
+            direction=direction_to_light(light),
+            source=light_position(light, self._surface.body_centre) if is_point else np.zeros(3),
+            distance=light.distance,
+            is_point=is_point,
+            exponent=self._surface.specular_exponent,
+        )
+
+
+def _levels(estimate: LightEstimate) -> kernels.Levels:
+    return kernels.Levels(
+        ambient=estimate.ambient,
+        albedo=estimate.albedo_scale,
+        specularity=estimate.specularity_scale,
+    )

@@ -34,6 +34,5 @@ def on_whole_body(
             ),
             vertex_areas=whole.operators.shaded.areas,
             shadowed=lifted(state.shadowed),
-            lit=None if state.lit is None else lifted(state.lit),
         ),
     )

@@ -11,7 +11,6 @@
 ``camera``            (5,)        focal length, principal point (x, y), width, height; pixels
 ``light``             (3,)        azimuth, elevation (radians), distance (metres, infinite for a
                                   directional light); SES only, as all that follows
-``surroundings``      (9,)        of the light, where they were fitted
 ``eq_1``              (2,)        ambient, specular exponent
 ``albedo``            (m,)        of luminance
 ``specularity``       (m,)
@@ -108,8 +107,6 @@ class FittedPerson:
                 "albedo": reflectance.albedo,
                 "specularity": reflectance.specularity,
             }
-            if light.surroundings is not None:
-                arrays["surroundings"] = light.surroundings
             if self.albedo_rgb is not None:
                 arrays["albedo_rgb"] = self.albedo_rgb
         stream = io.BytesIO()
@@ -192,7 +189,6 @@ def _light(kind: object, arrays: Mapping[str, np.ndarray]) -> Light | None:
         azimuth=azimuth,
         elevation=elevation,
         distance=distance,
-        surroundings=arrays.get("surroundings"),
     )
     infinite = light.kind is LightKind.DIRECTIONAL
     if not distance > 0.0 or np.isinf(distance) != infinite:

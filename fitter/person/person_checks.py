@@ -28,7 +28,6 @@ _CERTAINTY = {"shape_covariance": (-1, -1)}
 _TILT = {"tilt": (2,), "tilt_covariance": (2, 2), "stances": (3,)}
 _SHADING = {"light": (3,), "eq_1": (2,), "albedo": (-1,), "specularity": (-1,)}
 _COLOUR = {"albedo_rgb": (-1, 3)}
-_SURROUNDINGS = {"surroundings": (9,)}
 
 
 def checked_person(content: bytes) -> tuple[dict[str, object], dict[str, np.ndarray]]:
@@ -101,7 +100,7 @@ def _header(encoded: np.ndarray | None) -> dict[str, object]:
 def _require_fields(arrays: Mapping[str, np.ndarray], *, shaded: bool) -> None:
     tilted = not arrays.keys().isdisjoint(_TILT)
     required = _BODY | (_TILT if tilted else {}) | (_SHADING if shaded else {})
-    allowed = required | _CERTAINTY | (_COLOUR | _SURROUNDINGS if shaded else {})
+    allowed = required | _CERTAINTY | (_COLOUR if shaded else {})
     for field in required.keys() - arrays.keys():
         raise unusable_person(field=field, reason="is missing")
     for field in arrays.keys() - allowed.keys():

@@ -10,11 +10,6 @@ The paper leaves open what a surface turned away from the light receives. Here i
 light alone: the negative cosine is cut off, and so is the highlight, which cannot come from a
 light below the surface's horizon although h . n may be positive there. Cast shadows are not in
 Eq. 1; :mod:`fitter.render.shadow` finds them.
-
-A light with surroundings E (:mod:`fitter.render.surroundings`) has them in place of b, and what a
-cast shadow leaves of the lamp, V in [0, 1], where that is told:
-
-r_i = a_i [E(n_i) + V_i (l_i . n_i)_+ l] + s_i V_i (h_i . n_i)_+^alpha l
 """
 
 from dataclasses import dataclass
@@ -26,7 +21,6 @@ from fitter.arrays import Vector3
 from fitter.parameters import Light, Reflectance
 from fitter.render import _reflectance_kernels as kernels
 from fitter.render.light import direction_derivatives, direction_to_light, light_position
-from fitter.render.surroundings import irradiance, irradiance_by_normal
 from fitter.vocabulary.choices import LightKind
 
 
@@ -34,8 +28,7 @@ from fitter.vocabulary.choices import LightKind
 class ShadingTerms:
     """Eq. 1 is linear in albedo, specularity and ambient: r = b + a ``diffuse`` + s ``specular``.
 
-    Both (k,), in units of the light's intensity at the body's centre; surroundings are in
-    ``diffuse``.
+    Both (k,), in units of the light's intensity at the body's centre.
     """
 
     diffuse: Float[np.ndarray, " k"]
@@ -46,10 +39,8 @@ class ShadingTerms:
 class ShadingDerivatives:
     """Shading r and its partial derivatives, each with the other arguments held.
 
-    A cast shadow is held, too.
-
     The derivative by ambient b is 1 everywhere. Where the light is behind the surface all others
-    are 0 but those of the surroundings; r jumps there if s > 0, which no derivative shows.
+    are 0; r jumps there if s > 0, which no derivative shows.
 
     Attributes
     ----------
@@ -86,12 +77,8 @@ def shading_terms(
     light: Light,
     body_centre: Vector3,
     specular_exponent: float,
-    lit: Float[np.ndarray, " k"] | None = None,
 ) -> ShadingTerms:
-    """Factors of albedo and specularity at surface points; camera frame, metres, unit normals.
-
-    ``lit`` is V, the share of the lamp that each point sees; all of it where left out.
-    """
+    """Factors of albedo and specularity at surface points; camera frame, metres, unit normals."""
     diffuse, specular = kernels.shading_terms(
         _contiguous(positions),
         _contiguous(normals),
@@ -101,10 +88,6 @@ def shading_terms(
         light.kind is LightKind.POINT,
         specular_exponent,
     )
-    if lit is not None:
-        diffuse, specular = lit * diffuse, lit * specular
-    if light.surroundings is not None:
-        diffuse = diffuse + irradiance(light.surroundings, normals)
     return ShadingTerms(diffuse=diffuse, specular=specular)
 
 
@@ -115,7 +98,6 @@ def shade(
     light: Light,
     body_centre: Vector3,
     reflectance: Reflectance,
-    lit: Float[np.ndarray, " k"] | None = None,
 ) -> Float[np.ndarray, " k"]:
     """Eq. 1 at k surface points, whose reflectance ``reflectance`` holds in the same order."""
     terms = shading_terms(
@@ -124,7 +106,6 @@ def shade(
         light=light,
         body_centre=body_centre,
         specular_exponent=reflectance.specular_exponent,
-        lit=lit,
     )
     return (
         reflectance.ambient
@@ -140,7 +121,6 @@ def shade_with_derivatives(
     light: Light,
     body_centre: Vector3,
     reflectance: Reflectance,
-    lit: Float[np.ndarray, " k"] | None = None,
 ) -> ShadingDerivatives:
     """Eq. 1 at k surface points with all its partial derivatives."""
     diffuse, specular, by_position, by_normal, by_exponent, by_light, by_centre = (
@@ -157,15 +137,6 @@ def shade_with_derivatives(
             reflectance.specular_exponent,
         )
     )
-    if lit is not None:
-        diffuse, specular, by_exponent = lit * diffuse, lit * specular, lit * by_exponent
-        by_position, by_normal = lit[:, None] * by_position, lit[:, None] * by_normal
-        by_light, by_centre = lit[:, None] * by_light, lit[:, None] * by_centre
-    if light.surroundings is not None:
-        diffuse = diffuse + irradiance(light.surroundings, normals)
-        by_normal = by_normal + reflectance.albedo[:, None] * irradiance_by_normal(
-            light.surroundings, normals
-        )
     return ShadingDerivatives(
         shading=(
             reflectance.ambient + reflectance.albedo * diffuse + reflectance.specularity * specular

@@ -1,10 +1,9 @@
 """Cast shadows: what the body hides from the light. Eq. 1 does not know them."""
 
 import numpy as np
-from jaxtyping import Bool, Integer
+from jaxtyping import Bool
 
-from fitter.arrays import PerVertex, Triangles, Vector3, Vertices
-from fitter.numerics.mesh_parts import grown
+from fitter.arrays import Triangles, Vector3, Vertices
 from fitter.parameters import Light
 from fitter.render.camera import Camera
 from fitter.render.light import direction_to_light, light_position
@@ -13,9 +12,6 @@ from fitter.vocabulary.choices import LightKind
 
 SHADOW_MAP_SIZE_PX = 768
 """Side of the shadow map: 2.5 mm a texel on a standing person."""
-
-PENUMBRA_RINGS = 2
-"""Edges of the mesh that a shadow's border may be off, and blurred."""
 
 DISTANT_LIGHT_M = 1000.0
 """Where a directional light is put, so that one rasteriser serves both kinds: its rays diverge by
@@ -51,31 +47,6 @@ def cast_shadow(
     rendering = render(seen_from_light, triangles, shadow_map)
     facing = (rendering.vertex_normals * rendering.vertices).sum(axis=1) < 0
     return facing & ~rendering.vertex_visible
-
-
-def lamp_seen(
-    vertices: Vertices, triangles: Triangles, *, light: Light, body_centre: Vector3
-) -> PerVertex | None:
-    """V of :mod:`fitter.render.reflectance`: 0 at vertices in a cast shadow and 1 elsewhere.
-
-    None for a light without surroundings: under Eq. 1 nothing is in shadow.
-    """
-    if light.surroundings is None:
-        return None
-    return 1.0 - cast_shadow(vertices, triangles, light=light, body_centre=body_centre)
-
-
-def penumbra(
-    shadowed: Bool[np.ndarray, " m"],
-    facing: Bool[np.ndarray, " m"],
-    edges: Integer[np.ndarray, "e 2"],
-) -> Bool[np.ndarray, " m"]:
-    """Vertices near the border of a cast shadow, which real lights blur.
-
-    A shadow has no border where it meets a surface that is not ``facing`` the lamp anyway.
-    """
-    near = grown(shadowed, edges, PENUMBRA_RINGS)
-    return near & grown(facing & ~shadowed, edges, PENUMBRA_RINGS)
 
 
 def _look_along(direction: Vector3) -> np.ndarray:

@@ -30,7 +30,6 @@ from fitter.reproduction.panels import row, stacked
 from fitter.request import FitRequest
 from fitter.result import FitResult
 from fitter.segmentation.grabcut import Segmentation
-from fitter.vocabulary.choices import SurroundingsKind
 
 WITHOUT_HIGHLIGHTS: Final = 1e9
 """A specular exponent with which no surface shows any: Lambert's model by the same solver."""
@@ -157,7 +156,7 @@ def refit(request: FitRequest, result: FitResult, specular_exponent: float | Non
     )
     intensity = intensity_map(observation.luminance, observation.display, mask)
     body = objective.evaluate(result.person.body)
-    state = first_shading(objective, body, intensity, (light,), SurroundingsKind.UNIFORM)
+    state = first_shading(objective, body, intensity, (light,))
     if state is None:
         return None
     if specular_exponent is not None:

@@ -62,17 +62,6 @@ class LightKind(StrEnum):
     DIRECTIONAL = "directional"
 
 
-class SurroundingsKind(StrEnum):
-    """How light from all round is described, beside the one light of section 5.
-
-    ``uniform``: the ambient constant of Eq. 1. ``spherical_harmonics``: second-order irradiance,
-    with the shadows that the body casts on itself.
-    """
-
-    UNIFORM = "uniform"
-    SPHERICAL_HARMONICS = "spherical_harmonics"
-
-
 class Clothing(StrEnum):
     """How clothes lie.
 

@@ -19,7 +19,6 @@ from fitter.parameters import (
     CameraTilt,
     Light,
     Reflectance,
-    Surroundings,
 )
 from fitter.person.fitted_person import FittedPerson
 from fitter.remarks import Assumption, FitWarning
@@ -297,13 +296,7 @@ def _light(light: Light) -> wire.LightResult:
         azimuth_deg=_degrees(light.azimuth),
         elevation_deg=_degrees(light.elevation),
         distance_m=None if light.kind is LightKind.DIRECTIONAL else round(light.distance, 3),
-        surroundings=None if light.surroundings is None else _surroundings(light.surroundings),
     )
-
-
-def _surroundings(surroundings: Surroundings) -> wire.SurroundingsResult:
-    e0, e1, e2, e3, e4, e5, e6, e7, e8 = rounded_parameters(surroundings)
-    return wire.SurroundingsResult(coefficients=(e0, e1, e2, e3, e4, e5, e6, e7, e8))
 
 
 def _reflectance(reflectance: Reflectance) -> wire.ReflectanceResult:

@@ -93,7 +93,6 @@ def _view(asked: wire.FitOptions | ScanViewOptions, cues: Cues, sent: SentPictur
             azimuth=_radians(asked.light.azimuth_deg),
             elevation=_radians(asked.light.elevation_deg),
             distance=asked.light.distance_m,
-            surroundings=asked.light.surroundings,
         ),
         limb_facing={limb.value: facing for limb, facing in asked.limb_facing.items()},
     )

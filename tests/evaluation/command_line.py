@@ -98,10 +98,6 @@ def _add_modes(to: argparse.ArgumentParser) -> None:
             "combine one, two and three pictures of each person: how measurements tighten",
         ),
         (
-            "--surroundings",
-            "fit with uniform ambient light and with spherical harmonics, side by side",
-        ),
-        (
             "--chain",
             "from a body fitted to the true mesh to a fit that is told nothing, foreign pictures",
         ),

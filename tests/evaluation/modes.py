@@ -37,7 +37,6 @@ from tests.evaluation.dressed import MISSING, dressed_names
 from tests.evaluation.dressed_scores import DressedScore, score_dressed, score_undressed
 from tests.evaluation.foreign import MISSING as FOREIGN_MISSING
 from tests.evaluation.foreign import foreign_half
-from tests.evaluation.light_figures import InLight, in_both_lights, light_lines
 from tests.evaluation.limit_tables import limit_lines, outline_lines, several_lines
 from tests.evaluation.moved_points import moved_fits, moved_lines
 from tests.evaluation.nonsense import nonsense
@@ -64,7 +63,7 @@ from tests.evaluation.spoilt import KINDS, asked_spoilt, measured
 from tests.evaluation.spoilt_table import spoilt_heading, spoilt_lines
 from tests.evaluation.stance_kinds import Kind
 from tests.evaluation.strangers import agreement_of, asked_of, stranger_lines
-from tests.evaluation.table import MEASUREMENTS, case_lines
+from tests.evaluation.table import MEASUREMENTS
 from tests.evaluation.verdict_table import judged_nonsense, judged_picture, verdict_lines
 
 EVERY = 2
@@ -122,16 +121,6 @@ def several(choice: Choice) -> None:
         people = [case for case in cases if case.series is Series.PEOPLE]
         if people:
             _print(several_lines(list(several_pictures(people, names))), f"{half.value} half")
-
-
-def surroundings(choice: Choice) -> None:
-    """With uniform ambient light and with spherical harmonics."""
-    in_light: list[InLight] = []
-    for each in in_both_lights(choice.cases):
-        line = case_lines([each.scored])[1]
-        print(f"{each.surroundings.value:20s}{line}", flush=True)
-        in_light.append(each)
-    _print(light_lines(in_light))
 
 
 def chain(choice: Choice) -> None:
@@ -309,7 +298,6 @@ MODES: Mapping[str, Mode] = {
     "shape_limit": shape_limits,
     "outline_limit": outline_limits,
     "several": several,
-    "surroundings": surroundings,
     "chain": chain,
     "detector": detector,
     "paper": paper,

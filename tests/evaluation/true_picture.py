@@ -1,6 +1,6 @@
 """A picture whose person, camera and light are known, whoever made it, and what a fit is told."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
@@ -8,7 +8,7 @@ from jaxtyping import Float
 from fitter.arrays import Mask
 from fitter.parameters import Light
 from fitter.request import FitRequest, KnownMeasurement, LightGuess
-from fitter.vocabulary.choices import Clothing, OutlineKind, SurroundingsKind
+from fitter.vocabulary.choices import Clothing, OutlineKind
 from tests.evaluation.files import Labels, encoded_mask
 from tests.evaluation.scene import Half, Series
 from tests.evaluation.truth import TrueBody
@@ -35,7 +35,6 @@ class Told:
     place: bool = False
     measurements: tuple[str, ...] = ()
     outline: OutlineKind | None = None
-    surroundings: SurroundingsKind = SurroundingsKind.UNIFORM
     clothing: Clothing = Clothing.AUTO
     proposed: bool = False
 
@@ -104,4 +103,4 @@ def told_request(picture: TruePicture, told: Told) -> FitRequest:
             distance=light.distance,
         )
         request = changed(request, light=guess)
-    return changed(request, light=replace(request.views[0].light, surroundings=told.surroundings))
+    return request

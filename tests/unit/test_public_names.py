@@ -52,7 +52,6 @@ NAMES = [
     "Stage",
     "StageBody",
     "StartingBody",
-    "SurroundingsKind",
     "Verdict",
     "View",
     "ViewKind",

@@ -81,7 +81,7 @@ def test_a_bad_picture_is_refused_at_once(service: Service, image, status, code)
         ({"points": {"nose": [1, 1]}}, "points", "too-few-points"),
         ({"points": POINTS | {"nose": [float("nan"), 1]}}, "points.nose.0", "not-finite"),
         ({"colour": "red"}, "colour", "unknown-field"),
-        ({"light": {"surroundings": "sky"}}, "light.surroundings", "unknown-value"),
+        ({"light": {"kind": "sky"}}, "light.kind", "unknown-value"),
         ({"energies": ["edges"]}, "energies", "unknown-field"),
         ({"paper": {"energies": ["edges", "clicks"]}}, "paper.energies.1", "unknown-value"),
         ({"paper": {"energies": []}}, "paper.energies", "wrong-length"),

@@ -23,8 +23,8 @@ from fitter.person.fitted_person import FittedPerson
 from fitter.render.camera import Camera
 from fitter.render.interpolation import shade_image
 from fitter.render.rasterizer import render
-from fitter.render.reflectance import shade, shading_terms
-from fitter.render.shadow import cast_shadow, lamp_seen
+from fitter.render.reflectance import shading_terms
+from fitter.render.shadow import cast_shadow
 from fitter.vocabulary.choices import Gender, LightKind
 from tests.unit.applications.bodies import packaged
 from tests.unit.export.glb_reader import read_glb
@@ -72,8 +72,8 @@ def sitter() -> Sitter:
         specular_exponent=EXPONENT,
     )
     direct = terms.diffuse * lit
-    surroundings = AMBIENT / np.median(luminance[rendering.vertex_visible])
-    brightness = luminance * (direct + surroundings) + GLOSS * terms.specular * lit
+    around = AMBIENT / np.median(luminance[rendering.vertex_visible])
+    brightness = luminance * (direct + around) + GLOSS * terms.specular * lit
     shaded = paint * (brightness / luminance)[:, None]
 
     def photographed(colours):
@@ -180,37 +180,6 @@ def test_the_albedo_comes_back_from_under_the_light(sitter):
     assert np.percentile(seen, 95) < 0.06
     painted = picture_texture(sitter.person, sitter.evaluator, sitter.lit, size=512)
     assert np.median(error(sitter, painted, TexelOrigin.SEEN)) > 5.0 * np.median(seen)
-
-
-def test_surroundings_bring_the_albedo_back_from_shadows_too(sitter):
-    model, person = sitter.evaluator.model, sitter.person
-    light = replace(
-        LIGHT, elevation=1.0, surroundings=np.array([1.2, -0.2, -0.05, 0.1, 0, 0, 0.02, 0, 0])
-    )
-    reflectance = replace(person.reflectance, ambient=0.0)
-    vertices = sitter.evaluator.vertices(person.body)
-    rendering = render(vertices, model.triangles, CAMERA)
-    lit = lamp_seen(vertices, model.triangles, light=light, body_centre=person.body.translation)
-    brightness = shade(
-        vertices,
-        rendering.vertex_normals,
-        light=light,
-        body_centre=person.body.translation,
-        reflectance=reflectance,
-        lit=lit,
-    )
-    colours = sitter.paint * (brightness / reflectance.albedo)[:, None]
-    channels = [shade_image(rendering, channel, background=0.9) for channel in colours.T]
-    picture = np.stack(channels, axis=2)
-    known = replace(person, light=light, reflectance=reflectance)
-    albedo = albedo_texture(known, sitter.evaluator, picture, size=512)
-    seen = error(sitter, albedo, TexelOrigin.SEEN)
-    assert np.median(seen) < 0.01
-    assert np.percentile(seen, 95) < 0.06
-    # Eq. 1 counts shadows as hidden.
-    alone = replace(known, light=replace(light, surroundings=None))
-    hidden = albedo_texture(alone, sitter.evaluator, picture, size=512)
-    assert albedo.seen_share > 1.05 * hidden.seen_share
 
 
 def test_a_picture_of_another_scale_gives_the_same(sitter, texture):

@@ -1,12 +1,9 @@
-from dataclasses import replace
-
 import numpy as np
 
-from fitter.vocabulary.choices import Cues, SurroundingsKind
+from fitter.vocabulary.choices import Cues
 from tests.evaluation.body_tables import bmi_class, bmi_lines, distance_lines, trunk_lines
 from tests.evaluation.cases import CASES, DEMO
 from tests.evaluation.joint_figures import PAIRS
-from tests.evaluation.light_figures import InLight, LightFigures, light_lines
 from tests.evaluation.scene import Case, Half
 from tests.evaluation.scoring import Scored, resampled
 from tests.evaluation.table import MEASUREMENTS, case_lines, cue_lines, summary_lines, worst_lines
@@ -72,35 +69,6 @@ def test_intervals_hold_the_truth_within_their_standard_errors():
     assert "10/20  50%" in _line(scored, "truth in 68 %")
     assert "15/20  75%" in _line(scored, "truth in 95 %")
     assert "2/4  50%" in _line(scored, "  waist in 68 %")
-
-
-def test_both_descriptions_of_the_light_stand_side_by_side():
-    found = [
-        InLight(
-            surroundings=kind,
-            scored=scored_picture(Cues.SES, error),
-            figures=LightFigures(
-                unexplained=share,
-                unexplained_in_shadow=float("nan"),
-                skin_lit=share,
-                skin_in_shadow=share,
-                skin_hidden=share,
-            ),
-        )
-        for kind, error, share in [
-            (SurroundingsKind.UNIFORM, -3.0, 0.2),
-            (SurroundingsKind.UNIFORM, 5.0, 0.3),
-            (SurroundingsKind.SPHERICAL_HARMONICS, 1.0, 0.1),
-        ]
-    ]
-    # Of no shadow, or of one picture alone, there may be nothing to average.
-    found[2] = replace(found[2], figures=replace(found[2].figures, unexplained_in_shadow=0.07))
-    found[0] = replace(found[0], figures=replace(found[0].figures, unexplained_in_shadow=0.5))
-    lines = {line[:26].strip(): line[26:].split() for line in light_lines(found)}
-    assert lines["waist [cm]"] == ["4.00", "4.00", "1.00", "1.00"]
-    assert lines["unexplained [%]"] == ["25.00", "25.00", "10.00", "10.00"]
-    assert lines["unexplained in shadow [%]"] == ["50.00", "50.00", "7.00", "7.00"]
-    assert lines["truth in 95 %"] == ["5/10", "5/5"]
 
 
 def test_a_fit_fails_by_a_limb_that_faces_the_wrong_way():

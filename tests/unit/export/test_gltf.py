@@ -11,8 +11,6 @@ from fitter.export.gltf_light import quaternion_from_z_to
 from fitter.export.gltf_mesh import LIGHTEST
 from fitter.parameters import CameraTilt
 from fitter.person.upright import upright_frame
-from fitter.render.shadow import cast_shadow
-from fitter.render.surroundings import irradiance
 from fitter.vocabulary.outcomes import StanceKind
 from tests.unit.body.synthetic_model import bar_model
 from tests.unit.export.glb_reader import read_glb
@@ -110,28 +108,6 @@ def test_a_point_light_stands_and_shines_as_in_equation_1(result, posed):
     assert l_at_centre == pytest.approx(light["extras"]["colour_scale"])
     assert light["extras"]["ambient"] == result.person.reflectance.ambient
     assert light["extras"]["specular_exponent"] == result.person.reflectance.specular_exponent
-
-
-def test_surroundings_stand_in_the_files_axes_beside_what_shadows_leave_of_the_lamp(model, posed):
-    rng = np.random.default_rng(3)
-    surroundings = np.concatenate([[1.2], 0.1 * rng.standard_normal(8)])
-    light = replace(POINT_LIGHT, surroundings=surroundings)
-    result = result_of(model, light=light)
-    glb = read_glb(body_posed_glb(result.found, model))
-    found = np.array(light_of(glb)[0]["extras"]["surroundings"])
-    normals = glb.attribute("NORMAL").astype(float)
-    np.testing.assert_allclose(
-        irradiance(found, normals), irradiance(surroundings, normals * TO_GLTF), atol=1e-6
-    )
-    shadow = cast_shadow(
-        result.found.posed_vertices,
-        model.triangles,
-        light=light,
-        body_centre=result.person.body.translation,
-    )
-    np.testing.assert_array_equal(glb.attribute("_LIT"), 1.0 - shadow)
-    assert "surroundings" not in light_of(posed)[0]["extras"]
-    assert "_LIT" not in posed.document["meshes"][0]["primitives"][0]["attributes"]
 
 
 def test_a_directional_light_shines_along_its_nodes_minus_z(model):

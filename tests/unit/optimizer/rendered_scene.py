@@ -39,9 +39,8 @@ from fitter.render.camera import Camera
 from fitter.render.interpolation import shade_image
 from fitter.render.rasterizer import render
 from fitter.render.reflectance import shade
-from fitter.render.shadow import lamp_seen
 from fitter.request import Click
-from fitter.vocabulary.choices import Gender, LightKind, SurroundingsKind
+from fitter.vocabulary.choices import Gender, LightKind
 
 CAMERA = Camera(focal_length_px=700.0, centre_x=180.0, centre_y=240.0, width=360, height=480)
 LIGHT = Light(kind=LightKind.POINT, azimuth=0.7, elevation=0.5, distance=2.5)
@@ -95,7 +94,7 @@ def of_person(
 def rendered_scene(
     seed: int, light: Light = LIGHT, *, shape_seed: int | None = None, turned: float = 0.0
 ) -> RenderedScene:
-    """A standing man of random shape near the mean pose, in ambient light or in surroundings.
+    """A standing man of random shape near the mean pose, under a lamp and in ambient light.
 
     Scenes of one ``shape_seed`` show the same man; ``turned`` is about his own axis, radians.
     """
@@ -125,10 +124,9 @@ def rendered_scene(
         reflectance=Reflectance(
             albedo=np.full(len(vertices), 0.5),
             specularity=np.full(len(vertices), 0.08),
-            ambient=0.06 if light.surroundings is None else 0.0,
+            ambient=0.06,
             specular_exponent=12.0,
         ),
-        lit=lamp_seen(vertices, model.triangles, light=light, body_centre=truth.translation),
     )
     mask = rendering.silhouette
     luminance = np.where(mask, np.nan_to_num(shade_image(rendering, values)), 0.0)
@@ -166,12 +164,11 @@ def lit_fit(
     start: Candidate,
     search: BodySearch,
     lights: tuple[Light, ...],
-    surroundings: SurroundingsKind = SurroundingsKind.UNIFORM,
     intensity: IntensityMap | None = None,
 ) -> tuple[Candidate, ShadedFit] | None:
     """Section 5 from a body: the final one, and its light; None where shading tells nothing."""
     seen = scene.intensity if intensity is None else intensity
-    state = first_shading(scene.objective, start, seen, lights, surroundings)
+    state = first_shading(scene.objective, start, seen, lights)
     if state is None:
         return None
     begun = scene.person.evaluate([start])

@@ -14,9 +14,6 @@ from fitter.vocabulary.choices import LightKind
 from tests.unit.optimizer.rendered_scene import LIGHT, of_person, rendered_scene
 
 DIRECTIONAL = replace(LIGHT, kind=LightKind.DIRECTIONAL, distance=float("inf"))
-SURROUNDED = replace(
-    LIGHT, surroundings=np.array([0.9, -0.15, 0.05, 0.1, 0.02, -0.03, 0.04, 0.01, -0.02])
-)
 
 
 def _lit(light: Light) -> tuple[Objective, Candidate, ShadingEvidence]:
@@ -29,13 +26,12 @@ def _lit(light: Light) -> tuple[Objective, Candidate, ShadingEvidence]:
         reflectance=Reflectance(
             albedo=np.full(m, 0.5),
             specularity=np.full(m, 0.08),
-            ambient=0.06 if light.surroundings is None else 0.0,
+            ambient=0.06,
             specular_exponent=12.0,
         ),
         vertex_areas=scene.operators.shaded.areas,
         shadowed=np.zeros(m, dtype=np.bool_),
         eta=0.04,
-        lit=None if light.surroundings is None else np.where(np.arange(m) % 5 == 0, 0.0, 1.0),
     )
     objective = scene.objective.with_shading(evidence)
     return objective, objective.evaluate(scene.truth), evidence
@@ -82,39 +78,7 @@ def test_slopes_are_those_of_brightness_by_finite_differences(light):
     np.testing.assert_allclose(slopes[inside], np.array(differences).T[inside], atol=1e-6)
 
 
-def test_slopes_by_surroundings_are_those_of_brightness_by_finite_differences():
-    _, candidate, evidence = _lit(SURROUNDED)
-    rendering = candidate.rendering
-    vertices = np.flatnonzero(usable_vertices(rendering, evidence))[::7]
-    reflectance, lit = evidence.reflectance_of(vertices), evidence.lit_at(vertices)
-    assert lit is not None
-
-    def brightness(step: np.ndarray, lamp: float, scale: float) -> np.ndarray:
-        # The products of coefficients and scale are the unknowns: the lamp grows by itself.
-        return shade(
-            rendering.vertices[vertices],
-            rendering.vertex_normals[vertices],
-            light=replace(SURROUNDED, surroundings=(SURROUNDED.surroundings + step) / (1.0 + lamp)),
-            body_centre=evidence.body_centre,
-            reflectance=replace(
-                reflectance,
-                albedo=(1.0 + lamp) * reflectance.albedo,
-                specularity=(1.0 + scale) * reflectance.specularity,
-            ),
-            lit=lit,
-        )
-
-    small = 1e-6
-    differences = [
-        (brightness(h[:9], h[9], h[10]) - brightness(-h[:9], -h[9], -h[10])) / (2 * small)
-        for h in small * np.eye(11)
-    ]
-    slopes = light_slopes(rendering, evidence, vertices)
-    assert slopes.shape[1] == 14
-    np.testing.assert_allclose(slopes[:, 3:], np.array(differences).T, atol=1e-7)
-
-
-@pytest.mark.parametrize("light", [LIGHT, DIRECTIONAL, SURROUNDED])
+@pytest.mark.parametrize("light", [LIGHT, DIRECTIONAL])
 def test_a_free_light_takes_information_and_never_more_than_there_is(light):
     objective, candidate, _ = _lit(light)
     matrix, _ = normal_equations(objective, candidate)

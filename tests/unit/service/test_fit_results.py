@@ -222,19 +222,6 @@ def test_a_result_of_before_the_tilt_can_be_read():
     assert read.camera.pitch_deg is None
 
 
-def test_surroundings_are_nine_coefficients_or_null():
-    uniform = fit_result(result(light=POINT_LIGHT), part_names=PARTS)
-    assert uniform.light is not None
-    assert uniform.light.surroundings is None
-    surroundings = np.linspace(1.0, -0.2, 9)
-    surrounded = replace(POINT_LIGHT, surroundings=surroundings)
-    translated = fit_result(result(light=surrounded), part_names=PARTS)
-    assert wire.FitResult.model_validate_json(translated.model_dump_json()) == translated
-    assert translated.light is not None
-    assert translated.light.surroundings is not None
-    np.testing.assert_allclose(translated.light.surroundings.coefficients, surroundings)
-
-
 def test_a_directional_light_has_no_distance():
     translated = fit_result(result(light=SUN), part_names=PARTS)
     assert translated.light is not None

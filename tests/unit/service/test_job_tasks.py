@@ -22,7 +22,6 @@ PICTURE: dict[str, Any] = {
         "azimuth_deg": None,
         "elevation_deg": None,
         "distance_m": None,
-        "surroundings": "uniform",
     },
     "focal_length_px": None,
     "focal_length_35mm": 26.0,

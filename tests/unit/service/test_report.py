@@ -156,7 +156,7 @@ def test_names_are_those_of_the_page(language: Language):
 
 
 def test_no_word_is_of_the_paper_or_of_the_api():
-    codes = ("ambiguous-limb-facing", "surroundings-not-found", "low-silhouette-overlap")
+    codes = ("ambiguous-limb-facing", "shading-not-used", "low-silhouette-overlap")
     spoken = "right_upper_arm: by 3 nats under Eq. 1, see limb_facing."
     warnings = [{"code": code, "message": spoken} for code in codes]
     text = Elements(report_html(report_content(fit_result(warnings=warnings)), PICTURES)).text

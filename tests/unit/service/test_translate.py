@@ -23,8 +23,7 @@ REQUEST = """{
   "optimizer": "simplex", "clothing": "loose",
   "points": {"nose": [10, 20], "left_knee": {"x": 30, "y": 40, "visibility": 1},
              "left_ankle": [1, 2, 0]},
-  "light": {"kind": "directional", "azimuth_deg": 90, "elevation_deg": -45,
-            "surroundings": "spherical_harmonics"},
+  "light": {"kind": "directional", "azimuth_deg": 90, "elevation_deg": -45},
   "limb_facing": {"left_forearm": "toward"}
 }"""
 
@@ -165,7 +164,6 @@ def test_degrees_become_radians():
     assert light.azimuth == pytest.approx(math.pi / 2)
     assert light.elevation == pytest.approx(-math.pi / 4)
     assert light.distance is None
-    assert light.surroundings is fitter_request.SurroundingsKind.SPHERICAL_HARMONICS
 
 
 def test_what_the_caller_leaves_open_stays_open():

@@ -17,7 +17,6 @@ from api_schemas.results import (
     LightResult,
     Measurement,
     ReflectanceResult,
-    SurroundingsResult,
 )
 from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.measurements import CHIEF, Group, group_of
@@ -210,11 +209,7 @@ def _light_and_skin(
         if light.distance_m is None
         else said.away.format(metres=number(light.distance_m, ".2f"))
     )
-    all_round = (
-        said.of_lamp.format(percent=number(100.0 * reflectance.ambient, ".0f"))
-        if light.surroundings is None
-        else said.of_lamp_on_mean.format(percent=number(_mean_percent(light.surroundings), ".0f"))
-    )
+    all_round = said.of_lamp.format(percent=number(100.0 * reflectance.ambient, ".0f"))
     skin = number(100.0 * reflectance.mean_albedo, ".0f")
     gloss = number(100.0 * reflectance.mean_specularity, ".0f")
     return Section(
@@ -227,11 +222,6 @@ def _light_and_skin(
         ),
         for_experts=True,
     )
-
-
-def _mean_percent(surroundings: SurroundingsResult) -> float:
-    """The mean of E over all directions."""
-    return 100.0 * surroundings.coefficients[0] / (2.0 * math.sqrt(math.pi))
 
 
 def _fit(result: FitResult, wording: Wording) -> Section:

@@ -34,9 +34,6 @@ _WARNINGS: Final = {
         "Too little of the body is visible, unclipped and away from its outline for shading to "
         "say anything; the body is found by outline alone."
     ),
-    "surroundings-not-found": (
-        "Too little bare skin is visible to tell the light of the surroundings from the lamp."
-    ),
 }
 
 ENGLISH: Final = Wording(
@@ -93,7 +90,6 @@ ENGLISH: Final = Wording(
         mirrors="mirrors {percent} % of it",
         all_round="Light from all round",
         of_lamp="{percent} % of the lamp's",
-        of_lamp_on_mean="{percent} % of the lamp's on the mean",
     ),
     fit=FitWords(
         fit="How sure it is",

@@ -78,7 +78,6 @@ GERMAN: Final = Wording(
         mirrors="spiegelt {percent} % davon",
         all_round="Licht von überall",
         of_lamp="{percent} % des Lampenlichts",
-        of_lamp_on_mean="im Mittel {percent} % des Lampenlichts",
     ),
     fit=FitWords(
         fit="Wie sicher es ist",

@@ -109,10 +109,6 @@ _WARNINGS: Final = {
         "anderen: Bei einem Paar sind links und rechts vielleicht vertauscht. Gemeint sind die "
         "Seiten der Person."
     ),
-    "surroundings-not-found": (
-        "Es ist zu wenig bloße Fläche zu sehen, um das Licht der Umgebung von der Lampe zu "
-        "trennen: Angenommen sind eine Lampe und gleichmäßiges schwaches Licht von überall."
-    ),
     "transparency-over-white": (
         "Das Bild ist zum Teil durchsichtig und wurde auf Weiß gelegt. Wenn der deckende Teil die "
         "Person ist, verwenden Sie ihn als Maske."

@@ -67,7 +67,6 @@ class LightWords:
     mirrors: str
     all_round: str
     of_lamp: str
-    of_lamp_on_mean: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
