@@ -131,8 +131,7 @@ lock:
 		--strip-extras --extra docs -c requirements.lock -o requirements-docs.txt pyproject.toml
 
 $(STAMP): $(PACKAGES)
-	$(VENV)/bin/maquette warm-up
-	$(VENV)/bin/python -m tests.kernels
+	$(VENV)/bin/python -m service.worker.kernels
 	touch $(STAMP)
 
 $(PACKAGES): pyproject.toml service/version.py requirements.lock requirements-detector.txt

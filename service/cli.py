@@ -131,9 +131,6 @@ def _parser() -> argparse.ArgumentParser:
     )
     demo.set_defaults(command=_demo)
 
-    warm_up = commands.add_parser("warm-up", help="compile what is compiled at first use")
-    warm_up.set_defaults(command=_warm_up)
-
     openapi = commands.add_parser("openapi", help="print the OpenAPI document")
     openapi.add_argument("--output", type=Path, metavar="FILE", help="write it there instead")
     openapi.set_defaults(command=_openapi)
@@ -323,14 +320,6 @@ def _demo(parsed: argparse.Namespace) -> int:
 
     read_settings("demo")
     return run_demo(parsed.output)
-
-
-def _warm_up(_: argparse.Namespace) -> int:
-    from service.commands.fit import warm_up
-    from service.startup.begin import read_settings
-
-    read_settings("warm-up")
-    return warm_up()
 
 
 def _openapi(parsed: argparse.Namespace) -> int:

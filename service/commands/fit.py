@@ -9,23 +9,16 @@ from typing import Any, Final, cast
 from pydantic import BaseModel
 from rich.console import Console
 
-from api_schemas.derivation_kinds.caricature import CaricatureOptions
 from api_schemas.points import AUTO
 from api_schemas.problems import Problem, problem
 from api_schemas.requests import FitOptions, FitRequest
 from service.commands.local_work import UNUSABLE_INPUT, fitted, told, write_result
-from service.demo_data.sample import load_sample
-from service.jobs.inputs import PERSON, SentPicture
-from service.settings import Settings
+from service.jobs.inputs import SentPicture
 from service.submissions.refusal import RefusedError
 from service.submissions.validation import parsed
-from service.worker.kernel_cache import kept_kernels
-from service.worker.pipeline_port import DerivationInput, PipelineOutput, load_pipeline
+from service.worker.pipeline_port import PipelineOutput
 
 PIPELINE: Final = "service.worker.pipeline"
-COMPILING: Final = (
-    "Compiling kernels: one to three minutes, once per installation; where that is done, seconds."
-)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -100,31 +93,6 @@ def fit_request(arguments: FitArguments) -> bytes:
     if arguments.points is None:
         return json.dumps({"points": AUTO} | dict(arguments.overrides)).encode()
     return request_from_file(arguments.points.read_text(), arguments.overrides)
-
-
-def warm_up(*, pipeline: str = PIPELINE) -> int:
-    """Fit the sample and exaggerate it, so that everything compiled at first use is compiled."""
-    console = Console()
-    console.print(COMPILING, highlight=False)
-    sample = load_sample()
-    asked = FitRequest.model_validate_json(sample.request)
-    picture = SentPicture(sample.image, None)
-    output = fitted(console, asked, [picture], models=None, pipeline=pipeline)
-    if PERSON in output.artifacts:
-        # A caricature asks where a surface runs through itself, which no fit does.
-        settings = Settings()
-        with kept_kernels(rehearsed=True):
-            load_pipeline(pipeline).derive(
-                DerivationInput(
-                    options=CaricatureOptions(kind="caricature", factor=1.1),
-                    inputs={PERSON: output.artifacts[PERSON]},
-                    max_pixels=settings.max_pixels,
-                    models=settings.models_dir,
-                    detector=settings.detector_dir,
-                ),
-                lambda _: None,
-            )
-    return 0
 
 
 def _unreadable(why: str) -> Problem:

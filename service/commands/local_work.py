@@ -21,7 +21,6 @@ from service.submissions.detector import check_detector
 from service.submissions.refusal import RefusedError
 from service.submissions.submission import check_submission
 from service.worker.artifacts import with_result_document
-from service.worker.kernel_cache import kept_kernels
 from service.worker.pipeline_port import (
     PipelineInput,
     PipelineOutput,
@@ -69,7 +68,7 @@ def fitted(
     settings = Settings()
     checked = check_submission(asked, pictures, max_pixels=settings.max_pixels)
     check_detector(checked.options, settings.detector_dir)
-    with kept_kernels(), stage_bars(console) as bars:
+    with stage_bars(console) as bars:
         output = load_pipeline(pipeline).run(
             PipelineInput(
                 options=checked.options,

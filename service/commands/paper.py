@@ -26,7 +26,6 @@ from service.settings import Settings
 from service.submissions.submission import check_submission
 from service.submissions.validation import parsed
 from service.worker import translate
-from service.worker.kernel_cache import kept_kernels
 from service.worker.pipeline_port import UnusableInputError
 
 _HIDING: Final = "occluded"
@@ -98,8 +97,7 @@ def _drawn(arguments: PaperArguments, settings: Settings, console: Console) -> R
     try:
         if arguments.motion is not None:
             pictures = replace(pictures, motion=read_motion(arguments.motion.read_bytes()))
-        with kept_kernels():
-            return reproduce(pictures, keep)
+        return reproduce(pictures, keep)
     except InvalidInputError as error:
         raise UnusableInputError(translate.field_problem(error)) from error
 

@@ -10,7 +10,6 @@ import contextlib
 import faulthandler
 import logging
 import os
-import queue
 import resource
 import signal
 import threading
@@ -33,7 +32,6 @@ from service.numerics.messages import (
     send,
 )
 from service.numerics.tasks import ChildSetup, Observe, Parts, ProblemError, load_tasks
-from service.process.heap import give_back
 from service.process.logs import configure_logging, log_context
 
 LOG: Final = logging.getLogger(__name__)
@@ -43,10 +41,6 @@ OOM_SCORE: Final = 500
 
 TOLD_EVERY_S: Final = 0.05
 """A search reports every few milliseconds, and the owner is woken by each."""
-
-MOMENT_S: Final = 0.1
-"""A child that is given nothing for so long gives back what it has freed: a picture takes a hundred
-times what is needed in between."""
 
 
 def work(setup: ChildSetup, connection: Connection) -> None:
@@ -61,15 +55,7 @@ def work(setup: ChildSetup, connection: Connection) -> None:
     given = _follow_owner(connection)
     while True:
         # Nothing here holds a task on to the next: it goes out of scope with the call.
-        _work_on(_next(given), setup, connection)
-
-
-def _next(given: SimpleQueue[Received]) -> Received:
-    try:
-        return given.get(timeout=MOMENT_S)
-    except queue.Empty:
-        give_back()
-        return given.get()
+        _work_on(given.get(), setup, connection)
 
 
 def _work_on(given: Received, setup: ChildSetup, connection: Connection) -> None:

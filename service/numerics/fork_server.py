@@ -18,7 +18,6 @@ from service.numerics import child
 from service.numerics.messages import Message, Received, receive, send
 from service.numerics.tasks import ChildSetup
 from service.process.caches import settle_folders
-from service.process.heap import KEPT
 from service.process.interpreter import SAFE_PATH_VARIABLE
 
 LOG: Final = logging.getLogger(__name__)
@@ -49,8 +48,6 @@ def settle_environment() -> Path:
     """Settle what the server is to inherit, before it is started; return the work folder."""
     for variable in THREAD_LIMITS:
         os.environ.setdefault(variable, "1")
-    for variable, value in KEPT.items():
-        os.environ.setdefault(variable, value)
     # The fork server and its resource tracker are started by `python -c`.
     os.environ[SAFE_PATH_VARIABLE] = "1"
     return settle_folders()

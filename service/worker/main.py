@@ -53,7 +53,7 @@ def run_worker(
     Beside an API it also answers the API's questions at the address ``questions_at``, and ends with
     standard input. ``pipeline`` and ``estimates`` are the tables of jobs and of questions, by
     default the real ones, or the sandbox's where that is set. ``secretless`` is what the fork
-    server imports first, ``preload`` what last. ``models_command`` starts the process that says
+    server imports first, ``preload`` what next. ``models_command`` starts the process that says
     which body models there are.
     """
     stop, work = _begin(with_starter=questions_at is not None)
@@ -145,7 +145,7 @@ def _answering(
 ) -> ForkServer:
     """Start the fork server, and answer questions by what it forks."""
     tasks = estimates or (SANDBOX_ESTIMATES if settings.sandbox else ESTIMATES)
-    server = ForkServer(secretless, tasks, preload)
+    server = ForkServer(secretless, preload, tasks)
     server.begin_preloading()
     setup = child_setup(settings, name="estimator", tasks=tasks)
     answer_questions(QuickLane(server, setup, children=settings.estimator_processes), questions_at)

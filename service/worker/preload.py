@@ -1,44 +1,54 @@
 """Imported once by the fork server: what is loaded here is shared by every process it forks."""
 
-import gc
+import logging
 import os
+import tempfile
 from contextlib import suppress
+from pathlib import Path
+from typing import Final
 
-from service.process.caches import KERNELS, settle_folders
+from service.process.caches import KERNELS, VARIABLE, keep_kernels, link_kernels, settle_folders
 from service.process.confinement import write_only_below
-from service.process.heap import give_back, give_back_files
+from service.settings import Settings
+
+LOG: Final = logging.getLogger(__name__)
 
 
-def _load() -> None:
-    if not os.environ.get(KERNELS):
-        # Imported by another than a worker, who has done it.
-        settle_folders()
-    # Imported here: nothing is looked through for cycles meanwhile.
-    from fitter.errors import ModelFileError
+def _load(settings: Settings) -> None:
+    # Imported here: Numba reads once where its cache is.
+    from fitter.detection.detector import installed_detector
+    from fitter.errors import DetectorUnavailableError, ModelFileError
     from fitter.fits.prepared_model import prepared_model
     from fitter.vocabulary.choices import Gender
-    from service.settings import Settings
-    from service.worker.rehearsal import make_ready, rehearse_sandbox
+    from service.worker.kernels import make_kernels_ready
 
+    # Without a detector, whoever needs it is told.
+    with suppress(DetectorUnavailableError):
+        installed_detector(settings.detector_dir)
     # The worker has the same models read and reports what is wrong with them.
     with suppress(ModelFileError):
-        settings = Settings()
-        # First: preparing a model compiles what is not compiled yet, and keeps what that took.
-        prepare = rehearse_sandbox if settings.sandbox else make_ready
-        prepare(settings.models_dir, settings.detector_dir)
+        try:
+            make_kernels_ready(settings.detector_dir)
+        except ModelFileError:
+            raise
+        except Exception:
+            LOG.exception("The sample could not be fitted: every fit takes longer.")
         for gender in Gender:
             prepared_model(gender, models=settings.models_dir)
 
 
-gc.disable()
-_load()
+if VARIABLE not in os.environ:
+    # Imported by another than a worker, who has done it.
+    settle_folders()
 
-# What is here by now stays: the collector of a fork that looked through it would copy its pages.
-# What has been freed would be copied too, where a fork writes to it.
-gc.freeze()
-gc.enable()
-give_back()
-give_back_files()
+# Whoever decodes pictures can write to this folder alone, and nobody reads what it writes there
+# but others that are forked here: what is kept is copied before.
+KEPT: Final = Path(os.environ[KERNELS]) if os.environ.get(KERNELS) else None
+OWN: Final = Path(tempfile.mkdtemp(prefix="kernels-"))
+link_kernels(OWN, KEPT)
+os.environ[KERNELS] = str(OWN)
+_load(Settings())
+keep_kernels(OWN, KEPT)
 
 # From here on pictures are decoded, in what is forked: what it may write ends with the worker.
 write_only_below(os.environ["TMPDIR"])

@@ -13,7 +13,7 @@ from api_schemas.results import FitResult
 from service.cli import main
 from service.commands.check import CheckArguments, check_locally
 from service.commands.demo import run_demo
-from service.commands.fit import FitArguments, fit_locally, warm_up
+from service.commands.fit import FitArguments, fit_locally
 from service.demo_data.sample import Sample, load_sample
 from service.representation.formats import OBJ, PLY, STL
 from service.version import VERSION
@@ -253,18 +253,12 @@ def test_a_demo_whose_fit_fails_says_why(tmp_path, capsys):
     assert "The picture ends too early." in capsys.readouterr().out.replace("\n", " ")
 
 
-def test_warming_up_says_what_it_needs(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr("service.commands.fit.load_sample", sample)
-    assert warm_up(pipeline=FAKE) == 0
-    assert capsys.readouterr().out.startswith("Compiling kernels: one to three minutes")
-
-
 def test_help_names_every_command(capsys):
     with pytest.raises(SystemExit) as ended:
         main(["--help"])
     assert ended.value.code == 0
     printed = capsys.readouterr().out
-    assert all(name in printed for name in ("serve", "worker", "fit", "demo", "warm-up", "openapi"))
+    assert all(name in printed for name in ("serve", "worker", "fit", "demo", "openapi"))
 
 
 def test_the_version_is_printed(capsys):

@@ -35,15 +35,17 @@ def test_a_folder_that_the_environment_names_stays(caches, monkeypatch, named):
     assert list(caches.iterdir()) == []
 
 
-@pytest.mark.parametrize("named", ["", "/elsewhere"])
-def test_numba_keeps_nothing_beyond_the_process_whatever_the_environment_names(
-    caches, monkeypatch, named
+@pytest.mark.parametrize("writable", [True, False])
+def test_numba_keeps_kernels_beside_the_code_or_else_in_the_users_cache(
+    caches, monkeypatch, writable
 ):
-    monkeypatch.setenv(KERNELS, named)
+    monkeypatch.setenv(KERNELS, "")
+    monkeypatch.setenv(VARIABLE, str(caches / "ours"))
+    monkeypatch.setattr(os, "access", lambda *_: writable)
     # As in a process that has not loaded it yet.
     monkeypatch.delitem(sys.modules, "numba", raising=False)
     assert settle_folders() == caches / "work"
-    assert os.environ[KERNELS] == str(caches / "work" / "kernels")
+    assert os.environ[KERNELS] == ("" if writable else str(caches / "ours" / "kernels"))
 
 
 def test_nothing_is_read_where_others_may_have_put_it(caches):

@@ -1,0 +1,130 @@
+"""Compiled kernels: linked where nobody may write, kept after they were compiled, made anew."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from service.numerics.fork_server import THREAD_LIMITS
+from service.process import caches
+from service.process.caches import keep_kernels, link_kernels
+
+REPOSITORY = Path(__file__).parents[3]
+
+MADE_ANEW = """
+import os, sys
+from pathlib import Path
+
+folder = Path(sys.argv[1])
+sys.path.append(str(folder))
+from service.worker import kernels
+
+def fit_sample(detector):
+    sys.modules.pop("_some_kernels", None)
+    from _some_kernels import quadrupled
+    print(quadrupled(3.0), sum(quadrupled.stats.cache_hits.values()))
+
+kernels.fit_sample = fit_sample
+kernels.make_kernels_ready()
+"""
+
+KERNELS = """
+from numba import njit
+
+@njit(cache=True)
+def doubled(value):
+    return 2.0 * value
+
+@njit(cache=True)
+def quadrupled(value):
+    return doubled(doubled(value))
+"""
+
+
+def made_ready(folder: Path) -> subprocess.CompletedProcess[str]:
+    """A process has its two kernels ready; it prints a result, and how many were read."""
+    return subprocess.run(
+        [sys.executable, "-c", MADE_ANEW, folder],
+        cwd=REPOSITORY,
+        env=os.environ | {"NUMBA_CACHE_DIR": str(folder / "cache")},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("damaged", ["*.nbi", "*.nbc"])
+@pytest.mark.parametrize("left", [0, 0.5])
+def test_a_damaged_kernel_is_made_anew(tmp_path, damaged, left):
+    (tmp_path / "_some_kernels.py").write_text(KERNELS)
+    assert made_ready(tmp_path).stdout.split() == ["12.0", "0"]
+    assert made_ready(tmp_path).stdout.split() == ["12.0", "1"]
+    for file in (tmp_path / "cache").rglob(damaged):
+        content = file.read_bytes()
+        file.write_bytes(content[: int(left * len(content))])
+    mended = made_ready(tmp_path)
+    assert mended.stdout.split() == ["12.0", "0"]
+    assert "compiled anew" in mended.stderr
+    assert made_ready(tmp_path).stdout.split() == ["12.0", "1"]
+
+
+@pytest.fixture
+def code(tmp_path, monkeypatch) -> Path:
+    """A package with a module of kernels, one of them compiled."""
+    folder = tmp_path / "package"
+    (folder / "render" / "__pycache__").mkdir(parents=True)
+    (folder / "render" / "_kernels.py").touch()
+    (folder / "render" / "__pycache__" / "_kernels.one.nbi").write_text("kept")
+    monkeypatch.setattr(caches, "package", lambda: folder)
+    return folder
+
+
+def test_what_was_compiled_is_kept_and_what_was_linked_is_left(code, tmp_path):
+    own = tmp_path / "own"
+    link_kernels(own)
+    (linked,) = own.rglob("*.nbi")
+    assert linked.read_text() == "kept"
+    (linked.parent / "_kernels.two.nbi").write_text("new")
+    keep_kernels(own)
+    found = {file.name: file.read_text() for file in code.rglob("*.nbi")}
+    assert found == {"_kernels.one.nbi": "kept", "_kernels.two.nbi": "new"}
+
+
+def test_where_another_folder_is_kept_nothing_is_written_beside_the_code(code, tmp_path):
+    own, kept = tmp_path / "own", tmp_path / "kept"
+    link_kernels(kept)
+    link_kernels(own, kept)
+    (next(own.iterdir()) / "_kernels.two.nbi").write_text("new")
+    keep_kernels(own, kept)
+    assert {file.name for file in kept.rglob("*.nbi")} == {"_kernels.one.nbi", "_kernels.two.nbi"}
+    assert len([*code.rglob("*.nbi")]) == 1
+
+
+def test_folders_are_called_as_numba_calls_them():
+    from numba.core.caching import UserProvidedCacheLocator
+
+    for folder, name in caches._folders():
+        source = str(folder / "_kernels.py")
+        assert UserProvidedCacheLocator.get_suitable_cache_subpath(source) == name
+
+
+@pytest.mark.slow
+def test_the_fork_server_has_no_threads_and_compiles_nothing_that_is_kept():
+    program = (
+        "import os\n"
+        "from service.worker.preload import OWN\n"
+        "compiled = [file for file in OWN.rglob('*.nb[ci]') if not file.is_symlink()]\n"
+        "print(len(os.listdir('/proc/self/task')), len(compiled))\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        cwd=REPOSITORY,
+        env=os.environ | dict.fromkeys(THREAD_LIMITS, "1"),
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stdout.split() == ["1", "0"]
