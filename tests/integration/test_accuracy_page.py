@@ -7,13 +7,11 @@ from pathlib import Path
 import pytest
 
 from tests.evaluation.command_line import parser
-from tests.evaluation.people_table import PEOPLE
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "service" / "docs" / "accuracy.md").read_text()
 README = (ROOT / "README.md").read_text()
 TABLES = (ROOT / "service" / "docs" / "accuracy_tables.md").read_text()
-DECISIONS = (ROOT / "DECISIONS.md").read_text()
 MEASURING = (ROOT / "MEASURING.md").read_text()
 
 ROUNDED = 0.051
@@ -113,17 +111,3 @@ def test_shares_in_sentences_are_those_of_the_tables():
 )
 def test_faults_cost_what_the_guide_says(row: str):
     assert cells(PAGE, row) == cells(MEASURING, row)[:4]
-
-
-def test_the_worst_are_people_of_the_suite_and_eight():
-    (part,) = re.findall(r"### The eight worst of 24\n(.*?)\n##", PAGE, re.DOTALL)
-    named = re.findall(r"^\| `(\w+)`, (tuning|reporting) \|", part, re.MULTILINE)
-    assert len(named) == 8
-    assert all(PEOPLE[person].half.value == half for person, half in named)
-
-
-def test_the_decisions_that_are_quoted_have_such_headings():
-    headings = re.findall(r"^### (.+)$", DECISIONS, re.MULTILINE)
-    quoted = [" ".join(each.split()) for each in re.findall(r'"([A-Z][^"]+)"', PAGE)]
-    assert quoted
-    assert [each for each in quoted if not any(each in heading for heading in headings)] == []
