@@ -23,6 +23,7 @@ TABLES = (ROOT / "service" / "docs" / "accuracy_tables.md").read_text()
 
 NAMES = sorted(set(re.findall(r"`(fitter\.[\w.]+)`", PAGE)))
 
+
 def test_names_are_found():
     assert len(NAMES) > 50
 

@@ -46,9 +46,9 @@ def rows(heading: str) -> dict[str, str]:
 
 
 BY_FITS_ALONE = {"covered", "contradicted"}
-CHECKS = rows("The checks")
+CHECKS = rows("Findings")
 HARMS = rows("What harms")
-OF_FITS = rows("Warnings of a fit or a scan")
+OF_FITS = rows("Warnings of a fit")
 OF_POINTS = rows("Warnings of proposed points")
 OF_DERIVATIONS = rows("Warnings of what is made of a fit")
 REFUSALS = rows("Refusals of pictures")
@@ -165,7 +165,7 @@ def test_a_check_that_may_block_says_when():
             assert named == modules.get(file.stem, 0), file.name
 
 
-def test_warnings_of_fits_and_scans_are_those_of_the_code():
+def test_warnings_of_fits_are_those_of_the_code():
     # Of proposed points, and of results that are of no picture that was sent.
     apart = {
         ROOT / "fitter" / "fits" / "proposal_warnings.py",
