@@ -51,10 +51,7 @@ class DerivationLinks(ResourceLinks):
 
 
 class Derivation(JobStanding):
-    """One accepted derivation; it is erased with its fit, and expires when the fit does.
-
-    One of several fits, combined or compared, goes with any of them.
-    """
+    """One accepted derivation; it is erased with its fit, and expires when the fit does."""
 
     kind: DerivationKind
     fit_id: UUID

@@ -11,11 +11,7 @@ from api_schemas.derivation_kinds.body_composition import (
     BodyCompositionResult,
 )
 from api_schemas.derivation_kinds.caricature import CaricatureOptions, CaricatureResult
-from api_schemas.derivation_kinds.change import ChangeOptions, ChangeResult
-from api_schemas.derivation_kinds.combined import CombinedOptions, CombinedResult
-from api_schemas.derivation_kinds.figure import FigureOptions, FigureResult
 from api_schemas.derivation_kinds.pose import PoseOptions, PoseResult
-from api_schemas.derivation_kinds.report import ReportOptions, ReportResult
 from api_schemas.derivation_kinds.size import SizeOptions, SizeResult
 from api_schemas.derivation_kinds.texture import TextureOptions, TextureResult
 
@@ -23,42 +19,30 @@ from api_schemas.derivation_kinds.texture import TextureOptions, TextureResult
 class DerivationKind(StrEnum):
     """What can be made of a fit."""
 
-    REPORT = "report"
     CARICATURE = "caricature"
     POSE = "pose"
     ANIMATION = "animation"
     TEXTURE = "texture"
-    FIGURE = "figure"
-    COMBINED = "combined"
     SIZE = "size"
     BODY_COMPOSITION = "body_composition"
-    CHANGE = "change"
 
 
 AnyDerivationOptions = (
-    Annotated[ReportOptions, Tag("[report]")]
-    | Annotated[CaricatureOptions, Tag("[caricature]")]
+    Annotated[CaricatureOptions, Tag("[caricature]")]
     | Annotated[PoseOptions, Tag("[pose]")]
     | Annotated[AnimationOptions, Tag("[animation]")]
     | Annotated[TextureOptions, Tag("[texture]")]
-    | Annotated[FigureOptions, Tag("[figure]")]
-    | Annotated[CombinedOptions, Tag("[combined]")]
     | Annotated[SizeOptions, Tag("[size]")]
     | Annotated[BodyCompositionOptions, Tag("[body_composition]")]
-    | Annotated[ChangeOptions, Tag("[change]")]
 )
 """What is asked for. The tag is the kind in brackets."""
 
 AnyDerivationResult = (
-    Annotated[ReportResult, Tag("[report]")]
-    | Annotated[CaricatureResult, Tag("[caricature]")]
+    Annotated[CaricatureResult, Tag("[caricature]")]
     | Annotated[PoseResult, Tag("[pose]")]
     | Annotated[AnimationResult, Tag("[animation]")]
     | Annotated[TextureResult, Tag("[texture]")]
-    | Annotated[FigureResult, Tag("[figure]")]
-    | Annotated[CombinedResult, Tag("[combined]")]
     | Annotated[SizeResult, Tag("[size]")]
     | Annotated[BodyCompositionResult, Tag("[body_composition]")]
-    | Annotated[ChangeResult, Tag("[change]")]
 )
 """What came of it."""

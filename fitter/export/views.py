@@ -22,14 +22,6 @@ MARGIN_SHARE = 0.06
 CANONICAL_DISTANCE_M = 6.0
 """From where the canonical body is seen: far enough that near parts do not swell."""
 
-SIDES_DEGREES = {
-    "from the camera": 0.0,
-    "from the right of the picture": 90.0,
-    "from behind": 180.0,
-    "from the left of the picture": 270.0,
-}
-"""How far an onlooker has walked to the right round the body."""
-
 TO_LIGHT = np.array([-0.45, -0.60, -0.66])
 """Unit direction toward the light, camera frame: over the onlooker's left shoulder."""
 
@@ -80,29 +72,6 @@ def views_picture(
         ],
         axis=1,
     )
-
-
-def sides_pictures(
-    posed_vertices: Vertices, root: Vector3, tilt: CameraTilt | None, triangles: Triangles
-) -> dict[str, UInt8[np.ndarray, "h w 3"]]:
-    """The posed body from the camera's side and from the three others, by name, in one scale.
-
-    Parameters
-    ----------
-    posed_vertices
-        (m, 3) camera frame, metres.
-    root
-        Position of the root joint in the camera frame: the onlooker walks round its vertical.
-    tilt
-        Of the camera: what is vertical. None where it is not known, and the camera taken as level.
-    """
-    upright = under_level_camera(posed_vertices, root, tilt)
-    turned = {
-        side: turned_about_vertical(upright, root, degrees)
-        for side, degrees in SIDES_DEGREES.items()
-    }
-    camera = _panel_camera(np.concatenate(list(turned.values())))
-    return {side: clay_picture(vertices, triangles, camera) for side, vertices in turned.items()}
 
 
 def under_level_camera(vertices: Vertices, root: Vector3, tilt: CameraTilt | None) -> Vertices:

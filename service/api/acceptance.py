@@ -166,7 +166,6 @@ def _store(
         inputs=stored.files,
         pictures=inputs.pictures,
         label=_label(context, inputs),
-        sources=inputs.sources,
         idempotency=key,
         request_id=context.request_id,
         traceparent=current_traceparent(),

@@ -51,7 +51,7 @@ ArtifactName = Annotated[
             f"{', '.join(f'`.{ending}`' for ending in MESH_FORMATS)} is the mesh in that format "
             "(`.usdz` where the service has the extra `usdz` installed), written when it is asked "
             "for; of a textured one `.mtl` is the material of the OBJ. `measurements.csv` is "
-            "there with a fit and with a combined body."
+            "there with a fit."
         ),
     ),
 ]

@@ -5,9 +5,8 @@ other process loads.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, Final, Generic, TypeVar
-from uuid import UUID
 
 from api_schemas.derivation_kinds import AnyDerivationOptions, DerivationKind
 from api_schemas.derivation_kinds.animation import AnimationOptions, AnimationResult
@@ -17,22 +16,15 @@ from api_schemas.derivation_kinds.body_composition import (
     BodyCompositionResult,
 )
 from api_schemas.derivation_kinds.caricature import CaricatureOptions, CaricatureResult
-from api_schemas.derivation_kinds.change import ChangeOptions, ChangeResult
-from api_schemas.derivation_kinds.combined import CombinedOptions, CombinedResult
-from api_schemas.derivation_kinds.figure import FigureOptions, FigureResult
 from api_schemas.derivation_kinds.pose import PoseOptions, PoseResult
-from api_schemas.derivation_kinds.report import ReportOptions, ReportResult
 from api_schemas.derivation_kinds.size import SizeOptions, SizeResult
 from api_schemas.derivation_kinds.texture import TextureColours, TextureOptions, TextureResult
 from service.api.derivation_parts import ATLAS, BVH, TABLE, FormPart
 from service.jobs.inputs import (
     IMAGE,
-    OF_EACH_FIT,
-    OVERLAY,
     PERSON,
     RESULT,
     SEGMENTATION,
-    TAPES,
 )
 
 Options = TypeVar("Options", bound=AnyDerivationOptions)
@@ -44,14 +36,10 @@ class Needs:
     """What a derivation is made of beside its request.
 
     Of the fit's inputs and files it has copies of those in ``of_fit``, so far as the fit has them.
-    Of every one of ``other_fits``, by the fields of the request that name them, it has copies of
-    those in ``of_others``.
     ``part`` may come along. Where it must, ``part_is_for`` goes on from "is missing, which".
     """
 
     of_fit: tuple[str, ...]
-    other_fits: Mapping[str, UUID] = field(default_factory=dict[str, UUID])
-    of_others: tuple[str, ...] = ()
     part: FormPart | None = None
     part_is_for: str | None = None
 
@@ -70,11 +58,6 @@ class DerivationKindDefinition(Generic[Options, Result]):
     needs: Callable[[Options], Needs]
     part: FormPart | None = None
 
-    @property
-    def is_measured(self) -> bool:
-        """Whether its result has measurements, of which there is a table as well."""
-        return "measurements" in self.result.model_fields
-
 
 def _of_person(_: AnyDerivationOptions) -> Needs:
     return Needs(of_fit=(PERSON,))
@@ -82,14 +65,6 @@ def _of_person(_: AnyDerivationOptions) -> Needs:
 
 def _of_measurements(_: AnyDerivationOptions) -> Needs:
     return Needs(of_fit=(PERSON, RESULT))
-
-
-def _of_report(_: ReportOptions) -> Needs:
-    return Needs(of_fit=(RESULT, PERSON, OVERLAY, TAPES))
-
-
-def _of_figure(_: FigureOptions) -> Needs:
-    return Needs(of_fit=(PERSON, IMAGE, OVERLAY))
 
 
 def _of_coloured_body(colours: BodyColours) -> tuple[str, ...]:
@@ -125,26 +100,7 @@ def _of_size(options: SizeOptions) -> Needs:
     )
 
 
-def _of_several_fits(options: CombinedOptions) -> Needs:
-    return Needs(
-        of_fit=OF_EACH_FIT,
-        other_fits={f"fits.{place}": fit for place, fit in enumerate(options.fits)},
-        of_others=OF_EACH_FIT,
-    )
-
-
-def _of_two_persons(options: ChangeOptions) -> Needs:
-    measured = (PERSON, RESULT)
-    return Needs(of_fit=measured, other_fits={"since": options.since}, of_others=measured)
-
-
 _KINDS: Final[tuple[DerivationKindDefinition[Any, Any], ...]] = (
-    DerivationKindDefinition(
-        kind=DerivationKind.REPORT,
-        options=ReportOptions,
-        result=ReportResult,
-        needs=_of_report,
-    ),
     DerivationKindDefinition(
         kind=DerivationKind.CARICATURE,
         options=CaricatureOptions,
@@ -165,23 +121,11 @@ _KINDS: Final[tuple[DerivationKindDefinition[Any, Any], ...]] = (
         part=BVH,
     ),
     DerivationKindDefinition(
-        kind=DerivationKind.FIGURE,
-        options=FigureOptions,
-        result=FigureResult,
-        needs=_of_figure,
-    ),
-    DerivationKindDefinition(
         kind=DerivationKind.TEXTURE,
         options=TextureOptions,
         result=TextureResult,
         needs=_of_texture,
         part=ATLAS,
-    ),
-    DerivationKindDefinition(
-        kind=DerivationKind.COMBINED,
-        options=CombinedOptions,
-        result=CombinedResult,
-        needs=_of_several_fits,
     ),
     DerivationKindDefinition(
         kind=DerivationKind.SIZE,
@@ -195,12 +139,6 @@ _KINDS: Final[tuple[DerivationKindDefinition[Any, Any], ...]] = (
         options=BodyCompositionOptions,
         result=BodyCompositionResult,
         needs=_of_measurements,
-    ),
-    DerivationKindDefinition(
-        kind=DerivationKind.CHANGE,
-        options=ChangeOptions,
-        result=ChangeResult,
-        needs=_of_two_persons,
     ),
 )
 

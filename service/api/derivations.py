@@ -7,7 +7,6 @@ see that may see it, and once that is gone so is the derivation.
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, Final
-from uuid import UUID
 
 from fastapi import APIRouter, Depends, Request, Response
 from starlette.concurrency import run_in_threadpool
@@ -34,10 +33,10 @@ from service.api.json_bodies import JSON, json_content, media_type, read_json_te
 from service.api.problems import ProblemError, documented
 from service.api.sandbox import asked_of_derivation
 from service.api.uploads import MULTIPART, read_request_and_files
-from service.engine.port import SCAN, JobExpiredError, JobRecord, StoredBlob, TenantJobs
-from service.jobs.inputs import IMAGE, OF_FIRST_VIEW, PERSON, REQUEST, of_other, pictures_of
+from service.engine.port import SCAN, JobRecord, StoredBlob, TenantJobs
+from service.jobs.inputs import OF_FIRST_VIEW, REQUEST
 from service.representation.jobs import represent
-from service.submissions.refusal import RefusedError, refused
+from service.submissions.refusal import refused
 from service.submissions.validation import parsed
 from service.webhooks.targets import check_webhook
 
@@ -79,8 +78,8 @@ comes along as a part of a form, whose part `request` is the JSON: `bvh`, a moti
 animation, without which the body walks; `texture`, for a texture with the colours `own`; `chart`,
 a size chart as CSV.
 
-What follows from the measurements, `size`, `body_composition` and `change`, follows from all of
-them together, with what is known of their errors. A size of a brand's chart, say:
+What follows from the measurements, `size` and `body_composition`, follows from all of them
+together, with what is known of their errors. A size of a brand's chart, say:
 `curl -F 'request={{"kind": "size"}}' -F chart=@chart.csv .../derivations`, with a chart such as
 `size,chest_girth,waist_girth_navel`, `M,94-98,80-84`, `L,98-102,84-88`.
 
@@ -123,9 +122,7 @@ def _router(of: JobResource) -> APIRouter:
         asked, sent = await read_derivation(request, max_pixels=context.settings.max_pixels)
         check_webhook(asked.webhook, context.settings)
         sent_along = {**sent.files, **asked_of_derivation(context, made_of)}
-        inputs = await run_in_threadpool(
-            derivation_inputs, context.jobs[of.root], made_of, asked, sent_along
-        )
+        inputs = derivation_inputs(made_of, asked, sent_along)
         # At most one file comes with a request, and the kind and its options say which.
         brought = b"".join(file.content for file in sent.files.values())
         key = idempotency(idempotency_key, b"derivation", made_of.id.encode(), sent.text, brought)
@@ -207,32 +204,21 @@ def _refuse_wrong_parts(asked: AnyDerivationOptions, parts: Mapping[str, bytes])
 
 
 def derivation_inputs(
-    jobs: TenantJobs, parent: JobRecord, options: AnyDerivationOptions, sent: Mapping[str, File]
+    parent: JobRecord, options: AnyDerivationOptions, sent: Mapping[str, File]
 ) -> Inputs:
-    """What a derivation needs from its fit or scan and from others it names, besides what was sent.
-
-    ``jobs`` are the caller's fits if it is one, or scans.
+    """What a derivation needs from its fit or scan, besides what was sent.
 
     Raises
     ------
-    ProblemError, RefusedError
-        If that has no result, or another one that is named is not the caller's or has not
-        succeeded.
+    ProblemError
+        If that has no result.
     """
     if parent.state is not JobState.SUCCEEDED:
         raise ProblemError(no_result(parent))
-    needs = needs_of(options)
-    copies = _copies_of(parent, needs.of_fit)
-    if needs.other_fits:
-        _require(needs.of_others, copies, parent, field="kind")
-    for index, (field, other) in enumerate(needs.other_fits.items()):
-        of_another = _of_another(jobs, other, needs.of_others, field=field, than=parent)
-        copies |= {of_other(name, index): copy for name, copy in of_another.items()}
     return Inputs(
         kind=options.kind,
         options=options.model_dump_json(exclude={"webhook"}).encode(),
-        files={**copies, **sent},
-        sources=tuple(map(str, needs.other_fits.values())),
+        files={**_copies_of(parent, needs_of(options).of_fit), **sent},
         webhook=options.webhook,
     )
 
@@ -245,60 +231,8 @@ def _copies_of(parent: JobRecord, needed: Collection[str]) -> dict[str, Copy]:
         for artifact in parent.artifacts
     }
     if parent.root == SCAN:
-        # Who needs every picture needs none that stands for them.
-        kept |= {
-            name: kept[first]
-            for name, first in OF_FIRST_VIEW.items()
-            if first in kept and first not in needed
-        }
+        kept |= {name: kept[first] for name, first in OF_FIRST_VIEW.items() if first in kept}
     return {name: Copy(scope=parent.id, blob=kept[name]) for name in needed if name in kept}
-
-
-def _of_another(
-    jobs: TenantJobs, other: UUID, needed: Collection[str], *, field: str, than: JobRecord
-) -> Mapping[str, Copy]:
-    """The inputs and files of another fit or scan, which a field of the request names."""
-    named = f"The {than.root} {other}"
-    if str(other) == than.id:
-        raise _unusable(field, f"{named} is the one it is derived from.", than.root)
-    try:
-        record = jobs.job(str(other))
-    except JobExpiredError as error:
-        raise _unusable(field, f"{named} has expired.", than.root) from error
-    if record is None or record.state is not JobState.SUCCEEDED:
-        raise _unusable(field, f"{named} has not succeeded here.", than.root)
-    copies = _copies_of(record, needed)
-    _require(needed, copies, record, field=field)
-    return copies
-
-
-def _require(
-    needed: Collection[str], copies: Mapping[str, Copy], of: JobRecord, *, field: str
-) -> None:
-    """Refuse a fit made by an earlier version, which kept less than is of any use."""
-    missing = [PERSON] if PERSON in needed and PERSON not in copies else []
-    if IMAGE in needed and not pictures_of(copies):
-        missing.append(IMAGE)
-    if missing:
-        raise refused(
-            FieldProblem(
-                field=field,
-                code="fits-unusable",
-                reason=f"The {of.root} {of.id} has no {' and no '.join(missing)}.",
-                remedy="Fit its picture again.",
-            )
-        )
-
-
-def _unusable(field: str, reason: str, root: str) -> RefusedError:
-    return refused(
-        FieldProblem(
-            field=field,
-            code="fits-unusable",
-            reason=reason,
-            remedy=f"Name other {root}s of yours that have succeeded.",
-        )
-    )
 
 
 ROUTER: Final = APIRouter()

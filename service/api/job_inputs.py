@@ -5,11 +5,9 @@ from dataclasses import dataclass
 from typing import Final
 from uuid import UUID
 
-from api_schemas.derivations import DerivationRequest
 from api_schemas.problems import problem
 from api_schemas.webhooks import WebhookTarget
 from service.api.context import ApiContext
-from service.api.derivation_kinds import needs_of
 from service.api.job_routes import find
 from service.api.json_bodies import JSON
 from service.api.problems import ProblemError, not_found
@@ -46,8 +44,7 @@ class Inputs:
     """The inputs of a job; ``options`` is the request as JSON.
 
     ``pictures`` is how many pictures of a person are sent for it, where it waits as so many jobs.
-    ``sources`` are the fits, besides its own, that it has copies of. ``label`` is what the caller
-    calls the person.
+    ``label`` is what the caller calls the person.
     """
 
     kind: str
@@ -55,7 +52,6 @@ class Inputs:
     files: Mapping[str, File | Copy]
     pictures: int = 1
     label: str | None = None
-    sources: tuple[str, ...] = ()
     webhook: WebhookTarget | None
 
     @property
@@ -136,7 +132,6 @@ def inputs_again(context: ApiContext, jobs: TenantJobs, job_id: UUID) -> Inputs:
         },
         pictures=record.pictures,
         label=record.label,
-        sources=() if record.parent is None else _sources(options),
         webhook=webhook,
     )
 
@@ -155,8 +150,3 @@ def _stored(context: ApiContext, job_id: str, file: File | Copy) -> StoredBlob:
         raise not_found(what="such job any more") from error
     context.blobs.put(job_id, content)
     return file.blob
-
-
-def _sources(options: bytes) -> tuple[str, ...]:
-    asked = DerivationRequest.model_validate_json(options).root
-    return tuple(map(str, needs_of(asked).other_fits.values()))

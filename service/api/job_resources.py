@@ -228,9 +228,9 @@ def _derived_from(
         result=DerivationResult,
         included=_whole,
         holds="what there is to say of it",
-        files="`report.pdf`, `body_reposed.glb` and so on, as the job's links name them, or "
+        files="`pose.png`, `body_reposed.glb` and so on, as the job's links name them, or "
         "`body_reposed.obj`",
-        media_types=("text/html", "application/pdf", "image/png", "image/webp"),
+        media_types=("image/png", "image/webp"),
         erased=f"its copies and results; the {source.noun} stays",
     )
 

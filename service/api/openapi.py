@@ -12,7 +12,6 @@ from pydantic.json_schema import models_json_schema
 
 from api_schemas.bodies import BodyEstimate, BodyRequest
 from api_schemas.checks import CaptureCheck, CheckOfImage, CheckRequest
-from api_schemas.derivation_kinds.combined import MOST_OTHER_FITS
 from api_schemas.derivation_kinds.texture import TEXTURE_SIZES
 from api_schemas.derivations import DerivationEvent, DerivationRequest, DerivationResult
 from api_schemas.images import LARGEST_ASPECT_RATIO, LEAST_SIDE_PX, UploadedImage
@@ -195,7 +194,6 @@ _LIMITS: dict[str, Any] = {
     },
     "height_m": {"least": LEAST_HEIGHT_M, "most": MOST_HEIGHT_M},
     "texture_sizes": TEXTURE_SIZES,
-    "most_other_fits": MOST_OTHER_FITS,
     "picture": {"least_side": LEAST_SIDE_PX, "largest_aspect_ratio": LARGEST_ASPECT_RATIO},
     "views": {"least": LEAST_VIEWS, "most": MOST_VIEWS},
 }

@@ -12,7 +12,6 @@ from typing import Final
 from api_schemas.jobs import JobState
 from api_schemas.problems import problem
 from api_schemas.results import Artifact
-from service.api.derivation_kinds import KINDS
 from service.api.negotiation import not_acceptable, preferred
 from service.api.problems import ProblemError
 from service.engine.port import JobRecord
@@ -85,7 +84,7 @@ def renditions(record: JobRecord) -> Iterator[Rendition]:
                 yield _written(artifact, MTL)
         else:
             yield _as_stored(artifact)
-    if RESULT in stored and (record.parent is None or KINDS[record.kind].is_measured):
+    if RESULT in stored and record.parent is None:
         yield Rendition(
             name=TABLE, media_type=CSV, tag=f"{stored[RESULT].sha256}-csv", source=stored[RESULT]
         )

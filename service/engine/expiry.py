@@ -14,7 +14,7 @@ from typing import Final
 import sqlalchemy as sa
 
 from api_schemas.jobs import JobState
-from service.engine.tables import ERASURES, IMAGES, JOBS, SOURCES, TOMBSTONES
+from service.engine.tables import ERASURES, IMAGES, JOBS, TOMBSTONES
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -98,9 +98,7 @@ def forget_job(
     if not rows:
         return ()
     # After the fit itself: a derivation that was being accepted is there by now, or never will be.
-    copied = sa.select(SOURCES.c.job_id).where(SOURCES.c.fit_id == job_id)
-    below = sa.or_(JOBS.c.parent_id == job_id, JOBS.c.id.in_(copied))
-    derived = connection.execute(forgotten.where(below)).all()
+    derived = connection.execute(forgotten.where(JOBS.c.parent_id == job_id)).all()
     states = {row.id: row.state for row in (*rows, *derived)}
     _enter_forgotten(connection, states)
     return list(states)

@@ -37,8 +37,7 @@ class NewJob:
     """A job to accept; its blobs are already stored, ``options`` being the request as JSON.
 
     ``inputs`` is what else it needs, by name, ``pictures`` of them pictures of a person that came
-    with the request: so many jobs it counts for while it waits. ``sources`` are the fits, besides
-    its own, whose pictures are among the inputs: it is erased and expires with the first of them.
+    with the request: so many jobs it counts for while it waits.
     ``request_id`` and ``traceparent`` identify the HTTP request in logs and traces; ``webhook`` is
     a blob too, a
     :class:`api_schemas.webhooks.WebhookTarget` as JSON: whom to notify of the job's end. ``label``
@@ -51,7 +50,6 @@ class NewJob:
     inputs: Mapping[str, StoredBlob]
     pictures: int = 1
     label: str | None = None
-    sources: tuple[str, ...] = ()
     idempotency: Idempotency | None = None
     request_id: str | None = None
     traceparent: str | None = None
@@ -143,7 +141,7 @@ class SubmitOutcome(StrEnum):
     """How a submission ended.
 
     ``TENANT_FULL``: too many jobs of this tenant are waiting. ``LOST``: the blobs of the job were
-    considered abandoned and erased before it was submitted. ``PARENT_GONE``: a fit it is derived
+    considered abandoned and erased before it was submitted. ``PARENT_GONE``: the fit it is derived
     from was erased meanwhile. ``TOKEN_SPENT``: the browser's token has no job left.
     """
 

@@ -65,21 +65,6 @@ token that a job was made with, if it was; ``turn`` says when it is begun
 worker that runs the job or is about to (:mod:`service.engine.claims`); ``worker_deaths`` counts
 those that died over it, and is None until one did."""
 
-SOURCES = sa.Table(
-    "maquette_sources",
-    METADATA,
-    sa.Column(
-        "job_id",
-        sa.String(36),
-        sa.ForeignKey("maquette_jobs.id", ondelete="CASCADE"),
-        primary_key=True,
-    ),
-    sa.Column("fit_id", sa.String(36), primary_key=True),
-    sa.Index("maquette_sources_fit", "fit_id"),
-)
-"""The other fits, besides its own, that a derivation has copies of: it is erased with any of them.
-"""
-
 EVENTS = sa.Table(
     "maquette_events",
     METADATA,

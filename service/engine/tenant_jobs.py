@@ -3,7 +3,7 @@
 import functools
 import logging
 import time
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from typing import Final
 
 import sqlalchemy as sa
@@ -33,7 +33,7 @@ from service.engine.port import (
 )
 from service.engine.records import INPUTS, append_event, end_job, job_record
 from service.engine.retrying import ABSENCES
-from service.engine.tables import EVENTS, JOBS, SOURCES, TOMBSTONES
+from service.engine.tables import EVENTS, JOBS, TOMBSTONES
 from service.engine.transactions import read_then_write
 from service.engine.turns import turn_of_next_job
 
@@ -100,7 +100,7 @@ class DbosTenantJobs:
                 answered = self._admission.answered(connection, job.idempotency)
                 if answered is not None:
                     return answered
-                expires_at = self._parents_end(connection, job.sources)
+                expires_at = self._parents_end(connection)
                 if self._parent is not None and expires_at is None:
                     return Submission(outcome=SubmitOutcome.PARENT_GONE, job=None)
                 if not take_out(connection, job.id):
@@ -253,31 +253,26 @@ class DbosTenantJobs:
     def _own(self, job_id: str) -> tuple[sa.ColumnElement[bool], ...]:
         return (JOBS.c.id == job_id, *self._ours())
 
-    def _parents_end(self, connection: sa.Connection, sources: Collection[str]) -> float | None:
-        """When the first of the fits to derive from expires; None if one is gone or none is needed.
+    def _parents_end(self, connection: sa.Connection) -> float | None:
+        """When the fit to derive from expires; None if it is gone or none is needed.
 
-        Their records are locked until the end of the transaction, which must be one of
-        :func:`read_then_write`, so that none can be erased meanwhile.
+        Its record is locked until the end of the transaction, which must be one of
+        :func:`read_then_write`, so that it cannot be erased meanwhile.
         """
         if self._parent is None:
             return None
-        fits = {self._parent, *sources}
-        ends = connection.execute(
+        return connection.execute(
             sa.select(JOBS.c.expires_at)
             .where(
-                JOBS.c.id.in_(fits),
+                JOBS.c.id == self._parent,
                 JOBS.c.tenant == self._tenant,
                 JOBS.c.root == self._root,
                 JOBS.c.parent_id.is_(None),
                 JOBS.c.expires_at > time.time(),
                 *self._made_with_token(),
             )
-            # Always in the same order, so that two transactions cannot deadlock.
-            .order_by(JOBS.c.id)
             .with_for_update()
-        ).scalars()
-        found = list(ends)
-        return min(found) if len(found) == len(fits) else None
+        ).scalar_one_or_none()
 
     def _find(self, connection: sa.Connection, job_id: str) -> JobRecord | None:
         row = connection.execute(sa.select(JOBS).where(*self._own(job_id))).mappings().one_or_none()
@@ -341,9 +336,6 @@ class DbosTenantJobs:
             .mappings()
             .one()
         )
-        if job.sources:
-            named = [{"job_id": job.id, "fit_id": each} for each in job.sources]
-            connection.execute(sa.insert(SOURCES), named)
         record = job_record(row)
         append_event(connection, record, EventKind.STATE)
         return record

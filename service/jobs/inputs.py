@@ -5,8 +5,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final, Generic, NamedTuple, TypeVar
 
-from api_schemas.scans import MOST_VIEWS
-
 Content = TypeVar("Content")
 
 IMAGE: Final = "image"
@@ -92,35 +90,8 @@ def file_of(name: str, number: int) -> str:
     return f"{stem}_{number}{point}{ending}"
 
 
-OF_EACH_FIT: Final = (
-    *(PERSON, REQUEST, RESULT, IMAGE, MASK),
-    *(name for names in picture_names(MOST_VIEWS) for name in names),
-)
-"""What a combined body has copies of, of every fit or scan, so far as it is there."""
-
 OF_FIRST_VIEW: Final[Mapping[str, str]] = {IMAGE: image_of(0), MASK: mask_of(0)} | {
     name: file_of(name, 0) for name in (OVERLAY, SEGMENTATION)
 }
 """What a scan has where a fit has its picture and what was made of it; the person of ``person.npz``
 stands in the first one too."""
-
-
-def of_other(name: str, index: int) -> str:
-    """The same input of another fit, by that fit's place in the request for a derivation."""
-    stem, point, ending = name.partition(".")
-    return f"{stem}.{index}{point}{ending}"
-
-
-def own_and_others(
-    inputs: Mapping[str, Content],
-) -> tuple[dict[str, Content], tuple[dict[str, Content], ...]]:
-    """Tell what is of a job's own fit from what :func:`of_other` named.
-
-    The others come by their places, and their inputs have the names that its own have.
-    """
-    own = dict(inputs)
-    others: list[dict[str, Content]] = []
-    while of_other(PERSON, len(others)) in own:
-        names = {of_other(name, len(others)): name for name in OF_EACH_FIT}
-        others.append({name: own.pop(stored) for stored, name in names.items() if stored in own})
-    return own, tuple(others)

@@ -58,5 +58,5 @@ def measurements_csv(measurements: Sequence[Measurement | EstimatedMeasurement])
 
 
 def measurements_csv_of(result: bytes) -> bytes:
-    """The same of a result document, of a fit or of several combined."""
+    """The same of a result document."""
     return measurements_csv(_Measured.model_validate_json(result).measurements)

@@ -17,8 +17,6 @@ MEDIA_TYPES: Final[Mapping[str, str]] = {
     ".json": "application/json",
     ".csv": "text/csv",
     ".npz": "application/zip",
-    ".html": "text/html",
-    ".pdf": "application/pdf",
     ".webp": "image/webp",
 }
 

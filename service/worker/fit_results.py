@@ -3,13 +3,11 @@
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any, cast
-from uuid import UUID
 
 import numpy as np
 
 from api_schemas import results as wire
 from api_schemas import scans as wire_scan
-from api_schemas.derivation_kinds.combined import CombinedPicture
 from api_schemas.requests import FitOptions
 from fitter.capture.finding import Box, Finding
 from fitter.measurement.quantity import Measurement
@@ -90,13 +88,6 @@ def scan_result(result: FitResult, *, part_names: Sequence[str]) -> wire_scan.Sc
         assumptions=assumption_results(result.assumptions),
         warnings=warning_results(result.warnings),
     )
-
-
-def combined_picture(
-    found: PictureFit, *, number: int, fit_id: UUID, part_names: Sequence[str]
-) -> CombinedPicture:
-    """Translate the person as fitted in one of several pictures."""
-    return CombinedPicture(number=number, fit_id=fit_id, **_in_picture(found, part_names))
 
 
 def _person(result: FitResult) -> dict[str, Any]:

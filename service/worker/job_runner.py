@@ -1,7 +1,6 @@
 """The worker's side of a job: find a child, listen, stop it in time, note how it ended."""
 
 import contextlib
-import itertools
 import logging
 import time
 from collections.abc import Callable, Mapping
@@ -38,7 +37,7 @@ from service.worker.endings import (
     out_of_memory,
     too_slow,
 )
-from service.worker.tasks import DERIVATION, DERIVED_FROM, OPTIONS, SECONDS, STAGE_SECONDS
+from service.worker.tasks import DERIVATION, OPTIONS, SECONDS, STAGE_SECONDS
 from service.worker.throttled_progress import ThrottledProgress
 
 P = ParamSpec("P")
@@ -149,17 +148,15 @@ class JobRunner:
             return AttemptResult(ending=Ending.CRASHED)
 
     def _give(self, child: Child, job: JobRecord) -> None:
-        made_of = {} if job.parent is None else {DERIVED_FROM: job.parent.encode()}
         stored = {OPTIONS: job.options, **job.inputs}
         task = TaskMessage(
-            task=DERIVATION if made_of else job.kind,
-            parts=(*made_of, *stored),
+            task=job.kind if job.parent is None else DERIVATION,
+            parts=tuple(stored),
             log_context=dict(current_log_context()),
         )
         read = retry_while_storage_is_away(self._blobs.get)
         # One after the other, and sent at once: together they may be large.
-        contents = (read(job.id, part.digest) for part in stored.values())
-        child.give(task, itertools.chain(made_of.values(), contents))
+        child.give(task, (read(job.id, part.digest) for part in stored.values()))
 
     def _timed_out(self) -> AttemptResult:
         return AttemptResult(

@@ -11,7 +11,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Generic, Protocol, TypeVar, cast
-from uuid import UUID
 
 from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivation_kinds.base import DerivedFiles
@@ -58,19 +57,13 @@ class PipelineOutput:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DerivationInput(Generic[Options_co]):
-    """What is to be derived, and the inputs of that kind by name (:mod:`service.jobs.inputs`).
-
-    ``others`` are those of other fits, in the order of the request and by the same names.
-    ``fit_id`` is that of the fit it is derived from, None where the service keeps none.
-    """
+    """What is to be derived, and the inputs of that kind by name (:mod:`service.jobs.inputs`)."""
 
     options: Options_co
     inputs: Mapping[str, bytes]
-    others: tuple[Mapping[str, bytes], ...] = ()
     max_pixels: int
     models: Path | None = None
     detector: Path | None = None
-    fit_id: UUID | None = None
     ending: str | None = None
 
 

@@ -8,15 +8,14 @@ import json
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Final, cast
+from typing import Any, Final
 
 from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivation_kinds.base import DerivedFiles
-from api_schemas.derivation_kinds.combined import CombinedOptions, CombinedResult
 from api_schemas.derivations import DerivationRequest
 from api_schemas.scans import ScanOptions
 from service.engine.port import Report
-from service.jobs.inputs import IMAGE, OVERLAY, PERSON, pictures_of
+from service.jobs.inputs import IMAGE, OVERLAY, PERSON
 from service.worker import pipeline
 from service.worker.pipeline_port import (
     DerivationInput,
@@ -25,8 +24,8 @@ from service.worker.pipeline_port import (
     PipelineOutput,
 )
 from service.worker.sandbox_endings import end_as_asked, judged
-from service.worker.sandbox_forms import combined_of_fits, scan_of_views
-from service.worker.sandbox_results import MAX_PIXELS, NOBODY, CannedResults, canned_results
+from service.worker.sandbox_forms import scan_of_views
+from service.worker.sandbox_results import MAX_PIXELS, CannedResults, canned_results
 from service.worker.tasks import job_tasks
 
 
@@ -48,11 +47,6 @@ def derive(
     kind = job.options.kind
     steps = [Report(stage=kind, progress=share / 10) for share in range(10)]
     end_as_asked(job.ending, steps, observe)
-    if isinstance(job.options, CombinedOptions):
-        assert job.fit_id is not None
-        kept = cast("DerivationOutput[CombinedResult]", canned.derived[kind])
-        fits = zip((job.fit_id, *job.options.fits), (job.inputs, *job.others), strict=True)
-        return combined_of_fits(kept, [fit for fit, own in fits for _ in pictures_of(own)])
     if kind in canned.derived:
         return canned.derived[kind]
     return pipeline.derive(_with_sample(job, canned), observe)
@@ -75,9 +69,7 @@ TASKS: Final = job_tasks(run, derive)
 
 _AT_ONCE: Final[tuple[Mapping[str, Any], ...]] = (
     {"kind": "pose", "pose": "standing"},
-    {"kind": "figure"},
     {"kind": "body_composition"},
-    {"kind": "change", "since": str(NOBODY)},
     {
         "kind": "size",
         "chart": {
@@ -100,7 +92,6 @@ def derive_all(models: Path | None, detector: Path | None) -> None:
             DerivationInput(
                 options=DerivationRequest.model_validate_json(json.dumps(each)).root,
                 inputs=inputs,
-                others=(inputs,),
                 max_pixels=MAX_PIXELS,
                 models=models,
                 detector=detector,

@@ -2,15 +2,11 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from uuid import UUID
 
-from api_schemas.derivation_kinds.combined import CombinedResult
 from api_schemas.scans import ScanOptions, ScanResult
 from fitter.vocabulary.choices import ViewKind
-from service.jobs.inputs import BODY_POSED, OVERLAY, file_of
-from service.worker.pipeline_port import DerivationOutput, PipelineOutput
-
-_OF_A_FIT = (BODY_POSED, OVERLAY)
+from service.jobs.inputs import file_of
+from service.worker.pipeline_port import PipelineOutput
 
 FRONT, SIDE = 0, 1
 """Places of the sample's views."""
@@ -38,22 +34,6 @@ def scan_of_views(output: PipelineOutput, asked: ScanOptions) -> PipelineOutput:
         output,
         result=result.model_copy(update={"views": views, "stages": stages}),
         artifacts=_spread(output.artifacts, of_a_view, places, first=0),
-    )
-
-
-def combined_of_fits(
-    output: DerivationOutput[CombinedResult], fits: Sequence[UUID]
-) -> DerivationOutput[CombinedResult]:
-    """A combined body of pictures of these fits, in all but the first what it is in the second."""
-    places = [min(at, 1) for at in range(len(fits))]
-    bodies = tuple(
-        output.result.bodies[place].model_copy(update={"number": number, "fit_id": fit})
-        for number, (place, fit) in enumerate(zip(places, fits, strict=True), start=1)
-    )
-    return replace(
-        output,
-        result=output.result.model_copy(update={"pictures": len(fits), "bodies": bodies}),
-        artifacts=_spread(output.artifacts, _OF_A_FIT, places, first=1),
     )
 
 

@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import Any, Final
-from uuid import UUID
 
 from api_schemas.derivation_kinds.base import DerivedFiles
 from api_schemas.derivations import DerivationRequest
@@ -40,15 +39,10 @@ CANNED: Final = FitWarning(
 )
 """What every result says of itself."""
 
-NOBODY: Final = UUID(int=0)
-"""Stands for fits that a derivation was made of, until it is somebody's."""
-
 _KEPT: Final[tuple[Mapping[str, Any], ...]] = (
-    {"kind": "report"},
     {"kind": "animation"},
     {"kind": "texture", "size": 512},
     {"kind": "caricature", "factor": 2.0},
-    {"kind": "combined", "fits": [str(NOBODY)]},
 )
 """Derivations that take too long to be made at once: 0.4 to 3 s each."""
 
@@ -148,11 +142,9 @@ def _derived(
             DerivationInput(
                 options=options,
                 inputs=inputs,
-                others=(inputs,),
                 max_pixels=MAX_PIXELS,
                 models=folders.models,
                 detector=folders.detector,
-                fit_id=NOBODY,
             ),
             lambda _: None,
         )

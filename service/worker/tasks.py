@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Mapping
 from typing import Final
-from uuid import UUID
 
 from pydantic import TypeAdapter
 
@@ -12,7 +11,7 @@ from api_schemas.derivations import DerivationRequest
 from api_schemas.requests import FitOptions
 from api_schemas.scans import ScanOptions
 from service.engine.port import FIT, SCAN
-from service.jobs.inputs import SANDBOX, own_and_others, pictures_of
+from service.jobs.inputs import SANDBOX, pictures_of
 from service.numerics.tasks import ChildSetup, Observe, Parts, Task
 from service.worker.artifacts import with_result_document
 from service.worker.pipeline_port import (
@@ -27,9 +26,6 @@ DERIVATION: Final = "derivation"
 
 OPTIONS: Final = "options"
 """The part that says what is asked for."""
-
-DERIVED_FROM: Final = "derived-from"
-"""The part that names the fit or scan that a job derives from."""
 
 STAGE_SECONDS: Final = "stage-seconds"
 """The part of a fit's answer that is no file of its result, but how long each stage took."""
@@ -75,16 +71,12 @@ def fit_input(
 
 def derivation_input(setup: ChildSetup, parts: Parts) -> DerivationInput[AnyDerivationOptions]:
     """What a fit left, and what came with the request."""
-    inputs = {name: part for name, part in parts.items() if name not in (OPTIONS, DERIVED_FROM)}
-    own, others = own_and_others(inputs)
     return DerivationInput(
         options=DerivationRequest.model_validate_json(parts[OPTIONS]).root,
-        inputs=own,
-        others=others,
+        inputs={name: part for name, part in parts.items() if name != OPTIONS},
         max_pixels=setup.max_pixels,
         models=setup.models,
         detector=setup.detector,
-        fit_id=UUID(parts[DERIVED_FROM].decode()),
         ending=_ending(parts),
     )
 

@@ -35,8 +35,8 @@ DERIVED = (
     Derived(request={"kind": "texture", "size": 512}),
     Derived(request={"kind": "caricature", "factor": 1.5}),
     Derived(request={"kind": "animation", "duration_s": 0.2}),
-    Derived(request={"kind": "figure"}),
-    Derived(request={"kind": "report"}),
+    Derived(request={"kind": "pose", "pose": "standing"}),
+    Derived(request={"kind": "body_composition"}),
 )
 SHARES = {
     Kind.API: 0.25,

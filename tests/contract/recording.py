@@ -18,7 +18,7 @@ from service.demo_data.sample import load_sample, load_scan_sample
 from service.engine.database import open_database, prepare_database
 from service.engine.keys import KeyRing, Role
 from service.settings import Settings
-from tests.contract.recorder import OTHER, SHOWN, Recorder
+from tests.contract.recorder import SHOWN, Recorder
 from tests.e2e.sandbox import running_sandbox
 from tests.integration.service.receiver import Receiver, receiving
 
@@ -27,7 +27,6 @@ RECORDED = Path(service.api.__file__).parent / "examples.json"
 WEBHOOK = {"url": SHOWN, "secret": "whsec_C2FVsBQIhrscChlQIMV+b5sSYspob7oD"}
 GIRTHS = {"waist_girth_navel": 88, "hip_girth": {"value": 98, "standard_error": 1.5}}
 DERIVATIONS: Mapping[str, Mapping[str, Any]] = {
-    "report": {"kind": "report"},
     "caricature": {"kind": "caricature", "factor": 2.5},
     "looks": {"kind": "caricature", "factor": 2.0, "exaggerated": "looks"},
     "pose": {
@@ -36,9 +35,7 @@ DERIVATIONS: Mapping[str, Mapping[str, Any]] = {
         "rotations": {"head": [0.0, 0.35, 0.0], "left_forearm": [0.0, 0.0, 0.0, 1.0]},
     },
     "walk": {"kind": "animation"},
-    "figure": {"kind": "figure", "pose": "arms_raised", "degrees": 30},
     "texture": {"kind": "texture", "colours": "albedo", "size": 2048},
-    "combined": {"kind": "combined", "fits": [OTHER]},
     "size": {
         "kind": "size",
         "chart": {
@@ -58,12 +55,7 @@ DERIVATIONS: Mapping[str, Mapping[str, Any]] = {
         "tolerances": {"waist_girth_navel": {"too_small": 1, "too_large": 4}},
     },
     "body-composition": {"kind": "body_composition", "age_years": 34},
-    "change": {
-        "kind": "change",
-        "since": OTHER,
-        "measurements": ["waist_girth_navel", "weight"],
-    },
-    "told-of-its-end": {"kind": "report", "webhook": WEBHOOK},
+    "told-of-its-end": {"kind": "pose", "webhook": WEBHOOK},
 }
 
 
@@ -152,7 +144,7 @@ def _jobs(recorder: Recorder, kind: str, submissions: Mapping[str, Any]) -> None
     prefix = "" if kind == "fits" else "scan-"
     recorder.take_notice(f"{prefix}derivation-ended")
     slow = (f"{of_slow}/derivations", DERIVATIONS["pose"])
-    _life(recorder, below, DERIVATIONS["report"], slow=slow)
+    _life(recorder, below, DERIVATIONS["pose"], slow=slow)
 
 
 def _life(

@@ -118,30 +118,20 @@ def test_a_scan_has_the_views_that_were_sent(sandbox: httpx.Client, nobody: byte
 
 WAIST = {"waist_girth_navel": {"low": 70.0, "high": 90.0}}
 REQUESTS: dict[DerivationKind, dict[str, Any]] = {
-    DerivationKind.REPORT: {},
     DerivationKind.CARICATURE: {"factor": 2.5},
     DerivationKind.POSE: {"pose": "arms_raised"},
     DerivationKind.ANIMATION: {},
-    DerivationKind.FIGURE: {"pose": "arms_raised"},
     DerivationKind.TEXTURE: {},
     DerivationKind.SIZE: {"chart": {"sizes": [{"label": "M", "measurements": WAIST}]}},
     DerivationKind.BODY_COMPOSITION: {"age_years": 40},
-    DerivationKind.COMBINED: {},
-    DerivationKind.CHANGE: {},
 }
 
 
 @pytest.mark.parametrize("kind", DerivationKind)
 def test_every_kind_is_derived_from_a_fit(
-    sandbox: httpx.Client, nobody: bytes, man: dict[str, Any], kind: DerivationKind
+    sandbox: httpx.Client, man: dict[str, Any], kind: DerivationKind
 ):
     asked = dict(REQUESTS[kind])
-    others: list[str] = []
-    if kind is DerivationKind.COMBINED:
-        others = [fitted(sandbox, nobody)["id"] for _ in range(2)]
-        asked["fits"] = others
-    if kind is DerivationKind.CHANGE:
-        asked["since"] = fitted(sandbox, nobody)["id"]
     job = derived(sandbox, man, kind=kind, **asked)
     result = result_of(sandbox, job)
     content = sandbox.get(job["links"]["result"]).content
@@ -149,14 +139,11 @@ def test_every_kind_is_derived_from_a_fit(
     files = {each["name"] for each in result["artifacts"]}
     assert files
     assert files == job["links"]["artifacts"].keys() - {"result.json"}
-    if kind is DerivationKind.COMBINED:
-        assert [each["fit_id"] for each in result["bodies"]] == [man["id"], *others]
-        assert "overlay_3.png" in job["links"]["artifacts"]
-    if kind in (DerivationKind.POSE, DerivationKind.FIGURE):
+    if kind is DerivationKind.POSE:
         assert sandbox.get(job["links"]["request"]).json()["pose"] == "arms_raised"
 
 
-@pytest.mark.parametrize("kind", ["report", "pose", "figure", "size", "body_composition"])
+@pytest.mark.parametrize("kind", ["pose", "size", "body_composition"])
 def test_kinds_are_derived_from_a_scan(
     sandbox: httpx.Client, front_and_side: dict[str, Any], kind: str
 ):

@@ -8,7 +8,6 @@ import fcntl
 import json
 from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
-from uuid import UUID
 
 from api_schemas.derivations import DerivationRequest
 from api_schemas.scans import ScanRequest
@@ -16,7 +15,6 @@ from service.api.derivation_kinds import needs_of
 from service.demo_data.sample import load_sample, load_scan_sample
 from service.jobs.inputs import (
     IMAGE,
-    OF_EACH_FIT,
     OF_FIRST_VIEW,
     REQUEST,
     SentPicture,
@@ -31,8 +29,6 @@ from service.worker.pipeline_port import (
 )
 
 MAX_PIXELS = 2_000_000
-OTHER_FIT = "a2d6a7b0-3a0b-4a7c-8f9e-5f4f0d9f5b11"
-FIT = "0d3c1b6e-52a4-4f0e-9e37-0a4f6c2f7d10"
 
 DERIVED: Mapping[str, dict[str, object]] = {
     "texture": {"kind": "texture", "colours": "picture", "size": 512},
@@ -40,7 +36,6 @@ DERIVED: Mapping[str, dict[str, object]] = {
     "pose": {"kind": "pose", "pose": "t_pose"},
     "animation": {"kind": "animation"},
     "caricature": {"kind": "caricature", "factor": 1.5},
-    "combined": {"kind": "combined", "fits": [OTHER_FIT]},
 }
 """What makes meshes of the fit, by the name of the folder its files are put in."""
 
@@ -61,9 +56,6 @@ GLB_FILES = (
     "animation/body_animated.glb",
     "animation/body_skinned.glb",
     "caricature/body_caricature.glb",
-    "combined/body_combined.glb",
-    "combined/body_posed_1.glb",
-    "combined/body_posed_2.glb",
     "scan/body_canonical.glb",
     "scan/body_canonical_se.glb",
     "scan/body_posed_0.glb",
@@ -148,9 +140,7 @@ def _derived(
             DerivationInput(
                 options=request.root,
                 inputs=_copies(there, needs.of_fit),
-                others=tuple(_copies(there, OF_EACH_FIT) for _ in needs.other_fits),
                 max_pixels=MAX_PIXELS,
-                fit_id=UUID(FIT),
             ),
             lambda _: None,
         )

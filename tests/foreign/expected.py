@@ -101,10 +101,6 @@ class _Results:
         world = upright_frame(tilt, vertices=vertices, root=parameters.translation)
         return self.shown(world.points(vertices), cameras=1, **more)
 
-    def combined(self, number: int) -> Shown:
-        body = self.of("combined")["bodies"][number - 1]
-        return self.posed(body["body"], body["image_camera"])
-
     def in_view(self, number: int) -> Shown:
         view = self.of("scan")["views"][number]
         return self.posed(view["body"], view["image_camera"])
@@ -197,9 +193,6 @@ _SHOWN: Mapping[str, Callable[[_Results], Shown]] = {
     "fit/body_posed_se.glb": lambda r: r.posed(r.before_shading()[0]),
     **_OF_EITHER,
     **{f"scan_{name}": shown for name, shown in _OF_EITHER.items()},
-    "combined/body_combined.glb": lambda r: r.canonical(r.of("combined")["shape"]),
-    "combined/body_posed_1.glb": lambda r: r.combined(1),
-    "combined/body_posed_2.glb": lambda r: r.combined(2),
     "scan/body_canonical.glb": lambda r: r.canonical(r.of("scan")["shape"]),
     "scan/body_canonical_se.glb": lambda r: r.canonical(r.before_shading()[0]["shape"]),
     "scan/body_posed_0.glb": lambda r: r.in_view(0),

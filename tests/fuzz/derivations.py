@@ -36,7 +36,6 @@ SIZES = (
     {"label": "S", "measurements": {"chest_girth": 92}},
     {"label": "M", "measurements": {"waist": 80}},
 )
-LONG_FITS = ([UNKNOWN_ID], [FIT_ID], [OTHER_FIT_ID], [OTHER_FIT_ID] * 2, [], ["x"])
 SUBPATHS = (
     *("", "/", "/events", "/request", "/result", "/cancel", "/retry"),
     *("/artifacts/pose.png", "/artifacts/", "/artifacts/..%2f..", "/nothing"),
@@ -119,7 +118,7 @@ def _path(chance: random.Random) -> str:
 
 def _document(chance: random.Random) -> dict[str, Any]:
     """A request of a kind, mostly of its schema; half of all are quickly made."""
-    kind = chance.choice((*KINDS, "caricature", "pose", "pose", "combined", "bust"))
+    kind = chance.choice((*KINDS, "caricature", "pose", "pose", "bust"))
     match kind:
         case "caricature":
             return {"kind": kind, "factor": chance.choice(FACTORS)}
@@ -136,20 +135,6 @@ def _document(chance: random.Random) -> dict[str, Any]:
         case "texture":
             colours = chance.choice(("picture", "albedo", "own"))
             return {"kind": kind, "colours": colours, "size": chance.choice((512, 512, 700))}
-        case "figure":
-            return {
-                "kind": kind,
-                "pose": chance.choice(POSES),
-                "degrees": chance.choice((0, -360, 359.9, 1e9)),
-            }
-        case "combined":
-            return {"kind": kind, "fits": chance.choice(LONG_FITS)}
-        case "change":
-            return {
-                "kind": kind,
-                "since": chance.choice((OTHER_FIT_ID, OTHER_FIT_ID, UNKNOWN_ID, FIT_ID, "x")),
-                "measurements": chance.choice((None, ["weight"], ["waist"], [])),
-            }
         case "body_composition":
             return {"kind": kind, "age_years": chance.choice((None, 0, 17.5, 40, 120, 121))}
         case "size":

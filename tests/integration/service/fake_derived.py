@@ -9,22 +9,17 @@ from api_schemas.derivation_kinds import AnyDerivationOptions
 from api_schemas.derivation_kinds.animation import AnimationOptions, AnimationResult
 from api_schemas.derivation_kinds.base import DerivedFiles
 from api_schemas.derivation_kinds.caricature import CaricatureOptions, CaricatureResult
-from api_schemas.derivation_kinds.combined import CombinedOptions, CombinedPicture, CombinedResult
 from api_schemas.derivation_kinds.texture import TextureColours, TextureOptions, TextureResult
 from api_schemas.derivations import DerivationResult
 from api_schemas.problems import FieldProblem
-from api_schemas.requests import FitOptions
-from api_schemas.results import FitResult, PictureResult
-from api_schemas.scans import ScanOptions, ScanResult
+from api_schemas.results import FitResult
+from api_schemas.scans import ScanResult
 from service.api.openapi import recorded_examples
 from service.jobs.inputs import (
     CLIP,
     IMAGE,
-    PERSON,
-    REQUEST,
     RESULT,
     TEXTURE,
-    pictures_of,
 )
 from service.worker.pipeline_port import (
     DerivationInput,
@@ -41,9 +36,7 @@ LARGEST_FACTOR = 6.0
 FILES = {
     ".csv": b"label,probability\r\n",
     ".glb": b"glTF",
-    ".html": b"<!doctype html><p>A report.",
     ".jpg": b"JPEG",
-    ".pdf": b"%PDF-1.4",
     ".png": b"PNG",
 }
 
@@ -71,35 +64,6 @@ def derived_output(job: DerivationInput[AnyDerivationOptions]) -> DerivationOutp
             artifacts=(),
         )
         files = {"body_caricature.glb": b"glTF", "caricature.png": b"PNG"}
-    elif isinstance(options, CombinedOptions):
-        assert job.fit_id is not None
-        bodies = []
-        for fit_id, inputs in zip(
-            (job.fit_id, *options.fits), (job.inputs, *job.others), strict=True
-        ):
-            fit, pictures = RESULTS.validate_json(inputs[RESULT]), pictures_of(inputs)
-            assert pictures[0].image == inputs[PERSON]
-            asked = ScanOptions if isinstance(fit, ScanResult) else FitOptions
-            assert len(asked.model_validate_json(inputs[REQUEST]).pictures) == len(pictures)
-            found = fit.views if isinstance(fit, ScanResult) else (fit,)
-            bodies += [(fit_id, view) for view in found]
-        result = CombinedResult(
-            pictures=len(bodies),
-            shape=(0.0, 0.5),
-            bodies=tuple(
-                CombinedPicture(
-                    number=number,
-                    fit_id=fit_id,
-                    **{name: getattr(view, name) for name in PictureResult.model_fields},
-                )
-                for number, (fit_id, view) in enumerate(bodies, start=1)
-            ),
-            measurements=RESULTS.validate_json(job.inputs[RESULT]).measurements,
-            agreement=0.5,
-            warnings=(),
-            artifacts=(),
-        )
-        files = {"body_combined.glb": b"glTF", "combined.png": b"PNG"}
     elif isinstance(options, TextureOptions):
         # Who brings the colours has no copy of the picture.
         own = options.colours is TextureColours.OWN

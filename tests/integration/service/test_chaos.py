@@ -22,7 +22,7 @@ COMMANDS = Commands(
     worker=(sys.executable, "-m", "tests.integration.service.fake_worker"),
 )
 PICTURES = 3
-DERIVED = ("pose", "report")
+DERIVED = ("pose", "body_composition")
 PLAN = Plan(
     jobs=24,
     kills={Kind.API: 2, Kind.WORKER: 3, Kind.FIT: 3, Kind.FORK_SERVER: 1},

@@ -21,7 +21,7 @@ def test_a_form_at_fault_is_refused_with_the_part(service: Service):
     for clip in ("", "motion", '{"kind": "animation"}'):
         assert problem(post_motion(service, fit, clip)) == (422, "not-a-bvh", "bvh")
     assert post_motion(service, fit, "\ufeff" + BVH).status_code == 202
-    report = {"data": {"request": '{"kind": "report"}'}}
+    report = {"data": {"request": '{"kind": "pose"}'}}
     assert problem(post_motion(service, fit, **report)) == (422, "unknown-field", "bvh")
     assert problem(post_motion(service, fit, data={})) == (422, "missing", "request")
     extra = {"data": {"request": '{"kind": "animation"}', "mask": "x"}}

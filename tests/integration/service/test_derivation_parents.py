@@ -21,7 +21,7 @@ def test_a_tenant_derives_from_its_own_fits_alone_and_from_none_that_is_gone(mac
 
         def submit(jobs: Any, name: str) -> SubmitOutcome:
             jobs.reserve(name, None)
-            return jobs.submit(new_job(name, "report")).outcome
+            return jobs.submit(new_job(name, "pose")).outcome
 
         # It has not ended: there is nothing yet to derive from.
         assert submit(ours.derivations("fit"), "early") is SubmitOutcome.PARENT_GONE
@@ -30,8 +30,8 @@ def test_a_tenant_derives_from_its_own_fits_alone_and_from_none_that_is_gone(mac
         assert submit(ours.derivations("fit"), "one") is SubmitOutcome.ACCEPTED
         record = ours.derivations("fit").job("one")
         assert record is not None
-        assert (record.kind, record.parent) == ("report", "fit")
-        assert record.inputs == new_job("one", "report").inputs
+        assert (record.kind, record.parent) == ("pose", "fit")
+        assert record.inputs == new_job("one", "pose").inputs
         assert ours.job("one") is None
         assert theirs.derivations("fit").job("one") is None
         assert theirs.derivations("fit").jobs(limit=9, before=None, state=None) == []

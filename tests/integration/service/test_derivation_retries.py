@@ -7,7 +7,7 @@ from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import Service, eventually
 from tests.integration.service.receiver import SECRET, Receiver
 from tests.integration.service.test_derivations import (
-    REPORT,
+    POSE,
     derived,
     fitted,
     post_motion,
@@ -18,9 +18,8 @@ from tests.integration.service.test_own_textures import post_texture
 
 def test_a_retry_makes_the_same_of_copies_of_all_that_went_in(either: Service):
     service = either
-    fit, other = fitted(service), fitted(service)
-    bodies = [{"kind": "combined", "fits": [other.rpartition("/")[2]]}, REPORT]
-    paths = [derived(service, fit, body) for body in bodies]
+    fit = fitted(service)
+    paths = [derived(service, fit)]
     painted = scripted_image(width=128, height=128)
     paths.append(post_texture(service, fit, painted).headers["Location"])
     paths.append(post_motion(service, fit).headers["Location"])
@@ -75,7 +74,7 @@ def test_the_end_of_a_retried_derivation_is_told_to_whom_the_first_one_s_was(
     service: Service, receiver: Receiver
 ):
     webhook = {"url": receiver.url(), "secret": SECRET}
-    path = derived(service, fitted(service), REPORT | {"webhook": webhook})
+    path = derived(service, fitted(service), POSE | {"webhook": webhook})
     service.ended(path)
     again = service.client.post(f"{path}/retry").headers["Location"]
     eventually(lambda: len(receiver.notices) >= 2, what="both ends are told")

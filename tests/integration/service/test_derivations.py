@@ -12,7 +12,6 @@ import pytest
 from api_schemas.derivations import Derivation, DerivationEvent, DerivationPage, DerivationResult
 from service.engine.storage_identity import SCOPE as STORAGE_SCOPE
 from tests.integration.service.harness import (
-    REQUEST,
     Machine,
     Service,
     eventually,
@@ -22,7 +21,7 @@ from tests.integration.service.harness import (
 )
 from tests.integration.service.receiver import SECRET, Receiver
 
-REPORT = {"kind": "report"}
+POSE = {"kind": "pose"}
 
 
 def fitted(service: Service, derivation: dict[str, object] | None = None) -> str:
@@ -32,11 +31,11 @@ def fitted(service: Service, derivation: dict[str, object] | None = None) -> str
     return path
 
 
-def post(service: Service, fit: str, body: object = REPORT, **headers: str) -> httpx.Response:
+def post(service: Service, fit: str, body: object = POSE, **headers: str) -> httpx.Response:
     return service.client.post(f"{fit}/derivations", json=body, headers=headers)
 
 
-def derived(service: Service, fit: str, body: object = REPORT) -> str:
+def derived(service: Service, fit: str, body: object = POSE) -> str:
     """Have something derived from a fit, and return the path of the job."""
     answer = post(service, fit, body)
     assert answer.status_code == 202, answer.text
@@ -48,7 +47,7 @@ def problem(answer: httpx.Response) -> tuple[int, str, str | None]:
     return answer.status_code, body["code"], body["field"]
 
 
-def test_a_report_is_asked_for_and_its_files_come_out(either: Service):
+def test_a_pose_is_asked_for_and_its_files_come_out(either: Service):
     service = either
     fit = fitted(service)
     assert service.job(fit)["links"]["derivations"] == f"{fit}/derivations"
@@ -65,24 +64,18 @@ def test_a_report_is_asked_for_and_its_files_come_out(either: Service):
     assert job["expires_at"] == service.job(fit)["expires_at"]
     document = service.client.get(job["links"]["result"])
     result = DerivationResult.model_validate_json(document.content).root
-    assert {each.name for each in result.artifacts} == {"report.html", "report.pdf"}
+    assert {each.name for each in result.artifacts} == {
+        "body_reposed.glb",
+        "pose.png",
+        "texture.jpg",
+    }
     for artifact in result.artifacts:
         file = service.client.get(job["links"]["artifacts"][artifact.name])
         assert file.headers["content-type"].partition(";")[0] == artifact.media_type
         assert hashlib.sha256(file.content).hexdigest() == artifact.sha256
-    part = service.client.get(
-        job["links"]["artifacts"]["report.pdf"], headers={"Range": "bytes=0-3"}
-    )
-    assert (part.status_code, part.content) == (206, b"%PDF")
-    assert service.client.get(job["links"]["request"]).json()["kind"] == "report"
-
-
-def test_a_document_of_a_derivation_runs_and_loads_nothing(service: Service):
-    path = derived(service, fitted(service))
-    url = service.ended(path)["links"]["artifacts"]["report.html"]
-    policy = service.client.get(url).headers["content-security-policy"]
-    assert "default-src 'none'" in policy
-    assert "script-src" not in policy
+    part = service.client.get(job["links"]["artifacts"]["pose.png"], headers={"Range": "bytes=0-2"})
+    assert (part.status_code, part.content) == (206, b"PNG")
+    assert service.client.get(job["links"]["request"]).json()["kind"] == "pose"
 
 
 def test_derivations_are_listed_below_their_fit_and_not_among_fits(service: Service):
@@ -111,7 +104,7 @@ def test_a_derivation_is_found_below_its_own_fit_alone(service: Service):
     service.ended(path)
     number = path.rpartition("/")[2]
     for wrong in (f"{other}/derivations/{number}", f"/v1/fits/{number}"):
-        for what in ("", "/events", "/result", "/artifacts/report.pdf", "/request"):
+        for what in ("", "/events", "/result", "/artifacts/pose.png", "/request"):
             assert service.client.get(f"{wrong}{what}").status_code == 404, what
         assert service.client.post(f"{wrong}/cancel").status_code == 404
         assert service.client.delete(wrong).status_code == 404
@@ -138,8 +131,7 @@ def test_nothing_is_derived_from_a_fit_that_has_not_succeeded(service: Service):
         ({}, 422, "unknown-value", "kind"),
         ({"kind": "bust"}, 422, "unknown-value", "kind"),
         ([], 422, "unknown-value", "kind"),
-        ({"kind": "report", "pages": 2}, 422, "unknown-field", "pages"),
-        ({"kind": "report", "language": "fr"}, 422, "unknown-value", "language"),
+        ({"kind": "pose", "pages": 2}, 422, "unknown-field", "pages"),
         ({"kind": "caricature", "factor": -1}, 422, "out-of-range", "factor"),
         ({"kind": "caricature", "factor": 1e9}, 422, "out-of-range", "factor"),
         ({"kind": "caricature", "factor": "2"}, 422, "wrong-kind", "factor"),
@@ -162,7 +154,7 @@ def test_nothing_is_derived_from_a_fit_that_has_not_succeeded(service: Service):
             "rotations.left_hand.2",
         ),
         (
-            {"kind": "report", "webhook": {"url": "http://192.168.1.1/hook"}},
+            {"kind": "pose", "webhook": {"url": "http://192.168.1.1/hook"}},
             422,
             "address-not-public",
             "webhook.url",
@@ -232,14 +224,14 @@ def test_what_is_no_json_is_refused(service: Service):
         path, content=b'{"kind"', headers={"Content-Type": "application/json"}
     )
     assert problem(broken)[:2] == (400, "invalid-json")
-    assert service.client.post(path, content=b"kind=report").status_code == 415
+    assert service.client.post(path, content=b"kind=pose").status_code == 415
 
 
 def test_the_same_idempotency_key_gives_the_same_derivation(service: Service):
     one, other = fitted(service), fitted(service)
-    first, again = (post(service, one, **{"Idempotency-Key": "report-1"}) for _ in range(2))
+    first, again = (post(service, one, **{"Idempotency-Key": "pose-1"}) for _ in range(2))
     assert first.headers["Location"] == again.headers["Location"]
-    elsewhere = post(service, other, **{"Idempotency-Key": "report-1"})
+    elsewhere = post(service, other, **{"Idempotency-Key": "pose-1"})
     assert problem(elsewhere)[:2] == (422, "idempotency-key-reused")
 
 
@@ -252,7 +244,7 @@ def test_a_derivation_may_be_waited_for_and_followed(service: Service):
         "queued",
         "succeeded",
     ]
-    assert {event["data"]["stage"] for event in events} == {None, "report"}
+    assert {event["data"]["stage"] for event in events} == {None, "pose"}
     tag = service.client.get(done.headers["Location"]).headers["ETag"]
     seen = service.client.get(done.headers["Location"], headers={"If-None-Match": tag})
     assert seen.status_code == 304
@@ -345,7 +337,7 @@ def test_waiting_derivations_count_among_the_jobs_of_the_queue(tmp_path: Path):
 def test_the_end_of_a_derivation_is_told(either: Service, receiver: Receiver):
     service = either
     webhook = {"url": receiver.url(), "secret": SECRET}
-    path = derived(service, fitted(service), REPORT | {"webhook": webhook})
+    path = derived(service, fitted(service), POSE | {"webhook": webhook})
     eventually(lambda: service.job(path)["webhook"]["state"] == "delivered", what="told")
     (notice,) = receiver.notices
     assert notice.is_signed_with(SECRET)
@@ -355,12 +347,3 @@ def test_the_end_of_a_derivation_is_told(either: Service, receiver: Receiver):
     assert event.data == job.model_copy(update={"webhook": None})
     stored = service.client.get(f"{path}/request").text
     assert SECRET not in stored
-
-
-def test_known_measurements_of_the_fit_stay_with_it(service: Service):
-    """A derivation's request holds nothing of the fit's."""
-    path = service.post({}, request=REQUEST | {"weight_kg": 77.5}).headers["Location"]
-    service.ended(path)
-    asked = service.client.get(f"{derived(service, path)}/request").json()
-    defaults = {"units": "metric", "language": "en", "name": None, "date": None}
-    assert asked == {"kind": "report"} | defaults

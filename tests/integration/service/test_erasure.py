@@ -82,7 +82,7 @@ def test_after_delete_no_byte_is_left(erasing: Service, resource: str):
     service, folder = erasing, erasing.machine.data_dir
     path = fitted(service, resource)
     assert service.ended(path)["state"] == "succeeded"
-    for kind in ("report", "texture"):
+    for kind in ("pose", "texture"):
         asked = {"kind": kind, "webhook": WEBHOOK}
         answer = service.client.post(f"{path}/derivations", json=asked)
         derived = answer.headers["Location"]

@@ -1,4 +1,4 @@
-"""What follows from a fit's measurements: sizes, body fat, changes since another fit."""
+"""What follows from a fit's measurements: sizes and body fat."""
 
 import json
 from typing import Any
@@ -70,7 +70,7 @@ def test_a_size_is_answered_for_a_chart_beside_the_request_or_in_it(either: Serv
             (422, "tolerance-needed", "tolerances.head_girth"),
         ),
         (CHART, {"chart_csv": CHART}, (422, "unknown-field", "chart")),
-        (CHART, {"kind": "report"}, (422, "unknown-field", "chart")),
+        (CHART, {"kind": "pose"}, (422, "unknown-field", "chart")),
     ],
 )
 def test_a_chart_at_fault_is_refused_before_anything_is_queued(
@@ -103,28 +103,3 @@ def test_body_composition_is_answered(service: Service):
     for age in (-1, 121, "40"):
         answer = post(service, fit, {"kind": "body_composition", "age_years": age})
         assert problem(answer)[::2] == (422, "age_years")
-
-
-def test_a_change_is_told_since_another_fit_and_goes_with_either(service: Service):
-    earlier, later = fitted(service), fitted(service)
-    asked = {"kind": "change", "since": earlier.rpartition("/")[2], "measurements": ["weight"]}
-    path = derived(service, later, asked)
-    assert service.ended(path)["state"] == "succeeded"
-    again = service.client.post(f"{path}/retry").raise_for_status().headers["Location"]
-    assert service.ended(again)["state"] == "succeeded"
-    assert service.job(path)["expires_at"] == service.job(earlier)["expires_at"]
-    assert service.client.delete(earlier).status_code == 204
-    for each in (path, again):
-        assert service.client.get(each).status_code == 404
-    assert service.client.get(later).status_code == 200
-
-
-def test_a_change_is_since_another_fit_that_has_succeeded_and_kept_its_person(service: Service):
-    fit, old = fitted(service), service.submit({"old": True})
-    service.ended(old)
-    own, unknown = fit.rpartition("/")[2], "00000000-0000-4000-8000-000000000000"
-    for since in (own, unknown, old.rpartition("/")[2]):
-        answer = post(service, fit, {"kind": "change", "since": since})
-        assert problem(answer) == (422, "fits-unusable", "since")
-        assert since in answer.text
-    assert problem(post(service, fit, {"kind": "change"})) == (422, "missing", "since")

@@ -156,13 +156,11 @@ def test_measurements_are_a_table_with_units(service: Service, files):
 
 
 def test_what_is_derived_is_had_in_other_formats_too(service: Service):
-    fit, other = fitted(service), fitted(service)
+    fit = fitted(service)
     made = {}
     for request in (
         {"kind": "pose"},
         {"kind": "texture", "colours": "picture"},
-        {"kind": "combined", "fits": [other.rpartition("/")[2]]},
-        {"kind": "report"},
     ):
         path = derived(service, fit, request)
         assert service.ended(path)["state"] == "succeeded"
@@ -172,11 +170,8 @@ def test_what_is_derived_is_had_in_other_formats_too(service: Service):
     assert wanted.content == b"obj of 4 bytes"
     material = get(service, f"{made['texture']}/body_textured.mtl")
     assert (material.content, material.headers["content-type"]) == (b"mtl of 4 bytes", "model/mtl")
-    table = get(service, f"{made['combined']}/measurements.csv")
-    assert table.text.startswith("name,value,unit,")
-    for kind in ("report", "pose"):
-        problem = checked(get(service, f"{made[kind]}/measurements.csv"), 404)
-        assert "measurements" not in problem.remedy
+    problem = checked(get(service, f"{made['pose']}/measurements.csv"), 404)
+    assert "measurements" not in problem.remedy
 
 
 def test_files_that_are_not_listed_stay_out_of_the_links(service: Service, files):

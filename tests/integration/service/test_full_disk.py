@@ -110,7 +110,7 @@ def test_short_of_room_everything_that_stores_is_refused_and_the_rest_works(
     key = {"Idempotency-Key": "before"}
     fit = service.post(headers=key).headers["Location"]
     assert service.ended(fit)["state"] == "succeeded"
-    report = service.client.post(f"{fit}/derivations", json={"kind": "report"})
+    report = service.client.post(f"{fit}/derivations", json={"kind": "pose"})
     derivation = report.headers["Location"]
     service.ended(derivation)
     image = upload(service, scripted_image({"kept": True})).json()["id"]
@@ -123,7 +123,7 @@ def test_short_of_room_everything_that_stores_is_refused_and_the_rest_works(
     by_id = json.dumps(REQUEST | {"image_id": image})
     assert_no_room(service.client.post("/v1/fits", content=by_id, headers=JSON))
     assert_no_room(upload(service, scripted_image({"new": True})))
-    assert_no_room(service.client.post(f"{fit}/derivations", json={"kind": "report"}))
+    assert_no_room(service.client.post(f"{fit}/derivations", json={"kind": "pose"}))
     assert_no_room(service.client.post(f"{fit}/retry"))
     assert_no_room(service.client.post(f"{derivation}/retry"))
     assert blobs_of(disk) == kept

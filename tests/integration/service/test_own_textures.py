@@ -61,6 +61,6 @@ def test_a_file_comes_along_where_it_is_wanted_and_nowhere_else(service: Service
 
 
 def test_a_form_may_hold_the_request_alone(service: Service):
-    form = {"files": {"request": ("request.json", '{"kind": "report"}', "application/json")}}
+    form = {"files": {"request": ("request.json", '{"kind": "pose"}', "application/json")}}
     answer = service.client.post(f"{fitted(service)}/derivations", **form)
-    assert (answer.status_code, answer.json()["kind"]) == (202, "report")
+    assert (answer.status_code, answer.json()["kind"]) == (202, "pose")

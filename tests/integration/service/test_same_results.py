@@ -12,7 +12,7 @@ from service.numerics.fork_server import Child, ForkServer
 from service.numerics.messages import DoneMessage, ProgressMessage, TaskMessage
 from service.numerics.tasks import ChildSetup
 from service.submissions.submission import check_fit
-from service.worker.tasks import DERIVATION, DERIVED_FROM, OPTIONS, STAGE_SECONDS
+from service.worker.tasks import DERIVATION, OPTIONS, STAGE_SECONDS
 from tests.submissions import small_submissions
 
 MAX_PIXELS = 10_000_000
@@ -26,8 +26,6 @@ SETUP = ChildSetup(
     log_level="INFO",
     log_format="text",
 )
-
-MADE_OF = b"11111111-1111-4111-8111-111111111111"
 
 KINDS = ("body_composition", "caricature", "pose", "animation")
 
@@ -121,4 +119,4 @@ def _fit(request: str, image: bytes) -> Job:
 def _derivation(options: dict[str, object], inputs: dict[str, bytes]) -> Job:
     checked = DerivationRequest.model_validate(options)
     options_part = checked.model_dump_json().encode()
-    return DERIVATION, {OPTIONS: options_part, DERIVED_FROM: MADE_OF, **inputs}
+    return DERIVATION, {OPTIONS: options_part, **inputs}

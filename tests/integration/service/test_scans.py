@@ -172,18 +172,13 @@ def test_every_view_counts_among_what_a_tenant_may_have_waiting(tmp_path: Path):
         submit_scan(service)
 
 
-THREE = SCAN | {"views": [FRONT, SIDE, {"view": "other", "points": FRONT["points"]}]}
-
-
 @pytest.mark.parametrize(
     "asked",
     [
         {"kind": "caricature", "factor": 2.0},
         {"kind": "pose", "pose": "standing"},
-        {"kind": "figure", "pose": "arms_raised"},
         {"kind": "texture"},
         {"kind": "animation"},
-        {"kind": "report"},
         {"kind": "body_composition", "age_years": 40},
         {"kind": "size", "chart_csv": "size,chest_girth\nM,94-98\nL,98-102\n"},
     ],
@@ -203,35 +198,6 @@ def test_of_a_scan_is_derived_what_the_person_is_enough_for(service: Service, as
     assert [each["id"] for each in listed] == [job["id"]]
     fits = f"/v1/fits/{job['scan_id']}/derivations/{job['id']}"
     assert service.client.get(fits).status_code == 404
-
-
-def test_scans_are_combined_picture_by_picture(service: Service):
-    first, second = scanned(service), scanned(service, {"n": 3}, {"n": 4}, {"n": 5}, request=THREE)
-    other = second.rpartition("/")[2]
-    answer = service.client.post(f"{first}/derivations", json={"kind": "combined", "fits": [other]})
-    assert answer.status_code == 202, answer.text
-    job = service.ended(answer.headers["Location"])
-    assert job["state"] == "succeeded", job
-    result = service.client.get(job["links"]["result"]).json()
-    assert result["pictures"] == 5
-    own = first.rpartition("/")[2]
-    assert [each["fit_id"] for each in result["bodies"]] == [own] * 2 + [other] * 3
-
-
-def test_two_scans_are_compared_and_the_comparison_goes_with_either(service: Service):
-    earlier, later = scanned(service), scanned(service)
-    fit = service.submit()
-    service.ended(fit)
-    refused = service.client.post(
-        f"{later}/derivations", json={"kind": "change", "since": fit.rpartition("/")[2]}
-    )
-    assert (refused.status_code, refused.json()["field"]) == (422, "since")
-    asked = {"kind": "change", "since": earlier.rpartition("/")[2]}
-    answer = service.client.post(f"{later}/derivations", json=asked)
-    assert answer.status_code == 202, answer.text
-    assert service.ended(answer.headers["Location"])["state"] == "succeeded"
-    assert service.client.delete(earlier).status_code == 204
-    assert service.client.get(answer.headers["Location"]).status_code == 404
 
 
 def test_how_long_scans_ran_is_counted_by_itself(service: Service):

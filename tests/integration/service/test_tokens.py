@@ -39,7 +39,7 @@ def test_a_token_makes_fits_and_scans_and_reads_them(guarded: Guarded):
     scan = post_scan(browser)
     assert scan.status_code == 202
     assert browser.ended(scan.headers["Location"])["state"] == "succeeded"
-    derived = browser.client.post(f"{path}/derivations", json={"kind": "report"})
+    derived = browser.client.post(f"{path}/derivations", json={"kind": "pose"})
     assert derived.status_code == 202, derived.text
     assert browser.ended(derived.headers["Location"])["state"] == "succeeded"
     again = browser.client.post(f"{path}/retry")
@@ -88,7 +88,7 @@ def test_a_token_is_good_for_so_many_jobs(guarded: Guarded):
         browser.post(),
         post_scan(browser),
         browser.client.post(f"{path}/retry"),
-        browser.client.post(f"{path}/derivations", json={"kind": "report"}),
+        browser.client.post(f"{path}/derivations", json={"kind": "pose"}),
     ):
         assert checked(refused, 429).code == "token-spent"
     # Erasing makes no room.

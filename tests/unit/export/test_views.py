@@ -5,7 +5,6 @@ from fitter.export.views import (
     PANEL_HEIGHT_PX,
     PANEL_WIDTH_PX,
     framing_camera,
-    sides_pictures,
     turned_about_vertical,
     under_level_camera,
     views_picture,
@@ -65,21 +64,3 @@ def test_four_panels_show_a_thin_body_wide_from_the_front_and_thin_from_the_side
     widths = [int(panel.any(axis=0).sum()) for panel in np.split(below_labels, 4, axis=1)]
     assert widths[0] > 4 * widths[1]
     assert widths[2] > 4 * widths[3]
-
-
-def test_four_sides_are_drawn_in_one_scale_and_the_back_mirrors_the_front(slab):
-    vertices, triangles = slab
-    pictures = sides_pictures(vertices * [1, -1, -1] + ROOT, ROOT, None, triangles)
-    widths, heights = zip(*(extent(picture) for picture in pictures.values()), strict=True)
-    front, right, behind, left = widths
-    assert front == pytest.approx(behind, abs=2)
-    assert right == pytest.approx(left, abs=2)
-    assert right < 0.35 * front
-    # Near parts swell a little: the sides of a wide body come nearer as it is turned.
-    assert max(heights) < 1.1 * min(heights)
-
-
-def extent(picture):
-    """Width and height of what is drawn, pixels."""
-    rows, columns = np.nonzero((picture < 250).any(axis=2))
-    return np.ptp(columns) + 1, np.ptp(rows) + 1

@@ -16,7 +16,7 @@ from api_schemas.derivation_kinds import (
 from api_schemas.derivations import DerivationRequest, DerivationResult
 from service.api.derivation_kinds import KINDS, DerivationKindDefinition, needs_of
 from service.api.openapi import recorded_examples
-from service.jobs.inputs import OF_EACH_FIT, PERSON
+from service.jobs.inputs import PERSON
 from service.worker.derivers import load_deriver
 from service.worker.pipeline_port import DerivationInput, DerivationOutput
 
@@ -77,9 +77,6 @@ def test_what_a_request_needs_is_of_the_person_and_no_other_part_than_the_declar
         needs = needs_of(options)
         assert PERSON in needs.of_fit
         assert needs.part in (None, kind.part)
-        # What is needed of others is needed of the fit itself, and told apart by its names.
-        assert set(needs.of_others) <= set(needs.of_fit) & set(OF_EACH_FIT)
-        assert bool(needs.other_fits) is bool(needs.of_others)
 
 
 @each_kind

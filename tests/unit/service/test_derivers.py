@@ -1,7 +1,6 @@
 """What derives a kind makes do with what the kind needs, and says what the fitter knows."""
 
 import io
-import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -21,32 +20,24 @@ from fitter.applications.poses import NAMED_POSES, REST
 from fitter.applications.texture import SIZES
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.parameters import Light, Reflectance
-from fitter.person.fitted_person import FittedPerson
-from fitter.request import FitRequest
-from fitter.vocabulary.choices import LightKind, OptimizerKind
+from fitter.vocabulary.choices import LightKind
 from service.jobs.inputs import (
     CLIP,
     PERSON,
-    REQUEST,
     RESULT,
     SEGMENTATION,
     TEXTURE,
-    of_other,
 )
 from service.worker.artifacts import MEDIA_TYPES, with_result_document
-from service.worker.derived import combined
 from service.worker.pipeline_port import (
     UnusableInputError,
 )
 from tests.unit.export.glb_reader import read_glb
 from tests.unit.service.derivation_samples import (
-    FITS,
     NEEDED,
-    OWN,
     derived,
     person,
     png,
-    sample_inputs,
 )
 
 MOTIONS = Path(__file__).parents[1] / "applications" / "data" / "bvh"
@@ -85,7 +76,7 @@ def test_a_derivation_s_document_lists_its_files_and_is_of_its_type(kind):
 
 
 def test_the_same_derivation_gives_the_same_bytes():
-    assert derived(kind="report").artifacts == derived(kind="report").artifacts
+    assert derived(kind="pose").artifacts == derived(kind="pose").artifacts
 
 
 def test_a_caricature_says_what_was_exaggerated():
@@ -122,23 +113,6 @@ def test_a_named_pose_departs_where_it_is_told_to():
 def test_a_walk_is_as_long_as_it_is_asked_to_be(duration_s: float, frames: int):
     result = derived(kind="animation", start_s=100.0, duration_s=duration_s).result.model_dump()
     assert (result["frames"], result["warnings"]) == (frames, ())
-
-
-def shape_of(inputs: dict[str, bytes], name: str = PERSON) -> np.ndarray:
-    return FittedPerson.from_bytes(inputs[name]).body.shape
-
-
-def test_the_combined_body_is_one_body_near_those_of_the_fits():
-    inputs = sample_inputs()
-    result = derived(kind="combined", **NEEDED["combined"]).result.model_dump()
-    own, other = shape_of(inputs), shape_of(inputs, of_other(PERSON, 0))
-    assert result["pictures"] == 2
-    # The same picture twice: it is searched again, with what outlines say counted for more.
-    assert np.linalg.norm(np.array(result["shape"]) - 0.5 * (own + other)) < 0.6 * np.sqrt(len(own))
-    assert result["agreement"] > 0.5
-    assert not result["warnings"]
-    waist = next(each for each in result["measurements"] if each["name"] == "waist_girth_navel")
-    assert waist["standard_error"] > 0.0
 
 
 @pytest.mark.parametrize(
@@ -204,58 +178,6 @@ def test_albedo_of_a_fit_without_light_is_refused_in_new_poses_too():
     with pytest.raises(UnusableInputError) as caught:
         derived(kind="pose", colours="albedo")
     assert (caught.value.error.code, caught.value.error.field) == ("no-light", "colours")
-
-
-def test_a_combined_body_stands_in_each_picture_in_its_pose():
-    output = derived(kind="combined", **NEEDED["combined"])
-    result = output.result.model_dump()
-    assert [each["number"] for each in result["bodies"]] == [1, 2]
-    assert [str(each["fit_id"]) for each in result["bodies"]] == [str(OWN), FITS[0]]
-    for each in result["bodies"]:
-        assert each["body"]["shape"] == result["shape"]
-        assert each["silhouette_overlap"] > 0.85
-        glb = read_glb(output.artifacts[f"body_posed_{each['number']}.glb"])
-        depth = -glb.attribute("POSITION")[:, 2].mean()
-        assert depth == pytest.approx(each["body"]["translation_m"][2], abs=0.2)
-        with Image.open(io.BytesIO(output.artifacts[f"overlay_{each['number']}.png"])) as overlay:
-            camera = each["image_camera"]
-            assert overlay.size == (camera["width"], camera["height"])
-
-
-def test_pictures_of_different_people_are_combined_with_a_warning_that_names_the_fit():
-    (warning,) = derived(kind="combined", fits=FITS).result.model_dump()["warnings"]
-    assert warning["code"] == "different-people"
-    assert FITS[1] in warning["message"]
-    assert "in less than 0.01 % of cases" in warning["message"]
-
-
-def test_fits_that_were_told_other_heights_are_not_combined():
-    taller = json.loads(sample_inputs()[REQUEST]) | {"height_m": 1.9}
-    told = {of_other(REQUEST, 0): json.dumps(taller).encode()}
-    with pytest.raises(UnusableInputError) as caught:
-        derived(files=told, kind="combined", fits=FITS[:1])
-    assert caught.value.error.field == "fits.0"
-
-
-def test_pictures_are_searched_by_gauss_newton_however_their_fits_were(monkeypatch):
-    class EnoughError(Exception):
-        pass
-
-    asked: list[FitRequest] = []
-
-    def noted(request: FitRequest, *_: object, **__: object) -> None:
-        asked.append(request)
-        raise EnoughError
-
-    monkeypatch.setattr(combined, "fit", noted)
-    simplex = json.loads(sample_inputs()[REQUEST]) | {"optimizer": "simplex"}
-    told = json.dumps(simplex).encode()
-    with pytest.raises(EnoughError):
-        derived(files={REQUEST: told, of_other(REQUEST, 0): told}, kind="combined", fits=FITS[:1])
-    (request,) = asked
-    assert request.choices.optimizer is OptimizerKind.GAUSS_NEWTON
-    assert len(request.views) == 2
-    assert all(view.start is not None for view in request.views)
 
 
 def test_a_texture_with_its_light_divided_out_needs_a_fit_with_shading():

@@ -21,7 +21,6 @@ from fitter.remarks import Assumption, FitWarning
 from fitter.render.camera import Camera
 from fitter.vocabulary.choices import LightKind, ViewKind
 from fitter.vocabulary.outcomes import FocalLengthSource, Severity, StanceKind
-from service.worker.derived.person import read_result
 from service.worker.fit_results import fit_result, scan_result
 
 PARTS = ("pelvis", "spine")
@@ -284,17 +283,6 @@ def test_the_worst_view_is_the_scans_verdict_with_its_reason():
     assert translated.outcome_explanation == translated.views[1].outcome_explanation
 
 
-def test_a_scan_of_version_1_0_has_fewer_fields_and_is_read():
-    document = json.loads(scan_result(scanned(), part_names=PARTS).model_dump_json())
-    for name in ("optimizer", "energies", "evaluations", "stages", "stage_seconds"):
-        del document[name]
-    for view in document["views"]:
-        del view["limb_facing"]
-    read = read_result(json.dumps(document).encode())
-    assert isinstance(read, ScanResult)
-    assert (read.stages, read.views[0].limb_facing) == ((), ())
-
-
 def test_a_fit_of_no_announced_view_is_told_to_workers_of_version_1_0_in_their_words():
     plain = json.loads(fit_result(result(light=None), part_names=PARTS).model_dump_json())
     assert not {"view", "findings"} & plain.keys()
@@ -304,12 +292,3 @@ def test_a_fit_of_no_announced_view_is_told_to_workers_of_version_1_0_in_their_w
     )
     assert (announced.view, announced.findings[0].code) == ("side", "contradicted")
     assert wire.FitResult.model_validate_json(announced.model_dump_json()) == announced
-
-
-def test_what_a_later_version_adds_to_a_result_is_passed_over():
-    document = json.loads(fit_result(result(light=None), part_names=PARTS).model_dump_json())
-    document["of_tomorrow"] = {"a": 1}
-    document["body"]["of_tomorrow"] = 2
-    assert read_result(json.dumps(document).encode()) == fit_result(
-        result(light=None), part_names=PARTS
-    )

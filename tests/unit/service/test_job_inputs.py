@@ -79,7 +79,7 @@ def copies(blobs: WatchedBlobs) -> Inputs:
     for scope in (FIT, OTHER):
         digest = LocalBlobStore(blobs.root).put(scope, scope.encode())
         files[scope] = Copy(scope=scope, blob=StoredBlob(digest=digest, media_type="image/png"))
-    return Inputs(kind="combined", options=b"{}", files=files, webhook=None)
+    return Inputs(kind="pose", options=b"{}", files=files, webhook=None)
 
 
 class Jobs:

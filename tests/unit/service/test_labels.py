@@ -71,7 +71,6 @@ def test_what_cannot_be_read_is_refused_by_name(label, code):
 @pytest.mark.parametrize(
     ("asked", "field"),
     [
-        (lambda text: {"kind": "report", "name": text}, "name"),
         (
             lambda text: {
                 "kind": "size",

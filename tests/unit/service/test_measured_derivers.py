@@ -1,4 +1,4 @@
-"""Sizes, body fat and changes: what follows from measurements, as derivations."""
+"""Sizes and body fat: what follows from measurements, as derivations."""
 
 import csv
 import io
@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.fits.prepared_model import prepared_model
 from fitter.measurement.anthropometry import measure
 from fitter.vocabulary.choices import Gender
@@ -15,14 +14,12 @@ from service.jobs.inputs import (
     CHART,
     PERSON,
     RESULT,
-    of_other,
 )
 from service.worker.pipeline_port import (
     UnusableInputError,
 )
 from tests.unit.service.derivation_samples import (
     CHART_CSV,
-    FITS,
     NEEDED,
     derived,
     person,
@@ -95,53 +92,7 @@ def test_body_fat_says_why_it_is_withheld_for_the_young():
     assert all("years, not of 12" in each["withheld"][0] for each in child["estimates"])
 
 
-def changed_person(**shifts: float) -> dict[str, bytes]:
-    """The other fit of a comparison, with some coefficients shifted."""
-    someone = person()
-    shape = someone.body.shape.copy()
-    for index, shift in shifts.items():
-        shape[int(index.removeprefix("b"))] += shift
-    other = replace(someone, body=replace(someone.body, shape=shape))
-    return {of_other(PERSON, 0): other.to_bytes()}
-
-
-def test_the_same_fit_twice_has_changed_in_nothing():
-    result = derived(kind="change", since=FITS[0]).result.model_dump()
-    assert {each["difference"] for each in result["changes"]} == {0.0}
-    assert not any(each["is_change"] for each in result["changes"])
-    assert result["warnings"] == ()
-
-
-def test_a_large_difference_is_a_change_and_a_small_one_is_none():
-    small, large = (
-        derived(kind="change", since=FITS[0], files=changed_person(b1=shift)).result.model_dump()
-        for shift in (-0.05, -5.0)
-    )
-    assert not any(each["is_change"] for each in small["changes"])
-    called = {each["name"] for each in large["changes"] if each["is_change"]}
-    assert "weight" in called
-    for each in large["changes"]:
-        assert each["difference"] == pytest.approx(each["after"] - each["before"], abs=0.021)
-
-
-def test_fewer_measurements_are_compared_by_a_smaller_least_difference():
-    names = ["waist_girth_navel", "weight"]
-    everything = derived(kind="change", since=FITS[0]).result.model_dump()["changes"]
-    chosen = derived(kind="change", since=FITS[0], measurements=names).result.model_dump()
-    assert [each["name"] for each in chosen["changes"]] == names
-    least = {each["name"]: each["least"] for each in everything}
-    for each in chosen["changes"]:
-        assert each["least"] < least[each["name"]]
-
-
-def test_a_change_of_height_is_remarked_on():
-    (warning,) = derived(
-        kind="change", since=FITS[0], files=changed_person(b0=1.0)
-    ).result.model_dump()["warnings"]
-    assert warning["code"] == "heights-differ"
-
-
-@pytest.mark.parametrize("kind", ["size", "body_composition", "change"])
+@pytest.mark.parametrize("kind", ["size", "body_composition"])
 def test_nothing_follows_from_measurements_that_are_withheld(kind):
     withheld = fit_result(light=None, reflectance=None, measurements=())
     files = {RESULT: withheld.model_dump_json().encode()}
@@ -150,18 +101,9 @@ def test_nothing_follows_from_measurements_that_are_withheld(kind):
     assert (caught.value.error.code, caught.value.error.field) == ("fits-unusable", "kind")
 
 
-def test_a_fit_of_another_gender_is_nobody_s_earlier_one():
-    model = load_body_model(packaged_model_path("male"))
-    man = replace(person(), gender=Gender.MALE, model_checksum=str(model.header["checksum"]))
-    with pytest.raises(UnusableInputError) as caught:
-        derived(kind="change", since=FITS[0], files={of_other(PERSON, 0): man.to_bytes()})
-    assert (caught.value.error.code, caught.value.error.field) == ("fits-unusable", "since")
-
-
-@pytest.mark.parametrize("kind", ["size", "change", "combined"])
-def test_of_a_fit_by_the_papers_method_which_states_no_errors_the_remedy_is_another_fit(kind: str):
+def test_of_a_fit_by_the_papers_method_which_states_no_errors_the_remedy_is_another_fit():
     unsure = replace(person(), shape_covariance=None).to_bytes()
     with pytest.raises(UnusableInputError) as caught:
-        derived(kind=kind, files={PERSON: unsure}, **NEEDED[kind])
+        derived(kind="size", files={PERSON: unsure}, **NEEDED["size"])
     assert caught.value.error.code == "fits-unusable"
     assert "without `paper`" in caught.value.error.remedy

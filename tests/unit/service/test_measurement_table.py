@@ -35,7 +35,7 @@ def test_a_line_a_measurement_and_a_column_a_field():
 
 
 def test_a_result_document_may_hold_other_things_besides():
-    document = {"kind": "combined", "measurements": [json.loads(measurement().model_dump_json())]}
+    document = {"kind": "other", "measurements": [json.loads(measurement().model_dump_json())]}
     assert measurements_csv_of(json.dumps(document).encode()) == measurements_csv([measurement()])
 
 
