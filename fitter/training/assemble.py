@@ -2,18 +2,18 @@
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 from itertools import islice
 
 import numpy as np
 from jaxtyping import Float, Integer
 from scipy import sparse
 
-from fitter.arrays import Shape, Triangles, Vertices
+from fitter.arrays import Triangles, Vertices
 from fitter.body.model import BodyModel, SparseRows
 from fitter.body.scape import ScapeEvaluator
-from fitter.body.stature import stature_m
+from fitter.body.shape_space import height_of_shape
 from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
-from fitter.parameters import BodyParameters
 from fitter.training.articulation.joints import (
     fit_joint_regressor,
     regressed_joints,
@@ -219,15 +219,7 @@ def with_height_axis(model: BodyModel, coefficients: Float[np.ndarray, "s n"]) -
 
 def height_attribute(model: BodyModel) -> Attribute:
     """H(β): stature of the body reconstructed in the standing pose, metres."""
-    evaluator = ScapeEvaluator(model)
-
-    def height(shape: Shape) -> float:
-        parameters = BodyParameters(
-            pose=model.standing_pose, translation=np.zeros(3), shape=np.asarray(shape)
-        )
-        return stature_m(evaluator.body_frame_vertices(parameters), model.landmarks)
-
-    return height
+    return partial(height_of_shape, ScapeEvaluator(model))
 
 
 def pose_examples(

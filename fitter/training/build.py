@@ -11,7 +11,6 @@ from fitter.body.model import BodyModel, SparseRows
 from fitter.body.storage import load_body_model, save_body_model
 from fitter.training.articulation.bone_centres import with_skin_centres
 from fitter.training.articulation.inner_points import with_inner_points
-from fitter.training.articulation.registered_bodies import RegisteredBodies
 from fitter.training.articulation.rig import load_rig
 from fitter.training.articulation.rigged_bodies import RiggedMesh, rigged_bodies, rigged_mesh
 from fitter.training.articulation.shoulder_girdle import with_shoulder_girdle
@@ -19,28 +18,25 @@ from fitter.training.articulation.volume_learning import with_volume_learned
 from fitter.training.assemble import assemble_body_model, model_arrays, with_height_axis
 from fitter.training.makehuman.body_space import BodySpace, load_body_space
 from fitter.training.makehuman.landmarks import body_landmarks
-from fitter.training.makehuman.meshes import load_base_mesh
+from fitter.training.makehuman.meshes import load_base_mesh, makehuman_folder
 from fitter.training.people.population import (
+    PACKAGED_PEOPLE,
     Population,
     load_population,
-    packaged_population_path,
+    population_path,
     prepare,
     save_population,
     solve_population,
 )
-from fitter.training.plan import Plan
-from fitter.training.report.header_figures import header_figures
-from fitter.training.report.held_out_errors import HeldOutErrors, held_out_errors
-from fitter.training.report.provenance import provenance
+from fitter.training.provenance import Plan, provenance
+from fitter.training.report.header_figures import training_figures
+from fitter.training.report.held_out_figures import held_out_figures
 
 GENDERS = ("female", "male")
 
 INNER_POINTS_STREAM, VOLUMES_STREAM = 1, 2
 """Of the seed: poses that landmarks are fitted in, and poses whose volume is asked for, are not
 those of the pose term."""
-
-PACKAGED_SEED = 1
-"""That the committed populations were drawn from."""
 
 KEPT_MEASUREMENTS = (
     "chestcircumference",
@@ -52,69 +48,67 @@ KEPT_MEASUREMENTS = (
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Materials:
-    """What both genders share, and each gender's rigged mesh and space of bodies."""
+    """What one gender's model is made of: a space of bodies, the rigged mesh, its landmarks."""
 
-    meshes: Mapping[str, RiggedMesh]
-    spaces: Mapping[str, BodySpace]
+    gender: str
+    space: BodySpace
+    mesh: RiggedMesh
     landmarks: SparseRows
 
 
-def read_materials(folder: Path) -> Materials:
-    """Read mesh, rig and targets from MakeHuman's data folder."""
+def read_materials() -> Mapping[str, Materials]:
+    """Mesh, rig and targets of both genders, from MakeHuman's data; the landmarks are shared."""
+    folder = makehuman_folder()
     base = load_base_mesh(folder)
     spaces = {gender: load_body_space(folder, base, gender) for gender in GENDERS}
     cubes = load_rig(folder, base.groups, len(base.source_vertices))
-    return Materials(
-        meshes={
-            gender: rigged_mesh(
+    landmarks = body_landmarks(folder, base, tuple(spaces.values()))
+    return {
+        gender: Materials(
+            gender=gender,
+            space=space,
+            mesh=rigged_mesh(
                 base, with_shoulder_girdle(with_skin_centres(cubes, base, space), base)
-            )
-            for gender, space in spaces.items()
-        },
-        spaces=spaces,
-        landmarks=body_landmarks(folder, base, tuple(spaces.values())),
-    )
+            ),
+            landmarks=landmarks,
+        )
+        for gender, space in spaces.items()
+    }
 
 
 def solved_population(
     materials: Materials,
-    gender: str,
     *,
     count: int,
     seed: int,
-    cache: Path | None,
+    folder: Path = PACKAGED_PEOPLE,
     processes: int = 1,
     anew: bool = False,
 ) -> Population:
-    """The first ``count`` subjects of a seed: a second each to solve where no file holds as many.
+    """The first ``count`` subjects of a seed.
 
-    The committed population is asked first, if the seed is its own, and then the cache, which also
-    keeps what is solved. With ``anew`` neither is read.
+    They are read where the folder keeps as many, unless they are to be solved ``anew``; else they
+    are solved, a second each, and kept there.
     """
-    path = None if cache is None else cache / f"population_{gender}_{seed}.npz"
-    packaged = packaged_population_path(gender) if seed == PACKAGED_SEED else None
-    for kept in () if anew else (packaged, path):
-        if kept is not None and kept.exists():
-            found = load_population(kept, materials.spaces[gender], count=count)
-            if len(found.source_vertices) == count:
-                return found
-    workshop = prepare(materials.spaces[gender], materials.landmarks)
+    path = population_path(folder, materials.gender, seed)
+    if path.exists() and not anew:
+        found = load_population(path, materials.space, count=count)
+        if len(found.source_vertices) == count:
+            return found
+    workshop = prepare(materials.space, materials.landmarks)
     population = solve_population(workshop, count, seed, processes=processes)
-    if path is not None:
-        save_population(path, population)
+    save_population(path, population)
     return population
 
 
-def train_model(
-    materials: Materials, gender: str, population: Population, plan: Plan
-) -> tuple[BodyModel, RegisteredBodies, HeldOutErrors]:
-    """Train on the subjects that are not held out and test on those; the header says how.
+def train_model(materials: Materials, population: Population, plan: Plan) -> BodyModel:
+    """The model learned from the subjects that are not held out.
 
-    Returns the model, the held-out bodies and the model's errors on them.
+    Its header says how, and how well it does on those that are.
     """
     held_out = subjects(population, slice(0, plan.held_out))
     training = subjects(population, slice(plan.held_out, plan.held_out + plan.subjects))
-    mesh = materials.meshes[gender]
+    mesh, seed = materials.mesh, [plan.seed, GENDERS.index(materials.gender)]
     taught = rigged_bodies(mesh, training.source_vertices, kept_measurements(training))
     trained = assemble_body_model(
         taught,
@@ -125,20 +119,22 @@ def train_model(
             mesh,
             training.source_vertices,
             taught,
-            np.random.default_rng([plan.seed, GENDERS.index(gender), INNER_POINTS_STREAM]),
+            np.random.default_rng([*seed, INNER_POINTS_STREAM]),
         ),
-        header=provenance(gender, training, plan),
+        header=provenance(materials.gender, training, plan),
         example_count=plan.examples,
-        rng=np.random.default_rng([plan.seed, GENDERS.index(gender)]),
+        rng=np.random.default_rng(seed),
     )
-    tested = rigged_bodies(mesh, held_out.source_vertices)
-    volumes = np.random.default_rng([plan.seed, GENDERS.index(gender), VOLUMES_STREAM])
-    corrected = with_volume_learned(trained.model, volumes)
+    corrected = with_volume_learned(trained.model, np.random.default_rng([*seed, VOLUMES_STREAM]))
     # The correction reaches the standing pose, in which height is measured.
     trained = with_height_axis(corrected, trained.coefficients)
-    errors = held_out_errors(trained.model, tested)
-    header = dict(trained.model.header) | header_figures(trained, taught, tested, errors)
-    return replace(trained.model, header=header), tested, errors
+    tested = rigged_bodies(mesh, held_out.source_vertices)
+    header = {
+        **trained.model.header,
+        **training_figures(trained, tested.rest),
+        "held_out_errors": held_out_figures(trained.model, tested),
+    }
+    return replace(trained.model, header=header)
 
 
 def write_model(path: Path, model: BodyModel) -> BodyModel:
@@ -148,21 +144,6 @@ def write_model(path: Path, model: BodyModel) -> BodyModel:
     save_body_model(unfinished, header=model.header, arrays=model_arrays(model))
     unfinished.replace(path)
     return load_body_model(path)
-
-
-def held_out_bodies(
-    materials: Materials, model: BodyModel, *, cache: Path | None, processes: int = 1
-) -> RegisteredBodies:
-    """The subjects that a model file says were held out: see :func:`solved_population`."""
-    population = solved_population(
-        materials,
-        model.gender,
-        count=int(str(model.header["held_out_subjects"])),
-        seed=int(str(model.header["seed"])),
-        cache=cache,
-        processes=processes,
-    )
-    return rigged_bodies(materials.meshes[model.gender], population.source_vertices)
 
 
 def kept_measurements(population: Population) -> Float[np.ndarray, "s k"]:

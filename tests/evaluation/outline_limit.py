@@ -15,9 +15,8 @@ from jaxtyping import Bool, Float
 from fitter.body.model import BodyModel
 from fitter.measurement.definition_file import load_definitions
 from fitter.training.articulation.rigged_bodies import rigged_bodies
-from fitter.training.build import PACKAGED_SEED, read_materials, solved_population
-from fitter.training.makehuman.meshes import makehuman_folder
-from fitter.training.report.measured_people import measured_bodies
+from fitter.training.build import read_materials, solved_population
+from fitter.training.report.header_figures import measured_bodies
 from fitter.vocabulary.choices import Gender
 from tests.evaluation.landmark_points import packaged_model
 
@@ -41,12 +40,10 @@ def outline_limit(gender: Gender) -> Mapping[str, Mapping[str, float]]:
 
     Takes half a minute, most of it measuring 1,300 bodies.
     """
-    materials = read_materials(makehuman_folder())
-    population = solved_population(
-        materials, gender.value, count=SUBJECTS, seed=PACKAGED_SEED, cache=None
-    )
-    model, mesh = packaged_model(gender), materials.meshes[gender.value]
-    bodies = np.asarray(rigged_bodies(mesh, population.source_vertices).rest)
+    materials = read_materials()[gender.value]
+    population = solved_population(materials, count=SUBJECTS, seed=1)
+    model = packaged_model(gender)
+    bodies = np.asarray(rigged_bodies(materials.mesh, population.source_vertices).rest)
     measured = measured_bodies(model, bodies)
     statures = np.ptp(bodies[..., 1], axis=1)
     beside = ~_on_arms(model)

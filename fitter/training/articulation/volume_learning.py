@@ -31,7 +31,6 @@ from fitter.parameters import BodyParameters
 from fitter.training.articulation.parts import Parts
 from fitter.training.articulation.random_poses import random_pose
 from fitter.training.articulation.vertex_metric import vertex_motions
-from fitter.training.shapes.likely_bodies import random_shapes
 
 SAMPLES = 1500
 VOLUME_SIGMA = 0.003
@@ -67,7 +66,7 @@ def with_volume_learned(
     )
     solver = _Volumes(model, laplacians, used)
     poses = [random_pose(rng) for _ in range(samples)]
-    shapes = random_shapes(samples, count, rng)
+    shapes = rng.normal(size=(samples, count))
     gains = np.empty(samples)
     slopes = np.empty((samples, int(used.sum()) * (count + 1)))
     squares = np.zeros(int(used.sum()))

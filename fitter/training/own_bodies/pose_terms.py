@@ -1,22 +1,14 @@
-"""The pose-dependent term of a user's bodies: learned from scans, taken over, or none."""
-
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+"""Pose-dependent terms for bodies without scans in poses: taken over from a model, or none."""
 
 import numpy as np
-from jaxtyping import Float, Integer
+from jaxtyping import Float
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
 from fitter.body.model import BodyModel
 from fitter.numerics.gradient_operators import gradient_operator, part_laplacians
 from fitter.training.articulation.parts import Parts
-from fitter.training.articulation.pose_term import (
-    PoseExample,
-    PoseTerm,
-    pose_feature_joints,
-    train_pose_term,
-)
+from fitter.training.articulation.pose_term import PoseTerm, pose_feature_joints
 from fitter.training.assemble import ShapeSpace
 from fitter.training.shapes.principal_shapes import project
 from fitter.training.shapes.surface import vertex_masses
@@ -29,66 +21,12 @@ _REGULARISATION = 1e-6
 """Relative; holds the translation that a part's Laplacian leaves free."""
 
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class PoseTermSource:
-    """Where E comes from.
-
-    Attributes
-    ----------
-    origin
-        In words, for header and report.
-    scans
-        The user's scans that it is learned from.
-    feature_joints
-        (p, q) joints that drive it, as in the model.
-    make
-        The term in a shape space.
-    """
-
-    origin: str
-    scans: int
-    feature_joints: Integer[np.ndarray, "p q"]
-    make: Callable[[ShapeSpace], PoseTerm]
-
-
-def no_pose_term(parts: Parts) -> PoseTermSource:
+def no_pose_term(space: ShapeSpace, parts: Parts) -> PoseTerm:
     """E = 0: parts turn rigidly and the skin between them is stretched."""
     joints = pose_feature_joints()
-
-    def make(space: ShapeSpace) -> PoseTerm:
-        return PoseTerm(
-            right_hand_sides=np.zeros((len(parts.incidence_vertices), 3, 9 * joints.shape[1])),
-            strengths=np.zeros((len(joints), 9 * joints.shape[1], len(space.basis))),
-        )
-
-    origin = "none, for want of scans in poses: parts turn rigidly"
-    return PoseTermSource(origin=origin, scans=0, feature_joints=joints, make=make)
-
-
-def learned_pose_term(
-    parts: Parts, count: int, examples: Callable[[ShapeSpace], Iterable[PoseExample]]
-) -> PoseTermSource:
-    """E by ridge regression from ``count`` scans."""
-    joints = pose_feature_joints()
-
-    def make(space: ShapeSpace) -> PoseTerm:
-        return train_pose_term(examples(space), space.laplacians, parts, joints, len(space.basis))
-
-    origin = f"learned from {count} scans in poses"
-    return PoseTermSource(origin=origin, scans=count, feature_joints=joints, make=make)
-
-
-def packaged_pose_term(packaged: BodyModel) -> PoseTermSource:
-    """The packaged model's E, for bodies on the same surface cut into the same parts."""
-
-    def make(space: ShapeSpace) -> PoseTerm:
-        return transferred_pose_term(space, packaged)
-
-    return PoseTermSource(
-        origin=f"taken over from the packaged {packaged.gender} model",
-        scans=0,
-        feature_joints=packaged.pose_feature_joints,
-        make=make,
+    return PoseTerm(
+        right_hand_sides=np.zeros((len(parts.incidence_vertices), 3, 9 * joints.shape[1])),
+        strengths=np.zeros((len(joints), 9 * joints.shape[1], len(space.basis))),
     )
 
 
@@ -127,7 +65,7 @@ def transferred_pose_term(space: ShapeSpace, packaged: BodyModel) -> PoseTerm:
 def _packaged_coefficients(
     space: ShapeSpace, packaged: BodyModel
 ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, "n k"]]:
-    """B and B: the packaged coefficients nearest to the new mean, and along each new axis."""
+    """Packaged coefficients b nearest to the new mean, and their change B along each new axis."""
     masses = vertex_masses(packaged.mean_vertices, packaged.triangles)
     meshes = np.concatenate([space.mean[None], space.mean + space.basis])
     found, _ = project(meshes, masses, packaged.mean_vertices, packaged.shape_basis)

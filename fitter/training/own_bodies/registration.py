@@ -1,23 +1,19 @@
 """Whether a mesh is a body registered to the template: what real folders get wrong, one by one.
 
 Checks run from what needs no trust in the others to what does: vertices, triangles, edge lengths
-(which know no unit and no axes), axes, unit, side. The first that fails names its cause.
+(which know no unit and no axes), axes, unit. The first that fails names its cause.
 """
 
-from collections.abc import Sequence
-
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Float
 
 from fitter.arrays import Triangles, Vertices
 from fitter.body.model_checks import HEIGHT_RANGE_M
 from fitter.body.skeleton import regress
 from fitter.errors import MeshFolderError
 from fitter.training.articulation.part_tree import part_index
-from fitter.training.own_bodies.frame import METRES, Frame, axes_entry
 from fitter.training.own_bodies.mesh_files import MeshFile
 from fitter.training.own_bodies.template import Template
-from fitter.vocabulary.measurements import LEAST_HEIGHT_M, MOST_HEIGHT_M
 
 STRANGE_RATIO = 2.0
 STRANGE_SHARE = 0.1
@@ -27,11 +23,7 @@ body mass index 16 to 42 the worst has 0.6 % strange edges; with its vertices nu
 instead of zero it has 51 %."""
 
 ALIGNED = 0.8
-"""Cosine within which the body's own directions must keep to axes: 37 degrees."""
-
-SAME_M = 5e-5
-"""Two subjects whose vertices lie this near to each other on average are one: twice the rounding of
-a text file, a hundredth of the least difference between two people."""
+"""Cosine within which the body's own directions must keep to the frame's: 37 degrees."""
 
 
 def check_vertex_count(place: str, mesh: MeshFile, template: Template) -> None:
@@ -47,7 +39,10 @@ def check_vertex_count(place: str, mesh: MeshFile, template: Template) -> None:
     triangles = template.mesh.triangles
     if mesh.triangles is None or mesh.triangles.shape != triangles.shape:
         return
-    other = np.flatnonzero(~_same_triangles(mesh.triangles, triangles))
+    # Corners must agree, whichever comes first.
+    turned = [np.roll(mesh.triangles, turn, axis=1) for turn in range(3)]
+    same = np.any([(each == triangles).all(axis=1) for each in turned], axis=0)
+    other = np.flatnonzero(~same)
     if len(other):
         raise MeshFolderError(
             place=place,
@@ -76,54 +71,30 @@ def check_edges(place: str, vertices: Vertices, template: Template) -> None:
         )
 
 
-def check_axes(place: str, raw: Vertices, template: Template, frame: Frame) -> None:
-    """Refuse a body at rest that does not stand along the declared axes, or is mirrored.
-
-    ``raw`` are its vertices in the file's own axes.
-    """
-    found = own_directions(raw, template)
-    turned = found @ frame.axes.T
+def check_stance(place: str, vertices: Vertices, template: Template) -> None:
+    """Refuse a body at rest that is mirrored, no person's size, or not in the body frame."""
+    found = own_directions(vertices, template)
     if np.linalg.det(found) < 0.0:
         raise MeshFolderError(
             place=place,
             reason="is a mirror image: the person's left is on the right",
             remedy="Export it right-handed, or multiply one axis by -1; turning it does not help.",
         )
-    if (np.diag(turned) >= ALIGNED).all():
-        return
-    strongest = np.sort(np.abs(found), axis=1)[:, -1]
-    if (strongest < ALIGNED).any():
+    if (np.diag(found) < ALIGNED).any():
+        directions = ", ".join(f"({x:.1f} {y:.1f} {z:.1f})" for x, y, z in found)
         raise MeshFolderError(
             place=place,
-            reason="stands askew: its left, up and forward are "
-            + ", ".join(f"({x:.2f} {y:.2f} {z:.2f})" for x, y, z in found),
-            remedy="Turn the body so that these lie along axes.",
+            reason=f"stands along other axes: its left, up and forward are {directions}",
+            remedy="Turn it so that they are x, y and z.",
         )
-    entry = ", ".join(f'"{name}": "{axis}"' for name, axis in axes_entry(found).items())
-    raise MeshFolderError(
-        place=place,
-        reason=f"stands along other axes than bodies.json declares: {{{entry}}}",
-        remedy="Write these there if all files are alike; otherwise turn this one.",
-    )
-
-
-def check_unit(place: str, raw: Vertices, frame: Frame) -> None:
-    """Refuse a body that is no person's size in the declared unit; ``raw`` as in the file."""
-    extent = float(np.ptp(raw, axis=0).max())
+    extent = float(np.ptp(vertices, axis=0).max())
     low, high = HEIGHT_RANGE_M
-    if low <= METRES[frame.unit] * extent <= high:
-        return
-    likely = [
-        unit
-        for unit, metres in METRES.items()
-        if LEAST_HEIGHT_M <= metres * extent <= MOST_HEIGHT_M
-    ]
-    raise MeshFolderError(
-        place=place,
-        reason=f"is {extent:.4g} {frame.unit} high or wide, expected a person"
-        + (f'; with "units": "{likely[0]}" it would be one' if likely else ""),
-        remedy="Declare the unit in bodies.json; all files of a folder share it.",
-    )
+    if not low <= extent <= high:
+        raise MeshFolderError(
+            place=place,
+            reason=f"is {extent:.4g} m high or wide, expected a person",
+            remedy="Write metres: divide millimetres by 1000, centimetres by 100.",
+        )
 
 
 def check_scan_size(place: str, vertices: Vertices, rest: Vertices, triangles: Triangles) -> None:
@@ -133,7 +104,7 @@ def check_scan_size(place: str, vertices: Vertices, rest: Vertices, triangles: T
         raise MeshFolderError(
             place=place,
             reason=f"is {ratio:.3g} times as large as its subject at rest",
-            remedy="Export both in the unit that bodies.json declares.",
+            remedy="Write both in metres.",
         )
     a, b, c = (vertices[triangles[:, k]] for k in range(3))
     if np.einsum("fi,fi->", a, np.cross(b, c)) <= 0.0:
@@ -141,22 +112,6 @@ def check_scan_size(place: str, vertices: Vertices, rest: Vertices, triangles: T
             place=place,
             reason="is a mirror image: its surface faces inward",
             remedy="Export it right-handed, or multiply one axis by -1.",
-        )
-
-
-def check_distinct(places: Sequence[str], rest: Float[np.ndarray, "s m 3"]) -> None:
-    """Refuse two files of one body: it would count twice, or be trained on and tested with."""
-    flat = (rest - rest.mean(axis=1, keepdims=True)).reshape(len(rest), -1)
-    flat = flat - flat.mean(axis=0)
-    inner = flat @ flat.T
-    squared = np.diag(inner)[:, None] + np.diag(inner)[None] - 2.0 * inner
-    squared[np.tril_indices(len(rest))] = np.inf
-    first, second = np.unravel_index(np.argmin(squared), squared.shape)
-    if squared[first, second] < rest.shape[1] * SAME_M**2:
-        raise MeshFolderError(
-            place=places[int(second)],
-            reason=f"is the same body as {places[int(first)]}",
-            remedy="Remove one of them; scans of one person in other poses belong in posed/.",
         )
 
 
@@ -187,10 +142,3 @@ def own_directions(vertices: Vertices, template: Template) -> Float[np.ndarray, 
 def _edge_lengths(vertices: Vertices, triangles: Triangles) -> Float[np.ndarray, " three_f"]:
     corners = vertices[triangles]
     return np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2).reshape(-1)
-
-
-def _same_triangles(first: Triangles, second: Triangles) -> Bool[np.ndarray, " f"]:
-    """Whether corners agree, whichever comes first."""
-    return np.any(
-        [(np.roll(first, turn, axis=1) == second).all(axis=1) for turn in range(3)], axis=0
-    )

@@ -1,36 +1,43 @@
-"""What registered meshes share: the template they were registered to, with its anatomy."""
+"""What registered meshes share: the template they were registered to, with its anatomy.
+
+``template.npz`` holds one; without it a folder's meshes are on the packaged topology. OWN_BODIES.md
+lists its arrays.
+"""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
+from typing import NoReturn
 
 import numpy as np
 from jaxtyping import Float, Integer
 from scipy import sparse
-from scipy.sparse.linalg import splu
 from scipy.spatial import KDTree
 
 from fitter.arrays import Triangles, Vertices
-from fitter.body.model import BodyModel
-from fitter.numerics.gradient_operators import gradient_operator, weighted_laplacian
+from fitter.body.model import BodyModel, SparseRows
+from fitter.body.model_checks import shares_fault
+from fitter.errors import MeshFolderError
+from fitter.fits.usable_model import needed_landmarks
+from fitter.numerics.mesh_faults import closed_surface_fault, solid_fault
 from fitter.training.articulation.part_tree import PART_NAMES
-from fitter.training.articulation.parts import Parts
+from fitter.training.articulation.parts import Parts, joined_parts
 from fitter.training.assemble import BodyMesh
-from fitter.training.shapes.surface import triangle_areas, vertex_areas
 
-JOINT_LANDMARKS: Mapping[str, str] = {
-    "shoulder": "upper_arm",
-    "elbow": "forearm",
-    "wrist": "hand",
-    "hip": "thigh",
-    "knee": "shin",
-    "ankle": "foot",
+TEMPLATE_FILE = "template.npz"
+
+_KINDS: Mapping[str, str] = {
+    "vertices": "f",
+    "triangles": "iu",
+    "part_of_triangle": "iu",
+    "skinning_weights": "f",
+    "joints": "f",
+    "landmark_names": "U",
+    "landmarks": "f",
+    "uv": "f",
+    "uv_triangles": "iu",
 }
-"""Points inside the body that are the centres about which parts turn, unless a template places
-them itself."""
-
-BLEND_M = 0.03
-"""How far skin follows the part next to its own, where only the part of each triangle is known: the
-reach of the blend that painted weights have at elbows and knees."""
+"""The arrays of the file, and numpy's letters for what each may hold."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -82,23 +89,55 @@ def same_surface(first: BodyMesh, second: BodyMesh) -> bool:
     )
 
 
-def blended_weights(
-    vertices: Vertices, triangles: Triangles, part_of_triangle: Integer[np.ndarray, " f"]
-) -> Float[np.ndarray, "m p"]:
-    """Skinning weights from a part for every triangle: its share of the skin, diffused.
+def read_template(path: Path) -> Template:
+    """Read and check a ``template.npz``.
 
-    Solves (M + t L) w = M w₀ for every part, one step of heat flow, with areas M, the cotangent
-    Laplacian L and t = :data:`BLEND_M` squared; the weights of a vertex keep summing to one.
+    Raises
+    ------
+    MeshFolderError
+        If an array is missing or contradicts another; the message names it.
     """
-    areas = triangle_areas(vertices, triangles)
-    corners = triangles.reshape(-1)
-    shares = np.zeros((len(vertices), len(PART_NAMES)))
-    np.add.at(shares, (corners, np.repeat(part_of_triangle, 3)), np.repeat(areas / 3.0, 3))
-    laplacian = weighted_laplacian(gradient_operator(vertices, triangles), areas)
-    mass = sparse.diags_array(vertex_areas(vertices, triangles))
-    diffused = splu(sparse.csc_matrix(mass + BLEND_M**2 * laplacian)).solve(shares)
-    diffused = np.maximum(diffused, 0.0)
-    return diffused / diffused.sum(axis=1, keepdims=True)
+    arrays = _read_arrays(path)
+    vertices, triangles = arrays["vertices"], arrays["triangles"]
+    count = len(vertices)
+    _check_shapes(arrays, count)
+    if triangles.min() < 0 or triangles.max() >= count:
+        _fail("triangles", f"run beyond the {count} vertices")
+    fault = closed_surface_fault(triangles, vertex_count=count) or solid_fault(vertices, triangles)
+    if fault is not None:
+        _fail("triangles", fault)
+    return Template(
+        name=f"a topology of the user's with {count} vertices",
+        vertices=vertices.astype(np.float64),
+        mesh=BodyMesh(
+            triangles=triangles.astype(np.int32),
+            parts=_parts(arrays),
+            joint_regressor=_rows(arrays, "joints", PART_NAMES),
+            landmarks=_landmarks(arrays),
+            uv=arrays["uv"].astype(np.float64),
+            uv_triangles=arrays["uv_triangles"].astype(np.int32),
+            mirror=nearest_mirror(vertices),
+        ),
+    )
+
+
+def write_template(path: Path, template: Template) -> None:
+    """Write a template as :func:`read_template` reads it."""
+    mesh, count = template.mesh, len(template.vertices)
+    weights = np.zeros((count, len(PART_NAMES)))
+    np.put_along_axis(weights, mesh.parts.skinning_parts, mesh.parts.skinning_weights, axis=1)
+    np.savez_compressed(
+        path,
+        vertices=template.vertices,
+        triangles=mesh.triangles,
+        part_of_triangle=mesh.parts.part_of_triangle,
+        skinning_weights=weights,
+        joints=_dense(mesh.joint_regressor, count),
+        landmark_names=np.array(mesh.landmarks.names),
+        landmarks=_dense(mesh.landmarks, count),
+        uv=mesh.uv,
+        uv_triangles=mesh.uv_triangles,
+    )
 
 
 def nearest_mirror(vertices: Vertices) -> Integer[np.ndarray, " m"]:
@@ -111,3 +150,85 @@ def nearest_mirror(vertices: Vertices) -> Integer[np.ndarray, " m"]:
     nearest = np.asarray(KDTree(vertices).query(mirrored)[1])
     every = np.arange(len(vertices))
     return np.where(nearest[nearest] == every, nearest, every).astype(np.int32)
+
+
+def _read_arrays(path: Path) -> dict[str, np.ndarray]:
+    try:
+        with np.load(path, allow_pickle=False) as archive:
+            arrays = dict(archive)
+    except Exception as error:
+        # Whatever a damaged archive makes numpy stumble over.
+        raise MeshFolderError(
+            place=path.name, reason=f"cannot be read ({error})", remedy="Write it anew."
+        ) from error
+    for name, kind in _KINDS.items():
+        if name not in arrays:
+            _fail(name, "is missing")
+        if arrays[name].dtype.kind not in kind:
+            _fail(name, f"holds {arrays[name].dtype}")
+    return arrays
+
+
+def _check_shapes(arrays: Mapping[str, np.ndarray], count: int) -> None:
+    triangles: Triangles = arrays["triangles"]
+    parts = len(PART_NAMES)
+    shapes = {
+        "vertices": (count, 3),
+        "triangles": (len(triangles), 3),
+        "part_of_triangle": (len(triangles),),
+        "skinning_weights": (count, parts),
+        "joints": (parts, count),
+        "landmarks": (len(arrays["landmark_names"]), count),
+        "uv_triangles": (len(triangles), 3),
+    }
+    for name, shape in shapes.items():
+        if arrays[name].shape != shape:
+            _fail(name, f"has shape {arrays[name].shape}, expected {shape}")
+
+
+def _parts(arrays: Mapping[str, np.ndarray]) -> Parts:
+    weights, given = arrays["skinning_weights"], arrays["part_of_triangle"]
+    fault = shares_fault(weights)
+    if fault is not None:
+        _fail("skinning_weights", fault)
+    if not np.array_equal(np.unique(given), np.arange(len(PART_NAMES))):
+        names = ", ".join(PART_NAMES)
+        _fail("part_of_triangle", f"does not give each of {names} some triangles, by its place")
+    return joined_parts(arrays["triangles"], given, weights.astype(np.float64))
+
+
+def _landmarks(arrays: Mapping[str, np.ndarray]) -> SparseRows:
+    names = tuple(arrays["landmark_names"].tolist())
+    missing = [name for name in needed_landmarks() if name not in names]
+    if missing:
+        _fail("landmark_names", f"lack what a fit needs: {', '.join(missing)}")
+    return _rows(arrays, "landmarks", names)
+
+
+def _rows(arrays: Mapping[str, np.ndarray], name: str, names: tuple[str, ...]) -> SparseRows:
+    """Weighted means of vertices."""
+    dense: Float[np.ndarray, "r m"] = arrays[name].astype(np.float64)
+    sums = dense.sum(axis=1)
+    off = np.flatnonzero(~np.isclose(sums, 1.0, atol=1e-4))
+    if len(off):
+        _fail(name, f"weigh {names[off[0]]} by {sums[off[0]]:.6g} in all, expected 1")
+    rows = sparse.csr_array(dense / sums[:, None])
+    return SparseRows(
+        names=names,
+        pointers=rows.indptr.astype(np.int32),
+        indices=rows.indices.astype(np.int32),
+        weights=rows.data,
+    )
+
+
+def _dense(rows: SparseRows, count: int) -> Float[np.ndarray, "r m"]:
+    shape = (len(rows.names), count)
+    return sparse.csr_array((rows.weights, rows.indices, rows.pointers), shape=shape).toarray()
+
+
+def _fail(name: str, reason: str) -> NoReturn:
+    raise MeshFolderError(
+        place=f"{TEMPLATE_FILE}: {name}",
+        reason=reason,
+        remedy="Mend it; the file that the command `template` writes is the example to follow.",
+    )

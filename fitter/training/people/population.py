@@ -38,6 +38,9 @@ from fitter.training.surveys.survey_measurements import (
     place_measurements,
 )
 
+PACKAGED_PEOPLE = Path(__file__).parent / "data"
+"""The committed populations of both genders: the packaged models learned from those of seed 1."""
+
 PLACEMENTS = 3
 """How often the cuts are placed anew on the subject; a third brings the mean residual of the worst
 measurement 3 mm nearer than two. What was reached is measured on one more placement."""
@@ -185,9 +188,9 @@ def draw_traits(age: float, generator: np.random.Generator) -> Traits:
     )
 
 
-def packaged_population_path(gender: str) -> Path:
-    """The committed population of ``female`` or ``male``: what the packaged model learned from."""
-    return Path(__file__).parent / "data" / f"population_{gender}.npz"
+def population_path(folder: Path, gender: str, seed: int) -> Path:
+    """Where a folder keeps the population of a gender and a seed."""
+    return folder / f"population_{gender}_{seed}.npz"
 
 
 def save_population(path: Path, population: Population) -> None:
@@ -229,30 +232,6 @@ def load_population(path: Path, space: BodySpace, *, count: int | None = None) -
         )
     ]
     return Population(source_vertices=np.stack(bodies), **content)
-
-
-def residual_table(population: Population) -> str:
-    """Bias, mean and largest absolute error of measurements; the parameters most at bounds."""
-    errors = population.reached - population.wanted
-    lines = [f"{'measurement':32s}{'bias':>9s}{'mean abs':>10s}{'largest':>9s}{'survey SD':>11s}"]
-    for column, name in enumerate(population.measurement_names):
-        unit, scale = ("kg", 1.0) if name == "weightkg" else ("mm", 1000.0)
-        bias, absolute = scale * errors[:, column].mean(), scale * np.abs(errors[:, column])
-        lines.append(
-            f"{name:32s}{bias:9.1f}{absolute.mean():10.1f}{absolute.max():9.1f}"
-            f"{scale * population.deviation[column]:11.1f} {unit}"
-        )
-    at_bound = (population.parameters <= population.lower) | (
-        population.parameters >= population.upper
-    )
-    share = at_bound.mean(axis=0)
-    lines.append("parameters at a bound:")
-    lines += [
-        f"  {population.parameter_names[k]:30s}{100.0 * share[k]:5.1f} %"
-        for k in np.argsort(-share)[:8]
-        if share[k] > 0.0
-    ]
-    return "\n".join(lines)
 
 
 def _without_arms(space: BodySpace, body_targets: Float[np.ndarray, "k m 3"]) -> Triangles:

@@ -5,43 +5,103 @@ from jaxtyping import Float
 
 from fitter.body.model import BodyModel
 from fitter.body.scape import ScapeEvaluator
-from fitter.body.shape_space import height_of_shape, standing_vertices
+from fitter.body.shape_space import height_of_shape, rest_vertices, standing_vertices
+from fitter.measurement.anthropometry import measurement_values, measuring_body
 from fitter.measurement.definition_file import load_definitions
 from fitter.measurement.definitions import Mass
 from fitter.measurement.unexplained import UNEXPLAINED_KEY
 from fitter.numerics.meshes import enclosed_volume
-from fitter.training.articulation.registered_bodies import RegisteredBodies
-from fitter.training.assemble import TrainedModel
-from fitter.training.report.body_regions import vertex_regions
-from fitter.training.report.comparison_figures import HEADER_KEY, comparison_figures
-from fitter.training.report.evaluation import mean_areas, shape_residuals
-from fitter.training.report.held_out_errors import HeldOutErrors, header_entry
-from fitter.training.report.measured_people import measured_bodies
-from fitter.training.report.provenance import model_statistics
-from fitter.training.report.shape_curve import error_by_count, error_by_metric
-from fitter.training.shapes.height_rotation import SOLVED_AT_DEVIATIONS, attribute_changes
+from fitter.training.assemble import TrainedModel, height_attribute
+from fitter.training.people.subject_fit import DENSITY_KG_PER_M3
+from fitter.training.report.held_out_figures import (
+    bodies_as_axes,
+    height_figures,
+    mean_areas,
+    shape_residuals,
+)
+from fitter.training.shapes.attribute_spaces import blanz_vetter_leak, gram_of_axes
+
+EARLIER_METHODS_KEY = "height_in_earlier_methods"
+
+BATCH = 50
+"""Bodies measured together; each is an axis of a model and takes 1 MB of it."""
 
 
-def header_figures(
-    trained: TrainedModel,
-    taught: RegisteredBodies,
-    held_out: RegisteredBodies,
-    errors: HeldOutErrors,
-) -> dict[str, object]:
-    """Everything measured on a trained model, its training and its held-out subjects."""
+def model_statistics(trained: TrainedModel) -> dict[str, object]:
+    """Height and weight in the model's own definitions.
+
+    ``height_m`` is the height of the mean body and its change by one standard deviation of the
+    height axis, which is what a height's coefficient is solved from.
+    """
     model = trained.model
-    regions = vertex_regions(model)
+    height = height_attribute(model)
+    axis = np.eye(len(model.shape_basis))[0]
+    weights = [
+        DENSITY_KG_PER_M3 * enclosed_volume(rest_vertices(model, shape), model.triangles)
+        for shape in trained.coefficients
+    ]
+    return {
+        "height_m": {
+            "mean": height(0.0 * axis),
+            "sd": 0.5 * (height(axis) - height(-axis)),
+        },
+        "model_weight_kg": {"mean": float(np.mean(weights)), "sd": float(np.std(weights))},
+        "part_names": list(model.part_names),
+        "landmark_names": list(model.landmarks.names),
+    }
+
+
+def model_figures(model: BodyModel) -> dict[str, float | int]:
+    """Counts, the mean body's size, and how well one axis carries height.
+
+    Stature and extent are those of the standing pose; the weight is that of the mean body at rest.
+    Every figure repeats to the rounding of the file's single precision.
+    """
+    evaluator, mean = ScapeEvaluator(model), np.zeros(len(model.shape_basis))
+    (density,) = (d.density_kg_per_m3 for d in load_definitions() if isinstance(d, Mass))
+    volume = enclosed_volume(model.mean_vertices, model.triangles)
+    return {
+        "vertices": len(model.mean_vertices),
+        "triangles": len(model.triangles),
+        "shape_axes": len(model.shape_basis),
+        "height_mm": 1000.0 * height_of_shape(evaluator, mean),
+        "extent_mm": 1000.0 * float(np.ptp(standing_vertices(evaluator, mean)[:, 1])),
+        **height_figures(model),
+        "volume_l": 1000.0 * volume,
+        "weight_kg": density * volume,
+        "surface_m2": float(mean_areas(model).sum()),
+    }
+
+
+def training_figures(
+    trained: TrainedModel, held_out_rest: Float[np.ndarray, "s m 3"]
+) -> dict[str, object]:
+    """Everything measured on a trained model that is no error on held-out subjects."""
+    model = trained.model
     return model_statistics(trained) | {
         "model_figures": model_figures(model),
-        "held_out_errors": header_entry(errors),
-        "shape_error_by_count": error_by_count(
-            taught.rest, held_out.rest, model.triangles, taught.measurements
-        ),
-        "shape_error_by_metric": error_by_metric(
-            taught.rest, held_out.rest, model.triangles, regions, taught.measurements
-        ),
-        HEADER_KEY: comparison_figures(trained, held_out.rest),
-        UNEXPLAINED_KEY: unexplained_measurements(model, held_out.rest),
+        EARLIER_METHODS_KEY: earlier_methods(trained),
+        UNEXPLAINED_KEY: unexplained_measurements(model, held_out_rest),
+    }
+
+
+def earlier_methods(trained: TrainedModel) -> dict[str, float]:
+    """Change of height on the axes of Blanz and Vetter, whom section 4 compares itself with.
+
+    What is orthogonal to an axis is a matter of metric: that of the mesh, as in unwhitened
+    coefficients, or that of whitened ones, where the axis is the gradient of any attribute that is
+    linear in the shape. Millimetres.
+    """
+    model, coefficients = trained.model, trained.coefficients
+    height = height_attribute(model)
+    heights = np.array([height(shape) for shape in coefficients])
+    as_shapes, as_coefficients = (
+        1000.0 * blanz_vetter_leak(height, coefficients, heights, gram)
+        for gram in (gram_of_axes(model), np.eye(len(model.shape_basis)))
+    )
+    return {
+        "blanz_vetter_height_change_mm": as_shapes,
+        "blanz_vetter_whitened_height_change_mm": as_coefficients,
     }
 
 
@@ -58,38 +118,14 @@ def unexplained_measurements(
     }
 
 
-def model_figures(model: BodyModel) -> dict[str, float | int]:
-    """Counts, the mean body's size, and how well one axis carries height.
+def measured_bodies(model: BodyModel, rest: Float[np.ndarray, "s m 3"]) -> Float[np.ndarray, "s d"]:
+    """Every measurement of whole bodies, in the order and units of the definitions.
 
-    Stature and extent are those of the standing pose; the weight is that of the mean body at rest.
-    Every figure repeats to the rounding of the file's single precision.
+    The model poses them; their shapes are their own.
     """
-    evaluator = ScapeEvaluator(model)
-    axes = np.eye(len(model.shape_basis))
-    (density,) = (d.density_kg_per_m3 for d in load_definitions() if isinstance(d, Mass))
-    volume = enclosed_volume(model.mean_vertices, model.triangles)
-
-    def height_mm(shape: np.ndarray) -> float:
-        return 1000.0 * height_of_shape(evaluator, shape)
-
-    def extent_mm(shape: np.ndarray) -> float:
-        return 1000.0 * float(np.ptp(standing_vertices(evaluator, shape)[:, 1]))
-
-    others = list(axes[1:])
-    return {
-        "vertices": len(model.mean_vertices),
-        "triangles": len(model.triangles),
-        "shape_axes": len(model.shape_basis),
-        "height_mm": height_mm(0.0 * axes[0]),
-        "extent_mm": extent_mm(0.0 * axes[0]),
-        "height_per_deviation_mm": 0.5 * (height_mm(axes[0]) - height_mm(-axes[0])),
-        "height_change_at_3_deviations_mm": float(
-            attribute_changes(height_mm, others, SOLVED_AT_DEVIATIONS).max()
-        ),
-        "extent_change_at_3_deviations_mm": float(
-            attribute_changes(extent_mm, others, SOLVED_AT_DEVIATIONS).max()
-        ),
-        "volume_l": 1000.0 * volume,
-        "weight_kg": density * volume,
-        "surface_m2": float(mean_areas(model).sum()),
-    }
+    rows = []
+    for start in range(0, len(rest), BATCH):
+        exact = bodies_as_axes(model, rest[start : start + BATCH])
+        body = measuring_body(exact, ScapeEvaluator(exact))
+        rows.extend(measurement_values(body, axis) for axis in np.eye(len(exact.shape_basis)))
+    return np.stack(rows)

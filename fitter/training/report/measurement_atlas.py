@@ -27,7 +27,6 @@ from fitter.observation.colour import display_from_linear
 from fitter.render.camera import Camera
 from fitter.render.interpolation import shade_image
 from fitter.render.rasterizer import Rendering, render
-from fitter.training.report.body_sheets import CLAY, DISTANCE_M, FILL_LIGHT, FONT, TO_LIGHT
 from fitter.vocabulary.measurements import Group, group_of
 
 GENDER = "female"
@@ -37,6 +36,13 @@ VIEWS_DEGREES = (0.0, -90.0, 180.0, -40.0)
 
 PREFERENCE = 1.03
 """A later view must show so much more of a tape than an earlier one."""
+
+DISTANCE_M = 200.0
+"""From so far away the picture is parallel to a thousandth."""
+
+TO_LIGHT = np.array([-0.55, -0.52, -0.65])
+FILL_LIGHT = 0.14
+CLAY = np.array([0.62, 0.53, 0.47])
 
 PX_PER_M = 1000.0
 ROOM_M = (1.3, 1.8)
@@ -185,7 +191,9 @@ def _cell(tape: _Tape, views: Sequence[_View]) -> Levels:
             if at == seen:
                 _draw(cell, start, end, colour=colour, thickness=thickness)
     label = np.full((LABEL_PX, width, 3), 255, dtype=np.uint8)
-    cv2.putText(label, tape.name, (3, LABEL_PX - 5), FONT, 0.42, INK, 1, cv2.LINE_AA)
+    cv2.putText(
+        label, tape.name, (3, LABEL_PX - 5), cv2.FONT_HERSHEY_SIMPLEX, 0.42, INK, 1, cv2.LINE_AA
+    )
     return np.concatenate([label, cell])
 
 

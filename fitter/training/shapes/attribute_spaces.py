@@ -5,10 +5,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
-from fitter.arrays import PerVertex, Vertices
+from fitter.arrays import Vertices
 from fitter.body.model import BodyModel
 from fitter.numerics.meshes import enclosed_volume
-from fitter.training.shapes.height_rotation import Attribute, attribute_preserving_axes
+from fitter.training.shapes.height_rotation import (
+    SOLVED_AT_DEVIATIONS,
+    Attribute,
+    attribute_changes,
+    attribute_preserving_axes,
+)
 from fitter.training.shapes.principal_shapes import centred
 from fitter.training.shapes.surface import vertex_masses
 
@@ -65,16 +70,50 @@ def attribute_space(
     )
 
 
-def gram_of_axes(model: BodyModel, masses: PerVertex | None = None) -> Float[np.ndarray, "n n"]:
+def gram_of_axes(model: BodyModel) -> Float[np.ndarray, "n n"]:
     """Inner products of the axes' displacements, mass centres together, square metres.
 
-    In the metric that shapes are learned in unless other vertex weights are given.
+    In the metric that shapes are learned in.
     """
-    if masses is None:
-        masses = vertex_masses(model.mean_vertices, model.triangles)
+    masses = vertex_masses(model.mean_vertices, model.triangles)
     axes = centred(model.shape_basis, masses) * np.sqrt(masses / masses.sum())[:, None]
     flat = axes.reshape(len(axes), -1)
     return flat @ flat.T
+
+
+def blanz_vetter_axes(
+    coefficients: Float[np.ndarray, "s n"],
+    values: Float[np.ndarray, " s"],
+    gram: Float[np.ndarray, "n n"],
+) -> Float[np.ndarray, "k n"]:
+    """Blanz and Vetter: the axis Σ (h_i - h̄) β_i first, then directions orthogonal to it.
+
+    Orthogonal as shapes are, in the metric of the mesh: nothing makes such a direction keep the
+    attribute, which is the paper's point. Every row is one standard deviation long.
+
+    Parameters
+    ----------
+    coefficients, values
+        Training subjects' whitened coefficients and their attribute.
+    gram
+        Inner products of the displacements of the n axes.
+    """
+    first = (values - values.mean()) @ coefficients
+    others = np.delete(np.eye(len(gram)), int(np.argmax(np.abs(first))), axis=0)
+    along = others @ gram @ first / (first @ gram @ first)
+    axes = np.concatenate([first[None], others - along[:, None] * first])
+    return axes / np.linalg.norm(axes, axis=1, keepdims=True)
+
+
+def blanz_vetter_leak(
+    attribute: Attribute,
+    coefficients: Float[np.ndarray, "s n"],
+    values: Float[np.ndarray, " s"],
+    gram: Float[np.ndarray, "n n"],
+) -> float:
+    """Largest change of the attribute along an axis that should not carry it, at 3 deviations."""
+    axes = blanz_vetter_axes(coefficients, values, gram)
+    return float(attribute_changes(attribute, list(axes[1:]), SOLVED_AT_DEVIATIONS).max())
 
 
 def _fuller_side(model: BodyModel, axis: Vertices) -> float:

@@ -3,8 +3,8 @@
 Soldiers are young and fit, users are not only soldiers. The National Health and Nutrition
 Examination Survey (NHANES 2017-2018, US Centers for Disease Control and Prevention, public domain)
 measured 2,647 women and 2,528 men from 18 to 80 and older. Its statistics by age are kept in
-``data/civilian_statistics.json`` (:mod:`fitter.training.surveys.civilian_files` makes it):
-unweighted counts, which hold more old people and more ancestries than the country does.
+``data/civilian_statistics.json``: unweighted counts of people from 18 up, 25, 35, 45, 55, 65 and 75
+years, which hold more old people and more ancestries than the country does.
 
 Of a civilian we draw age, stature and weight; :mod:`fitter.training.surveys.survey` adds all else.
 """

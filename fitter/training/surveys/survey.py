@@ -2,9 +2,9 @@
 
 ANSUR II is the anthropometric survey of the US Army of 2012 (public release; Gordon et al. 2014):
 4,082 men and 1,986 women. Means and covariances of the logarithms of its measurements, and of age,
-are kept in ``data/survey_statistics.json`` (:mod:`fitter.training.surveys.survey_files` makes it),
-so that training needs no other file; logarithms keep draws positive and give girths and weight the
-long upper tail they have.
+are kept in ``data/survey_statistics.json``, so that training needs no other file; logarithms keep
+draws positive and give girths and weight the long upper tail they have. Its girths of biceps and
+forearm are the survey's of the flexed arm times :data:`RELAXED_SHARE`.
 
 Soldiers are young and fit. Stature, weight and age of a subject are therefore a civilian's
 (:mod:`fitter.training.surveys.civilians`); all other measurements follow those three as they do
@@ -45,6 +45,9 @@ hips and head both by the quotient of the two ratios, at the waist depth more th
 the calipers press the belly (enlarged alike, breadth and depth missed by -7 and +9 mm in women, -1
 and +5 mm in men). Fitted as they stand, tape and calipers would meet half way, with 13 to 22 mm
 missing at waist and hips (means of ten subjects a gender)."""
+
+RELAXED_SHARE = {"bicepscircumference": 0.93, "forearmcircumference": 0.96}
+"""Girth of the relaxed over that of the flexed arm, which the survey measures: an assumption."""
 
 REST_POSE_RISE_M: Mapping[str, Mapping[str, float]] = {
     "female": {"acromialheight": 0.010},

@@ -10,14 +10,14 @@ from IPython.display import Image as ShownImage
 from PIL import Image
 
 from fitter import Click, FitRequest, Gender, Person, View
+from fitter.applications.previews import View as BodyView
+from fitter.applications.previews import preview
 from fitter.arrays import Triangles, Vertices
 from fitter.reproduction.figure import Figure
 from fitter.reproduction.index import table_html
 from fitter.reproduction.subject import Table
-from fitter.training.report.body_sheets import FRONT, SIDE, Panel, scale_for, sheet
 from service.demo_data.sample import FOLDER
 
-PX_PER_M = 170.0
 DPI = 100
 FIGURE_PX = 1100
 QUALITY = 82
@@ -60,15 +60,12 @@ def show(*pictures: bytes | np.ndarray, titles: tuple[str, ...] = ()) -> None:
 
 def bodies_picture(bodies: dict[str, Vertices], triangles: Triangles) -> np.ndarray:
     """Canonical bodies from the front and from the side, at one scale."""
-    groups = {
-        title: [
-            Panel(vertices=vertices, degrees=degrees, label="", lines_m=(1.0, 1.8))
-            for degrees in (FRONT, SIDE)
-        ]
+    seen = [
+        BodyView(label=title if degrees == 0.0 else "", vertices=vertices, degrees=degrees)
         for title, vertices in bodies.items()
-    }
-    scale = scale_for(list(bodies.values()), px_per_m=PX_PER_M)
-    return sheet(groups, triangles, scale, groups_per_row=len(groups))
+        for degrees in (0.0, 90.0)
+    ]
+    return preview(seen, triangles)
 
 
 def show_figure(figure: Figure) -> None:

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from fitter.arrays import Pose
+from fitter.body.joint_limits import LIMIT_SOFTNESS_DEG
 from fitter.body.model import BodyModel
-from fitter.body.pose_prior import PosePrior
+from fitter.body.pose_prior import PosePrior, pose_prior, prior_residuals
 from fitter.body.skeleton import global_rotations, regress
 from fitter.body.storage import load_body_model, packaged_model_path
 from fitter.numerics.rotations import rotation_matrices
 from fitter.training.articulation.named_poses import relative_pose, rotation_between
-from fitter.training.articulation.plausible_poses import excess_degrees, model_pose_prior
 
 ADMITTED, REFUSED = 1.0, 20.0
 """Degrees beyond the limits at the worst joint."""
@@ -35,14 +35,17 @@ class Rig:
 
     def __init__(self, gender: str) -> None:
         self.model: BodyModel = load_body_model(packaged_model_path(gender))
-        self.prior: PosePrior = model_pose_prior(self.model)
         self.joints = regress(self.model.joint_regressor, self.model.mean_vertices)
+        self.prior: PosePrior = pose_prior(
+            self.model.part_names, self.model.part_parent, self.joints
+        )
 
     def part(self, name: str) -> int:
         return self.model.part_names.index(name)
 
     def excess(self, pose: Pose) -> float:
-        return excess_degrees(self.prior, pose)
+        """Degrees by which a pose leaves the limits at its worst joint and direction."""
+        return float(LIMIT_SOFTNESS_DEG * np.abs(prior_residuals(self.prior, pose)[:, 3:]).max())
 
     def posed(self, *, trunk: dict[str, tuple[float, float, float]] | None = None, **limbs: Bones):
         """Limbs (``arms``, ``left_leg``) along directions, trunk turned by degrees about x, y, z.

@@ -1,5 +1,7 @@
 """What is known of the shape, in closed form and against finite differences."""
 
+import csv
+
 import numpy as np
 import pytest
 
@@ -12,7 +14,7 @@ from fitter.energies.priors import (
     population_prior,
 )
 from fitter.fits.prepared_model import prepared_model
-from fitter.training.surveys import survey_moments
+from fitter.training.surveys.survey_moments import load_moments, packaged_moments_path
 from fitter.vocabulary.choices import Gender
 from fitter.vocabulary.measurements import STATURE
 from tests.shared_data import SHARED_DATA, needs_shared
@@ -71,11 +73,14 @@ def test_variance_grows_by_the_square_of_how_far_a_bent_line_leaves_a_straight_o
 
 def curvature_on_the_height(gender: Gender) -> float:
     """Root mean square of the survey's fields, in the heights' deviations of our model."""
-    path = SURVEY / survey_moments.FILE_NAMES[gender.value]
-    values = survey_moments.surveyed_values(path, survey_moments.FIELDS)
-    at = survey_moments.FIELDS.index("stature")
-    people = prepared_model(gender).population
-    slope = people.shapes.jacobian_at_mean[people.names.index(STATURE)]
+    fields = load_moments(packaged_moments_path(), gender.value).names
+    path = SURVEY / f"ANSUR_II_{gender.value.upper()}_Public.csv"
+    with path.open(encoding="latin-1", newline="") as stream:
+        people = list(csv.DictReader(stream))
+    values = np.array([[float(person[name]) for name in fields] for person in people]) / 10.0
+    at = fields.index("stature")
+    population = prepared_model(gender).population
+    slope = population.shapes.jacobian_at_mean[population.names.index(STATURE)]
     height = (values[:, at] - values[:, at].mean()) / np.linalg.norm(slope)
     line = np.stack([np.ones_like(height), height], axis=1)
     others = np.delete(values, at, axis=1)

@@ -1,9 +1,6 @@
-from pathlib import Path
-
 import numpy as np
 import pytest
 
-from fitter.training.surveys.civilian_files import civilian_statistics, read_people
 from fitter.training.surveys.civilians import (
     AGES,
     BMI_RANGE,
@@ -45,24 +42,3 @@ def test_drawn_civilians_are_adults_of_every_age_and_build(gender: str):
     # Redrawn tails cost the mean of the index less than a tenth of its spread.
     spread = np.sqrt(civilians.log_covariance[k, 1, 1])
     assert np.log(index[middle]).mean() == pytest.approx(civilians.log_bmi[k], abs=0.2 * spread)
-
-
-def test_statistics_are_those_of_the_adults_with_all_measurements(tmp_path: Path):
-    generator = np.random.default_rng(3)
-    header = "Gender\tAgeInYearsAtScreening\tStandingHeightCm\tBodyMassIndexKgm2\t"
-    rows = [header + "WaistCircumferenceCm"]
-    for age in range(10, 85):
-        for _ in range(20):
-            height, index = generator.normal(170.0, 7.0), generator.normal(27.0, 3.0)
-            rows.append(f"Female\t{age}\t{height:.3f}\t{index:.3f}\t{3.4 * index:.3f}")
-    rows += ["Female\t30\t\t20\t70", "Male\t40\t180\t25\t90"]
-    path = tmp_path / "people.tsv"
-    path.write_text("\n".join(rows))
-    people = read_people(path, "female")
-    assert len(people) == 20 * (85 - 18)
-    found = civilian_statistics(people)
-    group = people[(people[:, 0] >= 35.0) & (people[:, 0] < 45.0)]
-    assert found.count[2] == len(group)
-    assert found.log_stature[2] == pytest.approx(np.log(group[:, 1] / 100.0).mean())
-    assert found.log_waist[2] == pytest.approx(np.log(group[:, 3] / 100.0).mean())
-    assert found.log_covariance[2, 1, 1] == pytest.approx(np.log(group[:, 2]).var(ddof=1))

@@ -7,9 +7,10 @@ from fitter.numerics.meshes import enclosed_volume
 from fitter.training.makehuman.body_space import average_traits, source_vertices
 from fitter.training.people._subject_kernels import volume_and_pull
 from fitter.training.people.population import (
+    PACKAGED_PEOPLE,
     Workshop,
     load_population,
-    packaged_population_path,
+    population_path,
     prepare,
     save_population,
     solve_population,
@@ -141,8 +142,8 @@ def test_a_population_is_kept_without_its_vertices_and_comes_back_with_them(
 @pytest.mark.parametrize("gender", ["female", "male"])
 def test_the_packaged_population_is_of_every_build_and_keeps_off_its_bounds(gender: str):
     space = body_space(gender)
-    population = load_population(packaged_population_path(gender), space, count=3)
-    with np.load(packaged_population_path(gender), allow_pickle=False) as archive:
+    population = load_population(population_path(PACKAGED_PEOPLE, gender, 1), space, count=3)
+    with np.load(population_path(PACKAGED_PEOPLE, gender, 1), allow_pickle=False) as archive:
         parameters, wanted, reached = (
             archive[name] for name in ("parameters", "wanted", "reached")
         )

@@ -1,5 +1,3 @@
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -11,7 +9,6 @@ from fitter.training.surveys.survey import (
     packaged_statistics_path,
     regression,
 )
-from fitter.training.surveys.survey_files import save_statistics, statistics_from_survey
 from fitter.training.surveys.survey_measurements import MEASUREMENTS
 
 GENDERS = ("female", "male")
@@ -71,28 +68,3 @@ def test_definitions_that_agree_are_left_as_surveyed():
     assert on_model[MEASUREMENTS.index("waistcircumference")] == 1.0
     assert on_model[MEASUREMENTS.index("hipbreadth")] == pytest.approx(1.058)
     assert on_model[MEASUREMENTS.index("acromialheight")] == pytest.approx(1.010)
-
-
-def test_statistics_of_a_survey_file_survive_saving(tmp_path: Path):
-    generator = np.random.default_rng(2)
-    logarithms = generator.multivariate_normal([7.4, 6.5, 5.6], 0.01 * (np.eye(3) + 0.5), 400)
-    ages = generator.integers(18, 60, 400)
-    rows = ["stature,weightkg,bicepscircumferenceflexed,Age"]
-    rows += [
-        ",".join([*(f"{value:.6f}" for value in row), str(age)])
-        for row, age in zip(np.exp(logarithms), ages, strict=True)
-    ]
-    path = tmp_path / "survey.csv"
-    path.write_text("\n".join(rows), encoding="latin-1")
-    statistics = statistics_from_survey(path, ("stature", "weightkg", "bicepscircumference"))
-    save_statistics(tmp_path / "statistics.json", {"male": statistics})
-    loaded = load_statistics(tmp_path / "statistics.json", "male")
-    assert loaded.count == 400
-    units = np.log([1000.0, 10.0, 1000.0 / 0.93])
-    np.testing.assert_allclose(loaded.log_mean, logarithms.mean(axis=0) - units, atol=1e-5)
-    np.testing.assert_allclose(loaded.log_covariance, np.cov(logarithms.T), atol=1e-6)
-    assert loaded.age_mean == pytest.approx(ages.mean(), abs=1e-3)
-    assert loaded.age_variance == pytest.approx(ages.var(ddof=1), abs=1e-3)
-    np.testing.assert_allclose(
-        loaded.age_covariance, np.cov(np.vstack([logarithms.T, ages]))[-1, :-1], atol=1e-5
-    )

@@ -1,29 +1,67 @@
-from pathlib import Path
+import csv
 
 import numpy as np
 import pytest
 
 from fitter.measurement.definition_file import load_definitions
-from fitter.training.surveys.survey import load_statistics, packaged_statistics_path
-from fitter.training.surveys.survey_files import RELAXED_SHARE, SOURCE_NAMES
-from fitter.training.surveys.survey_moments import (
-    FIELDS,
-    load_moments,
-    moments_from_survey,
-    packaged_moments_path,
-    save_moments,
+from fitter.training.surveys.survey import (
+    RELAXED_SHARE,
+    load_statistics,
+    packaged_statistics_path,
 )
+from fitter.training.surveys.survey_moments import load_moments, packaged_moments_path
+from tests.shared_data import SHARED_DATA, needs_shared
 
 GENDERS = ("female", "male")
+SURVEY = SHARED_DATA / "anthropometry"
+
+
+def source_name(name: str) -> str:
+    """The survey's name of a field of the statistics: its arms are flexed."""
+    return f"{name}flexed" if name in RELAXED_SHARE else name
+
+
+def surveyed(gender: str, names: tuple[str, ...]) -> np.ndarray:
+    """Fields of everybody in the public release; centimetres, kilograms, years."""
+    path = SURVEY / f"ANSUR_II_{gender.upper()}_Public.csv"
+    with path.open(encoding="latin-1", newline="") as stream:
+        people = list(csv.DictReader(stream))
+    units = np.array([1.0 if name == "Age" else 10.0 for name in names])
+    return np.array([[float(person[name]) for name in names] for person in people]) / units
 
 
 @pytest.mark.parametrize("gender", GENDERS)
 def test_the_packaged_moments_have_every_field_that_a_measurement_is_compared_with(gender: str):
     moments = load_moments(packaged_moments_path(), gender)
-    assert moments.names == FIELDS
     assert np.linalg.eigvalsh(moments.covariance).min() > 0.0
     for definition in load_definitions():
-        assert set(definition.about.survey.fields) <= set(FIELDS)
+        assert set(definition.about.survey.fields) <= set(moments.names)
+
+
+@needs_shared(SURVEY)
+@pytest.mark.parametrize("gender", GENDERS)
+def test_the_packaged_moments_are_those_of_the_public_release(gender: str):
+    moments = load_moments(packaged_moments_path(), gender)
+    values = surveyed(gender, moments.names)
+    assert moments.count == len(values)
+    np.testing.assert_allclose(moments.mean, values.mean(axis=0), atol=1e-4)
+    np.testing.assert_allclose(moments.covariance, np.cov(values.T), atol=1e-5)
+
+
+@needs_shared(SURVEY)
+@pytest.mark.parametrize("gender", GENDERS)
+def test_the_packaged_statistics_are_those_of_the_public_release(gender: str):
+    found = load_statistics(packaged_statistics_path(), gender)
+    values = surveyed(gender, (*(source_name(name) for name in found.names), "Age"))
+    shares = [RELAXED_SHARE.get(name, 1.0) for name in found.names]
+    metres = [1.0 if name == "weightkg" else 100.0 for name in found.names]
+    logarithms = np.log(values[:, :-1] * shares / metres)
+    covariance = np.cov(np.column_stack([logarithms, values[:, -1]]).T)
+    np.testing.assert_allclose(found.log_mean, logarithms.mean(axis=0), atol=1e-6)
+    np.testing.assert_allclose(found.log_covariance, covariance[:-1, :-1], atol=1e-8)
+    np.testing.assert_allclose(found.age_covariance, covariance[-1, :-1], atol=1e-6)
+    assert found.age_mean == pytest.approx(values[:, -1].mean(), abs=1e-4)
+    assert found.age_variance == pytest.approx(covariance[-1, -1], abs=1e-4)
 
 
 @pytest.mark.parametrize("gender", GENDERS)
@@ -32,13 +70,11 @@ def test_moments_and_the_statistics_that_training_draws_from_are_of_one_survey(g
     statistics = load_statistics(packaged_statistics_path(), gender)
     assert moments.count == statistics.count
     variance = np.diagonal(statistics.log_covariance)
-    means = dict(zip(statistics.names, np.exp(statistics.log_mean + variance / 2), strict=True))
-    for name, mean in zip(moments.names, moments.mean, strict=True):
-        ours = next((key for key, field in SOURCE_NAMES.items() if field == name), name)
-        if ours in means:
-            unit = 1.0 if name == "weightkg" else 100.0
-            drawn = unit * means[ours] / RELAXED_SHARE.get(ours, 1.0)
-            assert mean == pytest.approx(drawn, rel=2e-3), name
+    drawn = np.exp(statistics.log_mean + variance / 2)
+    for name, mean in zip(statistics.names, drawn, strict=True):
+        unit = 1.0 if name == "weightkg" else 100.0
+        field = moments.mean[moments.names.index(source_name(name))]
+        assert field == pytest.approx(unit * mean / RELAXED_SHARE.get(name, 1.0), rel=2e-3), name
 
 
 def test_relaxed_arms_are_the_same_share_of_flexed_ones_in_training_and_report():
@@ -47,7 +83,7 @@ def test_relaxed_arms_are_the_same_share_of_flexed_ones_in_training_and_report()
         for definition in load_definitions()
         if definition.about.survey.share != 1.0 and definition.about.name != "hand_length"
     }
-    assert shares == {SOURCE_NAMES[name]: share for name, share in RELAXED_SHARE.items()}
+    assert shares == {source_name(name): share for name, share in RELAXED_SHARE.items()}
 
 
 def test_a_sum_of_fields_has_the_moments_of_the_sum():
@@ -61,15 +97,3 @@ def test_a_sum_of_fields_has_the_moments_of_the_sum():
     assert covariance[1, 1] == pytest.approx(4.0 * variances[0])
     with pytest.raises(KeyError, match="shoesize"):
         moments.of([{"shoesize": 1.0}])
-
-
-def test_moments_of_a_survey_file_survive_saving(tmp_path: Path):
-    values = np.random.default_rng(2).normal(1700.0, 60.0, (300, 2))
-    lines = ["stature,weightkg", *(",".join(f"{value:.6f}" for value in row) for row in values)]
-    (tmp_path / "survey.csv").write_text("\n".join(lines), encoding="latin-1")
-    found = moments_from_survey(tmp_path / "survey.csv", ("stature", "weightkg"))
-    save_moments(tmp_path / "moments.json", {"male": found})
-    loaded = load_moments(tmp_path / "moments.json", "male")
-    assert (loaded.names, loaded.count) == (("stature", "weightkg"), 300)
-    np.testing.assert_allclose(loaded.mean, values.mean(axis=0) / 10.0, atol=1e-4)
-    np.testing.assert_allclose(loaded.covariance, np.cov(values.T) / 100.0, atol=1e-4)

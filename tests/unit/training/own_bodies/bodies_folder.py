@@ -15,8 +15,7 @@ from fitter.parameters import BodyParameters
 from fitter.training.articulation.random_poses import random_pose
 from fitter.training.own_bodies.template import Template, packaged_template
 
-AXES = {"left": "+x", "up": "+y", "forward": "+z"}
-DECLARED = {"units": "m", "axes": AXES, "source": "drawn for a test", "licence": "CC0-1.0"}
+DECLARED = {"source": "drawn for a test", "licence": "CC0-1.0"}
 
 
 @cache
@@ -40,15 +39,12 @@ def random_shapes(count: int, axes: int = 6, seed: int = 0) -> np.ndarray:
     return shapes
 
 
-def write_bodies(folder: Path, shapes: np.ndarray, **declared: object) -> list[Path]:
-    """A folder of bodies at rest, named a, b, c, ... ; returns their files."""
+def write_bodies(folder: Path, shapes: np.ndarray) -> None:
+    """A folder of bodies at rest, named a, b, c, ..."""
     (folder / "rest").mkdir(parents=True, exist_ok=True)
-    (folder / "bodies.json").write_text(json.dumps(DECLARED | declared))
-    files = []
+    (folder / "bodies.json").write_text(json.dumps(DECLARED))
     for k, shape in enumerate(shapes):
-        files.append(folder / "rest" / f"{chr(ord('a') + k)}.npy")
-        np.save(files[-1], rest_vertices(packaged(), shape))
-    return files
+        np.save(folder / "rest" / f"{chr(ord('a') + k)}.npy", rest_vertices(packaged(), shape))
 
 
 def write_scans(folder: Path, shapes: np.ndarray, subjects: Sequence[int]) -> None:

@@ -48,8 +48,7 @@ def test_a_term_taken_over_to_another_mean_acts_there_as_it_did():
 
 
 def test_without_a_term_nothing_is_added():
-    source = no_pose_term(template().mesh.parts)
-    term = source.make(space(packaged().mean_vertices, packaged().shape_basis[:3]))
+    own = space(packaged().mean_vertices, packaged().shape_basis[:3])
+    term = no_pose_term(own, template().mesh.parts)
     assert not term.right_hand_sides.any()
     assert term.strengths.shape[2] == 3
-    assert source.scans == 0

