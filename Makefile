@@ -66,7 +66,7 @@ train: $(STAMP)
 report: $(STAMP)
 	$(VENV)/bin/python -m fitter.training report
 
-# What a sandbox answers, as the examples of the OpenAPI document: recorded, never written.
+# What a service answers, as the examples of the OpenAPI document: recorded, never written.
 examples: $(STAMP)
 	$(VENV)/bin/python -m tests.contract.recording
 

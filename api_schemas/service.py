@@ -26,10 +26,6 @@ class ServiceIndex(WireModel):
     max_upload_bytes: int | None = Field(
         default=None, description="Bytes of the largest request accepted."
     )
-    sandbox: bool = Field(
-        default=False,
-        description="Whether results are canned, whatever is sent: for those who develop clients.",
-    )
 
 
 class Live(WireModel):

@@ -73,13 +73,6 @@ class Settings(BaseSettings):
             "tenant, and the service listens on loopback addresses only."
         ),
     )
-    sandbox: bool = Field(
-        default=False,
-        description=(
-            "`true`: jobs end at once with results of the packaged sample, whatever was sent, for "
-            "those who develop clients. A database is a sandbox's or not for ever."
-        ),
-    )
     cors_origins: Origins = Field(
         default="",
         description="Origins whose pages may call the API from a browser, separated by commas.",

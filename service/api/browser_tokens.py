@@ -26,7 +26,6 @@ from service.api.listing import (
     read_cursor,
 )
 from service.api.problems import ProblemError, documented, not_found
-from service.api.sandbox import check_label
 from service.engine.browser_token_port import NewBrowserToken, TokenStanding
 
 PATH: Final = "/v1/tokens"
@@ -86,7 +85,6 @@ async def make_token(request: Request, context: Context) -> NewToken:
     """
     asked = await read_json(request, TokenRequest)
     key_id = _key_of(context)
-    check_label(context, asked.label)
     new = NewBrowserToken(
         key_id=key_id,
         tenant=context.tenant,

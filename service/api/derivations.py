@@ -31,7 +31,6 @@ from service.api.job_inputs import Copy, File, Inputs
 from service.api.job_resources import OF_FITS, OF_SCANS, JobResource
 from service.api.json_bodies import JSON, json_content, media_type, read_json_text, unsupported
 from service.api.problems import ProblemError, documented
-from service.api.sandbox import asked_of_derivation
 from service.api.uploads import MULTIPART, read_request_and_files
 from service.engine.port import SCAN, JobRecord, StoredBlob, TenantJobs
 from service.jobs.inputs import OF_FIRST_VIEW, REQUEST
@@ -121,8 +120,7 @@ def _router(of: JobResource) -> APIRouter:
     ) -> JobStanding:
         asked, sent = await read_derivation(request, max_pixels=context.settings.max_pixels)
         check_webhook(asked.webhook, context.settings)
-        sent_along = {**sent.files, **asked_of_derivation(context, made_of)}
-        inputs = derivation_inputs(made_of, asked, sent_along)
+        inputs = derivation_inputs(made_of, asked, sent.files)
         # At most one file comes with a request, and the kind and its options say which.
         brought = b"".join(file.content for file in sent.files.values())
         key = idempotency(idempotency_key, b"derivation", made_of.id.encode(), sent.text, brought)

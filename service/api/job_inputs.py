@@ -14,7 +14,6 @@ from service.api.problems import ProblemError, not_found
 from service.api.storage import erase_at_once
 from service.blobs import BlobMissingError
 from service.engine.port import StoredBlob, TenantJobs
-from service.jobs.inputs import SANDBOX
 from service.jobs.states import ACTIVE
 from service.webhooks.targets import read_target
 
@@ -124,12 +123,7 @@ def inputs_again(context: ApiContext, jobs: TenantJobs, job_id: UUID) -> Inputs:
     return Inputs(
         kind=record.kind,
         options=options,
-        files={
-            name: Copy(scope=record.id, blob=blob)
-            for name, blob in record.inputs.items()
-            # What a sandbox was asked for was done: the retry ends as usual.
-            if name != SANDBOX
-        },
+        files={name: Copy(scope=record.id, blob=blob) for name, blob in record.inputs.items()},
         pictures=record.pictures,
         label=record.label,
         webhook=webhook,

@@ -117,7 +117,7 @@ _REFERENCE: Final = re.compile(r'"#/components/schemas/(\w+)"')
 
 @cache
 def recorded_examples() -> Mapping[str, Any]:
-    """Return what a sandbox was asked and what it answered, notices included.
+    """Return what a service was asked and what it answered, notices included.
 
     By operation, status and name; ``tests/contract/recording.py`` has recorded it.
     """

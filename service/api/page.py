@@ -86,7 +86,6 @@ def page(
             retention_hours=parts.settings.retention_hours,
             max_pixels=parts.settings.max_pixels,
             max_upload_bytes=parts.settings.max_upload_bytes,
-            sandbox=parts.settings.sandbox,
         )
         return Response(index.model_dump_json(), media_type="application/json", headers=headers)
     parts: Parts = request.app.state.parts

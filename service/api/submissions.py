@@ -27,7 +27,6 @@ from service.api.job_inputs import File, Inputs
 from service.api.job_resources import FITS, SCANS, JobResource
 from service.api.json_bodies import JSON, json_content, media_type, read_json_text, unsupported
 from service.api.problems import documented
-from service.api.sandbox import asked_of_job
 from service.api.uploads import MULTIPART, check_names, read_request_and_some
 from service.engine.port import SCAN
 from service.estimates.questions import BodyTask
@@ -160,8 +159,7 @@ def _router(kind: Submissions) -> APIRouter:
             files={
                 name: File(content=file.content, media_type=file.media_type)
                 for name, file in checked.files.items()
-            }
-            | asked_of_job(context, checked.label),
+            },
             pictures=len(sent),
             label=checked.label,
             webhook=checked.webhook,

@@ -55,7 +55,7 @@ class ApiProcess:
 def assemble(settings: Settings, blobs: BlobStore, ballast: Ballast, ask: Ask) -> ApiProcess:
     """Prepare the database, and build all parts."""
     url = settings.system_database_url
-    prepare_database(url, sandbox=settings.sandbox)
+    prepare_database(url)
     take_storage(url, blobs, named=setting_of_storage(settings))
     ballast.fill()
     database = open_database(url)

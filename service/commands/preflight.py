@@ -25,7 +25,7 @@ def run_preflight(settings: Settings) -> BlobStore:
     prepare_data_folder(settings)
     check_models(settings)
     check_detector(settings)
-    check_database(settings.system_database_url, sandbox=settings.sandbox)
+    check_database(settings.system_database_url)
     blobs = open_blob_store(settings)
     check_storage(settings.system_database_url, blobs, named=setting_of_storage(settings))
     return blobs

@@ -93,8 +93,6 @@ def serve(
     _on_signals(process.ask_to_stop)
     host, port = listener.getsockname()[:2]
     announce(f"Maquette listens on http://{host}:{port}, documented at /docs.")
-    if settings.sandbox:
-        LOG.warning("This is a sandbox: its results are canned, whatever is sent.")
     try:
         process.run(listener)
     finally:

@@ -14,7 +14,6 @@ from service.engine.driver_errors import refusal
 from service.engine.facts import read_fact, write_fact
 from service.engine.port import DatabaseUnusableError
 from service.engine.retrying import retry_while_database_is_away
-from service.engine.sandbox import check_apart, keep_apart
 from service.engine.sqlite_file import (
     check_sqlite_version,
     configure_connection,
@@ -73,10 +72,10 @@ def open_database(url: str, *, connections: int = 20) -> sa.Engine:
 
 
 @retry_while_database_is_away
-def check_database(url: str, *, sandbox: bool | None = None) -> None:
-    """Check that the database answers, has no tables of another version and is no other kind.
+def check_database(url: str) -> None:
+    """Check that the database answers and has no tables of another version.
 
-    Waits for a database that does not answer. Which kind is not asked without ``sandbox``.
+    Waits for a database that does not answer.
 
     Raises
     ------
@@ -85,17 +84,13 @@ def check_database(url: str, *, sandbox: bool | None = None) -> None:
     """
     with opened(url) as engine:
         _check_schema(engine)
-        if sandbox is not None and sa.inspect(engine).has_table(JOBS.name):
-            with engine.connect() as connection:
-                check_apart(connection, sandbox=sandbox)
 
 
 @retry_while_database_is_away
-def prepare_database(url: str, *, sandbox: bool | None = None) -> None:
+def prepare_database(url: str) -> None:
     """Create or migrate all tables; safe to run in several processes at once.
 
-    Who serves or works says whether it is a ``sandbox``: the first to do so decides what the
-    database is. Waits and raises as :func:`check_database` does, and if it is the other.
+    Waits and raises as :func:`check_database` does.
     """
     # Imported here because it takes half a second to load.
     from dbos import DBOS
@@ -108,8 +103,6 @@ def prepare_database(url: str, *, sandbox: bool | None = None) -> None:
         with locked(engine) as connection:
             _bring_up_to_date(connection)
             write_fact(connection, SCHEMA_FACT, SCHEMA_VERSION)
-            if sandbox is not None:
-                keep_apart(connection, sandbox=sandbox)
 
 
 @contextlib.contextmanager

@@ -19,8 +19,6 @@ SEGMENTATION: Final = "segmentation.png"
 OVERLAY: Final = "overlay.png"
 BODY_POSED: Final = "body_posed.glb"
 TAPES: Final = "tapes.json"
-SANDBOX: Final = "sandbox"
-"""What a sandbox was asked to make of the job (:mod:`service.jobs.sandbox`)."""
 
 CLIP: Final = "bvh"
 """A motion sent with the request for a derivation."""

@@ -33,7 +33,6 @@ NEEDED: Final = frozenset(
         "LOG_LEVEL",
         "MAX_PIXELS",
         "MODELS_DIR",
-        "SANDBOX",
     )
 ) | {"FITTER_CACHE_DIR", "HOME", "LANG", "PATH", "TMPDIR", "TZ", "LD_LIBRARY_PATH"}
 NEEDED_BEGINNINGS: Final = (

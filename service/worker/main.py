@@ -25,11 +25,9 @@ from service.worker.models_reading import ModelsBeingRead
 LOG: Final = logging.getLogger(__name__)
 
 PIPELINE: Final = "service.worker.pipeline"
-SANDBOX_PIPELINE: Final = "service.worker.sandbox"
 SECRETLESS: Final = "service.worker.secretless"
 PRELOAD: Final = "service.worker.preload"
 ESTIMATES: Final = "service.estimates.answers"
-SANDBOX_ESTIMATES: Final = "service.estimates.sandbox_answers"
 
 NICENESS: Final = 5
 """Fits give way to the API on the same machine."""
@@ -42,8 +40,8 @@ def run_worker(
     settings: Settings,
     *,
     questions_at: str | None = None,
-    pipeline: str | None = None,
-    estimates: str | None = None,
+    pipeline: str = PIPELINE,
+    estimates: str = ESTIMATES,
     secretless: str = SECRETLESS,
     preload: str = PRELOAD,
     models_command: Sequence[str] = MODELS_COMMAND,
@@ -51,10 +49,9 @@ def run_worker(
     """Work until SIGTERM or SIGINT.
 
     Beside an API it also answers the API's questions at the address ``questions_at``, and ends with
-    standard input. ``pipeline`` and ``estimates`` are the tables of jobs and of questions, by
-    default the real ones, or the sandbox's where that is set. ``secretless`` is what the fork
-    server imports first, ``preload`` what next. ``models_command`` starts the process that says
-    which body models there are.
+    standard input. ``pipeline`` and ``estimates`` are the tables of jobs and of questions.
+    ``secretless`` is what the fork server imports first, ``preload`` what next. ``models_command``
+    starts the process that says which body models there are.
     """
     stop, work = _begin(with_starter=questions_at is not None)
     prepare_data_folder(settings)
@@ -66,15 +63,14 @@ def run_worker(
         server.begin_preloading()
     else:
         server = _answering(settings, questions_at, estimates, secretless, preload)
-    tasks = pipeline or (SANDBOX_PIPELINE if settings.sandbox else PIPELINE)
-    setup = child_setup(settings, name="job", tasks=tasks, niceness=NICENESS)
+    setup = child_setup(settings, name="job", tasks=pipeline, niceness=NICENESS)
     runner = JobRunner(settings, blobs, JobLane(server, setup, jobs=settings.child_jobs))
     models = ModelsBeingRead(settings, command=models_command)
     # Imported while others load the numerics and read the models: a good part of a second each.
     from service.engine.database import open_database, prepare_database
     from service.engine.storage_identity import take_storage
 
-    prepare_database(settings.system_database_url, sandbox=settings.sandbox)
+    prepare_database(settings.system_database_url)
     take_storage(settings.system_database_url, blobs, named=setting_of_storage(settings))
     from service.engine.dbos_worker import DbosWorkerEngine
     from service.process.tracing import start_tracing
@@ -97,8 +93,6 @@ def run_worker(
     )
     engine.start(runner.run, body_models=models.wait())
     LOG.info("Worker %s is ready.", engine.executor_id)
-    if settings.sandbox:
-        LOG.warning("This worker is a sandbox: its results are canned, whatever was sent.")
     if not server.is_able():
         LOG.info("Jobs wait until the numerics are loaded, or compiled if that is not done yet.")
     stop.wait()
@@ -112,7 +106,7 @@ def run_estimators(
     settings: Settings,
     *,
     questions_at: str,
-    estimates: str | None = None,
+    estimates: str = ESTIMATES,
     secretless: str = SECRETLESS,
     preload: str = PRELOAD,
 ) -> None:
@@ -141,13 +135,12 @@ def _begin(*, with_starter: bool) -> tuple[StopRequest, Path]:
 
 
 def _answering(
-    settings: Settings, questions_at: str, estimates: str | None, secretless: str, preload: str
+    settings: Settings, questions_at: str, estimates: str, secretless: str, preload: str
 ) -> ForkServer:
     """Start the fork server, and answer questions by what it forks."""
-    tasks = estimates or (SANDBOX_ESTIMATES if settings.sandbox else ESTIMATES)
-    server = ForkServer(secretless, preload, tasks)
+    server = ForkServer(secretless, preload, estimates)
     server.begin_preloading()
-    setup = child_setup(settings, name="estimator", tasks=tasks)
+    setup = child_setup(settings, name="estimator", tasks=estimates)
     answer_questions(QuickLane(server, setup, children=settings.estimator_processes), questions_at)
     return server
 

@@ -35,8 +35,7 @@ class PipelineInput:
     """A fit as it reaches the pipeline: options with named points, encoded pictures in their order.
 
     ``models`` is the folder of the body models, None for those shipped with the package;
-    ``detector`` that of the detector's weights, None for those of their package. ``ending`` is how
-    a sandbox is asked to let it end (:mod:`service.jobs.sandbox`), None everywhere else.
+    ``detector`` that of the detector's weights, None for those of their package.
     """
 
     options: AnyFitOptions
@@ -44,7 +43,6 @@ class PipelineInput:
     max_pixels: int
     models: Path | None = None
     detector: Path | None = None
-    ending: str | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,7 +62,6 @@ class DerivationInput(Generic[Options_co]):
     max_pixels: int
     models: Path | None = None
     detector: Path | None = None
-    ending: str | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

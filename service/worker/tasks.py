@@ -11,7 +11,7 @@ from api_schemas.derivations import DerivationRequest
 from api_schemas.requests import FitOptions
 from api_schemas.scans import ScanOptions
 from service.engine.port import FIT, SCAN
-from service.jobs.inputs import SANDBOX, pictures_of
+from service.jobs.inputs import pictures_of
 from service.numerics.tasks import ChildSetup, Observe, Parts, Task
 from service.worker.artifacts import with_result_document
 from service.worker.pipeline_port import (
@@ -65,7 +65,6 @@ def fit_input(
         max_pixels=setup.max_pixels,
         models=setup.models,
         detector=setup.detector,
-        ending=_ending(parts),
     )
 
 
@@ -77,9 +76,4 @@ def derivation_input(setup: ChildSetup, parts: Parts) -> DerivationInput[AnyDeri
         max_pixels=setup.max_pixels,
         models=setup.models,
         detector=setup.detector,
-        ending=_ending(parts),
     )
-
-
-def _ending(parts: Parts) -> str | None:
-    return parts[SANDBOX].decode() if SANDBOX in parts else None

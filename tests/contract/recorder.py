@@ -47,6 +47,9 @@ SAME: tuple[tuple[str, str], ...] = (
 FIGURE = re.compile(r"\d+(?:\.\d+)?(?:e-?\d+)?")
 PASSING = ("stage", "progress", "view")
 
+SHOWN_EVENTS = 4
+"""How to retry, that the job waits and runs, and where it is first."""
+
 MOST_ITEMS = 4
 SHORTENED = 2
 ONE_IS_ENOUGH = ("bodies", "limb_facing", "limbs", "models", "pose", "stages")
@@ -88,8 +91,10 @@ class Recorder:
         assert answer.is_success, answer.text
         if shown_as:
             kept = self.answers.setdefault(operation, {}).setdefault(str(answer.status_code), {})
-            is_json = answer.headers["content-type"].startswith("application/json")
-            kept.setdefault(shown_as, self._shown(answer.json() if is_json else answer.text))
+            kind = answer.headers["content-type"].partition(";")[0]
+            said = answer.json() if kind == "application/json" else answer.text
+            said = _first_and_last(said) if kind == "text/event-stream" else said
+            kept.setdefault(shown_as, self._shown(said))
         return answer
 
     def is_other(self, identity: str) -> None:
@@ -126,6 +131,12 @@ class Recorder:
         for pattern, same in SAME:
             text = re.sub(pattern, same, text)
         return json.loads(text)
+
+
+def _first_and_last(stream: str) -> str:
+    """A stream of events without most of those that tell of progress."""
+    events = stream.removesuffix("\n\n").split("\n\n")
+    return "\n\n".join((*events[:SHOWN_EVENTS], events[-1])) + "\n\n"
 
 
 def _short(value: Any, name: str = "") -> Any:

@@ -1,10 +1,13 @@
-"""The examples of the OpenAPI document: what a sandbox was asked, and what it answered.
+"""The examples of the OpenAPI document: what a service was asked, and what it answered.
 
 ``python -m tests.contract.recording`` (``make examples``) asks one and writes
 ``service/api/examples.json``: requests by operation, answers by operation and status, and notices.
 """
 
+import io
 import json
+import os
+import sys
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
@@ -12,6 +15,7 @@ from typing import Any
 from urllib.parse import quote
 
 import httpx
+from PIL import Image
 
 import service.api
 from service.demo_data.sample import load_sample, load_scan_sample
@@ -19,7 +23,12 @@ from service.engine.database import open_database, prepare_database
 from service.engine.keys import KeyRing, Role
 from service.settings import Settings
 from tests.contract.recorder import SHOWN, Recorder
-from tests.e2e.sandbox import running_sandbox
+from tests.e2e.service import (
+    REPOSITORY,
+    started_service,
+    wait_for_estimator,
+    wait_until_ready,
+)
 from tests.integration.service.receiver import Receiver, receiving
 
 RECORDED = Path(service.api.__file__).parent / "examples.json"
@@ -60,12 +69,13 @@ DERIVATIONS: Mapping[str, Mapping[str, Any]] = {
 
 
 def record(client: httpx.Client, receiver: Receiver, *, metrics_key: str) -> dict[str, Any]:
-    """Ask a sandbox for one of everything."""
+    """Ask a service for one of everything."""
     recorder = Recorder(client, receiver)
     sample, pair = load_sample(), load_scan_sample()
     person = json.loads(sample.request)
     points = {name: [at["x"], at["y"]] for name, at in person["points"].items()}
     image, *views = _images(recorder, sample.image, *pair.images)
+    nobody = recorder.ask("", "POST", "/v1/images", files={"image": _empty()}).json()["id"]
     fit = person | {"image_id": image, "points": points}
     auto = {"gender": "female", "height_m": 1.68, "image_id": image, "points": "auto"}
     _jobs(
@@ -78,6 +88,7 @@ def record(client: httpx.Client, receiver: Receiver, *, metrics_key: str) -> dic
             | {"measurements": GIRTHS, "weight_kg": 75, "cues": "SE", "focal_length_35mm": 50}
             | {"label": "customer-4711", "webhook": WEBHOOK},
         },
+        failing=auto | {"image_id": nobody},
     )
     asked = json.loads(pair.request)
     placed = [
@@ -93,6 +104,7 @@ def record(client: httpx.Client, receiver: Receiver, *, metrics_key: str) -> dic
             "front-and-side": scan | {"views": placed},
             "told-of-its-end": scan | {"views": proposed, "webhook": WEBHOOK},
         },
+        failing=scan | {"views": [each | {"image_id": nobody} for each in proposed]},
     )
     _estimates(recorder, image, points, person)
     _whole_service(recorder, metrics_key)
@@ -115,7 +127,16 @@ def _images(recorder: Recorder, *pictures: bytes) -> list[str]:
     return ids[:-1]
 
 
-def _jobs(recorder: Recorder, kind: str, submissions: Mapping[str, Any]) -> None:
+def _empty() -> bytes:
+    """A picture that shows nobody."""
+    encoded = io.BytesIO()
+    Image.new("RGB", (600, 800), (120, 130, 140)).save(encoded, "PNG")
+    return encoded.getvalue()
+
+
+def _jobs(
+    recorder: Recorder, kind: str, submissions: Mapping[str, Any], *, failing: Mapping[str, Any]
+) -> None:
     """Ask for fits or scans and all that can be asked of them, then for what is derived."""
     path = f"/v1/{kind}"
     usual, *_ = submissions.values()
@@ -126,14 +147,10 @@ def _jobs(recorder: Recorder, kind: str, submissions: Mapping[str, Any]) -> None
         told = recorder.until_ended(accepted.headers["Location"])
         assert told["state"] == "succeeded", told
     recorder.take_notice(f"{kind.removesuffix('s')}-ended")
-    done = _life(recorder, path, usual, slow=(path, usual | {"label": "sandbox:slow:60"}))
-    failing = usual | {"label": "sandbox:image-damaged"}
+    done = _life(recorder, path, usual, slow=usual | {"optimizer": "simplex"})
     failed = recorder.ask("", "POST", path, json=failing).headers["Location"]
     recorder.until_ended(failed)
     recorder.ask("failed", "GET", failed)
-    asked = usual | {"label": "sandbox:derivations:slow:60"}
-    of_slow = recorder.ask("", "POST", path, json=asked).headers["Location"]
-    recorder.until_ended(of_slow)
     below = done["links"]["derivations"]
     for name, each in DERIVATIONS.items():
         accepted = recorder.ask("queued", "POST", below, asked_as=name, json=each)
@@ -143,8 +160,7 @@ def _jobs(recorder: Recorder, kind: str, submissions: Mapping[str, Any]) -> None
             recorder.ask(made["kind"], "GET", made["links"]["result"])
     prefix = "" if kind == "fits" else "scan-"
     recorder.take_notice(f"{prefix}derivation-ended")
-    slow = (f"{of_slow}/derivations", DERIVATIONS["pose"])
-    _life(recorder, below, DERIVATIONS["pose"], slow=slow)
+    _life(recorder, below, DERIVATIONS["pose"], slow=DERIVATIONS["texture"])
 
 
 def _life(
@@ -152,20 +168,19 @@ def _life(
     path: str,
     usual: Mapping[str, Any],
     *,
-    slow: tuple[str, Mapping[str, Any]],
+    slow: Mapping[str, Any],
 ) -> dict[str, Any]:
     """Ask all that can be asked of a job; returns the one that has succeeded.
 
-    ``slow`` is where and how to ask for one that can be looked at while it runs.
+    ``slow`` asks for one that can be looked at while it runs.
     """
     waiting: dict[str, Any] = {"headers": {"Prefer": "wait=60"}}
     answer = recorder.ask("succeeded", "POST", path, json=usual, **waiting)
     done = answer.json()
     links = done["links"]
-    where, what = slow
-    begun = recorder.ask("", "POST", where, json=what).headers["Location"]
+    begun = recorder.ask("", "POST", path, json=slow).headers["Location"]
     recorder.until(begun, lambda job: job["state"] == "running" and job["progress"] > 0)
-    recorder.ask("" if "kind" in what else "running", "GET", begun)
+    recorder.ask("" if "kind" in slow else "running", "GET", begun)
     recorder.ask("stopping", "POST", f"{begun}/cancel")
     recorder.until_ended(begun)
     recorder.ask("canceled", "POST", f"{begun}/cancel")
@@ -233,27 +248,34 @@ def _tokens(recorder: Recorder, fit: Mapping[str, Any], picture: bytes) -> None:
     recorder.ask("only-page", "GET", "/v1/tokens")
 
 
-def recorded_from_sandbox(folder: Path) -> dict[str, Any]:
-    """Start a sandbox that asks for keys, in an empty folder, and record it."""
+def recorded_from_service(folder: Path) -> dict[str, Any]:
+    """Start a service that asks for keys, in an empty folder, and record it."""
     url = Settings(data_dir=folder).system_database_url
     prepare_database(url)
     database = open_database(url, connections=1)
     keys = KeyRing(database)
     key, metrics_key = keys.create("shop"), keys.create("shop", Role.METRICS)
     database.dispose()
-    settings = {
-        "authentication": "keys",
-        "requests_per_minute": 1_000_000,
-        "webhook_hosts": "127.0.0.1",
+    environment = {
+        **os.environ,
+        "MAQUETTE_AUTHENTICATION": "keys",
+        "MAQUETTE_REQUESTS_PER_MINUTE": "1000000",
+        "MAQUETTE_WEBHOOK_HOSTS": "127.0.0.1",
     }
+    command = [sys.executable, "-m", "service.cli", "serve", "--port", "0"]
     with (
         receiving() as receiver,
-        running_sandbox(folder, key=key, **settings) as client,
+        started_service(
+            [*command, "--data-dir", str(folder)], cwd=REPOSITORY, environment=environment
+        ) as client,
     ):
+        client.headers["Authorization"] = f"Bearer {key}"
+        wait_until_ready(client)
+        wait_for_estimator(client)
         return record(client, receiver, metrics_key=metrics_key)
 
 
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as folder:
-        found = recorded_from_sandbox(Path(folder))
+        found = recorded_from_service(Path(folder))
     RECORDED.write_text(json.dumps(found, indent=1, ensure_ascii=False) + "\n")

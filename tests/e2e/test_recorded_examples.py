@@ -1,4 +1,4 @@
-"""The examples of the OpenAPI document are what a sandbox is asked and answers."""
+"""The examples of the OpenAPI document are what a service is asked and answers."""
 
 import copy
 import json
@@ -6,11 +6,11 @@ from pathlib import Path
 
 from service.api.openapi import recorded_examples
 from tests.contract.recorder import differences
-from tests.contract.recording import recorded_from_sandbox
+from tests.contract.recording import recorded_from_service
 
 
-def test_the_examples_are_what_a_sandbox_answers(tmp_path: Path):
-    recorded = recorded_from_sandbox(tmp_path)
+def test_the_examples_are_what_a_service_answers(tmp_path: Path):
+    recorded = recorded_from_service(tmp_path)
     assert differences(recorded, recorded_examples()) == [], "run `make examples openapi`"
 
 

@@ -166,15 +166,12 @@ def test_a_check_that_may_block_says_when():
 
 
 def test_warnings_of_fits_are_those_of_the_code():
-    # Of proposed points, and of results that are of no picture that was sent.
-    apart = {
-        ROOT / "fitter" / "fits" / "proposal_warnings.py",
-        ROOT / "service" / "worker" / "sandbox_results.py",
-    }
+    of_proposals = ROOT / "fitter" / "fits" / "proposal_warnings.py"
     made = {
         file
         for file in sources("fitter", "service")
-        if file not in apart and not any(file.is_relative_to(ROOT / folder) for folder in DERIVED)
+        if file != of_proposals
+        and not any(file.is_relative_to(ROOT / folder) for folder in DERIVED)
     }
     verdicts = {each.value.replace("_", "-") for each in Verdict if each is not Verdict.PLAUSIBLE}
     assert set(OF_FITS) == codes_of("FitWarning", iter(sorted(made))) | verdicts

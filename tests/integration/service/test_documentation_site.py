@@ -91,7 +91,7 @@ def test_a_clone_without_the_site_shows_its_sources(clone: Get):
     assert "default-src 'none'" in first.headers["content-security-policy"]
     front_end = clone("/documentation/guide/front_end.html").text
     assert "<h1 id=" in front_end
-    assert '<a href="/documentation/guide/sandbox.html">' in front_end
+    assert '<a href="/documentation/guide/results.html">' in front_end
     assert "table" in front_end
     assert clone("/documentation/style.css").headers["content-type"].startswith("text/css")
 

@@ -16,7 +16,6 @@ import pytest
 
 import fitter.body
 from service.cli import main
-from service.engine.database import prepare_database
 from service.setting_types import DETECTOR_FILES
 from tests.integration.service.harness import QUICK, Machine, eventually
 from tests.postgres import SERVER, administration
@@ -117,15 +116,6 @@ def test_a_data_folder_below_a_file_is_refused(command: Sequence[str], tmp_path:
 def test_a_file_that_is_no_database_is_refused(tmp_path: Path):
     (tmp_path / "maquette.sqlite").write_bytes(b"no database at all " * 500)
     assert_refused(run(SERVE, tmp_path), naming=f"MAQUETTE_DATA_DIR={tmp_path}:")
-
-
-@pytest.mark.parametrize(("command", "sandbox"), [(SERVE, True), (WORKER, False)])
-def test_a_sandbox_and_what_is_none_have_databases_of_their_own(
-    command: Sequence[str], sandbox: bool, tmp_path: Path
-):
-    prepare_database(f"sqlite:///{tmp_path / 'maquette.sqlite'}", sandbox=not sandbox)
-    done = run(command, tmp_path, sandbox=sandbox)
-    assert_refused(done, naming=f"MAQUETTE_SANDBOX={str(sandbox).lower()}: the database is")
 
 
 @pytest.mark.parametrize("command", [SERVE, WORKER, PREPARE, KEYS])
