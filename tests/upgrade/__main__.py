@@ -1,7 +1,7 @@
 """``python -m tests.upgrade REVISION``: from a released version to the work tree, and back.
 
 Real fits and scans are submitted all the while, on Postgres (a database of its own on
-127.0.0.1:5432), as service/docs/operate/upgrade.md has it. Where the tables are others, the new
+127.0.0.1:5432), as service/docs/operate/release.md has it. Where the tables are others, the new
 version must say so and change nothing. Exits with 1 if a request was refused, a job was lost or
 ended otherwise.
 """

@@ -52,7 +52,7 @@ def test_every_page_is_in_the_list():
 
 def test_the_table_of_keys_is_called_so():
     assert "maquette_api_keys" in METADATA.tables
-    assert "maquette_api_keys" in (OPERATE / "backup.md").read_text()
+    assert "maquette_api_keys" in (OPERATE / "storage.md").read_text()
 
 
 def seconds(name: str, text: str) -> float:
