@@ -23,7 +23,7 @@ VERSION = $(shell sed -n 's/^VERSION = "\(.*\)"$$/\1/p' service/version.py)
 # What fitter announces of its arguments and results, checked at every call of its quick unit tests.
 CHECKED := -p tests.annotations --jaxtyping-packages=fitter,tests.annotations.checked
 
-.PHONY: demo setup test test-rest test-shapes test-others blender lint serve train report openapi examples docs page client wheel image audit sbom release lock clean
+.PHONY: demo setup test test-rest test-shapes test-others lint serve train report openapi examples docs page client wheel image audit sbom release lock clean
 
 demo: $(STAMP)
 	$(VENV)/bin/maquette demo
@@ -42,14 +42,6 @@ test-shapes: $(STAMP)
 # All tests that `make test-shapes` does not run: so CI runs each once.
 test-others: $(STAMP)
 	$(PYTEST) -m "not shapes"
-
-# Blender's importer is one of the readers that tests/foreign asks; it is large and wants Python 3.11.
-blender: .venv-blender/.installed
-
-.venv-blender/.installed:
-	$(PYTHON) -m venv .venv-blender
-	.venv-blender/bin/python -m pip install -q --disable-pip-version-check bpy==5.0.1
-	touch $@
 
 lint: $(PACKAGES)
 	$(VENV)/bin/ruff check .
@@ -126,7 +118,7 @@ release: $(STAMP)
 lock:
 	$(VENV)/bin/pip install -q pip-tools
 	$(VENV)/bin/pip-compile -q --generate-hashes --no-emit-index-url --no-emit-trusted-host --no-emit-find-links \
-		--strip-extras --extra dev --extra s3 --extra tracing --extra usdz --extra detector --extra heic -o requirements.lock pyproject.toml
+		--strip-extras --extra dev --extra s3 --extra tracing --extra detector --extra heic -o requirements.lock pyproject.toml
 	$(VENV)/bin/pip-compile -q --no-emit-index-url --no-emit-trusted-host --no-emit-find-links \
 		--strip-extras --extra docs -c requirements.lock -o requirements-docs.txt pyproject.toml
 
@@ -146,4 +138,4 @@ $(PACKAGES): pyproject.toml service/version.py requirements.lock requirements-de
 	touch $(PACKAGES)
 
 clean:
-	rm -rf $(VENV) .venv-audit .venv-blender maquette-data demo-output dist service/docs_site
+	rm -rf $(VENV) .venv-audit maquette-data demo-output dist service/docs_site

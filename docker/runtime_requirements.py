@@ -1,8 +1,8 @@
 """Print, out of the lock file, what the service in a container needs, with versions and hashes.
 
-``python3 runtime_requirements.py pyproject.toml requirements.lock [EXTRA ...]`` prints the
-project's dependencies, the extras that a container is run with and those named here, and all that
-these need. With ``--of NAME`` it is a package of the lock file and what that needs, instead.
+``python3 runtime_requirements.py pyproject.toml requirements.lock`` prints the project's
+dependencies, the extras that a container is run with, and all that these need. With ``--of NAME``
+it is a package of the lock file and what that needs, instead.
 """
 
 import argparse
@@ -23,20 +23,19 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("project", type=Path)
     parser.add_argument("lock", type=Path)
-    parser.add_argument("extras", nargs="*")
     parser.add_argument("--of", metavar="NAME", help="a package of the lock file")
     parsed = parser.parse_args()
     entries = read_lock(parsed.lock.read_text())
-    roots = [parsed.of] if parsed.of else direct(parsed.project, parsed.extras)
+    roots = [parsed.of] if parsed.of else direct(parsed.project)
     for name in needed(entries, roots):
         print(entries[name].rstrip())
 
 
-def direct(project_file: Path, extras: Iterable[str]) -> list[str]:
+def direct(project_file: Path) -> list[str]:
     """Return the names of what the service in a container imports itself."""
     project = tomllib.loads(project_file.read_text())["project"]
     wanted = [*project["dependencies"]]
-    for extra in (*EXTRAS, *extras):
+    for extra in EXTRAS:
         wanted += project["optional-dependencies"][extra]
     return [re.split(r"[^\w.-]", each, maxsplit=1)[0] for each in wanted]
 

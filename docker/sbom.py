@@ -45,12 +45,9 @@ def main() -> None:
         "--detector", required=True, type=Path, metavar="DIR", help="of the weights"
     )
     parser.add_argument("--output", required=True, type=Path, metavar="FILE")
-    parser.add_argument("extras", nargs="*", help="that the service is run with beside the usual")
     parsed = parser.parse_args()
     listed = environment(parsed.python)
-    wanted = set(
-        needed(read_lock(Path("requirements.lock").read_text()), direct(PROJECT, parsed.extras))
-    )
+    wanted = set(needed(read_lock(Path("requirements.lock").read_text()), direct(PROJECT)))
     packages = [each for each in listed["components"] if normal(each["name"]) in wanted]
     missing = wanted - {normal(each["name"]) for each in packages}
     if missing:

@@ -247,7 +247,7 @@ class Settings(BaseSettings):
         description=(
             "Processes beside the API that answer bodies and initial poses, propose points and "
             "write other formats, one question at a time each; about 110 MB each, and 210 for what "
-            "they share where no worker runs, 100 more each once it wrote USDZ."
+            "they share where no worker runs."
         ),
     )
     job_time_limit_s: float = Field(

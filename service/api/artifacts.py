@@ -49,16 +49,15 @@ ArtifactName = Annotated[
         description=(
             "A name of the job's `links.artifacts`. Where that is a `.glb`, the same stem with "
             f"{', '.join(f'`.{ending}`' for ending in MESH_FORMATS)} is the mesh in that format "
-            "(`.usdz` where the service has the extra `usdz` installed), written when it is asked "
-            "for; of a textured one `.mtl` is the material of the OBJ. `measurements.csv` is "
-            "there with a fit."
+            "written when it is asked for; of a textured one `.mtl` is the material of the OBJ. "
+            "`measurements.csv` is there with a fit."
         ),
     ),
 ]
 
 NEGOTIATION: Final = """
 
-A `.glb` is answered in the format that `Accept` wants most: GLB, OBJ, PLY, STL or USDZ; GLB for
+A `.glb` is answered in the format that `Accept` wants most: GLB, OBJ, PLY or STL; GLB for
 `*/*`, for `application/octet-stream` and without the header, 406 where none of them is accepted.
 All other names ignore it. Whatever the format, metres with y up, and vertices and triangles in
 the body model's order (an STL has triangles alone). Of an animation the other formats show the

@@ -16,7 +16,7 @@ from service.api.negotiation import not_acceptable, preferred
 from service.api.problems import ProblemError, documented
 from service.estimates.questions import BodyTask
 from service.representation.csv_tables import CSV, measurements_csv
-from service.representation.formats import GLB, MESH_FORMATS, written_here
+from service.representation.formats import GLB, MESH_FORMATS
 
 ROUTER: Final = APIRouter()
 
@@ -48,11 +48,11 @@ async def estimate_body(
     """Return the most probable body of a gender and of any known measurements.
 
     With its measurements, between which values 95 % of such people lie, and the mesh if asked for:
-    by `include_glb` in the JSON, by `Accept: model/gltf-binary`, `model/obj`, `model/ply`,
-    `model/stl` or `model/vnd.usdz+zip` as the file itself. `Accept: text/csv` answers with the
+    by `include_glb` in the JSON, by `Accept: model/gltf-binary`, `model/obj`, `model/ply` or
+    `model/stl` as the file itself. `Accept: text/csv` answers with the
     measurements as a table. Of types wanted alike the one named first counts.
     """
-    offered = (JSON, GLB, *(each.media_type for each in written_here()), CSV)
+    offered = (JSON, GLB, *(each.media_type for each in MESH_FORMATS.values()), CSV)
     wanted = preferred(accept, offered)
     if wanted is None:
         raise not_acceptable(accept, what="A body", offered=offered)

@@ -6,7 +6,7 @@ from starlette.datastructures import MutableHeaders
 from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from service.representation.formats import GLB, STL, USDZ
+from service.representation.formats import GLB, STL
 
 LEAST_BYTES: Final = 1_000
 LEVEL: Final = 6
@@ -17,7 +17,6 @@ LEFT_AS_THEY_ARE: Final = (
     "image/*",
     GLB,
     STL.media_type,
-    USDZ.media_type,
 )
 """Event streams, and what is compressed already or, as floating-point numbers are, hardly gets
 smaller."""

@@ -7,7 +7,6 @@ from typing import Final
 
 from api_schemas.problems import problem
 from service.api.problems import ProblemError
-from service.representation.formats import USD_MISSING, USD_REMEDY, USDZ, usd_is_installed
 
 ANYTHING: Final = "*/*"
 OCTETS: Final = "application/octet-stream"
@@ -58,14 +57,11 @@ def preferred(accept: str | None, offered: Sequence[str]) -> str | None:
 
 def not_acceptable(accept: str | None, *, what: str, offered: Sequence[str]) -> ProblemError:
     """Say that nothing acceptable is available, and what is."""
-    unwritten = USDZ.media_type in (accept or "").lower() and not usd_is_installed()
-    there_are = f"Ask for one of {', '.join(offered)}, or leave the header out."
     return ProblemError(
         problem(
             "not-acceptable",
-            code="format-not-installed" if unwritten else None,
-            detail=USD_MISSING if unwritten else f"{what} cannot be had as {_shortened(accept)}.",
-            remedy=f"{USD_REMEDY}. {there_are}" if unwritten else there_are,
+            detail=f"{what} cannot be had as {_shortened(accept)}.",
+            remedy=f"Ask for one of {', '.join(offered)}, or leave the header out.",
             field="Accept",
         ),
         headers={"Vary": "Accept"},

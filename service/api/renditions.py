@@ -20,14 +20,10 @@ from service.representation.csv_tables import CSV, TABLE
 from service.representation.formats import (
     GLB,
     GLB_ENDING,
+    MESH_FORMATS,
     MTL,
-    USD_MISSING,
-    USD_REMEDY,
-    USDZ,
     MeshFormat,
     tag_of,
-    usd_is_installed,
-    written_here,
 )
 
 TEXTURE_FILES: Final = frozenset({"texture.png", "texture.jpg"})
@@ -92,7 +88,7 @@ def renditions(record: JobRecord) -> Iterator[Rendition]:
 
 def _forms_of(mesh: Artifact) -> Iterator[Rendition]:
     yield _as_stored(mesh)
-    for each in written_here():
+    for each in MESH_FORMATS.values():
         yield _written(mesh, each)
 
 
@@ -116,16 +112,6 @@ def _written(mesh: Artifact, kind: MeshFormat) -> Rendition:
 
 
 def _unknown(record: JobRecord, name: str, there_are: Mapping[str, Rendition]) -> ProblemError:
-    mesh = f"{PurePath(name).stem}{GLB_ENDING}"
-    if name.endswith(f".{USDZ.ending}") and mesh in there_are and not usd_is_installed():
-        return ProblemError(
-            problem(
-                "not-found",
-                code="format-not-installed",
-                detail=USD_MISSING,
-                remedy=f"{USD_REMEDY}, or ask for {_named(there_are)}.",
-            )
-        )
     if record.state is not JobState.SUCCEEDED:
         remedy = f"The job is {record.state}; only one that has succeeded has files."
     else:

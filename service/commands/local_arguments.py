@@ -134,7 +134,7 @@ def _add_common(command: argparse.ArgumentParser, *, output: str) -> None:
         type=_formats,
         default=(),
         metavar="FORMAT,...",
-        help="write every mesh as obj, ply, stl or usdz too",
+        help="write every mesh as obj, ply or stl too",
     )
     command.add_argument(
         "--output", type=Path, default=Path(output), metavar="DIR", help="default: %(default)s"
@@ -148,20 +148,11 @@ def _points_file(text: str) -> Path | None:
 
 
 def _formats(text: str) -> tuple[str, ...]:
-    from service.representation.formats import (
-        MESH_FORMATS,
-        USD_MISSING,
-        USD_REMEDY,
-        USDZ,
-        written_here,
-    )
+    from service.representation.formats import MESH_FORMATS
 
     endings = tuple(dict.fromkeys(each.strip().lstrip(".").lower() for each in text.split(",")))
     for ending in endings:
         if ending not in MESH_FORMATS:
             message = f"'{ending}' is none of {', '.join(MESH_FORMATS)}; GLB is always written"
             raise argparse.ArgumentTypeError(message)
-    if USDZ.ending in endings and USDZ not in written_here():
-        message = f"{USD_MISSING} {USD_REMEDY}."
-        raise argparse.ArgumentTypeError(message)
     return endings

@@ -7,7 +7,6 @@ know about a format is here.
 
 import hashlib
 import importlib.metadata
-import importlib.util
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -18,9 +17,6 @@ GLB: Final = "model/gltf-binary"
 
 WRITER_VERSION: Final = 1
 """Raise this whenever :mod:`fitter.export.formats` writes different bytes."""
-
-USD_DISTRIBUTION: Final = "usd-core"
-USD_PACKAGE: Final = "pxr"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,28 +31,11 @@ class MeshFormat:
 OBJ: Final = MeshFormat(ending="obj", media_type="model/obj")
 PLY: Final = MeshFormat(ending="ply", media_type="model/ply", library="trimesh")
 STL: Final = MeshFormat(ending="stl", media_type="model/stl", library="trimesh")
-USDZ: Final = MeshFormat(ending="usdz", media_type="model/vnd.usdz+zip", library=USD_DISTRIBUTION)
 MTL: Final = MeshFormat(ending="mtl", media_type="model/mtl")
 """Not a mesh but the material of a textured OBJ."""
 
-MESH_FORMATS: Final[Mapping[str, MeshFormat]] = {
-    each.ending: each for each in (OBJ, PLY, STL, USDZ)
-}
+MESH_FORMATS: Final[Mapping[str, MeshFormat]] = {each.ending: each for each in (OBJ, PLY, STL)}
 """By their endings. IANA lists all but ``model/ply``, which many use."""
-
-USD_MISSING: Final = "USDZ is not written here: the package usd-core is not installed."
-USD_REMEDY: Final = "Install the extra `usdz` beside it (pip install usd-core)"
-
-
-def usd_is_installed() -> bool:
-    """Whether the optional library that writes USDZ is there; it is not loaded."""
-    return importlib.util.find_spec(USD_PACKAGE) is not None
-
-
-@cache
-def written_here() -> tuple[MeshFormat, ...]:
-    """The formats that can be written with what is installed."""
-    return tuple(each for each in MESH_FORMATS.values() if each is not USDZ or usd_is_installed())
 
 
 @cache

@@ -7,10 +7,6 @@ from fitter.export.formats.obj import mtl_file, obj_file
 from fitter.export.formats.shown_body import ShownBody, shown_body
 
 
-class UsdMissingError(Exception):
-    """USDZ was asked for, and Pixar's library is not installed."""
-
-
 class UntexturedError(Exception):
     """A material file was asked for of a body without a texture."""
 
@@ -20,8 +16,6 @@ def converted(glb: bytes, ending: str) -> bytes:
 
     Raises
     ------
-    UsdMissingError
-        If it is ``usdz`` and ``usd-core`` is not installed.
     UntexturedError
         If it is ``mtl`` and the body has no texture.
     """
@@ -47,20 +41,10 @@ def _stl(body: ShownBody) -> bytes:
     return stl_file(body)
 
 
-def _usdz(body: ShownBody) -> bytes:
-    try:
-        # An optional extra of 200 MB, loaded by whom it is asked of.
-        from fitter.export.formats.usdz import usdz_file
-    except ModuleNotFoundError as error:
-        raise UsdMissingError from error
-    return usdz_file(body)
-
-
 FORMATS: Final[Mapping[str, Callable[[ShownBody], bytes]]] = {
     "obj": obj_file,
     "mtl": _mtl,
     "ply": _ply,
     "stl": _stl,
-    "usdz": _usdz,
 }
 """By the ending of a file's name; ``mtl`` is the material file of a textured OBJ."""

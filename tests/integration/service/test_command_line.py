@@ -15,7 +15,6 @@ from service.commands.check import CheckArguments, check_locally
 from service.commands.demo import run_demo
 from service.commands.fit import FitArguments, fit_locally
 from service.demo_data.sample import Sample, load_sample
-from service.representation.formats import OBJ, PLY, STL
 from service.version import VERSION
 from tests.integration.service.fake_pipeline import scripted_image
 from tests.integration.service.harness import POINTS, QUICK, REQUEST
@@ -92,15 +91,7 @@ def test_a_format_nobody_writes_is_named_with_those_there_are(capsys, formats, t
     assert ended.value.code == 2
     said = capsys.readouterr().err
     assert told in said
-    assert "obj, ply, stl, usdz" in said
-
-
-def test_usdz_without_its_library_is_told_before_the_fit_begins(capsys, monkeypatch):
-    monkeypatch.setattr("service.representation.formats.written_here", lambda: (OBJ, PLY, STL))
-    with pytest.raises(SystemExit) as ended:
-        main(["fit", "picture.png", "--points", "points.json", "--formats", "obj,usdz"])
-    assert ended.value.code == 2
-    assert "usd-core" in capsys.readouterr().err
+    assert "obj, ply, stl" in said
 
 
 def test_a_folder_without_models_is_told(tmp_path, capsys):

@@ -2,12 +2,10 @@
 
 import csv
 import io
-from pathlib import Path
 
 import httpx
 import pytest
 
-from api_schemas.problems import Problem
 from tests.integration.service.harness import Machine, Service, eventually, running_service
 from tests.integration.service.test_bad_input import checked
 from tests.integration.service.test_derivations import derived, fitted
@@ -17,13 +15,10 @@ MESH_TYPES = {
     "obj": "model/obj",
     "ply": "model/ply",
     "stl": "model/stl",
-    "usdz": "model/vnd.usdz+zip",
 }
 GLB = "model/gltf-binary"
 GLB_BYTES = 260
 """Of the mesh of a pretended fit."""
-
-WITHOUT_USD = Path(__file__).parent / "without_usd"
 
 
 @pytest.fixture(scope="module")
@@ -86,7 +81,7 @@ def test_each_format_has_a_tag_of_its_own_and_ranges(service: Service, files):
         ("nonsense", GLB),
         ("model/obj", "model/obj"),
         ("Model/PLY", "model/ply"),
-        ("model/stl;q=0.5, model/vnd.usdz+zip", "model/vnd.usdz+zip"),
+        ("model/stl;q=0.5, model/ply", "model/ply"),
         ("model/fbx, model/obj;q=0.1", "model/obj"),
         ("*/*;q=0.1, model/ply", "model/ply"),
         ("model/gltf-binary;q=0, */*", "model/obj"),
@@ -125,13 +120,13 @@ def test_what_nobody_can_write_is_not_acceptable(service: Service, files, accept
     "name",
     [
         *("body_posed.fbx", "body_posed.xyz", "body_posed", "body_posed.", ".obj"),
-        *("body_posed.mtl", "overlay.obj", "person.usdz", "measurements.json", "result.csv"),
+        *("body_posed.mtl", "overlay.obj", "person.obj", "measurements.json", "result.csv"),
     ],
 )
 def test_a_file_that_is_not_there_is_told_with_those_that_are(service: Service, files, name):
     problem = checked(get(service, f"{files}/{name}"), 404)
     assert f"'{name}'" in problem.detail
-    assert "body_posed (.glb, .obj, .ply, .stl, .usdz)" in problem.remedy
+    assert "body_posed (.glb, .obj, .ply, .stl)" in problem.remedy
     for there in ("overlay.png", "person.npz", "measurements.csv", "result.json"):
         assert there in problem.remedy
 
@@ -187,7 +182,6 @@ def test_files_that_are_not_listed_stay_out_of_the_links(service: Service, files
         ("application/octet-stream, */*;q=0.1", "application/json"),
         ("model/gltf-binary, application/json", GLB),
         ("application/json;q=0.9, model/ply", "model/ply"),
-        ("model/vnd.usdz+zip", "model/vnd.usdz+zip"),
         ("text/csv", "text/csv; charset=utf-8"),
     ],
 )
@@ -228,22 +222,3 @@ def test_without_an_estimator_stored_files_are_there_and_others_are_for_later(tm
         answer = get(service, f"{files}/body_posed.obj")
         assert checked(answer, 503).code == "estimator-unavailable"
         assert int(answer.headers["Retry-After"]) > 0
-
-
-def test_without_its_library_usdz_is_not_offered_and_who_asks_is_told(tmp_path, monkeypatch):
-    monkeypatch.setenv("PYTHONPATH", str(WITHOUT_USD), prepend=":")
-    with running_service(Machine(tmp_path)) as service:
-        wait_for_estimator(service)
-        files = f"{fitted(service)}/artifacts"
-        assert get(service, f"{files}/body_posed.obj").status_code == 200
-        told = [
-            checked(get(service, f"{files}/body_posed.usdz"), 404),
-            checked(get(service, f"{files}/body_posed.glb", Accept="model/vnd.usdz+zip"), 406),
-        ]
-        for problem in told:
-            assert problem.code == "format-not-installed"
-            assert "usd-core" in problem.detail
-            assert "`usdz`" in problem.remedy
-            assert "vnd.usdz" not in problem.remedy
-        listed: Problem = checked(get(service, f"{files}/body_posed.fbx"), 404)
-        assert "body_posed (.glb, .obj, .ply, .stl)," in listed.remedy

@@ -232,11 +232,6 @@ def runtime_requirements(*arguments: str) -> dict[str, str]:
     return dict(re.findall(r"^([\w.-]+)==(\S+)", printed, re.M))
 
 
-def test_usdz_comes_into_the_image_where_it_is_asked_for():
-    assert "usd-core" not in runtime_requirements()
-    assert "usd-core" in runtime_requirements("usdz")
-
-
 def test_the_image_gets_what_the_service_runs_on_and_no_tools():
     names = runtime_requirements().keys()
     assert {"dbos", "numba", "boto3", "opentelemetry-sdk", "pi-heif"} <= names
@@ -244,7 +239,7 @@ def test_the_image_gets_what_the_service_runs_on_and_no_tools():
 
 
 def test_the_image_gets_all_that_its_packages_say_they_need():
-    printed = runtime_requirements("usdz")
+    printed = runtime_requirements()
     for name in printed:
         for line in metadata.requires(name) or ():
             requirement = Requirement(line)
