@@ -1,4 +1,4 @@
-"""The documentation: the page that shows the API, and the site that an image brings with it.
+"""The documentation: the page that shows the API, and the site where it has been built.
 
 The page is Swagger UI from our own files, with nothing inline. The site is built from
 ``service/docs``; a wheel does not bring it.
@@ -17,7 +17,6 @@ from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
 from api_schemas.problems import problem
-from service.api.documentation_sources import SOURCES, mount_sources
 from service.api.problems import ProblemError
 from service.api.security_headers import OWN_FILES, STATIC_SITE
 
@@ -84,18 +83,15 @@ def style() -> Response:
 PATH: Final = "/documentation"
 FOLDER: Final = Path(__file__).parents[1] / "docs_site"
 
-ABSENT: Final = "This service was installed without its documentation."
+ABSENT: Final = "This service has no documentation site."
 REMEDY: Final = (
-    "The image of a release has it, a release's archive of it can be unpacked beside the service, "
-    "and `make docs` builds it from the sources. Start the service again afterwards."
+    "`make docs` builds it from a clone, whose files in service/docs can be read as they are; the "
+    "image of a release has it. Start the service again afterwards."
 )
 
 
-def mount_site(app: FastAPI, folder: Path = FOLDER, sources: Path = SOURCES) -> None:
-    """Serve the site, in a clone its sources; where there are none, lead to the API or say so."""
-    if not folder.is_dir() and (sources / "index.md").is_file():
-        mount_sources(app, PATH, sources)
-        return
+def mount_site(app: FastAPI, folder: Path = FOLDER) -> None:
+    """Serve the site; where it has not been built, lead to the API or say so."""
     if not folder.is_dir():
         for path in (PATH, f"{PATH}/{{page:path}}"):
             app.add_route(path, _absent, include_in_schema=False)

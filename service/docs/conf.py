@@ -18,8 +18,6 @@ project_copyright = author
 version = release = VERSION
 
 extensions = [
-    "_extensions.dead_links",
-    "_extensions.http_reference",
     "_extensions.mathml",
     "_extensions.nothing_inline",
     "_extensions.running_service",

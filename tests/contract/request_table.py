@@ -57,7 +57,7 @@ def _kinds(schema: Schema, schemas: Schema) -> Iterator[str]:
     if "$ref" in schema:
         name = schema["$ref"].rpartition("/")[2]
         named = schemas[name]
-        yield from [f"[{name}](#type-{name})"] if "properties" in named else _kinds(named, schemas)
+        yield from [f"`{name}`"] if "properties" in named else _kinds(named, schemas)
     elif "enum" in schema:
         values = [f"`{value}`" for value in schema["enum"]]
         yield from values if len(values) <= MOST_VALUES else ["a name"]

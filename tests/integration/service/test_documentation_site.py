@@ -1,7 +1,6 @@
 """The documentation site as the service serves it."""
 
 import asyncio
-import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -9,7 +8,7 @@ import httpx
 import pytest
 from fastapi import FastAPI
 
-from service.api import documentation, documentation_sources
+from service.api import documentation
 from service.api.problems import install_problem_handlers
 
 Get = Callable[..., httpx.Response]
@@ -25,10 +24,10 @@ def get(tmp_path: Path) -> Get:
     return getting(folder)
 
 
-def getting(folder: Path, sources: Path = Path("/nowhere")) -> Get:
+def getting(folder: Path) -> Get:
     app = FastAPI(redirect_slashes=False)
     install_problem_handlers(app)
-    documentation.mount_site(app, folder, sources)
+    documentation.mount_site(app, folder)
 
     def get(path: str, **headers: str) -> httpx.Response:
         async def asked() -> httpx.Response:
@@ -69,7 +68,7 @@ def test_a_service_without_the_site_says_how_to_get_it(tmp_path: Path, path: str
     answer = getting(tmp_path / "nowhere")(f"/documentation{path}")
     assert answer.status_code == 404
     assert answer.json()["code"] == "not-found"
-    assert "without its documentation" in answer.json()["detail"]
+    assert "no documentation site" in answer.json()["detail"]
     assert "make docs" in answer.json()["remedy"]
 
 
@@ -78,69 +77,3 @@ def test_a_browser_that_finds_no_site_is_led_to_the_api(tmp_path: Path):
     assert [(each.status_code, each.headers["location"]) for each in answer.history] == [
         (307, "/docs")
     ]
-
-
-@pytest.fixture
-def clone(tmp_path: Path) -> Get:
-    return getting(tmp_path / "nowhere", documentation.SOURCES)
-
-
-def test_a_clone_without_the_site_shows_its_sources(clone: Get):
-    first = clone("/documentation")
-    assert first.url.path == "/documentation/index.html"
-    assert "default-src 'none'" in first.headers["content-security-policy"]
-    front_end = clone("/documentation/guide/front_end.html").text
-    assert "<h1 id=" in front_end
-    assert '<a href="/documentation/guide/results.html">' in front_end
-    assert "table" in front_end
-    assert clone("/documentation/style.css").headers["content-type"].startswith("text/css")
-
-
-def test_every_page_of_the_sources_is_shown_and_every_link_leads_somewhere(clone: Get):
-    waiting, seen = ["/documentation/index.html"], set[str]()
-    while waiting:
-        path = waiting.pop()
-        if path in seen:
-            continue
-        seen.add(path)
-        answer = clone(path)
-        assert answer.status_code == 200, path
-        if path.endswith(".html"):
-            assert "```" not in re.sub(r"<pre>.*?</pre>", "", answer.text, flags=re.DOTALL), path
-            linked = re.findall(r'(?:href|src)="(/documentation/[^"#]+)', answer.text)
-            waiting += [each for each in linked if each not in seen]
-    shown = {each.removeprefix("/documentation/").removesuffix(".html") for each in seen}
-    sources = documentation.SOURCES
-    written = {str(each.relative_to(sources).with_suffix("")) for each in sources.rglob("*.md")}
-    generated = {each for each in written if each.startswith(("reference/http", "gallery"))}
-    assert written - generated <= shown
-
-
-def test_a_page_comes_before_the_list_of_all_pages_which_phones_show_below_it(clone: Get):
-    page = clone("/documentation/guide/front_end.html").text
-    assert page.index("<h1 id=") < page.index('<nav id="pages">')
-    assert '<a class="to-pages" href="#pages">' in page
-
-
-@pytest.mark.parametrize(
-    "path",
-    [
-        *("../../README.html", "%2e%2e/%2e%2e/README.html", "files/service/cli.py", "files/x.png"),
-        *("%00.html", "files/%00.png", f"{300 * 'long'}.html", f"files/{300 * 'long'}.png"),
-    ],
-)
-def test_a_clone_shows_pages_and_their_pictures_alone(clone: Get, path: str):
-    assert clone(f"/documentation/{path}").status_code == 404
-
-
-def test_a_clone_shows_no_pictures_but_those_of_its_pages(tmp_path: Path):
-    shown, other = tmp_path / documentation_sources.PICTURES[0], tmp_path / "maquette-fit"
-    sources = tmp_path / "service" / "docs"
-    for folder in (sources, other, *(tmp_path / each for each in documentation_sources.PICTURES)):
-        folder.mkdir(parents=True)
-    (sources / "index.md").write_text("# Maquette")
-    for folder in (shown, other):
-        (folder / "overlay.png").write_bytes(b"PNG")
-    clone = getting(tmp_path / "nowhere", sources)
-    assert clone(f"/documentation/files/{documentation_sources.PICTURES[0]}/overlay.png").is_success
-    assert clone("/documentation/files/maquette-fit/overlay.png").status_code == 404
