@@ -50,8 +50,8 @@ from service.engine.browser_token_port import BrowserTokens
 from service.engine.keys import KeyRing
 from service.engine.port import JobEngine
 from service.engine.token_port import SharedTokens
-from service.numerics.relay import Ask
-from service.process.disk import Disk
+from service.numerics.quick_lane import Ask
+from service.process.data_folder import Disk
 from service.settings import Settings
 from service.version import VERSION
 

@@ -17,7 +17,7 @@ from service.blobs import BlobStore
 from service.engine.browser_token_port import BrowserToken, BrowserTokens
 from service.engine.image_port import TenantImages
 from service.engine.port import FIT, SCAN, JobEngine, TenantJobs
-from service.process.disk import Disk
+from service.process.data_folder import Disk
 from service.settings import Settings
 
 SOLE_TENANT: Final = "default"

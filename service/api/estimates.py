@@ -27,8 +27,7 @@ from service.estimates.questions import (
     ProposedPoints,
 )
 from service.numerics.messages import DoneMessage, ProblemMessage, TaskMessage
-from service.numerics.quick_lane import FAILED, TIMED_OUT, UNAVAILABLE, capacity
-from service.numerics.relay import Ask
+from service.numerics.quick_lane import FAILED, TIMED_OUT, UNAVAILABLE, Ask, capacity
 from service.numerics.tasks import Parts
 from service.process.logs import current_log_context
 from service.representation.formats import MeshFormat

@@ -21,7 +21,7 @@ from api_schemas.jobs import JobState, WebhookState
 from service.engine.port import EngineUnavailableError, JobEngine
 from service.engine.statistics import BOUNDS_S
 from service.jobs.states import TERMINAL
-from service.process.disk import Disk
+from service.process.data_folder import Disk
 
 AVAILABLE: Final = ("maquette_database_available", "Whether this process reaches the database.")
 REQUEST_BOUNDS_S: Final = (0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 5.0, 30.0, 60.0)

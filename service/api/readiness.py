@@ -18,7 +18,7 @@ from api_schemas.service import Ready
 from service.api.problems import ProblemError
 from service.blobs import BlobStore, BlobsUnavailableError, StorageFullError
 from service.engine.port import JobEngine, WorkerStatus
-from service.process.disk import Disk
+from service.process.data_folder import Disk
 
 ANSWER_WITHIN_S: Final = 1.5
 """What has not been found out by then is not ready: probes wait for two seconds and more."""

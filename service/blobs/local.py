@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import BinaryIO, Final
 
 from service.blobs.port import BlobMissingError, BlobsUnavailableError, StorageFullError
-from service.process.private_files import make_private_folder
+from service.process.data_folder import make_private_folder
 
 FULL: Final = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
 

@@ -21,8 +21,8 @@ from service.engine.keys import KeyRing
 from service.engine.rate_tokens import RateTokens
 from service.engine.storage_identity import take_storage
 from service.engine.webhooks import WebhookLedger
-from service.numerics.relay import Ask
-from service.process.disk import open_disk
+from service.numerics.quick_lane import Ask
+from service.process.data_folder import open_disk
 from service.settings import Settings
 from service.webhooks.delivery import Deliverer
 from service.webhooks.sending import Sender

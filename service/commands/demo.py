@@ -17,7 +17,7 @@ from api_schemas.problems import PROBLEM_MEDIA_TYPE, Problem
 from api_schemas.results import FitResult
 from service.commands.terminal import print_problem, print_result, stage_bars
 from service.demo_data.sample import Sample, load_sample
-from service.process.interpreter import PYTHON
+from service.process.supervisor import PYTHON
 
 SERVE_COMMAND: Final = (*PYTHON, "-m", "service.cli", "serve", "--port", "0")
 START_TIMEOUT_S: Final = 240.0

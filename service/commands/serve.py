@@ -9,11 +9,10 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from typing import Final
 
-from service.commands.preflight import run_preflight
+from service.commands.prepare import run_preflight
 from service.engine.ballast import open_ballast
-from service.numerics.relay import SOCKET, asking
-from service.process.interpreter import PYTHON
-from service.process.supervisor import SupervisedProcess
+from service.numerics.quick_lane import SOCKET, asking
+from service.process.supervisor import PYTHON, SupervisedProcess
 from service.process.tracing import start_tracing
 from service.process.work_folder import make_work_folder
 from service.settings import PREFIX, SettingError, Settings

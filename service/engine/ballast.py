@@ -17,7 +17,7 @@ from typing import Final, TypeVar
 from sqlalchemy.exc import OperationalError
 
 from service.engine.driver_errors import is_full
-from service.process.private_files import PRIVATE_FILE
+from service.process.data_folder import PRIVATE_FILE
 from service.settings import Settings
 
 T = TypeVar("T")

@@ -30,7 +30,7 @@ from service.engine.port import AttemptHandler, Ending
 from service.engine.queue import APPLICATION, EXECUTION_VERSION, WORKFLOW, queue_of
 from service.engine.retrying import ABSENCES
 from service.engine.worker_slots import WorkerSlots
-from service.process.disk import Disk
+from service.process.data_folder import Disk
 from service.process.logs import fields, log_context
 from service.process.tracing import span
 

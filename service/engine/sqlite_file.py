@@ -8,8 +8,12 @@ from typing import Any, Final
 import sqlalchemy as sa
 
 from service.engine.port import DatabaseUnusableError
-from service.process.data_folder import database_files
-from service.process.private_files import make_private_file, make_private_folder, tighten
+from service.process.data_folder import (
+    database_files,
+    make_private_file,
+    make_private_folder,
+    tighten,
+)
 
 BUSY_TIMEOUT_MS: Final = 30_000
 

@@ -1,16 +1,23 @@
-"""What the API asks estimators: the names of the tasks, and what each is given and gives.
+"""What the API asks estimators: the tasks by name, and what each is given and gives.
 
 Each is given a part with its question, JSON, and where there is one a file; each gives a part with
 its answer, JSON, and where there is one a file.
 """
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Final
+
+from pydantic import BaseModel
 
 from api_schemas.base import WireModel
 from api_schemas.bodies import BodyEstimate, BodyRequest
-from api_schemas.proposals import PointsProposal
+from api_schemas.checks import CaptureCheck, CheckRequest
+from api_schemas.initial_poses import InitialPose
+from api_schemas.proposals import PointsProposal, PointsRequest
 from api_schemas.requests import SubjectOptions
+from service.numerics.tasks import ChildSetup, Observe, Parts, Task
 
 BODY: Final = "body"
 INITIAL_POSE: Final = "initial_pose"
@@ -60,3 +67,61 @@ class ProposedPoints:
 
     proposal: PointsProposal
     mask: bytes
+
+
+def estimate_tasks(
+    *,
+    body: Callable[[BodyTask, Path | None], EstimatedBody],
+    initial_pose: Callable[[InitialPoseTask, Path | None], InitialPose],
+    points: Callable[..., ProposedPoints],
+    check: Callable[..., CaptureCheck],
+    conversion: Callable[[ConversionTask, bytes], bytes],
+    jpeg: Callable[..., bytes],
+) -> Mapping[str, Task]:
+    """The table of what answers, as :mod:`service.estimates.answers` does."""
+
+    def body_task(setup: ChildSetup, parts: Parts, _: Observe) -> Parts:
+        found = body(BodyTask.model_validate_json(parts[QUESTION]), setup.models)
+        return _answered(found.estimate, found.glb)
+
+    def initial_pose_task(setup: ChildSetup, parts: Parts, _: Observe) -> Parts:
+        asked = InitialPoseTask.model_validate_json(parts[QUESTION])
+        return _answered(initial_pose(asked, setup.models))
+
+    def points_task(setup: ChildSetup, parts: Parts, _: Observe) -> Parts:
+        found = points(
+            PointsRequest.model_validate_json(parts[QUESTION]),
+            parts[FILE],
+            max_pixels=setup.max_pixels,
+            detector=setup.detector,
+        )
+        return _answered(found.proposal, found.mask)
+
+    def check_task(setup: ChildSetup, parts: Parts, _: Observe) -> Parts:
+        found = check(
+            CheckRequest.model_validate_json(parts[QUESTION]),
+            parts[FILE],
+            max_pixels=setup.max_pixels,
+            detector=setup.detector,
+        )
+        return _answered(found)
+
+    def conversion_task(_setup: ChildSetup, parts: Parts, _: Observe) -> Parts:
+        asked = ConversionTask.model_validate_json(parts[QUESTION])
+        return {FILE: conversion(asked, parts[FILE])}
+
+    def jpeg_task(setup: ChildSetup, parts: Parts, _: Observe) -> Parts:
+        return {FILE: jpeg(parts[FILE], max_pixels=setup.max_pixels)}
+
+    return {
+        BODY: body_task,
+        INITIAL_POSE: initial_pose_task,
+        POINTS: points_task,
+        CHECK: check_task,
+        CONVERSION: conversion_task,
+        JPEG: jpeg_task,
+    }
+
+
+def _answered(answer: BaseModel, file: bytes = b"") -> Parts:
+    return {ANSWER: answer.model_dump_json().encode(), FILE: file}

@@ -18,7 +18,7 @@ from service.numerics import child
 from service.numerics.messages import Message, Received, receive, send
 from service.numerics.tasks import ChildSetup
 from service.process.caches import settle_folders
-from service.process.interpreter import SAFE_PATH_VARIABLE
+from service.process.supervisor import SAFE_PATH_VARIABLE
 
 LOG: Final = logging.getLogger(__name__)
 

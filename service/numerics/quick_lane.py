@@ -1,7 +1,8 @@
 """The quick lane: questions that are answered within seconds, by children that are kept ready.
 
 Each child answers one question at a time. One that dies over a question, or takes too long, fails
-that question alone and is replaced. All troubles are answers too, as problems.
+that question alone and is replaced. All troubles are answers too, as problems. The API asks in
+another process, over a socket.
 """
 
 import contextlib
@@ -9,8 +10,10 @@ import logging
 import queue
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import Future
+from multiprocessing.connection import Client, Connection, Listener
+from pathlib import Path
 from typing import Final
 
 from pydantic import ValidationError
@@ -23,8 +26,11 @@ from service.numerics.messages import (
     ProgressMessage,
     Received,
     TaskMessage,
+    receive,
+    send,
 )
 from service.numerics.tasks import ChildSetup, Parts
+from service.process.logs import log_context
 
 LOG: Final = logging.getLogger(__name__)
 
@@ -182,3 +188,69 @@ def _final(child: Child) -> Received:
 
 def _told(reason: Problem) -> Received:
     return Received(ProblemMessage(problem=reason), {})
+
+
+LOG: Final = logging.getLogger(__name__)
+
+SOCKET: Final = "questions"
+LOOK_S: Final = 0.02
+BACKLOG: Final = 128
+
+GIVEN_UP_S: Final = READY_WITHIN_S + (1 + MOST_WAITING) * ANSWER_WITHIN_S
+"""By then an owner that runs has answered, however long those took that were before."""
+
+Ask = Callable[[TaskMessage, Parts], Received]
+"""Ask a question with its parts; whatever goes wrong is answered with a problem."""
+
+
+def answer_questions(lane: QuickLane, address: str) -> None:
+    """Answer whoever asks at this address, in threads, for as long as this process runs."""
+    # Of an owner before this one, which was killed.
+    Path(address).unlink(missing_ok=True)
+    listener = Listener(address, family="AF_UNIX", backlog=BACKLOG)
+
+    def listen() -> None:
+        while True:
+            try:
+                connection = listener.accept()
+            except OSError as error:
+                LOG.error("A question could not be taken (%s).", error)
+                time.sleep(LOOK_S)
+                continue
+            threading.Thread(target=_answer, args=(lane, connection), daemon=True).start()
+
+    threading.Thread(target=listen, name="questions", daemon=True).start()
+
+
+def _answer(lane: QuickLane, connection: Connection) -> None:
+    with connection:
+        try:
+            asked = receive(connection)
+            assert isinstance(asked.message, TaskMessage)
+            with log_context(**asked.message.log_context):
+                answer = lane.answer(asked.message, asked.parts)
+            send(connection, answer.message, answer.parts.values())
+        except (EOFError, OSError, ValidationError) as error:
+            LOG.warning("A question was given up (%s).", type(error).__name__)
+
+
+def asking(address: str) -> Ask:
+    """Ask at this address, where an owner answers or soon does."""
+
+    def ask(question: TaskMessage, parts: Parts) -> Received:
+        deadline = time.monotonic() + (READY_WITHIN_S if question.patient else 0.0)
+        while True:
+            try:
+                with Client(address, family="AF_UNIX") as connection:
+                    send(connection, question, parts.values())
+                    if connection.poll(GIVEN_UP_S):
+                        return receive(connection)
+                return Received(ProblemMessage(problem=TIMED_OUT), {})
+            except (EOFError, OSError):
+                # The owner is starting, or has just ended: questions change nothing, and are asked
+                # again.
+                if time.monotonic() >= deadline:
+                    return Received(ProblemMessage(problem=UNAVAILABLE), {})
+                time.sleep(LOOK_S)
+
+    return ask

@@ -1,12 +1,56 @@
-"""The data folder: private to its owner, and checked before anything is stored in it."""
+"""The data folder: private to its owner, checked before anything is stored, and never full."""
 
 import getpass
 import os
+import shutil
+import stat
+from collections.abc import Collection
 from pathlib import Path
 from typing import Final
 
-from service.process.private_files import make_private_folder, tighten, tighten_own_folder
 from service.settings import SettingError, Settings
+
+PRIVATE_FOLDER: Final = 0o700
+PRIVATE_FILE: Final = 0o600
+OTHERS: Final = 0o077
+"""The bits of a mode that concern anybody but the owner."""
+
+
+def make_private_folder(folder: Path) -> None:
+    """Create a folder unless it exists; those above it get the usual permissions."""
+    folder.mkdir(mode=PRIVATE_FOLDER, parents=True, exist_ok=True)
+
+
+def make_private_file(path: Path) -> None:
+    """Create an empty file unless it exists."""
+    os.close(os.open(path, os.O_CREAT | os.O_RDONLY | os.O_CLOEXEC, PRIVATE_FILE))
+
+
+def tighten(path: Path) -> None:
+    """Remove others' permissions on a file or folder, if it exists and we may change it.
+
+    A symbolic link is left alone: its target may be anybody's.
+    """
+    try:
+        found = path.lstat()
+    except OSError:
+        return
+    if found.st_uid != os.geteuid() or stat.S_ISLNK(found.st_mode):
+        return
+    mode = stat.S_IMODE(found.st_mode)
+    if mode & OTHERS:
+        path.chmod(mode & ~OTHERS)
+
+
+def tighten_own_folder(folder: Path, *, own: Collection[str]) -> None:
+    """Tighten a folder that holds nothing but ours: any other may be shared for a reason."""
+    try:
+        is_own = all(each.name in own for each in folder.iterdir())
+    except OSError:
+        return
+    if is_own:
+        tighten(folder)
+
 
 DATABASE_ENDINGS: Final = ("", "-wal", "-shm", "-journal")
 
@@ -69,3 +113,36 @@ def _why(error: OSError | RuntimeError) -> str:
     if isinstance(error, OSError) and error.strerror:
         return f"{error.strerror}: {error.filename}"
     return str(error)
+
+
+BYTES_PER_MB = 1_000_000
+
+
+class Disk:
+    """Free space below a folder; without one nothing is kept here, and there is always room."""
+
+    def __init__(self, folder: Path | None, *, reserve_bytes: int) -> None:
+        self._folder = folder
+        self._reserve_bytes = reserve_bytes
+
+    def free_bytes(self) -> int | None:
+        """What is left for us; None if nothing is kept here."""
+        if self._folder is None:
+            return None
+        folder = self._folder
+        while not folder.exists():
+            folder = folder.parent
+        return shutil.disk_usage(folder).free
+
+    def has_room_for(self, size: int = 0) -> bool:
+        """Whether the reserve stays intact if ``size`` bytes are stored."""
+        free = self.free_bytes()
+        return free is None or free - size >= self._reserve_bytes
+
+
+def open_disk(settings: Settings) -> Disk:
+    """The disk that fills when jobs are accepted: none with Postgres and object storage."""
+    return Disk(
+        settings.data_dir.resolve() if settings.uses_data_folder else None,
+        reserve_bytes=settings.min_free_disk_mb * BYTES_PER_MB,
+    )

@@ -1,10 +1,18 @@
-"""A process next to the API, restarted when it dies: a worker, or one with estimators alone."""
+"""Processes of ours: how they are started, and one beside the API that is always there."""
 
 import logging
 import subprocess
+import sys
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from typing import Final
+
+PYTHON: Final = (sys.executable, "-P")
+"""``python -m`` alone looks for every module in the current folder first: an ``http.py`` in the
+folder a service is started in would be run. With ``-P`` it does not; PYTHONPATH counts as ever."""
+
+SAFE_PATH_VARIABLE: Final = "PYTHONSAFEPATH"
+"""The same for processes whose command is not ours, and for those that they start."""
 
 LOG: Final = logging.getLogger(__name__)
 

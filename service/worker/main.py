@@ -10,17 +10,14 @@ from typing import Final, NoReturn
 from service.blobs import open_blob_store, setting_of_storage
 from service.numerics.fork_server import ForkServer, settle_environment
 from service.numerics.job_lane import JobLane
-from service.numerics.quick_lane import QuickLane
-from service.numerics.relay import answer_questions
+from service.numerics.quick_lane import QuickLane, answer_questions
 from service.numerics.tasks import child_setup
-from service.process.data_folder import prepare_data_folder
-from service.process.disk import open_disk
+from service.process.data_folder import open_disk, prepare_data_folder
 from service.process.stop_request import StopRequest
 from service.settings import Settings
 from service.worker.job_runner import JobRunner
-from service.worker.model_files import check_detector, check_models
 from service.worker.models_reading import COMMAND as MODELS_COMMAND
-from service.worker.models_reading import ModelsBeingRead
+from service.worker.models_reading import ModelsBeingRead, check_detector, check_models
 
 LOG: Final = logging.getLogger(__name__)
 

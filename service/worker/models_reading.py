@@ -6,14 +6,21 @@ starts :mod:`service.worker.model_reader`, which says one message on its standar
 
 import logging
 import subprocess
+import zipfile
+import zlib
 from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
 from typing import Annotated, Final, Literal
 
 from pydantic import Field, TypeAdapter, ValidationError
 
+import fitter.body
 from api_schemas.base import WireModel
 from api_schemas.body_models import BodyModels
-from service.process.interpreter import PYTHON
+from fitter.detection.weights import checked_weights
+from fitter.errors import DetectorUnavailableError
+from service.process.supervisor import PYTHON
 from service.settings import SettingError, Settings
 
 LOG: Final = logging.getLogger(__name__)
@@ -94,3 +101,42 @@ def unusable_models(settings: Settings, reason: str) -> SettingError:
     """Say in one line which models cannot be used and why."""
     value = "(unset, the packaged models)" if settings.models_dir is None else settings.models_dir
     return SettingError(" ".join(reason.split()), name="models_dir", value=value)
+
+
+PACKAGED: Final = Path(fitter.body.__path__[0]) / "data"
+NAMES: Final = ("female.npz", "male.npz")
+
+
+def check_models(settings: Settings) -> None:
+    """Raise SettingError if the body models cannot be used."""
+    if settings.models_dir is not None:
+        # A process that dies of something else: the worker comes to the same and can tell.
+        with suppress(RuntimeError):
+            ModelsBeingRead(settings).wait()
+    elif (damage := _damage(PACKAGED)) is not None:
+        raise unusable_models(settings, damage)
+
+
+def check_detector(settings: Settings) -> None:
+    """Raise SettingError if a folder is named for the detector and it cannot be used.
+
+    Without a folder there may be a detector or none: it is optional.
+    """
+    if settings.detector_dir is None:
+        return
+    try:
+        checked_weights(settings.detector_dir)
+    except DetectorUnavailableError as error:
+        raise SettingError(str(error), name="detector_dir", value=settings.detector_dir) from error
+
+
+def _damage(folder: Path) -> str | None:
+    for name in NAMES:
+        try:
+            with zipfile.ZipFile(folder / name) as archive:
+                broken = archive.testzip()
+        except (OSError, zipfile.BadZipFile, zlib.error, EOFError) as error:
+            broken = str(error)
+        if broken is not None:
+            return f"{name} is damaged or missing ({broken}). Install the package again."
+    return None

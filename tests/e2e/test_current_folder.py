@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from service.demo_data.sample import load_sample
-from service.process.interpreter import PYTHON
+from service.process.supervisor import PYTHON
 from tests.e2e.service import FIT_WITHIN_S, started_service, wait_for_estimator
 
 MAQUETTE = Path(sys.executable).with_name("maquette")

@@ -30,8 +30,8 @@ from service.estimates.questions import (
     EstimatedBody,
     InitialPoseTask,
     ProposedPoints,
+    estimate_tasks,
 )
-from service.estimates.tasks import estimate_tasks
 from service.numerics.tasks import ProblemError
 from service.submissions.detector import no_detector
 from service.worker.pipeline_port import UnusableInputError

@@ -224,7 +224,7 @@ def test_a_folder_of_another_user_is_refused(tmp_path: Path):
     folder.mkdir(mode=0o755)
     becoming_nobody = (
         "import os, pwd, sys\n"
-        "from service.commands.preflight import run_preflight\n"
+        "from service.commands.prepare import run_preflight\n"
         "from service.startup.begin import begin, run_told\n"
         "import service.engine.port, sqlalchemy.exc\n"
         "settings = begin('serve')\n"

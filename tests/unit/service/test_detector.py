@@ -12,7 +12,7 @@ from service.setting_types import DETECTOR_FILES
 from service.settings import SettingError, Settings
 from service.submissions.detector import detector_is_installed
 from service.worker import pipeline
-from service.worker.model_files import check_detector
+from service.worker.models_reading import check_detector
 from service.worker.pipeline_port import PipelineInput, UnusableInputError
 
 

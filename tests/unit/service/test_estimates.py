@@ -16,7 +16,7 @@ from service.estimates.questions import FILE, QUESTION, BodyTask
 from service.numerics.messages import DoneMessage, ProblemMessage, Received, TaskMessage
 from service.numerics.quick_lane import FAILED, TIMED_OUT, UNAVAILABLE
 from service.numerics.tasks import Parts
-from service.process.disk import Disk
+from service.process.data_folder import Disk
 from service.representation.formats import OBJ
 from service.submissions.detector import no_detector
 from service.submissions.refusal import RefusedError

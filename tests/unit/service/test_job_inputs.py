@@ -17,7 +17,7 @@ from service.api.problems import ProblemError
 from service.blobs import BlobsUnavailableError
 from service.blobs.local import LocalBlobStore
 from service.engine.port import StoredBlob, Submission, SubmitOutcome, TenantJobs
-from service.process.disk import Disk
+from service.process.data_folder import Disk
 
 JOB, FIT, OTHER = "0job", "1fit", "2fit"
 

@@ -6,15 +6,15 @@ from pathlib import Path
 import pytest
 
 from service.settings import SettingError, Settings
-from service.worker import model_files
-from service.worker.model_files import PACKAGED, check_models
+from service.worker import models_reading
+from service.worker.models_reading import PACKAGED, check_models
 
 
 @pytest.fixture
 def packaged(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The packaged models, as if this copy had been installed."""
     copy = Path(shutil.copytree(PACKAGED, tmp_path / "data"))
-    monkeypatch.setattr(model_files, "PACKAGED", copy)
+    monkeypatch.setattr(models_reading, "PACKAGED", copy)
     return copy
 
 
