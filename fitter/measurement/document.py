@@ -19,22 +19,18 @@ from fitter.vocabulary.measurements import Group, group_of
 _HEADING = """# Measurements
 
 Every measurement of the service, where its tape runs, its definition, and where it agrees with two
-others. ISO 8559-1:2017 is the tailors' standard of body measurements; its terms stand here, its
-clauses where public sources tell them, and its definitions in our words. ANSUR II is the US Army's
-anthropometric survey of 2012, as its measurer's handbook has it (Hotzman et al. 2011,
-NATICK/TR-11/017; fields as in the public release, Gordon et al. 2014, NATICK/TR-15/007). Made from
-`fitter/measurement/definitions.json` by `python -m fitter.measurement.document`, the pictures by
-`python -m fitter.training.report.measurement_atlas`.
+others: ISO 8559-1:2017, the tailors' standard, and ANSUR II, the US Army's survey of 2012 (fields
+of the public release, NATICK/TR-15/007). What the survey's handbook says of each stands in
+`fitter/measurement/definitions.json`, from which `python -m fitter.measurement.document` makes this
+page.
 
-What holds for all: bodies are measured in the canonical pose (upright, arms 40 and legs 7 degrees
-from straight down, elbows and knees straight), heights in the standing pose; the right limbs are
-taken, as in the survey. A girth is the convex hull of a plane cut, because a tape spans hollows; it
-does not press. A taut tape runs from point to point in the same way, on one side of the body. Where
-no landmark is, a point is a place of the skin (`skin_points.json`): where a ray from inside the
-average body leaves it. Nobody breathes, wears or tenses anything.
+Bodies are measured in the canonical pose (upright, arms 40 and legs 7 degrees from straight down,
+elbows and knees straight), heights in the standing pose, limbs on the right. A girth is the convex
+hull of a plane cut, because a tape spans hollows; it does not press. Where no landmark is, a point
+is where a ray from inside the average body leaves the skin.
 
-The pictures show the average woman; what she hides of a tape is pale. How far values, spreads and
-correlations are from the survey's: `python -m fitter.training report`.
+The pictures show the average woman; what she hides of a tape is pale. `python -m fitter.training
+report` prints how far values, spreads and correlations are from the survey's.
 """
 
 ATLAS_FOLDER = "fitter/measurement/atlas"
@@ -85,10 +81,8 @@ def _iso(iso: IsoDefinition | None) -> str:
 
 def _survey(survey: SurveyDefinition) -> str:
     fields = " + ".join(f"`{field}`" for field in survey.fields)
-    return (
-        f"{fields}{': ' if fields else ''}{survey.definition} "
-        f"*{_AGREEMENT[survey.agreement].capitalize()}:* {survey.difference}"
-    )
+    agreement = _AGREEMENT[survey.agreement].capitalize()
+    return f"{fields}{' ' if fields else ''}*{agreement}:* {survey.difference}"
 
 
 if __name__ == "__main__":
